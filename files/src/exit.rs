@@ -1,0 +1,76 @@
+//! How a program ends: its exit code, and the one line it prints when it fails.
+
+use std::error::Error;
+use std::panic::{self, AssertUnwindSafe};
+use std::process::ExitCode;
+
+/// The exit codes of all four programs. 0 is success.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Exit {
+    /// Bad use of the command line; clap ends with the same code.
+    Use = 2,
+    /// An input is malformed: JSON, grid, OBJ or picture.
+    Malformed = 3,
+    /// The geometry asked for does not exist: a degenerate curve, a trajectory with a corner.
+    Geometry = 4,
+    /// A file could not be read or written.
+    ReadWrite = 5,
+    /// A limit on memory was met.
+    Resource = 6,
+    /// A bug of ours.
+    Bug = 70,
+    /// The reader of our standard output closed it; nothing is printed.
+    ClosedPipe = 141,
+}
+
+/// An error that knows the exit code its program ends with.
+pub trait Failure: Error {
+    /// The exit code of a program that fails with this error.
+    fn exit(&self) -> Exit;
+}
+
+/// Any [`Failure`], so that `?` works in the programs.
+#[derive(Debug)]
+pub struct Report(Box<dyn Failure>);
+
+impl Report {
+    /// The exit code of a program that fails with this report.
+    #[must_use]
+    pub fn exit(&self) -> Exit {
+        self.0.exit()
+    }
+}
+
+impl std::fmt::Display for Report {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+impl<E: Failure + 'static> From<E> for Report {
+    fn from(error: E) -> Self {
+        Self(Box::new(error))
+    }
+}
+
+/// Does a program's work, prints its error if there is one, and gives its exit code.
+///
+/// A panic is a bug of ours: it ends with [`Exit::Bug`] and a request to report it.
+#[must_use]
+#[expect(clippy::print_stderr, reason = "the one place where the programs print an error")]
+pub fn run(program: &str, work: impl FnOnce() -> Result<(), Report>) -> ExitCode {
+    let exit = match panic::catch_unwind(AssertUnwindSafe(work)) {
+        Ok(Ok(())) => return ExitCode::SUCCESS,
+        Ok(Err(report)) => {
+            if report.exit() != Exit::ClosedPipe {
+                eprintln!("{program}: {report}");
+            }
+            report.exit()
+        }
+        Err(_) => {
+            eprintln!("{program}: this is a bug in {program}; please report it with the input");
+            Exit::Bug
+        }
+    };
+    ExitCode::from(exit as u8)
+}

@@ -1,0 +1,271 @@
+//! JSON into typed values, with the place of every complaint.
+//!
+//! A [`Document`] is a text and the name of its file. [`Document::parse`] reads it into a value;
+//! unknown keys, wrong types and syntax errors come back with line, column and path, and a near
+//! miss in a key is met with a suggestion. Checks that only the reader of the value can make (a
+//! radius must be positive) go through [`Document::fault`], which finds the place from the path.
+
+use crate::{Exit, Failure};
+use jsonc_parser::ast::Value;
+use jsonc_parser::common::Ranged;
+use jsonc_parser::{CollectOptions, ParseOptions, parse_to_ast};
+use serde::de::DeserializeOwned;
+use serde_path_to_error::{Path, Segment};
+use thiserror::Error;
+
+/// What is wrong in a JSON text, and where.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{file}:{line}:{column}: {}{message}", if path.is_empty() { String::new() } else { format!("{path}: ") })]
+pub struct JsonError {
+    /// The file as the user named it.
+    pub file: String,
+    /// Line, from 1.
+    pub line: usize,
+    /// Column in characters, from 1.
+    pub column: usize,
+    /// The path of the value, such as `contour.bezier[0][2]`; empty at the root.
+    pub path: String,
+    /// What was found and what was expected.
+    pub message: String,
+}
+
+impl Failure for JsonError {
+    fn exit(&self) -> Exit {
+        Exit::Malformed
+    }
+}
+
+/// A JSON text and the name of its file.
+#[derive(Debug, Clone, Copy)]
+pub struct Document<'a> {
+    /// The file as the user named it; appears in every message.
+    pub file: &'a str,
+    text: &'a str,
+}
+
+impl<'a> Document<'a> {
+    /// A document of the bytes of a file; a byte order mark is passed over.
+    ///
+    /// # Errors
+    /// When the bytes are not UTF-8 text, or are empty.
+    pub fn new(file: &'a str, bytes: &'a [u8]) -> Result<Self, JsonError> {
+        let at = |line, message: String| JsonError {
+            file: file.into(),
+            line,
+            column: 1,
+            path: String::new(),
+            message,
+        };
+        let text = std::str::from_utf8(bytes).map_err(|error| {
+            let line = 1 + bytes[..error.valid_up_to()].iter().filter(|&&b| b == b'\n').count();
+            at(line, "found bytes that are not UTF-8, expected JSON text".into())
+        })?;
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        if text.trim().is_empty() {
+            return Err(at(1, "found nothing, expected a JSON object".into()));
+        }
+        Ok(Self { file, text })
+    }
+
+    /// The value of the whole text.
+    ///
+    /// # Errors
+    /// On a syntax error, an unknown key, a missing key or a value of the wrong type.
+    pub fn parse<T: DeserializeOwned>(&self) -> Result<T, JsonError> {
+        let mut reader = serde_json::Deserializer::from_str(self.text);
+        let value = serde_path_to_error::deserialize(&mut reader).map_err(|error| {
+            let path = path_text(error.path());
+            self.serde_error(path, error.inner())
+        })?;
+        reader.end().map_err(|error| self.serde_error(String::new(), &error))?;
+        Ok(value)
+    }
+
+    /// A complaint about the value at `path`: `message` says what was found and expected.
+    ///
+    /// A path that leads nowhere (a key that is missing) gives the place of the deepest value on
+    /// the way.
+    #[must_use]
+    pub fn fault(&self, path: &str, message: impl Into<String>) -> JsonError {
+        let offset = offset_of(self.text, path).unwrap_or(0);
+        let before = &self.text[..offset];
+        let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+        JsonError {
+            file: self.file.into(),
+            line: 1 + before.matches('\n').count(),
+            column: 1 + before[line_start..].chars().count(),
+            path: path.into(),
+            message: message.into(),
+        }
+    }
+
+    fn serde_error(&self, path: String, error: &serde_json::Error) -> JsonError {
+        let message = error.to_string();
+        let message = message.rsplit_once(" at line ").map_or(message.as_str(), |(text, _)| text);
+        // serde's column is where reading stopped; the value itself is a better place.
+        if error.is_data() && !path.is_empty() {
+            return self.fault(&path, in_plain_words(message));
+        }
+        JsonError {
+            file: self.file.into(),
+            line: error.line().max(1),
+            column: error.column().max(1),
+            path,
+            message: in_plain_words(message),
+        }
+    }
+}
+
+/// The path as `a.b[2].c`, without the marker serde gives a place it could not name.
+fn path_text(path: &Path) -> String {
+    let known = path.iter().take_while(|segment| !matches!(segment, Segment::Unknown));
+    let mut text = String::new();
+    for segment in known {
+        match segment {
+            Segment::Seq { index } => text.push_str(&format!("[{index}]")),
+            Segment::Map { key } => push_key(&mut text, key),
+            Segment::Enum { variant } => push_key(&mut text, variant),
+            Segment::Unknown => {}
+        }
+    }
+    text
+}
+
+fn push_key(text: &mut String, key: &str) {
+    if !text.is_empty() {
+        text.push('.');
+    }
+    text.push_str(key);
+}
+
+/// The byte offset of the value at `path`, or of the deepest value on the way to it.
+fn offset_of(text: &str, path: &str) -> Option<usize> {
+    let parsed = parse_to_ast(text, &CollectOptions::default(), &ParseOptions::default()).ok()?;
+    let root = parsed.value?;
+    let mut value = &root;
+    for step in path.split(['.', '[']).filter(|step| !step.is_empty()) {
+        let next = match (value, step.strip_suffix(']')) {
+            (Value::Array(array), Some(index)) => {
+                index.parse().ok().and_then(|index: usize| array.elements.get(index))
+            }
+            (Value::Object(object), None) => object
+                .properties
+                .iter()
+                .find(|property| property.name.as_str() == step)
+                .map(|property| &property.value),
+            _ => None,
+        };
+        match next {
+            Some(found) => value = found,
+            None => break,
+        }
+    }
+    Some(value.start())
+}
+
+/// serde's message with Rust's type names put in words, and a suggestion for a near miss.
+fn in_plain_words(message: &str) -> String {
+    let mut text = message
+        .replace("expected f64", "expected a number")
+        .replace("expected f32", "expected a number")
+        .replace("expected usize", "expected a whole number of at least 0")
+        .replace("expected u32", "expected a whole number of at least 0")
+        .replace("expected u16", "expected a whole number from 0 to 65535")
+        .replace("unknown field", "unknown key")
+        .replace("missing field", "missing key")
+        .replace("duplicate field", "duplicate key");
+    if message.starts_with("unknown ") {
+        let mut names = message.split('`').skip(1).step_by(2);
+        if let Some(found) = names.next()
+            && let Some(near) = nearest(found, names)
+        {
+            text.push_str(&format!(" (did you mean `{near}`?)"));
+        }
+    }
+    text
+}
+
+/// The candidate that a slip of the fingers would turn into `found`, if there is one.
+#[must_use]
+pub fn nearest<'a>(found: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    let allowed = 1 + found.chars().count() / 4;
+    candidates
+        .map(|candidate| (strsim::damerau_levenshtein(found, candidate), candidate))
+        .filter(|&(distance, _)| distance <= allowed)
+        .min_by_key(|&(distance, _)| distance)
+        .map(|(_, candidate)| candidate)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde::Deserialize;
+
+    #[derive(Debug, Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Spec {
+        #[expect(dead_code, reason = "only its reading is tested")]
+        contour: Contour,
+    }
+
+    #[derive(Debug, Deserialize)]
+    #[serde(rename_all = "snake_case")]
+    #[expect(dead_code, reason = "only its reading is tested")]
+    enum Contour {
+        Circle(f64),
+        Free(Vec<[f64; 2]>),
+    }
+
+    fn complaint(text: &str) -> String {
+        let document = match Document::new("a.json", text.as_bytes()) {
+            Ok(document) => document,
+            Err(error) => return error.to_string(),
+        };
+        document.parse::<Spec>().unwrap_err().to_string()
+    }
+
+    #[test]
+    fn a_wrong_type_is_placed() {
+        let text = "{\"contour\":\n {\"free\": [[0, 0], [1, \"x\"]]}}";
+        assert_eq!(
+            complaint(text),
+            "a.json:2:24: contour.free[1][1]: invalid type: string \"x\", expected a number"
+        );
+    }
+
+    #[test]
+    fn an_unknown_key_is_met_with_a_suggestion() {
+        let text = complaint("{\"contuor\": {\"circle\": 1}}");
+        assert!(text.contains("did you mean `contour`?"), "{text}");
+        assert!(text.starts_with("a.json:1:13: contuor: unknown key"), "{text}");
+        let text = complaint("{\"contour\": {\"cirlce\": 1}}");
+        assert!(text.contains("did you mean `circle`?"), "{text}");
+    }
+
+    #[test]
+    fn numbers_that_are_not_finite_are_refused() {
+        for number in ["NaN", "1e400", "Infinity", "-inf"] {
+            let text = complaint(&format!("{{\"contour\": {{\"circle\": {number}}}}}"));
+            assert!(text.starts_with("a.json:1:"), "{text}");
+        }
+    }
+
+    #[test]
+    fn empty_text_broken_bytes_and_trailing_text_are_refused() {
+        assert_eq!(complaint(" "), "a.json:1:1: found nothing, expected a JSON object");
+        let error = Document::new("b", b"{}\n\xff").unwrap_err();
+        assert_eq!(error.line, 2);
+        let text = complaint("{\"contour\": {\"circle\": 1}} x");
+        assert!(text.contains("trailing characters"), "{text}");
+    }
+
+    #[test]
+    fn a_fault_finds_its_place_by_path() {
+        let text = "{\n  \"contour\": {\"free\": [[0, 0],\n   [1, 7]]}}";
+        let document = Document::new("a.json", text.as_bytes()).unwrap();
+        let fault = document.fault("contour.free[1][1]", "found 7, expected less than 2");
+        assert_eq!((fault.line, fault.column), (3, 8));
+        let missing = document.fault("contour.radius", "missing");
+        assert_eq!((missing.line, missing.column), (2, 14));
+    }
+}

@@ -1,0 +1,95 @@
+//! The contour x trajectory grid: what `sweep` makes and `triangulate` reads.
+
+use glam::{DVec3, Vec3};
+use serde::{Deserialize, Serialize};
+
+/// A swept surface as a grid of points, row-major by station.
+///
+/// A *station* is one contour placed on the trajectory; it is a row. `u` runs along the contour
+/// (columns), `v` along the trajectory (rows), both over `[0, 1]`.
+///
+/// ```text
+///   v ^   row 2   o---o---o---o        position (row, col) = positions[row * cols + col]
+///     |   row 1   o---o---o---o
+///     |   row 0   o---o---o---o        seen from outside, u runs to the right and v up:
+///     +-------> u    col 0 1 2 3       S_u x S_v points outward
+/// ```
+///
+/// In a closed direction the first row or column is not repeated at the end: the cell after the
+/// last one leads back to the first. A *crease* (a corner of the contour) is a column given twice,
+/// at the same positions with the same `u`, once with the normals of each side.
+/// Where a contour meets the axis of a rotational sweep all rows share one position (a pole).
+#[derive(Debug, Clone, PartialEq)]
+pub struct GridMesh {
+    /// The object's name, from the spec; one word per OBJ object.
+    pub name: String,
+    /// Whether the contour leads back to its start.
+    pub seam_u: Seam,
+    /// Whether the trajectory leads back to its start.
+    pub seam_v: Seam,
+    /// How a picture lies on the surface.
+    pub uv: UvLayout,
+    /// `u` of each column, not decreasing, from 0; up to 1 when open, below 1 when closed.
+    pub u: Vec<f64>,
+    /// `v` of each row, not decreasing, from 0; up to 1 when open, below 1 when closed.
+    pub v: Vec<f64>,
+    /// Points in the spec's unit, `rows * cols` of them.
+    pub positions: Vec<DVec3>,
+    /// Unit normals, outward for a counter-clockwise contour, one per position.
+    pub normals: Vec<Vec3>,
+}
+
+/// Whether a direction of the grid leads back to its start.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Seam {
+    /// The last row or column is an edge of the surface.
+    Open,
+    /// The last row or column is followed by the first.
+    Closed,
+}
+
+/// How a picture lies on the surface: which grid direction runs across it, and how often it
+/// repeats.
+///
+/// Across the contour, the picture's coordinates are `(s, t) = (u, v)`. Across the trajectory it is
+/// turned a quarter, `(s, t) = (1 - v, u)`, so that it stands upright on a vessel; seen from
+/// outside, neither is mirrored.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct UvLayout {
+    /// The grid direction that runs across the picture.
+    pub across: Across,
+    /// How often the picture repeats, across and up; positive.
+    pub repeat: [f64; 2],
+}
+
+/// A direction of the grid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Across {
+    /// Along the contour, `u`.
+    Contour,
+    /// Along the trajectory, against `v`.
+    Trajectory,
+}
+
+impl Default for UvLayout {
+    fn default() -> Self {
+        Self { across: Across::Contour, repeat: [1.0, 1.0] }
+    }
+}
+
+impl GridMesh {
+    /// Number of stations.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.v.len()
+    }
+
+    /// Number of points on a station.
+    #[must_use]
+    pub fn cols(&self) -> usize {
+        self.u.len()
+    }
+}

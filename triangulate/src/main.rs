@@ -1,0 +1,2 @@
+//! triangulate
+fn main() {}
