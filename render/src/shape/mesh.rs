@@ -1,0 +1,238 @@
+//! The triangle mesh, with the coordinates exactly as its file holds them.
+
+use super::{SeamPeriod, SurfacePoint};
+use glam::{DVec2, DVec3};
+use std::collections::HashMap;
+use thiserror::Error;
+
+/// Marks a corner without texture coordinates or normal.
+pub const NONE: u32 = u32::MAX;
+
+/// Triangles over shared positions, texture coordinates and normals.
+///
+/// Coordinates are the `f32` of the OBJ file; hits are found and refined on exactly those, in `f64`.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Mesh {
+    /// Corner positions.
+    pub positions: Vec<[f32; 3]>,
+    /// Texture coordinates, across and up.
+    pub uvs: Vec<[f32; 2]>,
+    /// Shading normals; need not be unit.
+    pub normals: Vec<[f32; 3]>,
+    /// The triangles; a triangle's identity is its place here.
+    pub triangles: Vec<Triangle>,
+    /// What `usemtl` called the surfaces; `Triangle::surface` counts in here.
+    pub surfaces: Vec<String>,
+}
+
+/// Three corners of a [`Mesh`]; each has three indices.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Triangle {
+    /// Into `positions`.
+    pub position: [u32; 3],
+    /// Into `uvs`, or [`NONE`].
+    pub uv: [u32; 3],
+    /// Into `normals`, or [`NONE`].
+    pub normal: [u32; 3],
+    /// Into `surfaces`.
+    pub surface: u32,
+}
+
+/// Why arrays are not a mesh.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum MeshError {
+    /// There is nothing to see.
+    #[error("found no triangles, expected at least one")]
+    Empty,
+    /// An index leads out of its array.
+    #[error("triangle {triangle}: found index {index} into {count} {what}, expected less")]
+    Index {
+        /// Triangle, from 0.
+        triangle: usize,
+        /// What the index counts.
+        what: &'static str,
+        /// The index.
+        index: u32,
+        /// How many there are.
+        count: usize,
+    },
+    /// A coordinate is NaN or infinite.
+    #[error("{what} {index}: found a number that is not finite")]
+    NotFinite {
+        /// Which array.
+        what: &'static str,
+        /// Entry, from 0.
+        index: usize,
+    },
+    /// More triangles than a picture can number.
+    #[error("found {0} triangles, expected at most 4294967295")]
+    TooMany(usize),
+}
+
+impl Mesh {
+    /// Checks what the renderer relies on.
+    ///
+    /// # Errors
+    /// When there are no triangles, an index leads nowhere or a number is not finite.
+    pub fn check(&self) -> Result<(), MeshError> {
+        if self.triangles.is_empty() {
+            return Err(MeshError::Empty);
+        }
+        if self.triangles.len() >= NONE as usize {
+            return Err(MeshError::TooMany(self.triangles.len()));
+        }
+        let finite3 = |values: &[[f32; 3]]| values.iter().position(|v| !v.iter().all(|x| x.is_finite()));
+        let bad_uv = self.uvs.iter().position(|v| !v.iter().all(|x| x.is_finite()));
+        let bad = [
+            ("vertex", finite3(&self.positions)),
+            ("normal", finite3(&self.normals)),
+            ("texture coordinate", bad_uv),
+        ];
+        if let Some((what, Some(index))) = bad.into_iter().find(|(_, bad)| bad.is_some()) {
+            return Err(MeshError::NotFinite { what, index });
+        }
+        for (number, triangle) in self.triangles.iter().enumerate() {
+            let arrays = [
+                ("vertices", triangle.position, self.positions.len(), false),
+                ("texture coordinates", triangle.uv, self.uvs.len(), true),
+                ("normals", triangle.normal, self.normals.len(), true),
+                ("surfaces", [triangle.surface; 3], self.surfaces.len(), false),
+            ];
+            for (what, indices, count, optional) in arrays {
+                let strays = |&index: &u32| {
+                    index as usize >= count && !(optional && indices == [NONE; 3])
+                };
+                if let Some(index) = indices.into_iter().find(strays) {
+                    return Err(MeshError::Index { triangle: number, what, index, count });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The three corners of a triangle.
+    #[must_use]
+    pub fn corners(&self, triangle: u32) -> [[f32; 3]; 3] {
+        self.triangles[triangle as usize].position.map(|index| self.positions[index as usize])
+    }
+
+    /// The surface point with these weights of the second and third corner.
+    #[must_use]
+    pub fn surface_point(&self, triangle: u32, barycentric: [f64; 2]) -> SurfacePoint {
+        let [b, c] = barycentric;
+        let weights = [1.0 - b - c, b, c];
+        let corners = &self.triangles[triangle as usize];
+        let [p0, p1, p2] = corners.position.map(|i| as_dvec3(self.positions[i as usize]));
+        let geometric_normal = (p1 - p0).cross(p2 - p0).normalize_or(DVec3::Y);
+        let shading_normal = if corners.normal[0] == NONE {
+            geometric_normal
+        } else {
+            let normals = corners.normal.map(|i| as_dvec3(self.normals[i as usize]));
+            weighted(weights, normals).normalize_or(geometric_normal)
+        };
+        let uv = if corners.uv[0] == NONE {
+            DVec2::ZERO
+        } else {
+            let uvs = corners.uv.map(|i| self.uvs[i as usize].map(f64::from));
+            let [s, t] = [0, 1].map(|k| (0..3).map(|i| weights[i] * uvs[i][k]).sum());
+            DVec2::new(s, t)
+        };
+        let position = weighted(weights, [p0, p1, p2]);
+        SurfacePoint { position, geometric_normal, shading_normal, uv, part: corners.surface }
+    }
+
+    /// Lower and upper corner of a triangle's box.
+    #[must_use]
+    pub fn bounds(&self, triangle: u32) -> [DVec3; 2] {
+        let [a, b, c] = self.corners(triangle).map(as_dvec3);
+        [a.min(b).min(c), a.max(b).max(c)]
+    }
+
+    /// By how much texture coordinates jump where the surface closes on itself.
+    ///
+    /// Read off the mesh: a position that carries several texture coordinates a whole number
+    /// apart lies on a seam, and the largest such number is the period. A mesh without seams (a
+    /// floor, however often its picture repeats) has period 0, and differences on it are taken
+    /// as they are.
+    #[must_use]
+    pub fn seam(&self) -> SeamPeriod {
+        let mut ranges: HashMap<[u32; 3], [[f32; 2]; 2]> = HashMap::new();
+        let textured = self.triangles.iter().filter(|triangle| triangle.uv[0] != NONE);
+        for triangle in textured {
+            for (&position, &uv) in triangle.position.iter().zip(&triangle.uv) {
+                let place = self.positions[position as usize].map(f32::to_bits);
+                let uv = self.uvs[uv as usize];
+                let range = ranges.entry(place).or_insert([uv, uv]);
+                for k in 0..2 {
+                    range[0][k] = range[0][k].min(uv[k]);
+                    range[1][k] = range[1][k].max(uv[k]);
+                }
+            }
+        }
+        let jump = |range: &[[f32; 2]; 2], k: usize| {
+            let jump = f64::from(range[1][k]) - f64::from(range[0][k]);
+            if jump >= 1.0 && (jump - jump.round()).abs() < 1e-4 { jump.round() } else { 0.0 }
+        };
+        let period = |k| ranges.values().map(|range| jump(range, k)).fold(0.0, f64::max);
+        DVec2::new(period(0), period(1))
+    }
+}
+
+fn weighted(weights: [f64; 3], points: [DVec3; 3]) -> DVec3 {
+    weights[0] * points[0] + weights[1] * points[1] + weights[2] * points[2]
+}
+
+fn as_dvec3(v: [f32; 3]) -> DVec3 {
+    DVec3::new(f64::from(v[0]), f64::from(v[1]), f64::from(v[2]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A unit square in the plane z = 0 with texture coordinates up to `repeat`.
+    fn square(repeat: f32) -> Mesh {
+        let corner = |triangle: [u32; 3]| Triangle {
+            position: triangle,
+            uv: triangle,
+            normal: [NONE; 3],
+            surface: 0,
+        };
+        Mesh {
+            positions: vec![[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.]],
+            uvs: vec![[0., 0.], [repeat, 0.], [repeat, repeat], [0., repeat]],
+            normals: vec![],
+            triangles: vec![corner([0, 1, 2]), corner([0, 2, 3])],
+            surfaces: vec![String::new()],
+        }
+    }
+
+    #[test]
+    fn the_centre_of_gravity_maps_to_the_centre_of_gravity() {
+        let point = square(3.0).surface_point(0, [1.0 / 3.0, 1.0 / 3.0]);
+        assert!(point.position.abs_diff_eq(DVec3::new(2.0 / 3.0, 1.0 / 3.0, 0.0), 1e-15));
+        assert!(point.uv.abs_diff_eq(DVec2::new(2.0, 1.0), 1e-15));
+        assert_eq!(point.shading_normal, DVec3::Z);
+    }
+
+    #[test]
+    fn a_seam_is_read_off_the_mesh() {
+        assert_eq!(square(4.0).seam(), DVec2::ZERO);
+        // The right edge takes the place of the left one, as on a tube.
+        let mut tube = square(4.0);
+        tube.positions[1] = tube.positions[0];
+        tube.positions[2] = tube.positions[3];
+        assert_eq!(tube.seam(), DVec2::new(4.0, 0.0));
+    }
+
+    #[test]
+    fn broken_arrays_are_named() {
+        let mut mesh = square(1.0);
+        assert_eq!(mesh.check(), Ok(()));
+        mesh.triangles[1].position[2] = 4;
+        assert!(mesh.check().unwrap_err().to_string().contains("index 4 into 4 vertices"));
+        mesh.positions[3][1] = f32::NAN;
+        assert!(mesh.check().unwrap_err().to_string().starts_with("vertex 3"));
+        assert_eq!(Mesh::default().check(), Err(MeshError::Empty));
+    }
+}
