@@ -1,7 +1,30 @@
 //! A ray tracer whose textures are area sampled: a JSON scene and meshes to a picture.
+//!
+//! The road of a ray, one room each, no room looking back:
+//!
+//! ```text
+//!   scene -> accel -> trace -> footprint -> filter -> shade -> film -> picture file
+//! ```
+//!
+//! [`scene`] reads and checks everything, so that nothing after it fails on user input. [`accel`]
+//! finds hits. [`trace`] turns a place on the film into an intersection tree. [`footprint`] looks at
+//! a node of it and at its neighbours and says which piece of texture the pixel sees. [`filter`]
+//! averages a texture over that piece. [`shade`] turns trees into colours, and [`film`] makes the
+//! picture of them. [`film::render`] does it all.
 
 pub mod accel;
 pub mod color;
+pub mod film;
+pub mod filter;
+pub mod footprint;
 pub mod optics;
+pub mod progress;
 pub mod ray;
+pub mod scene;
+pub mod shade;
 pub mod shape;
+pub mod stats;
+pub mod trace;
+
+pub use film::{Picture, Settings, render};
+pub use scene::Scene;

@@ -103,6 +103,15 @@ impl<'a> Accel<'a> {
         }
     }
 
+    /// Which of its object's surfaces a hit is on.
+    #[must_use]
+    pub fn part(&self, hit: &Hit) -> u32 {
+        match self.shapes[hit.piece.object as usize] {
+            Shape::Mesh(mesh) => mesh.triangles[hit.piece.triangle as usize].surface,
+            Shape::Sphere(_) | Shape::Quad(_) => 0,
+        }
+    }
+
     /// Shows `see` hits up to the distance it last returned, which starts as `t_max`.
     fn walk(&self, ray: &Ray, t_max: f64, mut see: impl FnMut(Hit) -> f64) {
         let sheared = ShearedRay::new(ray.origin, ray.direction);

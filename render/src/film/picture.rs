@@ -1,0 +1,80 @@
+//! A finished picture in linear light.
+
+use crate::color::Color;
+
+/// Linear RGB, row by row from the top.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Picture {
+    /// Pixels across.
+    pub width: u32,
+    /// Pixels down.
+    pub height: u32,
+    /// The pixels, in the `f32` that a file of linear values holds.
+    pub pixels: Vec<[f32; 3]>,
+}
+
+impl Picture {
+    /// A black picture.
+    #[must_use]
+    pub fn black(width: u32, height: u32) -> Self {
+        Self { width, height, pixels: vec![[0.0; 3]; width as usize * height as usize] }
+    }
+
+    /// Puts a rectangle of pixels, `columns` wide, with its upper left corner at `(x, y)`.
+    pub fn place(&mut self, x: u32, y: u32, columns: u32, colors: &[Color]) {
+        for (row, colors) in colors.chunks_exact(columns as usize).enumerate() {
+            let start = (y as usize + row) * self.width as usize + x as usize;
+            for (pixel, color) in self.pixels[start..].iter_mut().zip(colors) {
+                *pixel = color.to_array().map(|light| light as f32);
+            }
+        }
+    }
+
+    /// Makes pixels that are NaN or infinite black, and counts them. There should be none.
+    pub fn remove_not_finite(&mut self) -> u64 {
+        let broken = self.pixels.iter_mut().filter(|pixel| !pixel.iter().all(|x| x.is_finite()));
+        broken.map(|pixel| *pixel = [0.0; 3]).count() as u64
+    }
+
+    /// The pictures next to each other, `gap` pixels of white between them; they are equally high.
+    #[must_use]
+    pub fn side_by_side(pictures: &[Self], gap: u32) -> Self {
+        let height = pictures.iter().map(|picture| picture.height).max().unwrap_or(0);
+        let gaps = gap * (pictures.len() as u32).saturating_sub(1);
+        let width = pictures.iter().map(|picture| picture.width).sum::<u32>() + gaps;
+        let mut strip = Self::black(width, height);
+        strip.pixels.fill([1.0; 3]);
+        let mut x = 0;
+        for picture in pictures {
+            for (row, pixels) in picture.pixels.chunks_exact(picture.width as usize).enumerate() {
+                let start = row * width as usize + x;
+                strip.pixels[start..start + pixels.len()].copy_from_slice(pixels);
+            }
+            x += (picture.width + gap) as usize;
+        }
+        strip
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pictures_stand_side_by_side() {
+        let mut left = Picture::black(1, 2);
+        left.pixels[1] = [0.5; 3];
+        let strip = Picture::side_by_side(&[left, Picture::black(2, 2)], 1);
+        let shown: Vec<f32> = strip.pixels.iter().map(|pixel| pixel[0]).collect();
+        assert_eq!((strip.width, strip.height), (4, 2));
+        assert_eq!(shown, [0.0, 1.0, 0.0, 0.0, 0.5, 1.0, 0.0, 0.0]);
+    }
+
+    #[test]
+    fn broken_pixels_are_counted() {
+        let mut picture = Picture::black(2, 1);
+        picture.pixels[0][1] = f32::NAN;
+        assert_eq!(picture.remove_not_finite(), 1);
+        assert_eq!(picture, Picture::black(2, 1));
+    }
+}

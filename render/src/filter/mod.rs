@@ -1,0 +1,96 @@
+//! Averages a texture over a footprint.
+//!
+//! | filter     | what it gives for a rectangle                                              |
+//! |------------|----------------------------------------------------------------------------|
+//! | `point`    | the texel at its middle                                                    |
+//! | `bilinear` | four texels interpolated at its middle                                     |
+//! | `box`      | the average under a box that fills it (summed areas, order 1)              |
+//! | `tent`     | the average under a tent that fills it (repeated integration, order 2)     |
+//!
+//! The last two work from tables, which are built only for textures that a scene shows.
+
+mod axis;
+mod table;
+pub mod texture;
+mod word;
+
+pub use table::PrefilteredTable;
+pub use texture::Texture;
+
+use crate::color::Color;
+use crate::footprint::Footprint;
+use glam::DVec2;
+
+/// How a texture is averaged.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Filter {
+    /// The texel at the point.
+    Point,
+    /// Linear interpolation between texels.
+    Bilinear,
+    /// A box over the footprint.
+    Box,
+    /// A tent over the footprint.
+    Tent,
+}
+
+impl Filter {
+    /// Whether this filter wants more than a point: then neighbours must be traced.
+    #[must_use]
+    pub fn wants_area(self) -> bool {
+        matches!(self, Self::Box | Self::Tent)
+    }
+}
+
+/// A texture ready to be averaged by one filter.
+#[derive(Debug)]
+pub struct FilteredTexture<'a> {
+    texture: &'a Texture,
+    filter: Filter,
+    table: Option<PrefilteredTable>,
+}
+
+impl<'a> FilteredTexture<'a> {
+    /// Builds what the filter needs.
+    #[must_use]
+    pub fn new(texture: &'a Texture, filter: Filter) -> Self {
+        let order = match filter {
+            Filter::Point | Filter::Bilinear => None,
+            Filter::Box => Some(1),
+            Filter::Tent => Some(2),
+        };
+        Self { texture, filter, table: order.map(|n| PrefilteredTable::build(texture, n)) }
+    }
+
+    /// The average of the texture over the footprint.
+    #[must_use]
+    pub fn average(&self, footprint: &Footprint) -> Color {
+        let (center, half) = match *footprint {
+            Footprint::Point(at) => (at, DVec2::ZERO),
+            Footprint::Rectangle { center, half } => (center, half),
+        };
+        match (&self.table, self.filter) {
+            (Some(table), _) => table.average(self.texture, center, half),
+            (None, Filter::Point) => self.texture.point(center),
+            (None, _) => self.texture.bilinear(center),
+        }
+    }
+
+    /// Texels or table entries that one average reads (a footprint larger than the texture is
+    /// folded and may read other numbers).
+    #[must_use]
+    pub fn reads(&self) -> u64 {
+        match self.filter {
+            Filter::Point => 1,
+            Filter::Bilinear => 4,
+            Filter::Box => 16,
+            Filter::Tent => 81,
+        }
+    }
+
+    /// Memory of the table, in bytes; 0 when there is none.
+    #[must_use]
+    pub fn table_bytes(&self) -> usize {
+        self.table.as_ref().map_or(0, PrefilteredTable::bytes)
+    }
+}

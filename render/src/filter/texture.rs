@@ -1,0 +1,180 @@
+//! A picture as integer texels of linear light.
+
+use crate::color::{Color, Encoding};
+use glam::{DVec2, DVec3};
+use image::DynamicImage;
+
+/// A picture to be laid on surfaces.
+///
+/// ```text
+///   t = 1  +---------------+   row 0 of the picture is at the top;
+///          | row 0         |   texel (i, j) covers [i, i+1) x [j, j+1)
+///          | row 1         |   in texels, x = s * width to the right
+///   t = 0  +---------------+   and y = (1 - t) * height downward
+///         s = 0           s = 1
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Texture {
+    /// Texels across.
+    pub width: usize,
+    /// Texels down.
+    pub height: usize,
+    /// What lies beyond the edges.
+    pub wrap: Wrap,
+    /// Codes of red, green and blue, proportional to light, row by row from the top.
+    pub texels: Vec<[u16; 3]>,
+    /// The largest code that can occur; it stands for 1.
+    pub white: u16,
+}
+
+/// What lies beyond the edges of a texture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Wrap {
+    /// The texture again.
+    Repeat,
+    /// Its edge texels, without end.
+    Clamp,
+}
+
+/// What the codes of a picture file mean.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Values {
+    /// sRGB: codes become 16-bit linear before anything is summed.
+    Srgb,
+    /// Codes proportional to light; they stay as they are, 8 or 16 bits.
+    Linear,
+}
+
+impl Texture {
+    /// The texture of a picture; transparency is passed over, grey becomes three equal channels.
+    /// Nothing for pictures of floating point values.
+    #[must_use]
+    pub fn from_picture(picture: &DynamicImage, values: Values, wrap: Wrap) -> Option<Self> {
+        let (width, height) = (picture.width() as usize, picture.height() as usize);
+        let wide = match picture {
+            DynamicImage::ImageLuma16(_)
+            | DynamicImage::ImageLumaA16(_)
+            | DynamicImage::ImageRgb16(_)
+            | DynamicImage::ImageRgba16(_) => true,
+            DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_) => return None,
+            _ => false,
+        };
+        let (codes, coded_white): (Vec<[u16; 3]>, u16) = if wide {
+            (picture.to_rgb16().pixels().map(|pixel| pixel.0).collect(), u16::MAX)
+        } else {
+            (picture.to_rgb8().pixels().map(|pixel| pixel.0.map(u16::from)).collect(), 255)
+        };
+        let (texels, white) = match values {
+            Values::Linear => (codes, coded_white),
+            Values::Srgb => {
+                let linear: Vec<u16> = (0..=coded_white)
+                    .map(|code| {
+                        let light = Encoding::Srgb.decode(f64::from(code) / f64::from(coded_white));
+                        (light * f64::from(u16::MAX)).round() as u16
+                    })
+                    .collect();
+                let decode = |texel: [u16; 3]| texel.map(|code| linear[usize::from(code)]);
+                (codes.into_iter().map(decode).collect(), u16::MAX)
+            }
+        };
+        Some(Self { width, height, wrap, texels, white })
+    }
+
+    /// Light of one code.
+    #[must_use]
+    pub fn unit(&self) -> f64 {
+        1.0 / f64::from(self.white)
+    }
+
+    /// Texture coordinates as a place in texels, `x` to the right and `y` downward.
+    #[must_use]
+    pub fn in_texels(&self, uv: DVec2) -> DVec2 {
+        DVec2::new(uv.x * self.width as f64, (1.0 - uv.y) * self.height as f64)
+    }
+
+    /// The texel that holds the point: no filtering at all.
+    #[must_use]
+    pub fn point(&self, uv: DVec2) -> Color {
+        let at = self.in_texels(uv);
+        self.texel(at.x.floor(), at.y.floor()) * self.unit()
+    }
+
+    /// Linear interpolation between the four texel centres around the point.
+    #[must_use]
+    pub fn bilinear(&self, uv: DVec2) -> Color {
+        let at = self.in_texels(uv) - 0.5;
+        let corner = at.floor();
+        let part = at - corner;
+        let row = |y: f64| {
+            self.texel(corner.x, y).lerp(self.texel(corner.x + 1.0, y), part.x)
+        };
+        row(corner.y).lerp(row(corner.y + 1.0), part.y) * self.unit()
+    }
+
+    /// The codes of a texel by column and row, wrapped; the arguments are whole numbers.
+    fn texel(&self, x: f64, y: f64) -> DVec3 {
+        let column = self.wrap.index(x, self.width);
+        let row = self.wrap.index(y, self.height);
+        DVec3::from(self.texels[row * self.width + column].map(f64::from))
+    }
+}
+
+impl Wrap {
+    /// The index in `0..size` that a whole number stands for.
+    fn index(self, at: f64, size: usize) -> usize {
+        let size_f = size as f64;
+        let inside = match self {
+            Self::Repeat => at.rem_euclid(size_f),
+            Self::Clamp => at.clamp(0.0, size_f - 1.0),
+        };
+        // rem_euclid rounds up to the size itself just below a period; NaN becomes 0.
+        (inside as usize).min(size - 1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use image::{GrayImage, Luma, RgbImage};
+
+    /// Two by two texels of codes 0, 10 (top) and 20, 30 (bottom).
+    fn four(wrap: Wrap) -> Texture {
+        let picture = GrayImage::from_fn(2, 2, |x, y| Luma([(10 * x + 20 * y) as u8]));
+        Texture::from_picture(&picture.into(), Values::Linear, wrap).unwrap()
+    }
+
+    fn code(color: Color) -> f64 {
+        (color.x * 255.0 * 1e9).round() / 1e9
+    }
+
+    #[test]
+    fn the_first_row_is_at_the_top() {
+        let texture = four(Wrap::Repeat);
+        assert_eq!(code(texture.point(DVec2::new(0.25, 0.75))), 0.0);
+        assert_eq!(code(texture.point(DVec2::new(0.75, 0.25))), 30.0);
+        assert_eq!(code(texture.point(DVec2::new(1.75, -0.75))), 30.0);
+    }
+
+    #[test]
+    fn beyond_the_edge_is_the_texture_again_or_its_edge() {
+        let beyond = DVec2::new(1.25, 0.75);
+        assert_eq!(code(four(Wrap::Repeat).point(beyond)), 0.0);
+        assert_eq!(code(four(Wrap::Clamp).point(beyond)), 10.0);
+        assert_eq!(code(four(Wrap::Repeat).bilinear(DVec2::new(1.0, 0.75))), 5.0);
+        assert_eq!(code(four(Wrap::Clamp).bilinear(DVec2::new(1.0, 0.75))), 10.0);
+        assert_eq!(code(four(Wrap::Clamp).bilinear(DVec2::new(0.5, 0.5))), 15.0);
+    }
+
+    #[test]
+    fn encoded_texels_become_16_bit_light() {
+        let white = RgbImage::from_pixel(1, 1, image::Rgb([255, 188, 0]));
+        let texture = Texture::from_picture(&white.into(), Values::Srgb, Wrap::Clamp).unwrap();
+        assert_eq!((texture.white, texture.texels[0]), (65535, [65535, 32957, 0]));
+    }
+
+    #[test]
+    fn a_coordinate_just_below_a_period_stays_inside() {
+        assert_eq!(Wrap::Repeat.index(-1e-30, 3), 2);
+        assert_eq!(Wrap::Repeat.index(f64::NAN, 3), 0);
+    }
+}

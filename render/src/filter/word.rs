@@ -1,0 +1,51 @@
+//! The integers of a prefiltered table.
+//!
+//! Sums in a table are taken modulo 2^B and may overflow freely: addition and subtraction modulo
+//! 2^B are exact, so a result is exact as soon as *it* fits, however large the sums it is a
+//! difference of. A table therefore takes the shortest word that holds every result.
+
+/// An integer whose sums wrap.
+pub trait Word: Copy + Default + Send + Sync + std::fmt::Debug {
+    /// Number of bits, B.
+    const BITS: u32;
+    /// The word of a texel's code.
+    fn from_code(code: u16) -> Self;
+    /// Sum modulo 2^B.
+    #[must_use]
+    fn plus(self, other: Self) -> Self;
+    /// Difference modulo 2^B.
+    #[must_use]
+    fn minus(self, other: Self) -> Self;
+    /// Product with a factor of either sign, modulo 2^B.
+    #[must_use]
+    fn times(self, factor: i64) -> Self;
+    /// The value of the word taken as signed, rounded to 53 bits.
+    fn to_f64(self) -> f64;
+}
+
+macro_rules! word {
+    ($type:ty, $signed:ty) => {
+        impl Word for $type {
+            const BITS: u32 = <$type>::BITS;
+            fn from_code(code: u16) -> Self {
+                Self::from(code)
+            }
+            fn plus(self, other: Self) -> Self {
+                self.wrapping_add(other)
+            }
+            fn minus(self, other: Self) -> Self {
+                self.wrapping_sub(other)
+            }
+            fn times(self, factor: i64) -> Self {
+                self.wrapping_mul(factor as Self)
+            }
+            fn to_f64(self) -> f64 {
+                self as $signed as f64
+            }
+        }
+    };
+}
+
+word!(u32, i32);
+word!(u64, i64);
+word!(u128, i128);

@@ -1,0 +1,74 @@
+//! The camera: from a place on the film to a ray.
+
+use crate::ray::Ray;
+use glam::{DVec2, DVec3};
+
+/// A pinhole camera.
+///
+/// ```text
+///   film, in pixels        (0, 0) is the upper left corner of the picture,
+///   +------> x             pixel (i, j) covers [i, i+1) x [j, j+1);
+///   |                      places outside the picture have rays too
+///   v y
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Camera {
+    eye: DVec3,
+    /// Unit axes of the view: to the right, up, and forward.
+    right: DVec3,
+    up: DVec3,
+    forward: DVec3,
+    /// Half the picture's height at distance 1.
+    half_height: f64,
+}
+
+impl Camera {
+    /// A camera at `eye` that looks at `target`; `field_of_view` is the angle in radians between
+    /// the lower and the upper edge, in (0, pi). Nothing when the eye is at the target or `up`
+    /// points along the view.
+    #[must_use]
+    pub fn new(eye: DVec3, target: DVec3, up: DVec3, field_of_view: f64) -> Option<Self> {
+        let forward = (target - eye).try_normalize()?;
+        let across = forward.cross(up.try_normalize()?);
+        // An up vector this near the view leaves no digits for the direction across.
+        if across.length() < 1e-9 {
+            return None;
+        }
+        let right = across.normalize();
+        let half_height = (0.5 * field_of_view).tan();
+        Some(Self { eye, right, up: right.cross(forward), forward, half_height })
+    }
+
+    /// The ray through a place on a film of `size` pixels.
+    #[must_use]
+    pub fn ray(&self, place: DVec2, size: DVec2) -> Ray {
+        let x = (2.0 * place.x - size.x) / size.y * self.half_height;
+        let y = (size.y - 2.0 * place.y) / size.y * self.half_height;
+        let direction = self.forward + x * self.right + y * self.up;
+        Ray::from_eye(self.eye, direction.normalize())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_picture_is_upright_and_not_mirrored() {
+        let eye = DVec3::new(0.0, 0.0, 5.0);
+        let camera = Camera::new(eye, DVec3::ZERO, DVec3::Y, 90f64.to_radians()).unwrap();
+        let size = DVec2::new(200.0, 100.0);
+        let middle = camera.ray(DVec2::new(100.0, 50.0), size).direction;
+        assert!(middle.abs_diff_eq(DVec3::NEG_Z, 1e-15));
+        let upper_right = camera.ray(DVec2::new(200.0, 0.0), size).direction;
+        assert!(upper_right.abs_diff_eq(DVec3::new(2.0, 1.0, -1.0).normalize(), 1e-15));
+    }
+
+    #[test]
+    fn a_view_without_direction_is_refused() {
+        let camera = |target, up| Camera::new(DVec3::ZERO, target, up, 1.0);
+        assert!(camera(DVec3::ZERO, DVec3::Y).is_none());
+        assert!(camera(DVec3::Y, DVec3::Y).is_none());
+        assert!(camera(DVec3::X, DVec3::ZERO).is_none());
+    }
+}

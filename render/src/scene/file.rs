@@ -1,0 +1,293 @@
+//! The scene file: JSON, format `tb-scene`, version 1.
+//!
+//! ```json
+//! {
+//!   "format": "tb-scene", "version": 1,
+//!   "camera": { "eye": [0, 1.5, 6], "target": [0, 0.9, 0], "up": [0, 1, 0], "fov_deg": 40 },
+//!   "background": [0.55, 0.7, 0.9],
+//!   "ambient": 0.2,
+//!   "lights": [ { "point": { "position": [4, 8, 5], "color": 0.9 } } ],
+//!   "max_depth": 12, "min_weight": 0.0001,
+//!   "textures": {
+//!     "checks": { "image": "../textures/checkerboard.png", "wrap": "repeat", "values": "srgb" }
+//!   },
+//!   "materials": {
+//!     "floor": { "diffuse": 0.9 },
+//!     "glass": { "ambient": 0, "diffuse": 0, "specular": 0.5, "reflectivity": 1,
+//!                "transparency": 1, "index_of_refraction": 1.5, "fresnel": true }
+//!   },
+//!   "objects": [
+//!     { "sphere": { "center": [0, 1.3, 0], "radius": 1, "material": "glass" } },
+//!     { "rectangle": { "corner": [-4, 0, 4], "edge_u": [8, 0, 0], "edge_v": [0, 0, -8],
+//!                      "material": "floor", "texture": "checks", "repeat": [4, 4] } },
+//!     { "plane": { "point": [0, -1, 0], "edge_u": [1, 0, 0], "edge_v": [0, 0, -1],
+//!                  "material": "floor" } },
+//!     { "mesh": { "name": "vase", "material": "floor", "textures": { "2": "checks" } } }
+//!   ]
+//! }
+//! ```
+//!
+//! Colours are linear, one number for grey or `[red, green, blue]`. Lengths are in any one unit,
+//! axes are right-handed. A texture fills a rectangle, or the unit square of a mesh's or sphere's
+//! texture coordinates; `repeat` lays it several times. Paths count from the scene file's folder.
+//!
+//! A mesh comes from `--mesh NAME=FILE`, or else from its own `"file"`. The surfaces of a mesh that
+//! `triangulate` made are named by a texture id and a surface id: `textures` binds texture ids to
+//! textures, `materials` binds surface ids to materials; `material` and `texture` stand for all that
+//! are not bound. In an OBJ of another tool both maps are keyed by the name that `usemtl` gives.
+
+use serde::Deserialize;
+use serde::de::{self, Deserializer, SeqAccess, Visitor};
+use std::collections::BTreeMap;
+use std::fmt;
+use std::path::PathBuf;
+
+/// A scene as its file says it; nothing is checked but its types.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "the module page explains the keys; read.rs their ranges")]
+pub struct SceneFile {
+    pub format: String,
+    pub version: u32,
+    pub camera: CameraFile,
+    #[serde(default)]
+    pub background: ColorFile,
+    #[serde(default = "dim")]
+    pub ambient: ColorFile,
+    #[serde(default)]
+    pub lights: Vec<LightFile>,
+    #[serde(default = "twelve")]
+    pub max_depth: u32,
+    #[serde(default = "one_ten_thousandth")]
+    pub min_weight: f64,
+    #[serde(default)]
+    pub textures: BTreeMap<String, TextureFile>,
+    #[serde(default)]
+    pub materials: BTreeMap<String, MaterialFile>,
+    pub objects: Vec<ObjectFile>,
+}
+
+/// `camera`.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "see SceneFile")]
+pub struct CameraFile {
+    pub eye: [f64; 3],
+    pub target: [f64; 3],
+    #[serde(default = "y_axis")]
+    pub up: [f64; 3],
+    /// The angle between the lower and the upper edge of the picture.
+    pub fov_deg: f64,
+}
+
+/// One of `lights`.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+#[expect(missing_docs, reason = "see SceneFile")]
+pub enum LightFile {
+    Point(PointLightFile),
+}
+
+/// A point light.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "see SceneFile")]
+pub struct PointLightFile {
+    pub position: [f64; 3],
+    #[serde(default = "white")]
+    pub color: ColorFile,
+}
+
+/// One of `textures`.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "see SceneFile")]
+pub struct TextureFile {
+    pub image: PathBuf,
+    #[serde(default)]
+    pub wrap: WrapFile,
+    #[serde(default)]
+    pub values: ValuesFile,
+}
+
+/// What lies beyond a texture's edges.
+#[derive(Debug, Clone, Copy, Default, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[expect(missing_docs, reason = "see SceneFile")]
+pub enum WrapFile {
+    #[default]
+    Repeat,
+    Clamp,
+}
+
+/// What a picture's codes mean.
+#[derive(Debug, Clone, Copy, Default, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[expect(missing_docs, reason = "see SceneFile")]
+pub enum ValuesFile {
+    #[default]
+    Srgb,
+    Linear,
+}
+
+/// One of `materials`.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+#[expect(missing_docs, reason = "see SceneFile")]
+pub struct MaterialFile {
+    pub color: ColorFile,
+    pub ambient: f64,
+    pub diffuse: f64,
+    pub specular: f64,
+    pub shininess: f64,
+    pub reflectivity: f64,
+    pub transparency: f64,
+    pub index_of_refraction: f64,
+    pub fresnel: bool,
+}
+
+impl Default for MaterialFile {
+    fn default() -> Self {
+        Self {
+            color: white(),
+            ambient: 1.0,
+            diffuse: 0.9,
+            specular: 0.0,
+            shininess: 50.0,
+            reflectivity: 0.0,
+            transparency: 0.0,
+            index_of_refraction: 1.5,
+            fresnel: false,
+        }
+    }
+}
+
+/// One of `objects`.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+#[expect(missing_docs, reason = "see SceneFile")]
+pub enum ObjectFile {
+    Sphere(SphereFile),
+    Rectangle(RectangleFile),
+    Plane(PlaneFile),
+    Mesh(MeshFile),
+}
+
+/// A sphere.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "see SceneFile")]
+pub struct SphereFile {
+    pub center: [f64; 3],
+    pub radius: f64,
+    pub material: String,
+    pub texture: Option<String>,
+}
+
+/// A parallelogram.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "see SceneFile")]
+pub struct RectangleFile {
+    pub corner: [f64; 3],
+    pub edge_u: [f64; 3],
+    pub edge_v: [f64; 3],
+    pub material: String,
+    pub texture: Option<String>,
+    #[serde(default = "once")]
+    pub repeat: [f64; 2],
+}
+
+/// A plane; its texture fills the parallelogram at `point` and goes on from there.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "see SceneFile")]
+pub struct PlaneFile {
+    pub point: [f64; 3],
+    pub edge_u: [f64; 3],
+    pub edge_v: [f64; 3],
+    pub material: String,
+    pub texture: Option<String>,
+}
+
+/// A mesh.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "see SceneFile")]
+pub struct MeshFile {
+    pub name: String,
+    pub file: Option<PathBuf>,
+    pub material: Option<String>,
+    pub texture: Option<String>,
+    #[serde(default)]
+    pub materials: BTreeMap<String, String>,
+    #[serde(default)]
+    pub textures: BTreeMap<String, String>,
+}
+
+/// A linear colour: one number for grey, or three.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct ColorFile(pub [f64; 3]);
+
+impl<'de> Deserialize<'de> for ColorFile {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(ColorVisitor)
+    }
+}
+
+struct ColorVisitor;
+
+impl<'de> Visitor<'de> for ColorVisitor {
+    type Value = ColorFile;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a colour: one number for grey or [red, green, blue]")
+    }
+
+    fn visit_f64<E: de::Error>(self, grey: f64) -> Result<ColorFile, E> {
+        Ok(ColorFile([grey; 3]))
+    }
+
+    fn visit_u64<E: de::Error>(self, grey: u64) -> Result<ColorFile, E> {
+        self.visit_f64(grey as f64)
+    }
+
+    fn visit_i64<E: de::Error>(self, grey: i64) -> Result<ColorFile, E> {
+        self.visit_f64(grey as f64)
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut channels: A) -> Result<ColorFile, A::Error> {
+        let mut color = [0.0; 3];
+        for (k, channel) in color.iter_mut().enumerate() {
+            *channel = channels.next_element()?.ok_or_else(|| de::Error::invalid_length(k, &self))?;
+        }
+        match channels.next_element::<f64>()? {
+            None => Ok(ColorFile(color)),
+            Some(_) => Err(de::Error::invalid_length(4, &self)),
+        }
+    }
+}
+
+fn white() -> ColorFile {
+    ColorFile([1.0; 3])
+}
+
+fn dim() -> ColorFile {
+    ColorFile([0.1; 3])
+}
+
+fn twelve() -> u32 {
+    12
+}
+
+fn one_ten_thousandth() -> f64 {
+    1e-4
+}
+
+fn y_axis() -> [f64; 3] {
+    [0.0, 1.0, 0.0]
+}
+
+fn once() -> [f64; 2] {
+    [1.0; 2]
+}

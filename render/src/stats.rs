@@ -1,0 +1,101 @@
+//! What a picture cost.
+
+use crate::shade::ShadeCounts;
+use crate::trace::RayCounts;
+use serde::Serialize;
+use std::fmt;
+use std::time::Duration;
+
+/// Counts, memory and wall-clock time per stage of one picture.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct Stats {
+    /// Rays from the eye; with an area filter also those around the tiles.
+    pub primary_rays: u64,
+    /// Mirrored rays.
+    pub reflected_rays: u64,
+    /// Refracted rays.
+    pub refracted_rays: u64,
+    /// Rays to lights.
+    pub shadow_rays: u64,
+    /// Rays of the first three kinds that hit something.
+    pub hits: u64,
+    /// Textures averaged over an area.
+    pub texture_areas: u64,
+    /// Textures looked up at a point.
+    pub texture_points: u64,
+    /// Texels or table entries read for both.
+    pub texels: u64,
+    /// Prefiltered tables built.
+    pub tables: u64,
+    /// Their memory in bytes.
+    pub table_bytes: u64,
+    /// Pixels that came out NaN or infinite and were made black; there should be none.
+    pub not_finite: u64,
+    /// Reading the scene, its meshes and textures.
+    #[serde(rename = "read_seconds", serialize_with = "seconds")]
+    pub read_time: Duration,
+    /// Building what finds the hits.
+    #[serde(rename = "accel_seconds", serialize_with = "seconds")]
+    pub accel_time: Duration,
+    /// Building tables.
+    #[serde(rename = "table_seconds", serialize_with = "seconds")]
+    pub table_time: Duration,
+    /// Tracing and shading.
+    #[serde(rename = "picture_seconds", serialize_with = "seconds")]
+    pub picture_time: Duration,
+    /// Encoding and writing the file.
+    #[serde(rename = "write_seconds", serialize_with = "seconds")]
+    pub write_time: Duration,
+}
+
+fn seconds<S: serde::Serializer>(time: &Duration, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_f64(time.as_secs_f64())
+}
+
+impl Stats {
+    /// Adds the work of one tile.
+    pub fn add(&mut self, rays: &RayCounts, shading: &ShadeCounts) {
+        self.primary_rays += rays.primary;
+        self.reflected_rays += rays.reflected;
+        self.refracted_rays += rays.refracted;
+        self.hits += rays.hits;
+        self.shadow_rays += shading.shadow;
+        self.texture_areas += shading.areas;
+        self.texture_points += shading.points;
+        self.texels += shading.texels;
+    }
+}
+
+impl fmt::Display for Stats {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let counts = [
+            ("primary rays", self.primary_rays),
+            ("reflected rays", self.reflected_rays),
+            ("refracted rays", self.refracted_rays),
+            ("shadow rays", self.shadow_rays),
+            ("hits", self.hits),
+            ("texture areas", self.texture_areas),
+            ("texture points", self.texture_points),
+            ("texels read", self.texels),
+            ("tables built", self.tables),
+            ("table bytes", self.table_bytes),
+        ];
+        for (name, count) in counts {
+            writeln!(f, "{name:<16}{count:>14}")?;
+        }
+        if self.not_finite > 0 {
+            writeln!(f, "{:<16}{:>14}", "not finite", self.not_finite)?;
+        }
+        let times = [
+            ("read", self.read_time),
+            ("accelerate", self.accel_time),
+            ("build tables", self.table_time),
+            ("trace and shade", self.picture_time),
+            ("write", self.write_time),
+        ];
+        for (name, time) in times {
+            writeln!(f, "{name:<16}{:>12.3} s", time.as_secs_f64())?;
+        }
+        Ok(())
+    }
+}

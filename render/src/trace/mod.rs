@@ -1,0 +1,159 @@
+//! Follows rays through the scene and keeps what they hit (thesis 4.5.1, fig. 4.3).
+//!
+//! Tracing is classic: one ray at a time, mirrored and refracted at surfaces. What is unusual is
+//! that nothing is shaded on the way. Each place on the film gets an [`tree::IntersectionTree`],
+//! and shading waits until its neighbours have theirs.
+
+pub mod tree;
+pub mod rows;
+
+use crate::accel::Accel;
+use crate::optics;
+use crate::ray::Ray;
+use crate::scene::{Material, Scene};
+use glam::DVec3;
+use tree::{Branch, IntersectionTree, Node};
+
+/// Follows rays through one scene.
+#[derive(Debug)]
+pub struct Tracer<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// What finds the hits.
+    pub accel: &'a Accel<'a>,
+}
+
+/// How many rays were sent, by kind, and how many of them hit something.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct RayCounts {
+    /// Rays from the eye.
+    pub primary: u64,
+    /// Mirrored rays, also those inside glass.
+    pub reflected: u64,
+    /// Rays that passed a surface.
+    pub refracted: u64,
+    /// Rays of all three kinds that hit something.
+    pub hits: u64,
+}
+
+impl Tracer<'_> {
+    /// The intersection tree of a ray from the eye.
+    pub fn trace(&self, ray: &Ray, tree: &mut IntersectionTree, counts: &mut RayCounts) {
+        tree.clear();
+        counts.primary += 1;
+        tree.root = self.follow(ray, 0, 1.0, tree, counts);
+    }
+
+    /// Adds what a ray hits, and what its mirrored and refracted rays hit, to the tree.
+    ///
+    /// `weight` is what the ray counts for in its pixel.
+    fn follow(
+        &self,
+        ray: &Ray,
+        depth: u32,
+        weight: f64,
+        tree: &mut IntersectionTree,
+        counts: &mut RayCounts,
+    ) -> Branch {
+        let Some(hit) = self.accel.nearest(ray) else { return Branch::Background };
+        counts.hits += 1;
+        let point = self.accel.surface_point(ray, &hit);
+        let object = &self.scene.objects[hit.piece.object as usize];
+        let material = &self.scene.materials[object.parts[point.part as usize].material];
+
+        // Turn both normals to the side the ray comes from.
+        let inside = ray.direction.dot(point.geometric_normal) > 0.0;
+        let side = if inside { -1.0 } else { 1.0 };
+        let geometric_normal = side * point.geometric_normal;
+        let mut normal = side * point.shading_normal;
+        if ray.direction.dot(normal) >= 0.0 {
+            // Seen from behind its interpolated normal: only the facet itself tells the truth.
+            normal = geometric_normal;
+        }
+
+        let split = Split::at(material, ray.direction, normal, inside);
+        let slot = tree.push(Node {
+            piece: hit.piece,
+            part: point.part,
+            position: point.position,
+            incident: ray.direction,
+            geometric_normal,
+            normal,
+            uv: point.uv,
+            reflected: Branch::Cut,
+            refracted: Branch::Cut,
+            reflect_weight: split.reflect_weight,
+            refract_weight: split.refract_weight,
+        });
+        if depth >= self.scene.max_depth {
+            return Branch::Node(slot);
+        }
+
+        let worth_it = |share: f64| share > 0.0 && weight * share >= self.scene.min_weight;
+        if worth_it(split.reflect_weight) {
+            counts.reflected += 1;
+            let direction = mirror(ray.direction, normal, geometric_normal);
+            let mirrored = Ray::leaving(hit.piece, point.position, direction);
+            let share = weight * split.reflect_weight;
+            let branch = self.follow(&mirrored, depth + 1, share, tree, counts);
+            tree.node_mut(slot).reflected = branch;
+        }
+        if let Some(direction) = split.refracted.filter(|_| worth_it(split.refract_weight)) {
+            counts.refracted += 1;
+            let passed = Ray::leaving(hit.piece, point.position, direction);
+            let share = weight * split.refract_weight;
+            let branch = self.follow(&passed, depth + 1, share, tree, counts);
+            tree.node_mut(slot).refracted = branch;
+        }
+        Branch::Node(slot)
+    }
+}
+
+/// How light divides at a surface.
+#[derive(Debug, Clone, Copy)]
+struct Split {
+    reflect_weight: f64,
+    refract_weight: f64,
+    refracted: Option<DVec3>,
+}
+
+impl Split {
+    fn at(material: &Material, incident: DVec3, normal: DVec3, inside: bool) -> Self {
+        let Material { reflectivity, transparency, index_of_refraction, .. } = *material;
+        let mirror_only =
+            Self { reflect_weight: reflectivity, refract_weight: 0.0, refracted: None };
+        if transparency == 0.0 && !material.fresnel {
+            return mirror_only;
+        }
+        let eta = if inside { index_of_refraction } else { 1.0 / index_of_refraction };
+        let share = if material.fresnel { optics::fresnel(-incident.dot(normal), eta) } else { 1.0 };
+        if transparency == 0.0 {
+            return Self { reflect_weight: reflectivity * share, ..mirror_only };
+        }
+        match optics::refract(incident, normal, eta) {
+            Some(direction) if material.fresnel => Self {
+                reflect_weight: reflectivity * share,
+                refract_weight: transparency * (1.0 - share),
+                refracted: Some(direction),
+            },
+            Some(direction) => Self {
+                reflect_weight: reflectivity,
+                refract_weight: transparency,
+                refracted: Some(direction),
+            },
+            // Total internal reflection: what would have passed is mirrored as well.
+            None => Self { reflect_weight: reflectivity.max(transparency), ..mirror_only },
+        }
+    }
+}
+
+/// The mirrored direction; about the facet itself where the interpolated normal would send the
+/// ray through the surface.
+fn mirror(incident: DVec3, normal: DVec3, geometric_normal: DVec3) -> DVec3 {
+    let direction = optics::reflect(incident, normal);
+    if direction.dot(geometric_normal) > 0.0 {
+        direction
+    } else {
+        optics::reflect(incident, geometric_normal)
+    }
+}

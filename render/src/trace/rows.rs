@@ -1,0 +1,37 @@
+//! Three rows of intersection trees, of which the middle one can be shaded (thesis 4.5.1).
+
+use super::tree::IntersectionTree;
+
+/// The last three rows that were traced.
+#[derive(Debug)]
+pub struct RowWindow {
+    /// The oldest row first.
+    rows: [Vec<IntersectionTree>; 3],
+}
+
+impl RowWindow {
+    /// A window over rows of `width` trees.
+    #[must_use]
+    pub fn new(width: usize) -> Self {
+        Self { rows: std::array::from_fn(|_| vec![IntersectionTree::default(); width]) }
+    }
+
+    /// Shifts the rows by one and gives the freed one to be filled.
+    pub fn next(&mut self) -> &mut [IntersectionTree] {
+        self.rows.rotate_left(1);
+        &mut self.rows[2]
+    }
+
+    /// The newest row.
+    #[must_use]
+    pub fn newest(&self) -> &[IntersectionTree] {
+        &self.rows[2]
+    }
+
+    /// The tree in column `x` of the middle row with its eight neighbours around it, row by row;
+    /// `x` is neither the first nor the last column.
+    #[must_use]
+    pub fn around(&self, x: usize) -> [&IntersectionTree; 9] {
+        std::array::from_fn(|k| &self.rows[k / 3][x - 1 + k % 3])
+    }
+}

@@ -1,0 +1,91 @@
+//! The intersection tree of one ray from the eye (thesis figs. 4.2 and 4.3).
+
+use crate::ray::Piece;
+use glam::{DVec2, DVec3};
+
+/// All hits of one ray from the eye and of the rays that follow from it.
+///
+/// The thesis links its nodes in lists, across for reflection and down for refraction; here they
+/// lie in one array and name their children by index, so a tree that is cleared and filled again
+/// allocates nothing.
+#[derive(Debug, Clone, Default)]
+pub struct IntersectionTree {
+    /// What the ray from the eye came to.
+    pub root: Branch,
+    nodes: Vec<Node>,
+}
+
+/// What became of a ray.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Branch {
+    /// It was not sent: too deep, or it would count for too little.
+    #[default]
+    Cut,
+    /// It left the scene.
+    Background,
+    /// It hit something: an index into the tree's nodes.
+    Node(u32),
+}
+
+/// One hit: what shading needs and no more.
+#[derive(Debug, Clone, Copy)]
+pub struct Node {
+    /// What was hit.
+    pub piece: Piece,
+    /// Which of the object's surfaces; with the object it is the textured area.
+    pub part: u32,
+    /// Where.
+    pub position: DVec3,
+    /// Direction of the ray, unit, pointing at the surface.
+    pub incident: DVec3,
+    /// The surface's own unit normal, on the side the ray came from.
+    pub geometric_normal: DVec3,
+    /// The unit normal to shade with, on the side the ray came from.
+    pub normal: DVec3,
+    /// Texture coordinates.
+    pub uv: DVec2,
+    /// What the mirrored ray came to.
+    pub reflected: Branch,
+    /// What the refracted ray came to.
+    pub refracted: Branch,
+    /// What the mirrored ray's light counts for.
+    pub reflect_weight: f64,
+    /// What the refracted ray's light counts for.
+    pub refract_weight: f64,
+}
+
+impl Node {
+    /// The textured area that was hit: object and surface.
+    #[must_use]
+    pub fn area(&self) -> (u32, u32) {
+        (self.piece.object, self.part)
+    }
+}
+
+impl IntersectionTree {
+    /// Forgets all hits and keeps the memory.
+    pub fn clear(&mut self) {
+        self.root = Branch::Cut;
+        self.nodes.clear();
+    }
+
+    /// Adds a node and gives its index.
+    pub fn push(&mut self, node: Node) -> u32 {
+        self.nodes.push(node);
+        self.nodes.len() as u32 - 1
+    }
+
+    /// The node that a branch came to.
+    #[must_use]
+    pub fn node(&self, branch: Branch) -> Option<&Node> {
+        match branch {
+            Branch::Node(slot) => self.nodes.get(slot as usize),
+            Branch::Cut | Branch::Background => None,
+        }
+    }
+
+    /// The node with an index that [`IntersectionTree::push`] gave.
+    pub fn node_mut(&mut self, slot: u32) -> &mut Node {
+        &mut self.nodes[slot as usize]
+    }
+}
