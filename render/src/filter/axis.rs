@@ -63,17 +63,50 @@ pub struct Entry {
     pub terms: [(usize, i64); 3],
 }
 
-/// The entries of one axis, how they are reduced, and the weights of what is left.
+/// One axis of a filter: at which points, and with which weights.
 #[derive(Debug, Clone, Copy)]
 pub struct Axis {
-    /// The entries in use come first.
-    pub entries: [Entry; MOST],
-    /// What is done to them.
+    /// What is done to the entries.
     pub reduce: Reduce,
+    /// The whole parts `i_k` of the points; entries `i_k` to `i_k + n` belong to each.
+    pub points: [i64; 3],
     /// A weight for each reduced integer in use.
     pub weights: [f64; MOST_REDUCED],
-    /// Whether each entry is just a stored one.
+    /// Whether all entries are stored ones.
     pub plain: bool,
+    size: i64,
+    wrap: Wrap,
+    n: usize,
+}
+
+impl Axis {
+    /// An entry as a sum of stored ones; `slot` counts the entries of all points (the mean's only
+    /// entry answers for any slot).
+    #[must_use]
+    pub fn entry(&self, slot: usize) -> Entry {
+        match self.reduce {
+            // D_1(size), which a table of order 2 holds as a difference.
+            Reduce::Mean if self.n == 1 => Entry::stored([(self.size, 1), (0, 0), (0, 0)]),
+            Reduce::Mean => Entry::stored([(self.size + 1, 1), (self.size, -1), (0, 0)]),
+            Reduce::Box | Reduce::Tent { .. } => {
+                let per_point = self.n + 1;
+                let point = self.points[(slot / per_point).min(self.n)];
+                let index = point + (slot % per_point) as i64;
+                entry(self.n, index, self.size, self.wrap)
+            }
+        }
+    }
+}
+
+impl Entry {
+    /// The terms with their factors, those without a factor left out.
+    pub fn used(&self) -> impl Iterator<Item = (usize, i64)> {
+        self.terms.into_iter().filter(|term| term.1 != 0)
+    }
+
+    fn stored(terms: [(i64, i64); 3]) -> Self {
+        Self { terms: terms.map(|(index, factor)| (index as usize, factor)) }
+    }
 }
 
 /// How the entries of an axis become small integers.
@@ -140,7 +173,7 @@ pub fn parts(n: usize, x: f64, half: f64, size: usize, wrap: Wrap) -> [Option<Pa
         Wrap::Repeat => {
             let folded = fold(n, step, size_f);
             let share = (folded / step).powi(n as i32);
-            let mean = Part { axis: mean(n, size), share: 1.0 - share };
+            let mean = Part { axis: mean(n, size, wrap), share: 1.0 - share };
             // A box keeps its lower end, a tent its middle.
             let middle = if n == 1 { x - 0.5 * (step - folded) } else { x };
             // A step of 0 is a whole number of periods: only the mean is left.
@@ -168,81 +201,63 @@ fn fold(n: usize, step: f64, size: f64) -> f64 {
 
 /// The n-th difference of the n-fold integral around `x`.
 fn difference(n: usize, x: f64, step: f64, size: usize, wrap: Wrap) -> Axis {
-    let mut entries = [Entry::default(); MOST];
-    let mut plain = true;
-    let mut whole = [0; 3];
+    let size = size as i64;
+    let mut points = [0; 3];
     let mut f = [0.0; 3];
     for k in 0..=n {
         let point = x + (k as f64 - 0.5 * n as f64) * step;
-        f[k] = point - point.floor();
-        whole[k] = point.floor() as i64;
-        plain &= whole[k] >= 0 && whole[k] < size as i64;
-        for a in 0..=n {
-            entries[k * (n + 1) + a] = entry(n, whole[k] + a as i64, size as i64, wrap);
-        }
+        let whole = point.floor();
+        f[k] = point - whole;
+        points[k] = whole as i64;
     }
-    if n == 1 {
+    let plain = points[0] >= 0 && points[n] < size;
+    let (reduce, weights) = if n == 1 {
         let scale = 1.0 / step;
-        let weights = [scale, scale * f[1], -scale * f[0], 0.0, 0.0, 0.0];
-        return Axis { entries, reduce: Reduce::Box, weights, plain };
-    }
-    let reduce = Reduce::Tent { m: 2 * whole[1] - whole[0] - whole[2] };
-    let [half, scale] = [0.5, 1.0 / (step * step)];
-    let weights = [
-        1.0,
-        half + f[0],
-        half + f[2],
-        half * f[0] * f[0],
-        -f[1] * f[1],
-        half * f[2] * f[2],
-    ]
-    .map(|weight| scale * weight);
-    Axis { entries, reduce, weights, plain }
+        (Reduce::Box, [scale, scale * f[1], -scale * f[0], 0.0, 0.0, 0.0])
+    } else {
+        let [half, scale] = [0.5, 1.0 / (step * step)];
+        let bends = [half * f[0] * f[0], -f[1] * f[1], half * f[2] * f[2]];
+        let weights = [1.0, half + f[0], half + f[2], bends[0], bends[1], bends[2]];
+        let m = 2 * points[1] - points[0] - points[2];
+        (Reduce::Tent { m }, weights.map(|weight| scale * weight))
+    };
+    Axis { reduce, points, weights, plain, size, wrap, n }
 }
 
 /// The mean over the whole size: `D_1(size) / size`.
-fn mean(n: usize, size: usize) -> Axis {
-    let terms = if n == 1 {
-        [(size, 1), (0, 0), (0, 0)]
-    } else {
-        [(size + 1, 1), (size, -1), (0, 0)]
-    };
-    let mut entries = [Entry::default(); MOST];
-    entries[0] = Entry { terms };
+fn mean(n: usize, size: usize, wrap: Wrap) -> Axis {
     let mut weights = [0.0; MOST_REDUCED];
     weights[0] = 1.0 / size as f64;
-    Axis { entries, reduce: Reduce::Mean, weights, plain: false }
+    let size = size as i64;
+    Axis { reduce: Reduce::Mean, points: [0; 3], weights, plain: false, size, wrap, n }
 }
 
 /// `D_n(i)` for any `i`, from the entries `0..size + n` of the table.
 fn entry(n: usize, i: i64, size: i64, wrap: Wrap) -> Entry {
-    let stored = |terms: [(i64, i64); 3]| Entry {
-        terms: terms.map(|(index, factor)| (index as usize, factor)),
-    };
     if (0..size + n as i64).contains(&i) {
-        return stored([(i, 1), (0, 0), (0, 0)]);
+        return Entry::stored([(i, 1), (0, 0), (0, 0)]);
     }
     let triangular = |k: i64| k * (k - 1) / 2;
     match (wrap, n) {
         (Wrap::Repeat, _) => {
             let (q, i) = (i.div_euclid(size), i.rem_euclid(size));
             if n == 1 {
-                return stored([(i, 1), (size, q), (0, 0)]);
+                return Entry::stored([(i, 1), (size, q), (0, 0)]);
             }
             let sums = q * i + size * triangular(q);
-            stored([(i, 1), (size, q - sums), (size + 1, sums)])
+            Entry::stored([(i, 1), (size, q - sums), (size + 1, sums)])
         }
-        (Wrap::Clamp, 1) if i < 0 => stored([(1, i), (0, 0), (0, 0)]),
+        (Wrap::Clamp, 1) if i < 0 => Entry::stored([(1, i), (0, 0), (0, 0)]),
         (Wrap::Clamp, 1) => {
             let beyond = i - size;
-            stored([(size, 1 + beyond), (size - 1, -beyond), (0, 0)])
+            Entry::stored([(size, 1 + beyond), (size - 1, -beyond), (0, 0)])
         }
         // D_2(2) is the first texel.
-        (Wrap::Clamp, _) if i < 0 => stored([(2, triangular(1 - i)), (0, 0), (0, 0)]),
+        (Wrap::Clamp, _) if i < 0 => Entry::stored([(2, triangular(1 - i)), (0, 0), (0, 0)]),
         (Wrap::Clamp, _) => {
             let beyond = i - size;
             let last = triangular(beyond);
-            stored([(size, 1 - beyond - 2 * last), (size + 1, beyond + last), (size - 1, last)])
+            Entry::stored([(size, 1 - beyond - 2 * last), (size + 1, beyond + last), (size - 1, last)])
         }
     }
 }
@@ -306,11 +321,14 @@ mod tests {
                 (0..(size + n) as i64).map(|k| direct(n, k, &row, wrap)).collect();
             let mut average = 0.0;
             for part in parts(n, x, half, size, wrap).into_iter().flatten() {
-                let Axis { entries, weights, reduce, .. } = part.axis;
-                let line = entries.map(|entry| {
-                    entry.terms.iter().map(|&(k, factor)| table[k] * factor).sum::<i64>()
-                });
-                let words = crate::filter::table::reduced(reduce, &line.map(|d| [d as u64; 3]));
+                let Axis { weights, reduce, .. } = part.axis;
+                let mut line = [[0u64; 3]; MOST];
+                for (slot, value) in line.iter_mut().enumerate().take(reduce.entries()) {
+                    let terms = part.axis.entry(slot).terms;
+                    let sum: i64 = terms.iter().map(|&(k, factor)| table[k] * factor).sum();
+                    *value = [sum as u64; 3];
+                }
+                let words = crate::filter::table::reduced(reduce, &line);
                 for (word, weight) in words.iter().zip(weights).take(reduce.reduced()) {
                     average += part.share * weight * word[0] as i64 as f64;
                 }

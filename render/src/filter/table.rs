@@ -8,7 +8,7 @@
 //! Entries are first reduced, along each axis, to integers as small as the footprint; only those
 //! meet real weights.
 
-use super::axis::{self, Axis, MOST, MOST_REDUCED, Part, Reduce};
+use super::axis::{self, Axis, Entry, MOST, MOST_REDUCED, Part, Reduce};
 use super::texture::Texture;
 use super::word::Word;
 use crate::color::Color;
@@ -114,30 +114,39 @@ fn integrate<W: Word>(texture: &Texture, order: usize) -> Vec<[W; 3]> {
 /// Applies both axes to the table.
 fn weigh<W: Word>(table: &[[W; 3]], stride: usize, column: &Axis, row: &Axis) -> DVec3 {
     let mut lines = [[[W::default(); 3]; MOST_REDUCED]; MOST];
-    let plain = column.plain && row.plain;
-    for (line, entry) in lines.iter_mut().zip(&row.entries[..row.reduce.entries()]) {
-        let mut values = [[W::default(); 3]; MOST];
-        if plain {
-            let stored = &table[entry.terms[0].0 * stride..][..stride];
-            for (value, entry) in values.iter_mut().zip(&column.entries[..column.reduce.entries()]) {
-                *value = stored[entry.terms[0].0];
+    if column.plain && row.plain {
+        // The usual case, in which every entry is a stored one.
+        let per_point = if column.reduce == Reduce::Box { 2 } else { 3 };
+        for (slot, line) in lines.iter_mut().enumerate().take(row.reduce.entries()) {
+            let j = row.points[slot / per_point] as usize + slot % per_point;
+            let stored = &table[j * stride..][..stride];
+            let mut values = [[W::default(); 3]; MOST];
+            for (values, &i) in values.chunks_exact_mut(per_point).zip(&column.points[..per_point]) {
+                values.copy_from_slice(&stored[i as usize..][..per_point]);
             }
-        } else {
-            for &(j, row_factor) in &entry.terms {
+            *line = reduced(column.reduce, &values);
+        }
+    } else {
+        let entries: [Entry; MOST] = std::array::from_fn(|slot| column.entry(slot));
+        let entries = &entries[..column.reduce.entries()];
+        for (slot, line) in lines.iter_mut().enumerate().take(row.reduce.entries()) {
+            let mut values = [[W::default(); 3]; MOST];
+            for (j, row_factor) in row.entry(slot).used() {
                 let stored = &table[j * stride..][..stride];
-                for (value, entry) in values.iter_mut().zip(&column.entries) {
-                    for &(i, factor) in entry.terms.iter().filter(|term| term.1 != 0) {
-                        let factor = row_factor.wrapping_mul(factor);
-                        *value = plus(*value, times(stored[i], factor));
+                for (value, entry) in values.iter_mut().zip(entries) {
+                    let mut at = [W::default(); 3];
+                    for (i, factor) in entry.used() {
+                        at = plus(at, if factor == 1 { stored[i] } else { times(stored[i], factor) });
                     }
+                    *value = plus(*value, if row_factor == 1 { at } else { times(at, row_factor) });
                 }
             }
+            *line = reduced(column.reduce, &values);
         }
-        *line = reduced(column.reduce, &values);
     }
     let mut sum = DVec3::ZERO;
     for i in 0..column.reduce.reduced() {
-        let along = reduced(row.reduce, &lines.map(|line| line[i]));
+        let along = reduced(row.reduce, &std::array::from_fn(|slot| lines[slot][i]));
         let mut average = DVec3::ZERO;
         for (value, &weight) in along.iter().zip(&row.weights).take(row.reduce.reduced()) {
             average += weight * DVec3::from(value.map(W::to_f64));
