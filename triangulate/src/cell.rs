@@ -29,8 +29,7 @@ pub struct Picture {
 
 /// A cell between two rows.
 ///
-/// Its corners are numbered as in [`diagonal::Corners`], `A` to `D`; its sides by the corner they
-/// start from: bottom `AB`, right `BC`, top `CD`, left `DA`.
+/// Its corners are numbered as in [`diagonal::Corners`], `A` to `D`.
 pub struct Cell<'a> {
     pub lower: &'a mut Station,
     pub upper: &'a mut Station,
@@ -39,6 +38,9 @@ pub struct Cell<'a> {
     /// The column of its right side: the next one, or the first over a seam.
     pub right: usize,
 }
+
+/// The corners of each side, the lower or left one first: bottom, right, top, left.
+const SIDES: [[usize; 2]; 4] = [[0, 1], [1, 2], [3, 2], [0, 3]];
 
 impl Picture {
     pub fn new(header: &Header) -> Self {
@@ -78,7 +80,9 @@ impl<S: Sink> Teller<S> {
         let corners = cell.each(|station, col| station.points[col]);
         let normals = cell.each(|station, col| station.normals[col]);
         let cut = least_flat(&corners, diagonal::choose(&corners, &normals));
-        let pole = (0..4).find(|&side| corners[side] == corners[(side + 1) % 4]);
+        let pole = SIDES
+            .iter()
+            .position(|&[from, to]| corners[from] == corners[to]);
         let mut half_way = None;
         for triangle in cut.triangles() {
             let [a, b, c] = triangle.map(|corner| corners[corner]);
@@ -93,7 +97,7 @@ impl<S: Sink> Teller<S> {
             let told = triangle.map(|corner| {
                 let position = cell.of(corner, |station, col| station.position[col]);
                 match pole {
-                    Some(side) if corner == side || corner == (side + 1) % 4 => {
+                    Some(side) if SIDES[side].contains(&corner) => {
                         let (uv, normal) =
                             *half_way.get_or_insert_with(|| self.half_way(cell, side));
                         [position, uv, normal]
@@ -143,7 +147,7 @@ impl<S: Sink> Teller<S> {
 
     /// Picture coordinates and normal in the middle of a side that is one point in space.
     fn half_way(&mut self, cell: &mut Cell<'_>, side: usize) -> (u32, u32) {
-        let ends = [side, (side + 1) % 4];
+        let ends = SIDES[side];
         let [u, v] = {
             let u = ends.map(|corner| self.picture.u[cell.picture_col(corner)]);
             let v = ends.map(|corner| cell.station(corner).v);
@@ -157,7 +161,12 @@ impl<S: Sink> Teller<S> {
             .and_then(DVec3::try_normalize);
         let normal = match middle {
             Some(middle) => self.tell_normal(middle.to_array().map(|x| x as f32 + 0.0)),
-            None => self.normal(cell, side),
+            None => {
+                let normal = self.normal(cell, ends[0]);
+                // Told or shared now, it is there for the next row to share.
+                self.normal(cell, ends[1]);
+                normal
+            }
         };
         (uv, normal)
     }
