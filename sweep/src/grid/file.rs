@@ -133,4 +133,6 @@ fn refused(fault: &str) -> io::Error {
 }
 
 #[cfg(test)]
+mod round_trip;
+#[cfg(test)]
 mod tests;
