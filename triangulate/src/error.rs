@@ -26,10 +26,12 @@ pub enum TriangulateError {
     Terminal,
     /// The grid is too long for the mesh's 32 bit numbering.
     #[error(
-        "found {rows} x {cols} points, expected at most {limit}: a mesh numbers its vertices with \
+        "{object}: found {rows} x {cols} points, expected at most {limit}: a mesh numbers its vertices with \
          32 bits"
     )]
     TooMany {
+        /// The object's name.
+        object: String,
         /// Stations.
         rows: usize,
         /// Points on a station.
@@ -38,8 +40,10 @@ pub enum TriangulateError {
         limit: u64,
     },
     /// Too few points for a surface.
-    #[error("found {rows} rows of {cols} columns, expected at least 2 of each")]
+    #[error("{object}: found {rows} rows of {cols} columns, expected at least 2 of each")]
     TooFew {
+        /// The object's name.
+        object: String,
         /// Stations.
         rows: usize,
         /// Points on a station.
@@ -47,10 +51,12 @@ pub enum TriangulateError {
     },
     /// A number that a mesh of f32 does not hold.
     #[error(
-        "row {row}, column {col}: found the {what} ({}, {}, {}), expected numbers within 3.4e38, \
+        "{object}: row {row}, column {col}: found the {what} ({}, {}, {}), expected numbers within 3.4e38, \
          which is what an OBJ holds", found.x, found.y, found.z
     )]
     Number {
+        /// The object's name.
+        object: String,
         /// The row, from 1.
         row: usize,
         /// The column, from 1.
@@ -61,16 +67,20 @@ pub enum TriangulateError {
         found: DVec3,
     },
     /// The picture repeats more often than f32 can count.
-    #[error("found a picture that repeats {found} times, expected at most 1e30 times")]
+    #[error("{object}: found a picture that repeats {found} times, expected at most 1e30 times")]
     Repeat {
+        /// The object's name.
+        object: String,
         /// The larger of the two numbers.
         found: f64,
     },
     /// A grid in memory whose arrays do not fit each other.
     #[error(
-        "found a grid with {positions} positions and {normals} normals, expected {expected} of each"
+        "{object}: found a grid with {positions} positions and {normals} normals, expected {expected} of each"
     )]
     Arrays {
+        /// The object's name.
+        object: String,
         /// Length of the positions.
         positions: usize,
         /// Length of the normals.
@@ -79,8 +89,12 @@ pub enum TriangulateError {
         expected: usize,
     },
     /// Rows that do not fit the header.
-    #[error("found row {row} with {cols} points, expected {rows} rows of {expected} points")]
+    #[error(
+        "{object}: found row {row} with {cols} points, expected {rows} rows of {expected} points"
+    )]
     Rows {
+        /// The object's name.
+        object: String,
         /// The row, from 1.
         row: usize,
         /// Points on it.

@@ -108,7 +108,9 @@ fn run_grid<S: Sink>(grid: &GridMesh, sink: S) -> Result<(S, Counts), Triangulat
     let points = grid.rows().saturating_mul(grid.cols());
     if grid.positions.len() != points || grid.normals.len() != points {
         let (positions, normals) = (grid.positions.len(), grid.normals.len());
+        let object = grid.name.clone();
         return Err(TriangulateError::Arrays {
+            object,
             positions,
             normals,
             expected: points,

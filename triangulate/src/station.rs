@@ -26,16 +26,18 @@ pub struct Station {
 }
 
 impl Station {
-    /// Takes over a row, the `number`th from 1, with no vertex told.
+    /// Takes over a row, the `number`th (from 1) of `object`, with no vertex told.
     ///
     /// The rounding to f32 is here and nowhere else.
     pub fn take(
         &mut self,
         row: &Row<'_>,
+        object: &str,
         number: usize,
         uv_slots: usize,
     ) -> Result<(), TriangulateError> {
         let refused = |what, col: usize, found| TriangulateError::Number {
+            object: object.into(),
             row: number,
             col: col + 1,
             what,

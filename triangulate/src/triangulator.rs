@@ -77,12 +77,14 @@ impl<S: Sink> Triangulator<S> {
     /// When the grid has fewer points than a surface, or more than can be numbered.
     pub fn new(header: Header, sink: S) -> Result<Self, TriangulateError> {
         let (rows, cols) = (header.rows, header.cols());
+        let object = header.name.clone();
         if rows < 2 || cols < 2 {
-            return Err(TriangulateError::TooFew { rows, cols });
+            return Err(TriangulateError::TooFew { object, rows, cols });
         }
         // Counted with the row and the column that seams add to the picture.
         if (rows as u64 + 1).saturating_mul(cols as u64 + 1) > MAX_POINTS {
             return Err(TriangulateError::TooMany {
+                object,
                 rows,
                 cols,
                 limit: MAX_POINTS,
@@ -90,7 +92,7 @@ impl<S: Sink> Triangulator<S> {
         }
         let found = header.uv.repeat[0].max(header.uv.repeat[1]);
         if found > MAX_REPEAT {
-            return Err(TriangulateError::Repeat { found });
+            return Err(TriangulateError::Repeat { object, found });
         }
         let picture = Picture::new(&header);
         Ok(Self {
@@ -114,20 +116,18 @@ impl<S: Sink> Triangulator<S> {
     /// When the row has another number of points than the header says, is one too many, holds a
     /// number that f32 does not, or the sink fails.
     pub fn row(&mut self, row: Row<'_>) -> Result<(), TriangulateError> {
-        let (rows, expected) = (self.header.rows, self.header.cols());
         let counts = [row.positions.len(), row.normals.len()];
-        if self.rows == rows || counts != [expected; 2] {
-            let cols = counts[0].min(counts[1]);
-            return Err(TriangulateError::Rows {
-                row: self.rows + 1,
-                cols,
-                rows,
-                expected,
-            });
+        if self.rows == self.header.rows || counts != [self.header.cols(); 2] {
+            return Err(self.misfit(counts[0].min(counts[1])));
         }
         self.rows += 1;
         let mut station = std::mem::take(&mut self.spare);
-        station.take(&row, self.rows, self.teller.picture.cols())?;
+        station.take(
+            &row,
+            &self.header.name,
+            self.rows,
+            self.teller.picture.cols(),
+        )?;
         self.number_positions(&mut station);
         if let Some(mut before) = self.before.take() {
             self.band(&mut before, &mut station);
@@ -149,14 +149,8 @@ impl<S: Sink> Triangulator<S> {
     /// # Errors
     /// When rows are missing, or the sink fails.
     pub fn finish(mut self) -> Result<(S, Counts), TriangulateError> {
-        let (rows, expected) = (self.header.rows, self.header.cols());
-        if self.rows < rows {
-            return Err(TriangulateError::Rows {
-                row: self.rows + 1,
-                cols: 0,
-                rows,
-                expected,
-            });
+        if self.rows < self.header.rows {
+            return Err(self.misfit(0));
         }
         if let (Some(mut first), Some(mut last)) = (self.first.take(), self.before.take()) {
             self.band(&mut last, &mut first);
@@ -201,6 +195,17 @@ impl<S: Sink> Triangulator<S> {
         }
     }
 
+    /// The error for a next row of `cols` points that does not fit the header.
+    fn misfit(&self, cols: usize) -> TriangulateError {
+        TriangulateError::Rows {
+            object: self.header.name.clone(),
+            row: self.rows + 1,
+            cols,
+            rows: self.header.rows,
+            expected: self.header.cols(),
+        }
+    }
+
     /// Tells the triangles between two rows.
     fn band(&mut self, lower: &mut Station, upper: &mut Station) {
         let cols = self.header.cols();
@@ -218,5 +223,77 @@ impl<S: Sink> Triangulator<S> {
         for triangle in &self.triangles {
             self.teller.sink.triangle(triangle);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Options, TriMesh};
+    use glam::{DVec3, Vec3};
+    use sweep::grid::UvLayout;
+
+    fn header(rows: usize, cols: usize) -> Header {
+        Header {
+            name: "sheet".into(),
+            rows,
+            seam_u: Seam::Open,
+            seam_v: Seam::Open,
+            uv: UvLayout::default(),
+            u: vec![0.0; cols],
+        }
+    }
+
+    fn complaint(header: Header) -> String {
+        let sink = TriMesh::new("sheet", &Options::default());
+        Triangulator::new(header, sink).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn a_grid_that_makes_no_mesh_is_refused_at_once() {
+        let message = complaint(header(3_000_000_000, 2));
+        assert!(
+            message.contains("found 3000000000 x 2 points, expected at most"),
+            "{message}"
+        );
+        let message = complaint(header(1, 5));
+        assert_eq!(
+            message,
+            "sheet: found 1 rows of 5 columns, expected at least 2 of each"
+        );
+        let uv = UvLayout {
+            repeat: [1.0, 1e300],
+            ..UvLayout::default()
+        };
+        assert!(complaint(Header { uv, ..header(2, 2) }).contains("a picture that repeats"));
+    }
+
+    #[test]
+    fn rows_that_do_not_fit_the_header_are_refused() {
+        let (positions, normals) = ([DVec3::ZERO; 3], [Vec3::Z; 3]);
+        let row = |cols| Row {
+            v: 0.0,
+            positions: &positions[..cols],
+            normals: &normals[..cols],
+        };
+        let started = || {
+            let sink = TriMesh::new("sheet", &Options::default());
+            Triangulator::new(header(2, 3), sink).unwrap()
+        };
+        let mut short = started();
+        let message = short.row(row(2)).unwrap_err().to_string();
+        assert_eq!(
+            message,
+            "sheet: found row 1 with 2 points, expected 2 rows of 3 points"
+        );
+        let mut long = started();
+        long.row(row(3)).unwrap();
+        long.row(row(3)).unwrap();
+        let message = long.row(row(3)).unwrap_err().to_string();
+        assert!(message.contains("found row 3 with 3 points"), "{message}");
+        let mut missing = started();
+        missing.row(row(3)).unwrap();
+        let message = missing.finish().unwrap_err().to_string();
+        assert!(message.contains("found row 2 with 0 points"), "{message}");
     }
 }

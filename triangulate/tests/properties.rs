@@ -64,7 +64,7 @@ fn what_f32_cannot_hold_is_refused() {
         grid.positions[4].y = wild;
         let message = mesh(&grid, &Options::default()).unwrap_err().to_string();
         assert!(
-            message.starts_with("row 2, column 2: found the position"),
+            message.starts_with("shape: row 2, column 2: found the position"),
             "{message}"
         );
     }
@@ -73,7 +73,7 @@ fn what_f32_cannot_hold_is_refused() {
     let message = mesh(&grid, &Options::default()).unwrap_err().to_string();
     assert_eq!(
         message,
-        "found a grid with 8 positions and 9 normals, expected 9 of each"
+        "shape: found a grid with 8 positions and 9 normals, expected 9 of each"
     );
 }
 
