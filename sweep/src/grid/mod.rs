@@ -1,5 +1,10 @@
 //! The contour x trajectory grid: what `sweep` makes and `triangulate` reads.
 
+pub mod file;
+mod row;
+
+pub use row::Row;
+
 use glam::{DVec3, Vec3};
 use serde::{Deserialize, Serialize};
 
@@ -76,7 +81,10 @@ pub enum Across {
 
 impl Default for UvLayout {
     fn default() -> Self {
-        Self { across: Across::Contour, repeat: [1.0, 1.0] }
+        Self {
+            across: Across::Contour,
+            repeat: [1.0, 1.0],
+        }
     }
 }
 

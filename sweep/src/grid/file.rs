@@ -1,0 +1,138 @@
+//! The grid file, `tb-grid` version 1: what goes through the pipe from `sweep` to `triangulate`.
+//!
+//! A header line of JSON, the rows in the order of `v`, and a footer that tells a whole file from
+//! one that was cut or damaged. The rows are binary (36 bytes a point), or JSON text for people
+//! and diffs; the header is the same. A strip of two rows, three columns, as text:
+//!
+//! ```json
+//! {"format":"tb-grid","version":1,"encoding":"json","endian":"little","name":"strip","rows":2,"cols":3,"seam_u":"open","seam_v":"open","uv":{"across":"contour","repeat":[1.0,1.0]},"u":[0.0,0.5,1.0]}
+//! [0.0,0,[[0.0,0.0,0.0],[1.0,0.0,0.0],[2.0,0.0,0.0]],[[0.0,0.0,1.0],[0.0,0.0,1.0],[0.0,0.0,1.0]]]
+//! [1.0,0,[[0.0,1.0,0.0],[1.0,1.0,0.0],[2.0,1.0,0.0]],[[0.0,0.0,1.0],[0.0,0.0,1.0],[0.0,0.0,1.0]]]
+//! {"rows":2,"crc32":1421911981}
+//! ```
+//!
+//! A row is `[v, flags, positions, normals]`; the numbers are the shortest that read back to the
+//! same bits. A binary row holds the same in the same order, little-endian and without padding:
+//!
+//! | bytes       | what                                                            |
+//! |-------------|-----------------------------------------------------------------|
+//! | 8           | `v`, f64                                                        |
+//! | 1           | flags, 0 in version 1; kept for: 1 pole, 2 crease, 4 cap        |
+//! | 24 x cols   | positions, x y z each f64                                       |
+//! | 12 x cols   | normals, x y z each f32                                         |
+//!
+//! The binary footer is the number of rows (u64) and the CRC-32 (u32, the one of zip and PNG) of
+//! every byte before the footer; as text it is the last line, its CRC-32 that of all lines before
+//! it with their newlines. Nothing follows the footer.
+//!
+//! [`GridReader`] holds one row at a time, so a grid of any length passes through `triangulate` in
+//! the memory of a few rows. It trusts nothing it reads. A row is handed on before the
+//! checksum behind it is known: what is made of the rows is good only once [`GridReader::next_row`]
+//! has given `None`.
+
+mod binary;
+mod error;
+mod header;
+mod reader;
+mod stranger;
+mod text;
+
+pub use error::GridError;
+pub use header::Header;
+pub use reader::{GridReader, read};
+
+use crate::GridMesh;
+use std::io::{self, Write};
+
+/// How the rows are written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Encoding {
+    /// Little-endian numbers: small and fast.
+    Binary,
+    /// One JSON array a row, for people and diffs; it reads back to the same bits.
+    Json,
+}
+
+/// Writes a grid.
+///
+/// `out` gets one write a row; it need not be buffered.
+///
+/// # Errors
+/// When `out` fails. A grid that no reader would take (an array of the wrong length, a number that
+/// is not finite, `u` or `v` out of order) is [`io::ErrorKind::InvalidInput`].
+pub fn write(grid: &GridMesh, encoding: Encoding, out: &mut impl Write) -> io::Result<()> {
+    let header = Header::of(grid);
+    header
+        .check()
+        .map_err(|fault| refused(&fault.to_string()))?;
+    let points = grid.rows().saturating_mul(grid.cols());
+    if grid.positions.len() != points || grid.normals.len() != points {
+        return Err(refused(&format!(
+            "found {} positions and {} normals, expected {points} of each",
+            grid.positions.len(),
+            grid.normals.len()
+        )));
+    }
+
+    let mut sum = Summed {
+        out,
+        crc: crc32fast::Hasher::new(),
+    };
+    let mut bytes = header.line(encoding)?;
+    sum.write(&bytes)?;
+    let mut before = None;
+    for row in grid.row_views() {
+        row.check(grid.seam_v, before)
+            .map_err(|fault| refused(&fault.to_string()))?;
+        before = Some(row.v);
+        bytes.clear();
+        match encoding {
+            Encoding::Binary => binary::encode(&row, &mut bytes),
+            Encoding::Json => text::encode(&row, &mut bytes)?,
+        }
+        sum.write(&bytes)?;
+    }
+    let footer = Footer {
+        rows: grid.rows() as u64,
+        crc32: sum.crc.clone().finalize(),
+    };
+    match encoding {
+        Encoding::Binary => sum.out.write_all(&binary::encode_footer(footer)),
+        Encoding::Json => sum.out.write_all(&text::encode_footer(footer)?),
+    }
+}
+
+/// What stands behind the rows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Footer {
+    rows: u64,
+    /// Of every byte before the footer.
+    crc32: u32,
+}
+
+/// A writer and the checksum of what went through it.
+struct Summed<'a, W> {
+    out: &'a mut W,
+    crc: crc32fast::Hasher,
+}
+
+impl<W: Write> Summed<'_, W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.crc.update(bytes);
+        self.out.write_all(bytes)
+    }
+}
+
+fn refused(fault: &str) -> io::Error {
+    io::Error::new(
+        io::ErrorKind::InvalidInput,
+        format!("the grid cannot be written: {fault}"),
+    )
+}
+
+#[cfg(test)]
+mod round_trip;
+#[cfg(test)]
+mod tests;

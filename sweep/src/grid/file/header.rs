@@ -1,0 +1,253 @@
+//! The header line: everything about a grid but its rows.
+
+use super::{Encoding, GridError, stranger};
+use crate::grid::row::{Fault, check_parameter};
+use crate::{GridMesh, grid::Seam, grid::UvLayout};
+use files::json::Document;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use std::io::{self, BufRead, Read};
+
+/// The `format` of the header line.
+const FORMAT: &str = "tb-grid";
+/// How our writer starts a header line.
+const START: &[u8] = br#"{"format":"tb-grid","#;
+/// The `version` of the header line.
+const VERSION: u64 = 1;
+/// The longest station: it bounds the memory that a reader gives a file it cannot trust yet.
+/// A row of this length is 36 MiB; the finest pictures need a thousandth of it.
+const MAX_COLS: usize = 1 << 20;
+/// Rows are counted with 32 bits, as in the OBJ that is made of them.
+const MAX_ROWS: usize = u32::MAX as usize;
+/// The longest header line: room for [`MAX_COLS`] numbers of 24 characters, and a name.
+const MAX_LINE: usize = 32 << 20;
+
+/// Everything about a grid but its rows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Header {
+    /// The object's name.
+    pub name: String,
+    /// Number of stations.
+    pub rows: usize,
+    /// Whether the contour leads back to its start.
+    pub seam_u: Seam,
+    /// Whether the trajectory leads back to its start.
+    pub seam_v: Seam,
+    /// How a picture lies on the surface.
+    pub uv: UvLayout,
+    /// `u` of each column.
+    pub u: Vec<f64>,
+}
+
+/// The header as its line has it.
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Line {
+    format: String,
+    version: u64,
+    encoding: Encoding,
+    endian: Endian,
+    name: String,
+    rows: usize,
+    cols: usize,
+    seam_u: Seam,
+    seam_v: Seam,
+    uv: UvLayout,
+    u: Vec<f64>,
+}
+
+/// What a JSON text claims to be; everything else in it is passed over.
+#[derive(Debug, Deserialize)]
+struct Claim {
+    #[serde(default)]
+    format: Value,
+    #[serde(default)]
+    version: Value,
+}
+
+/// The byte order of binary rows. There is one, and the file says so.
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Endian {
+    Little,
+}
+
+impl Header {
+    /// The header of a grid in memory.
+    #[must_use]
+    pub fn of(grid: &GridMesh) -> Self {
+        Self {
+            name: grid.name.clone(),
+            rows: grid.rows(),
+            seam_u: grid.seam_u,
+            seam_v: grid.seam_v,
+            uv: grid.uv,
+            u: grid.u.clone(),
+        }
+    }
+
+    /// Number of points on a station.
+    #[must_use]
+    pub fn cols(&self) -> usize {
+        self.u.len()
+    }
+
+    /// The header line with its newline.
+    pub(super) fn line(&self, encoding: Encoding) -> io::Result<Vec<u8>> {
+        let line = Line {
+            format: FORMAT.into(),
+            version: VERSION,
+            encoding,
+            endian: Endian::Little,
+            name: self.name.clone(),
+            rows: self.rows,
+            cols: self.cols(),
+            seam_u: self.seam_u,
+            seam_v: self.seam_v,
+            uv: self.uv,
+            u: self.u.clone(),
+        };
+        let mut bytes = serde_json::to_vec(&line)?;
+        bytes.push(b'\n');
+        Ok(bytes)
+    }
+
+    /// Checks what the types do not say.
+    pub(super) fn check(&self) -> Result<(), Fault> {
+        for (place, count, seam, limit) in [
+            ("rows", self.rows, self.seam_v, MAX_ROWS),
+            ("cols", self.cols(), self.seam_u, MAX_COLS),
+        ] {
+            let least = if seam == Seam::Closed { 3 } else { 2 };
+            if !(least..=limit).contains(&count) {
+                let message = format!("found {count}, expected from {least} to {limit}");
+                return Err(Fault {
+                    place: place.into(),
+                    message,
+                });
+            }
+        }
+        for (i, found) in self.uv.repeat.iter().enumerate() {
+            if !(found.is_finite() && *found > 0.0) {
+                let message = format!("found {found}, expected a positive number");
+                return Err(Fault {
+                    place: format!("uv.repeat[{i}]"),
+                    message,
+                });
+            }
+        }
+        let mut before = None;
+        for (i, &found) in self.u.iter().enumerate() {
+            check_parameter(found, before, self.seam_u).map_err(|message| Fault {
+                place: format!("u[{i}]"),
+                message,
+            })?;
+            before = Some(found);
+        }
+        Ok(())
+    }
+}
+
+/// Reads and checks the header line; gives its bytes, newline included, for the checksum.
+pub(super) fn read(
+    name: &str,
+    input: &mut impl BufRead,
+) -> Result<(Header, Encoding, Vec<u8>), GridError> {
+    let read_error = |source| GridError::Read {
+        name: name.into(),
+        source,
+    };
+    let not_a_grid = |found| GridError::NotAGrid {
+        name: name.into(),
+        found,
+    };
+
+    // A grid starts with a brace; of anything else a few bytes are enough to name it.
+    let mut bytes = Vec::new();
+    input
+        .by_ref()
+        .take(1)
+        .read_to_end(&mut bytes)
+        .map_err(read_error)?;
+    if bytes.is_empty() {
+        return Err(GridError::Empty { name: name.into() });
+    }
+    if bytes != b"{" {
+        input
+            .by_ref()
+            .take(63)
+            .read_to_end(&mut bytes)
+            .map_err(read_error)?;
+        return Err(not_a_grid(stranger::described(&bytes)));
+    }
+    let mut limited = input.by_ref().take(MAX_LINE as u64 - 1);
+    limited.read_until(b'\n', &mut bytes).map_err(read_error)?;
+    let whole = bytes.ends_with(b"\n");
+    if !whole && bytes.len() == MAX_LINE {
+        let expected = "the header line of a grid";
+        return Err(GridError::LongLine {
+            name: name.into(),
+            line: 1,
+            limit: MAX_LINE,
+            expected,
+        });
+    }
+
+    // What it claims to be comes before what is wrong in it.
+    let cut = || GridError::HeaderCut {
+        name: name.into(),
+        bytes: bytes.len(),
+    };
+    match serde_json::from_slice::<Claim>(&bytes) {
+        Err(error) if !whole && (error.is_eof() || bytes.starts_with(START)) => return Err(cut()),
+        Ok(claim) if claim.format == FORMAT => {
+            if !whole {
+                return Err(cut());
+            }
+            if let Some(found) = claim.version.as_u64().filter(|&found| found != VERSION) {
+                return Err(GridError::Version {
+                    name: name.into(),
+                    found,
+                    expected: VERSION,
+                });
+            }
+        }
+        // Ours, but damaged: the strict reading below says where.
+        _ if bytes.starts_with(START) => {}
+        _ => return Err(not_a_grid(stranger::OTHER_JSON.into())),
+    }
+
+    let document = Document::new(name, &bytes)?;
+    let Line {
+        format: _,
+        version: _,
+        encoding,
+        endian: _,
+        name,
+        rows,
+        cols,
+        seam_u,
+        seam_v,
+        uv,
+        u,
+    } = document.parse()?;
+    if cols != u.len() {
+        let message = format!(
+            "found {cols}, expected {}, the number of values in u",
+            u.len()
+        );
+        return Err(document.fault("cols", message).into());
+    }
+    let header = Header {
+        name,
+        rows,
+        seam_u,
+        seam_v,
+        uv,
+        u,
+    };
+    header
+        .check()
+        .map_err(|fault| document.fault(&fault.place, fault.message))?;
+    Ok((header, encoding, bytes))
+}

@@ -1,0 +1,83 @@
+//! One station of a grid, borrowed.
+
+use super::{GridMesh, Seam};
+use glam::{DVec3, Vec3};
+
+/// One row of a [`GridMesh`]: a contour placed on the trajectory.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Row<'a> {
+    /// Where on the trajectory, in `[0, 1]`.
+    pub v: f64,
+    /// One point per column.
+    pub positions: &'a [DVec3],
+    /// One normal per column.
+    pub normals: &'a [Vec3],
+}
+
+/// A value that cannot be part of a grid.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Fault {
+    /// The value, as `u[3]` or `the position of column 3`.
+    pub place: String,
+    /// What was found and what was expected.
+    pub message: String,
+}
+
+impl std::fmt::Display for Fault {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}: {}", self.place, self.message)
+    }
+}
+
+impl GridMesh {
+    /// The rows in the order of `v`.
+    ///
+    /// # Panics
+    /// When `positions` or `normals` is shorter than `rows * cols`.
+    pub fn row_views(&self) -> impl Iterator<Item = Row<'_>> {
+        let cols = self.cols();
+        self.v.iter().enumerate().map(move |(row, &v)| {
+            let points = row * cols..(row + 1) * cols;
+            Row {
+                v,
+                positions: &self.positions[points.clone()],
+                normals: &self.normals[points],
+            }
+        })
+    }
+}
+
+impl Row<'_> {
+    /// Checks the numbers of a row; `before` is the `v` of the row before it.
+    pub(super) fn check(&self, seam_v: Seam, before: Option<f64>) -> Result<(), Fault> {
+        check_parameter(self.v, before, seam_v).map_err(|message| Fault {
+            place: "v".into(),
+            message,
+        })?;
+        let position = self.positions.iter().position(|p| !p.is_finite());
+        let normal = self.normals.iter().position(|n| !n.is_finite());
+        let place = match (position, normal) {
+            (None, None) => return Ok(()),
+            (Some(col), _) => format!("the position of column {col}"),
+            (None, Some(col)) => format!("the normal of column {col}"),
+        };
+        let message = "found a number that is not finite, expected finite numbers".into();
+        Err(Fault { place, message })
+    }
+}
+
+/// Checks one `u` or `v` against the one before it: from 0, not decreasing, up to 1 when open and
+/// below 1 when closed.
+pub(super) fn check_parameter(found: f64, before: Option<f64>, seam: Seam) -> Result<(), String> {
+    let expected = match (before, seam) {
+        (None, _) if found == 0.0 => return Ok(()),
+        (None, _) => "0, where every grid starts".into(),
+        (Some(before), Seam::Open) if found >= before && found <= 1.0 => return Ok(()),
+        (Some(before), Seam::Open) => format!("a number from {before} (the one before it) to 1"),
+        (Some(before), Seam::Closed) if found >= before && found < 1.0 => return Ok(()),
+        (Some(before), Seam::Closed) => {
+            format!("a number from {before} (the one before it) to below 1, where it closes")
+        }
+    };
+    Err(format!("found {found}, expected {expected}"))
+}
