@@ -1,0 +1,431 @@
+//! Frames along a curve that turn about it as little as possible.
+//!
+//! ```text
+//!        w2 ^   contour (x, y) lies on (w1, w2);
+//!           |   w1 x w2 = T, which points at the reader
+//!           |
+//!           T-------> w1
+//! ```
+//!
+//! A frame is carried from one place to the next by double reflection (W. Wang, B. Juettler,
+//! D. Zheng, Y. Liu, "Computation of rotation minimizing frames", 2008): a reflection takes the
+//! first point to the second, another takes the reflected tangent to the tangent there. With exact
+//! tangents the error of the whole is of order 4 in the step; with chords for tangents it would be
+//! of order 2, so curves are asked for theirs.
+//!
+//! The frames are found once, on nodes of their own; a frame between two nodes is one more double
+//! reflection from the nearer one. So a frame does not depend on how many rows are asked for. Along
+//! a closed curve the frame comes back turned by some angle; the turn is undone evenly in length.
+
+use crate::curve::vector::angle_between;
+use crate::curve::{Curve3, Local3};
+use glam::{DVec2, DVec3};
+
+/// Steps from knot to knot. With the order of the method, 64 on a quarter turn leave an error of
+/// about 1e-10 radians.
+const STEPS: usize = 64;
+
+/// Nodes of one curve at most, for curves of very many segments, whose pieces are short and
+/// straight enough for fewer steps.
+const MOST_NODES: usize = 1 << 20;
+
+/// A step that turns the tangent further than this, in radians, is halved.
+///
+/// It matters only where a curve bends sharply within a sixty-fourth of a segment.
+const LARGEST_TURN: f64 = 0.1;
+
+/// Halvings of one step at most; a bend sharper than that is a corner to all purposes.
+const MOST_HALVINGS: u32 = 20;
+
+/// A place on a curve with two directions across it; all three are unit vectors.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Frame {
+    /// The point on the curve.
+    pub origin: DVec3,
+    /// The direction of the curve, `T`.
+    pub tangent: DVec3,
+    /// The direction of the contour's x, `w1`.
+    pub normal: DVec3,
+    /// The direction of the contour's y, `w2`; `w1 x w2 = T`.
+    pub binormal: DVec3,
+}
+
+impl Frame {
+    /// The frame at a place whose `w1` is nearest to `direction`.
+    ///
+    /// `None` when the direction runs along the curve.
+    pub fn toward(place: &Local3, direction: DVec3) -> Option<Self> {
+        let across = direction - place.tangent * direction.dot(place.tangent);
+        let normal = across.try_normalize()?;
+        // Cancellation leaves nothing to trust in a direction this close to the tangent.
+        (across.length() > 1e-9 * direction.length()).then(|| Self::new(place, normal))
+    }
+
+    /// The frame whose `w1` is nearest to the axis that is least aligned with the tangent.
+    ///
+    /// Of axes that are aligned alike x comes before y before z: a line along z has its contour on
+    /// (x, y), one along y on (x, -z), one along x on (y, z).
+    pub fn seed(place: &Local3) -> Self {
+        let aligned = place.tangent.abs();
+        // Rounding must not choose between axes that are equally good.
+        let least = aligned.min_element() + 1e-6;
+        let axis = if aligned.x <= least {
+            DVec3::X
+        } else if aligned.y <= least {
+            DVec3::Y
+        } else {
+            DVec3::Z
+        };
+        let across = axis - place.tangent * axis.dot(place.tangent);
+        Self::new(place, across.normalize())
+    }
+
+    fn new(place: &Local3, normal: DVec3) -> Self {
+        let binormal = place.tangent.cross(normal);
+        Self {
+            origin: place.position,
+            tangent: place.tangent,
+            normal,
+            binormal,
+        }
+    }
+
+    /// The frame at another place, one double reflection away.
+    fn carried_to(&self, place: &Local3) -> Self {
+        let chord = place.position - self.origin;
+        // Where the point stays and the tangent turns, the limit of short chords.
+        let chord = if chord == DVec3::ZERO {
+            self.tangent + place.tangent
+        } else {
+            chord
+        };
+        let reflected = |v: DVec3| v - chord * (2.0 * chord.dot(v) / chord.length_squared());
+        let (normal, tangent) = (reflected(self.normal), reflected(self.tangent));
+        let second = place.tangent - tangent;
+        let length_sq = second.length_squared();
+        let normal = if length_sq > 0.0 {
+            normal - second * (2.0 * second.dot(normal) / length_sq)
+        } else {
+            normal
+        };
+        // Rounding adds up over many steps; it is taken out of every one.
+        let across = normal - place.tangent * normal.dot(place.tangent);
+        Self::new(place, across.try_normalize().unwrap_or(self.normal))
+    }
+
+    /// The frame turned about its tangent, counter-clockwise seen against it.
+    fn turned(&self, angle: f64) -> Self {
+        let (sin, cos) = angle.sin_cos();
+        Self {
+            normal: self.normal * cos + self.binormal * sin,
+            binormal: self.binormal * cos - self.normal * sin,
+            ..*self
+        }
+    }
+
+    /// The angle about the tangent from this frame's `w1` to a direction.
+    fn angle_to(&self, direction: DVec3) -> f64 {
+        direction
+            .dot(self.binormal)
+            .atan2(direction.dot(self.normal))
+    }
+}
+
+/// Rotation-minimizing frames along a curve.
+#[derive(Debug, Clone)]
+pub struct Frames<C> {
+    curve: C,
+    /// Arc lengths of the nodes and the frames there.
+    nodes: Vec<(f64, Frame)>,
+    /// Turn by length that closes a closed curve, in radians; 0 for an open one.
+    spin: f64,
+}
+
+impl<C: Curve3> Frames<C> {
+    /// Finds the frames, from the frame at the start of the curve onward.
+    pub fn new(curve: C, first: Frame) -> Self {
+        let lengths = nodes_of(&curve);
+        let mut nodes = Vec::with_capacity(lengths.len());
+        let mut frame = first;
+        for (s, place) in lengths {
+            frame = frame.carried_to(&place);
+            nodes.push((s, frame));
+        }
+        let length = curve.length();
+        let spin = if curve.closed() {
+            // The last step leads back onto the very first point and tangent.
+            let start = curve.at(0.0);
+            -first.angle_to(frame.carried_to(&start).normal) / length
+        } else {
+            0.0
+        };
+        Self { curve, nodes, spin }
+    }
+
+    /// The curve.
+    pub fn curve(&self) -> &C {
+        &self.curve
+    }
+
+    /// By how much the frames turn more than they must, in radians by length, so that a closed
+    /// curve ends with the frame it began with.
+    pub fn spin(&self) -> f64 {
+        self.spin
+    }
+
+    /// The frame at arc length `s`, and the curvature there on its `(w1, w2)`.
+    pub fn at(&self, s: f64) -> (Frame, DVec2) {
+        let place = self.curve.at(s);
+        let after = self
+            .nodes
+            .partition_point(|node| node.0 <= s)
+            .clamp(1, self.nodes.len() - 1);
+        let (before, after) = (&self.nodes[after - 1], &self.nodes[after]);
+        let nearest = if s - before.0 <= after.0 - s {
+            before
+        } else {
+            after
+        };
+        let frame = nearest.1.carried_to(&place).turned(self.spin * s);
+        let curvature = DVec2::new(
+            place.curvature.dot(frame.normal),
+            place.curvature.dot(frame.binormal),
+        );
+        (frame, curvature)
+    }
+}
+
+/// The nodes of a curve by arc length, each with its place; at least two.
+fn nodes_of(curve: &impl Curve3) -> Vec<(f64, Local3)> {
+    let knots = curve.knots();
+    let steps = (MOST_NODES / knots.len().max(1)).clamp(4, STEPS);
+    let mut nodes = vec![(0.0, curve.at(0.0))];
+    for ends in knots.windows(2) {
+        for step in 1..=steps {
+            let s = ends[0] + (ends[1] - ends[0]) * (step as f64 / steps as f64);
+            let s = if step == steps { ends[1] } else { s };
+            extend_to(curve, s, MOST_HALVINGS, &mut nodes);
+        }
+    }
+    nodes
+}
+
+/// Adds the node at `s`, and before it those that a sharp bend on the way needs.
+fn extend_to(curve: &impl Curve3, s: f64, halvings: u32, nodes: &mut Vec<(f64, Local3)>) {
+    let place = curve.at(s);
+    if let Some(&(from, last)) = nodes.last()
+        && halvings > 0
+        && nodes.len() < 2 * MOST_NODES
+        && angle_between(last.tangent, place.tangent) > LARGEST_TURN
+    {
+        extend_to(curve, 0.5 * (from + s), halvings - 1, nodes);
+        extend_to(curve, s, halvings - 1, nodes);
+        return;
+    }
+    nodes.push((s, place));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::curve::{Cubic, Path};
+
+    /// A helix about y with as many knots as steps are wanted.
+    struct Helix {
+        radius: f64,
+        climb: f64,
+        turns: f64,
+        pieces: usize,
+    }
+
+    impl Helix {
+        fn speed(&self) -> f64 {
+            self.radius.hypot(self.climb)
+        }
+
+        /// The frame that turns against the torsion, from Frenet's normal and binormal.
+        fn truth(&self, s: f64) -> DVec3 {
+            let place = self.at(s);
+            let normal = place.curvature.normalize();
+            let binormal = place.tangent.cross(normal);
+            let torsion = self.torsion();
+            let (sin, cos) = (-torsion * s).sin_cos();
+            normal * cos + binormal * sin
+        }
+
+        fn torsion(&self) -> f64 {
+            // Right-handed about y for a climb upward: x leads to -z.
+            self.climb / self.speed().powi(2)
+        }
+    }
+
+    impl Curve3 for Helix {
+        fn length(&self) -> f64 {
+            std::f64::consts::TAU * self.turns * self.speed()
+        }
+
+        fn closed(&self) -> bool {
+            false
+        }
+
+        fn knots(&self) -> Vec<f64> {
+            (0..=self.pieces)
+                .map(|i| self.length() * i as f64 / self.pieces as f64)
+                .collect()
+        }
+
+        fn at(&self, s: f64) -> Local3 {
+            let (r, h, speed) = (self.radius, self.climb, self.speed());
+            let (sin, cos) = (s / speed).sin_cos();
+            Local3 {
+                position: DVec3::new(r * cos, h * s / speed, -r * sin),
+                tangent: DVec3::new(-r * sin, h, -r * cos) / speed,
+                curvature: DVec3::new(-r * cos, 0.0, r * sin) / (speed * speed),
+            }
+        }
+    }
+
+    /// The largest error of frames carried over `steps` even steps, in radians.
+    fn helix_error(steps: usize) -> f64 {
+        let helix = Helix {
+            radius: 1.0,
+            climb: 0.3,
+            turns: 2.0,
+            pieces: 1,
+        };
+        let place = |i: usize| helix.length() * i as f64 / steps as f64;
+        let mut frame = Frame::toward(&helix.at(0.0), helix.truth(0.0)).unwrap();
+        let mut error: f64 = 0.0;
+        for i in 1..=steps {
+            frame = frame.carried_to(&helix.at(place(i)));
+            error = error.max(angle_between(frame.normal, helix.truth(place(i))));
+        }
+        error
+    }
+
+    #[test]
+    fn frames_on_a_helix_have_order_four() {
+        let errors = [64, 128, 256].map(helix_error);
+        println!("helix of two turns, 64, 128, 256 steps: {errors:?}");
+        for pair in errors.windows(2) {
+            let order = (pair[0] / pair[1]).log2();
+            assert!((order - 4.0).abs() < 0.1, "order {order}");
+        }
+        assert!(errors[2] < 1e-7, "{errors:?}");
+    }
+
+    #[test]
+    fn frames_between_nodes_are_as_good_as_those_on_them() {
+        let helix = Helix {
+            radius: 1.0,
+            climb: 0.3,
+            turns: 2.0,
+            pieces: 8,
+        };
+        let first = Frame::toward(&helix.at(0.0), helix.truth(0.0)).unwrap();
+        let frames = Frames::new(helix, first);
+        let helix = frames.curve();
+        let mut worst: f64 = 0.0;
+        for i in 0..=3001 {
+            let s = helix.length() * f64::from(i) / 3001.0;
+            let (frame, curvature) = frames.at(s);
+            worst = worst.max(angle_between(frame.normal, helix.truth(s)));
+            let handed = frame.normal.cross(frame.binormal) - frame.tangent;
+            assert!(handed.length() < 1e-14);
+            assert!((curvature.length() - 1.0 / 1.09).abs() < 1e-12);
+        }
+        println!("helix of two turns, 8 knots of 64 steps: {worst:.2e}");
+        assert!(worst < 1e-9, "{worst:e}");
+    }
+
+    fn three_d_loop() -> Path<DVec3> {
+        let points = [
+            [2.0, 0.0, 0.0],
+            [0.0, 1.0, 2.0],
+            [-2.0, 0.0, -0.5],
+            [0.0, -1.0, -2.0],
+        ];
+        let points = points.map(DVec3::from_array);
+        Path::new(&crate::curve::spline::through(&points, true), true).unwrap()
+    }
+
+    #[test]
+    fn a_closed_curve_ends_with_the_frame_it_began_with() {
+        let path = three_d_loop();
+        let first = Frame::seed(&path.at(0.0));
+        let length = path.length();
+        let frames = Frames::new(path, first);
+        assert!(
+            frames.spin().abs() * length > 1e-3,
+            "there is a turn to undo"
+        );
+        let gap = (frames.at(length).0.normal - frames.at(0.0).0.normal).length();
+        assert!(gap < 1e-14, "{gap:e}");
+    }
+
+    #[test]
+    fn a_straight_line_keeps_its_frame() {
+        let line = Cubic::line(DVec3::new(1.0, 2.0, 3.0), DVec3::new(4.0, -2.0, 5.0));
+        let path = Path::new(&[line], false).unwrap();
+        let first = Frame::seed(&path.at(0.0));
+        let frames = Frames::new(path, first);
+        for i in 0..=20 {
+            let (frame, _) = frames.at(frames.curve().length() * f64::from(i) / 20.0);
+            assert!((frame.normal - first.normal).length() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn an_inflection_does_not_turn_the_frame_over() {
+        let p = DVec3::new;
+        let wave = Cubic([
+            p(0.0, 0.0, 0.0),
+            p(1.0, 2.0, 0.0),
+            p(2.0, -2.0, 0.0),
+            p(3.0, 0.0, 0.0),
+        ]);
+        let path = Path::new(&[wave], false).unwrap();
+        let first = Frame::toward(&path.at(0.0), DVec3::Z).unwrap();
+        let frames = Frames::new(path, first);
+        for i in 0..=50 {
+            let (frame, _) = frames.at(frames.curve().length() * f64::from(i) / 50.0);
+            assert!((frame.normal - DVec3::Z).length() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn the_seed_is_the_axis_least_aligned() {
+        let seed = |tangent: DVec3| {
+            let place = Local3 {
+                position: DVec3::ZERO,
+                tangent,
+                curvature: DVec3::ZERO,
+            };
+            let frame = Frame::seed(&place);
+            (frame.normal, frame.binormal)
+        };
+        assert_eq!(seed(DVec3::Z), (DVec3::X, DVec3::Y));
+        assert_eq!(seed(DVec3::Y), (DVec3::X, DVec3::NEG_Z));
+        assert_eq!(seed(DVec3::X), (DVec3::Y, DVec3::Z));
+        assert_eq!(seed(DVec3::new(1e-9, 1.0, 0.0).normalize()).1.z, -1.0);
+    }
+
+    #[test]
+    fn a_direction_along_the_curve_gives_no_frame() {
+        let place = three_d_loop().at(1.0);
+        assert!(Frame::toward(&place, place.tangent * 3.0).is_none());
+        assert!(Frame::toward(&place, DVec3::ZERO).is_none());
+    }
+
+    #[test]
+    fn a_point_that_stays_turns_the_frame_with_its_tangent() {
+        let place = |tangent| Local3 {
+            position: DVec3::ONE,
+            tangent,
+            curvature: DVec3::ZERO,
+        };
+        let frame = Frame::toward(&place(DVec3::X), DVec3::Y).unwrap();
+        let turned = frame.carried_to(&place(DVec3::Y));
+        assert!((turned.normal - DVec3::NEG_X).length() < 1e-15);
+    }
+}
