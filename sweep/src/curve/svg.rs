@@ -41,9 +41,8 @@ pub fn outline(text: &str) -> Result<Outline, String> {
         pen: DVec2::ZERO,
         segments: Vec::new(),
     };
-    let closed = reader.read()?;
+    let (start, closed) = reader.read()?;
     let mut segments = reader.segments;
-    let start = segments.first().map_or(DVec2::ZERO, |first| first.0[0]);
     let gap = (reader.pen - start).length();
     let meets = gap <= MEETS * extent(segments.iter().flat_map(|segment| segment.0));
     if closed && !meets {
@@ -55,7 +54,8 @@ pub fn outline(text: &str) -> Result<Outline, String> {
         last.0[3] = start;
     }
     for segment in &mut segments {
-        segment.0 = segment.0.map(|p| DVec2::new(p.x, -p.y));
+        // Not -y, which would turn 0 into -0.
+        segment.0 = segment.0.map(|p| DVec2::new(p.x, 0.0 - p.y));
     }
     Ok(Outline {
         segments,
@@ -70,13 +70,14 @@ struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    /// Reads all commands; true when the path ends with `Z`.
-    fn read(&mut self) -> Result<bool, String> {
+    /// Reads all commands; gives the start, and whether the path ends with `Z`.
+    fn read(&mut self) -> Result<(DVec2, bool), String> {
         let mut command = match self.lexer.command() {
             Some(letter @ ('M' | 'm')) => letter,
             _ => return Err(self.lexer.expected("`M` and a point to start from")),
         };
-        self.pen = self.lexer.point()?;
+        let start = self.lexer.point()?;
+        self.pen = start;
         // Pairs that follow a move are lines.
         command = if command == 'M' { 'L' } else { 'l' };
         // The last handle of a cubic and of a quadratic, for the commands that mirror it.
@@ -85,7 +86,7 @@ impl Reader<'_> {
             if let Some(letter) = self.lexer.command() {
                 command = letter;
             } else if self.lexer.finished() {
-                return Ok(false);
+                return Ok((start, false));
             }
             let origin = if command.is_ascii_lowercase() {
                 self.pen
@@ -124,7 +125,7 @@ impl Reader<'_> {
                     if !self.lexer.finished() {
                         return Err(self.lexer.expected("the end of the path: one subpath only"));
                     }
-                    return Ok(true);
+                    return Ok((start, true));
                 }
                 'M' => {
                     self.lexer.at -= 1;
