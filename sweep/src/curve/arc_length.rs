@@ -57,7 +57,7 @@ impl<V: Vector> ArcLength<V> {
 
     /// The parameter at length `s` from the start; `s` outside the segment gives its ends.
     pub fn parameter_at(&self, s: f64) -> f64 {
-        if !(s > 0.0) {
+        if s.is_nan() || s <= 0.0 {
             return 0.0;
         }
         if s >= self.total() {

@@ -62,7 +62,7 @@ impl<V: Vector> Path<V> {
         let mut segments = Vec::with_capacity(given.len());
         let mut start = 0.0;
         for (source, whole) in given.iter().enumerate() {
-            if !(whole.size() > COINCIDENT * size) {
+            if whole.size() <= COINCIDENT * size {
                 continue;
             }
             for cubic in whole.split_at_cusps() {

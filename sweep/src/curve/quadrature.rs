@@ -23,8 +23,8 @@ fn refine(f: &impl Fn(f64) -> f64, a: f64, b: f64, whole: f64, tolerance: f64, l
     let middle = 0.5 * (a + b);
     let (first, second) = (gauss(f, a, middle), gauss(f, middle, b));
     let sum = first + second;
-    // A difference that is not a number also ends here.
-    if left == 0 || !((sum - whole).abs() > tolerance) {
+    let change = (sum - whole).abs();
+    if left == 0 || change <= tolerance || change.is_nan() {
         return sum;
     }
     refine(f, a, middle, first, tolerance, left - 1)

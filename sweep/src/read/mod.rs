@@ -44,7 +44,7 @@ pub fn read(document: &Document) -> Result<Sweep, SweepError> {
                 ),
             ));
         }
-        if !(high > 0.0) {
+        if high <= 0.0 {
             return Err(reader.geometry(
                 "contour",
                 "found a contour on the axis of the rotation, expected some x above 0",
@@ -115,7 +115,7 @@ impl Reader<'_> {
     }
 
     fn point(&self, path: &str, point: &[f64]) -> Result<(), SweepError> {
-        match point.iter().find(|number| !(number.abs() <= LARGEST)) {
+        match point.iter().find(|number| number.abs() > LARGEST) {
             Some(number) => Err(self.fault(
                 path,
                 format!("found {number:?}, expected coordinates of at most {LARGEST:?}"),
@@ -157,7 +157,7 @@ impl Reader<'_> {
             }
             let next = if i == last { 0 } else { i + 1 };
             let (end, start) = (cubics[i].0[3], cubics[next].0[0]);
-            if !((end - start).length() <= widest) {
+            if (end - start).length() > widest {
                 let place = if i == last {
                     format!("{segments_path}[{i}][3]")
                 } else {
