@@ -1,1 +1,124 @@
-//! triangulate
+//! A contour x trajectory grid to triangles with texture ids, in memory or as OBJ.
+//!
+//! Each cell of the grid becomes two triangles, counter-clockwise seen from outside. Rows come in
+//! and go out one at a time, so that writing an OBJ takes the memory of three rows whatever the
+//! length of the grid. What goes out is the same either way: the [`TriMesh`] of [`mesh`] has
+//! the numbers and the order of triangles that [`write_obj`] writes, to the bit.
+//!
+//! What makes a mesh of a grid:
+//!
+//! - *One vertex where the surface has one point.* A seam that closes leads back to the first row or
+//!   column, and a point equal to its neighbour in the grid shares its vertex: at a pole a
+//!   whole row or column does, at a crease two columns do. Texture coordinates are not shared over a
+//!   seam; they run on to `u = 1` and `v = 1`, so that no triangle has the whole picture squeezed
+//!   into it.
+//! - *No triangle without area.* The cell between the two columns of a crease gives none, a cell at
+//!   a pole gives one. [`Counts`] says how many were left out.
+//! - *Half a cell at a pole.* All of a picture's edge meets there; each triangle takes the middle of
+//!   its share of it, and likewise the normal in the middle.
+//! - *The diagonal* is the one that lies closer to the surface ([`diagonal`]).
+//! - *Rounding to f32 happens here, once*, and zero is always `+0`: OBJ holds no more, and `render`
+//!   intersects exactly these vertices.
+//!
+//! Only neighbours in the grid are compared: where a surface touches itself elsewhere it
+//! stays two surfaces. A cell is not made convex, and a mesh is not thinned.
+//!
+//! | module           | what                                                         |
+//! |------------------|--------------------------------------------------------------|
+//! | [`triangulator`] | rows in, vertices and triangles out; the [`Sink`] they go to |
+//! | [`diagonal`]     | which way a cell is cut                                      |
+//! | [`tri_mesh`]     | the mesh in memory, and its [`TriMesh::validate`]            |
+//! | [`obj`]          | the mesh as OBJ                                              |
+
+mod cell;
+pub mod diagonal;
+mod error;
+pub mod obj;
+mod picture;
+mod station;
+pub mod tri_mesh;
+pub mod triangulator;
+mod validate;
+
+pub use error::TriangulateError;
+pub use obj::ObjWriter;
+pub use tri_mesh::{TriMesh, Triangle};
+pub use triangulator::{Counts, Sink, Triangulator};
+
+use std::io::{BufRead, Write};
+use sweep::GridMesh;
+use sweep::grid::file::{GridReader, Header};
+
+/// What the triangles of an object are bound to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Options {
+    /// The texture id, which a scene binds to a picture; 0 is none.
+    pub texture: u32,
+    /// The surface id, which a scene binds to a material.
+    pub surface: u32,
+}
+
+/// The triangles of a grid, in memory.
+///
+/// # Errors
+/// When the grid's arrays do not fit each other, or hold a number that f32 does not.
+pub fn mesh(grid: &GridMesh, options: &Options) -> Result<TriMesh, TriangulateError> {
+    let sink = TriMesh::new(&grid.name, options);
+    let (mesh, _) = run_grid(grid, sink)?;
+    Ok(mesh)
+}
+
+/// The triangles of a grid in memory, as OBJ: the same bytes that [`write_obj`] makes of the file
+/// of that grid.
+///
+/// # Errors
+/// As [`mesh`], and when `out` fails.
+pub fn write_grid_obj(
+    grid: &GridMesh,
+    options: &Options,
+    out: &mut impl Write,
+) -> Result<Counts, TriangulateError> {
+    let (writer, counts) = run_grid(grid, ObjWriter::new(&grid.name, options, out))?;
+    writer.finish(&counts).map_err(TriangulateError::Write)?;
+    Ok(counts)
+}
+
+/// The triangles of a grid file, row by row, as OBJ.
+///
+/// The closing comment is written only when the grid's footer was read and found right.
+///
+/// # Errors
+/// When the grid is cut short or damaged, holds a number that f32 does not, or `out` fails.
+pub fn write_obj(
+    reader: &mut GridReader<impl BufRead>,
+    options: &Options,
+    out: &mut impl Write,
+) -> Result<Counts, TriangulateError> {
+    let sink = ObjWriter::new(&reader.header().name, options, out);
+    let mut triangulator = Triangulator::new(reader.header().clone(), sink)?;
+    while let Some(row) = reader.next_row()? {
+        triangulator.row(row)?;
+    }
+    let (writer, counts) = triangulator.finish()?;
+    writer.finish(&counts).map_err(TriangulateError::Write)?;
+    Ok(counts)
+}
+
+fn run_grid<S: Sink>(grid: &GridMesh, sink: S) -> Result<(S, Counts), TriangulateError> {
+    let points = grid.rows().saturating_mul(grid.cols());
+    if grid.positions.len() != points || grid.normals.len() != points {
+        let (positions, normals) = (grid.positions.len(), grid.normals.len());
+        let object = grid.name.clone();
+        return Err(TriangulateError::Arrays {
+            object,
+            positions,
+            normals,
+            expected: points,
+        });
+    }
+    let mut triangulator = Triangulator::new(Header::of(grid), sink)?;
+    for row in grid.row_views() {
+        triangulator.row(row)?;
+    }
+    triangulator.finish()
+}

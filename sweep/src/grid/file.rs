@@ -8,7 +8,7 @@
 //! {"format":"tb-grid","version":1,"encoding":"json","endian":"little","name":"strip","rows":2,"cols":3,"seam_u":"open","seam_v":"open","uv":{"across":"contour","repeat":[1.0,1.0]},"u":[0.0,0.5,1.0]}
 //! [0.0,0,[[0.0,0.0,0.0],[1.0,0.0,0.0],[2.0,0.0,0.0]],[[0.0,0.0,1.0],[0.0,0.0,1.0],[0.0,0.0,1.0]]]
 //! [1.0,0,[[0.0,1.0,0.0],[1.0,1.0,0.0],[2.0,1.0,0.0]],[[0.0,0.0,1.0],[0.0,0.0,1.0],[0.0,0.0,1.0]]]
-//! {"rows":2,"crc32":0}
+//! {"rows":2,"crc32":1421911981}
 //! ```
 //!
 //! A row is `[v, flags, positions, normals]`; the numbers are the shortest that read back to the
@@ -31,10 +31,15 @@
 //! has given `None`.
 
 mod binary;
+mod error;
 mod header;
+mod reader;
+mod stranger;
 mod text;
 
+pub use error::GridError;
 pub use header::Header;
+pub use reader::{GridReader, read};
 
 use crate::GridMesh;
 use std::io::{self, Write};
@@ -126,3 +131,8 @@ fn refused(fault: &str) -> io::Error {
         format!("the grid cannot be written: {fault}"),
     )
 }
+
+#[cfg(test)]
+mod round_trip;
+#[cfg(test)]
+mod tests;

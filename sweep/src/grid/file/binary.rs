@@ -1,7 +1,9 @@
 //! Binary rows and footer.
 
 use super::Footer;
+use super::reader::RowBuffer;
 use crate::grid::Row;
+use glam::{DVec3, Vec3};
 
 /// Bytes before the positions: `v` and the flags.
 const HEAD: usize = 9;
@@ -39,4 +41,44 @@ pub(super) fn encode_footer(footer: Footer) -> [u8; FOOTER] {
     bytes[..8].copy_from_slice(&footer.rows.to_le_bytes());
     bytes[8..].copy_from_slice(&footer.crc32.to_le_bytes());
     bytes
+}
+
+/// Takes the numbers of a row out of its [`row_len`] bytes.
+pub(super) fn decode(bytes: &[u8], cols: usize, row: &mut RowBuffer) {
+    let (head, points) = bytes.split_at(HEAD);
+    row.v = f64_at(head, 0);
+    row.flags = head[8];
+    let (positions, normals) = points.split_at(cols * POSITION);
+    row.positions.clear();
+    row.positions.extend(
+        positions
+            .chunks_exact(POSITION)
+            .map(|p| DVec3::new(f64_at(p, 0), f64_at(p, 8), f64_at(p, 16))),
+    );
+    row.normals.clear();
+    row.normals.extend(
+        normals
+            .chunks_exact(NORMAL)
+            .map(|n| Vec3::new(f32_at(n, 0), f32_at(n, 4), f32_at(n, 8))),
+    );
+}
+
+pub(super) fn decode_footer(bytes: [u8; FOOTER]) -> Footer {
+    let [r0, r1, r2, r3, r4, r5, r6, r7, c0, c1, c2, c3] = bytes;
+    Footer {
+        rows: u64::from_le_bytes([r0, r1, r2, r3, r4, r5, r6, r7]),
+        crc32: u32::from_le_bytes([c0, c1, c2, c3]),
+    }
+}
+
+fn f64_at(bytes: &[u8], at: usize) -> f64 {
+    let mut number = [0; 8];
+    number.copy_from_slice(&bytes[at..at + 8]);
+    f64::from_le_bytes(number)
+}
+
+fn f32_at(bytes: &[u8], at: usize) -> f32 {
+    let mut number = [0; 4];
+    number.copy_from_slice(&bytes[at..at + 4]);
+    f32::from_le_bytes(number)
 }

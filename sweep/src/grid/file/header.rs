@@ -1,20 +1,26 @@
 //! The header line: everything about a grid but its rows.
 
-use super::Encoding;
+use super::{Encoding, GridError, stranger};
 use crate::grid::row::{Fault, check_parameter};
 use crate::{GridMesh, grid::Seam, grid::UvLayout};
+use files::json::Document;
 use serde::{Deserialize, Serialize};
-use std::io;
+use serde_json::Value;
+use std::io::{self, BufRead, Read};
 
 /// The `format` of the header line.
-pub(super) const FORMAT: &str = "tb-grid";
+const FORMAT: &str = "tb-grid";
+/// How our writer starts a header line.
+const START: &[u8] = br#"{"format":"tb-grid","#;
 /// The `version` of the header line.
-pub(super) const VERSION: u32 = 1;
+const VERSION: u64 = 1;
 /// The longest station: it bounds the memory that a reader gives a file it cannot trust yet.
 /// A row of this length is 36 MiB; the finest pictures need a thousandth of it.
-pub(super) const MAX_COLS: usize = 1 << 20;
+const MAX_COLS: usize = 1 << 20;
 /// Rows are counted with 32 bits, as in the OBJ that is made of them.
 const MAX_ROWS: usize = u32::MAX as usize;
+/// The longest header line: room for [`MAX_COLS`] numbers of 24 characters, and a name.
+const MAX_LINE: usize = 32 << 20;
 
 /// Everything about a grid but its rows.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,10 +42,10 @@ pub struct Header {
 /// The header as its line has it.
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Line {
+struct Line {
     format: String,
-    version: u32,
-    pub encoding: Encoding,
+    version: u64,
+    encoding: Encoding,
     endian: Endian,
     name: String,
     rows: usize,
@@ -48,6 +54,15 @@ pub(super) struct Line {
     seam_v: Seam,
     uv: UvLayout,
     u: Vec<f64>,
+}
+
+/// What a JSON text claims to be; everything else in it is passed over.
+#[derive(Debug, Deserialize)]
+struct Claim {
+    #[serde(default)]
+    format: Value,
+    #[serde(default)]
+    version: Value,
 }
 
 /// The byte order of binary rows. There is one, and the file says so.
@@ -131,4 +146,108 @@ impl Header {
         }
         Ok(())
     }
+}
+
+/// Reads and checks the header line; gives its bytes, newline included, for the checksum.
+pub(super) fn read(
+    name: &str,
+    input: &mut impl BufRead,
+) -> Result<(Header, Encoding, Vec<u8>), GridError> {
+    let read_error = |source| GridError::Read {
+        name: name.into(),
+        source,
+    };
+    let not_a_grid = |found| GridError::NotAGrid {
+        name: name.into(),
+        found,
+    };
+
+    // A grid starts with a brace; of anything else a few bytes are enough to name it.
+    let mut bytes = Vec::new();
+    input
+        .by_ref()
+        .take(1)
+        .read_to_end(&mut bytes)
+        .map_err(read_error)?;
+    if bytes.is_empty() {
+        return Err(GridError::Empty { name: name.into() });
+    }
+    if bytes != b"{" {
+        input
+            .by_ref()
+            .take(63)
+            .read_to_end(&mut bytes)
+            .map_err(read_error)?;
+        return Err(not_a_grid(stranger::described(&bytes)));
+    }
+    let mut limited = input.by_ref().take(MAX_LINE as u64 - 1);
+    limited.read_until(b'\n', &mut bytes).map_err(read_error)?;
+    let whole = bytes.ends_with(b"\n");
+    if !whole && bytes.len() == MAX_LINE {
+        let expected = "the header line of a grid";
+        return Err(GridError::LongLine {
+            name: name.into(),
+            line: 1,
+            limit: MAX_LINE,
+            expected,
+        });
+    }
+
+    // What it claims to be comes before what is wrong in it.
+    let cut = || GridError::HeaderCut {
+        name: name.into(),
+        bytes: bytes.len(),
+    };
+    match serde_json::from_slice::<Claim>(&bytes) {
+        Err(error) if !whole && (error.is_eof() || bytes.starts_with(START)) => return Err(cut()),
+        Ok(claim) if claim.format == FORMAT => {
+            if !whole {
+                return Err(cut());
+            }
+            if let Some(found) = claim.version.as_u64().filter(|&found| found != VERSION) {
+                return Err(GridError::Version {
+                    name: name.into(),
+                    found,
+                    expected: VERSION,
+                });
+            }
+        }
+        // Ours, but damaged: the strict reading below says where.
+        _ if bytes.starts_with(START) => {}
+        _ => return Err(not_a_grid(stranger::OTHER_JSON.into())),
+    }
+
+    let document = Document::new(name, &bytes)?;
+    let Line {
+        format: _,
+        version: _,
+        encoding,
+        endian: _,
+        name,
+        rows,
+        cols,
+        seam_u,
+        seam_v,
+        uv,
+        u,
+    } = document.parse()?;
+    if cols != u.len() {
+        let message = format!(
+            "found {cols}, expected {}, the number of values in u",
+            u.len()
+        );
+        return Err(document.fault("cols", message).into());
+    }
+    let header = Header {
+        name,
+        rows,
+        seam_u,
+        seam_v,
+        uv,
+        u,
+    };
+    header
+        .check()
+        .map_err(|fault| document.fault(&fault.place, fault.message))?;
+    Ok((header, encoding, bytes))
 }

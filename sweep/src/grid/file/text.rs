@@ -1,7 +1,12 @@
 //! Rows and footer as JSON text, one line each.
 
 use super::Footer;
+use super::reader::RowBuffer;
 use crate::grid::Row;
+use files::JsonError;
+use files::json::Document;
+use glam::{DVec3, Vec3};
+use serde::de::DeserializeOwned;
 use std::io;
 
 /// Appends a row and its newline to `bytes`.
@@ -15,4 +20,46 @@ pub(super) fn encode_footer(footer: Footer) -> io::Result<Vec<u8>> {
     let mut bytes = serde_json::to_vec(&footer)?;
     bytes.push(b'\n');
     Ok(bytes)
+}
+
+/// The longest line of a footer.
+pub(super) const FOOTER_LIMIT: usize = 200;
+
+/// The longest line of a row. The longest shortest f64 has 24 characters, the longest f32 15, so
+/// that a point with its normal takes 129 with brackets and commas; the rest is room for blanks.
+pub(super) fn row_limit(cols: usize) -> usize {
+    1000 + 200 * cols
+}
+
+/// Takes the numbers of a row out of its line, which is `line` (from 1) of the file `name`.
+pub(super) fn decode(
+    name: &str,
+    line: usize,
+    bytes: &[u8],
+    cols: usize,
+    row: &mut RowBuffer,
+) -> Result<(), JsonError> {
+    let found: (f64, u8, Vec<DVec3>, Vec<Vec3>) = parse(name, line, bytes)?;
+    (row.v, row.flags, row.positions, row.normals) = found;
+    for (path, what, count) in [
+        ("[2]", "positions", row.positions.len()),
+        ("[3]", "normals", row.normals.len()),
+    ] {
+        if count != cols {
+            let message = format!("found {count} {what}, expected {cols}, one per column");
+            let fault = Document::new(name, bytes)?.fault(path, message);
+            return Err(JsonError { line, ..fault });
+        }
+    }
+    Ok(())
+}
+
+pub(super) fn decode_footer(name: &str, line: usize, bytes: &[u8]) -> Result<Footer, JsonError> {
+    parse(name, line, bytes)
+}
+
+fn parse<T: DeserializeOwned>(name: &str, line: usize, bytes: &[u8]) -> Result<T, JsonError> {
+    Document::new(name, bytes)
+        .and_then(|document| document.parse())
+        .map_err(|error| JsonError { line, ..error })
 }

@@ -1,0 +1,119 @@
+//! Any grid, written and read back to the same bits.
+
+use super::*;
+use crate::grid::{Across, Seam, UvLayout};
+use glam::{DVec3, Vec3};
+use proptest::prelude::*;
+
+proptest! {
+    #[test]
+    fn a_grid_reads_back_to_the_same_bits(grid in grids()) {
+        for encoding in [Encoding::Binary, Encoding::Json] {
+            let mut bytes = Vec::new();
+            write(&grid, encoding, &mut bytes).unwrap();
+            assert_same_bits(&grid, &read("a", bytes.as_slice()).unwrap());
+        }
+    }
+}
+
+/// Equality that tells -0 from 0.
+fn assert_same_bits(a: &GridMesh, b: &GridMesh) {
+    assert_eq!(a, b);
+    let bits = |g: &GridMesh| {
+        let positions = g
+            .positions
+            .iter()
+            .flat_map(DVec3::to_array)
+            .map(f64::to_bits);
+        let normals = g
+            .normals
+            .iter()
+            .flat_map(Vec3::to_array)
+            .map(|n| u64::from(n.to_bits()));
+        let parameters =
+            g.u.iter()
+                .chain(&g.v)
+                .chain(&g.uv.repeat)
+                .map(|x| x.to_bits());
+        positions
+            .chain(normals)
+            .chain(parameters)
+            .collect::<Vec<u64>>()
+    };
+    assert_eq!(bits(a), bits(b));
+}
+
+/// Finite numbers, among them those that formats lose.
+fn nasty_f64() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        prop::sample::select(vec![
+            0.0,
+            -0.0,
+            5e-324,
+            -2.2e-308,
+            1e-300,
+            1e300,
+            f64::MAX,
+            0.1,
+            1.0 / 3.0,
+            1e23,
+        ]),
+        any::<u64>()
+            .prop_map(f64::from_bits)
+            .prop_filter("finite", |x| x.is_finite()),
+    ]
+}
+
+fn nasty_f32() -> impl Strategy<Value = f32> {
+    prop_oneof![
+        prop::sample::select(vec![
+            0.0,
+            -0.0,
+            1e-45,
+            -1.1e-38,
+            f32::MAX,
+            0.1,
+            16_777_216.0
+        ]),
+        any::<u32>()
+            .prop_map(f32::from_bits)
+            .prop_filter("finite", |x| x.is_finite()),
+    ]
+}
+
+/// `count` parameters from 0, not decreasing, below 1.
+fn parameters(count: usize) -> impl Strategy<Value = Vec<f64>> {
+    prop::collection::vec(0.0..1.0, count - 1).prop_map(|mut list| {
+        list.sort_by(f64::total_cmp);
+        list.insert(0, 0.0);
+        list
+    })
+}
+
+fn grids() -> impl Strategy<Value = GridMesh> {
+    let seam = || prop::sample::select(vec![Seam::Open, Seam::Closed]);
+    (3_usize..6, 3_usize..6).prop_flat_map(move |(rows, cols)| {
+        let points = rows * cols;
+        (
+            (".*", seam(), seam(), 1e-9..1e9),
+            (parameters(cols), parameters(rows)),
+            prop::collection::vec(prop::array::uniform3(nasty_f64()), points),
+            prop::collection::vec(prop::array::uniform3(nasty_f32()), points),
+        )
+            .prop_map(
+                |((name, seam_u, seam_v, repeat), (u, v), positions, normals)| GridMesh {
+                    name,
+                    seam_u,
+                    seam_v,
+                    uv: UvLayout {
+                        across: Across::Contour,
+                        repeat: [repeat, 1.0],
+                    },
+                    u,
+                    v,
+                    positions: positions.into_iter().map(DVec3::from_array).collect(),
+                    normals: normals.into_iter().map(Vec3::from_array).collect(),
+                },
+            )
+    })
+}

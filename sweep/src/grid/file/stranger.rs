@@ -1,0 +1,59 @@
+//! What a file that is not a grid looks like, so that the message can say what to do with it.
+
+/// Files known by their first bytes.
+const KNOWN: [(&[u8], &str); 7] = [
+    (b"\x89PNG", "it is a PNG picture"),
+    (b"\xff\xd8\xff", "it is a JPEG picture"),
+    (b"v/1\x01", "it is an EXR picture"),
+    (b"\x1f\x8b", "it is compressed; unpack it first"),
+    (
+        b"\xef\xbb\xbf",
+        "it starts with the byte order mark of a text editor",
+    ),
+    (
+        b"\xff\xfe",
+        "it is UTF-16 text; a program on the way recoded it",
+    ),
+    (b"[", "it is JSON without the header line of a grid"),
+];
+
+/// The first words of the lines an OBJ file starts with.
+const OBJ_WORDS: [&str; 9] = ["#", "o", "g", "v", "vt", "vn", "f", "mtllib", "usemtl"];
+
+/// For JSON that does not say it is a grid.
+pub(super) const OTHER_JSON: &str = "it is JSON without \"format\":\"tb-grid\" in its first line; \
+     if it is a curve spec, `sweep` makes the grid of it";
+
+/// What a file that starts with `bytes` (and not with a brace) looks like.
+pub(super) fn described(bytes: &[u8]) -> String {
+    if let Some((_, what)) = KNOWN.iter().find(|(magic, _)| bytes.starts_with(magic)) {
+        return format!("{what}; expected a grid as `sweep` writes it");
+    }
+    let start = bytes.trim_ascii_start();
+    if start.starts_with(b"{") {
+        return OTHER_JSON.into();
+    }
+    let word = start
+        .split(u8::is_ascii_whitespace)
+        .next()
+        .unwrap_or_default();
+    if OBJ_WORDS.iter().any(|known| known.as_bytes() == word) {
+        return "it looks like an OBJ mesh, which has triangles already; `render` reads it".into();
+    }
+    let found = bytes[..bytes.len().min(16)].escape_ascii();
+    format!("it starts with \"{found}\", expected {{\"format\":\"tb-grid\" and so on")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn well_known_files_are_called_by_their_names() {
+        assert!(described(b"\x89PNG\r\n\x1a\n").contains("PNG picture"));
+        assert!(described(b"# Blender 5\nv 0 0 0\n").contains("OBJ mesh"));
+        assert!(described(b"v 0 0 0\n").contains("OBJ mesh"));
+        assert!(described(b"  {\n").contains("curve spec"));
+        assert!(described(b"\x00\x01").contains(r"\x00\x01"));
+    }
+}

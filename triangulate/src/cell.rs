@@ -1,0 +1,256 @@
+//! The triangles of one cell of the grid.
+
+use crate::Triangle;
+use crate::diagonal::{self, Diagonal, is_flat};
+use crate::picture;
+use crate::station::{Station, UNTOLD};
+use crate::triangulator::{Counts, Sink};
+use glam::DVec3;
+use sweep::grid::file::Header;
+use sweep::grid::{Seam, UvLayout};
+
+/// A sink, and how much it was told.
+#[derive(Debug)]
+pub struct Teller<S> {
+    pub sink: S,
+    pub counts: Counts,
+    pub picture: Picture,
+}
+
+/// How the columns lie on the picture.
+#[derive(Debug)]
+pub struct Picture {
+    layout: UvLayout,
+    /// `u` by column, and 1 over the seam of a closed contour.
+    u: Vec<f64>,
+    /// For each of them, the first with the same `u`: the columns of a crease are one here.
+    same: Vec<usize>,
+}
+
+/// A cell between two rows.
+///
+/// Its corners are numbered as in [`diagonal::Corners`], `A` to `D`.
+pub struct Cell<'a> {
+    pub lower: &'a mut Station,
+    pub upper: &'a mut Station,
+    /// The column of its left side.
+    pub left: usize,
+    /// The column of its right side: the next one, or the first over a seam.
+    pub right: usize,
+}
+
+/// The corners of each side, the lower or left one first: bottom, right, top, left.
+const SIDES: [[usize; 2]; 4] = [[0, 1], [1, 2], [3, 2], [0, 3]];
+
+impl Picture {
+    pub fn new(header: &Header) -> Self {
+        let mut u = header.u.clone();
+        if header.seam_u == Seam::Closed {
+            u.push(1.0);
+        }
+        let mut same: Vec<usize> = Vec::with_capacity(u.len());
+        for col in 0..u.len() {
+            same.push(if col > 0 && u[col] == u[col - 1] {
+                same[col - 1]
+            } else {
+                col
+            });
+        }
+        Self {
+            layout: header.uv,
+            u,
+            same,
+        }
+    }
+
+    /// Columns of the picture: those of the grid, and one more over a seam.
+    pub fn cols(&self) -> usize {
+        self.u.len()
+    }
+}
+
+impl<S: Sink> Teller<S> {
+    pub fn position(&mut self, position: [f32; 3]) -> u32 {
+        self.sink.position(position);
+        counted(&mut self.counts.positions)
+    }
+
+    /// Appends the triangles of a cell; their vertices are told to the sink when they are new.
+    pub fn cell(&mut self, cell: &mut Cell<'_>, triangles: &mut Vec<Triangle>) {
+        let corners = cell.each(|station, col| station.points[col]);
+        let normals = cell.each(|station, col| station.normals[col]);
+        let cut = least_flat(&corners, diagonal::choose(&corners, &normals));
+        let pole = SIDES
+            .iter()
+            .position(|&[from, to]| corners[from] == corners[to]);
+        let mut half_way = None;
+        for triangle in cut.triangles() {
+            let [a, b, c] = triangle.map(|corner| corners[corner]);
+            if a == b || b == c || c == a {
+                self.counts.collapsed += 1;
+                continue;
+            }
+            if is_flat(a, b, c) {
+                self.counts.slivers += 1;
+                continue;
+            }
+            let told = triangle.map(|corner| {
+                let position = cell.of(corner, |station, col| station.position[col]);
+                match pole {
+                    Some(side) if SIDES[side].contains(&corner) => {
+                        let (uv, normal) =
+                            *half_way.get_or_insert_with(|| self.half_way(cell, side));
+                        [position, uv, normal]
+                    }
+                    _ => [position, self.uv(cell, corner), self.normal(cell, corner)],
+                }
+            });
+            triangles.push(Triangle {
+                position: told.map(|[position, _, _]| position),
+                uv: told.map(|[_, uv, _]| uv),
+                normal: told.map(|[_, _, normal]| normal),
+            });
+            self.counts.triangles += 1;
+        }
+    }
+
+    /// The picture coordinates of a corner.
+    fn uv(&mut self, cell: &mut Cell<'_>, corner: usize) -> u32 {
+        let col = self.picture.same[cell.picture_col(corner)];
+        let station = cell.station(corner);
+        if station.uv[col] == UNTOLD {
+            let uv = picture::coordinates(&self.picture.layout, self.picture.u[col], station.v);
+            station.uv[col] = self.tell_uv(uv);
+        }
+        station.uv[col]
+    }
+
+    /// The normal of a corner; the one of the column to the left or the row below where it is the
+    /// same.
+    fn normal(&mut self, cell: &mut Cell<'_>, corner: usize) -> u32 {
+        let col = cell.col(corner);
+        let station = cell.station(corner);
+        if station.normal[col] != UNTOLD {
+            return station.normal[col];
+        }
+        let normal = station.normals[col];
+        let left = (col > 0 && station.normals[col - 1] == normal)
+            .then(|| station.normal[col - 1])
+            .filter(|&number| number != UNTOLD);
+        let below = (on_top(corner) && cell.lower.normals[col] == normal)
+            .then(|| cell.lower.normal[col])
+            .filter(|&number| number != UNTOLD);
+        let number = left.or(below).unwrap_or_else(|| self.tell_normal(normal));
+        cell.station(corner).normal[col] = number;
+        number
+    }
+
+    /// Picture coordinates and normal in the middle of a side that is one point in space.
+    fn half_way(&mut self, cell: &mut Cell<'_>, side: usize) -> (u32, u32) {
+        let ends = SIDES[side];
+        let [u, v] = {
+            let u = ends.map(|corner| self.picture.u[cell.picture_col(corner)]);
+            let v = ends.map(|corner| cell.station(corner).v);
+            [0.5 * (u[0] + u[1]), 0.5 * (v[0] + v[1])]
+        };
+        let uv = self.tell_uv(picture::coordinates(&self.picture.layout, u, v));
+
+        let [m, n] = ends.map(|corner| cell.of(corner, |station, col| station.normals[col]));
+        let middle = (m != n)
+            .then(|| DVec3::from(m.map(f64::from)) + DVec3::from(n.map(f64::from)))
+            .and_then(DVec3::try_normalize);
+        let normal = match middle {
+            Some(middle) => self.tell_normal(middle.to_array().map(|x| x as f32 + 0.0)),
+            None => {
+                let normal = self.normal(cell, ends[0]);
+                // Told or shared now, it is there for the next row to share.
+                self.normal(cell, ends[1]);
+                normal
+            }
+        };
+        (uv, normal)
+    }
+
+    fn tell_uv(&mut self, uv: [f32; 2]) -> u32 {
+        self.sink.uv(uv);
+        counted(&mut self.counts.uvs)
+    }
+
+    fn tell_normal(&mut self, normal: [f32; 3]) -> u32 {
+        self.sink.normal(normal);
+        counted(&mut self.counts.normals)
+    }
+}
+
+impl Cell<'_> {
+    /// Something of each corner.
+    fn each<T>(&self, of: impl Fn(&Station, usize) -> T) -> [T; 4] {
+        [0, 1, 2, 3].map(|corner| self.of(corner, &of))
+    }
+
+    fn of<T>(&self, corner: usize, of: impl Fn(&Station, usize) -> T) -> T {
+        of(
+            if on_top(corner) {
+                self.upper
+            } else {
+                self.lower
+            },
+            self.col(corner),
+        )
+    }
+
+    fn station(&mut self, corner: usize) -> &mut Station {
+        if on_top(corner) {
+            self.upper
+        } else {
+            self.lower
+        }
+    }
+
+    fn col(&self, corner: usize) -> usize {
+        if on_right(corner) {
+            self.right
+        } else {
+            self.left
+        }
+    }
+
+    /// The column on the picture, which does not lead back to the first one over a seam.
+    fn picture_col(&self, corner: usize) -> usize {
+        self.left + usize::from(on_right(corner))
+    }
+}
+
+fn on_top(corner: usize) -> bool {
+    matches!(corner, 2 | 3)
+}
+
+fn on_right(corner: usize) -> bool {
+    matches!(corner, 1 | 2)
+}
+
+/// The wanted diagonal, or the other one where that leaves fewer triangles without area: each of
+/// them is a slit in the mesh.
+fn least_flat(corners: &diagonal::Corners, wanted: Diagonal) -> Diagonal {
+    let lost = |cut: Diagonal| {
+        let flat = |[a, b, c]: &[usize; 3]| is_flat(corners[*a], corners[*b], corners[*c]);
+        cut.triangles()
+            .iter()
+            .filter(|triangle| flat(triangle))
+            .count()
+    };
+    let of_wanted = lost(wanted);
+    if of_wanted > 0 && lost(wanted.other()) < of_wanted {
+        wanted.other()
+    } else {
+        wanted
+    }
+}
+
+/// The number of the next of a kind.
+fn counted(count: &mut u32) -> u32 {
+    // Below 2^32 for every grid that the triangulator takes.
+    let number = *count;
+    *count = count.wrapping_add(1);
+    number
+}

@@ -1,0 +1,299 @@
+//! Rows in, vertices and triangles out.
+
+use crate::cell::{Cell, Picture, Teller};
+use crate::station::{Station, UNTOLD};
+use crate::{Triangle, TriangulateError};
+use std::io;
+use sweep::grid::file::Header;
+use sweep::grid::{Row, Seam};
+
+/// What the parts of a mesh are told to, one by one.
+///
+/// Positions, picture coordinates and normals are numbered from 0 in the order they are told,
+/// each kind by itself; a triangle only names numbers told before it.
+pub trait Sink {
+    /// The next position.
+    fn position(&mut self, position: [f32; 3]);
+    /// The next picture coordinates.
+    fn uv(&mut self, uv: [f32; 2]);
+    /// The next normal.
+    fn normal(&mut self, normal: [f32; 3]);
+    /// The next triangle.
+    fn triangle(&mut self, triangle: &Triangle);
+    /// A row and its triangles are complete: the time to pass them on.
+    ///
+    /// # Errors
+    /// When they cannot be passed on.
+    fn row_done(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// How much a mesh has of everything.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Counts {
+    /// Different positions.
+    pub positions: u32,
+    /// Different picture coordinates.
+    pub uvs: u32,
+    /// Different normals.
+    pub normals: u32,
+    /// Triangles.
+    pub triangles: u64,
+    /// Triangles left out because two corners are one point, as at poles and creases.
+    pub collapsed: u64,
+    /// Triangles left out because their three corners lie on a line. The mesh has a slit there,
+    /// of no width.
+    pub slivers: u64,
+}
+
+/// The most points of a grid. A pole gives a cell at most one more normal and one more pair of
+/// picture coordinates than it has points, and those are numbered with 32 bits.
+const MAX_POINTS: u64 = (1 << 31) - 1;
+/// The most repeats of a picture; far below the end of f32.
+const MAX_REPEAT: f64 = 1e30;
+
+/// Makes triangles of rows as they come.
+///
+/// It holds the row at hand, the one before, and the first one if the last leads back to it.
+#[derive(Debug)]
+pub struct Triangulator<S> {
+    header: Header,
+    teller: Teller<S>,
+    first: Option<Station>,
+    before: Option<Station>,
+    /// A station no longer needed, whose memory is used again.
+    spare: Station,
+    /// Triangles of the row at hand.
+    triangles: Vec<Triangle>,
+    /// Rows taken so far.
+    rows: usize,
+}
+
+impl<S: Sink> Triangulator<S> {
+    /// A triangulator of rows that fit `header`.
+    ///
+    /// # Errors
+    /// When the grid has fewer points than a surface, or more than can be numbered.
+    pub fn new(header: Header, sink: S) -> Result<Self, TriangulateError> {
+        let (rows, cols) = (header.rows, header.cols());
+        let object = header.name.clone();
+        if rows < 2 || cols < 2 {
+            return Err(TriangulateError::TooFew { object, rows, cols });
+        }
+        // Counted with the row and the column that seams add to the picture.
+        if (rows as u64 + 1).saturating_mul(cols as u64 + 1) > MAX_POINTS {
+            return Err(TriangulateError::TooMany {
+                object,
+                rows,
+                cols,
+                limit: MAX_POINTS,
+            });
+        }
+        let found = header.uv.repeat[0].max(header.uv.repeat[1]);
+        if found > MAX_REPEAT {
+            return Err(TriangulateError::Repeat { object, found });
+        }
+        let picture = Picture::new(&header);
+        Ok(Self {
+            header,
+            teller: Teller {
+                sink,
+                counts: Counts::default(),
+                picture,
+            },
+            first: None,
+            before: None,
+            spare: Station::default(),
+            triangles: Vec::new(),
+            rows: 0,
+        })
+    }
+
+    /// Takes the next row, and tells its vertices and the triangles between it and the one before.
+    ///
+    /// # Errors
+    /// When the row has another number of points than the header says, is one too many, holds a
+    /// number that f32 does not, or the sink fails.
+    pub fn row(&mut self, row: Row<'_>) -> Result<(), TriangulateError> {
+        let counts = [row.positions.len(), row.normals.len()];
+        if self.rows == self.header.rows || counts != [self.header.cols(); 2] {
+            return Err(self.misfit(counts[0].min(counts[1])));
+        }
+        self.rows += 1;
+        let mut station = std::mem::take(&mut self.spare);
+        station.take(
+            &row,
+            &self.header.name,
+            self.rows,
+            self.teller.picture.cols(),
+        )?;
+        self.number_positions(&mut station);
+        if let Some(mut before) = self.before.take() {
+            self.band(&mut before, &mut station);
+            if self.rows == 2 && self.header.seam_v == Seam::Closed {
+                // The last row leads to the same points and normals, at the picture's other end.
+                before.v = 1.0;
+                before.uv.fill(UNTOLD);
+                self.first = Some(before);
+            } else {
+                self.spare = before;
+            }
+        }
+        self.before = Some(station);
+        self.teller.sink.row_done().map_err(TriangulateError::Write)
+    }
+
+    /// Closes the seam, if there is one, and gives the sink back.
+    ///
+    /// # Errors
+    /// When rows are missing, or the sink fails.
+    pub fn finish(mut self) -> Result<(S, Counts), TriangulateError> {
+        if self.rows < self.header.rows {
+            return Err(self.misfit(0));
+        }
+        if let (Some(mut first), Some(mut last)) = (self.first.take(), self.before.take()) {
+            self.band(&mut last, &mut first);
+            self.teller
+                .sink
+                .row_done()
+                .map_err(TriangulateError::Write)?;
+        }
+        Ok((self.teller.sink, self.teller.counts))
+    }
+
+    /// Numbers the points of a row. A point that equals its neighbour to the left, below, or over a
+    /// seam is that vertex; any other is a new one.
+    fn number_positions(&mut self, station: &mut Station) {
+        let cols = station.points.len();
+        let over_seam = self
+            .first
+            .as_ref()
+            .filter(|_| self.rows == self.header.rows);
+        let closed = self.header.seam_u == Seam::Closed;
+        for col in 0..cols {
+            let point = station.points[col];
+            let in_column = |other: Option<&Station>| {
+                other
+                    .filter(|other| other.points[col] == point)
+                    .map(|other| other.position[col])
+            };
+            let in_row =
+                |other: usize| (station.points[other] == point).then(|| station.position[other]);
+            let known = col
+                .checked_sub(1)
+                .and_then(in_row)
+                .or_else(|| in_column(self.before.as_ref()))
+                .or_else(|| in_column(over_seam))
+                .or_else(|| {
+                    (closed && col > 0 && col + 1 == cols)
+                        .then(|| in_row(0))
+                        .flatten()
+                });
+            let number = known.unwrap_or_else(|| self.teller.position(point));
+            station.position.push(number);
+        }
+    }
+
+    /// The error for a next row of `cols` points that does not fit the header.
+    fn misfit(&self, cols: usize) -> TriangulateError {
+        TriangulateError::Rows {
+            object: self.header.name.clone(),
+            row: self.rows + 1,
+            cols,
+            rows: self.header.rows,
+            expected: self.header.cols(),
+        }
+    }
+
+    /// Tells the triangles between two rows.
+    fn band(&mut self, lower: &mut Station, upper: &mut Station) {
+        let cols = self.header.cols();
+        self.triangles.clear();
+        for left in 0..self.teller.picture.cols() - 1 {
+            let right = if left + 1 == cols { 0 } else { left + 1 };
+            let mut cell = Cell {
+                lower,
+                upper,
+                left,
+                right,
+            };
+            self.teller.cell(&mut cell, &mut self.triangles);
+        }
+        for triangle in &self.triangles {
+            self.teller.sink.triangle(triangle);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Options, TriMesh};
+    use glam::{DVec3, Vec3};
+    use sweep::grid::UvLayout;
+
+    fn header(rows: usize, cols: usize) -> Header {
+        Header {
+            name: "sheet".into(),
+            rows,
+            seam_u: Seam::Open,
+            seam_v: Seam::Open,
+            uv: UvLayout::default(),
+            u: vec![0.0; cols],
+        }
+    }
+
+    fn complaint(header: Header) -> String {
+        let sink = TriMesh::new("sheet", &Options::default());
+        Triangulator::new(header, sink).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn a_grid_that_makes_no_mesh_is_refused_at_once() {
+        let message = complaint(header(3_000_000_000, 2));
+        assert!(
+            message.contains("found 3000000000 x 2 points, expected at most"),
+            "{message}"
+        );
+        let message = complaint(header(1, 5));
+        assert_eq!(
+            message,
+            "sheet: found 1 rows of 5 columns, expected at least 2 of each"
+        );
+        let uv = UvLayout {
+            repeat: [1.0, 1e300],
+            ..UvLayout::default()
+        };
+        assert!(complaint(Header { uv, ..header(2, 2) }).contains("a picture that repeats"));
+    }
+
+    #[test]
+    fn rows_that_do_not_fit_the_header_are_refused() {
+        let (positions, normals) = ([DVec3::ZERO; 3], [Vec3::Z; 3]);
+        let row = |cols| Row {
+            v: 0.0,
+            positions: &positions[..cols],
+            normals: &normals[..cols],
+        };
+        let started = || {
+            let sink = TriMesh::new("sheet", &Options::default());
+            Triangulator::new(header(2, 3), sink).unwrap()
+        };
+        let mut short = started();
+        let message = short.row(row(2)).unwrap_err().to_string();
+        assert_eq!(
+            message,
+            "sheet: found row 1 with 2 points, expected 2 rows of 3 points"
+        );
+        let mut long = started();
+        long.row(row(3)).unwrap();
+        long.row(row(3)).unwrap();
+        let message = long.row(row(3)).unwrap_err().to_string();
+        assert!(message.contains("found row 3 with 3 points"), "{message}");
+        let mut missing = started();
+        missing.row(row(3)).unwrap();
+        let message = missing.finish().unwrap_err().to_string();
+        assert!(message.contains("found row 2 with 0 points"), "{message}");
+    }
+}

@@ -1,0 +1,212 @@
+//! What is wrong with a mesh, as a list.
+
+use crate::TriMesh;
+use crate::diagonal::is_flat;
+
+/// Complaints of one kind that are spelled out; the rest are counted.
+const SPELLED_OUT: usize = 3;
+/// How far the length of a normal may be from 1: the rounding of a dozen f32 operations.
+const UNIT: f32 = 1e-5;
+
+impl TriMesh {
+    /// Complaints about the mesh; an empty list when there are none.
+    ///
+    /// Looked for are indices that point nowhere, numbers that are not finite, normals that are
+    /// not of unit length, triangles without area, and directed edges used twice. The last holds
+    /// two triangles side by side that face opposite ways, and three at one edge; so a mesh of a
+    /// one-sided surface must fail it. Edges used once, as on the rim of an open surface, are
+    /// in order.
+    #[must_use]
+    pub fn validate(&self) -> Vec<String> {
+        let mut complaints = Complaints::default();
+        let counts = [self.positions.len(), self.uvs.len(), self.normals.len()];
+        for (i, triangle) in self.triangles.iter().enumerate() {
+            let indices = [triangle.position, triangle.uv, triangle.normal];
+            for ((what, count), corners) in ["position", "picture coordinate", "normal"]
+                .iter()
+                .zip(counts)
+                .zip(indices)
+            {
+                if let Some(wild) = corners.iter().find(|&&index| index as usize >= count) {
+                    complaints.add(format!(
+                        "triangle {i}: found {what} {wild}, expected less than {count}"
+                    ));
+                }
+            }
+        }
+        let wild = complaints.close("indices that point nowhere");
+
+        for (what, arrays) in [
+            (
+                "position",
+                self.positions
+                    .iter()
+                    .map(<[f32; 3]>::as_slice)
+                    .collect::<Vec<_>>(),
+            ),
+            (
+                "picture coordinate",
+                self.uvs.iter().map(<[f32; 2]>::as_slice).collect(),
+            ),
+            (
+                "normal",
+                self.normals.iter().map(<[f32; 3]>::as_slice).collect(),
+            ),
+        ] {
+            for (i, numbers) in arrays.iter().enumerate() {
+                if !numbers.iter().all(|x| x.is_finite()) {
+                    complaints.add(format!(
+                        "{what} {i}: found {numbers:?}, expected finite numbers"
+                    ));
+                }
+            }
+        }
+        complaints.close("numbers that are not finite");
+
+        for (i, [x, y, z]) in self.normals.iter().enumerate() {
+            let length = (x * x + y * y + z * z).sqrt();
+            if (length - 1.0).abs() > UNIT {
+                complaints.add(format!("normal {i}: found the length {length}, expected 1"));
+            }
+        }
+        complaints.close("normals that are not of unit length");
+
+        // What follows looks the points up.
+        if wild {
+            return complaints.all;
+        }
+        for (i, triangle) in self.triangles.iter().enumerate() {
+            let [a, b, c] = triangle
+                .position
+                .map(|index| self.positions[index as usize]);
+            if is_flat(a, b, c) {
+                complaints.add(format!(
+                    "triangle {i}: found no area at {a:?}, {b:?}, {c:?}"
+                ));
+            }
+        }
+        complaints.close("triangles without area");
+
+        let mut edges = self.directed_edges();
+        edges.sort_unstable();
+        for pair in edges.windows(2).filter(|pair| pair[0] == pair[1]) {
+            let [from, to] = pair[0];
+            complaints.add(format!(
+                "found the edge from {from} to {to} twice, expected it once"
+            ));
+        }
+        complaints.close("directed edges used twice");
+        complaints.all
+    }
+
+    /// The three edges of each triangle, as the pairs of positions they lead from and to.
+    #[must_use]
+    pub fn directed_edges(&self) -> Vec<[u32; 2]> {
+        let of_one = |[a, b, c]: [u32; 3]| [[a, b], [b, c], [c, a]];
+        self.triangles
+            .iter()
+            .flat_map(|triangle| of_one(triangle.position))
+            .collect()
+    }
+}
+
+/// Complaints, few of each kind.
+#[derive(Default)]
+struct Complaints {
+    all: Vec<String>,
+    /// Of the kind now looked for.
+    found: usize,
+}
+
+impl Complaints {
+    fn add(&mut self, complaint: String) {
+        self.found += 1;
+        if self.found <= SPELLED_OUT {
+            self.all.push(complaint);
+        }
+    }
+
+    /// Ends a kind, and says whether there were any.
+    fn close(&mut self, kind: &str) -> bool {
+        if self.found > SPELLED_OUT {
+            self.all
+                .push(format!("and {} more {kind}", self.found - SPELLED_OUT));
+        }
+        std::mem::take(&mut self.found) > 0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{TriMesh, Triangle};
+
+    /// Two triangles of a square.
+    fn square() -> TriMesh {
+        let triangle = |corners| Triangle {
+            position: corners,
+            uv: corners,
+            normal: [0; 3],
+        };
+        TriMesh {
+            positions: vec![
+                [0.0, 0.0, 0.0],
+                [1.0, 0.0, 0.0],
+                [1.0, 1.0, 0.0],
+                [0.0, 1.0, 0.0],
+            ],
+            uvs: vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]],
+            normals: vec![[0.0, 0.0, 1.0]],
+            triangles: vec![triangle([0, 1, 2]), triangle([0, 2, 3])],
+            ..TriMesh::default()
+        }
+    }
+
+    #[test]
+    fn a_sound_mesh_has_no_complaints() {
+        assert_eq!(square().validate(), Vec::<String>::new());
+    }
+
+    #[test]
+    fn every_kind_of_harm_is_found() {
+        type Harm = fn(&mut TriMesh);
+        let harms: [(Harm, &str); 7] = [
+            (
+                |m| m.triangles[1].position[2] = 4,
+                "triangle 1: found position 4, expected less than 4",
+            ),
+            (
+                |m| m.triangles[0].normal[0] = 9,
+                "triangle 0: found normal 9, expected less than 1",
+            ),
+            (
+                |m| m.uvs[2][1] = f32::NAN,
+                "picture coordinate 2: found [1.0, NaN]",
+            ),
+            (
+                |m| m.normals[0] = [0.0, 0.0, 0.5],
+                "normal 0: found the length 0.5, expected 1",
+            ),
+            (
+                |m| m.positions[1] = [0.5, 0.5, 0.0],
+                "triangle 0: found no area",
+            ),
+            (
+                |m| m.triangles[1].position = [0, 3, 2],
+                "edge from 2 to 0 twice",
+            ),
+            (
+                |m| m.triangles.push(m.triangles[0]),
+                "edge from 0 to 1 twice",
+            ),
+        ];
+        for (harm, expected) in harms {
+            let mut mesh = square();
+            harm(&mut mesh);
+            let complaints = mesh.validate();
+            assert!(
+                complaints.iter().any(|c| c.contains(expected)),
+                "{expected}: {complaints:?}"
+            );
+        }
+    }
+}

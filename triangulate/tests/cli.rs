@@ -1,0 +1,238 @@
+//! Runs of the program.
+
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+use glam::{DVec3, Vec3};
+use std::fs;
+use std::io::Write;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+use sweep::GridMesh;
+use sweep::grid::file::{Encoding, write};
+use sweep::grid::{Seam, UvLayout};
+
+/// A bent sheet.
+fn sheet(rows: usize, cols: usize) -> Vec<u8> {
+    let even =
+        |count: usize| -> Vec<f64> { (0..count).map(|i| i as f64 / (count - 1) as f64).collect() };
+    let (u, v) = (even(cols), even(rows));
+    let point = |u: f64, v: f64| DVec3::new(u, v, (u * v).sin());
+    let grid = GridMesh {
+        name: "sheet".into(),
+        seam_u: Seam::Open,
+        seam_v: Seam::Open,
+        uv: UvLayout::default(),
+        positions: v
+            .iter()
+            .flat_map(|&v| u.iter().map(move |&u| point(u, v)))
+            .collect(),
+        normals: vec![Vec3::Z; rows * cols],
+        u,
+        v,
+    };
+    let mut bytes = Vec::new();
+    write(&grid, Encoding::Binary, &mut bytes).unwrap();
+    bytes
+}
+
+fn triangulate(arguments: &[&str], input: &[u8], folder: &Path) -> Output {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_triangulate"))
+        .args(arguments)
+        .current_dir(folder)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut stdin = child.stdin.take().unwrap();
+    let input = input.to_vec();
+    // The program may end before it has read everything.
+    let feed = std::thread::spawn(move || drop(stdin.write_all(&input)));
+    let output = child.wait_with_output().unwrap();
+    feed.join().unwrap();
+    output
+}
+
+fn said(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+#[test]
+fn a_grid_becomes_an_obj_from_file_to_file_and_through_pipes() {
+    let folder = tempfile::tempdir().unwrap();
+    let grid = sheet(3, 4);
+    fs::write(folder.path().join("sheet.grid"), &grid).unwrap();
+    let arguments = [
+        "sheet.grid",
+        "-o",
+        "sheet.obj",
+        "--texture",
+        "2",
+        "--surface",
+        "5",
+    ];
+    let run = triangulate(&arguments, b"", folder.path());
+    assert_eq!((run.status.code(), said(&run).as_str()), (Some(0), ""));
+    let obj = fs::read_to_string(folder.path().join("sheet.obj")).unwrap();
+    assert!(obj.starts_with("# topobook triangulate OBJ 1\no sheet\nusemtl tex2_surf5\n"));
+    assert!(obj.ends_with("\n# end 12 12\n"), "{obj}");
+    let piped = triangulate(&["--texture", "2", "--surface", "5"], &grid, folder.path());
+    assert_eq!(piped.status.code(), Some(0));
+    assert!(piped.stdout == obj.as_bytes());
+}
+
+#[test]
+fn stats_go_to_standard_error() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = triangulate(
+        &["-q", "--stats", "-o", "a.obj"],
+        &sheet(3, 4),
+        folder.path(),
+    );
+    assert!(
+        said(&run).starts_with("triangles 12\npositions 12\nnormals 1\n"),
+        "{}",
+        said(&run)
+    );
+    assert!(run.stdout.is_empty());
+}
+
+#[test]
+fn a_missing_file_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = triangulate(&["none.grid"], b"", folder.path());
+    assert_eq!(run.status.code(), Some(5));
+    assert!(
+        said(&run).starts_with("triangulate: cannot read none.grid: "),
+        "{}",
+        said(&run)
+    );
+}
+
+#[test]
+fn a_cut_grid_leaves_the_old_mesh() {
+    let folder = tempfile::tempdir().unwrap();
+    let (grid, path) = (sheet(3, 4), folder.path().join("sheet.obj"));
+    fs::write(&path, "old").unwrap();
+    let run = triangulate(
+        &["-o", "sheet.obj"],
+        &grid[..grid.len() - 20],
+        folder.path(),
+    );
+    assert_eq!(run.status.code(), Some(3));
+    assert_eq!(
+        said(&run),
+        "triangulate: <stdin>: row 3 of 3 is cut short: the program that wrote it stopped early\n"
+    );
+    assert_eq!(fs::read_to_string(&path).unwrap(), "old");
+    assert_eq!(
+        fs::read_dir(folder.path()).unwrap().count(),
+        1,
+        "no part file is left"
+    );
+
+    let piped = triangulate(&[], &grid[..grid.len() - 1], folder.path());
+    assert_eq!(piped.status.code(), Some(3));
+    assert!(!String::from_utf8(piped.stdout).unwrap().contains("# end"));
+}
+
+#[test]
+fn what_is_no_grid_is_called_by_its_name() {
+    let folder = tempfile::tempdir().unwrap();
+    for (input, expected) in [
+        (
+            &b""[..],
+            "<stdin> is empty, expected a grid: the program before the pipe wrote nothing",
+        ),
+        (
+            b"v 0 0 0\n",
+            "<stdin> is not a grid: it looks like an OBJ mesh",
+        ),
+        (
+            b"{\"contour\": {}}\n",
+            "if it is a curve spec, `sweep` makes the grid of it",
+        ),
+    ] {
+        let run = triangulate(&["-q"], input, folder.path());
+        assert_eq!(run.status.code(), Some(3));
+        assert!(said(&run).contains(expected), "{}", said(&run));
+        assert!(run.stdout.is_empty());
+    }
+}
+
+#[test]
+fn bad_use_ends_with_2() {
+    let folder = tempfile::tempdir().unwrap();
+    for arguments in [&["--textures", "1"][..], &["--texture", "-1"], &["a", "b"]] {
+        let run = triangulate(arguments, b"", folder.path());
+        assert_eq!(run.status.code(), Some(2), "{}", said(&run));
+    }
+    let help = triangulate(&["--help"], b"", folder.path());
+    assert_eq!(help.status.code(), Some(0));
+    assert!(
+        String::from_utf8(help.stdout)
+            .unwrap()
+            .contains("| triangulate --texture 2 |")
+    );
+}
+
+#[test]
+fn an_output_that_cannot_be_written_is_told_before_reading() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = triangulate(
+        &["none.grid", "-o", "no/such/folder/a.obj"],
+        b"",
+        folder.path(),
+    );
+    assert_eq!(run.status.code(), Some(5));
+    assert!(
+        said(&run).contains("cannot write no/such/folder/a.obj"),
+        "{}",
+        said(&run)
+    );
+    fs::write(folder.path().join("a.obj"), "old").unwrap();
+    let run = triangulate(
+        &["-o", "a.obj", "--no-clobber"],
+        &sheet(3, 4),
+        folder.path(),
+    );
+    assert_eq!(run.status.code(), Some(5));
+    assert!(said(&run).contains("--no-clobber"), "{}", said(&run));
+    assert_eq!(
+        fs::read_to_string(folder.path().join("a.obj")).unwrap(),
+        "old"
+    );
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    // Small enough to be written at the end only, and large enough to fail on the way.
+    for rows in [3, 200] {
+        let run = triangulate(&["-o", "/dev/full"], &sheet(rows, 50), folder.path());
+        assert_eq!(run.status.code(), Some(5));
+        assert!(
+            said(&run).starts_with("triangulate: cannot write /dev/full: "),
+            "{}",
+            said(&run)
+        );
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_closed_pipe_ends_quietly() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("a.grid"), sheet(200, 100)).unwrap();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_triangulate"))
+        .arg("a.grid")
+        .current_dir(folder.path())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let run = child.wait_with_output().unwrap();
+    assert_eq!((run.status.code(), said(&run).as_str()), (Some(141), ""));
+}

@@ -1,0 +1,77 @@
+//! Grids of shapes whose points and normals are known.
+
+#![allow(dead_code, reason = "not every test uses every shape")]
+
+use glam::DVec3;
+use std::f64::consts::{PI, TAU};
+use sweep::GridMesh;
+use sweep::grid::{Seam, UvLayout};
+
+/// A grid of a surface given by point and normal at `(u, v)`, evenly spaced.
+pub fn grid_of(
+    [rows, cols]: [usize; 2],
+    [seam_v, seam_u]: [Seam; 2],
+    surface: impl Fn(f64, f64) -> (DVec3, DVec3),
+) -> GridMesh {
+    let even = |count: usize, seam: Seam| -> Vec<f64> {
+        let last = if seam == Seam::Closed {
+            count
+        } else {
+            count - 1
+        };
+        (0..count).map(|i| i as f64 / last as f64).collect()
+    };
+    let (v, u) = (even(rows, seam_v), even(cols, seam_u));
+    let (mut positions, mut normals) = (Vec::new(), Vec::new());
+    for &v in &v {
+        for &u in &u {
+            let (position, normal) = surface(u, v);
+            positions.push(position);
+            normals.push(normal.normalize().as_vec3());
+        }
+    }
+    let name = "shape".into();
+    GridMesh {
+        name,
+        seam_u,
+        seam_v,
+        uv: UvLayout::default(),
+        u,
+        v,
+        positions,
+        normals,
+    }
+}
+
+/// Radii 3 and 1. Along `u` around the tube, along `v` around the hole.
+pub fn torus(rows: usize, cols: usize) -> GridMesh {
+    grid_of([rows, cols], [Seam::Closed; 2], |u, v| {
+        let ((a_sin, a_cos), (b_sin, b_cos)) = ((TAU * u).sin_cos(), (TAU * v).sin_cos());
+        // Counter-clockwise around the tube seen along the trajectory, so that S_u x S_v points out.
+        let normal = DVec3::new(a_cos * b_cos, a_cos * b_sin, -a_sin);
+        (3.0 * DVec3::new(b_cos, b_sin, 0.0) + normal, normal)
+    })
+}
+
+/// Radius 1: a half circle from pole to pole, rotated.
+pub fn sphere(rows: usize, cols: usize) -> GridMesh {
+    grid_of([rows, cols], [Seam::Closed, Seam::Open], |u, v| {
+        // From the upper pole to the lower one, so that S_u x S_v points out.
+        let (height, radius) = if u == 0.0 || u == 1.0 {
+            (1.0 - 2.0 * u, 0.0)
+        } else {
+            ((PI * u).cos(), (PI * u).sin())
+        };
+        let (b_sin, b_cos) = (TAU * v).sin_cos();
+        let normal = DVec3::new(radius * b_cos, radius * b_sin, height);
+        (normal, normal)
+    })
+}
+
+/// Radius 1, height 2, from row to row upward.
+pub fn cylinder(rows: usize, cols: usize) -> GridMesh {
+    grid_of([rows, cols], [Seam::Open, Seam::Closed], |u, v| {
+        let (sin, cos) = (TAU * u).sin_cos();
+        (DVec3::new(cos, sin, 2.0 * v), DVec3::new(cos, sin, 0.0))
+    })
+}
