@@ -19,7 +19,7 @@
 //! |-------------------------------------------------|----------------------------------------------|
 //! | `{"circle": r}`                                 | a circle about the origin                    |
 //! | `{"bezier": {"closed": c, "segments": [S, ...]}}` | cubics; `S` is four points `[x, y]`        |
-//! | `{"svg": "M0 0 C..."}`                          | one subpath; y is negated, as SVG's points down |
+//! | `{"svg": "M0 0 C..."}`                          | one subpath, closed by `Z` or by its end; y is negated, as SVG's points down |
 //! | `{"free": {"closed": c, "points": [P, ...]}}`   | a C2 spline through points `[x, y]`          |
 //!
 //! and a **trajectory** is one of
@@ -61,6 +61,12 @@
 //! along a closed one it is turned evenly so that it closes.
 //!
 //! A spec can choose for itself what `w1` starts toward: `"frame": {"start": [x, y, z]}`.
+//!
+//! # Corners
+//!
+//! A contour may have corners; one of more than a degree is a crease, where the surface has two
+//! normals. A trajectory may not: it would need a mitre, and is refused. A rotation wants contour x
+//! of at least 0; where it is 0 the surface has a pole. Points given twice count once.
 
 use crate::grid::UvLayout;
 use serde::{Deserialize, Serialize};
@@ -73,7 +79,7 @@ pub const VERSION: u32 = 1;
 
 /// A spec as it is written.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "an object, a sweep's spec")]
 pub struct Spec {
     /// `tb-sweep`.
     pub format: String,
@@ -100,7 +106,7 @@ pub struct Spec {
 
 /// A curve in the plane.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[serde(rename_all = "snake_case", try_from = "ContourKeys")]
 pub enum Contour {
     /// A circle about the origin, by its radius.
     Circle(f64),
@@ -114,7 +120,7 @@ pub enum Contour {
 
 /// A curve in space, or a rotation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[serde(rename_all = "snake_case", try_from = "TrajectoryKeys")]
 pub enum Trajectory {
     /// A straight line by its ends.
     Line([[f64; 3]; 2]),
@@ -130,7 +136,10 @@ pub enum Trajectory {
 
 /// Cubic Bezier segments, each of which starts where the one before it ends.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(
+    deny_unknown_fields,
+    expecting = "an object with the key segments, and closed if it is"
+)]
 pub struct Bezier<P> {
     /// Whether the last segment ends at the start of the first, and continues there.
     #[serde(default)]
@@ -141,7 +150,10 @@ pub struct Bezier<P> {
 
 /// Points that a C2 spline goes through.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(
+    deny_unknown_fields,
+    expecting = "an object with the key points, and closed if it is"
+)]
 pub struct Free<P> {
     /// Whether the last point leads on to the first, which is not given again.
     #[serde(default)]
@@ -152,7 +164,10 @@ pub struct Free<P> {
 
 /// A circle in space.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(
+    deny_unknown_fields,
+    expecting = "an object with the key radius, and any of center, axis, degrees"
+)]
 pub struct Circle {
     /// The distance of the contour's origin from the centre; positive.
     pub radius: f64,
@@ -169,7 +184,10 @@ pub struct Circle {
 
 /// A turn of the contour about an axis in its plane.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(
+    deny_unknown_fields,
+    expecting = "an object with any of the keys degrees, origin, axis"
+)]
 pub struct Rotation {
     /// Above 0, up to 360, which is closed.
     #[serde(default = "full_turn")]
@@ -184,7 +202,7 @@ pub struct Rotation {
 
 /// How the frame starts.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "an object with the key start")]
 pub struct FrameStart {
     /// What the contour's x points at, as near as the trajectory lets it.
     pub start: [f64; 3],
@@ -192,12 +210,84 @@ pub struct FrameStart {
 
 /// How finely a surface is cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(
+    deny_unknown_fields,
+    expecting = "an object with the keys rows and cols"
+)]
 pub struct Mesh {
     /// Cells along the trajectory.
     pub rows: usize,
     /// Cells along the contour; the cells without width at creases come on top.
     pub cols: usize,
+}
+
+/// The keys of a contour as they are read, so that none and two of them get a sentence.
+#[derive(Deserialize)]
+#[serde(
+    deny_unknown_fields,
+    expecting = "an object with one of the keys circle, bezier, svg, free"
+)]
+struct ContourKeys {
+    circle: Option<f64>,
+    bezier: Option<Bezier<[f64; 2]>>,
+    svg: Option<String>,
+    free: Option<Free<[f64; 2]>>,
+}
+
+impl TryFrom<ContourKeys> for Contour {
+    type Error = String;
+
+    fn try_from(keys: ContourKeys) -> Result<Self, String> {
+        only([
+            ("circle", keys.circle.map(Self::Circle)),
+            ("bezier", keys.bezier.map(Self::Bezier)),
+            ("svg", keys.svg.map(Self::Svg)),
+            ("free", keys.free.map(Self::Free)),
+        ])
+    }
+}
+
+/// The keys of a trajectory as they are read.
+#[derive(Deserialize)]
+#[serde(
+    deny_unknown_fields,
+    expecting = "an object with one of the keys line, circle, bezier, free, rotation"
+)]
+struct TrajectoryKeys {
+    line: Option<[[f64; 3]; 2]>,
+    circle: Option<Circle>,
+    bezier: Option<Bezier<[f64; 3]>>,
+    free: Option<Free<[f64; 3]>>,
+    rotation: Option<Rotation>,
+}
+
+impl TryFrom<TrajectoryKeys> for Trajectory {
+    type Error = String;
+
+    fn try_from(keys: TrajectoryKeys) -> Result<Self, String> {
+        only([
+            ("line", keys.line.map(Self::Line)),
+            ("circle", keys.circle.map(Self::Circle)),
+            ("bezier", keys.bezier.map(Self::Bezier)),
+            ("free", keys.free.map(Self::Free)),
+            ("rotation", keys.rotation.map(Self::Rotation)),
+        ])
+    }
+}
+
+/// The one value that is there.
+fn only<T, const N: usize>(keys: [(&str, Option<T>); N]) -> Result<T, String> {
+    let names = keys.each_ref().map(|key| key.0).join(", ");
+    let mut given = keys
+        .into_iter()
+        .filter_map(|(name, value)| value.map(|value| (name, value)));
+    match (given.next(), given.next()) {
+        (Some((_, value)), None) => Ok(value),
+        (Some((first, _)), Some((second, _))) => Err(format!(
+            "found both `{first}` and `{second}`, expected one of {names}"
+        )),
+        (None, _) => Err(format!("found no curve, expected one of {names}")),
+    }
 }
 
 fn up() -> [f64; 3] {

@@ -100,8 +100,21 @@ mod tests {
                 "2:23: contour.bezier: found points that all coincide",
                 4,
             ),
-            ("{\"squircle\": 1}", "unknown variant `squircle`", 3),
-            ("{\"circle\": 1, \"svg\": \"\"}", "2:", 3),
+            (
+                "{\"squircle\": 1}",
+                "contour.squircle: unknown key `squircle`",
+                3,
+            ),
+            (
+                "{\"circle\": 1, \"svg\": \"\"}",
+                "contour: found both `circle` and `svg`",
+                3,
+            ),
+            (
+                "{}",
+                "contour: found no curve, expected one of circle, bezier, svg, free",
+                3,
+            ),
             (
                 "{\"free\": {\"points\": [[0, 0, 0], [1, 0]]}}",
                 "contour.free.points[0]",
