@@ -222,6 +222,34 @@ fn turning_a_closed_contour_round_changes_nothing() {
 }
 
 #[test]
+fn handles_of_no_length_change_nothing_but_the_parameter() {
+    let (a, b) = ([1, 2, 3], [4, -2, 5]);
+    let line = grid(&json!({"circle": 1}), &json!({"line": [a, b]}));
+    let slow = grid(
+        &json!({"circle": 1}),
+        &json!({"bezier": {"segments": [[a, a, b, b]]}}),
+    );
+    for (a, b) in points(&line).zip(points(&slow)) {
+        assert!((a.2 - b.2).length() < 1e-12);
+        assert!((a.3 - b.3).length() < 1e-6);
+    }
+}
+
+#[test]
+fn points_given_twice_count_once() {
+    let tube = |points: Vec<[f64; 3]>| {
+        grid(
+            &json!({"circle": 0.5}),
+            &json!({"free": {"closed": true, "points": points}}),
+        )
+    };
+    let mut twice = LOOP.to_vec();
+    twice.insert(2, LOOP[1]);
+    twice.push(LOOP[0]);
+    assert_eq!(tube(twice), tube(LOOP.to_vec()));
+}
+
+#[test]
 fn every_example_is_a_spec() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples/curves");
     let mut seen = 0;
