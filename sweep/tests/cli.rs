@@ -148,9 +148,9 @@ fn complaints_have_their_place_and_exit_code() {
             "(did you mean `rows`?)",
         ),
         (
-            PIPE.replace("\"circle\": 1}", "\"circle\": 1"),
+            PIPE.replace("\"circle\": 1}", "\"circle\": 1]"),
             3,
-            "<stdin>:2:",
+            "<stdin>:2:24: ",
         ),
         (
             PIPE.replace("[0, 3, 0]", "[0, 0, 0]"),
