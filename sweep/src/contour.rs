@@ -110,12 +110,13 @@ impl Contour {
         }
     }
 
-    /// Cuts the contour into `cells` parts, at least [`Contour::fewest_cells`].
+    /// Cuts the contour into `cells` parts; into [`Contour::fewest_cells`] when those are more.
     ///
     /// Each smooth piece gets cells in proportion to its length, at least one, of equal length.
     /// A crease is given twice. The last point of a closed contour is not given again.
     #[must_use]
     pub fn columns(&self, cells: usize) -> Vec<Column> {
+        let cells = cells.max(self.fewest_cells());
         match &self.0 {
             Form::Circle { radius } => (0..cells)
                 .map(|i| {

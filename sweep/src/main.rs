@@ -166,7 +166,11 @@ fn stats(sweep: &Sweep, grid: &GridMesh, stages: &[(&str, std::time::Duration)])
     );
     eprintln!("creases     {}", sweep.contour().creases());
     eprintln!("contour     {} long", sweep.contour().length());
-    eprintln!("trajectory  {} long", sweep.trajectory().length());
+    if sweep.trajectory().is_rotation() {
+        eprintln!("trajectory  a rotation");
+    } else {
+        eprintln!("trajectory  {} long", sweep.trajectory().length());
+    }
     for (stage, time) in stages {
         eprintln!("{stage:<11} {:.2} ms", 1e3 * time.as_secs_f64());
     }

@@ -32,8 +32,9 @@
 //! | `{"free": {"closed": c, "points": [P, ...]}}`   | a C2 spline through points `[x, y, z]`       |
 //! | `{"rotation": {"degrees": d, ...}}`             | contour x is the distance from an axis, y the height on it |
 //!
-//! `mesh` counts cells, which become quads: rows along the trajectory, cols along the contour. The
-//! vessel of a potter is a rotation:
+//! `mesh` counts cells, which become quads: rows along the trajectory, cols along the contour. Going
+//! around takes three, a contour at least one for each piece between corners, and all together are
+//! at most 100 million. The vessel of a potter is a rotation:
 //!
 //! ```json
 //! {

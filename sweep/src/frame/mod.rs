@@ -76,12 +76,12 @@ impl Frame {
     /// The frame at another place, one double reflection away.
     fn carried_to(&self, place: &Local3) -> Self {
         let chord = place.position - self.origin;
-        // Where the point stays and the tangent turns, the limit of short chords.
-        let chord = if chord == DVec3::ZERO {
-            self.tangent + place.tangent
-        } else {
-            chord
-        };
+        // A chord that is not along the curve is nothing but rounding, of two points that are one.
+        // Reflected in it, a frame could come out mirrored; the limit of short chords takes its
+        // place.
+        let mean = self.tangent + place.tangent;
+        let along = chord.dot(mean).abs() > 0.5 * chord.length() * mean.length();
+        let chord = if along { chord } else { mean };
         let reflected = |v: DVec3| v - chord * (2.0 * chord.dot(v) / chord.length_squared());
         let (normal, tangent) = (reflected(self.normal), reflected(self.tangent));
         let second = place.tangent - tangent;
@@ -145,6 +145,24 @@ mod tests {
         };
         assert!(Frame::toward(&place, place.tangent * 3.0).is_none());
         assert!(Frame::toward(&place, DVec3::ZERO).is_none());
+    }
+
+    #[test]
+    fn rounding_of_a_point_does_not_mirror_the_frame() {
+        let at = |position| Local3 {
+            position,
+            tangent: DVec3::X,
+            curvature: DVec3::ZERO,
+        };
+        let frame = Frame::toward(&at(DVec3::ONE), DVec3::Y).unwrap();
+        for off in [
+            DVec3::Y,
+            DVec3::new(1e-3, 1.0, 0.0),
+            DVec3::new(1.0, 1.0, 1.0),
+        ] {
+            let moved = frame.carried_to(&at(DVec3::ONE + off * 4.0 * f64::EPSILON));
+            assert!((moved.normal - DVec3::Y).length() < 1e-15, "{off}");
+        }
     }
 
     #[test]
