@@ -150,34 +150,24 @@ impl Reader<'_> {
             .map(|segment| Cubic(segment.map(V::from)))
             .collect();
         let widest = MEETS * extent(cubics.iter().flat_map(|cubic| cubic.0));
-        let last = cubics.len() - 1;
-        for i in 0..=last {
-            if i == last && !bezier.closed {
-                break;
-            }
-            let next = if i == last { 0 } else { i + 1 };
+        let count = cubics.len();
+        for i in 0..if bezier.closed { count } else { count - 1 } {
+            let next = (i + 1) % count;
             let (end, start) = (cubics[i].0[3], cubics[next].0[0]);
             if (end - start).length() > widest {
-                let place = if i == last {
-                    format!("{segments_path}[{i}][3]")
-                } else {
-                    format!("{segments_path}[{next}][0]")
-                };
-                let (found, expected) = (bezier.segments[next][0], bezier.segments[i][3]);
-                let message = if i == last {
-                    format!(
-                        "found {:?}, expected {:?}, where a closed curve starts",
-                        expected.as_ref(),
-                        found.as_ref()
+                let (end, start) = (bezier.segments[i][3], bezier.segments[next][0]);
+                let (end, start) = (end.as_ref(), start.as_ref());
+                return Err(if next == 0 {
+                    self.fault(
+                        &format!("{segments_path}[{i}][3]"),
+                        format!("found {end:?}, expected {start:?}, where a closed curve starts"),
                     )
                 } else {
-                    format!(
-                        "found {:?}, expected {:?}, where the segment before ends",
-                        found.as_ref(),
-                        expected.as_ref()
+                    self.fault(
+                        &format!("{segments_path}[{next}][0]"),
+                        format!("found {start:?}, expected {end:?}, where the segment before ends"),
                     )
-                };
-                return Err(self.fault(&place, message));
+                });
             }
             cubics[i].0[3] = start;
         }
