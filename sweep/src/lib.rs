@@ -1,5 +1,37 @@
 //! Contours swept along trajectories: a JSON spec to a contour x trajectory grid.
+//!
+//! | module         | what                                                                |
+//! |----------------|---------------------------------------------------------------------|
+//! | [`spec`]       | the spec as JSON; here are its keys and its conventions             |
+//! | [`Sweep`]      | a spec that has been checked, and the grid it gives                 |
+//! | [`contour`]    | the curve that is swept; columns, creases                           |
+//! | [`trajectory`] | the curve it follows; stations, normals in closed form              |
+//! | [`frame`]      | rotation-minimizing frames                                          |
+//! | [`curve`]      | cubic Bezier paths by arc length, splines, SVG                      |
+//! | [`grid`]       | the grid and its file                                               |
+//!
+//! ```
+//! use files::json::Document;
+//! use sweep::Sweep;
+//!
+//! let text = br#"{"format": "tb-sweep", "version": 1, "name": "pipe",
+//!     "contour": {"circle": 1}, "trajectory": {"line": [[0, 0, 0], [0, 3, 0]]},
+//!     "mesh": {"rows": 2, "cols": 16}}"#;
+//! let grid = Sweep::read(&Document::new("pipe.json", text)?)?.grid();
+//! assert_eq!((grid.rows(), grid.cols()), (3, 16));
+//! # Ok::<(), sweep::SweepError>(())
+//! ```
 
+pub mod contour;
+pub mod curve;
+pub mod error;
+pub mod frame;
 pub mod grid;
+mod read;
+pub mod spec;
+mod sweep;
+pub mod trajectory;
 
+pub use error::SweepError;
 pub use grid::GridMesh;
+pub use sweep::{MOST_CELLS, Sweep};

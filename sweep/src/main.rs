@@ -1,2 +1,177 @@
-//! sweep
-fn main() {}
+//! `sweep`: a spec of curves in, a contour x trajectory grid out.
+
+use clap::{Parser, ValueEnum};
+use files::exit::{Exit, Failure, Report};
+use files::input;
+use files::json::Document;
+use files::{Output, exit};
+use std::io::{self, IsTerminal};
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Instant;
+use sweep::grid::file::{self, Encoding};
+use sweep::{GridMesh, Sweep};
+use thiserror::Error;
+
+/// Sweep a contour along a trajectory: a JSON spec in, a grid of points and normals out.
+#[derive(Debug, Parser)]
+#[command(name = "sweep", version, after_help = EXAMPLES)]
+struct Arguments {
+    /// The spec, a JSON file; - is standard input
+    #[arg(default_value = "-", value_name = "SPEC")]
+    spec: PathBuf,
+
+    /// The grid file; - is standard output
+    #[arg(short, long, default_value = "-", value_name = "FILE")]
+    output: PathBuf,
+
+    /// How the rows of the grid are written
+    #[arg(long, value_enum, default_value_t = Format::Bin)]
+    format: Format,
+
+    /// Cells along the trajectory, in place of the spec's
+    #[arg(long, value_name = "N")]
+    rows: Option<usize>,
+
+    /// Cells along the contour, in place of the spec's
+    #[arg(long, value_name = "N")]
+    cols: Option<usize>,
+
+    /// Threads to use, up to 1024; all cores by default
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+
+    /// Print nothing but errors
+    #[arg(short, long)]
+    quiet: bool,
+
+    /// Print sizes and times on standard error
+    #[arg(long)]
+    stats: bool,
+
+    /// Fail if the output file exists
+    #[arg(long)]
+    no_clobber: bool,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  sweep examples/curves/vase.json -o vase.grid
+  sweep examples/curves/trefoil.json --rows 1000 --cols 64 --stats -o trefoil.grid
+  sweep --format json < examples/curves/cup-handle.json | head -3
+  sweep examples/curves/vase.json | triangulate --texture 2 > vase.obj";
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum Format {
+    /// Little-endian numbers: small and fast
+    Bin,
+    /// One JSON array a row, for people and diffs
+    Json,
+}
+
+#[derive(Debug, Error)]
+enum UseError {
+    #[error("the binary grid is not for a terminal: name a file with -o, or use --format json")]
+    Terminal,
+    #[error("cannot start {threads} threads: {source}")]
+    Threads {
+        threads: u16,
+        source: rayon::ThreadPoolBuildError,
+    },
+}
+
+impl Failure for UseError {
+    fn exit(&self) -> Exit {
+        match self {
+            Self::Terminal => Exit::Use,
+            Self::Threads { .. } => Exit::Resource,
+        }
+    }
+}
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    exit::run("sweep", || work(&arguments))
+}
+
+fn work(arguments: &Arguments) -> Result<(), Report> {
+    let encoding = match arguments.format {
+        Format::Bin => Encoding::Binary,
+        Format::Json => Encoding::Json,
+    };
+    let to_stdout = arguments.output == Path::new("-");
+    if to_stdout && encoding == Encoding::Binary && io::stdout().is_terminal() {
+        return Err(UseError::Terminal.into());
+    }
+    if let Some(threads) = arguments.threads {
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(threads.into())
+            .build_global()
+            .map_err(|source| UseError::Threads { threads, source })?;
+    }
+
+    let start = Instant::now();
+    let bytes = input::read(&arguments.spec)?;
+    let name = input::name_of(&arguments.spec);
+    let sweep = Sweep::read(&Document::new(&name, &bytes)?)?
+        .with_resolution(arguments.rows, arguments.cols)?;
+    let read = Instant::now();
+    let mut output = Output::create(&arguments.output, !arguments.no_clobber)?;
+    let grid = sweep.grid();
+    let swept = Instant::now();
+    file::write(&grid, encoding, &mut output).map_err(|source| output.failed(source))?;
+    output.commit()?;
+    let written = Instant::now();
+
+    if !arguments.quiet {
+        note(&sweep);
+        if arguments.stats {
+            let stages = [
+                ("read", read - start),
+                ("sweep", swept - read),
+                ("write", written - swept),
+            ];
+            stats(&sweep, &grid, &stages);
+        }
+    }
+    Ok(())
+}
+
+/// Says what is legal and most often not meant.
+#[expect(clippy::print_stderr, reason = "a note for the person at the terminal")]
+fn note(sweep: &Sweep) {
+    if let Some(folded) = NonZeroUsize::new(sweep.folded_rows()) {
+        eprintln!(
+            "sweep: note: {}: the surface folds back on itself in {folded} rows, where the \
+             trajectory bends more sharply than the contour is wide",
+            sweep.name()
+        );
+    }
+}
+
+#[expect(clippy::print_stderr, reason = "what --stats asks for")]
+fn stats(sweep: &Sweep, grid: &GridMesh, stages: &[(&str, std::time::Duration)]) {
+    eprintln!("object      {}", sweep.name());
+    eprintln!(
+        "cells       {} x {} (rows x cols)",
+        sweep.rows(),
+        sweep.cols()
+    );
+    eprintln!(
+        "points      {} x {}, {}",
+        grid.rows(),
+        grid.cols(),
+        grid.positions.len()
+    );
+    eprintln!("creases     {}", sweep.contour().creases());
+    eprintln!("contour     {} long", sweep.contour().length());
+    if sweep.trajectory().is_rotation() {
+        eprintln!("trajectory  a rotation");
+    } else {
+        eprintln!("trajectory  {} long", sweep.trajectory().length());
+    }
+    for (stage, time) in stages {
+        eprintln!("{stage:<11} {:.2} ms", 1e3 * time.as_secs_f64());
+    }
+}

@@ -1,0 +1,316 @@
+//! The curve that is swept, and the columns it is cut into.
+
+use crate::curve::path::{Joint, Place};
+use crate::curve::{Cubic, Path, turn};
+use glam::DVec2;
+use kurbo::{CubicBez, ParamCurveArea, Point, Shape};
+use std::f64::consts::TAU;
+
+/// A joint of a contour that turns further than this, in degrees, is a crease.
+///
+/// Handles rounded to three decimals turn a joint that was meant to be smooth by some tenths of a
+/// degree; a crease of less than a degree could not be told from a smooth joint.
+const CREASE_DEG: f64 = 1.0;
+
+/// An area below this fraction of the squared length has no sign to trust (a figure of eight).
+const NO_AREA: f64 = 1e-9;
+
+/// A point of a contour, and the direction of the contour there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Column {
+    /// Arc length from the start, as a fraction of the whole.
+    pub u: f64,
+    /// The point.
+    pub point: DVec2,
+    /// The unit tangent; at a crease that of one side.
+    pub tangent: DVec2,
+}
+
+/// A contour, checked: it has a length, and a closed one runs counter-clockwise.
+#[derive(Debug, Clone)]
+pub struct Contour(Form);
+
+#[derive(Debug, Clone)]
+enum Form {
+    Circle {
+        radius: f64,
+    },
+    Path {
+        path: Path<DVec2>,
+        creases: Vec<Joint>,
+    },
+}
+
+impl Contour {
+    /// A circle about the origin, counter-clockwise from its point on the x axis.
+    pub(crate) fn circle(radius: f64) -> Self {
+        Self(Form::Circle { radius })
+    }
+
+    /// A path. A closed one that runs clockwise is turned round, from the same start.
+    ///
+    /// A closed path that encloses as much to its left as to its right keeps its direction.
+    pub(crate) fn path(path: Path<DVec2>) -> Self {
+        let path = if path.closed() {
+            counter_clockwise(path)
+        } else {
+            path
+        };
+        let creases = path
+            .joints()
+            .filter(|joint| joint.angle.to_degrees() > CREASE_DEG)
+            .collect();
+        Self(Form::Path { path, creases })
+    }
+
+    /// Whether the contour leads back to its start.
+    #[must_use]
+    pub fn closed(&self) -> bool {
+        match &self.0 {
+            Form::Circle { .. } => true,
+            Form::Path { path, .. } => path.closed(),
+        }
+    }
+
+    /// The length of the whole contour.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        match &self.0 {
+            Form::Circle { radius } => TAU * radius,
+            Form::Path { path, .. } => path.length(),
+        }
+    }
+
+    /// The number of creases: corners of more than a degree, the start of a closed contour too.
+    #[must_use]
+    pub fn creases(&self) -> usize {
+        match &self.0 {
+            Form::Circle { .. } => 0,
+            Form::Path { creases, .. } => creases.len(),
+        }
+    }
+
+    /// The fewest cells along the contour: one to each smooth piece, and three around.
+    #[must_use]
+    pub fn fewest_cells(&self) -> usize {
+        let around = if self.closed() { 3 } else { 1 };
+        self.pieces().max(around)
+    }
+
+    /// The smallest and the largest `x`.
+    pub(crate) fn x_range(&self) -> (f64, f64) {
+        match &self.0 {
+            Form::Circle { radius } => (-radius, *radius),
+            Form::Path { path, .. } => path
+                .cubics()
+                .map(|cubic| kurbo_cubic(cubic.0).bounding_box())
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), bounds| {
+                    (low.min(bounds.x0), high.max(bounds.x1))
+                }),
+        }
+    }
+
+    /// Cuts the contour into `cells` parts; into [`Contour::fewest_cells`] when those are more.
+    ///
+    /// Each smooth piece gets cells in proportion to its length, at least one, of equal length.
+    /// A crease is given twice. The last point of a closed contour is not given again.
+    #[must_use]
+    pub fn columns(&self, cells: usize) -> Vec<Column> {
+        let cells = cells.max(self.fewest_cells());
+        match &self.0 {
+            Form::Circle { radius } => (0..cells)
+                .map(|i| {
+                    let u = i as f64 / cells as f64;
+                    let point = turn(u);
+                    Column {
+                        u,
+                        point: point * *radius,
+                        tangent: point.perp(),
+                    }
+                })
+                .collect(),
+            Form::Path { path, creases } => columns_of(path, creases, cells),
+        }
+    }
+
+    /// The number of smooth pieces; one that runs over the start of a closed contour counts as two.
+    fn pieces(&self) -> usize {
+        match &self.0 {
+            Form::Circle { .. } => 1,
+            Form::Path { creases, .. } => 1 + creases.iter().filter(|joint| joint.s > 0.0).count(),
+        }
+    }
+}
+
+fn columns_of(path: &Path<DVec2>, creases: &[Joint], cells: usize) -> Vec<Column> {
+    let length = path.length();
+    let column = |s: f64, place: Place| Column {
+        u: s / length,
+        point: path.point(place),
+        tangent: path.tangent(place),
+    };
+    let mut columns = Vec::with_capacity(cells + creases.len() + 1);
+    let mut inner = creases;
+    if let Some(first) = creases.first().filter(|joint| joint.s == 0.0) {
+        columns.push(column(0.0, first.before));
+        inner = &creases[1..];
+    }
+    let mut breaks: Vec<f64> = inner.iter().map(|joint| joint.s).collect();
+    breaks.push(length);
+    let ends = shares(&breaks, cells);
+    let (mut from, mut first, mut done) = (0.0, path.start(), 0);
+    for (piece, (&to, &end)) in breaks.iter().zip(&ends).enumerate() {
+        columns.push(column(from, first));
+        for cell in 1..end - done {
+            let s = from + (to - from) * (cell as f64 / (end - done) as f64);
+            columns.push(column(s, path.locate(s)));
+        }
+        if let Some(crease) = inner.get(piece) {
+            columns.push(column(to, crease.before));
+            first = crease.after;
+        }
+        (from, done) = (to, end);
+    }
+    if !path.closed() {
+        columns.push(column(length, path.end()));
+    }
+    columns
+}
+
+/// Divides `cells` among pieces that end at `breaks`: how many cells there are up to each break.
+///
+/// Each piece has at least one; `cells` is at least the number of pieces.
+fn shares(breaks: &[f64], cells: usize) -> Vec<usize> {
+    let (pieces, length) = (breaks.len(), breaks[breaks.len() - 1]);
+    let mut before = 0;
+    breaks
+        .iter()
+        .enumerate()
+        .map(|(piece, &s)| {
+            let fair = (cells as f64 * (s / length)).round() as usize;
+            // One for this piece, and enough left for those after it.
+            before = fair.clamp(before + 1, cells - (pieces - 1 - piece));
+            before
+        })
+        .collect()
+}
+
+/// The path itself, or turned round when it runs clockwise.
+fn counter_clockwise(path: Path<DVec2>) -> Path<DVec2> {
+    let origin = path.point(path.start());
+    // About a point of the path, so that nothing is lost far from the origin.
+    let area: f64 = path
+        .cubics()
+        .map(|cubic| kurbo_cubic(cubic.0.map(|p| p - origin)).signed_area())
+        .sum();
+    if area < -NO_AREA * path.length().powi(2) {
+        let mut reversed: Vec<_> = path.cubics().map(Cubic::reversed).collect();
+        reversed.reverse();
+        return Path::new(&reversed, true).unwrap_or(path);
+    }
+    path
+}
+
+fn kurbo_cubic(points: [DVec2; 4]) -> CubicBez {
+    let [p0, p1, p2, p3] = points.map(|p| Point::new(p.x, p.y));
+    CubicBez::new(p0, p1, p2, p3)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::curve::svg;
+    use std::f64::consts::PI;
+
+    fn contour(text: &str) -> Contour {
+        let outline = svg::outline(text).unwrap();
+        Contour::path(Path::new(&outline.segments, outline.closed).unwrap())
+    }
+
+    fn us(columns: &[Column]) -> Vec<f64> {
+        columns
+            .iter()
+            .map(|column| (column.u * 1e6).round() / 1e6)
+            .collect()
+    }
+
+    #[test]
+    fn a_circle_is_cut_evenly() {
+        let circle = Contour::circle(2.0);
+        assert_eq!(circle.length(), 4.0 * PI);
+        let columns = circle.columns(4);
+        assert_eq!(
+            columns[1],
+            Column {
+                u: 0.25,
+                point: DVec2::Y * 2.0,
+                tangent: DVec2::NEG_X
+            }
+        );
+        assert_eq!(us(&columns), [0.0, 0.25, 0.5, 0.75]);
+    }
+
+    #[test]
+    fn corners_are_given_twice() {
+        // A rectangle of 3 x 1, counter-clockwise; SVG's y points down.
+        let rectangle = contour("M0 0H3V-1H0Z");
+        assert_eq!((rectangle.creases(), rectangle.fewest_cells()), (4, 4));
+        let columns = rectangle.columns(8);
+        assert_eq!(columns.len(), 12);
+        assert_eq!(
+            us(&columns),
+            [
+                0.0, 0.0, 0.125, 0.25, 0.375, 0.375, 0.5, 0.5, 0.625, 0.75, 0.875, 0.875
+            ]
+        );
+        assert_eq!(columns[0].tangent, DVec2::NEG_Y, "the side that comes in");
+        assert_eq!(columns[1].tangent, DVec2::X, "the side that goes out");
+        assert_eq!(columns[0].point, columns[1].point);
+    }
+
+    #[test]
+    fn an_open_contour_has_both_its_ends() {
+        let bend = contour("M0 0H1V-1");
+        let columns = bend.columns(4);
+        assert_eq!(us(&columns), [0.0, 0.25, 0.5, 0.5, 0.75, 1.0]);
+        assert_eq!(columns[5].point, DVec2::ONE);
+        assert_eq!(bend.fewest_cells(), 2);
+    }
+
+    #[test]
+    fn a_corner_elsewhere_than_at_the_start_leaves_the_start_smooth() {
+        let drop = contour("M0 0C0 -1 1 -1 2 0C1 1 0 1 0 0Z");
+        assert_eq!((drop.creases(), drop.fewest_cells()), (1, 3));
+        let columns = drop.columns(10);
+        assert_eq!(columns.len(), 11);
+        assert_eq!(columns[0].u, 0.0);
+        assert!(columns[1].u > 0.0);
+    }
+
+    #[test]
+    fn clockwise_contours_are_turned_round_from_the_same_start() {
+        let (clockwise, counter) = (contour("M0 0V-1H1V0Z"), contour("M0 0H1V-1H0Z"));
+        let (a, b) = (clockwise.columns(8), counter.columns(8));
+        for (a, b) in a.iter().zip(&b) {
+            assert!((a.point - b.point).length() < 1e-15);
+            assert!((a.tangent - b.tangent).length() < 1e-15);
+        }
+        let open = contour("M0 0V-1H1");
+        assert_eq!(open.columns(2)[0].tangent, DVec2::Y, "an open one is kept");
+    }
+
+    #[test]
+    fn cells_are_shared_by_length_and_every_piece_has_one() {
+        assert_eq!(shares(&[1.0, 2.0, 4.0], 8), [2, 4, 8]);
+        assert_eq!(shares(&[0.001, 0.002, 4.0], 4), [1, 2, 4]);
+        assert_eq!(shares(&[3.9, 3.95, 4.0], 3), [1, 2, 3]);
+    }
+
+    #[test]
+    fn the_range_of_x_is_that_of_the_curve() {
+        let p = DVec2::new;
+        let bulge = Cubic([p(0.0, 0.0), p(4.0, 1.0), p(4.0, 2.0), p(0.0, 3.0)]);
+        let (low, high) = Contour::path(Path::new(&[bulge], false).unwrap()).x_range();
+        assert_eq!((low, high), (0.0, 3.0));
+    }
+}

@@ -1,0 +1,230 @@
+//! One cubic Bezier segment, in two dimensions or in three.
+//!
+//! ```text
+//!     P(t) = (1-t)^3 p0 + 3 (1-t)^2 t p1 + 3 (1-t) t^2 p2 + t^3 p3,     t in [0, 1]
+//! ```
+//!
+//! Derivatives are formed from the differences of the control points, so that a direction is right
+//! to its last digits also where the speed is very small. Where the speed is zero the direction
+//! comes from the first derivative that is not.
+
+use super::vector::Vector;
+use kurbo::common::solve_cubic;
+
+/// Speeds below this fraction of the segment's largest count as zero.
+///
+/// A handle this short bends the curve only over a billionth of its length, less than a picture can
+/// show; much smaller, and a cusp whose control points are rounded to decimals is not seen as one.
+pub const ZERO_SPEED: f64 = 1e-9;
+
+/// A cubic Bezier segment by its control points.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cubic<V>(pub [V; 4]);
+
+impl<V: Vector> Cubic<V> {
+    /// The straight segment from `a` to `b`, run through at constant speed.
+    pub fn line(a: V, b: V) -> Self {
+        let third = (b - a) * (1.0 / 3.0);
+        Self([a, a + third, b - third, b])
+    }
+
+    /// The point at `t`; exactly the first and the last control point at 0 and 1.
+    pub fn point(&self, t: f64) -> V {
+        let [p0, p1, p2, p3] = self.0;
+        let s = 1.0 - t;
+        p0 * (s * s * s) + p1 * (3.0 * s * s * t) + p2 * (3.0 * s * t * t) + p3 * (t * t * t)
+    }
+
+    /// The first derivative at `t`.
+    pub fn velocity(&self, t: f64) -> V {
+        let [d0, d1, d2] = self.differences();
+        let s = 1.0 - t;
+        (d0 * (s * s) + d1 * (2.0 * s * t) + d2 * (t * t)) * 3.0
+    }
+
+    /// The second derivative at `t`.
+    pub fn acceleration(&self, t: f64) -> V {
+        let [d0, d1, d2] = self.differences();
+        ((d1 - d0) * (1.0 - t) + (d2 - d1) * t) * 6.0
+    }
+
+    /// The unit tangent at `t`, one-sided at the ends; the zero vector for a segment of no size.
+    ///
+    /// Where the speed is zero it is the direction in which the segment leaves its nearer end.
+    pub fn tangent(&self, t: f64) -> V {
+        let velocity = self.velocity(t);
+        let slow = 3.0 * ZERO_SPEED * self.size();
+        if velocity.length() > slow {
+            return velocity * (1.0 / velocity.length());
+        }
+        let [d0, d1, d2] = self.differences();
+        let candidates = if t < 0.5 { [d0, d1, d2] } else { [d2, d1, d0] };
+        candidates
+            .into_iter()
+            .find(|d| 3.0 * d.length() > slow)
+            .map_or(V::ZERO, |d| d * (1.0 / d.length()))
+    }
+
+    /// The curvature vector at `t`: the derivative of the unit tangent by arc length.
+    ///
+    /// It is unbounded where the speed is zero; there the answer is the zero vector.
+    pub fn curvature(&self, t: f64) -> V {
+        let velocity = self.velocity(t);
+        let speed = velocity.length();
+        if speed <= 3.0 * ZERO_SPEED * self.size() {
+            return V::ZERO;
+        }
+        let tangent = velocity * (1.0 / speed);
+        let acceleration = self.acceleration(t) * (1.0 / speed);
+        (acceleration - tangent * acceleration.dot(tangent)) * (1.0 / speed)
+    }
+
+    /// The length of the longest side of the control polygon.
+    pub fn size(&self) -> f64 {
+        self.differences()
+            .into_iter()
+            .map(Vector::length)
+            .fold(0.0, f64::max)
+    }
+
+    /// The same points in the other direction.
+    pub fn reversed(&self) -> Self {
+        let [p0, p1, p2, p3] = self.0;
+        Self([p3, p2, p1, p0])
+    }
+
+    /// The parts before and after each inner point where the speed is zero.
+    ///
+    /// The parts meet there with handles of no length, so that each has its own tangent.
+    pub fn split_at_cusps(&self) -> Vec<Self> {
+        let mut parts = vec![*self];
+        let mut before = 0.0;
+        for t in self.cusps() {
+            let Some(last) = parts.pop() else { break };
+            parts.extend(last.split((t - before) / (1.0 - before)));
+            before = t;
+        }
+        parts
+    }
+
+    /// The parameters inside the segment where the speed is zero, rising.
+    fn cusps(&self) -> Vec<f64> {
+        let size = self.size();
+        if size == 0.0 {
+            return Vec::new();
+        }
+        // The velocity as a + b t + c t^2, in units of the size.
+        let [d0, d1, d2] = self.differences().map(|d| d * (1.0 / size));
+        let (a, b, c) = (d0, (d1 - d0) * 2.0, d0 - d1 * 2.0 + d2);
+        // Least speeds are where half the derivative of its square is zero.
+        let [k0, k1, k2, k3] = [
+            a.dot(b),
+            b.dot(b) + 2.0 * a.dot(c),
+            3.0 * b.dot(c),
+            2.0 * c.dot(c),
+        ];
+        let slope = |t: f64| ((k3 * t + k2) * t + k1) * t + k0;
+        let slope_change = |t: f64| (3.0 * k3 * t + 2.0 * k2) * t + k1;
+        let mut found: Vec<f64> = solve_cubic(k0, k1, k2, k3)
+            .into_iter()
+            .map(|t| {
+                // The closed form loses half its digits; at a cusp the root is simple.
+                (0..4).fold(t, |t, _| {
+                    let step = slope(t) / slope_change(t);
+                    if step.is_finite() { t - step } else { t }
+                })
+            })
+            .filter(|&t| t > 1e-6 && t < 1.0 - 1e-6)
+            .filter(|&t| (a + b * t + c * (t * t)).length() <= ZERO_SPEED)
+            .collect();
+        found.sort_by(f64::total_cmp);
+        found.dedup_by(|later, earlier| *later - *earlier < 1e-6);
+        found
+    }
+
+    /// The parts before and after the cusp at `t`.
+    fn split(&self, t: f64) -> [Self; 2] {
+        let mix = |a: V, b: V| a * (1.0 - t) + b * t;
+        let [p0, p1, p2, p3] = self.0;
+        let (a, b, c) = (mix(p0, p1), mix(p1, p2), mix(p2, p3));
+        let middle = mix(mix(a, b), mix(b, c));
+        [Self([p0, a, middle, middle]), Self([middle, middle, c, p3])]
+    }
+
+    fn differences(&self) -> [V; 3] {
+        let [p0, p1, p2, p3] = self.0;
+        [p1 - p0, p2 - p1, p3 - p2]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{DVec2, DVec3};
+
+    fn arch() -> Cubic<DVec3> {
+        Cubic([
+            DVec3::ZERO,
+            DVec3::new(1.0, 2.0, 0.5),
+            DVec3::new(3.0, 2.0, -1.0),
+            DVec3::new(4.0, 0.0, 0.3),
+        ])
+    }
+
+    #[test]
+    fn derivatives_agree_with_differences() {
+        let (curve, h) = (arch(), 1e-5);
+        for i in 1..10 {
+            let t = f64::from(i) / 10.0;
+            let velocity = (curve.point(t + h) - curve.point(t - h)) / (2.0 * h);
+            assert!((velocity - curve.velocity(t)).length() < 1e-8);
+            let acceleration = (curve.velocity(t + h) - curve.velocity(t - h)) / (2.0 * h);
+            assert!((acceleration - curve.acceleration(t)).length() < 1e-8);
+            let turning = (curve.tangent(t + h) - curve.tangent(t - h)) / (2.0 * h);
+            let curvature = turning / curve.velocity(t).length();
+            assert!((curvature - curve.curvature(t)).length() < 1e-8);
+        }
+    }
+
+    #[test]
+    fn a_handle_of_no_length_has_the_tangent_of_the_next() {
+        let (o, a, b) = (DVec2::ZERO, DVec2::new(1.0, 1.0), DVec2::new(2.0, 0.0));
+        let start = Cubic([o, o, a, b]);
+        assert!((start.tangent(0.0) - a.normalize()).length() < 1e-15);
+        assert!((start.tangent(1e-12) - a.normalize()).length() < 1e-9);
+        let end = start.reversed();
+        assert!((end.tangent(1.0) + a.normalize()).length() < 1e-15);
+        let both = Cubic([o, o, b, b]);
+        assert_eq!(both.tangent(0.0), DVec2::X);
+        assert_eq!(both.tangent(1.0), DVec2::X);
+        assert_eq!(Cubic([a; 4]).tangent(0.5), DVec2::ZERO);
+    }
+
+    #[test]
+    fn a_cusp_is_split_into_parts_with_their_own_tangents() {
+        // Handles that cross exactly: the speed is zero in the middle.
+        let cusp = Cubic([
+            DVec2::new(0.0, 0.0),
+            DVec2::new(1.0, 1.0),
+            DVec2::new(0.0, 1.0),
+            DVec2::new(1.0, 0.0),
+        ]);
+        let parts = cusp.split_at_cusps();
+        assert_eq!(parts.len(), 2);
+        assert!((parts[0].0[3] - DVec2::new(0.5, 0.75)).length() < 1e-15);
+        assert!((parts[0].tangent(1.0) - DVec2::Y).length() < 1e-12);
+        assert!((parts[1].tangent(0.0) + DVec2::Y).length() < 1e-12);
+        assert_eq!(arch().split_at_cusps(), [arch()]);
+    }
+
+    #[test]
+    fn a_line_that_turns_back_twice_has_two_cusps() {
+        let x = |v: f64| DVec2::new(v, 0.0);
+        let parts = Cubic([x(0.0), x(3.0), x(-2.0), x(1.0)]).split_at_cusps();
+        let directions: Vec<f64> = parts
+            .iter()
+            .map(|part| part.tangent(0.5).x.round())
+            .collect();
+        assert_eq!(directions, [1.0, -1.0, 1.0]);
+    }
+}

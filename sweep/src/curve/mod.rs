@@ -1,0 +1,86 @@
+//! Curves: piecewise cubic Beziers in two and three dimensions, measured by arc length.
+//!
+//! | module         | what                                                              |
+//! |----------------|-------------------------------------------------------------------|
+//! | [`cubic`]      | one segment: point, derivatives, tangents, cusps                  |
+//! | [`path`]       | segments joined, located by arc length; corners                   |
+//! | [`arc_length`] | the length of a segment and its inverse                           |
+//! | [`spline`]     | a C2 curve through free points                                    |
+//! | [`svg`]        | the path of an SVG file                                           |
+//!
+//! Nothing here has an absolute tolerance: a curve and its copy a billion times larger are treated
+//! alike. Lines and circles are not made into cubics; see [`turn`](self::turn()).
+
+pub mod arc_length;
+pub mod cubic;
+pub mod path;
+mod quadrature;
+pub mod spline;
+pub mod svg;
+pub mod vector;
+
+pub use cubic::Cubic;
+pub use path::Path;
+pub use vector::Vector;
+
+use glam::{DVec2, DVec3};
+use std::f64::consts::FRAC_PI_2;
+
+/// A curve in space, run through at unit speed.
+pub trait Curve3 {
+    /// The length of the whole curve.
+    fn length(&self) -> f64;
+
+    /// Whether the curve leads back to its start.
+    fn closed(&self) -> bool;
+
+    /// Arc lengths from 0 to the whole length, rising, between which the curve is smooth.
+    fn knots(&self) -> Vec<f64>;
+
+    /// The curve at arc length `s` from its start; `s` outside the curve gives its ends.
+    fn at(&self, s: f64) -> Local3;
+}
+
+/// A curve in space at one place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Local3 {
+    /// The point.
+    pub position: DVec3,
+    /// The unit tangent.
+    pub tangent: DVec3,
+    /// The derivative of the tangent by arc length: towards the centre, one over the radius long.
+    pub curvature: DVec3,
+}
+
+/// The point of the unit circle after a fraction of a turn; exact at the quarters.
+#[must_use]
+pub fn turn(fraction: f64) -> DVec2 {
+    let quarters = 4.0 * fraction;
+    let nearest = quarters.round();
+    let (sin, cos) = ((quarters - nearest) * FRAC_PI_2).sin_cos();
+    match nearest.rem_euclid(4.0) as u32 {
+        0 => DVec2::new(cos, sin),
+        1 => DVec2::new(-sin, cos),
+        2 => DVec2::new(-cos, -sin),
+        _ => DVec2::new(sin, -cos),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_turn_is_exact_at_the_quarters() {
+        assert_eq!(turn(0.25), DVec2::Y);
+        assert_eq!(turn(0.5), DVec2::NEG_X);
+        assert_eq!(turn(0.75), DVec2::NEG_Y);
+        assert_eq!(turn(1.0), DVec2::X);
+        assert_eq!(turn(-0.25), DVec2::NEG_Y);
+        for i in -30..30 {
+            let fraction = f64::from(i) / 17.0;
+            let (sin, cos) = (std::f64::consts::TAU * fraction).sin_cos();
+            assert!((turn(fraction) - DVec2::new(cos, sin)).length() < 4e-15);
+        }
+    }
+}

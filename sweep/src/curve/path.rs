@@ -1,0 +1,264 @@
+//! Cubic segments joined end to end, located by arc length.
+
+use super::arc_length::ArcLength;
+use super::cubic::Cubic;
+use super::vector::{Vector, angle_between, extent};
+use super::{Curve3, Local3};
+use glam::DVec3;
+
+/// Segments smaller than this fraction of the curve are points given twice, and are dropped.
+///
+/// Coordinates carry 16 digits and a curve may lie at some distance from the origin; a segment
+/// smaller than this has no direction left to trust.
+const COINCIDENT: f64 = 1e-12;
+
+/// A curve of cubic segments, open or closed.
+#[derive(Debug, Clone)]
+pub struct Path<V> {
+    segments: Vec<Segment<V>>,
+    closed: bool,
+    length: f64,
+}
+
+#[derive(Debug, Clone)]
+struct Segment<V> {
+    cubic: Cubic<V>,
+    /// Which of the segments given this one is, or is a part of.
+    source: usize,
+    /// Length of the curve before this segment.
+    start: f64,
+    lengths: ArcLength<V>,
+}
+
+/// A place on a path: a segment and the parameter on it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Place {
+    segment: usize,
+    t: f64,
+}
+
+/// A joint of a path: where one segment leads into the next.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Joint {
+    /// Arc length from the start of the path; 0 for the joint that closes it.
+    pub s: f64,
+    /// The end of the segment before.
+    pub before: Place,
+    /// The start of the segment after.
+    pub after: Place,
+    /// By how much the direction turns here, in radians.
+    pub angle: f64,
+    /// Which of the segments given lie before and after; the same one at a cusp inside it.
+    pub sources: [usize; 2],
+}
+
+impl<V: Vector> Path<V> {
+    /// Joins the segments, each of which starts where the one before it ends.
+    ///
+    /// Segments whose points coincide are dropped, and segments are split at inner cusps. `None`
+    /// when nothing of any length is left.
+    pub fn new(given: &[Cubic<V>], closed: bool) -> Option<Self> {
+        let size = extent(given.iter().flat_map(|cubic| cubic.0));
+        let mut segments = Vec::with_capacity(given.len());
+        let mut start = 0.0;
+        for (source, whole) in given.iter().enumerate() {
+            if whole.size() <= COINCIDENT * size {
+                continue;
+            }
+            for cubic in whole.split_at_cusps() {
+                let lengths = ArcLength::new(cubic);
+                let length = lengths.total();
+                segments.push(Segment {
+                    cubic,
+                    source,
+                    start,
+                    lengths,
+                });
+                start += length;
+            }
+        }
+        (start > 0.0 && start.is_finite()).then_some(Self {
+            segments,
+            closed,
+            length: start,
+        })
+    }
+
+    /// The length of the whole path.
+    pub fn length(&self) -> f64 {
+        self.length
+    }
+
+    /// Whether the path leads back to its start.
+    pub fn closed(&self) -> bool {
+        self.closed
+    }
+
+    /// The segments as they are swept: without those dropped, and with cusps split.
+    pub fn cubics(&self) -> impl Iterator<Item = &Cubic<V>> {
+        self.segments.iter().map(|segment| &segment.cubic)
+    }
+
+    /// The start of the path.
+    pub fn start(&self) -> Place {
+        Place { segment: 0, t: 0.0 }
+    }
+
+    /// The end of the path.
+    pub fn end(&self) -> Place {
+        Place {
+            segment: self.segments.len() - 1,
+            t: 1.0,
+        }
+    }
+
+    /// The place at arc length `s` from the start; `s` outside the path gives its ends.
+    ///
+    /// At a joint it is the start of the segment after.
+    pub fn locate(&self, s: f64) -> Place {
+        let after = self.segments.partition_point(|segment| segment.start <= s);
+        let index = after.max(1) - 1;
+        let segment = &self.segments[index];
+        Place {
+            segment: index,
+            t: segment.lengths.parameter_at(s - segment.start),
+        }
+    }
+
+    /// The length of the path before a place.
+    pub fn length_to(&self, place: Place) -> f64 {
+        let segment = &self.segments[place.segment];
+        segment.start + segment.lengths.length_to(place.t)
+    }
+
+    /// The point at a place.
+    pub fn point(&self, place: Place) -> V {
+        self.segments[place.segment].cubic.point(place.t)
+    }
+
+    /// The unit tangent at a place.
+    pub fn tangent(&self, place: Place) -> V {
+        self.segments[place.segment].cubic.tangent(place.t)
+    }
+
+    /// The derivative of the tangent by arc length; zero where the speed is zero.
+    pub fn curvature(&self, place: Place) -> V {
+        self.segments[place.segment].cubic.curvature(place.t)
+    }
+
+    /// All joints, by rising `s`; in a closed path the first is the one that closes it.
+    pub fn joints(&self) -> impl Iterator<Item = Joint> {
+        let first = usize::from(!self.closed);
+        (first..self.segments.len()).map(|index| {
+            let last = self.segments.len() - 1;
+            let before = Place {
+                segment: if index == 0 { last } else { index - 1 },
+                t: 1.0,
+            };
+            let after = Place {
+                segment: index,
+                t: 0.0,
+            };
+            Joint {
+                s: self.segments[index].start,
+                before,
+                after,
+                angle: angle_between(self.tangent(before), self.tangent(after)),
+                sources: [before, after].map(|place| self.segments[place.segment].source),
+            }
+        })
+    }
+
+    /// The arc length at which each segment starts.
+    fn starts(&self) -> impl Iterator<Item = f64> {
+        self.segments.iter().map(|segment| segment.start)
+    }
+}
+
+impl Curve3 for Path<DVec3> {
+    fn length(&self) -> f64 {
+        self.length
+    }
+
+    fn closed(&self) -> bool {
+        self.closed
+    }
+
+    fn knots(&self) -> Vec<f64> {
+        self.starts().chain([self.length]).collect()
+    }
+
+    fn at(&self, s: f64) -> Local3 {
+        let place = self.locate(s);
+        Local3 {
+            position: self.point(place),
+            tangent: self.tangent(place),
+            curvature: self.curvature(place),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec2;
+    use std::f64::consts::FRAC_PI_2;
+
+    fn square() -> Vec<Cubic<DVec2>> {
+        let corners = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y, DVec2::ZERO];
+        corners
+            .windows(2)
+            .map(|ends| Cubic::line(ends[0], ends[1]))
+            .collect()
+    }
+
+    #[test]
+    fn a_square_is_located_by_length_and_has_four_corners() {
+        let path = Path::new(&square(), true).unwrap();
+        assert!((path.length() - 4.0).abs() < 1e-14);
+        let point = path.point(path.locate(2.25));
+        assert!((point - DVec2::new(0.75, 1.0)).length() < 1e-14);
+        let joints: Vec<Joint> = path.joints().collect();
+        assert_eq!(joints.len(), 4);
+        assert_eq!(joints[0].s, 0.0);
+        assert_eq!(joints[0].sources, [3, 0]);
+        assert!(
+            joints
+                .iter()
+                .all(|joint| (joint.angle - FRAC_PI_2).abs() < 1e-14)
+        );
+        assert_eq!(Path::new(&square(), false).unwrap().joints().count(), 3);
+    }
+
+    #[test]
+    fn the_ends_are_met_exactly() {
+        let path = Path::new(&square()[..3], false).unwrap();
+        assert_eq!(path.point(path.start()), DVec2::ZERO);
+        assert_eq!(path.point(path.end()), DVec2::Y);
+        assert_eq!(path.point(path.locate(1e9)), DVec2::Y);
+        assert_eq!(path.point(path.locate(-1.0)), DVec2::ZERO);
+        let place = path.locate(1.7);
+        assert!((path.length_to(place) - 1.7).abs() < 1e-15);
+    }
+
+    #[test]
+    fn points_given_twice_are_passed_over() {
+        let mut given = square();
+        given.insert(1, Cubic([DVec2::X; 4]));
+        let path = Path::new(&given, true).unwrap();
+        assert_eq!(path.joints().count(), 4);
+        assert_eq!(path.joints().nth(1).unwrap().sources, [0, 2]);
+        assert!(Path::new(&[Cubic([DVec2::X; 4])], true).is_none());
+        assert!(Path::<DVec2>::new(&[], true).is_none());
+    }
+
+    #[test]
+    fn a_cusp_inside_a_segment_is_a_joint_of_half_a_turn() {
+        let p = DVec2::new;
+        let cusp = Cubic([p(0.0, 0.0), p(1.0, 1.0), p(0.0, 1.0), p(1.0, 0.0)]);
+        let path = Path::new(&[cusp], false).unwrap();
+        let joint = path.joints().next().unwrap();
+        assert!((joint.angle - 2.0 * FRAC_PI_2).abs() < 1e-9);
+        assert_eq!(joint.sources, [0, 0]);
+    }
+}

@@ -1,0 +1,385 @@
+//! The outline of an SVG path (its `d` attribute) as cubic segments.
+//!
+//! All path commands of SVG 1.1 are read, relative and absolute, and exactly one subpath is
+//! accepted. SVG's y axis points down; y is negated here, so that what stands upright in an SVG
+//! editor stands upright in a contour. A path is closed by `Z`, or by ending where it began.
+//!
+//! The lexing is done here and not by kurbo, whose path reader turns arcs into cubics with an
+//! absolute tolerance of 0.1: too coarse for a circle of radius 1, and endless for one of 1e300.
+//! The arcs themselves are kurbo's, to a billionth of their radius.
+
+use super::cubic::Cubic;
+use super::vector::{Vector, extent};
+use glam::DVec2;
+use kurbo::{Arc, PathEl, Point, SvgArc, Vec2};
+
+/// The error of an arc's cubics, as a fraction of its larger radius: about 32 cubics a turn.
+const ARC_TOLERANCE: f64 = 1e-9;
+
+/// An arc whose radius is this many times its chord departs from it by a billionth, and is a line.
+const STRAIGHT: f64 = 1e8;
+
+/// A path ends where it began when its ends are this fraction of its size apart.
+const MEETS: f64 = 1e-9;
+
+/// The subpath of an SVG path, y up.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outline {
+    /// The segments; each starts where the one before it ends.
+    pub segments: Vec<Cubic<DVec2>>,
+    /// Whether the last segment ends at the start of the first.
+    pub closed: bool,
+}
+
+/// Reads an SVG path.
+///
+/// # Errors
+/// A sentence that says what was found, at which character, and what was expected.
+pub fn outline(text: &str) -> Result<Outline, String> {
+    let mut reader = Reader {
+        lexer: Lexer { text, at: 0 },
+        pen: DVec2::ZERO,
+        segments: Vec::new(),
+    };
+    let (start, closed) = reader.read()?;
+    let mut segments = reader.segments;
+    let gap = (reader.pen - start).length();
+    let meets = gap <= MEETS * extent(segments.iter().flat_map(|segment| segment.0));
+    if closed && !meets {
+        segments.push(Cubic::line(reader.pen, start));
+    }
+    if let Some(last) = segments.last_mut()
+        && meets
+    {
+        last.0[3] = start;
+    }
+    for segment in &mut segments {
+        // Not -y, which would turn 0 into -0.
+        segment.0 = segment.0.map(|p| DVec2::new(p.x, 0.0 - p.y));
+    }
+    Ok(Outline {
+        segments,
+        closed: closed || meets,
+    })
+}
+
+struct Reader<'a> {
+    lexer: Lexer<'a>,
+    pen: DVec2,
+    segments: Vec<Cubic<DVec2>>,
+}
+
+impl Reader<'_> {
+    /// Reads all commands; gives the start, and whether the path ends with `Z`.
+    fn read(&mut self) -> Result<(DVec2, bool), String> {
+        let mut command = match self.lexer.command() {
+            Some(letter @ ('M' | 'm')) => letter,
+            _ => return Err(self.lexer.expected("`M` and a point to start from")),
+        };
+        let start = self.lexer.point()?;
+        self.pen = start;
+        // Pairs that follow a move are lines.
+        command = if command == 'M' { 'L' } else { 'l' };
+        // The last handle of a cubic and of a quadratic, for the commands that mirror it.
+        let mut handles = [None; 2];
+        loop {
+            if let Some(letter) = self.lexer.command() {
+                command = letter;
+            } else if self.lexer.finished() {
+                return Ok((start, false));
+            }
+            let origin = if command.is_ascii_lowercase() {
+                self.pen
+            } else {
+                DVec2::ZERO
+            };
+            let from = self.pen;
+            let mirrored =
+                handles.map(|handle: Option<DVec2>| handle.map_or(from, |h| from * 2.0 - h));
+            handles = [None; 2];
+            match command.to_ascii_uppercase() {
+                'L' => {
+                    let to = origin + self.lexer.point()?;
+                    self.line(to);
+                }
+                'H' => {
+                    let x = origin.x + self.lexer.number()?;
+                    self.line(DVec2::new(x, from.y));
+                }
+                'V' => {
+                    let y = origin.y + self.lexer.number()?;
+                    self.line(DVec2::new(from.x, y));
+                }
+                'C' => {
+                    let first = origin + self.lexer.point()?;
+                    handles[0] = Some(self.cubic(first, origin)?);
+                }
+                'S' => handles[0] = Some(self.cubic(mirrored[0], origin)?),
+                'Q' => {
+                    let handle = origin + self.lexer.point()?;
+                    handles[1] = Some(self.quadratic(handle, origin)?);
+                }
+                'T' => handles[1] = Some(self.quadratic(mirrored[1], origin)?),
+                'A' => self.arc(origin)?,
+                'Z' => {
+                    if !self.lexer.finished() {
+                        return Err(self.lexer.expected("the end of the path: one subpath only"));
+                    }
+                    return Ok((start, true));
+                }
+                'M' => {
+                    self.lexer.at -= 1;
+                    return Err(self.lexer.expected("the end of the path: one subpath only"));
+                }
+                _ => {
+                    self.lexer.at -= 1;
+                    return Err(self.lexer.expected("one of the commands L H V C S Q T A Z"));
+                }
+            }
+        }
+    }
+
+    fn line(&mut self, to: DVec2) {
+        self.segments.push(Cubic::line(self.pen, to));
+        self.pen = to;
+    }
+
+    /// The rest of a cubic after its first handle; gives its second.
+    fn cubic(&mut self, first: DVec2, origin: DVec2) -> Result<DVec2, String> {
+        let second = origin + self.lexer.point()?;
+        let to = origin + self.lexer.point()?;
+        self.segments.push(Cubic([self.pen, first, second, to]));
+        self.pen = to;
+        Ok(second)
+    }
+
+    /// The rest of a quadratic after its handle; gives the handle.
+    fn quadratic(&mut self, handle: DVec2, origin: DVec2) -> Result<DVec2, String> {
+        let from = self.pen;
+        let to = origin + self.lexer.point()?;
+        let toward = |end: DVec2| end + (handle - end) * (2.0 / 3.0);
+        self.segments
+            .push(Cubic([from, toward(from), toward(to), to]));
+        self.pen = to;
+        Ok(handle)
+    }
+
+    fn arc(&mut self, origin: DVec2) -> Result<(), String> {
+        let radii = self.lexer.point()?;
+        let x_rotation = self.lexer.number()?.to_radians();
+        let large_arc = self.lexer.flag()?;
+        let sweep = self.lexer.flag()?;
+        let to = origin + self.lexer.point()?;
+        let chord = to - self.pen;
+        // In units of the chord nothing can overflow or vanish.
+        let unit = Vector::length(chord);
+        let radii = radii.abs() / unit;
+        let arc = SvgArc {
+            from: Point::ZERO,
+            to: Point::new(chord.x / unit, chord.y / unit),
+            radii: Vec2::new(radii.x, radii.y),
+            x_rotation,
+            large_arc,
+            sweep,
+        };
+        let curved = radii.min_element() > 0.0 && radii.max_element() < STRAIGHT;
+        let Some(arc) = curved.then(|| Arc::from_svg_arc(&arc)).flatten() else {
+            self.line(to);
+            return Ok(());
+        };
+        let place = |p: Point| self.pen + DVec2::new(p.x, p.y) * unit;
+        let mut from = self.pen;
+        let tolerance = ARC_TOLERANCE * arc.radii.x.max(arc.radii.y);
+        for element in arc.append_iter(tolerance) {
+            if let PathEl::CurveTo(p1, p2, p3) = element {
+                self.segments
+                    .push(Cubic([from, place(p1), place(p2), place(p3)]));
+                from = place(p3);
+            }
+        }
+        if let Some(last) = self.segments.last_mut() {
+            last.0[3] = to;
+        }
+        self.pen = to;
+        Ok(())
+    }
+}
+
+/// Commands, numbers and flags; commas and white space lie between them.
+struct Lexer<'a> {
+    text: &'a str,
+    at: usize,
+}
+
+impl Lexer<'_> {
+    fn skip(&mut self) {
+        let rest = &self.text[self.at..];
+        let trimmed = rest.trim_start_matches(|c: char| c == ',' || c.is_ascii_whitespace());
+        self.at += rest.len() - trimmed.len();
+    }
+
+    fn finished(&mut self) -> bool {
+        self.skip();
+        self.at == self.text.len()
+    }
+
+    /// The letter that comes next, if one does.
+    fn command(&mut self) -> Option<char> {
+        self.skip();
+        let letter = self.text[self.at..]
+            .chars()
+            .next()
+            .filter(char::is_ascii_alphabetic)?;
+        self.at += 1;
+        Some(letter)
+    }
+
+    fn point(&mut self) -> Result<DVec2, String> {
+        Ok(DVec2::new(self.number()?, self.number()?))
+    }
+
+    /// The longest number that comes next; `1.5.5` is two.
+    fn number(&mut self) -> Result<f64, String> {
+        self.skip();
+        let bytes = self.text.as_bytes();
+        let digits = |mut at: usize| {
+            while bytes.get(at).is_some_and(u8::is_ascii_digit) {
+                at += 1;
+            }
+            at
+        };
+        let sign = |at: usize| at + usize::from(matches!(bytes.get(at), Some(b'+' | b'-')));
+        let mut end = digits(sign(self.at));
+        if bytes.get(end) == Some(&b'.') {
+            end = digits(end + 1);
+        }
+        if matches!(bytes.get(end), Some(b'e' | b'E')) {
+            let exponent = sign(end + 1);
+            if digits(exponent) > exponent {
+                end = digits(exponent);
+            }
+        }
+        let number = self.text[self.at..end]
+            .parse()
+            .map_err(|_| self.expected("a number"))?;
+        self.at = end;
+        Ok(number)
+    }
+
+    fn flag(&mut self) -> Result<bool, String> {
+        self.skip();
+        let flag = match self.text.as_bytes().get(self.at) {
+            Some(b'0') => false,
+            Some(b'1') => true,
+            _ => return Err(self.expected("an arc's flag, 0 or 1")),
+        };
+        self.at += 1;
+        Ok(flag)
+    }
+
+    fn expected(&self, what: &str) -> String {
+        let place = 1 + self.text[..self.at].chars().count();
+        match self.text[self.at..].chars().next() {
+            Some(found) => format!("found `{found}` at character {place}, expected {what}"),
+            None => format!("found the end at character {place}, expected {what}"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn p(x: f64, y: f64) -> DVec2 {
+        DVec2::new(x, y)
+    }
+
+    #[test]
+    fn what_is_up_in_an_editor_is_up() {
+        let read = outline("M0 0 L10,0 10-20z").unwrap();
+        assert!(read.closed);
+        let starts: Vec<DVec2> = read.segments.iter().map(|segment| segment.0[0]).collect();
+        assert_eq!(starts, [p(0.0, 0.0), p(10.0, 0.0), p(10.0, 20.0)]);
+        assert_eq!(read.segments[2].0[3], p(0.0, 0.0));
+    }
+
+    #[test]
+    fn all_commands_are_read_relative_and_absolute() {
+        let absolute = outline("M1 1H3V2C3 3 4 3 4 2S5 1 5 2Q6 3 7 2T9 2A1 1 0 0 1 11 2L12 2");
+        let relative = outline("m1 1h2v1c0 1 1 1 1 0s1-1 1 0q1 1 2 0t2 0a1 1 0 012 0l1 0");
+        assert_eq!(absolute, relative);
+        let read = absolute.unwrap();
+        assert!(!read.closed);
+        assert_eq!(
+            read.segments[3].0[1],
+            p(4.0, -1.0),
+            "the handle is mirrored"
+        );
+        assert_eq!(read.segments[5].0[3], p(9.0, -2.0));
+    }
+
+    #[test]
+    fn arcs_lie_on_their_circle_at_any_size() {
+        for radius in [1e-30, 1.0, 1e30] {
+            let text = format!("M{radius} 0A{radius} {radius} 0 1 0 0 {radius}");
+            let read = outline(&text).unwrap();
+            for cubic in &read.segments {
+                for i in 0..=10 {
+                    let error = cubic.point(f64::from(i) / 10.0).length() / radius - 1.0;
+                    assert!(error.abs() < 2e-9, "{radius}: {error:e}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn arcs_without_a_radius_or_a_chord_are_lines() {
+        for text in [
+            "M0 0A0 1 0 0 0 2 0",
+            "M0 0A1e300 1 0 0 0 2 0",
+            "M0 0A1 1 0 0 0 0 0",
+        ] {
+            assert_eq!(outline(text).unwrap().segments.len(), 1, "{text}");
+        }
+    }
+
+    #[test]
+    fn a_path_that_returns_is_closed() {
+        let read = outline("M0 0C1 0 1 1 0 1S-1 0 1e-12 0").unwrap();
+        assert!(read.closed);
+        assert_eq!(read.segments.len(), 2);
+        assert_eq!(read.segments[1].0[3], p(0.0, 0.0));
+    }
+
+    #[test]
+    fn faults_are_placed() {
+        let fault = |text: &str| outline(text).unwrap_err();
+        assert_eq!(
+            fault("L1 1"),
+            "found `1` at character 2, expected `M` and a point to start from"
+        );
+        assert_eq!(
+            fault("M0 0 L1 x"),
+            "found `x` at character 9, expected a number"
+        );
+        assert_eq!(
+            fault("M0 0 L1"),
+            "found the end at character 8, expected a number"
+        );
+        assert!(fault("M0 0L1 1zM2 2").starts_with("found `M` at character 10, expected the end"));
+        assert!(fault("M0 0L1 1M2 2").starts_with("found `M` at character 9, expected the end"));
+        assert!(fault("M0 0X1 1").starts_with("found `X` at character 5, expected one of"));
+        assert!(fault("M0 0A1 1 0 2 0 1 1").ends_with("expected an arc's flag, 0 or 1"));
+        assert!(fault("").starts_with("found the end at character 1"));
+        assert!(fault("é").starts_with("found `é` at character 1"));
+    }
+
+    proptest! {
+        #[test]
+        fn no_text_makes_it_stumble(text in "[MmLlHhVvCcSsQqTtAaZz0-9eE+., é-]{0,60}") {
+            let _ = outline(&format!("M0 0{text}"));
+            let _ = outline(&text);
+        }
+    }
+}

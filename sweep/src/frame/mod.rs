@@ -1,0 +1,179 @@
+//! Frames: a place on a curve with two directions across it, and how it is carried along.
+//!
+//! ```text
+//!        w2 ^   contour (x, y) lies on (w1, w2);
+//!           |   w1 x w2 = T, which points at the reader
+//!           |
+//!           T-------> w1
+//! ```
+//!
+//! A frame is carried from one place to the next by double reflection (W. Wang, B. Juettler,
+//! D. Zheng, Y. Liu, "Computation of rotation minimizing frames", 2008): a reflection takes the
+//! first point to the second, another takes the reflected tangent to the tangent there. With exact
+//! tangents the error of the whole is of order 4 in the step; with chords for tangents it would be
+//! of order 2, so curves are asked for theirs. [`Frames`] are the frames along a whole curve.
+
+mod along;
+
+pub use along::Frames;
+
+use crate::curve::Local3;
+use glam::DVec3;
+
+/// A place on a curve with two directions across it; all three are unit vectors.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Frame {
+    /// The point on the curve.
+    pub origin: DVec3,
+    /// The direction of the curve, `T`.
+    pub tangent: DVec3,
+    /// The direction of the contour's x, `w1`.
+    pub normal: DVec3,
+    /// The direction of the contour's y, `w2`; `w1 x w2 = T`.
+    pub binormal: DVec3,
+}
+
+impl Frame {
+    /// The frame at a place whose `w1` is nearest to `direction`.
+    ///
+    /// `None` when the direction runs along the curve.
+    pub fn toward(place: &Local3, direction: DVec3) -> Option<Self> {
+        let across = direction - place.tangent * direction.dot(place.tangent);
+        let normal = across.try_normalize()?;
+        // Cancellation leaves nothing to trust in a direction this close to the tangent.
+        (across.length() > 1e-9 * direction.length()).then(|| Self::new(place, normal))
+    }
+
+    /// The frame whose `w1` is nearest to the axis that is least aligned with the tangent.
+    ///
+    /// Of axes that are aligned alike x comes before y before z: a line along z has its contour on
+    /// (x, y), one along y on (x, -z), one along x on (y, z).
+    pub fn seed(place: &Local3) -> Self {
+        let aligned = place.tangent.abs();
+        // Rounding must not choose between axes that are equally good.
+        let least = aligned.min_element() + 1e-6;
+        let axis = if aligned.x <= least {
+            DVec3::X
+        } else if aligned.y <= least {
+            DVec3::Y
+        } else {
+            DVec3::Z
+        };
+        let across = axis - place.tangent * axis.dot(place.tangent);
+        Self::new(place, across.normalize())
+    }
+
+    fn new(place: &Local3, normal: DVec3) -> Self {
+        let binormal = place.tangent.cross(normal);
+        Self {
+            origin: place.position,
+            tangent: place.tangent,
+            normal,
+            binormal,
+        }
+    }
+
+    /// The frame at another place, one double reflection away.
+    fn carried_to(&self, place: &Local3) -> Self {
+        let chord = place.position - self.origin;
+        // A chord that is not along the curve is nothing but rounding, of two points that are one.
+        // Reflected in it, a frame could come out mirrored; the limit of short chords takes its
+        // place.
+        let mean = self.tangent + place.tangent;
+        let along = chord.dot(mean).abs() > 0.5 * chord.length() * mean.length();
+        let chord = if along { chord } else { mean };
+        let reflected = |v: DVec3| v - chord * (2.0 * chord.dot(v) / chord.length_squared());
+        let (normal, tangent) = (reflected(self.normal), reflected(self.tangent));
+        let second = place.tangent - tangent;
+        let length_sq = second.length_squared();
+        let normal = if length_sq > 0.0 {
+            normal - second * (2.0 * second.dot(normal) / length_sq)
+        } else {
+            normal
+        };
+        // Rounding adds up over many steps; it is taken out of every one.
+        let across = normal - place.tangent * normal.dot(place.tangent);
+        Self::new(place, across.try_normalize().unwrap_or(self.normal))
+    }
+
+    /// The frame turned about its tangent, counter-clockwise seen against it.
+    fn turned(&self, angle: f64) -> Self {
+        let (sin, cos) = angle.sin_cos();
+        Self {
+            normal: self.normal * cos + self.binormal * sin,
+            binormal: self.binormal * cos - self.normal * sin,
+            ..*self
+        }
+    }
+
+    /// The angle about the tangent from this frame's `w1` to a direction.
+    fn angle_to(&self, direction: DVec3) -> f64 {
+        direction
+            .dot(self.binormal)
+            .atan2(direction.dot(self.normal))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_seed_is_the_axis_least_aligned() {
+        let seed = |tangent: DVec3| {
+            let place = Local3 {
+                position: DVec3::ZERO,
+                tangent,
+                curvature: DVec3::ZERO,
+            };
+            let frame = Frame::seed(&place);
+            (frame.normal, frame.binormal)
+        };
+        assert_eq!(seed(DVec3::Z), (DVec3::X, DVec3::Y));
+        assert_eq!(seed(DVec3::Y), (DVec3::X, DVec3::NEG_Z));
+        assert_eq!(seed(DVec3::X), (DVec3::Y, DVec3::Z));
+        assert_eq!(seed(DVec3::new(1e-9, 1.0, 0.0).normalize()).1.z, -1.0);
+    }
+
+    #[test]
+    fn a_direction_along_the_curve_gives_no_frame() {
+        let tangent = DVec3::new(0.6, 0.0, 0.8);
+        let place = Local3 {
+            position: DVec3::ONE,
+            tangent,
+            curvature: DVec3::ZERO,
+        };
+        assert!(Frame::toward(&place, place.tangent * 3.0).is_none());
+        assert!(Frame::toward(&place, DVec3::ZERO).is_none());
+    }
+
+    #[test]
+    fn rounding_of_a_point_does_not_mirror_the_frame() {
+        let at = |position| Local3 {
+            position,
+            tangent: DVec3::X,
+            curvature: DVec3::ZERO,
+        };
+        let frame = Frame::toward(&at(DVec3::ONE), DVec3::Y).unwrap();
+        for off in [
+            DVec3::Y,
+            DVec3::new(1e-3, 1.0, 0.0),
+            DVec3::new(1.0, 1.0, 1.0),
+        ] {
+            let moved = frame.carried_to(&at(DVec3::ONE + off * 4.0 * f64::EPSILON));
+            assert!((moved.normal - DVec3::Y).length() < 1e-15, "{off}");
+        }
+    }
+
+    #[test]
+    fn a_point_that_stays_turns_the_frame_with_its_tangent() {
+        let place = |tangent| Local3 {
+            position: DVec3::ONE,
+            tangent,
+            curvature: DVec3::ZERO,
+        };
+        let frame = Frame::toward(&place(DVec3::X), DVec3::Y).unwrap();
+        let turned = frame.carried_to(&place(DVec3::Y));
+        assert!((turned.normal - DVec3::NEG_X).length() < 1e-15);
+    }
+}

@@ -1,0 +1,142 @@
+//! The contour of a spec.
+
+use super::{LARGEST, Reader};
+use crate::contour::Contour;
+use crate::curve::svg;
+use crate::{SweepError, spec};
+use glam::DVec2;
+
+impl Reader<'_> {
+    pub(super) fn contour(&self, contour: &spec::Contour) -> Result<Contour, SweepError> {
+        match contour {
+            spec::Contour::Circle(radius) => {
+                self.positive("contour.circle", *radius)?;
+                Ok(Contour::circle(*radius))
+            }
+            spec::Contour::Bezier(bezier) => {
+                Ok(Contour::path(self.bezier("contour.bezier", bezier)?))
+            }
+            spec::Contour::Svg(text) => self.svg(text),
+            spec::Contour::Free(free) => Ok(Contour::path(self.free("contour.free", free)?)),
+        }
+    }
+
+    fn svg(&self, text: &str) -> Result<Contour, SweepError> {
+        let path = "contour.svg";
+        let outline = svg::outline(text).map_err(|message| self.fault(path, message))?;
+        let reckonable = |point: &DVec2| point.abs().max_element() <= LARGEST;
+        if !outline
+            .segments
+            .iter()
+            .flat_map(|cubic| &cubic.0)
+            .all(reckonable)
+        {
+            let message = format!("found a coordinate beyond {LARGEST:?}, expected smaller ones");
+            return Err(self.fault(path, message));
+        }
+        Ok(Contour::path(self.path(
+            path,
+            &outline.segments,
+            outline.closed,
+        )?))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::read::tests::contour_complaint;
+    use files::Exit;
+
+    #[test]
+    fn each_kind_of_contour_has_its_complaints() {
+        for (contour, message, exit) in [
+            (
+                "{\"circle\": -1}",
+                "2:23: contour.circle: found -1.0, expected a number above 0",
+                3,
+            ),
+            (
+                "{\"circle\": 1e-90}",
+                "2:23: contour.circle: found 1e-90, expected a number from",
+                3,
+            ),
+            (
+                "{\"bezier\": {\"segments\": []}}",
+                "2:36: contour.bezier.segments: found no segments",
+                3,
+            ),
+            (
+                "{\"free\": {\"points\": [[0, 0]]}}",
+                "2:32: contour.free.points: found 1 points, expected at least 2 for an open curve",
+                3,
+            ),
+            (
+                "{\"free\": {\"closed\": true, \"points\": [[0, 0], [1, 0]]}}",
+                "2:48: contour.free.points: found 2 points, expected at least 3 for a closed curve",
+                3,
+            ),
+            (
+                "{\"free\": {\"points\": [[1, 1], [1, 1]]}}",
+                "2:32: contour.free.points: found 1 points that differ",
+                4,
+            ),
+            (
+                "{\"svg\": \"M0 0 L1\"}",
+                "2:20: contour.svg: found the end at character 8, expected a number",
+                3,
+            ),
+            (
+                "{\"svg\": \"M0 0 L1e300 0\"}",
+                "2:20: contour.svg: found a coordinate beyond 1e60",
+                3,
+            ),
+            (
+                "{\"svg\": \"M1 1Z\"}",
+                "2:20: contour.svg: found points that all coincide",
+                4,
+            ),
+            (
+                "{\"bezier\": {\"segments\": [[[1,1],[1,1],[1,1],[1,1]]]}}",
+                "2:23: contour.bezier: found points that all coincide",
+                4,
+            ),
+            (
+                "{\"squircle\": 1}",
+                "contour.squircle: unknown key `squircle`",
+                3,
+            ),
+            (
+                "{\"circle\": 1, \"svg\": \"\"}",
+                "contour: found both `circle` and `svg`",
+                3,
+            ),
+            (
+                "{}",
+                "contour: found no curve, expected one of circle, bezier, svg, free",
+                3,
+            ),
+            (
+                "{\"free\": {\"points\": [[0, 0, 0], [1, 0]]}}",
+                "contour.free.points[0]",
+                3,
+            ),
+            (
+                "{\"free\": {\"closd\": true, \"points\": []}}",
+                "did you mean `closed`?",
+                3,
+            ),
+        ] {
+            let (found, code) = contour_complaint(contour);
+            assert!(
+                found.starts_with("a.json:2:") && found.contains(message),
+                "{contour}: {found}"
+            );
+            let expected = if exit == 3 {
+                Exit::Malformed
+            } else {
+                Exit::Geometry
+            };
+            assert_eq!(code, expected, "{contour}");
+        }
+    }
+}

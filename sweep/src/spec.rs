@@ -1,0 +1,330 @@
+//! The spec: a sweep as JSON, as it is written and not yet checked.
+//!
+//! ```json
+//! {
+//!   "format": "tb-sweep", "version": 1, "name": "ring",
+//!   "contour": { "circle": 0.25 },
+//!   "trajectory": { "circle": { "radius": 1, "center": [0, 0, 0], "axis": [0, 1, 0], "degrees": 360 } },
+//!   "mesh": { "rows": 96, "cols": 32 },
+//!   "uv": { "across": "contour", "repeat": [1, 4] },
+//!   "position": [0, 0.25, 0]
+//! }
+//! ```
+//!
+//! Lengths are in any one unit; angles are in degrees. `uv`, `position` and `frame` may be
+//! left out, and inside the objects `closed` (false), `center` and `origin` (zero), `axis` (y) and
+//! `degrees` (360). Unknown keys are errors. A **contour** is one of
+//!
+//! | contour                                         | what                                         |
+//! |-------------------------------------------------|----------------------------------------------|
+//! | `{"circle": r}`                                 | a circle about the origin                    |
+//! | `{"bezier": {"closed": c, "segments": [S, ...]}}` | cubics; `S` is four points `[x, y]`        |
+//! | `{"svg": "M0 0 C..."}`                          | one subpath, closed by `Z` or by its end; y is negated, as SVG's points down |
+//! | `{"free": {"closed": c, "points": [P, ...]}}`   | a C2 spline through points `[x, y]`          |
+//!
+//! and a **trajectory** is one of
+//!
+//! | trajectory                                      | what                                         |
+//! |-------------------------------------------------|----------------------------------------------|
+//! | `{"line": [A, B]}`                              | a straight line                              |
+//! | `{"circle": {"radius": r, ...}}`                | a circle or, by `degrees`, a part of it      |
+//! | `{"bezier": {"closed": c, "segments": [S, ...]}}` | cubics; `S` is four points `[x, y, z]`     |
+//! | `{"free": {"closed": c, "points": [P, ...]}}`   | a C2 spline through points `[x, y, z]`       |
+//! | `{"rotation": {"degrees": d, ...}}`             | contour x is the distance from an axis, y the height on it |
+//!
+//! `mesh` counts cells, which become quads: rows along the trajectory, cols along the contour. Going
+//! around takes three, a contour at least one for each piece between corners, and all together are
+//! at most 100 million. The vessel of a potter is a rotation:
+//!
+//! ```json
+//! {
+//!   "format": "tb-sweep", "version": 1, "name": "bowl",
+//!   "contour": { "free": { "points": [[0, 0], [0.5, 0.1], [0.8, 0.5], [0.75, 0.5], [0.45, 0.15], [0, 0.06]] } },
+//!   "trajectory": { "rotation": { "origin": [0, 0, 0], "axis": [0, 1, 0], "degrees": 360 } },
+//!   "mesh": { "rows": 90, "cols": 60 },
+//!   "uv": { "across": "trajectory" }
+//! }
+//! ```
+//!
+//! # Which side is outside, and where the contour lies
+//!
+//! Axes are right-handed and y points up. A contour's (x, y) lies on the directions (w1, w2) of a
+//! frame with `w1 x w2 = T`, the direction of the trajectory. Closed contours run counter-clockwise
+//! there (they are turned round if they do not), which puts their outside outside; the outer side
+//! of an open contour is to the right of its direction of travel.
+//!
+//! On a circle and a rotation `w1` points away from the axis and `w2` along it. They start where
+//! `w1` is as near as can be to the coordinate axis least aligned with their axis (x before y
+//! before z): with the axis at y on the side of +x, from where they run toward +z.
+//!
+//! Any other trajectory starts with `w1` as near as can be to the coordinate axis least aligned
+//! with its direction. From there the frame turns about the trajectory as little as it can, and
+//! along a closed one it is turned evenly so that it closes.
+//!
+//! A spec can choose for itself what `w1` starts toward: `"frame": {"start": [x, y, z]}`.
+//!
+//! # Corners
+//!
+//! A contour may have corners; one of more than a degree is a crease, where the surface has two
+//! normals. A trajectory may not: it would need a mitre, and is refused. A rotation wants contour x
+//! of at least 0; where it is 0 the surface has a pole. Points given twice count once.
+
+use crate::grid::UvLayout;
+use serde::{Deserialize, Serialize};
+
+/// The value of `format`.
+pub const FORMAT: &str = "tb-sweep";
+
+/// The value of `version`.
+pub const VERSION: u32 = 1;
+
+/// A spec as it is written.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object, a sweep's spec")]
+pub struct Spec {
+    /// `tb-sweep`.
+    pub format: String,
+    /// 1.
+    pub version: u32,
+    /// The object's name; one word.
+    pub name: String,
+    /// What is swept.
+    pub contour: Contour,
+    /// What it is swept along.
+    pub trajectory: Trajectory,
+    /// How the frame starts, where the trajectory leaves that open.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub frame: Option<FrameStart>,
+    /// How finely.
+    pub mesh: Mesh,
+    /// How a picture lies on the surface.
+    #[serde(default)]
+    pub uv: UvLayout,
+    /// By how much the whole is moved in the end.
+    #[serde(default)]
+    pub position: [f64; 3],
+}
+
+/// A curve in the plane.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", try_from = "ContourKeys")]
+pub enum Contour {
+    /// A circle about the origin, by its radius.
+    Circle(f64),
+    /// Cubic Bezier segments.
+    Bezier(Bezier<[f64; 2]>),
+    /// The `d` attribute of an SVG path.
+    Svg(String),
+    /// Points that a spline goes through.
+    Free(Free<[f64; 2]>),
+}
+
+/// A curve in space, or a rotation.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", try_from = "TrajectoryKeys")]
+pub enum Trajectory {
+    /// A straight line by its ends.
+    Line([[f64; 3]; 2]),
+    /// A circle or an arc of one.
+    Circle(Circle),
+    /// Cubic Bezier segments.
+    Bezier(Bezier<[f64; 3]>),
+    /// Points that a spline goes through.
+    Free(Free<[f64; 3]>),
+    /// A turn of the contour about an axis in its plane.
+    Rotation(Rotation),
+}
+
+/// Cubic Bezier segments, each of which starts where the one before it ends.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(
+    deny_unknown_fields,
+    expecting = "an object with the key segments, and closed if it is"
+)]
+pub struct Bezier<P> {
+    /// Whether the last segment ends at the start of the first, and continues there.
+    #[serde(default)]
+    pub closed: bool,
+    /// Four control points each.
+    pub segments: Vec<[P; 4]>,
+}
+
+/// Points that a C2 spline goes through.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(
+    deny_unknown_fields,
+    expecting = "an object with the key points, and closed if it is"
+)]
+pub struct Free<P> {
+    /// Whether the last point leads on to the first, which is not given again.
+    #[serde(default)]
+    pub closed: bool,
+    /// At least two points, three when closed.
+    pub points: Vec<P>,
+}
+
+/// A circle in space.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(
+    deny_unknown_fields,
+    expecting = "an object with the key radius, and any of center, axis, degrees"
+)]
+pub struct Circle {
+    /// The distance of the contour's origin from the centre; positive.
+    pub radius: f64,
+    /// The centre.
+    #[serde(default)]
+    pub center: [f64; 3],
+    /// The direction of the contour's y, of any length.
+    #[serde(default = "up")]
+    pub axis: [f64; 3],
+    /// Above 0, up to 360, which is closed.
+    #[serde(default = "full_turn")]
+    pub degrees: f64,
+}
+
+/// A turn of the contour about an axis in its plane.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(
+    deny_unknown_fields,
+    expecting = "an object with any of the keys degrees, origin, axis"
+)]
+pub struct Rotation {
+    /// Above 0, up to 360, which is closed.
+    #[serde(default = "full_turn")]
+    pub degrees: f64,
+    /// Where the contour's origin lies.
+    #[serde(default)]
+    pub origin: [f64; 3],
+    /// The direction of the contour's y, of any length.
+    #[serde(default = "up")]
+    pub axis: [f64; 3],
+}
+
+/// How the frame starts.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object with the key start")]
+pub struct FrameStart {
+    /// What the contour's x points at, as near as the trajectory lets it.
+    pub start: [f64; 3],
+}
+
+/// How finely a surface is cut.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(
+    deny_unknown_fields,
+    expecting = "an object with the keys rows and cols"
+)]
+pub struct Mesh {
+    /// Cells along the trajectory.
+    pub rows: usize,
+    /// Cells along the contour; the cells without width at creases come on top.
+    pub cols: usize,
+}
+
+/// The keys of a contour as they are read, so that none and two of them get a sentence.
+#[derive(Deserialize)]
+#[serde(
+    deny_unknown_fields,
+    expecting = "an object with one of the keys circle, bezier, svg, free"
+)]
+struct ContourKeys {
+    circle: Option<f64>,
+    bezier: Option<Bezier<[f64; 2]>>,
+    svg: Option<String>,
+    free: Option<Free<[f64; 2]>>,
+}
+
+impl TryFrom<ContourKeys> for Contour {
+    type Error = String;
+
+    fn try_from(keys: ContourKeys) -> Result<Self, String> {
+        only([
+            ("circle", keys.circle.map(Self::Circle)),
+            ("bezier", keys.bezier.map(Self::Bezier)),
+            ("svg", keys.svg.map(Self::Svg)),
+            ("free", keys.free.map(Self::Free)),
+        ])
+    }
+}
+
+/// The keys of a trajectory as they are read.
+#[derive(Deserialize)]
+#[serde(
+    deny_unknown_fields,
+    expecting = "an object with one of the keys line, circle, bezier, free, rotation"
+)]
+struct TrajectoryKeys {
+    line: Option<[[f64; 3]; 2]>,
+    circle: Option<Circle>,
+    bezier: Option<Bezier<[f64; 3]>>,
+    free: Option<Free<[f64; 3]>>,
+    rotation: Option<Rotation>,
+}
+
+impl TryFrom<TrajectoryKeys> for Trajectory {
+    type Error = String;
+
+    fn try_from(keys: TrajectoryKeys) -> Result<Self, String> {
+        only([
+            ("line", keys.line.map(Self::Line)),
+            ("circle", keys.circle.map(Self::Circle)),
+            ("bezier", keys.bezier.map(Self::Bezier)),
+            ("free", keys.free.map(Self::Free)),
+            ("rotation", keys.rotation.map(Self::Rotation)),
+        ])
+    }
+}
+
+/// The one value that is there.
+fn only<T, const N: usize>(keys: [(&str, Option<T>); N]) -> Result<T, String> {
+    let names = keys.each_ref().map(|key| key.0).join(", ");
+    let mut given = keys
+        .into_iter()
+        .filter_map(|(name, value)| value.map(|value| (name, value)));
+    match (given.next(), given.next()) {
+        (Some((_, value)), None) => Ok(value),
+        (Some((first, _)), Some((second, _))) => Err(format!(
+            "found both `{first}` and `{second}`, expected one of {names}"
+        )),
+        (None, _) => Err(format!("found no curve, expected one of {names}")),
+    }
+}
+
+fn up() -> [f64; 3] {
+    [0.0, 1.0, 0.0]
+}
+
+fn full_turn() -> f64 {
+    360.0
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::Sweep;
+    use files::json::Document;
+
+    #[test]
+    fn the_snippets_above_are_specs() {
+        let page = include_str!("spec.rs");
+        let page: String = page
+            .lines()
+            .map_while(|line| line.strip_prefix("//!"))
+            .map(|line| format!("{line}\n"))
+            .collect();
+        let snippets: Vec<&str> = page
+            .split("```json")
+            .skip(1)
+            .filter_map(|rest| rest.split("```").next())
+            .collect();
+        assert_eq!(snippets.len(), 2);
+        for snippet in snippets {
+            let document = Document::new("snippet", snippet.as_bytes()).unwrap();
+            let sweep = Sweep::read(&document).unwrap_or_else(|error| panic!("{error}"));
+            assert_eq!(
+                sweep.grid().positions.len(),
+                sweep.grid().rows() * sweep.grid().cols()
+            );
+        }
+    }
+}

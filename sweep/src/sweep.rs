@@ -1,0 +1,196 @@
+//! A sweep that has been checked, and the grid it gives.
+
+use crate::contour::{Column, Contour};
+use crate::grid::{GridMesh, Seam, UvLayout};
+use crate::trajectory::Trajectory;
+use crate::{SweepError, read};
+use files::json::Document;
+use glam::{DVec3, Vec3};
+use rayon::prelude::*;
+
+/// Cells of one grid at most: 3.6 GB of points and normals.
+pub const MOST_CELLS: usize = 100_000_000;
+
+/// Distances from the axis of a rotation below this fraction of the largest are on it.
+pub(crate) const ON_AXIS: f64 = 1e-9;
+
+/// A contour, a trajectory and a resolution that fit each other.
+#[derive(Debug, Clone)]
+pub struct Sweep {
+    pub(crate) name: String,
+    pub(crate) contour: Contour,
+    pub(crate) trajectory: Trajectory,
+    pub(crate) rows: usize,
+    pub(crate) cols: usize,
+    pub(crate) uv: UvLayout,
+    pub(crate) position: DVec3,
+}
+
+impl Sweep {
+    /// Reads and checks a [`Spec`](crate::spec::Spec).
+    ///
+    /// # Errors
+    /// When the text is not a spec, or its surface does not exist; the message has the place.
+    pub fn read(document: &Document) -> Result<Self, SweepError> {
+        read::read(document)
+    }
+
+    /// The object's name.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The contour.
+    #[must_use]
+    pub fn contour(&self) -> &Contour {
+        &self.contour
+    }
+
+    /// The trajectory.
+    #[must_use]
+    pub fn trajectory(&self) -> &Trajectory {
+        &self.trajectory
+    }
+
+    /// Cells along the trajectory.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// Cells along the contour, those of no width at creases not counted.
+    #[must_use]
+    pub fn cols(&self) -> usize {
+        self.cols
+    }
+
+    /// The same sweep with other numbers of cells; `None` keeps a number.
+    ///
+    /// # Errors
+    /// When there are too few for the contour or the trajectory, or more than [`MOST_CELLS`].
+    pub fn with_resolution(
+        self,
+        rows: Option<usize>,
+        cols: Option<usize>,
+    ) -> Result<Self, SweepError> {
+        let sweep = Self {
+            rows: rows.unwrap_or(self.rows),
+            cols: cols.unwrap_or(self.cols),
+            ..self
+        };
+        match sweep.resolution_fault() {
+            Some((key, message)) => Err(SweepError::Resolution(format!("{key}: {message}"))),
+            None => Ok(sweep),
+        }
+    }
+
+    /// What is wrong with the numbers of cells: the key and a sentence.
+    pub(crate) fn resolution_fault(&self) -> Option<(&'static str, String)> {
+        let around = "to go around";
+        let fewest = self.trajectory.fewest_cells();
+        if self.rows < fewest {
+            let why = if fewest > 1 {
+                around
+            } else {
+                "along the trajectory"
+            };
+            return Some((
+                "rows",
+                format!("found {}, expected at least {fewest} {why}", self.rows),
+            ));
+        }
+        let fewest = self.contour.fewest_cells();
+        if self.cols < fewest {
+            let why = match self.contour.creases() {
+                0 if self.contour.closed() => around.to_owned(),
+                0 => "along the contour".to_owned(),
+                creases => format!("for the pieces of a contour with {creases} corners"),
+            };
+            return Some((
+                "cols",
+                format!("found {}, expected at least {fewest} {why}", self.cols),
+            ));
+        }
+        let cells = self
+            .rows
+            .checked_mul(self.cols)
+            .filter(|&cells| cells <= MOST_CELLS);
+        cells.is_none().then(|| {
+            let (rows, cols) = (self.rows, self.cols);
+            (
+                "rows",
+                format!("found {rows} x {cols} cells, expected at most {MOST_CELLS}"),
+            )
+        })
+    }
+
+    /// The surface's points and normals.
+    ///
+    /// Rows and columns lie at equal lengths of the trajectory and of each smooth piece of the
+    /// contour. The grid is the same for any number of threads.
+    #[must_use]
+    pub fn grid(&self) -> GridMesh {
+        let columns = self.columns();
+        let v = self.row_places();
+        let count = v.len() * columns.len();
+        let (mut positions, mut normals) = (vec![DVec3::ZERO; count], vec![Vec3::ZERO; count]);
+        let rows = positions
+            .par_chunks_mut(columns.len())
+            .zip(normals.par_chunks_mut(columns.len()))
+            .zip(&v);
+        rows.for_each(|((points, normals), &v)| {
+            let station = self.trajectory.station(v);
+            for ((column, point), normal) in columns.iter().zip(points).zip(normals) {
+                *point = station.point(column.point) + self.position;
+                *normal = station.normal(column.point, column.tangent).as_vec3();
+            }
+        });
+        let seam = |closed| if closed { Seam::Closed } else { Seam::Open };
+        GridMesh {
+            name: self.name.clone(),
+            seam_u: seam(self.contour.closed()),
+            seam_v: seam(self.trajectory.closed()),
+            uv: self.uv,
+            u: columns.iter().map(|column| column.u).collect(),
+            v,
+            positions,
+            normals,
+        }
+    }
+
+    /// The number of rows in which some of the surface folds back on itself, since the trajectory
+    /// bends more sharply than the contour is wide. Normals are turned over there.
+    #[must_use]
+    pub fn folded_rows(&self) -> usize {
+        let columns = self.columns();
+        self.row_places()
+            .par_iter()
+            .filter(|&&v| {
+                let station = self.trajectory.station(v);
+                columns
+                    .iter()
+                    .any(|column| station.stretch(column.point) < 0.0)
+            })
+            .count()
+    }
+
+    /// `v` of each row.
+    fn row_places(&self) -> Vec<f64> {
+        let rows = self.rows + usize::from(!self.trajectory.closed());
+        (0..rows).map(|row| row as f64 / self.rows as f64).collect()
+    }
+
+    fn columns(&self) -> Vec<Column> {
+        let mut columns = self.contour.columns(self.cols);
+        if self.trajectory.is_rotation() {
+            let on_axis = ON_AXIS * self.contour.x_range().1;
+            for column in &mut columns {
+                if column.point.x <= on_axis {
+                    column.point.x = 0.0;
+                }
+            }
+        }
+        columns
+    }
+}
