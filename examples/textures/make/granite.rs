@@ -1,0 +1,109 @@
+//! `granite.png`: pink granite, tileable both ways, for the floor of thesis figure A.1.
+//!
+//! Grains of four sizes, each from its own cells: the ground of feldspar and quartz, the crystals
+//! within it, flakes of black mica among it, and pepper. The cells are cut from a warped plane, so
+//! that no boundary is straight.
+
+use super::canvas;
+use super::color::{Color, srgb};
+use super::noise::{Grain, cloud, grain, unit};
+use glam::{DVec2, IVec2};
+use image::RgbImage;
+
+/// Texels along a side of the picture.
+const SIZE: u32 = 256;
+/// Cells along a side: the ground's, those of the crystals within its grains, the mica's and the
+/// pepper's.
+const GROUND: i32 = 32;
+const CRYSTAL: i32 = 110;
+const MICA: i32 = 46;
+const PEPPER: i32 = 96;
+
+/// The minerals.
+#[derive(Debug)]
+struct Minerals {
+    pink_feldspar: Color,
+    cream_feldspar: Color,
+    quartz: Color,
+    mica: Color,
+}
+
+impl Minerals {
+    fn new() -> Self {
+        Self {
+            pink_feldspar: srgb(0xc2_a1_94),
+            cream_feldspar: srgb(0xd6_ca_be),
+            quartz: srgb(0xaa_a4_9f),
+            mica: srgb(0x3a_37_38),
+        }
+    }
+}
+
+/// Draws the granite.
+pub fn draw() -> RgbImage {
+    let minerals = Minerals::new();
+    canvas::draw(SIZE, SIZE, |texel| {
+        color_at(texel / f64::from(SIZE), &minerals)
+    })
+}
+
+/// The colour at `p`, where the picture is the unit square.
+fn color_at(p: DVec2, minerals: &Minerals) -> Color {
+    let ragged = warped(p);
+    let cells = |count: i32, seed| grain(ragged * f64::from(count), IVec2::splat(count), seed);
+
+    let pepper = cells(PEPPER, 31);
+    if is_flake(pepper, 0.13, 0.50) {
+        return minerals.mica * 1.5;
+    }
+    let mica = cells(MICA, 21);
+    if is_flake(mica, 0.24, 0.66) {
+        // Flakes glint: each has its own share of grey.
+        return minerals.mica * (0.7 + 1.2 * share(mica, 4));
+    }
+    // A grain of feldspar is no single crystal: finer cells break up its tone.
+    let crystal = 0.84 + 0.30 * share(cells(CRYSTAL, 41), 1);
+    ground(cells(GROUND, 11), minerals) * crystal
+}
+
+/// Moves a point by a few thousandths of the picture, smoothly and periodically.
+fn warped(p: DVec2) -> DVec2 {
+    let wobble = |seed| cloud(p * 34.0, IVec2::splat(34), seed) - 0.5;
+    p + DVec2::new(wobble(1), wobble(5)) * 0.034
+}
+
+/// Whether a cell is one of the `portion` that hold a flake, and the flake, at most `reach` cells
+/// in radius, covers the point.
+fn is_flake(cell: Grain, portion: f64, reach: f64) -> bool {
+    share(cell, 0) < portion && cell.distance < reach * (0.5 + 0.5 * share(cell, 2))
+}
+
+/// One of feldspar and quartz, each grain with its own tone, darker along the boundaries.
+fn ground(cell: Grain, minerals: &Minerals) -> Color {
+    let mineral = match share(cell, 0) {
+        s if s < 0.42 => minerals.pink_feldspar,
+        s if s < 0.72 => minerals.cream_feldspar,
+        _ => minerals.quartz,
+    };
+    let boundary = 1.0 - 0.22 * (1.0 - cell.margin / 0.16).max(0.0);
+    mineral * (0.86 + 0.24 * share(cell, 3)) * boundary
+}
+
+/// A number in `[0, 1)` that belongs to a grain; `which` tells its uses apart.
+fn share(cell: Grain, which: u32) -> f64 {
+    unit(cell.hash.rotate_left(7 * which).wrapping_mul(0x85eb_ca6b))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn granite_repeats_both_ways() {
+        let minerals = Minerals::new();
+        let side = f64::from(SIZE);
+        let at = |texel| color_at(texel / side, &minerals);
+        canvas::assert_repeats(SIZE, DVec2::new(side, 0.0), at);
+        canvas::assert_repeats(SIZE, DVec2::new(0.0, side), at);
+    }
+}

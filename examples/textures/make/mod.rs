@@ -1,0 +1,55 @@
+//! The textures of the example scenes, drawn by program.
+//!
+//! | file               | drawn by         | what it shows                                     |
+//! |--------------------|------------------|---------------------------------------------------|
+//! | `checkerboard.png` | [`checkerboard`] | eight by eight checks, ivory and oxblood          |
+//! | `vase-band.png`    | [`vase_band`]    | the painted bands of a blue and white vase        |
+//! | `floor-tiles.png`  | [`floor_tiles`]  | octagons of stone with small squares between them |
+//! | `granite.png`      | [`granite`]      | pink granite                                      |
+//!
+//! [`canvas`] samples a colour per point into a picture; [`shape`] has the outlines, [`noise`] the
+//! irregularities and [`color`] the way between linear light and bytes. A picture depends on
+//! nothing but this code: there is no clock, no entropy, and no arithmetic beyond `+ − × ÷ √` and
+//! rounding, which every machine does alike.
+//!
+//! Both the example `make-textures` and the test `textures` include this folder by path.
+
+mod canvas;
+mod checkerboard;
+mod color;
+mod floor_tiles;
+mod granite;
+mod noise;
+mod shape;
+mod vase_band;
+
+use image::RgbImage;
+
+/// A texture of the example scenes.
+#[derive(Debug, Clone, Copy)]
+pub struct Texture {
+    /// The name of its file in `examples/textures/`.
+    pub file: &'static str,
+    /// Draws it.
+    pub draw: fn() -> RgbImage,
+}
+
+/// All textures that this folder draws.
+pub const TEXTURES: [Texture; 4] = [
+    Texture {
+        file: "checkerboard.png",
+        draw: checkerboard::draw,
+    },
+    Texture {
+        file: "vase-band.png",
+        draw: vase_band::draw,
+    },
+    Texture {
+        file: "floor-tiles.png",
+        draw: floor_tiles::draw,
+    },
+    Texture {
+        file: "granite.png",
+        draw: granite::draw,
+    },
+];
