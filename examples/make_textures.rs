@@ -37,24 +37,13 @@ fn smallest_png(picture: &RgbImage) -> Vec<u8> {
     let encode = |filter| {
         let mut bytes = Vec::new();
         PngEncoder::new_with_quality(&mut bytes, CompressionType::Best, filter)
-            .write_image(
-                picture,
-                picture.width(),
-                picture.height(),
-                ExtendedColorType::Rgb8,
-            )
+            .write_image(picture, picture.width(), picture.height(), ExtendedColorType::Rgb8)
             .expect("a vector takes every byte, and the picture has its own size");
         bytes
     };
-    [
-        FilterType::NoFilter,
-        FilterType::Sub,
-        FilterType::Up,
-        FilterType::Paeth,
-        FilterType::Adaptive,
-    ]
-    .map(encode)
-    .into_iter()
-    .min_by_key(Vec::len)
-    .expect("there are five of them")
+    [FilterType::NoFilter, FilterType::Sub, FilterType::Up, FilterType::Paeth, FilterType::Adaptive]
+        .map(encode)
+        .into_iter()
+        .min_by_key(Vec::len)
+        .expect("there are five of them")
 }

@@ -14,15 +14,11 @@ const LARGEST: u64 = 150_000;
 const TOGETHER: u64 = 500_000;
 
 fn path_of(file: &str) -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-        .join("../examples/textures")
-        .join(file)
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../examples/textures").join(file)
 }
 
 fn committed(file: &str) -> RgbImage {
-    image::open(path_of(file))
-        .expect("the texture is committed")
-        .into_rgb8()
+    image::open(path_of(file)).expect("the texture is committed").into_rgb8()
 }
 
 #[test]
@@ -31,17 +27,9 @@ fn every_texture_is_what_the_program_draws() {
         let drawn = (texture.draw)();
         let kept = committed(texture.file);
         assert_eq!(drawn.dimensions(), kept.dimensions(), "{}", texture.file);
-        let differing = drawn
-            .pixels()
-            .zip(kept.pixels())
-            .filter(|(d, k)| d != k)
-            .count();
+        let differing = drawn.pixels().zip(kept.pixels()).filter(|(d, k)| d != k).count();
         let remedy = "cargo run --release --example make-textures -- examples/textures";
-        assert_eq!(
-            differing, 0,
-            "texels of {} differ; to make it anew: {remedy}",
-            texture.file
-        );
+        assert_eq!(differing, 0, "texels of {} differ; to make it anew: {remedy}", texture.file);
     }
 }
 
@@ -70,10 +58,7 @@ fn every_picture_has_its_line_in_the_readme_and_the_other_way_round() {
 
 #[test]
 fn both_checkerboards_have_eight_by_eight_sharp_checks_the_bottom_left_one_light() {
-    let boards = [
-        ("checkerboard.png", None),
-        ("peer-checker.png", Some([[230; 3], [26; 3]])),
-    ];
+    let boards = [("checkerboard.png", None), ("peer-checker.png", Some([[230; 3], [26; 3]]))];
     for (file, expected) in boards {
         let board = committed(file);
         let (width, height) = board.dimensions();
@@ -82,17 +67,10 @@ fn both_checkerboards_have_eight_by_eight_sharp_checks_the_bottom_left_one_light
         if let Some(expected) = expected {
             assert_eq!([light, dark], expected.map(Rgb), "{file}");
         }
-        assert!(
-            (0..3).all(|channel| light[channel] > dark[channel]),
-            "{file}"
-        );
+        assert!((0..3).all(|channel| light[channel] > dark[channel]), "{file}");
         for (x, y, texel) in board.enumerate_pixels() {
             let is_dark = (x * 8 / width + y * 8 / height).is_multiple_of(2);
-            assert_eq!(
-                *texel,
-                if is_dark { dark } else { light },
-                "{file} at {x}, {y}"
-            );
+            assert_eq!(*texel, if is_dark { dark } else { light }, "{file} at {x}, {y}");
         }
     }
 }

@@ -102,16 +102,25 @@ impl<'a> Document<'a> {
     fn serde_error(&self, path: String, error: &serde_json::Error) -> JsonError {
         let message = error.to_string();
         let message = message.rsplit_once(" at line ").map_or(message.as_str(), |(text, _)| text);
-        // serde's column is where reading stopped; the value itself is a better place.
-        if error.is_data() && !path.is_empty() {
-            return self.fault(&path, in_plain_words(message));
+        let message = match message {
+            // What serde says of a fourth number in a point of three.
+            "trailing characters" if !path.is_empty() => "found more values than expected".into(),
+            _ => in_plain_words(message),
+        };
+        // serde's column is where reading stopped; the value itself is a better place, if the
+        // text is whole enough to find it.
+        if !path.is_empty() && (error.is_data() || message.starts_with("found more")) {
+            let fault = self.fault(&path, message.as_str());
+            if (fault.line, fault.column) != (1, 1) {
+                return fault;
+            }
         }
         JsonError {
             file: self.file.into(),
             line: error.line().max(1),
             column: error.column().max(1),
             path,
-            message: in_plain_words(message),
+            message,
         }
     }
 }
@@ -240,6 +249,18 @@ mod tests {
         assert!(text.starts_with("a.json:1:13: contuor: unknown key"), "{text}");
         let text = complaint("{\"contour\": {\"cirlce\": 1}}");
         assert!(text.contains("did you mean `circle`?"), "{text}");
+    }
+
+    #[test]
+    fn a_key_in_broken_text_is_placed_where_reading_stopped() {
+        let text = complaint("{\n \"contuor\": 1, }}");
+        assert!(text.starts_with("a.json:2:10: contuor: unknown key"), "{text}");
+    }
+
+    #[test]
+    fn one_number_too_many_is_said_in_words() {
+        let text = complaint("{\"contour\": {\"free\": [[0, 0, 0]]}}");
+        assert_eq!(text, "a.json:1:23: contour.free[0]: found more values than expected");
     }
 
     #[test]

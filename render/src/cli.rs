@@ -153,9 +153,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
         .num_threads(threads)
         .build()
         .map_err(|error| UseError::Threads(threads, error))?;
-    let (picture, mut stats) = pool.install(|| {
-        render::render(&scene, &settings, &|done, total| progress.tell(done, total))
-    });
+    let (picture, mut stats) = pool
+        .install(|| render::render(&scene, &settings, &|done, total| progress.tell(done, total)));
     drop(progress);
 
     let started = Instant::now();
@@ -253,4 +252,3 @@ fn gamma_argument(text: &str) -> Result<Encoding, String> {
         _ => Err("expected srgb, or a number from 0.1 to 10".into()),
     }
 }
-

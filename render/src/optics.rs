@@ -94,6 +94,9 @@ mod tests {
         assert!(fresnel(0.3, 1.0) < 1e-30);
         let incident = down_at(0.7);
         assert!(refract(incident, DVec3::Z, 1.0).unwrap().abs_diff_eq(incident, 1e-15));
-        assert!(reflect(incident, DVec3::Z).abs_diff_eq(DVec3::new(0.7f64.sin(), 0.0, 0.7f64.cos()), 1e-15));
+        assert!(
+            reflect(incident, DVec3::Z)
+                .abs_diff_eq(DVec3::new(0.7f64.sin(), 0.0, 0.7f64.cos()), 1e-15)
+        );
     }
 }

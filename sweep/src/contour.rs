@@ -32,13 +32,8 @@ pub struct Contour(Form);
 
 #[derive(Debug, Clone)]
 enum Form {
-    Circle {
-        radius: f64,
-    },
-    Path {
-        path: Path<DVec2>,
-        creases: Vec<Joint>,
-    },
+    Circle { radius: f64 },
+    Path { path: Path<DVec2>, creases: Vec<Joint> },
 }
 
 impl Contour {
@@ -51,15 +46,8 @@ impl Contour {
     ///
     /// A closed path that encloses as much to its left as to its right keeps its direction.
     pub(crate) fn path(path: Path<DVec2>) -> Self {
-        let path = if path.closed() {
-            counter_clockwise(path)
-        } else {
-            path
-        };
-        let creases = path
-            .joints()
-            .filter(|joint| joint.angle.to_degrees() > CREASE_DEG)
-            .collect();
+        let path = if path.closed() { counter_clockwise(path) } else { path };
+        let creases = path.joints().filter(|joint| joint.angle.to_degrees() > CREASE_DEG).collect();
         Self(Form::Path { path, creases })
     }
 
@@ -122,11 +110,7 @@ impl Contour {
                 .map(|i| {
                     let u = i as f64 / cells as f64;
                     let point = turn(u);
-                    Column {
-                        u,
-                        point: point * *radius,
-                        tangent: point.perp(),
-                    }
+                    Column { u, point: point * *radius, tangent: point.perp() }
                 })
                 .collect(),
             Form::Path { path, creases } => columns_of(path, creases, cells),
@@ -199,10 +183,8 @@ fn shares(breaks: &[f64], cells: usize) -> Vec<usize> {
 fn counter_clockwise(path: Path<DVec2>) -> Path<DVec2> {
     let origin = path.point(path.start());
     // About a point of the path, so that nothing is lost far from the origin.
-    let area: f64 = path
-        .cubics()
-        .map(|cubic| kurbo_cubic(cubic.0.map(|p| p - origin)).signed_area())
-        .sum();
+    let area: f64 =
+        path.cubics().map(|cubic| kurbo_cubic(cubic.0.map(|p| p - origin)).signed_area()).sum();
     if area < -NO_AREA * path.length().powi(2) {
         let mut reversed: Vec<_> = path.cubics().map(Cubic::reversed).collect();
         reversed.reverse();
@@ -228,10 +210,7 @@ mod tests {
     }
 
     fn us(columns: &[Column]) -> Vec<f64> {
-        columns
-            .iter()
-            .map(|column| (column.u * 1e6).round() / 1e6)
-            .collect()
+        columns.iter().map(|column| (column.u * 1e6).round() / 1e6).collect()
     }
 
     #[test]
@@ -239,14 +218,7 @@ mod tests {
         let circle = Contour::circle(2.0);
         assert_eq!(circle.length(), 4.0 * PI);
         let columns = circle.columns(4);
-        assert_eq!(
-            columns[1],
-            Column {
-                u: 0.25,
-                point: DVec2::Y * 2.0,
-                tangent: DVec2::NEG_X
-            }
-        );
+        assert_eq!(columns[1], Column { u: 0.25, point: DVec2::Y * 2.0, tangent: DVec2::NEG_X });
         assert_eq!(us(&columns), [0.0, 0.25, 0.5, 0.75]);
     }
 
@@ -259,9 +231,7 @@ mod tests {
         assert_eq!(columns.len(), 12);
         assert_eq!(
             us(&columns),
-            [
-                0.0, 0.0, 0.125, 0.25, 0.375, 0.375, 0.5, 0.5, 0.625, 0.75, 0.875, 0.875
-            ]
+            [0.0, 0.0, 0.125, 0.25, 0.375, 0.375, 0.5, 0.5, 0.625, 0.75, 0.875, 0.875]
         );
         assert_eq!(columns[0].tangent, DVec2::NEG_Y, "the side that comes in");
         assert_eq!(columns[1].tangent, DVec2::X, "the side that goes out");

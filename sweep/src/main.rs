@@ -75,10 +75,7 @@ enum UseError {
     #[error("the binary grid is not for a terminal: name a file with -o, or use --format json")]
     Terminal,
     #[error("cannot start {threads} threads: {source}")]
-    Threads {
-        threads: u16,
-        source: rayon::ThreadPoolBuildError,
-    },
+    Threads { threads: u16, source: rayon::ThreadPoolBuildError },
 }
 
 impl Failure for UseError {
@@ -127,11 +124,8 @@ fn work(arguments: &Arguments) -> Result<(), Report> {
     if !arguments.quiet {
         note(&sweep);
         if arguments.stats {
-            let stages = [
-                ("read", read - start),
-                ("sweep", swept - read),
-                ("write", written - swept),
-            ];
+            let stages =
+                [("read", read - start), ("sweep", swept - read), ("write", written - swept)];
             stats(&sweep, &grid, &stages);
         }
     }
@@ -153,17 +147,8 @@ fn note(sweep: &Sweep) {
 #[expect(clippy::print_stderr, reason = "what --stats asks for")]
 fn stats(sweep: &Sweep, grid: &GridMesh, stages: &[(&str, std::time::Duration)]) {
     eprintln!("object      {}", sweep.name());
-    eprintln!(
-        "cells       {} x {} (rows x cols)",
-        sweep.rows(),
-        sweep.cols()
-    );
-    eprintln!(
-        "points      {} x {}, {}",
-        grid.rows(),
-        grid.cols(),
-        grid.positions.len()
-    );
+    eprintln!("cells       {} x {} (rows x cols)", sweep.rows(), sweep.cols());
+    eprintln!("points      {} x {}, {}", grid.rows(), grid.cols(), grid.positions.len());
     eprintln!("creases     {}", sweep.contour().creases());
     eprintln!("contour     {} long", sweep.contour().length());
     if sweep.trajectory().is_rotation() {

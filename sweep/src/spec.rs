@@ -137,10 +137,7 @@ pub enum Trajectory {
 
 /// Cubic Bezier segments, each of which starts where the one before it ends.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(
-    deny_unknown_fields,
-    expecting = "an object with the key segments, and closed if it is"
-)]
+#[serde(deny_unknown_fields, expecting = "an object with the key segments, and closed if it is")]
 pub struct Bezier<P> {
     /// Whether the last segment ends at the start of the first, and continues there.
     #[serde(default)]
@@ -151,10 +148,7 @@ pub struct Bezier<P> {
 
 /// Points that a C2 spline goes through.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(
-    deny_unknown_fields,
-    expecting = "an object with the key points, and closed if it is"
-)]
+#[serde(deny_unknown_fields, expecting = "an object with the key points, and closed if it is")]
 pub struct Free<P> {
     /// Whether the last point leads on to the first, which is not given again.
     #[serde(default)]
@@ -185,10 +179,7 @@ pub struct Circle {
 
 /// A turn of the contour about an axis in its plane.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(
-    deny_unknown_fields,
-    expecting = "an object with any of the keys degrees, origin, axis"
-)]
+#[serde(deny_unknown_fields, expecting = "an object with any of the keys degrees, origin, axis")]
 pub struct Rotation {
     /// Above 0, up to 360, which is closed.
     #[serde(default = "full_turn")]
@@ -211,10 +202,7 @@ pub struct FrameStart {
 
 /// How finely a surface is cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(
-    deny_unknown_fields,
-    expecting = "an object with the keys rows and cols"
-)]
+#[serde(deny_unknown_fields, expecting = "an object with the keys rows and cols")]
 pub struct Mesh {
     /// Cells along the trajectory.
     pub rows: usize,
@@ -279,14 +267,12 @@ impl TryFrom<TrajectoryKeys> for Trajectory {
 /// The one value that is there.
 fn only<T, const N: usize>(keys: [(&str, Option<T>); N]) -> Result<T, String> {
     let names = keys.each_ref().map(|key| key.0).join(", ");
-    let mut given = keys
-        .into_iter()
-        .filter_map(|(name, value)| value.map(|value| (name, value)));
+    let mut given = keys.into_iter().filter_map(|(name, value)| value.map(|value| (name, value)));
     match (given.next(), given.next()) {
         (Some((_, value)), None) => Ok(value),
-        (Some((first, _)), Some((second, _))) => Err(format!(
-            "found both `{first}` and `{second}`, expected one of {names}"
-        )),
+        (Some((first, _)), Some((second, _))) => {
+            Err(format!("found both `{first}` and `{second}`, expected one of {names}"))
+        }
         (None, _) => Err(format!("found no curve, expected one of {names}")),
     }
 }
@@ -312,19 +298,13 @@ mod tests {
             .map_while(|line| line.strip_prefix("//!"))
             .map(|line| format!("{line}\n"))
             .collect();
-        let snippets: Vec<&str> = page
-            .split("```json")
-            .skip(1)
-            .filter_map(|rest| rest.split("```").next())
-            .collect();
+        let snippets: Vec<&str> =
+            page.split("```json").skip(1).filter_map(|rest| rest.split("```").next()).collect();
         assert_eq!(snippets.len(), 2);
         for snippet in snippets {
             let document = Document::new("snippet", snippet.as_bytes()).unwrap();
             let sweep = Sweep::read(&document).unwrap_or_else(|error| panic!("{error}"));
-            assert_eq!(
-                sweep.grid().positions.len(),
-                sweep.grid().rows() * sweep.grid().cols()
-            );
+            assert_eq!(sweep.grid().positions.len(), sweep.grid().rows() * sweep.grid().cols());
         }
     }
 }

@@ -74,11 +74,8 @@ impl Sweep {
         rows: Option<usize>,
         cols: Option<usize>,
     ) -> Result<Self, SweepError> {
-        let sweep = Self {
-            rows: rows.unwrap_or(self.rows),
-            cols: cols.unwrap_or(self.cols),
-            ..self
-        };
+        let sweep =
+            Self { rows: rows.unwrap_or(self.rows), cols: cols.unwrap_or(self.cols), ..self };
         match sweep.resolution_fault() {
             Some((key, message)) => Err(SweepError::Resolution(format!("{key}: {message}"))),
             None => Ok(sweep),
@@ -90,11 +87,7 @@ impl Sweep {
         let around = "to go around";
         let fewest = self.trajectory.fewest_cells();
         if self.rows < fewest {
-            let why = if fewest > 1 {
-                around
-            } else {
-                "along the trajectory"
-            };
+            let why = if fewest > 1 { around } else { "along the trajectory" };
             return Some((
                 "rows",
                 format!("found {}, expected at least {fewest} {why}", self.rows),
@@ -112,16 +105,10 @@ impl Sweep {
                 format!("found {}, expected at least {fewest} {why}", self.cols),
             ));
         }
-        let cells = self
-            .rows
-            .checked_mul(self.cols)
-            .filter(|&cells| cells <= MOST_CELLS);
+        let cells = self.rows.checked_mul(self.cols).filter(|&cells| cells <= MOST_CELLS);
         cells.is_none().then(|| {
             let (rows, cols) = (self.rows, self.cols);
-            (
-                "rows",
-                format!("found {rows} x {cols} cells, expected at most {MOST_CELLS}"),
-            )
+            ("rows", format!("found {rows} x {cols} cells, expected at most {MOST_CELLS}"))
         })
     }
 
@@ -168,9 +155,7 @@ impl Sweep {
             .par_iter()
             .filter(|&&v| {
                 let station = self.trajectory.station(v);
-                columns
-                    .iter()
-                    .any(|column| station.stretch(column.point) < 0.0)
+                columns.iter().any(|column| station.stretch(column.point) < 0.0)
             })
             .count()
     }

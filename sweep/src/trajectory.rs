@@ -11,15 +11,8 @@ pub struct Trajectory(Form);
 
 #[derive(Debug, Clone)]
 enum Form {
-    Line {
-        start: Frame,
-        end: DVec3,
-    },
-    Turn {
-        start: Frame,
-        radius: f64,
-        fraction: f64,
-    },
+    Line { start: Frame, end: DVec3 },
+    Turn { start: Frame, radius: f64, fraction: f64 },
     Path(Frames<Path<DVec3>>),
 }
 
@@ -49,11 +42,7 @@ impl Trajectory {
     /// The contour's x is measured from the circle of that radius; a radius of 0 is a rotational
     /// sweep. `fraction` of 1 is a full turn, which is closed.
     pub(crate) fn turn(start: Frame, radius: f64, fraction: f64) -> Self {
-        Self(Form::Turn {
-            start,
-            radius,
-            fraction,
-        })
+        Self(Form::Turn { start, radius, fraction })
     }
 
     /// A path, with the frames along it.
@@ -82,9 +71,7 @@ impl Trajectory {
     pub fn length(&self) -> f64 {
         match &self.0 {
             Form::Line { start, end } => (*end - start.origin).length(),
-            Form::Turn {
-                radius, fraction, ..
-            } => TAU * fraction * radius,
+            Form::Turn { radius, fraction, .. } => TAU * fraction * radius,
             Form::Path(frames) => frames.curve().length(),
         }
     }
@@ -100,23 +87,14 @@ impl Trajectory {
     pub fn station(&self, v: f64) -> Station {
         let straight = Station::along;
         match &self.0 {
-            Form::Line { start, end } => straight(Frame {
-                origin: start.origin.lerp(*end, v),
-                ..*start
-            }),
-            Form::Turn {
-                start,
-                radius,
-                fraction,
-            } => {
+            Form::Line { start, end } => {
+                straight(Frame { origin: start.origin.lerp(*end, v), ..*start })
+            }
+            Form::Turn { start, radius, fraction } => {
                 let angle = turn(fraction * v);
                 let normal = start.normal * angle.x + start.tangent * angle.y;
                 let tangent = start.tangent * angle.x - start.normal * angle.y;
-                let frame = Frame {
-                    normal,
-                    tangent,
-                    ..*start
-                };
+                let frame = Frame { normal, tangent, ..*start };
                 if *radius == 0.0 {
                     return Station {
                         forward: 0.0,
@@ -125,22 +103,12 @@ impl Trajectory {
                         ..straight(frame)
                     };
                 }
-                let frame = Frame {
-                    origin: start.origin + normal * *radius,
-                    ..frame
-                };
-                Station {
-                    bend: DVec2::X / *radius,
-                    ..straight(frame)
-                }
+                let frame = Frame { origin: start.origin + normal * *radius, ..frame };
+                Station { bend: DVec2::X / *radius, ..straight(frame) }
             }
             Form::Path(frames) => {
                 let (frame, curvature) = frames.at(v * frames.curve().length());
-                Station {
-                    bend: -curvature,
-                    spin: frames.spin(),
-                    ..straight(frame)
-                }
+                Station { bend: -curvature, spin: frames.spin(), ..straight(frame) }
             }
         }
     }
@@ -148,24 +116,13 @@ impl Trajectory {
 
 impl Station {
     fn along(frame: Frame) -> Self {
-        Self {
-            frame,
-            forward: 1.0,
-            bend: DVec2::ZERO,
-            spin: 0.0,
-            on_axis: false,
-        }
+        Self { frame, forward: 1.0, bend: DVec2::ZERO, spin: 0.0, on_axis: false }
     }
 
     /// The point of the surface over a point `q` of the contour.
     #[must_use]
     pub fn point(&self, q: DVec2) -> DVec3 {
-        let Frame {
-            origin,
-            normal,
-            binormal,
-            ..
-        } = self.frame;
+        let Frame { origin, normal, binormal, .. } = self.frame;
         if self.on_axis && q.x == 0.0 {
             // A pole is the same in every row to the last bit, which 0 * w1 need not be: it may
             // be -0.
@@ -188,12 +145,7 @@ impl Station {
     /// hold the radius, and a pole has one like any other point.
     #[must_use]
     pub fn normal(&self, q: DVec2, q_u: DVec2) -> DVec3 {
-        let Frame {
-            tangent,
-            normal,
-            binormal,
-            ..
-        } = self.frame;
+        let Frame { tangent, normal, binormal, .. } = self.frame;
         let outward = normal * q_u.y - binormal * q_u.x;
         let stretch = self.stretch(q);
         if self.spin == 0.0 {
@@ -210,20 +162,12 @@ mod tests {
     use crate::curve::{Curve3, Local3, spline};
 
     fn seed(tangent: DVec3) -> Frame {
-        Frame::seed(&Local3 {
-            position: DVec3::ZERO,
-            tangent,
-            curvature: DVec3::ZERO,
-        })
+        Frame::seed(&Local3 { position: DVec3::ZERO, tangent, curvature: DVec3::ZERO })
     }
 
     /// The frame of a turn about the y axis: from +x toward +z.
     fn upright() -> Frame {
-        let place = Local3 {
-            position: DVec3::ZERO,
-            tangent: DVec3::Z,
-            curvature: DVec3::ZERO,
-        };
+        let place = Local3 { position: DVec3::ZERO, tangent: DVec3::Z, curvature: DVec3::ZERO };
         Frame::toward(&place, DVec3::X).unwrap()
     }
 
@@ -246,12 +190,7 @@ mod tests {
         ] {
             for i in 0..=7 {
                 let station = trajectory.station(f64::from(i) / 7.0);
-                let Frame {
-                    tangent,
-                    normal,
-                    binormal,
-                    ..
-                } = station.frame;
+                let Frame { tangent, normal, binormal, .. } = station.frame;
                 assert!((normal.cross(binormal) - tangent).length() < 1e-15);
                 let pole = station.normal(DVec2::ZERO, DVec2::X);
                 assert!((pole + binormal).length() < 1e-15);
@@ -261,12 +200,7 @@ mod tests {
 
     #[test]
     fn normals_agree_with_differences_also_where_the_frame_is_spun() {
-        let points = [
-            [2.0, 0.0, 0.0],
-            [0.0, 1.0, 2.0],
-            [-2.0, 0.0, -0.5],
-            [0.0, -1.0, -2.0],
-        ];
+        let points = [[2.0, 0.0, 0.0], [0.0, 1.0, 2.0], [-2.0, 0.0, -0.5], [0.0, -1.0, -2.0]];
         let path = spline::through(&points.map(DVec3::from_array), true);
         let path = Path::new(&path, true).unwrap();
         let first = Frame::seed(&path.at(0.0));
@@ -281,10 +215,7 @@ mod tests {
                 + (f(3.0 * h) - f(-3.0 * h)) / 60.0
         };
         for i in 0..400 {
-            let (a, v) = (
-                f64::from(i) * 0.37,
-                0.01 + 0.98 * (f64::from(i) * 0.618).fract(),
-            );
+            let (a, v) = (f64::from(i) * 0.37, 0.01 + 0.98 * (f64::from(i) * 0.618).fract());
             // Third derivatives of a spline jump at its points.
             if (v * 4.0 - (v * 4.0).round()).abs() < 0.05 {
                 continue;

@@ -27,10 +27,7 @@ fn sweep(arguments: &[&str], text: &str) -> Output {
 
 /// The run's exit code and standard error.
 fn ending(run: &Output) -> (Option<i32>, String) {
-    (
-        run.status.code(),
-        String::from_utf8_lossy(&run.stderr).into_owned(),
-    )
+    (run.status.code(), String::from_utf8_lossy(&run.stderr).into_owned())
 }
 
 #[test]
@@ -40,33 +37,19 @@ fn a_spec_on_standard_input_becomes_a_grid_on_standard_output() {
     let text = String::from_utf8(run.stdout).unwrap();
     let lines: Vec<&str> = text.lines().collect();
     assert!(lines[0].contains("\"name\":\"pipe\""), "{}", lines[0]);
-    assert!(
-        lines[0].contains("\"seam_u\":\"closed\",\"seam_v\":\"open\""),
-        "{}",
-        lines[0]
-    );
+    assert!(lines[0].contains("\"seam_u\":\"closed\",\"seam_v\":\"open\""), "{}", lines[0]);
     assert_eq!(lines.len(), 1 + 3 + 1, "header, three rows, footer");
-    assert!(
-        lines[2].starts_with("[0.5,0,[[1.0,1.5,0.0],[0.0,1.5,-1.0],"),
-        "{}",
-        lines[2]
-    );
+    assert!(lines[2].starts_with("[0.5,0,[[1.0,1.5,0.0],[0.0,1.5,-1.0],"), "{}", lines[2]);
 }
 
 #[test]
 fn binary_is_the_default_and_files_work_like_pipes() {
     let folder = tempfile::tempdir().unwrap();
-    let (spec, grid) = (
-        folder.path().join("pipe.json"),
-        folder.path().join("pipe.grid"),
-    );
+    let (spec, grid) = (folder.path().join("pipe.json"), folder.path().join("pipe.grid"));
     fs::write(&spec, PIPE).unwrap();
     let run = sweep(&[spec.to_str().unwrap(), "-o", grid.to_str().unwrap()], "");
     assert_eq!(ending(&run), (Some(0), String::new()));
-    assert_eq!(
-        fs::read(&grid).unwrap(),
-        sweep(&["-", "--format", "bin"], PIPE).stdout
-    );
+    assert_eq!(fs::read(&grid).unwrap(), sweep(&["-", "--format", "bin"], PIPE).stdout);
     let refused = sweep(&["--no-clobber", "-o", grid.to_str().unwrap()], PIPE);
     let (code, message) = ending(&refused);
     assert_eq!(code, Some(5));
@@ -75,24 +58,15 @@ fn binary_is_the_default_and_files_work_like_pipes() {
 
 #[test]
 fn rows_and_cols_take_the_place_of_the_specs() {
-    let run = sweep(
-        &["--rows", "5", "--cols", "7", "--stats", "--format", "json"],
-        PIPE,
-    );
+    let run = sweep(&["--rows", "5", "--cols", "7", "--stats", "--format", "json"], PIPE);
     let (code, message) = ending(&run);
     assert_eq!(code, Some(0));
     assert!(message.contains("cells       5 x 7"), "{message}");
     assert!(String::from_utf8_lossy(&run.stdout).starts_with("{\"format\":\"tb-grid\""));
     let (code, message) = ending(&sweep(&["--cols", "2"], PIPE));
     assert_eq!(code, Some(2));
-    assert_eq!(
-        message,
-        "sweep: cols: found 2, expected at least 3 to go around\n"
-    );
-    let (code, message) = ending(&sweep(
-        &["--rows", "9000000000", "--cols", "9000000000"],
-        PIPE,
-    ));
+    assert_eq!(message, "sweep: cols: found 2, expected at least 3 to go around\n");
+    let (code, message) = ending(&sweep(&["--rows", "9000000000", "--cols", "9000000000"], PIPE));
     assert_eq!(code, Some(2));
     assert!(message.contains("expected at most 100000000"), "{message}");
 }
@@ -115,11 +89,7 @@ fn bad_flags_end_with_2() {
         &["--colour"],
         &["a", "b"],
     ] {
-        assert_eq!(
-            sweep(arguments, PIPE).status.code(),
-            Some(2),
-            "{arguments:?}"
-        );
+        assert_eq!(sweep(arguments, PIPE).status.code(), Some(2), "{arguments:?}");
     }
 }
 
@@ -128,51 +98,25 @@ fn help_has_examples() {
     let run = sweep(&["--help"], "");
     assert_eq!(run.status.code(), Some(0));
     let help = String::from_utf8(run.stdout).unwrap();
-    assert!(
-        help.contains("sweep examples/curves/vase.json -o vase.grid"),
-        "{help}"
-    );
+    assert!(help.contains("sweep examples/curves/vase.json -o vase.grid"), "{help}");
 }
 
 #[test]
 fn complaints_have_their_place_and_exit_code() {
     let cases = [
-        (
-            PIPE.replace("\"rows\"", "\"rowz\""),
-            3,
-            "<stdin>:3:18: mesh.rowz: unknown key",
-        ),
-        (
-            PIPE.replace("\"rows\"", "\"rowz\""),
-            3,
-            "(did you mean `rows`?)",
-        ),
-        (
-            PIPE.replace("\"circle\": 1}", "\"circle\": 1]"),
-            3,
-            "<stdin>:2:24: ",
-        ),
-        (
-            PIPE.replace("[0, 3, 0]", "[0, 0, 0]"),
-            4,
-            "<stdin>:2:50: trajectory.line: found ends",
-        ),
+        (PIPE.replace("\"rows\"", "\"rowz\""), 3, "<stdin>:3:18: mesh.rowz: unknown key"),
+        (PIPE.replace("\"rows\"", "\"rowz\""), 3, "(did you mean `rows`?)"),
+        (PIPE.replace("\"circle\": 1}", "\"circle\": 1]"), 3, "<stdin>:2:24: "),
+        (PIPE.replace("[0, 3, 0]", "[0, 0, 0]"), 4, "<stdin>:2:50: trajectory.line: found ends"),
         (PIPE.replace("[0, 3, 0]", "[0, NaN, 0]"), 3, "<stdin>:2:"),
         (PIPE.replace("[0, 3, 0]", "[0, 1e400, 0]"), 3, "<stdin>:2:"),
-        (
-            String::new(),
-            3,
-            "<stdin>:1:1: found nothing, expected a JSON object",
-        ),
+        (String::new(), 3, "<stdin>:1:1: found nothing, expected a JSON object"),
     ];
     for (text, expected, part) in cases {
         let run = sweep(&[], &text);
         let (code, message) = ending(&run);
         assert_eq!(code, Some(expected), "{message}");
-        assert!(
-            message.starts_with("sweep: <stdin>:") && message.contains(part),
-            "{message}"
-        );
+        assert!(message.starts_with("sweep: <stdin>:") && message.contains(part), "{message}");
         assert_eq!(message.lines().count(), 1, "{message}");
         assert!(run.stdout.is_empty());
     }
@@ -182,10 +126,7 @@ fn complaints_have_their_place_and_exit_code() {
 fn a_missing_file_is_named() {
     let (code, message) = ending(&sweep(&["no/such/curve.json"], ""));
     assert_eq!(code, Some(5));
-    assert!(
-        message.starts_with("sweep: cannot read no/such/curve.json"),
-        "{message}"
-    );
+    assert!(message.starts_with("sweep: cannot read no/such/curve.json"), "{message}");
 }
 
 #[test]
@@ -194,23 +135,11 @@ fn a_failure_leaves_the_output_as_it_was() {
     let grid = folder.path().join("old.grid");
     fs::write(&grid, "old").unwrap();
     let bad = PIPE.replace("[0, 3, 0]", "[0, 0, 0]");
-    assert_eq!(
-        sweep(&["-o", grid.to_str().unwrap()], &bad).status.code(),
-        Some(4)
-    );
+    assert_eq!(sweep(&["-o", grid.to_str().unwrap()], &bad).status.code(), Some(4));
     assert_eq!(fs::read_to_string(&grid).unwrap(), "old");
-    assert_eq!(
-        fs::read_dir(folder.path()).unwrap().count(),
-        1,
-        "nothing is left beside it"
-    );
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "nothing is left beside it");
     let nowhere = folder.path().join("no/such/folder.grid");
-    assert_eq!(
-        sweep(&["-o", nowhere.to_str().unwrap()], PIPE)
-            .status
-            .code(),
-        Some(5)
-    );
+    assert_eq!(sweep(&["-o", nowhere.to_str().unwrap()], PIPE).status.code(), Some(5));
     assert!(!Path::new(&nowhere).exists());
 }
 
@@ -219,10 +148,7 @@ fn a_failure_leaves_the_output_as_it_was() {
 fn a_full_device_ends_with_5() {
     let (code, message) = ending(&sweep(&["-o", "/dev/full"], PIPE));
     assert_eq!(code, Some(5));
-    assert!(
-        message.starts_with("sweep: cannot write /dev/full"),
-        "{message}"
-    );
+    assert!(message.starts_with("sweep: cannot write /dev/full"), "{message}");
 }
 
 #[cfg(unix)]
@@ -235,12 +161,7 @@ fn a_closed_pipe_ends_quietly_with_141() {
         .spawn()
         .unwrap();
     drop(child.stdout.take());
-    child
-        .stdin
-        .take()
-        .unwrap()
-        .write_all(PIPE.as_bytes())
-        .unwrap();
+    child.stdin.take().unwrap().write_all(PIPE.as_bytes()).unwrap();
     let run = child.wait_with_output().unwrap();
     assert_eq!(ending(&run), (Some(141), String::new()));
 }
@@ -248,16 +169,10 @@ fn a_closed_pipe_ends_quietly_with_141() {
 #[test]
 fn folds_are_noted_unless_quiet() {
     let hook = PIPE
-        .replace(
-            "{\"line\": [[0, 0, 0], [0, 3, 0]]}",
-            "{\"circle\": {\"radius\": 0.5}}",
-        )
+        .replace("{\"line\": [[0, 0, 0], [0, 3, 0]]}", "{\"circle\": {\"radius\": 0.5}}")
         .replace("\"rows\": 2", "\"rows\": 8");
     let (code, message) = ending(&sweep(&[], &hook));
     assert_eq!(code, Some(0));
     assert!(message.starts_with("sweep: note: pipe: the surface folds back on itself in 8 rows"));
-    assert_eq!(
-        ending(&sweep(&["-q", "--stats"], &hook)),
-        (Some(0), String::new())
-    );
+    assert_eq!(ending(&sweep(&["-q", "--stats"], &hook)), (Some(0), String::new()));
 }

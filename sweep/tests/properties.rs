@@ -24,29 +24,20 @@ fn read(contour: &Value, trajectory: &Value, extra: &Value) -> Result<Sweep, Swe
 }
 
 fn grid(contour: &Value, trajectory: &Value) -> GridMesh {
-    read(contour, trajectory, &json!({}))
-        .unwrap_or_else(|error| panic!("{error}"))
-        .grid()
+    read(contour, trajectory, &json!({})).unwrap_or_else(|error| panic!("{error}")).grid()
 }
 
 /// Every point with its place on the grid: u, v, position, normal.
 fn points(grid: &GridMesh) -> impl Iterator<Item = (f64, f64, DVec3, DVec3)> + '_ {
-    grid.positions
-        .iter()
-        .zip(&grid.normals)
-        .enumerate()
-        .map(|(i, (&position, normal))| {
-            let (row, col) = (i / grid.cols(), i % grid.cols());
-            (grid.u[col], grid.v[row], position, normal.as_dvec3())
-        })
+    grid.positions.iter().zip(&grid.normals).enumerate().map(|(i, (&position, normal))| {
+        let (row, col) = (i / grid.cols(), i % grid.cols());
+        (grid.u[col], grid.v[row], position, normal.as_dvec3())
+    })
 }
 
 #[test]
 fn a_cylinder() {
-    let grid = grid(
-        &json!({"circle": 2}),
-        &json!({"line": [[1, 0, 0], [1, 5, 0]]}),
-    );
+    let grid = grid(&json!({"circle": 2}), &json!({"line": [[1, 0, 0], [1, 5, 0]]}));
     assert_eq!((grid.rows(), grid.cols()), (25, 16));
     assert_eq!((grid.seam_u, grid.seam_v), (Seam::Closed, Seam::Open));
     assert_eq!((grid.v[0], grid.v[24]), (0.0, 1.0));
@@ -84,21 +75,13 @@ fn a_half_circle_rotated_is_a_sphere_with_poles() {
         let (sin, cos) = (PI * u).sin_cos();
         let expected = DVec3::new(sin * (TAU * v).cos(), -cos, sin * (TAU * v).sin());
         assert!((position - expected).length() < 1e-8);
-        assert!(
-            (normal - position).length() < 1e-6,
-            "{normal} at {position}"
-        );
+        assert!((normal - position).length() < 1e-6, "{normal} at {position}");
     }
     let cols = grid.cols();
     for end in [0, cols - 1] {
         let pole = grid.positions[end].to_array().map(f64::to_bits);
         for row in 0..grid.rows() {
-            assert_eq!(
-                grid.positions[row * cols + end]
-                    .to_array()
-                    .map(f64::to_bits),
-                pole
-            );
+            assert_eq!(grid.positions[row * cols + end].to_array().map(f64::to_bits), pole);
         }
     }
 }
@@ -131,20 +114,12 @@ fn a_square_tube_has_flat_sides() {
     }
     for (_, _, position, normal) in points(&grid) {
         assert!((normal.abs().max_element() - 1.0).abs() < 1e-7);
-        assert!(
-            (position.truncate().dot(normal.truncate()) - 1.0).abs() < 1e-7,
-            "outward"
-        );
+        assert!((position.truncate().dot(normal.truncate()) - 1.0).abs() < 1e-7, "outward");
     }
 }
 
-const LOOP: [[f64; 3]; 5] = [
-    [4.0, 0.0, 0.0],
-    [1.0, 2.0, 4.0],
-    [-4.0, 0.5, -1.0],
-    [-2.0, -2.0, -4.0],
-    [3.0, 1.0, -3.0],
-];
+const LOOP: [[f64; 3]; 5] =
+    [[4.0, 0.0, 0.0], [1.0, 2.0, 4.0], [-4.0, 0.5, -1.0], [-2.0, -2.0, -4.0], [3.0, 1.0, -3.0]];
 
 #[test]
 fn a_closed_sweep_meets_its_start() {
@@ -157,11 +132,7 @@ fn a_closed_sweep_meets_its_start() {
     for q in [DVec2::X, DVec2::new(-0.3, 0.4)] {
         let gap =
             sweep.trajectory().station(1.0).point(q) - sweep.trajectory().station(0.0).point(q);
-        assert!(
-            gap.length() <= 4.0 * f64::EPSILON * (8.0 + 4.0),
-            "{:e}",
-            gap.length()
-        );
+        assert!(gap.length() <= 4.0 * f64::EPSILON * (8.0 + 4.0), "{:e}", gap.length());
     }
 }
 
@@ -194,27 +165,14 @@ fn a_power_of_two_in_size_changes_no_digit() {
         let scale = 2_f64.powi(exponent);
         let other = scaled(scale);
         assert_eq!(one.normals, other.normals);
-        assert!(
-            one.positions
-                .iter()
-                .zip(&other.positions)
-                .all(|(&a, &b)| a * scale == b)
-        );
+        assert!(one.positions.iter().zip(&other.positions).all(|(&a, &b)| a * scale == b));
     }
 }
 
 #[test]
 fn turning_a_closed_contour_round_changes_nothing() {
-    let tube = |svg: &str| {
-        grid(
-            &json!({"svg": svg}),
-            &json!({"line": [[0, 0, 0], [0, 0, 9]]}),
-        )
-    };
-    let (clockwise, counter) = (
-        tube("M0 0C-2 -2 2 -3 1 -1Z"),
-        tube("M0 0L1 -1C2 -3 -2 -2 0 0Z"),
-    );
+    let tube = |svg: &str| grid(&json!({"svg": svg}), &json!({"line": [[0, 0, 0], [0, 0, 9]]}));
+    let (clockwise, counter) = (tube("M0 0C-2 -2 2 -3 1 -1Z"), tube("M0 0L1 -1C2 -3 -2 -2 0 0Z"));
     for (a, b) in points(&clockwise).zip(points(&counter)) {
         assert!((a.2 - b.2).length() < 1e-12);
         assert!((a.3 - b.3).length() < 1e-6);
@@ -225,10 +183,7 @@ fn turning_a_closed_contour_round_changes_nothing() {
 fn handles_of_no_length_change_nothing_but_the_parameter() {
     let (a, b) = ([1, 2, 3], [4, -2, 5]);
     let line = grid(&json!({"circle": 1}), &json!({"line": [a, b]}));
-    let slow = grid(
-        &json!({"circle": 1}),
-        &json!({"bezier": {"segments": [[a, a, b, b]]}}),
-    );
+    let slow = grid(&json!({"circle": 1}), &json!({"bezier": {"segments": [[a, a, b, b]]}}));
     for (a, b) in points(&line).zip(points(&slow)) {
         assert!((a.2 - b.2).length() < 1e-12);
         assert!((a.3 - b.3).length() < 1e-6);
@@ -238,10 +193,7 @@ fn handles_of_no_length_change_nothing_but_the_parameter() {
 #[test]
 fn points_given_twice_count_once() {
     let tube = |points: Vec<[f64; 3]>| {
-        grid(
-            &json!({"circle": 0.5}),
-            &json!({"free": {"closed": true, "points": points}}),
-        )
+        grid(&json!({"circle": 0.5}), &json!({"free": {"closed": true, "points": points}}))
     };
     let mut twice = LOOP.to_vec();
     twice.insert(2, LOOP[1]);
@@ -261,11 +213,7 @@ fn every_example_is_a_spec() {
         assert_eq!(sweep.folded_rows(), 0, "{name}");
         sound(&sweep.grid());
         if sweep.name() == "vase" {
-            assert_eq!(
-                sweep.contour().creases(),
-                1,
-                "only the inner edge of the foot"
-            );
+            assert_eq!(sweep.contour().creases(), 1, "only the inner edge of the foot");
             let heights = || sweep.grid().positions.into_iter().map(|p| p.y);
             assert_eq!(heights().fold(f64::INFINITY, f64::min), 0.0);
             assert!((heights().fold(0.0, f64::max) - 2.0).abs() < 1e-3);

@@ -50,17 +50,9 @@ impl Picture {
         }
         let mut same: Vec<usize> = Vec::with_capacity(u.len());
         for col in 0..u.len() {
-            same.push(if col > 0 && u[col] == u[col - 1] {
-                same[col - 1]
-            } else {
-                col
-            });
+            same.push(if col > 0 && u[col] == u[col - 1] { same[col - 1] } else { col });
         }
-        Self {
-            layout: header.uv,
-            u,
-            same,
-        }
+        Self { layout: header.uv, u, same }
     }
 
     /// Columns of the picture: those of the grid, and one more over a seam.
@@ -80,9 +72,7 @@ impl<S: Sink> Teller<S> {
         let corners = cell.each(|station, col| station.points[col]);
         let normals = cell.each(|station, col| station.normals[col]);
         let cut = least_flat(&corners, diagonal::choose(&corners, &normals));
-        let pole = SIDES
-            .iter()
-            .position(|&[from, to]| corners[from] == corners[to]);
+        let pole = SIDES.iter().position(|&[from, to]| corners[from] == corners[to]);
         let mut half_way = None;
         for triangle in cut.triangles() {
             let [a, b, c] = triangle.map(|corner| corners[corner]);
@@ -189,30 +179,15 @@ impl Cell<'_> {
     }
 
     fn of<T>(&self, corner: usize, of: impl Fn(&Station, usize) -> T) -> T {
-        of(
-            if on_top(corner) {
-                self.upper
-            } else {
-                self.lower
-            },
-            self.col(corner),
-        )
+        of(if on_top(corner) { self.upper } else { self.lower }, self.col(corner))
     }
 
     fn station(&mut self, corner: usize) -> &mut Station {
-        if on_top(corner) {
-            self.upper
-        } else {
-            self.lower
-        }
+        if on_top(corner) { self.upper } else { self.lower }
     }
 
     fn col(&self, corner: usize) -> usize {
-        if on_right(corner) {
-            self.right
-        } else {
-            self.left
-        }
+        if on_right(corner) { self.right } else { self.left }
     }
 
     /// The column on the picture, which does not lead back to the first one over a seam.
@@ -234,17 +209,10 @@ fn on_right(corner: usize) -> bool {
 fn least_flat(corners: &diagonal::Corners, wanted: Diagonal) -> Diagonal {
     let lost = |cut: Diagonal| {
         let flat = |[a, b, c]: &[usize; 3]| is_flat(corners[*a], corners[*b], corners[*c]);
-        cut.triangles()
-            .iter()
-            .filter(|triangle| flat(triangle))
-            .count()
+        cut.triangles().iter().filter(|triangle| flat(triangle)).count()
     };
     let of_wanted = lost(wanted);
-    if of_wanted > 0 && lost(wanted.other()) < of_wanted {
-        wanted.other()
-    } else {
-        wanted
-    }
+    if of_wanted > 0 && lost(wanted.other()) < of_wanted { wanted.other() } else { wanted }
 }
 
 /// The number of the next of a kind.

@@ -66,10 +66,7 @@ const SHORTER: f64 = 1e-5;
 pub fn choose(corners: &Corners, normals: &Corners) -> Diagonal {
     let chord = |from: usize, to: usize| {
         let chord = minus(corners[to], corners[from]);
-        (
-            dot(chord, minus(normals[to], normals[from])).abs(),
-            dot(chord, chord),
-        )
+        (dot(chord, minus(normals[to], normals[from])).abs(), dot(chord, chord))
     };
     let (off_ac, length_sq_ac) = chord(0, 2);
     let (off_bd, length_sq_bd) = chord(1, 3);
@@ -111,10 +108,7 @@ mod tests {
         let z_x = TAU * (0.1 * a.cos() - 0.3 * 0.05 * b.sin());
         let z_y = TAU * (0.4 * 0.1 * a.cos() + 0.05 * b.sin());
         let length = (1.0 + z_x * z_x + z_y * z_y).sqrt();
-        (
-            [x, y, z],
-            [-z_x / length, -z_y / length, 1.0 / length].map(|n| n as f32),
-        )
+        ([x, y, z], [-z_x / length, -z_y / length, 1.0 / length].map(|n| n as f32))
     }
 
     #[test]
@@ -142,12 +136,7 @@ mod tests {
 
     #[test]
     fn a_symmetrical_cell_is_cut_from_its_first_corner() {
-        let corners = [
-            [0.0, 0.0, 0.0],
-            [1.0, 0.0, 0.0],
-            [1.0, 1.0, 0.0],
-            [0.0, 1.0, 0.0],
-        ];
+        let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
         let mut nearly = corners;
         nearly[2][0] = 1.000_000_1;
         for cell in [corners, nearly] {
@@ -157,12 +146,7 @@ mod tests {
 
     #[test]
     fn a_flat_skewed_cell_is_cut_along_its_shorter_diagonal() {
-        let corners = [
-            [0.0, 0.0, 0.0],
-            [1.0, 0.0, 0.0],
-            [2.0, 1.0, 0.0],
-            [1.0, 1.0, 0.0],
-        ];
+        let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [2.0, 1.0, 0.0], [1.0, 1.0, 0.0]];
         assert_eq!(choose(&corners, &[[0.0, 0.0, 1.0]; 4]), Diagonal::Bd);
     }
 

@@ -109,12 +109,7 @@ fn run_grid<S: Sink>(grid: &GridMesh, sink: S) -> Result<(S, Counts), Triangulat
     if grid.positions.len() != points || grid.normals.len() != points {
         let (positions, normals) = (grid.positions.len(), grid.normals.len());
         let object = grid.name.clone();
-        return Err(TriangulateError::Arrays {
-            object,
-            positions,
-            normals,
-            expected: points,
-        });
+        return Err(TriangulateError::Arrays { object, positions, normals, expected: points });
     }
     let mut triangulator = Triangulator::new(Header::of(grid), sink)?;
     for row in grid.row_views() {

@@ -50,10 +50,7 @@ fn main() -> ExitCode {
 }
 
 fn work(arguments: &Arguments) -> Result<(), Report> {
-    let options = Options {
-        texture: arguments.texture,
-        surface: arguments.surface,
-    };
+    let options = Options { texture: arguments.texture, surface: arguments.surface };
     if input::is_stdin(&arguments.grid) && stdin().is_terminal() {
         return Err(TriangulateError::Terminal.into());
     }
@@ -73,19 +70,9 @@ fn work(arguments: &Arguments) -> Result<(), Report> {
 }
 
 /// Words for people, on standard error.
-#[expect(
-    clippy::print_stderr,
-    reason = "the program's own words; the library has none"
-)]
+#[expect(clippy::print_stderr, reason = "the program's own words; the library has none")]
 fn report(arguments: &Arguments, grid: &str, counts: &Counts) {
-    let Counts {
-        positions,
-        uvs,
-        normals,
-        triangles,
-        collapsed,
-        slivers,
-    } = counts;
+    let Counts { positions, uvs, normals, triangles, collapsed, slivers } = counts;
     if arguments.stats {
         eprintln!(
             "triangles {triangles}\npositions {positions}\nnormals {normals}\n\

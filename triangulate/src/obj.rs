@@ -38,10 +38,7 @@ impl<W: Write> ObjWriter<W> {
         let Options { texture, surface } = options;
         let name = object_name(name);
         let text = format!("{FIRST_LINE}\no {name}\nusemtl tex{texture}_surf{surface}\n");
-        Self {
-            out,
-            text: text.into_bytes(),
-        }
+        Self { out, text: text.into_bytes() }
     }
 
     /// Writes the closing comment. Without this call the file stays marked as cut.
@@ -49,11 +46,7 @@ impl<W: Write> ObjWriter<W> {
     /// # Errors
     /// When the output fails.
     pub fn finish(mut self, counts: &Counts) -> io::Result<()> {
-        let Counts {
-            positions,
-            triangles,
-            ..
-        } = counts;
+        let Counts { positions, triangles, .. } = counts;
         writeln!(self.text, "# end {positions} {triangles}")?;
         self.row_done()?;
         self.out.flush()
@@ -85,11 +78,9 @@ impl<W: Write> Sink for ObjWriter<W> {
     fn triangle(&mut self, triangle: &Triangle) {
         self.text.push(b'f');
         for corner in 0..3 {
-            for (separator, index) in [
-                (b' ', triangle.position),
-                (b'/', triangle.uv),
-                (b'/', triangle.normal),
-            ] {
+            for (separator, index) in
+                [(b' ', triangle.position), (b'/', triangle.uv), (b'/', triangle.normal)]
+            {
                 self.text.push(separator);
                 push_index(&mut self.text, index[corner]);
             }
@@ -122,17 +113,9 @@ fn push_index(text: &mut Vec<u8>, index: u32) {
 #[must_use]
 pub fn object_name(name: &str) -> String {
     let safe = |c: char| {
-        if c.is_whitespace() || c.is_control() || matches!(c, '#' | '\\') {
-            '_'
-        } else {
-            c
-        }
+        if c.is_whitespace() || c.is_control() || matches!(c, '#' | '\\') { '_' } else { c }
     };
-    if name.is_empty() {
-        "unnamed".into()
-    } else {
-        name.chars().map(safe).collect()
-    }
+    if name.is_empty() { "unnamed".into() } else { name.chars().map(safe).collect() }
 }
 
 #[cfg(test)]
@@ -151,10 +134,7 @@ mod tests {
         for index in [0, 8, 9, 99, u32::MAX] {
             let mut text = Vec::new();
             push_index(&mut text, index);
-            assert_eq!(
-                String::from_utf8(text).unwrap(),
-                (u64::from(index) + 1).to_string()
-            );
+            assert_eq!(String::from_utf8(text).unwrap(), (u64::from(index) + 1).to_string());
         }
     }
 }

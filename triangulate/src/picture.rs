@@ -12,10 +12,7 @@ pub fn coordinates(layout: &UvLayout, u: f64, v: f64) -> [f32; 2] {
         Across::Trajectory => [1.0 - v, u],
     };
     // Adding zero makes -0 into +0.
-    [
-        (s * layout.repeat[0]) as f32 + 0.0,
-        (t * layout.repeat[1]) as f32 + 0.0,
-    ]
+    [(s * layout.repeat[0]) as f32 + 0.0, (t * layout.repeat[1]) as f32 + 0.0]
 }
 
 #[cfg(test)]
@@ -24,10 +21,7 @@ mod tests {
 
     #[test]
     fn across_the_trajectory_the_picture_is_turned_and_not_mirrored() {
-        let layout = UvLayout {
-            across: Across::Trajectory,
-            repeat: [3.0, 2.0],
-        };
+        let layout = UvLayout { across: Across::Trajectory, repeat: [3.0, 2.0] };
         assert_eq!(coordinates(&layout, 0.0, 0.0), [3.0, 0.0]);
         assert_eq!(coordinates(&layout, 1.0, 1.0), [0.0, 2.0]);
         // Turned counter-clockwise: u x v and s x t have the same sign.

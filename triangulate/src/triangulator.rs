@@ -83,12 +83,7 @@ impl<S: Sink> Triangulator<S> {
         }
         // Counted with the row and the column that seams add to the picture.
         if (rows as u64 + 1).saturating_mul(cols as u64 + 1) > MAX_POINTS {
-            return Err(TriangulateError::TooMany {
-                object,
-                rows,
-                cols,
-                limit: MAX_POINTS,
-            });
+            return Err(TriangulateError::TooMany { object, rows, cols, limit: MAX_POINTS });
         }
         let found = header.uv.repeat[0].max(header.uv.repeat[1]);
         if found > MAX_REPEAT {
@@ -97,11 +92,7 @@ impl<S: Sink> Triangulator<S> {
         let picture = Picture::new(&header);
         Ok(Self {
             header,
-            teller: Teller {
-                sink,
-                counts: Counts::default(),
-                picture,
-            },
+            teller: Teller { sink, counts: Counts::default(), picture },
             first: None,
             before: None,
             spare: Station::default(),
@@ -122,12 +113,7 @@ impl<S: Sink> Triangulator<S> {
         }
         self.rows += 1;
         let mut station = std::mem::take(&mut self.spare);
-        station.take(
-            &row,
-            &self.header.name,
-            self.rows,
-            self.teller.picture.cols(),
-        )?;
+        station.take(&row, &self.header.name, self.rows, self.teller.picture.cols())?;
         self.number_positions(&mut station);
         if let Some(mut before) = self.before.take() {
             self.band(&mut before, &mut station);
@@ -154,10 +140,7 @@ impl<S: Sink> Triangulator<S> {
         }
         if let (Some(mut first), Some(mut last)) = (self.first.take(), self.before.take()) {
             self.band(&mut last, &mut first);
-            self.teller
-                .sink
-                .row_done()
-                .map_err(TriangulateError::Write)?;
+            self.teller.sink.row_done().map_err(TriangulateError::Write)?;
         }
         Ok((self.teller.sink, self.teller.counts))
     }
@@ -166,17 +149,12 @@ impl<S: Sink> Triangulator<S> {
     /// seam is that vertex; any other is a new one.
     fn number_positions(&mut self, station: &mut Station) {
         let cols = station.points.len();
-        let over_seam = self
-            .first
-            .as_ref()
-            .filter(|_| self.rows == self.header.rows);
+        let over_seam = self.first.as_ref().filter(|_| self.rows == self.header.rows);
         let closed = self.header.seam_u == Seam::Closed;
         for col in 0..cols {
             let point = station.points[col];
             let in_column = |other: Option<&Station>| {
-                other
-                    .filter(|other| other.points[col] == point)
-                    .map(|other| other.position[col])
+                other.filter(|other| other.points[col] == point).map(|other| other.position[col])
             };
             let in_row =
                 |other: usize| (station.points[other] == point).then(|| station.position[other]);
@@ -185,11 +163,7 @@ impl<S: Sink> Triangulator<S> {
                 .and_then(in_row)
                 .or_else(|| in_column(self.before.as_ref()))
                 .or_else(|| in_column(over_seam))
-                .or_else(|| {
-                    (closed && col > 0 && col + 1 == cols)
-                        .then(|| in_row(0))
-                        .flatten()
-                });
+                .or_else(|| (closed && col > 0 && col + 1 == cols).then(|| in_row(0)).flatten());
             let number = known.unwrap_or_else(|| self.teller.position(point));
             station.position.push(number);
         }
@@ -212,12 +186,7 @@ impl<S: Sink> Triangulator<S> {
         self.triangles.clear();
         for left in 0..self.teller.picture.cols() - 1 {
             let right = if left + 1 == cols { 0 } else { left + 1 };
-            let mut cell = Cell {
-                lower,
-                upper,
-                left,
-                right,
-            };
+            let mut cell = Cell { lower, upper, left, right };
             self.teller.cell(&mut cell, &mut self.triangles);
         }
         for triangle in &self.triangles {
@@ -252,40 +221,24 @@ mod tests {
     #[test]
     fn a_grid_that_makes_no_mesh_is_refused_at_once() {
         let message = complaint(header(3_000_000_000, 2));
-        assert!(
-            message.contains("found 3000000000 x 2 points, expected at most"),
-            "{message}"
-        );
+        assert!(message.contains("found 3000000000 x 2 points, expected at most"), "{message}");
         let message = complaint(header(1, 5));
-        assert_eq!(
-            message,
-            "sheet: found 1 rows of 5 columns, expected at least 2 of each"
-        );
-        let uv = UvLayout {
-            repeat: [1.0, 1e300],
-            ..UvLayout::default()
-        };
+        assert_eq!(message, "sheet: found 1 rows of 5 columns, expected at least 2 of each");
+        let uv = UvLayout { repeat: [1.0, 1e300], ..UvLayout::default() };
         assert!(complaint(Header { uv, ..header(2, 2) }).contains("a picture that repeats"));
     }
 
     #[test]
     fn rows_that_do_not_fit_the_header_are_refused() {
         let (positions, normals) = ([DVec3::ZERO; 3], [Vec3::Z; 3]);
-        let row = |cols| Row {
-            v: 0.0,
-            positions: &positions[..cols],
-            normals: &normals[..cols],
-        };
+        let row = |cols| Row { v: 0.0, positions: &positions[..cols], normals: &normals[..cols] };
         let started = || {
             let sink = TriMesh::new("sheet", &Options::default());
             Triangulator::new(header(2, 3), sink).unwrap()
         };
         let mut short = started();
         let message = short.row(row(2)).unwrap_err().to_string();
-        assert_eq!(
-            message,
-            "sheet: found row 1 with 2 points, expected 2 rows of 3 points"
-        );
+        assert_eq!(message, "sheet: found row 1 with 2 points, expected 2 rows of 3 points");
         let mut long = started();
         long.row(row(3)).unwrap();
         long.row(row(3)).unwrap();

@@ -22,10 +22,8 @@ impl TriMesh {
         let counts = [self.positions.len(), self.uvs.len(), self.normals.len()];
         for (i, triangle) in self.triangles.iter().enumerate() {
             let indices = [triangle.position, triangle.uv, triangle.normal];
-            for ((what, count), corners) in ["position", "picture coordinate", "normal"]
-                .iter()
-                .zip(counts)
-                .zip(indices)
+            for ((what, count), corners) in
+                ["position", "picture coordinate", "normal"].iter().zip(counts).zip(indices)
             {
                 if let Some(wild) = corners.iter().find(|&&index| index as usize >= count) {
                     complaints.add(format!(
@@ -37,27 +35,14 @@ impl TriMesh {
         let wild = complaints.close("indices that point nowhere");
 
         for (what, arrays) in [
-            (
-                "position",
-                self.positions
-                    .iter()
-                    .map(<[f32; 3]>::as_slice)
-                    .collect::<Vec<_>>(),
-            ),
-            (
-                "picture coordinate",
-                self.uvs.iter().map(<[f32; 2]>::as_slice).collect(),
-            ),
-            (
-                "normal",
-                self.normals.iter().map(<[f32; 3]>::as_slice).collect(),
-            ),
+            ("position", self.positions.iter().map(<[f32; 3]>::as_slice).collect::<Vec<_>>()),
+            ("picture coordinate", self.uvs.iter().map(<[f32; 2]>::as_slice).collect()),
+            ("normal", self.normals.iter().map(<[f32; 3]>::as_slice).collect()),
         ] {
             for (i, numbers) in arrays.iter().enumerate() {
                 if !numbers.iter().all(|x| x.is_finite()) {
-                    complaints.add(format!(
-                        "{what} {i}: found {numbers:?}, expected finite numbers"
-                    ));
+                    complaints
+                        .add(format!("{what} {i}: found {numbers:?}, expected finite numbers"));
                 }
             }
         }
@@ -76,13 +61,9 @@ impl TriMesh {
             return complaints.all;
         }
         for (i, triangle) in self.triangles.iter().enumerate() {
-            let [a, b, c] = triangle
-                .position
-                .map(|index| self.positions[index as usize]);
+            let [a, b, c] = triangle.position.map(|index| self.positions[index as usize]);
             if is_flat(a, b, c) {
-                complaints.add(format!(
-                    "triangle {i}: found no area at {a:?}, {b:?}, {c:?}"
-                ));
+                complaints.add(format!("triangle {i}: found no area at {a:?}, {b:?}, {c:?}"));
             }
         }
         complaints.close("triangles without area");
@@ -91,9 +72,7 @@ impl TriMesh {
         edges.sort_unstable();
         for pair in edges.windows(2).filter(|pair| pair[0] == pair[1]) {
             let [from, to] = pair[0];
-            complaints.add(format!(
-                "found the edge from {from} to {to} twice, expected it once"
-            ));
+            complaints.add(format!("found the edge from {from} to {to} twice, expected it once"));
         }
         complaints.close("directed edges used twice");
         complaints.all
@@ -103,10 +82,7 @@ impl TriMesh {
     #[must_use]
     pub fn directed_edges(&self) -> Vec<[u32; 2]> {
         let of_one = |[a, b, c]: [u32; 3]| [[a, b], [b, c], [c, a]];
-        self.triangles
-            .iter()
-            .flat_map(|triangle| of_one(triangle.position))
-            .collect()
+        self.triangles.iter().flat_map(|triangle| of_one(triangle.position)).collect()
     }
 }
 
@@ -129,8 +105,7 @@ impl Complaints {
     /// Ends a kind, and says whether there were any.
     fn close(&mut self, kind: &str) -> bool {
         if self.found > SPELLED_OUT {
-            self.all
-                .push(format!("and {} more {kind}", self.found - SPELLED_OUT));
+            self.all.push(format!("and {} more {kind}", self.found - SPELLED_OUT));
         }
         std::mem::take(&mut self.found) > 0
     }
@@ -142,18 +117,9 @@ mod tests {
 
     /// Two triangles of a square.
     fn square() -> TriMesh {
-        let triangle = |corners| Triangle {
-            position: corners,
-            uv: corners,
-            normal: [0; 3],
-        };
+        let triangle = |corners| Triangle { position: corners, uv: corners, normal: [0; 3] };
         TriMesh {
-            positions: vec![
-                [0.0, 0.0, 0.0],
-                [1.0, 0.0, 0.0],
-                [1.0, 1.0, 0.0],
-                [0.0, 1.0, 0.0],
-            ],
+            positions: vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]],
             uvs: vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]],
             normals: vec![[0.0, 0.0, 1.0]],
             triangles: vec![triangle([0, 1, 2]), triangle([0, 2, 3])],
@@ -174,39 +140,18 @@ mod tests {
                 |m| m.triangles[1].position[2] = 4,
                 "triangle 1: found position 4, expected less than 4",
             ),
-            (
-                |m| m.triangles[0].normal[0] = 9,
-                "triangle 0: found normal 9, expected less than 1",
-            ),
-            (
-                |m| m.uvs[2][1] = f32::NAN,
-                "picture coordinate 2: found [1.0, NaN]",
-            ),
-            (
-                |m| m.normals[0] = [0.0, 0.0, 0.5],
-                "normal 0: found the length 0.5, expected 1",
-            ),
-            (
-                |m| m.positions[1] = [0.5, 0.5, 0.0],
-                "triangle 0: found no area",
-            ),
-            (
-                |m| m.triangles[1].position = [0, 3, 2],
-                "edge from 2 to 0 twice",
-            ),
-            (
-                |m| m.triangles.push(m.triangles[0]),
-                "edge from 0 to 1 twice",
-            ),
+            (|m| m.triangles[0].normal[0] = 9, "triangle 0: found normal 9, expected less than 1"),
+            (|m| m.uvs[2][1] = f32::NAN, "picture coordinate 2: found [1.0, NaN]"),
+            (|m| m.normals[0] = [0.0, 0.0, 0.5], "normal 0: found the length 0.5, expected 1"),
+            (|m| m.positions[1] = [0.5, 0.5, 0.0], "triangle 0: found no area"),
+            (|m| m.triangles[1].position = [0, 3, 2], "edge from 2 to 0 twice"),
+            (|m| m.triangles.push(m.triangles[0]), "edge from 0 to 1 twice"),
         ];
         for (harm, expected) in harms {
             let mut mesh = square();
             harm(&mut mesh);
             let complaints = mesh.validate();
-            assert!(
-                complaints.iter().any(|c| c.contains(expected)),
-                "{expected}: {complaints:?}"
-            );
+            assert!(complaints.iter().any(|c| c.contains(expected)), "{expected}: {complaints:?}");
         }
     }
 }

@@ -22,10 +22,7 @@ fn sheet(rows: usize, cols: usize) -> Vec<u8> {
         seam_u: Seam::Open,
         seam_v: Seam::Open,
         uv: UvLayout::default(),
-        positions: v
-            .iter()
-            .flat_map(|&v| u.iter().map(move |&u| point(u, v)))
-            .collect(),
+        positions: v.iter().flat_map(|&v| u.iter().map(move |&u| point(u, v))).collect(),
         normals: vec![Vec3::Z; rows * cols],
         u,
         v,
@@ -62,15 +59,7 @@ fn a_grid_becomes_an_obj_from_file_to_file_and_through_pipes() {
     let folder = tempfile::tempdir().unwrap();
     let grid = sheet(3, 4);
     fs::write(folder.path().join("sheet.grid"), &grid).unwrap();
-    let arguments = [
-        "sheet.grid",
-        "-o",
-        "sheet.obj",
-        "--texture",
-        "2",
-        "--surface",
-        "5",
-    ];
+    let arguments = ["sheet.grid", "-o", "sheet.obj", "--texture", "2", "--surface", "5"];
     let run = triangulate(&arguments, b"", folder.path());
     assert_eq!((run.status.code(), said(&run).as_str()), (Some(0), ""));
     let obj = fs::read_to_string(folder.path().join("sheet.obj")).unwrap();
@@ -84,16 +73,8 @@ fn a_grid_becomes_an_obj_from_file_to_file_and_through_pipes() {
 #[test]
 fn stats_go_to_standard_error() {
     let folder = tempfile::tempdir().unwrap();
-    let run = triangulate(
-        &["-q", "--stats", "-o", "a.obj"],
-        &sheet(3, 4),
-        folder.path(),
-    );
-    assert!(
-        said(&run).starts_with("triangles 12\npositions 12\nnormals 1\n"),
-        "{}",
-        said(&run)
-    );
+    let run = triangulate(&["-q", "--stats", "-o", "a.obj"], &sheet(3, 4), folder.path());
+    assert!(said(&run).starts_with("triangles 12\npositions 12\nnormals 1\n"), "{}", said(&run));
     assert!(run.stdout.is_empty());
 }
 
@@ -102,11 +83,7 @@ fn a_missing_file_is_named() {
     let folder = tempfile::tempdir().unwrap();
     let run = triangulate(&["none.grid"], b"", folder.path());
     assert_eq!(run.status.code(), Some(5));
-    assert!(
-        said(&run).starts_with("triangulate: cannot read none.grid: "),
-        "{}",
-        said(&run)
-    );
+    assert!(said(&run).starts_with("triangulate: cannot read none.grid: "), "{}", said(&run));
 }
 
 #[test]
@@ -114,22 +91,14 @@ fn a_cut_grid_leaves_the_old_mesh() {
     let folder = tempfile::tempdir().unwrap();
     let (grid, path) = (sheet(3, 4), folder.path().join("sheet.obj"));
     fs::write(&path, "old").unwrap();
-    let run = triangulate(
-        &["-o", "sheet.obj"],
-        &grid[..grid.len() - 20],
-        folder.path(),
-    );
+    let run = triangulate(&["-o", "sheet.obj"], &grid[..grid.len() - 20], folder.path());
     assert_eq!(run.status.code(), Some(3));
     assert_eq!(
         said(&run),
         "triangulate: <stdin>: row 3 of 3 is cut short: the program that wrote it stopped early\n"
     );
     assert_eq!(fs::read_to_string(&path).unwrap(), "old");
-    assert_eq!(
-        fs::read_dir(folder.path()).unwrap().count(),
-        1,
-        "no part file is left"
-    );
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "no part file is left");
 
     let piped = triangulate(&[], &grid[..grid.len() - 1], folder.path());
     assert_eq!(piped.status.code(), Some(3));
@@ -140,18 +109,9 @@ fn a_cut_grid_leaves_the_old_mesh() {
 fn what_is_no_grid_is_called_by_its_name() {
     let folder = tempfile::tempdir().unwrap();
     for (input, expected) in [
-        (
-            &b""[..],
-            "<stdin> is empty, expected a grid: the program before the pipe wrote nothing",
-        ),
-        (
-            b"v 0 0 0\n",
-            "<stdin> is not a grid: it looks like an OBJ mesh",
-        ),
-        (
-            b"{\"contour\": {}}\n",
-            "if it is a curve spec, `sweep` makes the grid of it",
-        ),
+        (&b""[..], "<stdin> is empty, expected a grid: the program before the pipe wrote nothing"),
+        (b"v 0 0 0\n", "<stdin> is not a grid: it looks like an OBJ mesh"),
+        (b"{\"contour\": {}}\n", "if it is a curve spec, `sweep` makes the grid of it"),
     ] {
         let run = triangulate(&["-q"], input, folder.path());
         assert_eq!(run.status.code(), Some(3));
@@ -169,39 +129,20 @@ fn bad_use_ends_with_2() {
     }
     let help = triangulate(&["--help"], b"", folder.path());
     assert_eq!(help.status.code(), Some(0));
-    assert!(
-        String::from_utf8(help.stdout)
-            .unwrap()
-            .contains("| triangulate --texture 2 |")
-    );
+    assert!(String::from_utf8(help.stdout).unwrap().contains("| triangulate --texture 2 |"));
 }
 
 #[test]
 fn an_output_that_cannot_be_written_is_told_before_reading() {
     let folder = tempfile::tempdir().unwrap();
-    let run = triangulate(
-        &["none.grid", "-o", "no/such/folder/a.obj"],
-        b"",
-        folder.path(),
-    );
+    let run = triangulate(&["none.grid", "-o", "no/such/folder/a.obj"], b"", folder.path());
     assert_eq!(run.status.code(), Some(5));
-    assert!(
-        said(&run).contains("cannot write no/such/folder/a.obj"),
-        "{}",
-        said(&run)
-    );
+    assert!(said(&run).contains("cannot write no/such/folder/a.obj"), "{}", said(&run));
     fs::write(folder.path().join("a.obj"), "old").unwrap();
-    let run = triangulate(
-        &["-o", "a.obj", "--no-clobber"],
-        &sheet(3, 4),
-        folder.path(),
-    );
+    let run = triangulate(&["-o", "a.obj", "--no-clobber"], &sheet(3, 4), folder.path());
     assert_eq!(run.status.code(), Some(5));
     assert!(said(&run).contains("--no-clobber"), "{}", said(&run));
-    assert_eq!(
-        fs::read_to_string(folder.path().join("a.obj")).unwrap(),
-        "old"
-    );
+    assert_eq!(fs::read_to_string(folder.path().join("a.obj")).unwrap(), "old");
 }
 
 #[cfg(target_os = "linux")]
@@ -212,11 +153,7 @@ fn a_full_disk_is_told() {
     for rows in [3, 200] {
         let run = triangulate(&["-o", "/dev/full"], &sheet(rows, 50), folder.path());
         assert_eq!(run.status.code(), Some(5));
-        assert!(
-            said(&run).starts_with("triangulate: cannot write /dev/full: "),
-            "{}",
-            said(&run)
-        );
+        assert!(said(&run).starts_with("triangulate: cannot write /dev/full: "), "{}", said(&run));
     }
 }
 

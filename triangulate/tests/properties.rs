@@ -39,18 +39,11 @@ fn corner_bits_by_tobj(obj: &[u8]) -> Vec<[u32; 8]> {
     assert!(models.len() <= 1, "one object");
     let mut bits = Vec::new();
     for tobj::Model { mesh, .. } in &models {
-        let indices = mesh
-            .indices
-            .iter()
-            .zip(&mesh.texcoord_indices)
-            .zip(&mesh.normal_indices);
+        let indices = mesh.indices.iter().zip(&mesh.texcoord_indices).zip(&mesh.normal_indices);
         for ((&p, &t), &n) in indices {
             let (p, t, n) = (3 * p as usize, 2 * t as usize, 3 * n as usize);
-            let (p, t, n) = (
-                &mesh.positions[p..p + 3],
-                &mesh.texcoords[t..t + 2],
-                &mesh.normals[n..n + 3],
-            );
+            let (p, t, n) =
+                (&mesh.positions[p..p + 3], &mesh.texcoords[t..t + 2], &mesh.normals[n..n + 3]);
             bits.push([p[0], p[1], p[2], t[0], t[1], n[0], n[1], n[2]].map(f32::to_bits));
         }
     }
@@ -63,53 +56,25 @@ fn what_f32_cannot_hold_is_refused() {
         let mut grid = torus(3, 3);
         grid.positions[4].y = wild;
         let message = mesh(&grid, &Options::default()).unwrap_err().to_string();
-        assert!(
-            message.starts_with("shape: row 2, column 2: found the position"),
-            "{message}"
-        );
+        assert!(message.starts_with("shape: row 2, column 2: found the position"), "{message}");
     }
     let mut grid = torus(3, 3);
     grid.positions.pop();
     let message = mesh(&grid, &Options::default()).unwrap_err().to_string();
-    assert_eq!(
-        message,
-        "shape: found a grid with 8 positions and 9 normals, expected 9 of each"
-    );
+    assert_eq!(message, "shape: found a grid with 8 positions and 9 normals, expected 9 of each");
 }
 
 #[test]
 fn an_obj_says_what_it_is_and_that_it_is_whole() {
     let mut grid = cylinder(2, 3);
     grid.name = "a tube".into();
-    let text = String::from_utf8(obj_of(
-        &grid,
-        &Options {
-            texture: 2,
-            surface: 7,
-        },
-    ))
-    .unwrap();
+    let text = String::from_utf8(obj_of(&grid, &Options { texture: 2, surface: 7 })).unwrap();
     let lines: Vec<&str> = text.lines().collect();
-    assert_eq!(
-        lines[..3],
-        [
-            "# topobook triangulate OBJ 1",
-            "o a_tube",
-            "usemtl tex2_surf7"
-        ]
-    );
+    assert_eq!(lines[..3], ["# topobook triangulate OBJ 1", "o a_tube", "usemtl tex2_surf7"]);
     assert_eq!(lines.last(), Some(&"# end 6 6"));
     assert!(text.ends_with('\n'));
-    let count = |keyword| {
-        lines
-            .iter()
-            .filter(|line| line.starts_with(keyword))
-            .count()
-    };
-    assert_eq!(
-        (count("v "), count("vt "), count("vn "), count("f ")),
-        (6, 8, 3, 6)
-    );
+    let count = |keyword| lines.iter().filter(|line| line.starts_with(keyword)).count();
+    assert_eq!((count("v "), count("vt "), count("vn "), count("f ")), (6, 8, 3, 6));
 }
 
 #[test]
@@ -157,18 +122,10 @@ fn any_grid() -> impl Strategy<Value = GridMesh> {
         let all_normals = prop::collection::vec(prop::array::uniform3(-1.0..1.0_f32), points);
         (seam(), seam(), layout, all_positions, all_normals).prop_map(
             move |(seam_u, seam_v, (turned, across, up), positions, normals)| {
-                let mut grid = grid_of([shape.0, shape.1], [seam_v, seam_u], |_, _| {
-                    (DVec3::X, DVec3::X)
-                });
-                let across_what = if turned {
-                    Across::Trajectory
-                } else {
-                    Across::Contour
-                };
-                grid.uv = UvLayout {
-                    across: across_what,
-                    repeat: [across, up],
-                };
+                let mut grid =
+                    grid_of([shape.0, shape.1], [seam_v, seam_u], |_, _| (DVec3::X, DVec3::X));
+                let across_what = if turned { Across::Trajectory } else { Across::Contour };
+                grid.uv = UvLayout { across: across_what, repeat: [across, up] };
                 grid.positions = positions.into_iter().map(DVec3::from_array).collect();
                 grid.normals = normals.into_iter().map(Vec3::from_array).collect();
                 grid

@@ -19,18 +19,13 @@ fn made(grid: &GridMesh) -> TriMesh {
 
 fn corners(mesh: &TriMesh) -> impl Iterator<Item = [DVec3; 3]> {
     mesh.triangles.iter().map(|triangle| {
-        triangle
-            .position
-            .map(|i| DVec3::from(mesh.positions[i as usize].map(f64::from)))
+        triangle.position.map(|i| DVec3::from(mesh.positions[i as usize].map(f64::from)))
     })
 }
 
 /// Six times the volume, by the signed tetrahedra from the origin: positive when faces face out.
 fn volume(mesh: &TriMesh) -> f64 {
-    corners(mesh)
-        .map(|[a, b, c]| a.dot(b.cross(c)))
-        .sum::<f64>()
-        / 6.0
+    corners(mesh).map(|[a, b, c]| a.dot(b.cross(c))).sum::<f64>() / 6.0
 }
 
 /// Vertices - edges + faces.
@@ -46,18 +41,13 @@ fn euler(mesh: &TriMesh) -> i64 {
 fn rim(mesh: &TriMesh) -> usize {
     let mut edges = mesh.directed_edges();
     edges.sort_unstable();
-    edges
-        .iter()
-        .filter(|[a, b]| edges.binary_search(&[*b, *a]).is_err())
-        .count()
+    edges.iter().filter(|[a, b]| edges.binary_search(&[*b, *a]).is_err()).count()
 }
 
 /// The smallest cosine between a triangle and the normals at its corners.
 fn worst_normal(mesh: &TriMesh) -> f64 {
     let of_corners = mesh.triangles.iter().map(|triangle| {
-        triangle
-            .normal
-            .map(|i| DVec3::from(mesh.normals[i as usize].map(f64::from)))
+        triangle.normal.map(|i| DVec3::from(mesh.normals[i as usize].map(f64::from)))
     });
     corners(mesh)
         .zip(of_corners)
@@ -71,17 +61,10 @@ fn worst_normal(mesh: &TriMesh) -> f64 {
 #[test]
 fn a_torus_is_closed_and_has_one_hole() {
     let mesh = made(&torus(60, 40));
-    assert_eq!(
-        (mesh.positions.len(), mesh.uvs.len(), mesh.triangles.len()),
-        (2400, 2501, 4800)
-    );
+    assert_eq!((mesh.positions.len(), mesh.uvs.len(), mesh.triangles.len()), (2400, 2501, 4800));
     assert_eq!((euler(&mesh), rim(&mesh)), (0, 0));
     let truth = 2.0 * PI * PI * 3.0;
-    assert!(
-        (volume(&mesh) / truth - 1.0).abs() < 0.01,
-        "{} against {truth}",
-        volume(&mesh)
-    );
+    assert!((volume(&mesh) / truth - 1.0).abs() < 0.01, "{} against {truth}", volume(&mesh));
     assert!(worst_normal(&mesh) > 0.99);
 }
 
@@ -103,19 +86,9 @@ fn a_sphere_is_closed_and_each_pole_is_one_vertex() {
 #[test]
 fn a_pole_takes_the_middle_of_its_share_of_the_picture() {
     let mesh = made(&sphere(8, 5));
-    let mut at_pole: Vec<f32> = mesh
-        .uvs
-        .iter()
-        .filter(|uv| uv[0] == 0.0)
-        .map(|uv| uv[1])
-        .collect();
+    let mut at_pole: Vec<f32> = mesh.uvs.iter().filter(|uv| uv[0] == 0.0).map(|uv| uv[1]).collect();
     at_pole.sort_by(f32::total_cmp);
-    assert_eq!(
-        at_pole,
-        [
-            0.0625, 0.1875, 0.3125, 0.4375, 0.5625, 0.6875, 0.8125, 0.9375
-        ]
-    );
+    assert_eq!(at_pole, [0.0625, 0.1875, 0.3125, 0.4375, 0.5625, 0.6875, 0.8125, 0.9375]);
 }
 
 #[test]
@@ -130,12 +103,7 @@ fn the_tip_of_a_cone_takes_the_normal_between_its_neighbours() {
     let tips: Vec<[f32; 3]> = mesh
         .triangles
         .iter()
-        .filter_map(|t| {
-            t.position
-                .iter()
-                .position(|&p| p == 0)
-                .map(|corner| t.normal[corner])
-        })
+        .filter_map(|t| t.position.iter().position(|&p| p == 0).map(|corner| t.normal[corner]))
         .map(|normal| mesh.normals[normal as usize])
         .collect();
     assert_eq!(tips.len(), rows);
@@ -152,28 +120,14 @@ fn the_tip_of_a_cone_takes_the_normal_between_its_neighbours() {
 fn a_row_drawn_together_is_a_pole_too() {
     let cone = grid_of([4, 6], [Seam::Open, Seam::Closed], |u, v| {
         let (sin, cos) = (TAU * u).sin_cos();
-        (
-            DVec3::new((1.0 - v) * cos, (1.0 - v) * sin, v),
-            DVec3::new(cos, sin, 1.0),
-        )
+        (DVec3::new((1.0 - v) * cos, (1.0 - v) * sin, v), DVec3::new(cos, sin, 1.0))
     });
     let mesh = made(&cone);
-    assert_eq!(
-        (mesh.positions.len(), mesh.triangles.len()),
-        (3 * 6 + 1, 5 * 6)
-    );
+    assert_eq!((mesh.positions.len(), mesh.triangles.len()), (3 * 6 + 1, 5 * 6));
     assert_eq!((euler(&mesh), rim(&mesh)), (1, 6));
-    let mut at_tip: Vec<f32> = mesh
-        .uvs
-        .iter()
-        .filter(|uv| uv[1] == 1.0)
-        .map(|uv| uv[0])
-        .collect();
+    let mut at_tip: Vec<f32> = mesh.uvs.iter().filter(|uv| uv[1] == 1.0).map(|uv| uv[0]).collect();
     at_tip.sort_by(f32::total_cmp);
-    assert_eq!(
-        at_tip,
-        [1.0, 3.0, 5.0, 7.0, 9.0, 11.0].map(|twelfth: f32| twelfth / 12.0)
-    );
+    assert_eq!(at_tip, [1.0, 3.0, 5.0, 7.0, 9.0, 11.0].map(|twelfth: f32| twelfth / 12.0));
 }
 
 #[test]
@@ -186,17 +140,13 @@ fn a_cylinder_has_two_rims_and_its_picture_goes_once_around() {
     for [x, y, _] in &mesh.positions {
         assert!((x.hypot(*y) - 1.0).abs() < 1e-6);
     }
-    let area: f64 = corners(&mesh)
-        .map(|[a, b, c]| (b - a).cross(c - a).length() / 2.0)
-        .sum();
+    let area: f64 = corners(&mesh).map(|[a, b, c]| (b - a).cross(c - a).length() / 2.0).sum();
     let truth = 2.0 * 32.0 * 2.0 * (PI / 32.0).sin();
     assert!((area / truth - 1.0).abs() < 1e-6, "{area} against {truth}");
     // No triangle spans more than one cell of the picture, at the seam either.
     for triangle in &mesh.triangles {
         let s = triangle.uv.map(|i| mesh.uvs[i as usize][0]);
-        let width = s
-            .iter()
-            .fold(0.0, |w: f32, a| s.iter().fold(w, |w, b| w.max(a - b)));
+        let width = s.iter().fold(0.0, |w: f32, a| s.iter().fold(w, |w, b| w.max(a - b)));
         assert!((width - 1.0 / 32.0).abs() < 1e-6, "{width}");
     }
 }
@@ -204,24 +154,15 @@ fn a_cylinder_has_two_rims_and_its_picture_goes_once_around() {
 #[test]
 fn a_turned_and_repeated_picture_stays_whole_at_the_seams() {
     let mut grid = torus(16, 8);
-    grid.uv = UvLayout {
-        across: Across::Trajectory,
-        repeat: [3.0, 2.0],
-    };
+    grid.uv = UvLayout { across: Across::Trajectory, repeat: [3.0, 2.0] };
     let mesh = made(&grid);
     for triangle in &mesh.triangles {
         let [a, b, c] = triangle.uv.map(|i| mesh.uvs[i as usize].map(f64::from));
         // Half a cell of the picture, with the winding of the triangle: not mirrored.
         let area = ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2.0;
-        assert!(
-            (area - 0.5 * (3.0 / 16.0) * (2.0 / 8.0)).abs() < 1e-6,
-            "{area}"
-        );
+        assert!((area - 0.5 * (3.0 / 16.0) * (2.0 / 8.0)).abs() < 1e-6, "{area}");
     }
-    let highest = mesh
-        .uvs
-        .iter()
-        .fold([0.0_f32; 2], |m, t| [m[0].max(t[0]), m[1].max(t[1])]);
+    let highest = mesh.uvs.iter().fold([0.0_f32; 2], |m, t| [m[0].max(t[0]), m[1].max(t[1])]);
     assert_eq!(highest, [3.0, 2.0]);
 }
 
@@ -234,10 +175,7 @@ fn a_crease_has_one_vertex_and_two_normals() {
         let [x, y] = corner(col / 2);
         // The first of the two belongs to the side before the corner, the second to the one after.
         let [p, q] = [corner((col + 7) / 2 % 4), corner(col.div_ceil(2))];
-        (
-            DVec3::new(x, y, v),
-            DVec3::new(p[0] + q[0], p[1] + q[1], 0.0),
-        )
+        (DVec3::new(x, y, v), DVec3::new(p[0] + q[0], p[1] + q[1], 0.0))
     });
     prism.u = vec![0.0, 0.0, 0.25, 0.25, 0.5, 0.5, 0.75, 0.75];
     let mesh = made(&prism);
@@ -251,9 +189,7 @@ fn a_crease_has_one_vertex_and_two_normals() {
 
 #[test]
 fn a_cell_with_three_corners_on_a_line_is_cut_so_that_nothing_is_lost() {
-    let mut sheet = grid_of([2, 2], [Seam::Open; 2], |u, v| {
-        (DVec3::new(u, v, 0.0), DVec3::Z)
-    });
+    let mut sheet = grid_of([2, 2], [Seam::Open; 2], |u, v| (DVec3::new(u, v, 0.0), DVec3::Z));
     sheet.positions[1] = DVec3::new(1.0, 0.0, 0.0);
     sheet.positions[3] = DVec3::new(2.0, 0.0, 0.0);
     sheet.positions[2] = DVec3::new(0.0, 3.0, 0.0);
@@ -263,13 +199,8 @@ fn a_cell_with_three_corners_on_a_line_is_cut_so_that_nothing_is_lost() {
 
 #[test]
 fn a_line_instead_of_a_surface_gives_no_triangles() {
-    let line = grid_of([3, 3], [Seam::Open; 2], |u, v| {
-        (DVec3::X * (u + v), DVec3::Z)
-    });
+    let line = grid_of([3, 3], [Seam::Open; 2], |u, v| (DVec3::X * (u + v), DVec3::Z));
     let mut obj = Vec::new();
     let counts = write_grid_obj(&line, &Options::default(), &mut obj).unwrap();
-    assert_eq!(
-        (counts.triangles, counts.slivers + counts.collapsed),
-        (0, 8)
-    );
+    assert_eq!((counts.triangles, counts.slivers + counts.collapsed), (0, 8));
 }

@@ -22,22 +22,19 @@ const GRID: u32 = 4;
 pub fn draw(width: u32, height: u32, color_at: impl Fn(DVec2) -> Color + Sync) -> RgbImage {
     let encoder = Encoder::new();
     let mut picture = RgbImage::new(width, height);
-    picture
-        .enumerate_rows_mut()
-        .par_bridge()
-        .for_each(|(_, row)| {
-            for (x, y, texel) in row {
-                let corner = DVec2::new(f64::from(x), f64::from(y));
-                let mut sum = Color::ZERO;
-                for j in 0..GRID {
-                    for i in 0..GRID {
-                        let inside = DVec2::new(f64::from(i) + 0.5, f64::from(j) + 0.5);
-                        sum += color_at(corner + inside / f64::from(GRID));
-                    }
+    picture.enumerate_rows_mut().par_bridge().for_each(|(_, row)| {
+        for (x, y, texel) in row {
+            let corner = DVec2::new(f64::from(x), f64::from(y));
+            let mut sum = Color::ZERO;
+            for j in 0..GRID {
+                for i in 0..GRID {
+                    let inside = DVec2::new(f64::from(i) + 0.5, f64::from(j) + 0.5);
+                    sum += color_at(corner + inside / f64::from(GRID));
                 }
-                *texel = Rgb(encoder.bytes(sum / f64::from(GRID * GRID)));
             }
-        });
+            *texel = Rgb(encoder.bytes(sum / f64::from(GRID * GRID)));
+        }
+    });
     picture
 }
 
@@ -49,8 +46,5 @@ pub fn assert_repeats(size: u32, step: DVec2, color_at: impl Fn(DVec2) -> Color)
     let middle = |i| DVec2::new(f64::from(i % size) + 0.5, f64::from(i / size) + 0.5);
     let differs = |p: &DVec2| color_at(*p).distance(color_at(*p + step)) > 1e-9;
     let differing = (0..size * size).map(middle).filter(differs).count();
-    assert!(
-        differing <= (size * size / 1000) as usize,
-        "{differing} texels differ"
-    );
+    assert!(differing <= (size * size / 1000) as usize, "{differing} texels differ");
 }

@@ -18,10 +18,6 @@ const OXBLOOD: Rgb<u8> = Rgb([0x5a, 0x1e, 0x22]);
 /// `peer-checker.png`.
 pub fn draw() -> RgbImage {
     RgbImage::from_fn(SIZE, SIZE, |x, y| {
-        if (x / CHECK + y / CHECK).is_multiple_of(2) {
-            OXBLOOD
-        } else {
-            IVORY
-        }
+        if (x / CHECK + y / CHECK).is_multiple_of(2) { OXBLOOD } else { IVORY }
     })
 }

@@ -29,17 +29,13 @@ pub struct Encoder {
 impl Encoder {
     /// Works out where each byte ends.
     pub fn new() -> Self {
-        Self {
-            ends: std::array::from_fn(|i| decode((i as f64 + 0.5) / 255.0)),
-        }
+        Self { ends: std::array::from_fn(|i| decode((i as f64 + 0.5) / 255.0)) }
     }
 
     /// The three bytes of a colour; values outside `[0, 1]` go to the nearer end.
     pub fn bytes(&self, color: Color) -> [u8; 3] {
         // At most 255 ends lie below a value.
-        color
-            .to_array()
-            .map(|value| self.ends.partition_point(|&end| end <= value) as u8)
+        color.to_array().map(|value| self.ends.partition_point(|&end| end <= value) as u8)
     }
 }
 
@@ -92,9 +88,6 @@ mod tests {
 
     #[test]
     fn values_beyond_the_ends_go_to_the_ends() {
-        assert_eq!(
-            Encoder::new().bytes(Color::new(-0.5, 2.0, 1.0)),
-            [0, 255, 255]
-        );
+        assert_eq!(Encoder::new().bytes(Color::new(-0.5, 2.0, 1.0)), [0, 255, 255]);
     }
 }

@@ -69,11 +69,7 @@ fn color_at(texel: DVec2, stones: &Stones) -> Color {
     }
     let cell = cell.as_ivec2();
     let has_star = (cell.x + cell.y) % 2 == 0;
-    let stone = if has_star {
-        star(p, stones)
-    } else {
-        stones.sand
-    };
+    let stone = if has_star { star(p, stones) } else { stones.sand };
     worn(stone, octagon, lattice) * tone(cell, 2)
 }
 

@@ -42,9 +42,7 @@ impl Minerals {
 /// Draws the granite.
 pub fn draw() -> RgbImage {
     let minerals = Minerals::new();
-    canvas::draw(SIZE, SIZE, |texel| {
-        color_at(texel / f64::from(SIZE), &minerals)
-    })
+    canvas::draw(SIZE, SIZE, |texel| color_at(texel / f64::from(SIZE), &minerals))
 }
 
 /// The colour at `p`, where the picture is the unit square.

@@ -36,20 +36,8 @@ pub struct Texture {
 
 /// All textures that this folder draws.
 pub const TEXTURES: [Texture; 4] = [
-    Texture {
-        file: "checkerboard.png",
-        draw: checkerboard::draw,
-    },
-    Texture {
-        file: "vase-band.png",
-        draw: vase_band::draw,
-    },
-    Texture {
-        file: "floor-tiles.png",
-        draw: floor_tiles::draw,
-    },
-    Texture {
-        file: "granite.png",
-        draw: granite::draw,
-    },
+    Texture { file: "checkerboard.png", draw: checkerboard::draw },
+    Texture { file: "vase-band.png", draw: vase_band::draw },
+    Texture { file: "floor-tiles.png", draw: floor_tiles::draw },
+    Texture { file: "granite.png", draw: granite::draw },
 ];

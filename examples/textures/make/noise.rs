@@ -61,11 +61,7 @@ pub struct Grain {
 /// a boundary.
 pub fn grain(p: DVec2, period: IVec2, seed: u32) -> Grain {
     let home = p.floor().as_ivec2();
-    let mut nearest = Grain {
-        hash: 0,
-        distance: f64::INFINITY,
-        margin: 0.0,
-    };
+    let mut nearest = Grain { hash: 0, distance: f64::INFINITY, margin: 0.0 };
     let mut second = f64::INFINITY;
     for dy in -1..=1 {
         for dx in -1..=1 {
@@ -75,18 +71,11 @@ pub fn grain(p: DVec2, period: IVec2, seed: u32) -> Grain {
             let distance = (cell.as_dvec2() + jitter).distance(p);
             if distance < nearest.distance {
                 second = nearest.distance;
-                nearest = Grain {
-                    hash: h.wrapping_mul(0x9e37_79b1),
-                    distance,
-                    margin: 0.0,
-                };
+                nearest = Grain { hash: h.wrapping_mul(0x9e37_79b1), distance, margin: 0.0 };
             } else if distance < second {
                 second = distance;
             }
         }
     }
-    Grain {
-        margin: second - nearest.distance,
-        ..nearest
-    }
+    Grain { margin: second - nearest.distance, ..nearest }
 }

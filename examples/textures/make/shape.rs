@@ -91,11 +91,7 @@ mod tests {
 
     #[test]
     fn a_point_ahead_is_seen_on_the_y_axis() {
-        let seen = seen_along(
-            DVec2::new(4.0, 6.0),
-            DVec2::new(1.0, 2.0),
-            DVec2::new(3.0, 4.0),
-        );
+        let seen = seen_along(DVec2::new(4.0, 6.0), DVec2::new(1.0, 2.0), DVec2::new(3.0, 4.0));
         assert!((seen - DVec2::new(0.0, 5.0)).length() < 1e-12);
     }
 }

@@ -60,9 +60,7 @@ impl Paints {
 /// Draws the bands.
 pub fn draw() -> RgbImage {
     let paints = Paints::new();
-    canvas::draw(SIZE, SIZE, |p| {
-        color_at(DVec2::new(p.x, f64::from(SIZE) - p.y), &paints)
-    })
+    canvas::draw(SIZE, SIZE, |p| color_at(DVec2::new(p.x, f64::from(SIZE) - p.y), &paints))
 }
 
 /// The colour at a point: what is painted there, or else the glaze.
@@ -82,16 +80,12 @@ fn color_at(p: DVec2, paints: &Paints) -> Color {
 /// Porcelain under its glaze, a little bluer where the glaze lies thicker.
 fn glaze(p: DVec2, paints: &Paints) -> Color {
     let thickness = cloud(p * 8.0 / f64::from(SIZE), IVec2::splat(8), 3);
-    paints
-        .porcelain
-        .lerp(paints.wash, 0.02 + 0.16 * thickness * thickness)
+    paints.porcelain.lerp(paints.wash, 0.02 + 0.16 * thickness * thickness)
 }
 
 /// The rings of the foot, between the bands, and of the lip.
 fn ring(y: f64, paints: &Paints) -> Option<Color> {
-    let Paints {
-        deep, cobalt, gold, ..
-    } = *paints;
+    let Paints { deep, cobalt, gold, .. } = *paints;
     let color = match y {
         // Under the foot, and the foot.
         18.0..20.0 | 23.0..24.0 => deep,
@@ -135,17 +129,9 @@ fn lotus_petals(p: DVec2, paints: &Paints) -> Option<Color> {
         d if d > -5.0 => None,
         d if d > -6.5 => Some(paints.cobalt),
         _ if pearl < 0.0 => Some(paints.gold),
-        _ if drop < 0.0 => Some(if drop > -1.5 {
-            paints.deep
-        } else {
-            paints.gold
-        }),
+        _ if drop < 0.0 => Some(if drop > -1.5 { paints.deep } else { paints.gold }),
         _ if scroll < 0.0 => Some(paints.deep),
-        d => Some(
-            paints
-                .wash
-                .lerp(paints.porcelain, ((-6.5 - d) / 9.0).min(1.0)),
-        ),
+        d => Some(paints.wash.lerp(paints.porcelain, ((-6.5 - d) / 9.0).min(1.0))),
     }
 }
 
@@ -170,18 +156,12 @@ fn vine(p: DVec2, paints: &Paints) -> Option<Color> {
     // Each bend is the last one upside down. What grows on its neighbours reaches into it.
     let bend = (p.x / BEND).floor();
     let bends = [bend, bend - 1.0, bend + 1.0].map(|bend| {
-        let up = if bend.rem_euclid(2.0) == 0.0 {
-            1.0
-        } else {
-            -1.0
-        };
+        let up = if bend.rem_euclid(2.0) == 0.0 { 1.0 } else { -1.0 };
         DVec2::new(p.x - bend * BEND, p.y * up)
     });
     let first =
         |part: fn(DVec2, &Paints) -> Option<Color>| bends.iter().find_map(|&q| part(q, paints));
-    first(blossom)
-        .or_else(|| first(leaves))
-        .or_else(|| first(stems))
+    first(blossom).or_else(|| first(leaves)).or_else(|| first(stems))
 }
 
 /// Half a turn of the vine over the bend, and the branch that curls back below it, first wide, then
@@ -193,11 +173,7 @@ fn stems(q: DVec2, paints: &Paints) -> Option<Color> {
     let distance = if q.y < 0.0 {
         turn(61.0, 35.0, 2.6)
     } else {
-        let inner = if q.x < 44.0 {
-            turn(44.0, 18.0, 2.4)
-        } else {
-            f64::INFINITY
-        };
+        let inner = if q.x < 44.0 { turn(44.0, 18.0, 2.4) } else { f64::INFINITY };
         turn(48.0, 48.0, 3.4).min(inner)
     };
     (distance < 0.0).then_some(paints.deep)
@@ -228,20 +204,15 @@ fn leaves(q: DVec2, paints: &Paints) -> Option<Color> {
             .or_else(|| one(foot, direction + aside, half_length * 0.64))
             .or_else(|| one(foot, direction - aside, half_length * 0.64))
     };
-    SPRIGS.iter().find_map(sprig).or_else(|| {
-        SINGLE
-            .iter()
-            .find_map(|&(foot, along, half)| one(foot, along, half))
-    })
+    SPRIGS
+        .iter()
+        .find_map(sprig)
+        .or_else(|| SINGLE.iter().find_map(|&(foot, along, half)| one(foot, along, half)))
 }
 
 /// A leaf that grows from the origin along the y axis, with a light midrib; lighter at its tip.
 fn leaf(p: DVec2, half_length: f64, paints: &Paints) -> Option<Color> {
-    match lens(
-        p - DVec2::new(0.0, half_length),
-        half_length,
-        half_length * 0.42,
-    ) {
+    match lens(p - DVec2::new(0.0, half_length), half_length, half_length * 0.42) {
         d if d > 0.0 => None,
         d if d > -1.3 => Some(paints.deep),
         _ if p.x.abs() < 0.7 => Some(paints.porcelain),
@@ -262,13 +233,8 @@ fn blossom(q: DVec2, paints: &Paints) -> Option<Color> {
         r if r > 28.0 => return None,
         _ => (),
     }
-    let petal = |p: DVec2, reach: f64| {
-        lens(
-            p - DVec2::new(0.0, reach * 0.55),
-            reach * 0.45,
-            reach * 0.22,
-        )
-    };
+    let petal =
+        |p: DVec2, reach: f64| lens(p - DVec2::new(0.0, reach * 0.55), reach * 0.45, reach * 0.22);
     let light = fold_eight(q);
     match petal(light, 27.0) {
         d if d > 0.0 => (),
@@ -289,15 +255,8 @@ fn blossom(q: DVec2, paints: &Paints) -> Option<Color> {
 
 /// A running key of sixteen turns, the oldest of borders. `p.y` from 0 to 35.
 fn meander(p: DVec2, paints: &Paints) -> Option<Color> {
-    const KEY: [&[u8; 8]; 7] = [
-        b"#######.",
-        b"#.....#.",
-        b"#.###.#.",
-        b"#.#...#.",
-        b"#.#####.",
-        b"#.......",
-        b"########",
-    ];
+    const KEY: [&[u8; 8]; 7] =
+        [b"#######.", b"#.....#.", b"#.###.#.", b"#.#...#.", b"#.#####.", b"#.......", b"########"];
     // A cell is six texels wide and five high.
     let row = 6 - (p.y / 5.0) as usize;
     let col = (p.x / 6.0) as usize % 8;
@@ -338,8 +297,6 @@ mod tests {
     #[test]
     fn the_bands_close_around_the_vase() {
         let paints = Paints::new();
-        canvas::assert_repeats(SIZE, DVec2::new(f64::from(SIZE), 0.0), |p| {
-            color_at(p, &paints)
-        });
+        canvas::assert_repeats(SIZE, DVec2::new(f64::from(SIZE), 0.0), |p| color_at(p, &paints));
     }
 }

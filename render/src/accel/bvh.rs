@@ -10,8 +10,8 @@
 
 use glam::{DVec3, Vec3A};
 use obvhs::aabb::Aabb;
-use obvhs::bvh2::node::Bvh2Node;
 use obvhs::bvh2::leaf_collapser::collapse;
+use obvhs::bvh2::node::Bvh2Node;
 use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
 use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 

@@ -257,7 +257,11 @@ fn entry(n: usize, i: i64, size: i64, wrap: Wrap) -> Entry {
         (Wrap::Clamp, _) => {
             let beyond = i - size;
             let last = triangular(beyond);
-            Entry::stored([(size, 1 - beyond - 2 * last), (size + 1, beyond + last), (size - 1, last)])
+            Entry::stored([
+                (size, 1 - beyond - 2 * last),
+                (size + 1, beyond + last),
+                (size - 1, last),
+            ])
         }
     }
 }
@@ -357,7 +361,8 @@ mod tests {
         (x as i64 - reach..=x as i64 + reach)
             .map(|i| {
                 let weight = integral((i + 1) as f64 - x) - integral(i as f64 - x);
-                let k = if wrap == Wrap::Repeat { i.rem_euclid(size) } else { i.clamp(0, size - 1) };
+                let k =
+                    if wrap == Wrap::Repeat { i.rem_euclid(size) } else { i.clamp(0, size - 1) };
                 weight * row[k as usize] as f64
             })
             .sum()

@@ -121,7 +121,8 @@ fn weigh<W: Word>(table: &[[W; 3]], stride: usize, column: &Axis, row: &Axis) ->
             let j = row.points[slot / per_point] as usize + slot % per_point;
             let stored = &table[j * stride..][..stride];
             let mut values = [[W::default(); 3]; MOST];
-            for (values, &i) in values.chunks_exact_mut(per_point).zip(&column.points[..per_point]) {
+            for (values, &i) in values.chunks_exact_mut(per_point).zip(&column.points[..per_point])
+            {
                 values.copy_from_slice(&stored[i as usize..][..per_point]);
             }
             *line = reduced(column.reduce, &values);
@@ -136,7 +137,10 @@ fn weigh<W: Word>(table: &[[W; 3]], stride: usize, column: &Axis, row: &Axis) ->
                 for (value, entry) in values.iter_mut().zip(entries) {
                     let mut at = [W::default(); 3];
                     for (i, factor) in entry.used() {
-                        at = plus(at, if factor == 1 { stored[i] } else { times(stored[i], factor) });
+                        at = plus(
+                            at,
+                            if factor == 1 { stored[i] } else { times(stored[i], factor) },
+                        );
                     }
                     *value = plus(*value, if row_factor == 1 { at } else { times(at, row_factor) });
                 }
@@ -249,7 +253,8 @@ mod tests {
         // 16-bit texels and sums that wrap a 32-bit word many times over.
         let texture = texture(300, 200, u16::MAX, Wrap::Repeat);
         let table = PrefilteredTable::build(&texture, 1);
-        for (x, y, w, h) in [(0, 0, 300, 200), (17, 3, 1, 1), (290, 150, 9, 50), (280, 190, 60, 25)] {
+        for (x, y, w, h) in [(0, 0, 300, 200), (17, 3, 1, 1), (290, 150, 9, 50), (280, 190, 60, 25)]
+        {
             let exact: u64 = (y..y + h)
                 .flat_map(|j| (x..x + w).map(move |i| (i % 300, j % 200)))
                 .map(|(i, j)| u64::from(texture.texels[j * 300 + i][1]))

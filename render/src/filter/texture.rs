@@ -105,9 +105,7 @@ impl Texture {
         let at = self.in_texels(uv) - 0.5;
         let corner = at.floor();
         let part = at - corner;
-        let row = |y: f64| {
-            self.texel(corner.x, y).lerp(self.texel(corner.x + 1.0, y), part.x)
-        };
+        let row = |y: f64| self.texel(corner.x, y).lerp(self.texel(corner.x + 1.0, y), part.x);
         row(corner.y).lerp(row(corner.y + 1.0), part.y) * self.unit()
     }
 

@@ -86,7 +86,8 @@ impl<'a> Neighbourhood<'a> {
 
 /// The difference of two texture coordinates of one closed surface, taken the short way round.
 fn unwrapped(difference: DVec2, seam: SeamPeriod) -> DVec2 {
-    let short = |d: f64, period: f64| if period > 0.0 { d - period * (d / period).round() } else { d };
+    let short =
+        |d: f64, period: f64| if period > 0.0 { d - period * (d / period).round() } else { d };
     DVec2::new(short(difference.x, seam.x), short(difference.y, seam.y))
 }
 
@@ -115,7 +116,10 @@ mod tests {
         tree
     }
 
-    fn grid(object: impl Fn(usize) -> u32, uv: impl Fn(f64, f64) -> DVec2) -> [IntersectionTree; 9] {
+    fn grid(
+        object: impl Fn(usize) -> u32,
+        uv: impl Fn(f64, f64) -> DVec2,
+    ) -> [IntersectionTree; 9] {
         std::array::from_fn(|k| tree(object(k), uv((k % 3) as f64 - 1.0, (k / 3) as f64 - 1.0)))
     }
 

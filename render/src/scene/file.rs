@@ -259,7 +259,8 @@ impl<'de> Visitor<'de> for ColorVisitor {
     fn visit_seq<A: SeqAccess<'de>>(self, mut channels: A) -> Result<ColorFile, A::Error> {
         let mut color = [0.0; 3];
         for (k, channel) in color.iter_mut().enumerate() {
-            *channel = channels.next_element()?.ok_or_else(|| de::Error::invalid_length(k, &self))?;
+            *channel =
+                channels.next_element()?.ok_or_else(|| de::Error::invalid_length(k, &self))?;
         }
         match channels.next_element::<f64>()? {
             None => Ok(ColorFile(color)),

@@ -34,7 +34,9 @@ pub enum ObjError {
         line: usize,
     },
     /// One of ours that stops early.
-    #[error("{file}: found {found}, expected the closing comment `# end V F`; the program that wrote it stopped early")]
+    #[error(
+        "{file}: found {found}, expected the closing comment `# end V F`; the program that wrote it stopped early"
+    )]
     NotFinished {
         /// The file.
         file: String,
@@ -267,7 +269,8 @@ mod tests {
 
     #[test]
     fn a_quad_becomes_two_triangles_and_names_are_kept() {
-        let text = format!("{SQUARE}usemtl tex2_surf0\nf 1/1 2/2 3/3 4/4\nusemtl wood\nf 1/1 2/2 4/4\n");
+        let text =
+            format!("{SQUARE}usemtl tex2_surf0\nf 1/1 2/2 3/3 4/4\nusemtl wood\nf 1/1 2/2 4/4\n");
         let mesh = read("a.obj", text.as_bytes()).unwrap();
         assert_eq!(mesh.surfaces, ["tex2_surf0", "wood"]);
         assert_eq!(mesh.triangles.iter().map(|t| t.surface).collect::<Vec<_>>(), [0, 0, 1]);
@@ -285,7 +288,8 @@ mod tests {
 
     #[test]
     fn one_of_ours_must_be_finished() {
-        let ours = |end: &str| format!("# topobook triangulate OBJ 1\n{SQUARE}f 1/1 2/2 3/3\n{end}");
+        let ours =
+            |end: &str| format!("# topobook triangulate OBJ 1\n{SQUARE}f 1/1 2/2 3/3\n{end}");
         assert!(read("a.obj", ours("# end 4 1\n").as_bytes()).is_ok());
         for end in ["", "# end 4 2\n", "# end 4 1", "# en"] {
             assert!(complaint(&ours(end)).contains("stopped early"), "{end}");

@@ -52,7 +52,9 @@ pub enum SceneError {
         known: String,
     },
     /// The scene has a mesh without a file, and none was given.
-    #[error("the scene's mesh {name} was not given: add --mesh {name}=FILE, or a \"file\" to {path} in {scene}")]
+    #[error(
+        "the scene's mesh {name} was not given: add --mesh {name}=FILE, or a \"file\" to {path} in {scene}"
+    )]
     MissingMesh {
         /// The mesh's name.
         name: String,
@@ -175,11 +177,8 @@ impl Reader<'_> {
         if (low..=high).contains(&value) {
             return Ok(value);
         }
-        let range = if high == f64::MAX {
-            format!("at least {low}")
-        } else {
-            format!("{low} to {high}")
-        };
+        let range =
+            if high == f64::MAX { format!("at least {low}") } else { format!("{low} to {high}") };
         self.fault(path, format!("found {value}, expected {range}"))
     }
 
@@ -311,8 +310,11 @@ impl Reader<'_> {
                 ObjectFile::Mesh(mesh) => {
                     // A name may stand for several objects; the last one takes the mesh itself.
                     let again = meshes(self.file).any(|(k, m)| k > place && m.name == mesh.name);
-                    let found =
-                        if again { given.get(&mesh.name).cloned() } else { given.remove(&mesh.name) };
+                    let found = if again {
+                        given.get(&mesh.name).cloned()
+                    } else {
+                        given.remove(&mesh.name)
+                    };
                     self.mesh(place, mesh, found)?
                 }
                 _ => self.object(place, object)?,
@@ -373,7 +375,12 @@ impl Reader<'_> {
         }
     }
 
-    fn mesh(&self, place: usize, file: &MeshFile, given: Option<Mesh>) -> Result<Object, SceneError> {
+    fn mesh(
+        &self,
+        place: usize,
+        file: &MeshFile,
+        given: Option<Mesh>,
+    ) -> Result<Object, SceneError> {
         let at = format!("objects[{place}].mesh");
         let mesh = match (given, &file.file) {
             (Some(mesh), _) => {
@@ -477,7 +484,10 @@ impl Reader<'_> {
         let suggestion = near.map_or(String::new(), |near| format!(" (did you mean {near:?}?)"));
         let names: Vec<&str> = known.keys().map(String::as_str).collect();
         let names = if names.is_empty() { "none".into() } else { names.join(", ") };
-        self.fault(path, format!("found unknown {kind} {name:?}, expected one of: {names}{suggestion}"))
+        self.fault(
+            path,
+            format!("found unknown {kind} {name:?}, expected one of: {names}{suggestion}"),
+        )
     }
 }
 

@@ -81,7 +81,8 @@ impl Mesh {
         if self.triangles.len() >= NONE as usize {
             return Err(MeshError::TooMany(self.triangles.len()));
         }
-        let finite3 = |values: &[[f32; 3]]| values.iter().position(|v| !v.iter().all(|x| x.is_finite()));
+        let finite3 =
+            |values: &[[f32; 3]]| values.iter().position(|v| !v.iter().all(|x| x.is_finite()));
         let bad_uv = self.uvs.iter().position(|v| !v.iter().all(|x| x.is_finite()));
         let bad = [
             ("vertex", finite3(&self.positions)),
@@ -99,9 +100,8 @@ impl Mesh {
                 ("surfaces", [triangle.surface; 3], self.surfaces.len(), false),
             ];
             for (what, indices, count, optional) in arrays {
-                let strays = |&index: &u32| {
-                    index as usize >= count && !(optional && indices == [NONE; 3])
-                };
+                let strays =
+                    |&index: &u32| index as usize >= count && !(optional && indices == [NONE; 3]);
                 if let Some(index) = indices.into_iter().find(strays) {
                     return Err(MeshError::Index { triangle: number, what, index, count });
                 }

@@ -53,11 +53,8 @@ impl ShearedRay {
         t_max: f64,
     ) -> Option<TriangleHit> {
         let [a, b, c] = corners.map(|corner| self.sheared(corner));
-        let edges = [
-            c[0] * b[1] - c[1] * b[0],
-            a[0] * c[1] - a[1] * c[0],
-            b[0] * a[1] - b[1] * a[0],
-        ];
+        let edges =
+            [c[0] * b[1] - c[1] * b[0], a[0] * c[1] - a[1] * c[0], b[0] * a[1] - b[1] * a[0]];
         let outside_one_way = edges.iter().any(|&edge| edge < 0.0);
         let outside_other_way = edges.iter().any(|&edge| edge > 0.0);
         if outside_one_way && outside_other_way {

@@ -4,8 +4,8 @@
 //! that nothing is shaded on the way. Each place on the film gets an [`tree::IntersectionTree`],
 //! and shading waits until its neighbours have theirs.
 
-pub mod tree;
 pub mod rows;
+pub mod tree;
 
 use crate::accel::Accel;
 use crate::optics;
@@ -126,7 +126,8 @@ impl Split {
             return mirror_only;
         }
         let eta = if inside { index_of_refraction } else { 1.0 / index_of_refraction };
-        let share = if material.fresnel { optics::fresnel(-incident.dot(normal), eta) } else { 1.0 };
+        let share =
+            if material.fresnel { optics::fresnel(-incident.dot(normal), eta) } else { 1.0 };
         if transparency == 0.0 {
             return Self { reflect_weight: reflectivity * share, ..mirror_only };
         }

@@ -32,11 +32,8 @@ pub struct ArcLength<V> {
 impl<V: Vector> ArcLength<V> {
     /// Measures the segment.
     pub fn new(cubic: Cubic<V>) -> Self {
-        let mut lengths = Self {
-            cubic,
-            tolerance: TOLERANCE * 3.0 * cubic.size(),
-            table: [0.0; CELLS + 1],
-        };
+        let mut lengths =
+            Self { cubic, tolerance: TOLERANCE * 3.0 * cubic.size(), table: [0.0; CELLS + 1] };
         for cell in 0..CELLS {
             lengths.table[cell + 1] =
                 lengths.table[cell] + lengths.between(knot(cell), knot(cell + 1));
@@ -63,11 +60,7 @@ impl<V: Vector> ArcLength<V> {
         if s >= self.total() {
             return 1.0;
         }
-        let cell = self
-            .table
-            .partition_point(|&length| length <= s)
-            .clamp(1, CELLS)
-            - 1;
+        let cell = self.table.partition_point(|&length| length <= s).clamp(1, CELLS) - 1;
         let (from, to) = (self.table[cell], self.table[cell + 1]);
         let (mut low, mut high) = (knot(cell), knot(cell + 1));
         let mut t = low + (high - low) * ((s - from) / (to - from));
@@ -82,11 +75,7 @@ impl<V: Vector> ArcLength<V> {
                 low = t;
             }
             let newton = t - excess / self.cubic.velocity(t).length();
-            t = if newton > low && newton < high {
-                newton
-            } else {
-                0.5 * (low + high)
-            };
+            t = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
             if t <= low || t >= high {
                 break;
             }
@@ -178,11 +167,7 @@ mod tests {
         assert!(inverse_error(smooth) < 1e-15, "{:e}", inverse_error(smooth));
         for gap in [0.0, 1e-12, 1e-9, 1e-6, 1e-4, 1e-2] {
             let cusp = [o, p(1.0 - gap, 1.0), p(gap, 1.0), e];
-            assert!(
-                inverse_error(cusp) < 1e-12,
-                "gap {gap}: {:e}",
-                inverse_error(cusp)
-            );
+            assert!(inverse_error(cusp) < 1e-12, "gap {gap}: {:e}", inverse_error(cusp));
             let off_center = [o, p(1.0 - gap, 1.0), p(gap, 0.9), p(1.0, 0.1)];
             assert!(inverse_error(off_center) < 1e-12);
         }
@@ -190,10 +175,7 @@ mod tests {
             let ends = [o, p(short, 0.0), p(1.0, 1.0 - short), DVec2::ONE];
             assert!(inverse_error(ends) < 1e-12);
         }
-        assert!(
-            inverse_error([o, e * 3.0, e * -2.0, e]) < 1e-12,
-            "turning back"
-        );
+        assert!(inverse_error([o, e * 3.0, e * -2.0, e]) < 1e-12, "turning back");
         assert!(inverse_error([o, e * 1e6, e, e]) < 1e-12, "a long handle");
     }
 

@@ -81,10 +81,7 @@ impl<V: Vector> Cubic<V> {
 
     /// The length of the longest side of the control polygon.
     pub fn size(&self) -> f64 {
-        self.differences()
-            .into_iter()
-            .map(Vector::length)
-            .fold(0.0, f64::max)
+        self.differences().into_iter().map(Vector::length).fold(0.0, f64::max)
     }
 
     /// The same points in the other direction.
@@ -117,12 +114,8 @@ impl<V: Vector> Cubic<V> {
         let [d0, d1, d2] = self.differences().map(|d| d * (1.0 / size));
         let (a, b, c) = (d0, (d1 - d0) * 2.0, d0 - d1 * 2.0 + d2);
         // Least speeds are where half the derivative of its square is zero.
-        let [k0, k1, k2, k3] = [
-            a.dot(b),
-            b.dot(b) + 2.0 * a.dot(c),
-            3.0 * b.dot(c),
-            2.0 * c.dot(c),
-        ];
+        let [k0, k1, k2, k3] =
+            [a.dot(b), b.dot(b) + 2.0 * a.dot(c), 3.0 * b.dot(c), 2.0 * c.dot(c)];
         let slope = |t: f64| ((k3 * t + k2) * t + k1) * t + k0;
         let slope_change = |t: f64| (3.0 * k3 * t + 2.0 * k2) * t + k1;
         let mut found: Vec<f64> = solve_cubic(k0, k1, k2, k3)
@@ -221,10 +214,7 @@ mod tests {
     fn a_line_that_turns_back_twice_has_two_cusps() {
         let x = |v: f64| DVec2::new(v, 0.0);
         let parts = Cubic([x(0.0), x(3.0), x(-2.0), x(1.0)]).split_at_cusps();
-        let directions: Vec<f64> = parts
-            .iter()
-            .map(|part| part.tangent(0.5).x.round())
-            .collect();
+        let directions: Vec<f64> = parts.iter().map(|part| part.tangent(0.5).x.round()).collect();
         assert_eq!(directions, [1.0, -1.0, 1.0]);
     }
 }

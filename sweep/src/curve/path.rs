@@ -68,20 +68,11 @@ impl<V: Vector> Path<V> {
             for cubic in whole.split_at_cusps() {
                 let lengths = ArcLength::new(cubic);
                 let length = lengths.total();
-                segments.push(Segment {
-                    cubic,
-                    source,
-                    start,
-                    lengths,
-                });
+                segments.push(Segment { cubic, source, start, lengths });
                 start += length;
             }
         }
-        (start > 0.0 && start.is_finite()).then_some(Self {
-            segments,
-            closed,
-            length: start,
-        })
+        (start > 0.0 && start.is_finite()).then_some(Self { segments, closed, length: start })
     }
 
     /// The length of the whole path.
@@ -106,10 +97,7 @@ impl<V: Vector> Path<V> {
 
     /// The end of the path.
     pub fn end(&self) -> Place {
-        Place {
-            segment: self.segments.len() - 1,
-            t: 1.0,
-        }
+        Place { segment: self.segments.len() - 1, t: 1.0 }
     }
 
     /// The place at arc length `s` from the start; `s` outside the path gives its ends.
@@ -119,10 +107,7 @@ impl<V: Vector> Path<V> {
         let after = self.segments.partition_point(|segment| segment.start <= s);
         let index = after.max(1) - 1;
         let segment = &self.segments[index];
-        Place {
-            segment: index,
-            t: segment.lengths.parameter_at(s - segment.start),
-        }
+        Place { segment: index, t: segment.lengths.parameter_at(s - segment.start) }
     }
 
     /// The length of the path before a place.
@@ -151,14 +136,8 @@ impl<V: Vector> Path<V> {
         let first = usize::from(!self.closed);
         (first..self.segments.len()).map(|index| {
             let last = self.segments.len() - 1;
-            let before = Place {
-                segment: if index == 0 { last } else { index - 1 },
-                t: 1.0,
-            };
-            let after = Place {
-                segment: index,
-                t: 0.0,
-            };
+            let before = Place { segment: if index == 0 { last } else { index - 1 }, t: 1.0 };
+            let after = Place { segment: index, t: 0.0 };
             Joint {
                 s: self.segments[index].start,
                 before,
@@ -206,10 +185,7 @@ mod tests {
 
     fn square() -> Vec<Cubic<DVec2>> {
         let corners = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y, DVec2::ZERO];
-        corners
-            .windows(2)
-            .map(|ends| Cubic::line(ends[0], ends[1]))
-            .collect()
+        corners.windows(2).map(|ends| Cubic::line(ends[0], ends[1])).collect()
     }
 
     #[test]
@@ -222,11 +198,7 @@ mod tests {
         assert_eq!(joints.len(), 4);
         assert_eq!(joints[0].s, 0.0);
         assert_eq!(joints[0].sources, [3, 0]);
-        assert!(
-            joints
-                .iter()
-                .all(|joint| (joint.angle - FRAC_PI_2).abs() < 1e-14)
-        );
+        assert!(joints.iter().all(|joint| (joint.angle - FRAC_PI_2).abs() < 1e-14));
         assert_eq!(Path::new(&square(), false).unwrap().joints().count(), 3);
     }
 

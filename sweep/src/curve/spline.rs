@@ -18,39 +18,19 @@ pub fn through<V: Vector>(points: &[V], closed: bool) -> Vec<Cubic<V>> {
         return Vec::new();
     }
     let segments = if closed { count } else { count - 1 };
-    let chords: Vec<V> = (0..segments)
-        .map(|i| points[(i + 1) % count] - points[i])
-        .collect();
+    let chords: Vec<V> = (0..segments).map(|i| points[(i + 1) % count] - points[i]).collect();
     // Only ratios matter; the largest interval is 1.
-    let longest = chords
-        .iter()
-        .map(|chord| chord.length())
-        .fold(0.0, f64::max);
-    let steps: Vec<f64> = chords
-        .iter()
-        .map(|chord| (chord.length() / longest).sqrt())
-        .collect();
-    let slopes: Vec<V> = chords
-        .iter()
-        .zip(&steps)
-        .map(|(&chord, &step)| chord * (1.0 / step))
-        .collect();
-    let derivatives = if closed {
-        periodic(&steps, &slopes)
-    } else {
-        natural(&steps, &slopes)
-    };
+    let longest = chords.iter().map(|chord| chord.length()).fold(0.0, f64::max);
+    let steps: Vec<f64> = chords.iter().map(|chord| (chord.length() / longest).sqrt()).collect();
+    let slopes: Vec<V> =
+        chords.iter().zip(&steps).map(|(&chord, &step)| chord * (1.0 / step)).collect();
+    let derivatives = if closed { periodic(&steps, &slopes) } else { natural(&steps, &slopes) };
     (0..segments)
         .map(|i| {
             let (from, to) = (points[i], points[(i + 1) % count]);
             let third = steps[i] / 3.0;
             let end = (i + 1) % count;
-            Cubic([
-                from,
-                from + derivatives[i] * third,
-                to - derivatives[end] * third,
-                to,
-            ])
+            Cubic([from, from + derivatives[i] * third, to - derivatives[end] * third, to])
         })
         .collect()
 }
@@ -59,19 +39,9 @@ pub fn through<V: Vector>(points: &[V], closed: bool) -> Vec<Cubic<V>> {
 fn natural<V: Vector>(steps: &[f64], slopes: &[V]) -> Vec<V> {
     let last = steps.len();
     let mut rows = Vec::with_capacity(last + 1);
-    rows.push(Row {
-        lower: 0.0,
-        middle: 2.0,
-        upper: 1.0,
-        right: slopes[0] * 3.0,
-    });
+    rows.push(Row { lower: 0.0, middle: 2.0, upper: 1.0, right: slopes[0] * 3.0 });
     rows.extend((1..last).map(|i| smooth_at(steps, slopes, i - 1, i)));
-    rows.push(Row {
-        lower: 1.0,
-        middle: 2.0,
-        upper: 0.0,
-        right: slopes[last - 1] * 3.0,
-    });
+    rows.push(Row { lower: 1.0, middle: 2.0, upper: 0.0, right: slopes[last - 1] * 3.0 });
     solve(&rows)
 }
 
@@ -81,9 +51,8 @@ fn natural<V: Vector>(steps: &[f64], slopes: &[V]) -> Vec<V> {
 /// (Sherman and Morrison), which leaves two systems that are tridiagonal.
 fn periodic<V: Vector>(steps: &[f64], slopes: &[V]) -> Vec<V> {
     let count = steps.len();
-    let mut rows: Vec<Row<V>> = (0..count)
-        .map(|i| smooth_at(steps, slopes, (i + count - 1) % count, i))
-        .collect();
+    let mut rows: Vec<Row<V>> =
+        (0..count).map(|i| smooth_at(steps, slopes, (i + count - 1) % count, i)).collect();
     let (top, bottom) = (rows[0].lower, rows[count - 1].upper);
     let shift = -rows[0].middle;
     rows[0].middle -= shift;
@@ -91,12 +60,7 @@ fn periodic<V: Vector>(steps: &[f64], slopes: &[V]) -> Vec<V> {
     let plain = solve(&rows);
     let mut corner: Vec<Row<f64>> = rows
         .iter()
-        .map(|row| Row {
-            lower: row.lower,
-            middle: row.middle,
-            upper: row.upper,
-            right: 0.0,
-        })
+        .map(|row| Row { lower: row.lower, middle: row.middle, upper: row.upper, right: 0.0 })
         .collect();
     corner[0].right = shift;
     corner[count - 1].right = bottom;
@@ -104,11 +68,7 @@ fn periodic<V: Vector>(steps: &[f64], slopes: &[V]) -> Vec<V> {
     let ratio = top / shift;
     let scale = 1.0 / (1.0 + corner[0] + ratio * corner[count - 1]);
     let excess = (plain[0] + plain[count - 1] * ratio) * scale;
-    plain
-        .iter()
-        .zip(&corner)
-        .map(|(&value, &part)| value - excess * part)
-        .collect()
+    plain.iter().zip(&corner).map(|(&value, &part)| value - excess * part).collect()
 }
 
 /// One equation: `lower x[i-1] + middle x[i] + upper x[i+1] = right`.
@@ -155,15 +115,9 @@ mod tests {
     use glam::{DVec2, DVec3};
 
     fn uneven() -> Vec<DVec3> {
-        [
-            [0.0, 0.0, 0.0],
-            [1.0, 0.3, 0.0],
-            [1.2, 1.0, 0.4],
-            [3.0, 1.0, 1.0],
-            [2.0, -2.0, 0.5],
-        ]
-        .map(DVec3::from_array)
-        .to_vec()
+        [[0.0, 0.0, 0.0], [1.0, 0.3, 0.0], [1.2, 1.0, 0.4], [3.0, 1.0, 1.0], [2.0, -2.0, 0.5]]
+            .map(DVec3::from_array)
+            .to_vec()
     }
 
     /// Second derivative by the spline's own parameter.
@@ -214,10 +168,7 @@ mod tests {
             let at = |i: u32| turn(f64::from(i) / f64::from(count));
             let points: Vec<DVec2> = (0..count).map(at).collect();
             let spline = through(&points, true);
-            spline
-                .iter()
-                .map(|cubic| (cubic.point(0.5).length() - 1.0).abs())
-                .fold(0.0, f64::max)
+            spline.iter().map(|cubic| (cubic.point(0.5).length() - 1.0).abs()).fold(0.0, f64::max)
         };
         assert!(error(16) < 1e-4);
         assert!(error(16) / error(32) > 14.0);

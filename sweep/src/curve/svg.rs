@@ -36,11 +36,8 @@ pub struct Outline {
 /// # Errors
 /// A sentence that says what was found, at which character, and what was expected.
 pub fn outline(text: &str) -> Result<Outline, String> {
-    let mut reader = Reader {
-        lexer: Lexer { text, at: 0 },
-        pen: DVec2::ZERO,
-        segments: Vec::new(),
-    };
+    let mut reader =
+        Reader { lexer: Lexer { text, at: 0 }, pen: DVec2::ZERO, segments: Vec::new() };
     let (start, closed) = reader.read()?;
     let mut segments = reader.segments;
     let gap = (reader.pen - start).length();
@@ -57,10 +54,7 @@ pub fn outline(text: &str) -> Result<Outline, String> {
         // Not -y, which would turn 0 into -0.
         segment.0 = segment.0.map(|p| DVec2::new(p.x, 0.0 - p.y));
     }
-    Ok(Outline {
-        segments,
-        closed: closed || meets,
-    })
+    Ok(Outline { segments, closed: closed || meets })
 }
 
 struct Reader<'a> {
@@ -88,11 +82,7 @@ impl Reader<'_> {
             } else if self.lexer.finished() {
                 return Ok((start, false));
             }
-            let origin = if command.is_ascii_lowercase() {
-                self.pen
-            } else {
-                DVec2::ZERO
-            };
+            let origin = if command.is_ascii_lowercase() { self.pen } else { DVec2::ZERO };
             let from = self.pen;
             let mirrored =
                 handles.map(|handle: Option<DVec2>| handle.map_or(from, |h| from * 2.0 - h));
@@ -158,8 +148,7 @@ impl Reader<'_> {
         let from = self.pen;
         let to = origin + self.lexer.point()?;
         let toward = |end: DVec2| end + (handle - end) * (2.0 / 3.0);
-        self.segments
-            .push(Cubic([from, toward(from), toward(to), to]));
+        self.segments.push(Cubic([from, toward(from), toward(to), to]));
         self.pen = to;
         Ok(handle)
     }
@@ -192,8 +181,7 @@ impl Reader<'_> {
         let tolerance = ARC_TOLERANCE * arc.radii.x.max(arc.radii.y);
         for element in arc.append_iter(tolerance) {
             if let PathEl::CurveTo(p1, p2, p3) = element {
-                self.segments
-                    .push(Cubic([from, place(p1), place(p2), place(p3)]));
+                self.segments.push(Cubic([from, place(p1), place(p2), place(p3)]));
                 from = place(p3);
             }
         }
@@ -226,10 +214,7 @@ impl Lexer<'_> {
     /// The letter that comes next, if one does.
     fn command(&mut self) -> Option<char> {
         self.skip();
-        let letter = self.text[self.at..]
-            .chars()
-            .next()
-            .filter(char::is_ascii_alphabetic)?;
+        let letter = self.text[self.at..].chars().next().filter(char::is_ascii_alphabetic)?;
         self.at += 1;
         Some(letter)
     }
@@ -259,9 +244,7 @@ impl Lexer<'_> {
                 end = digits(exponent);
             }
         }
-        let number = self.text[self.at..end]
-            .parse()
-            .map_err(|_| self.expected("a number"))?;
+        let number = self.text[self.at..end].parse().map_err(|_| self.expected("a number"))?;
         self.at = end;
         Ok(number)
     }
@@ -311,11 +294,7 @@ mod tests {
         assert_eq!(absolute, relative);
         let read = absolute.unwrap();
         assert!(!read.closed);
-        assert_eq!(
-            read.segments[3].0[1],
-            p(4.0, -1.0),
-            "the handle is mirrored"
-        );
+        assert_eq!(read.segments[3].0[1], p(4.0, -1.0), "the handle is mirrored");
         assert_eq!(read.segments[5].0[3], p(9.0, -2.0));
     }
 
@@ -335,11 +314,7 @@ mod tests {
 
     #[test]
     fn arcs_without_a_radius_or_a_chord_are_lines() {
-        for text in [
-            "M0 0A0 1 0 0 0 2 0",
-            "M0 0A1e300 1 0 0 0 2 0",
-            "M0 0A1 1 0 0 0 0 0",
-        ] {
+        for text in ["M0 0A0 1 0 0 0 2 0", "M0 0A1e300 1 0 0 0 2 0", "M0 0A1 1 0 0 0 0 0"] {
             assert_eq!(outline(text).unwrap().segments.len(), 1, "{text}");
         }
     }
@@ -359,14 +334,8 @@ mod tests {
             fault("L1 1"),
             "found `1` at character 2, expected `M` and a point to start from"
         );
-        assert_eq!(
-            fault("M0 0 L1 x"),
-            "found `x` at character 9, expected a number"
-        );
-        assert_eq!(
-            fault("M0 0 L1"),
-            "found the end at character 8, expected a number"
-        );
+        assert_eq!(fault("M0 0 L1 x"), "found `x` at character 9, expected a number");
+        assert_eq!(fault("M0 0 L1"), "found the end at character 8, expected a number");
         assert!(fault("M0 0L1 1zM2 2").starts_with("found `M` at character 10, expected the end"));
         assert!(fault("M0 0L1 1M2 2").starts_with("found `M` at character 9, expected the end"));
         assert!(fault("M0 0X1 1").starts_with("found `X` at character 5, expected one of"));

@@ -78,9 +78,8 @@ pub fn extent<V: Vector>(points: impl IntoIterator<Item = V>) -> f64 {
     let Some(first) = points.next() else {
         return 0.0;
     };
-    let (low, high) = points.fold((first, first), |(low, high), p| {
-        (low.bounds(p).0, high.bounds(p).1)
-    });
+    let (low, high) =
+        points.fold((first, first), |(low, high), p| (low.bounds(p).0, high.bounds(p).1));
     (high - low).length()
 }
 
@@ -98,11 +97,7 @@ mod tests {
 
     #[test]
     fn the_extent_is_the_diagonal_of_the_box() {
-        let points = [
-            DVec2::new(1.0, 1.0),
-            DVec2::new(4.0, 1.0),
-            DVec2::new(2.0, 5.0),
-        ];
+        let points = [DVec2::new(1.0, 1.0), DVec2::new(4.0, 1.0), DVec2::new(2.0, 5.0)];
         assert_eq!(extent(points), 5.0);
         assert_eq!(extent(std::iter::empty::<DVec3>()), 0.0);
     }

@@ -70,21 +70,12 @@ impl<C: Curve3> Frames<C> {
     /// The frame at arc length `s`, and the curvature there on its `(w1, w2)`.
     pub fn at(&self, s: f64) -> (Frame, DVec2) {
         let place = self.curve.at(s);
-        let after = self
-            .nodes
-            .partition_point(|node| node.0 <= s)
-            .clamp(1, self.nodes.len() - 1);
+        let after = self.nodes.partition_point(|node| node.0 <= s).clamp(1, self.nodes.len() - 1);
         let (before, after) = (&self.nodes[after - 1], &self.nodes[after]);
-        let nearest = if s - before.0 <= after.0 - s {
-            before
-        } else {
-            after
-        };
+        let nearest = if s - before.0 <= after.0 - s { before } else { after };
         let frame = nearest.1.carried_to(&place).turned(self.spin * s);
-        let curvature = DVec2::new(
-            place.curvature.dot(frame.normal),
-            place.curvature.dot(frame.binormal),
-        );
+        let curvature =
+            DVec2::new(place.curvature.dot(frame.normal), place.curvature.dot(frame.binormal));
         (frame, curvature)
     }
 }
@@ -164,9 +155,7 @@ mod tests {
         }
 
         fn knots(&self) -> Vec<f64> {
-            (0..=self.pieces)
-                .map(|i| self.length() * i as f64 / self.pieces as f64)
-                .collect()
+            (0..=self.pieces).map(|i| self.length() * i as f64 / self.pieces as f64).collect()
         }
 
         fn at(&self, s: f64) -> Local3 {
@@ -182,12 +171,7 @@ mod tests {
 
     /// The largest error of frames carried over `steps` even steps, in radians.
     fn helix_error(steps: usize) -> f64 {
-        let helix = Helix {
-            radius: 1.0,
-            climb: 0.3,
-            turns: 2.0,
-            pieces: 1,
-        };
+        let helix = Helix { radius: 1.0, climb: 0.3, turns: 2.0, pieces: 1 };
         let place = |i: usize| helix.length() * i as f64 / steps as f64;
         let mut frame = Frame::toward(&helix.at(0.0), helix.truth(0.0)).unwrap();
         let mut error: f64 = 0.0;
@@ -211,12 +195,7 @@ mod tests {
 
     #[test]
     fn frames_between_nodes_are_as_good_as_those_on_them() {
-        let helix = Helix {
-            radius: 1.0,
-            climb: 0.3,
-            turns: 2.0,
-            pieces: 8,
-        };
+        let helix = Helix { radius: 1.0, climb: 0.3, turns: 2.0, pieces: 8 };
         let first = Frame::toward(&helix.at(0.0), helix.truth(0.0)).unwrap();
         let frames = Frames::new(helix, first);
         let helix = frames.curve();
@@ -234,12 +213,7 @@ mod tests {
     }
 
     fn three_d_loop() -> Path<DVec3> {
-        let points = [
-            [2.0, 0.0, 0.0],
-            [0.0, 1.0, 2.0],
-            [-2.0, 0.0, -0.5],
-            [0.0, -1.0, -2.0],
-        ];
+        let points = [[2.0, 0.0, 0.0], [0.0, 1.0, 2.0], [-2.0, 0.0, -0.5], [0.0, -1.0, -2.0]];
         let points = points.map(DVec3::from_array);
         Path::new(&spline::through(&points, true), true).unwrap()
     }
@@ -250,10 +224,7 @@ mod tests {
         let first = Frame::seed(&path.at(0.0));
         let length = path.length();
         let frames = Frames::new(path, first);
-        assert!(
-            frames.spin().abs() * length > 1e-3,
-            "there is a turn to undo"
-        );
+        assert!(frames.spin().abs() * length > 1e-3, "there is a turn to undo");
         let gap = (frames.at(length).0.normal - frames.at(0.0).0.normal).length();
         assert!(gap < 1e-14, "{gap:e}");
     }
@@ -273,12 +244,7 @@ mod tests {
     #[test]
     fn an_inflection_does_not_turn_the_frame_over() {
         let p = DVec3::new;
-        let wave = Cubic([
-            p(0.0, 0.0, 0.0),
-            p(1.0, 2.0, 0.0),
-            p(2.0, -2.0, 0.0),
-            p(3.0, 0.0, 0.0),
-        ]);
+        let wave = Cubic([p(0.0, 0.0, 0.0), p(1.0, 2.0, 0.0), p(2.0, -2.0, 0.0), p(3.0, 0.0, 0.0)]);
         let path = Path::new(&[wave], false).unwrap();
         let first = Frame::toward(&path.at(0.0), DVec3::Z).unwrap();
         let frames = Frames::new(path, first);

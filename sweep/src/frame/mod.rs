@@ -65,12 +65,7 @@ impl Frame {
 
     fn new(place: &Local3, normal: DVec3) -> Self {
         let binormal = place.tangent.cross(normal);
-        Self {
-            origin: place.position,
-            tangent: place.tangent,
-            normal,
-            binormal,
-        }
+        Self { origin: place.position, tangent: place.tangent, normal, binormal }
     }
 
     /// The frame at another place, one double reflection away.
@@ -108,9 +103,7 @@ impl Frame {
 
     /// The angle about the tangent from this frame's `w1` to a direction.
     fn angle_to(&self, direction: DVec3) -> f64 {
-        direction
-            .dot(self.binormal)
-            .atan2(direction.dot(self.normal))
+        direction.dot(self.binormal).atan2(direction.dot(self.normal))
     }
 }
 
@@ -121,11 +114,7 @@ mod tests {
     #[test]
     fn the_seed_is_the_axis_least_aligned() {
         let seed = |tangent: DVec3| {
-            let place = Local3 {
-                position: DVec3::ZERO,
-                tangent,
-                curvature: DVec3::ZERO,
-            };
+            let place = Local3 { position: DVec3::ZERO, tangent, curvature: DVec3::ZERO };
             let frame = Frame::seed(&place);
             (frame.normal, frame.binormal)
         };
@@ -138,28 +127,16 @@ mod tests {
     #[test]
     fn a_direction_along_the_curve_gives_no_frame() {
         let tangent = DVec3::new(0.6, 0.0, 0.8);
-        let place = Local3 {
-            position: DVec3::ONE,
-            tangent,
-            curvature: DVec3::ZERO,
-        };
+        let place = Local3 { position: DVec3::ONE, tangent, curvature: DVec3::ZERO };
         assert!(Frame::toward(&place, place.tangent * 3.0).is_none());
         assert!(Frame::toward(&place, DVec3::ZERO).is_none());
     }
 
     #[test]
     fn rounding_of_a_point_does_not_mirror_the_frame() {
-        let at = |position| Local3 {
-            position,
-            tangent: DVec3::X,
-            curvature: DVec3::ZERO,
-        };
+        let at = |position| Local3 { position, tangent: DVec3::X, curvature: DVec3::ZERO };
         let frame = Frame::toward(&at(DVec3::ONE), DVec3::Y).unwrap();
-        for off in [
-            DVec3::Y,
-            DVec3::new(1e-3, 1.0, 0.0),
-            DVec3::new(1.0, 1.0, 1.0),
-        ] {
+        for off in [DVec3::Y, DVec3::new(1e-3, 1.0, 0.0), DVec3::new(1.0, 1.0, 1.0)] {
             let moved = frame.carried_to(&at(DVec3::ONE + off * 4.0 * f64::EPSILON));
             assert!((moved.normal - DVec3::Y).length() < 1e-15, "{off}");
         }
@@ -167,11 +144,7 @@ mod tests {
 
     #[test]
     fn a_point_that_stays_turns_the_frame_with_its_tangent() {
-        let place = |tangent| Local3 {
-            position: DVec3::ONE,
-            tangent,
-            curvature: DVec3::ZERO,
-        };
+        let place = |tangent| Local3 { position: DVec3::ONE, tangent, curvature: DVec3::ZERO };
         let frame = Frame::toward(&place(DVec3::X), DVec3::Y).unwrap();
         let turned = frame.carried_to(&place(DVec3::Y));
         assert!((turned.normal - DVec3::NEG_X).length() < 1e-15);

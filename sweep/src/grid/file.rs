@@ -63,9 +63,7 @@ pub enum Encoding {
 /// is not finite, `u` or `v` out of order) is [`io::ErrorKind::InvalidInput`].
 pub fn write(grid: &GridMesh, encoding: Encoding, out: &mut impl Write) -> io::Result<()> {
     let header = Header::of(grid);
-    header
-        .check()
-        .map_err(|fault| refused(&fault.to_string()))?;
+    header.check().map_err(|fault| refused(&fault.to_string()))?;
     let points = grid.rows().saturating_mul(grid.cols());
     if grid.positions.len() != points || grid.normals.len() != points {
         return Err(refused(&format!(
@@ -75,16 +73,12 @@ pub fn write(grid: &GridMesh, encoding: Encoding, out: &mut impl Write) -> io::R
         )));
     }
 
-    let mut sum = Summed {
-        out,
-        crc: crc32fast::Hasher::new(),
-    };
+    let mut sum = Summed { out, crc: crc32fast::Hasher::new() };
     let mut bytes = header.line(encoding)?;
     sum.write(&bytes)?;
     let mut before = None;
     for row in grid.row_views() {
-        row.check(grid.seam_v, before)
-            .map_err(|fault| refused(&fault.to_string()))?;
+        row.check(grid.seam_v, before).map_err(|fault| refused(&fault.to_string()))?;
         before = Some(row.v);
         bytes.clear();
         match encoding {
@@ -93,10 +87,7 @@ pub fn write(grid: &GridMesh, encoding: Encoding, out: &mut impl Write) -> io::R
         }
         sum.write(&bytes)?;
     }
-    let footer = Footer {
-        rows: grid.rows() as u64,
-        crc32: sum.crc.clone().finalize(),
-    };
+    let footer = Footer { rows: grid.rows() as u64, crc32: sum.crc.clone().finalize() };
     match encoding {
         Encoding::Binary => sum.out.write_all(&binary::encode_footer(footer)),
         Encoding::Json => sum.out.write_all(&text::encode_footer(footer)?),
@@ -126,10 +117,7 @@ impl<W: Write> Summed<'_, W> {
 }
 
 fn refused(fault: &str) -> io::Error {
-    io::Error::new(
-        io::ErrorKind::InvalidInput,
-        format!("the grid cannot be written: {fault}"),
-    )
+    io::Error::new(io::ErrorKind::InvalidInput, format!("the grid cannot be written: {fault}"))
 }
 
 #[cfg(test)]

@@ -81,10 +81,7 @@ pub enum Across {
 
 impl Default for UvLayout {
     fn default() -> Self {
-        Self {
-            across: Across::Contour,
-            repeat: [1.0, 1.0],
-        }
+        Self { across: Across::Contour, repeat: [1.0, 1.0] }
     }
 }
 

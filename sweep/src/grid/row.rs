@@ -38,11 +38,7 @@ impl GridMesh {
         let cols = self.cols();
         self.v.iter().enumerate().map(move |(row, &v)| {
             let points = row * cols..(row + 1) * cols;
-            Row {
-                v,
-                positions: &self.positions[points.clone()],
-                normals: &self.normals[points],
-            }
+            Row { v, positions: &self.positions[points.clone()], normals: &self.normals[points] }
         })
     }
 }
@@ -50,10 +46,8 @@ impl GridMesh {
 impl Row<'_> {
     /// Checks the numbers of a row; `before` is the `v` of the row before it.
     pub(super) fn check(&self, seam_v: Seam, before: Option<f64>) -> Result<(), Fault> {
-        check_parameter(self.v, before, seam_v).map_err(|message| Fault {
-            place: "v".into(),
-            message,
-        })?;
+        check_parameter(self.v, before, seam_v)
+            .map_err(|message| Fault { place: "v".into(), message })?;
         let position = self.positions.iter().position(|p| !p.is_finite());
         let normal = self.normals.iter().position(|n| !n.is_finite());
         let place = match (position, normal) {

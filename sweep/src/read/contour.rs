@@ -25,20 +25,11 @@ impl Reader<'_> {
         let path = "contour.svg";
         let outline = svg::outline(text).map_err(|message| self.fault(path, message))?;
         let reckonable = |point: &DVec2| point.abs().max_element() <= LARGEST;
-        if !outline
-            .segments
-            .iter()
-            .flat_map(|cubic| &cubic.0)
-            .all(reckonable)
-        {
+        if !outline.segments.iter().flat_map(|cubic| &cubic.0).all(reckonable) {
             let message = format!("found a coordinate beyond {LARGEST:?}, expected smaller ones");
             return Err(self.fault(path, message));
         }
-        Ok(Contour::path(self.path(
-            path,
-            &outline.segments,
-            outline.closed,
-        )?))
+        Ok(Contour::path(self.path(path, &outline.segments, outline.closed)?))
     }
 }
 
@@ -50,16 +41,8 @@ mod tests {
     #[test]
     fn each_kind_of_contour_has_its_complaints() {
         for (contour, message, exit) in [
-            (
-                "{\"circle\": -1}",
-                "2:23: contour.circle: found -1.0, expected a number above 0",
-                3,
-            ),
-            (
-                "{\"circle\": 1e-90}",
-                "2:23: contour.circle: found 1e-90, expected a number from",
-                3,
-            ),
+            ("{\"circle\": -1}", "2:23: contour.circle: found -1.0, expected a number above 0", 3),
+            ("{\"circle\": 1e-90}", "2:23: contour.circle: found 1e-90, expected a number from", 3),
             (
                 "{\"bezier\": {\"segments\": []}}",
                 "2:36: contour.bezier.segments: found no segments",
@@ -90,52 +73,24 @@ mod tests {
                 "2:20: contour.svg: found a coordinate beyond 1e60",
                 3,
             ),
-            (
-                "{\"svg\": \"M1 1Z\"}",
-                "2:20: contour.svg: found points that all coincide",
-                4,
-            ),
+            ("{\"svg\": \"M1 1Z\"}", "2:20: contour.svg: found points that all coincide", 4),
             (
                 "{\"bezier\": {\"segments\": [[[1,1],[1,1],[1,1],[1,1]]]}}",
                 "2:23: contour.bezier: found points that all coincide",
                 4,
             ),
-            (
-                "{\"squircle\": 1}",
-                "contour.squircle: unknown key `squircle`",
-                3,
-            ),
-            (
-                "{\"circle\": 1, \"svg\": \"\"}",
-                "contour: found both `circle` and `svg`",
-                3,
-            ),
-            (
-                "{}",
-                "contour: found no curve, expected one of circle, bezier, svg, free",
-                3,
-            ),
-            (
-                "{\"free\": {\"points\": [[0, 0, 0], [1, 0]]}}",
-                "contour.free.points[0]",
-                3,
-            ),
-            (
-                "{\"free\": {\"closd\": true, \"points\": []}}",
-                "did you mean `closed`?",
-                3,
-            ),
+            ("{\"squircle\": 1}", "contour.squircle: unknown key `squircle`", 3),
+            ("{\"circle\": 1, \"svg\": \"\"}", "contour: found both `circle` and `svg`", 3),
+            ("{}", "contour: found no curve, expected one of circle, bezier, svg, free", 3),
+            ("{\"free\": {\"points\": [[0, 0, 0], [1, 0]]}}", "contour.free.points[0]", 3),
+            ("{\"free\": {\"closd\": true, \"points\": []}}", "did you mean `closed`?", 3),
         ] {
             let (found, code) = contour_complaint(contour);
             assert!(
                 found.starts_with("a.json:2:") && found.contains(message),
                 "{contour}: {found}"
             );
-            let expected = if exit == 3 {
-                Exit::Malformed
-            } else {
-                Exit::Geometry
-            };
+            let expected = if exit == 3 { Exit::Malformed } else { Exit::Geometry };
             assert_eq!(code, expected, "{contour}");
         }
     }

@@ -144,11 +144,8 @@ impl Reader<'_> {
         for (i, segment) in bezier.segments.iter().enumerate() {
             self.points(&format!("{segments_path}[{i}]"), segment)?;
         }
-        let mut cubics: Vec<Cubic<V>> = bezier
-            .segments
-            .iter()
-            .map(|segment| Cubic(segment.map(V::from)))
-            .collect();
+        let mut cubics: Vec<Cubic<V>> =
+            bezier.segments.iter().map(|segment| Cubic(segment.map(V::from))).collect();
         let widest = MEETS * extent(cubics.iter().flat_map(|cubic| cubic.0));
         let count = cubics.len();
         for i in 0..if bezier.closed { count } else { count - 1 } {
@@ -181,11 +178,7 @@ impl Reader<'_> {
         V: Vector + From<P>,
     {
         let points_path = format!("{path}.points");
-        let (fewest, kind) = if free.closed {
-            (3, "a closed")
-        } else {
-            (2, "an open")
-        };
+        let (fewest, kind) = if free.closed { (3, "a closed") } else { (2, "an open") };
         if free.points.len() < fewest {
             let found = free.points.len();
             let message =
@@ -224,10 +217,7 @@ impl Reader<'_> {
             return Err(self.geometry(path, message));
         }
         Path::new(cubics, closed).ok_or_else(|| {
-            self.geometry(
-                path,
-                "found points that all coincide, expected a curve of some length",
-            )
+            self.geometry(path, "found points that all coincide, expected a curve of some length")
         })
     }
 }
@@ -263,21 +253,9 @@ mod tests {
                 "tb-grid",
                 "a.json:1:12: format: found \"tb-grid\", expected \"tb-sweep\"",
             ),
-            (
-                "\"version\": 1",
-                "\"version\": 2",
-                "a.json:1:35: version: found 2, expected 1",
-            ),
-            (
-                "ring",
-                "a ring",
-                "a.json:1:46: name: found \"a ring\", expected one word",
-            ),
-            (
-                "ring",
-                "",
-                "a.json:1:46: name: found \"\", expected one word",
-            ),
+            ("\"version\": 1", "\"version\": 2", "a.json:1:35: version: found 2, expected 1"),
+            ("ring", "a ring", "a.json:1:46: name: found \"a ring\", expected one word"),
+            ("ring", "", "a.json:1:46: name: found \"\", expected one word"),
             (
                 "\"mesh\"",
                 "\"uv\": {\"repeat\": [1, 0]}, \"mesh\"",
@@ -289,10 +267,7 @@ mod tests {
                 "a.json:4:13: position: found 1e99, expected coordinates of at most 1e60",
             ),
         ] {
-            assert_eq!(
-                complaint(part, replacement),
-                (message.into(), Exit::Malformed)
-            );
+            assert_eq!(complaint(part, replacement), (message.into(), Exit::Malformed));
         }
     }
 
@@ -347,10 +322,7 @@ mod tests {
             "{message}"
         );
         let (message, _) = contour_complaint("{\"free\": {\"points\": [[0,0],[1e-61,0]]}}");
-        assert!(
-            message.contains("contour.free: found a size of 1e-61"),
-            "{message}"
-        );
+        assert!(message.contains("contour.free: found a size of 1e-61"), "{message}");
     }
 
     #[test]
@@ -365,9 +337,6 @@ mod tests {
             .replace("{\"circle\": 0.25}", "{\"svg\": \"M0 0V3\"}");
         let document = Document::new("a.json", text.as_bytes()).unwrap();
         let message = Sweep::read(&document).unwrap_err().to_string();
-        assert!(
-            message.contains("contour: found a contour on the axis"),
-            "{message}"
-        );
+        assert!(message.contains("contour: found a contour on the axis"), "{message}");
     }
 }

@@ -67,11 +67,7 @@ impl Reader<'_> {
                 "found ends that coincide, expected a line of some length",
             ));
         };
-        let place = Local3 {
-            position: from,
-            tangent,
-            curvature: DVec3::ZERO,
-        };
+        let place = Local3 { position: from, tangent, curvature: DVec3::ZERO };
         Ok(Trajectory::line(self.first_frame(&place, start)?, to))
     }
 
@@ -111,18 +107,9 @@ impl Reader<'_> {
             return Err(self.fault(&axis_path, "found no direction, expected an axis"));
         };
         // The frame of a line along the axis has the right w1; the turn begins across both.
-        let along = Local3 {
-            position: origin,
-            tangent: axis,
-            curvature: DVec3::ZERO,
-        };
+        let along = Local3 { position: origin, tangent: axis, curvature: DVec3::ZERO };
         let normal = self.first_frame(&along, start)?.normal;
-        Ok(Frame {
-            origin,
-            tangent: normal.cross(axis),
-            normal,
-            binormal: axis,
-        })
+        Ok(Frame { origin, tangent: normal.cross(axis), normal, binormal: axis })
     }
 
     fn fraction(&self, path: &str, degrees: f64) -> Result<f64, SweepError> {
@@ -139,10 +126,7 @@ impl Reader<'_> {
         curve: &Path<DVec3>,
         place: impl Fn(usize) -> String,
     ) -> Result<(), SweepError> {
-        let Some(joint) = curve
-            .joints()
-            .find(|joint| joint.angle.to_degrees() > SMOOTH_DEG)
-        else {
+        let Some(joint) = curve.joints().find(|joint| joint.angle.to_degrees() > SMOOTH_DEG) else {
             return Ok(());
         };
         let [before, after] = joint.sources;
@@ -171,21 +155,9 @@ mod tests {
     #[test]
     fn each_kind_of_trajectory_has_its_complaints() {
         for (trajectory, message, exit) in [
-            (
-                "{\"line\": [[1,1,1],[1,1,1]]}",
-                "3:24: trajectory.line: found ends that coincide",
-                4,
-            ),
-            (
-                "{\"line\": [[1,1,1],[1,1e80,1]]}",
-                "3:33: trajectory.line[1]: found 1e80",
-                3,
-            ),
-            (
-                "{\"circle\": {\"radius\": 0}}",
-                "3:37: trajectory.circle.radius: found 0.0",
-                3,
-            ),
+            ("{\"line\": [[1,1,1],[1,1,1]]}", "3:24: trajectory.line: found ends that coincide", 4),
+            ("{\"line\": [[1,1,1],[1,1e80,1]]}", "3:33: trajectory.line[1]: found 1e80", 3),
+            ("{\"circle\": {\"radius\": 0}}", "3:37: trajectory.circle.radius: found 0.0", 3),
             (
                 "{\"circle\": {\"radius\": 1, \"degrees\": 361}}",
                 "3:51: trajectory.circle.degrees: found 361.0, expected degrees above 0 and up to 360",
@@ -196,11 +168,7 @@ mod tests {
                 "3:37: trajectory.rotation.axis: found no direction",
                 3,
             ),
-            (
-                "{\"rotation\": {\"degrees\": 0}}",
-                "trajectory.rotation.degrees: found 0.0",
-                3,
-            ),
+            ("{\"rotation\": {\"degrees\": 0}}", "trajectory.rotation.degrees: found 0.0", 3),
             (
                 "{\"free\": {\"closed\": true, \"points\": [[0,0,0],[1,0,0],[1,0,0],[0,0,0]]}}",
                 "trajectory.free.points: found 2 points that differ, expected at least 3",
@@ -224,11 +192,7 @@ mod tests {
         ] {
             let (found, code) = trajectory_complaint(trajectory);
             assert!(found.contains(message), "{trajectory}: {found}");
-            let expected = if exit == 3 {
-                Exit::Malformed
-            } else {
-                Exit::Geometry
-            };
+            let expected = if exit == 3 { Exit::Malformed } else { Exit::Geometry };
             assert_eq!(code, expected, "{trajectory}");
         }
     }

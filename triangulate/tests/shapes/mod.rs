@@ -14,11 +14,7 @@ pub fn grid_of(
     surface: impl Fn(f64, f64) -> (DVec3, DVec3),
 ) -> GridMesh {
     let even = |count: usize, seam: Seam| -> Vec<f64> {
-        let last = if seam == Seam::Closed {
-            count
-        } else {
-            count - 1
-        };
+        let last = if seam == Seam::Closed { count } else { count - 1 };
         (0..count).map(|i| i as f64 / last as f64).collect()
     };
     let (v, u) = (even(rows, seam_v), even(cols, seam_u));
@@ -31,16 +27,7 @@ pub fn grid_of(
         }
     }
     let name = "shape".into();
-    GridMesh {
-        name,
-        seam_u,
-        seam_v,
-        uv: UvLayout::default(),
-        u,
-        v,
-        positions,
-        normals,
-    }
+    GridMesh { name, seam_u, seam_v, uv: UvLayout::default(), u, v, positions, normals }
 }
 
 /// Radii 3 and 1. Along `u` around the tube, along `v` around the hole.

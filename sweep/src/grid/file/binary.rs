@@ -57,9 +57,7 @@ pub(super) fn decode(bytes: &[u8], cols: usize, row: &mut RowBuffer) {
     );
     row.normals.clear();
     row.normals.extend(
-        normals
-            .chunks_exact(NORMAL)
-            .map(|n| Vec3::new(f32_at(n, 0), f32_at(n, 4), f32_at(n, 8))),
+        normals.chunks_exact(NORMAL).map(|n| Vec3::new(f32_at(n, 0), f32_at(n, 4), f32_at(n, 8))),
     );
 }
 

@@ -140,11 +140,7 @@ pub enum GridError {
 
 /// Who should have written the file.
 fn writer_of(name: &str) -> &'static str {
-    if name == STDIN {
-        "the program before the pipe"
-    } else {
-        "the program that made it"
-    }
+    if name == STDIN { "the program before the pipe" } else { "the program that made it" }
 }
 
 impl Failure for GridError {

@@ -121,27 +121,19 @@ impl Header {
             let least = if seam == Seam::Closed { 3 } else { 2 };
             if !(least..=limit).contains(&count) {
                 let message = format!("found {count}, expected from {least} to {limit}");
-                return Err(Fault {
-                    place: place.into(),
-                    message,
-                });
+                return Err(Fault { place: place.into(), message });
             }
         }
         for (i, found) in self.uv.repeat.iter().enumerate() {
             if !(found.is_finite() && *found > 0.0) {
                 let message = format!("found {found}, expected a positive number");
-                return Err(Fault {
-                    place: format!("uv.repeat[{i}]"),
-                    message,
-                });
+                return Err(Fault { place: format!("uv.repeat[{i}]"), message });
             }
         }
         let mut before = None;
         for (i, &found) in self.u.iter().enumerate() {
-            check_parameter(found, before, self.seam_u).map_err(|message| Fault {
-                place: format!("u[{i}]"),
-                message,
-            })?;
+            check_parameter(found, before, self.seam_u)
+                .map_err(|message| Fault { place: format!("u[{i}]"), message })?;
             before = Some(found);
         }
         Ok(())
@@ -153,31 +145,17 @@ pub(super) fn read(
     name: &str,
     input: &mut impl BufRead,
 ) -> Result<(Header, Encoding, Vec<u8>), GridError> {
-    let read_error = |source| GridError::Read {
-        name: name.into(),
-        source,
-    };
-    let not_a_grid = |found| GridError::NotAGrid {
-        name: name.into(),
-        found,
-    };
+    let read_error = |source| GridError::Read { name: name.into(), source };
+    let not_a_grid = |found| GridError::NotAGrid { name: name.into(), found };
 
     // A grid starts with a brace; of anything else a few bytes are enough to name it.
     let mut bytes = Vec::new();
-    input
-        .by_ref()
-        .take(1)
-        .read_to_end(&mut bytes)
-        .map_err(read_error)?;
+    input.by_ref().take(1).read_to_end(&mut bytes).map_err(read_error)?;
     if bytes.is_empty() {
         return Err(GridError::Empty { name: name.into() });
     }
     if bytes != b"{" {
-        input
-            .by_ref()
-            .take(63)
-            .read_to_end(&mut bytes)
-            .map_err(read_error)?;
+        input.by_ref().take(63).read_to_end(&mut bytes).map_err(read_error)?;
         return Err(not_a_grid(stranger::described(&bytes)));
     }
     let mut limited = input.by_ref().take(MAX_LINE as u64 - 1);
@@ -185,19 +163,11 @@ pub(super) fn read(
     let whole = bytes.ends_with(b"\n");
     if !whole && bytes.len() == MAX_LINE {
         let expected = "the header line of a grid";
-        return Err(GridError::LongLine {
-            name: name.into(),
-            line: 1,
-            limit: MAX_LINE,
-            expected,
-        });
+        return Err(GridError::LongLine { name: name.into(), line: 1, limit: MAX_LINE, expected });
     }
 
     // What it claims to be comes before what is wrong in it.
-    let cut = || GridError::HeaderCut {
-        name: name.into(),
-        bytes: bytes.len(),
-    };
+    let cut = || GridError::HeaderCut { name: name.into(), bytes: bytes.len() };
     match serde_json::from_slice::<Claim>(&bytes) {
         Err(error) if !whole && (error.is_eof() || bytes.starts_with(START)) => return Err(cut()),
         Ok(claim) if claim.format == FORMAT => {
@@ -205,11 +175,7 @@ pub(super) fn read(
                 return Err(cut());
             }
             if let Some(found) = claim.version.as_u64().filter(|&found| found != VERSION) {
-                return Err(GridError::Version {
-                    name: name.into(),
-                    found,
-                    expected: VERSION,
-                });
+                return Err(GridError::Version { name: name.into(), found, expected: VERSION });
             }
         }
         // Ours, but damaged: the strict reading below says where.
@@ -232,22 +198,10 @@ pub(super) fn read(
         u,
     } = document.parse()?;
     if cols != u.len() {
-        let message = format!(
-            "found {cols}, expected {}, the number of values in u",
-            u.len()
-        );
+        let message = format!("found {cols}, expected {}, the number of values in u", u.len());
         return Err(document.fault("cols", message).into());
     }
-    let header = Header {
-        name,
-        rows,
-        seam_u,
-        seam_v,
-        uv,
-        u,
-    };
-    header
-        .check()
-        .map_err(|fault| document.fault(&fault.place, fault.message))?;
+    let header = Header { name, rows, seam_u, seam_v, uv, u };
+    header.check().map_err(|fault| document.fault(&fault.place, fault.message))?;
     Ok((header, encoding, bytes))
 }

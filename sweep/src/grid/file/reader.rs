@@ -42,24 +42,8 @@ pub fn read(name: &str, input: impl BufRead) -> Result<GridMesh, GridError> {
         positions.extend_from_slice(row.positions);
         normals.extend_from_slice(row.normals);
     }
-    let Header {
-        name,
-        rows: _,
-        seam_u,
-        seam_v,
-        uv,
-        u,
-    } = reader.header;
-    Ok(GridMesh {
-        name,
-        seam_u,
-        seam_v,
-        uv,
-        u,
-        v,
-        positions,
-        normals,
-    })
+    let Header { name, rows: _, seam_u, seam_v, uv, u } = reader.header;
+    Ok(GridMesh { name, seam_u, seam_v, uv, u, v, positions, normals })
 }
 
 impl<R: BufRead> GridReader<R> {
@@ -122,20 +106,12 @@ impl<R: BufRead> GridReader<R> {
             let message = format!("found {}, expected 0 in version 1", self.row.flags);
             return Err(self.row_error("flags".into(), message));
         }
-        let row = Row {
-            v: self.row.v,
-            positions: &self.row.positions,
-            normals: &self.row.normals,
-        };
+        let row = Row { v: self.row.v, positions: &self.row.positions, normals: &self.row.normals };
         if let Err(fault) = row.check(self.header.seam_v, before) {
             return Err(self.row_error(fault.place, fault.message));
         }
         self.given += 1;
-        Ok(Some(Row {
-            v: self.row.v,
-            positions: &self.row.positions,
-            normals: &self.row.normals,
-        }))
+        Ok(Some(Row { v: self.row.v, positions: &self.row.positions, normals: &self.row.normals }))
     }
 
     fn read_binary_row(&mut self) -> Result<(), GridError> {
@@ -196,18 +172,12 @@ impl<R: BufRead> GridReader<R> {
         let expected = self.crc.clone().finalize();
         if footer.crc32 != expected {
             let (name, found) = (self.name.clone(), footer.crc32);
-            return Err(GridError::Checksum {
-                name,
-                found,
-                expected,
-            });
+            return Err(GridError::Checksum { name, found, expected });
         }
         self.bytes.clear();
         match self.input.by_ref().take(1).read_to_end(&mut self.bytes) {
             Ok(0) => Ok(()),
-            Ok(_) => Err(GridError::Trailing {
-                name: self.name.clone(),
-            }),
+            Ok(_) => Err(GridError::Trailing { name: self.name.clone() }),
             Err(source) => Err(self.read_error(source)),
         }
     }
@@ -224,56 +194,31 @@ impl<R: BufRead> GridReader<R> {
         }
         if self.bytes.len() == limit {
             let (name, line) = (self.name.clone(), self.given + 2);
-            return Err(GridError::LongLine {
-                name,
-                line,
-                limit,
-                expected,
-            });
+            return Err(GridError::LongLine { name, line, limit, expected });
         }
         Ok(false)
     }
 
     fn read_error(&self, source: io::Error) -> GridError {
-        GridError::Read {
-            name: self.name.clone(),
-            source,
-        }
+        GridError::Read { name: self.name.clone(), source }
     }
 
     fn row_cut(&self) -> GridError {
         let (name, rows) = (self.name.clone(), self.header.rows);
-        GridError::RowCut {
-            name,
-            row: self.given + 1,
-            rows,
-        }
+        GridError::RowCut { name, row: self.given + 1, rows }
     }
 
     fn row_error(&self, place: String, message: String) -> GridError {
         let (name, rows) = (self.name.clone(), self.header.rows);
-        GridError::Row {
-            name,
-            row: self.given + 1,
-            rows,
-            place,
-            message,
-        }
+        GridError::Row { name, row: self.given + 1, rows, place, message }
     }
 
     fn footer_cut(&self) -> GridError {
-        GridError::FooterCut {
-            name: self.name.clone(),
-            rows: self.header.rows,
-        }
+        GridError::FooterCut { name: self.name.clone(), rows: self.header.rows }
     }
 
     fn count_error(&self, footer: Footer) -> GridError {
         let (name, expected) = (self.name.clone(), self.header.rows);
-        GridError::Count {
-            name,
-            found: footer.rows,
-            expected,
-        }
+        GridError::Count { name, found: footer.rows, expected }
     }
 }

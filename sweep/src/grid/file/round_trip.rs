@@ -20,25 +20,10 @@ proptest! {
 fn assert_same_bits(a: &GridMesh, b: &GridMesh) {
     assert_eq!(a, b);
     let bits = |g: &GridMesh| {
-        let positions = g
-            .positions
-            .iter()
-            .flat_map(DVec3::to_array)
-            .map(f64::to_bits);
-        let normals = g
-            .normals
-            .iter()
-            .flat_map(Vec3::to_array)
-            .map(|n| u64::from(n.to_bits()));
-        let parameters =
-            g.u.iter()
-                .chain(&g.v)
-                .chain(&g.uv.repeat)
-                .map(|x| x.to_bits());
-        positions
-            .chain(normals)
-            .chain(parameters)
-            .collect::<Vec<u64>>()
+        let positions = g.positions.iter().flat_map(DVec3::to_array).map(f64::to_bits);
+        let normals = g.normals.iter().flat_map(Vec3::to_array).map(|n| u64::from(n.to_bits()));
+        let parameters = g.u.iter().chain(&g.v).chain(&g.uv.repeat).map(|x| x.to_bits());
+        positions.chain(normals).chain(parameters).collect::<Vec<u64>>()
     };
     assert_eq!(bits(a), bits(b));
 }
@@ -58,26 +43,14 @@ fn nasty_f64() -> impl Strategy<Value = f64> {
             1.0 / 3.0,
             1e23,
         ]),
-        any::<u64>()
-            .prop_map(f64::from_bits)
-            .prop_filter("finite", |x| x.is_finite()),
+        any::<u64>().prop_map(f64::from_bits).prop_filter("finite", |x| x.is_finite()),
     ]
 }
 
 fn nasty_f32() -> impl Strategy<Value = f32> {
     prop_oneof![
-        prop::sample::select(vec![
-            0.0,
-            -0.0,
-            1e-45,
-            -1.1e-38,
-            f32::MAX,
-            0.1,
-            16_777_216.0
-        ]),
-        any::<u32>()
-            .prop_map(f32::from_bits)
-            .prop_filter("finite", |x| x.is_finite()),
+        prop::sample::select(vec![0.0, -0.0, 1e-45, -1.1e-38, f32::MAX, 0.1, 16_777_216.0]),
+        any::<u32>().prop_map(f32::from_bits).prop_filter("finite", |x| x.is_finite()),
     ]
 }
 
@@ -100,20 +73,17 @@ fn grids() -> impl Strategy<Value = GridMesh> {
             prop::collection::vec(prop::array::uniform3(nasty_f64()), points),
             prop::collection::vec(prop::array::uniform3(nasty_f32()), points),
         )
-            .prop_map(
-                |((name, seam_u, seam_v, repeat), (u, v), positions, normals)| GridMesh {
+            .prop_map(|((name, seam_u, seam_v, repeat), (u, v), positions, normals)| {
+                GridMesh {
                     name,
                     seam_u,
                     seam_v,
-                    uv: UvLayout {
-                        across: Across::Contour,
-                        repeat: [repeat, 1.0],
-                    },
+                    uv: UvLayout { across: Across::Contour, repeat: [repeat, 1.0] },
                     u,
                     v,
                     positions: positions.into_iter().map(DVec3::from_array).collect(),
                     normals: normals.into_iter().map(Vec3::from_array).collect(),
-                },
-            )
+                }
+            })
     })
 }

@@ -6,14 +6,8 @@ const KNOWN: [(&[u8], &str); 7] = [
     (b"\xff\xd8\xff", "it is a JPEG picture"),
     (b"v/1\x01", "it is an EXR picture"),
     (b"\x1f\x8b", "it is compressed; unpack it first"),
-    (
-        b"\xef\xbb\xbf",
-        "it starts with the byte order mark of a text editor",
-    ),
-    (
-        b"\xff\xfe",
-        "it is UTF-16 text; a program on the way recoded it",
-    ),
+    (b"\xef\xbb\xbf", "it starts with the byte order mark of a text editor"),
+    (b"\xff\xfe", "it is UTF-16 text; a program on the way recoded it"),
     (b"[", "it is JSON without the header line of a grid"),
 ];
 
@@ -33,10 +27,7 @@ pub(super) fn described(bytes: &[u8]) -> String {
     if start.starts_with(b"{") {
         return OTHER_JSON.into();
     }
-    let word = start
-        .split(u8::is_ascii_whitespace)
-        .next()
-        .unwrap_or_default();
+    let word = start.split(u8::is_ascii_whitespace).next().unwrap_or_default();
     if OBJ_WORDS.iter().any(|known| known.as_bytes() == word) {
         return "it looks like an OBJ mesh, which has triangles already; `render` reads it".into();
     }

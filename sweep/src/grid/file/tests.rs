@@ -15,10 +15,7 @@ fn small() -> GridMesh {
         name: "a \"small\" grid\n".into(),
         seam_u: Seam::Closed,
         seam_v: Seam::Open,
-        uv: UvLayout {
-            across: Across::Trajectory,
-            repeat: [2.0, 0.1],
-        },
+        uv: UvLayout { across: Across::Trajectory, repeat: [2.0, 0.1] },
         u: vec![0.0, 0.25, 0.25, 0.7],
         v: vec![0.0, 1.0 / 3.0, 1.0],
         positions: (0..12).map(point).collect(),
@@ -70,14 +67,8 @@ fn the_text_grid_of_the_module_doc_is_one() {
         .map(|line| format!("{}\n", line.trim_start_matches("//! ")))
         .collect();
     let grid = read("doc", text.as_bytes()).unwrap();
-    assert_eq!(
-        (grid.rows(), grid.cols(), grid.positions[5]),
-        (2, 3, DVec3::new(2.0, 1.0, 0.0))
-    );
-    assert_eq!(
-        String::from_utf8(bytes_of(&grid, Encoding::Json)).unwrap(),
-        text
-    );
+    assert_eq!((grid.rows(), grid.cols(), grid.positions[5]), (2, 3, DVec3::new(2.0, 1.0, 0.0)));
+    assert_eq!(String::from_utf8(bytes_of(&grid, Encoding::Json)).unwrap(), text);
 }
 
 #[test]
@@ -94,10 +85,7 @@ fn every_cut_is_noticed() {
             let error = read("grid.tbg", &bytes[..end]).unwrap_err();
             assert_eq!(error.exit(), Exit::Malformed);
             let message = error.to_string();
-            assert!(
-                end == 0 || message.contains("cut short"),
-                "{end}: {message}"
-            );
+            assert!(end == 0 || message.contains("cut short"), "{end}: {message}");
         }
     }
 }
@@ -110,10 +98,7 @@ fn every_damaged_byte_is_noticed() {
             for change in [1, 2, 4, 8, 16, 32, 64, 128, 255] {
                 let mut bytes = good.clone();
                 bytes[place] ^= change;
-                assert!(
-                    read("grid.tbg", bytes.as_slice()).is_err(),
-                    "{place} ^ {change}"
-                );
+                assert!(read("grid.tbg", bytes.as_slice()).is_err(), "{place} ^ {change}");
             }
         }
     }
@@ -150,25 +135,13 @@ fn a_wrong_number_is_placed() {
          expected finite numbers"
     );
     let normal = with(head + 9 + 4 * 24 + 3 * 12, &f32::INFINITY.to_le_bytes());
-    assert!(
-        normal.contains("row 1 of 3: the normal of column 3"),
-        "{normal}"
-    );
+    assert!(normal.contains("row 1 of 3: the normal of column 3"), "{normal}");
     let order = with(head + 2 * row, &0.25_f64.to_le_bytes());
-    assert!(
-        order.contains("row 3 of 3: v: found 0.25, expected a number from 0.333"),
-        "{order}"
-    );
+    assert!(order.contains("row 3 of 3: v: found 0.25, expected a number from 0.333"), "{order}");
     let flags = with(head + 8, &[2]);
-    assert!(
-        flags.contains("row 1 of 3: flags: found 2, expected 0"),
-        "{flags}"
-    );
+    assert!(flags.contains("row 1 of 3: flags: found 2, expected 0"), "{flags}");
     let count = with(good.len() - 12, &[9]);
-    assert!(
-        count.contains("found 9 rows in the closing count, expected the 3"),
-        "{count}"
-    );
+    assert!(count.contains("found 9 rows in the closing count, expected the 3"), "{count}");
 }
 
 #[test]
@@ -177,15 +150,9 @@ fn a_text_row_is_placed_by_line_and_column() {
     let shorter = text.replacen("],[0.3333333333333333,-1e-7,2.0]", "]", 1);
     let message = complaint(shorter.as_bytes());
     assert!(message.starts_with("grid.tbg:2:"), "{message}");
-    assert!(
-        message.contains("found 3 positions, expected 4"),
-        "{message}"
-    );
+    assert!(message.contains("found 3 positions, expected 4"), "{message}");
     let null = complaint(text.replacen("1.0]", "null]", 1).as_bytes());
-    assert!(
-        null.contains("grid.tbg:2:") && null.contains("(row 1 of 3)"),
-        "{null}"
-    );
+    assert!(null.contains("grid.tbg:2:") && null.contains("(row 1 of 3)"), "{null}");
     let lines: Vec<&str> = text.lines().collect();
     let without_a_row = [lines[0], lines[1], lines[2], lines[4], ""].join("\n");
     let message = complaint(without_a_row.as_bytes());
@@ -196,10 +163,7 @@ fn a_text_row_is_placed_by_line_and_column() {
 fn a_hand_edited_text_grid_fails_its_checksum() {
     let text = String::from_utf8(bytes_of(&small(), Encoding::Json)).unwrap();
     let message = complaint(text.replacen("2.0]", "2.5]", 1).as_bytes());
-    assert!(
-        message.contains("was changed or damaged after it was written"),
-        "{message}"
-    );
+    assert!(message.contains("was changed or damaged after it was written"), "{message}");
 }
 
 #[test]
@@ -219,45 +183,17 @@ fn the_header_is_checked() {
         complaint(good.replacen(from, to, 1).as_bytes())
     };
     for (from, to, expected) in [
-        (
-            "\"version\":1",
-            "\"version\":2",
-            "found a grid of version 2, expected version 1",
-        ),
-        (
-            "\"rows\":3",
-            "\"rows\":1",
-            "rows: found 1, expected from 2 to 4294967295",
-        ),
+        ("\"version\":1", "\"version\":2", "found a grid of version 2, expected version 1"),
+        ("\"rows\":3", "\"rows\":1", "rows: found 1, expected from 2 to 4294967295"),
         ("\"rows\":3", "\"rows\":1e9", "rows: "),
-        (
-            "\"cols\":4",
-            "\"cols\":5",
-            "cols: found 5, expected 4, the number of values in u",
-        ),
-        (
-            "0.25,0.7",
-            "0.25,1.0",
-            "u[3]: found 1, expected a number from 0.25",
-        ),
-        (
-            "0.25,0.7",
-            "0.25,0.2",
-            "u[3]: found 0.2, expected a number from 0.25",
-        ),
+        ("\"cols\":4", "\"cols\":5", "cols: found 5, expected 4, the number of values in u"),
+        ("0.25,0.7", "0.25,1.0", "u[3]: found 1, expected a number from 0.25"),
+        ("0.25,0.7", "0.25,0.2", "u[3]: found 0.2, expected a number from 0.25"),
         ("\"u\":[0.0", "\"u\":[0.1", "u[0]: found 0.1, expected 0"),
-        (
-            "[2.0,0.1]",
-            "[2.0,-0.1]",
-            "uv.repeat[1]: found -0.1, expected a positive number",
-        ),
+        ("[2.0,0.1]", "[2.0,-0.1]", "uv.repeat[1]: found -0.1, expected a positive number"),
         ("\"endian\":\"little\"", "\"endian\":\"big\"", "endian"),
         ("\"seam_u\"", "\"seem_u\"", "did you mean `seam_u`?"),
-        (
-            "\"tb-grid\"",
-            "\"tb-sweep\"",
-            "it is JSON without \"format\":\"tb-grid\"",
-        ),
+        ("\"tb-grid\"", "\"tb-sweep\"", "it is JSON without \"format\":\"tb-grid\""),
     ] {
         let message = with(from, to);
         assert!(message.contains(expected), "{message}");
@@ -267,20 +203,11 @@ fn the_header_is_checked() {
 #[test]
 fn other_files_are_called_by_their_names() {
     for (bytes, expected) in [
-        (
-            &b"# topobook triangulate OBJ 1\no a\nv 0 0 0\n"[..],
-            "looks like an OBJ mesh",
-        ),
+        (&b"# topobook triangulate OBJ 1\no a\nv 0 0 0\n"[..], "looks like an OBJ mesh"),
         (b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", "is a PNG picture"),
-        (
-            b"{\n  \"contour\": {}\n}\n",
-            "if it is a curve spec, `sweep` makes the grid of it",
-        ),
+        (b"{\n  \"contour\": {}\n}\n", "if it is a curve spec, `sweep` makes the grid of it"),
         (b"{\"contour\":{}}", "if it is a curve spec"),
-        (
-            b"hello",
-            "starts with \"hello\", expected {\"format\":\"tb-grid\"",
-        ),
+        (b"hello", "starts with \"hello\", expected {\"format\":\"tb-grid\""),
     ] {
         let message = complaint(bytes);
         assert!(message.starts_with("grid.tbg is not a grid: "), "{message}");
@@ -298,9 +225,7 @@ fn a_hostile_header_takes_no_memory_and_no_stack() {
     let deep = format!("{}{closed}}}\n", deep.trim_end());
     assert!(complaint(deep.as_bytes()).starts_with("grid.tbg"));
     let endless = io::Read::chain(&b"{\"format\":"[..], io::repeat(b' '));
-    let message = read("grid.tbg", io::BufReader::new(endless))
-        .unwrap_err()
-        .to_string();
+    let message = read("grid.tbg", io::BufReader::new(endless)).unwrap_err().to_string();
     assert!(message.contains("line 1 is longer than"), "{message}");
 }
 

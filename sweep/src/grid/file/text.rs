@@ -41,10 +41,9 @@ pub(super) fn decode(
 ) -> Result<(), JsonError> {
     let found: (f64, u8, Vec<DVec3>, Vec<Vec3>) = parse(name, line, bytes)?;
     (row.v, row.flags, row.positions, row.normals) = found;
-    for (path, what, count) in [
-        ("[2]", "positions", row.positions.len()),
-        ("[3]", "normals", row.normals.len()),
-    ] {
+    for (path, what, count) in
+        [("[2]", "positions", row.positions.len()), ("[3]", "normals", row.normals.len())]
+    {
         if count != cols {
             let message = format!("found {count} {what}, expected {cols}, one per column");
             let fault = Document::new(name, bytes)?.fault(path, message);
