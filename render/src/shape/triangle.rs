@@ -52,7 +52,8 @@ impl ShearedRay {
         t_min: f64,
         t_max: f64,
     ) -> Option<TriangleHit> {
-        let [a, b, c] = corners.map(|corner| self.sheared(corner));
+        let [a, b, c] =
+            [self.sheared(corners[0]), self.sheared(corners[1]), self.sheared(corners[2])];
         let edges =
             [c[0] * b[1] - c[1] * b[0], a[0] * c[1] - a[1] * c[0], b[0] * a[1] - b[1] * a[0]];
         let outside_one_way = edges.iter().any(|&edge| edge < 0.0);
@@ -69,8 +70,10 @@ impl ShearedRay {
         (t > t_min && t <= t_max).then_some((t, [weights[1], weights[2]]))
     }
 
+    #[inline]
     fn sheared(&self, corner: [f32; 3]) -> [f64; 3] {
-        let [x, y, z] = self.axes.map(|axis| f64::from(corner[axis]) - self.origin[axis]);
+        let along = |axis: usize| f64::from(corner[axis]) - self.origin[axis];
+        let [x, y, z] = [along(self.axes[0]), along(self.axes[1]), along(self.axes[2])];
         [x - self.shear[0] * z, y - self.shear[1] * z, self.shear[2] * z]
     }
 }
