@@ -81,7 +81,7 @@ const LONGER: [(&str, &str); 1] = [(
     "one reader of one format; its checks of objects and meshes could move to a file of their own",
 )];
 
-/// Library files that print, each with the reason.
+/// Library files that may print, each with the reason.
 const PRINTERS: [(&str, &str); 1] =
     [("files/src/exit.rs", "the one place where the programs print an error")];
 
@@ -248,10 +248,8 @@ fn libraries_do_not_print() {
             let prints = ["print!", "println!", "eprint!", "eprintln!", "dbg!"]
                 .into_iter()
                 .find(|print| has_word(&code, print));
-            match (prints, PRINTERS.iter().any(|(name, _)| name == file)) {
-                (Some(print), false) => panic!("{file}: found {print} in a library"),
-                (None, true) => panic!("{file} prints no more; take it off the list"),
-                _ => {}
+            if !PRINTERS.iter().any(|(name, _)| name == file) {
+                assert_eq!(prints, None, "{file}: a library prints");
             }
         }
     }

@@ -1,4 +1,4 @@
-//! The source tree as text: its files, and what Rust code says outside its comments, texts and tests.
+//! The source tree as text: its files, and what code says outside its comments, texts and tests.
 //!
 //! This is no parser of Rust. It knows what comments, texts and braces look like, and how a path or
 //! a tree of `use` is written; that is enough for the rules, and macros could hide things from it.
