@@ -1,1 +1,16 @@
-//! pipeline
+//! `sweep`, `triangulate` and `render` in one process, and the picture book.
+//!
+//! A [`Job`] names curve specs, the texture ids of their surfaces, a scene, and the ways to render
+//! it. [`run()`] does a job: grids and meshes pass in memory, as the same numbers that the three
+//! programs pass through pipes, so the pictures are the same byte for byte. The jobs in [`pages`]
+//! are built into the program.
+
+pub mod error;
+pub mod job;
+pub mod mesh;
+pub mod pages;
+pub mod run;
+
+pub use error::PipelineError;
+pub use job::Job;
+pub use run::run;

@@ -39,7 +39,7 @@ pub struct Arguments {
     #[arg(long)]
     format: Option<FormatName>,
     /// Pixels across and down
-    #[arg(long, value_name = "WxH", default_value = "512x512", value_parser = size_argument)]
+    #[arg(long, value_name = "WxH", default_value = "512x512", value_parser = render::film::size)]
     size: (u32, u32),
     /// How textures are averaged
     #[arg(long, default_value = "tent")]
@@ -51,7 +51,7 @@ pub struct Arguments {
     #[arg(long, value_name = "srgb|G", default_value = "srgb", value_parser = gamma_argument)]
     gamma: Encoding,
     /// Worker threads [default: one for each core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..).map(usize::from))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024).map(usize::from))]
     threads: Option<usize>,
     /// Print counts of rays, hits and texels and the time of each stage on standard error
     #[arg(long, value_name = "AS", num_args = 0..=1, require_equals = true, default_missing_value = "text")]
@@ -233,14 +233,6 @@ fn mesh_argument(text: &str) -> Result<MeshArgument, String> {
         }
         _ => Err("expected NAME=FILE, or NAME=- for standard input".into()),
     }
-}
-
-/// Pixels across and down, such as `640x480`.
-fn size_argument(text: &str) -> Result<(u32, u32), String> {
-    let side = |text: &str| text.parse().ok().filter(|side| (1..=65536).contains(side));
-    text.split_once(['x', 'X'])
-        .and_then(|(width, height)| Some((side(width)?, side(height)?)))
-        .ok_or_else(|| "expected WIDTHxHEIGHT in pixels, each 1 to 65536".into())
 }
 
 fn gamma_argument(text: &str) -> Result<Encoding, String> {

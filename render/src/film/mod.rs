@@ -44,6 +44,17 @@ pub struct Settings {
     pub filter: Filter,
 }
 
+/// Reads a size in pixels, such as `640x480`.
+///
+/// # Errors
+/// When the text is not two numbers from 1 to 65536 with an `x` between them.
+pub fn size(text: &str) -> Result<(u32, u32), String> {
+    let side = |text: &str| text.parse().ok().filter(|side| (1..=65536).contains(side));
+    text.split_once(['x', 'X'])
+        .and_then(|(width, height)| Some((side(width)?, side(height)?)))
+        .ok_or_else(|| "expected WIDTHxHEIGHT in pixels, each 1 to 65536".into())
+}
+
 /// Renders a scene. `progress` is told after each tile how many of how many are done.
 ///
 /// Runs on the threads of the current rayon pool; the result is the same for any number of them.

@@ -1,0 +1,209 @@
+//! What the program `pipeline` is asked, and how it does it.
+
+use clap::builder::TypedValueParser;
+use clap::{Args, Parser, Subcommand};
+use files::{Disk, Exit, Failure, FileError, Output, Report, Source};
+use pipeline::run::{Event, Options};
+use pipeline::{Job, PipelineError, pages, run as run_job};
+use render::progress::Progress;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::time::Instant;
+use thiserror::Error;
+
+const EXAMPLES: &str = "\
+Examples:
+  pipeline list
+  pipeline run glass-sphere vase -o out
+  pipeline run all -o out --size 1024x1024 --keep
+  pipeline run my-job.json -o out --stats
+
+Exit codes: 2 bad use, 3 malformed input, 4 impossible geometry, 5 cannot read or write, 70 a bug.";
+
+/// From curves to pictures: sweep, triangulate and render in one process.
+#[derive(Debug, Parser)]
+#[command(version, after_help = EXAMPLES)]
+pub struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Name the pages that are built in
+    List,
+    /// Make the pictures of pages or of jobs of your own
+    Run(RunArguments),
+}
+
+#[derive(Debug, Args)]
+struct RunArguments {
+    /// Pages by name, all, or job files ending in .json
+    #[arg(required = true, value_name = "NAME|all|FILE.json")]
+    jobs: Vec<String>,
+    /// The folder for the pictures; made if it is missing
+    #[arg(short, long, value_name = "DIR", default_value = "out")]
+    output: PathBuf,
+    /// Pixels across and down
+    #[arg(long, value_name = "WxH", default_value = "512x512", value_parser = render::film::size)]
+    size: (u32, u32),
+    /// Write the grids and OBJ files too, as the programs would have piped them
+    #[arg(long)]
+    keep: bool,
+    /// Worker threads [default: one for each core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024).map(usize::from))]
+    threads: Option<usize>,
+    /// Print counts of rays, hits and texels and the time of each stage on standard error
+    #[arg(long)]
+    stats: bool,
+    /// Print nothing but errors
+    #[arg(short, long)]
+    quiet: bool,
+    /// Refuse to replace existing files
+    #[arg(long)]
+    no_clobber: bool,
+}
+
+/// The threads asked for cannot be had.
+#[derive(Debug, Error)]
+#[error("cannot start {threads} threads: {source}")]
+struct ThreadsError {
+    threads: usize,
+    source: rayon::ThreadPoolBuildError,
+}
+
+impl Failure for ThreadsError {
+    fn exit(&self) -> Exit {
+        Exit::Resource
+    }
+}
+
+/// Does what the arguments ask for.
+pub fn run(arguments: &Arguments) -> Result<(), Report> {
+    match &arguments.command {
+        Command::List => list(),
+        Command::Run(arguments) => run_all(arguments),
+    }
+}
+
+fn list() -> Result<(), Report> {
+    let mut text = String::new();
+    for name in pages::names() {
+        text.push_str(&format!("{name:<16}{}\n", pages::page(name)?.title));
+    }
+    Ok(Output::create(Path::new("-"), true)?.commit_all(text.as_bytes())?)
+}
+
+fn run_all(arguments: &RunArguments) -> Result<(), Report> {
+    // Every job is read before the first is done, so that a slip in a name costs no waiting.
+    let jobs = jobs(&arguments.jobs)?;
+    std::fs::create_dir_all(&arguments.output).map_err(|source| FileError::Write {
+        name: arguments.output.display().to_string(),
+        source,
+    })?;
+    let threads = arguments.threads.unwrap_or(0);
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .map_err(|source| ThreadsError { threads, source })?;
+    let options = Options {
+        folder: arguments.output.clone(),
+        size: arguments.size,
+        keep: arguments.keep,
+        clobber: !arguments.no_clobber,
+    };
+    for (job, source) in &jobs {
+        let talk = Talk::new(job, arguments);
+        pool.install(|| run_job(job, *source, &options, &|event| talk.hear(&event)))?;
+    }
+    Ok(())
+}
+
+/// The jobs that were named, each with the place where its files are.
+fn jobs(names: &[String]) -> Result<Vec<(Job, &'static dyn Source)>, PipelineError> {
+    let mut asked: Vec<&str> = Vec::new();
+    for name in names {
+        let all = if name == "all" { pages::names() } else { vec![name.as_str()] };
+        for name in all {
+            // A page named twice is made once.
+            if !asked.contains(&name) {
+                asked.push(name);
+            }
+        }
+    }
+    let mut jobs: Vec<(Job, &'static dyn Source)> = Vec::new();
+    for name in asked {
+        let is_file = Path::new(name).extension().is_some_and(|extension| extension == "json");
+        let job: (Job, &'static dyn Source) = if is_file {
+            (Job::read(Path::new(name), &Disk)?, &Disk)
+        } else {
+            (pages::page(name)?, &pages::FILES)
+        };
+        if jobs.iter().any(|(other, _)| other.name == job.0.name) {
+            return Err(PipelineError::SameName { name: job.0.name });
+        }
+        jobs.push(job);
+    }
+    Ok(jobs)
+}
+
+/// Says on standard error what a job is doing.
+struct Talk<'a> {
+    job: &'a str,
+    arguments: &'a RunArguments,
+    started: Instant,
+    progress: Mutex<Option<(String, Progress)>>,
+}
+
+impl<'a> Talk<'a> {
+    fn new(job: &'a Job, arguments: &'a RunArguments) -> Self {
+        let progress = Mutex::new(None);
+        Self { job: &job.name, arguments, started: Instant::now(), progress }
+    }
+
+    fn hear(&self, event: &Event<'_>) {
+        match event {
+            Event::Progress { mode, done, total } => self.progress(mode, *done, *total),
+            Event::Mesh { name, triangles, time } => {
+                let seconds = time.as_secs_f64();
+                self.say(&format!("{}: {name}, {triangles} triangles, {seconds:.2} s", self.job));
+            }
+            Event::Picture { mode, stats } => {
+                self.clear();
+                if self.arguments.stats {
+                    self.say(&format!("{} {mode}:\n{stats}", self.job));
+                }
+            }
+            Event::Written(path) => {
+                self.clear();
+                let seconds = self.started.elapsed().as_secs_f64();
+                self.say(&format!("{}  {seconds:.2} s", path.display()));
+            }
+        }
+    }
+
+    fn progress(&self, mode: &str, done: usize, total: usize) {
+        let Ok(mut progress) = self.progress.lock() else { return };
+        if progress.as_ref().is_none_or(|(shown, _)| shown != mode) {
+            let label = format!("{} {mode}", self.job);
+            *progress = Some((mode.into(), Progress::new(&label, self.arguments.quiet)));
+        }
+        if let Some((_, progress)) = progress.as_ref() {
+            progress.tell(done, total);
+        }
+    }
+
+    fn clear(&self) {
+        if let Ok(mut progress) = self.progress.lock() {
+            *progress = None;
+        }
+    }
+
+    fn say(&self, words: &str) {
+        if !self.arguments.quiet {
+            // Standard error may be gone; the pictures are what matters.
+            let _ = writeln!(std::io::stderr(), "{}", words.trim_end());
+        }
+    }
+}

@@ -1,0 +1,254 @@
+//! The job file: JSON, format `tb-job`, version 1.
+//!
+//! ```json
+//! {
+//!   "format": "tb-job", "version": 1,
+//!   "title": "A porcelain vase on tiles",
+//!   "meshes": { "vase": { "spec": "../curves/vase.json", "texture": 2, "surface": 0 } },
+//!   "scene": "../scenes/vase.json",
+//!   "modes": [
+//!     { "name": "point", "filter": "point" },
+//!     { "name": "prefiltered", "filter": "tent", "samples": 1 }
+//!   ]
+//! }
+//! ```
+//!
+//! `meshes` says which spec makes each mesh that the scene names, and the texture and surface ids
+//! that its triangles carry (0 when left out). The scene is rendered once in each mode; without
+//! `modes`, once with the tent filter. Paths count from the job file's folder.
+
+use files::json::Document;
+use files::{JsonError, Source};
+use render::filter::Filter;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use triangulate::Options;
+
+use crate::PipelineError;
+
+/// The largest number of rays along the side of a pixel; as in `render --samples`.
+const MOST_SAMPLES: u32 = 256;
+
+/// A job, checked; the files that it names are not yet read.
+#[derive(Debug, Clone)]
+pub struct Job {
+    /// What its files are called: the job file's name without its extension.
+    pub name: String,
+    /// What it shows, in one line.
+    pub title: String,
+    /// The meshes to make, by the names that the scene gives them.
+    pub meshes: Vec<MeshJob>,
+    /// The scene file.
+    pub scene: PathBuf,
+    /// The ways to render it, at least one.
+    pub modes: Vec<Mode>,
+}
+
+/// A mesh to make.
+#[derive(Debug, Clone)]
+pub struct MeshJob {
+    /// Its name in the scene.
+    pub name: String,
+    /// The curve spec.
+    pub spec: PathBuf,
+    /// The ids on its triangles.
+    pub options: Options,
+}
+
+/// A way to render a scene.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Mode {
+    /// What its picture is called, after the job.
+    pub name: String,
+    /// How textures are averaged.
+    pub filter: Filter,
+    /// Rays along each side of a pixel.
+    pub samples: u32,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct JobFile {
+    format: String,
+    version: u32,
+    #[serde(default)]
+    title: String,
+    #[serde(default)]
+    meshes: BTreeMap<String, MeshFile>,
+    scene: PathBuf,
+    #[serde(default)]
+    modes: Option<Vec<ModeFile>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MeshFile {
+    spec: PathBuf,
+    #[serde(default)]
+    texture: u32,
+    #[serde(default)]
+    surface: u32,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ModeFile {
+    name: String,
+    filter: FilterFile,
+    #[serde(default = "one")]
+    samples: u32,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum FilterFile {
+    Point,
+    Bilinear,
+    Box,
+    Tent,
+}
+
+fn one() -> u32 {
+    1
+}
+
+impl Job {
+    /// Reads the job file at `path` in `source`.
+    ///
+    /// # Errors
+    /// When it cannot be read or is not a job of this version.
+    pub fn read(path: &Path, source: &dyn Source) -> Result<Self, PipelineError> {
+        let bytes = source.read(path)?;
+        let name = path.display().to_string();
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+        Ok(Self::parse(&Document::new(&name, &bytes)?, &stem, folder)?)
+    }
+
+    /// The job in a document; its paths count from `folder`.
+    fn parse(document: &Document<'_>, name: &str, folder: &Path) -> Result<Self, JsonError> {
+        let file: JobFile = document.parse()?;
+        if file.format != "tb-job" {
+            let message = format!("found format {:?}, expected \"tb-job\"", file.format);
+            return Err(document.fault("format", message));
+        }
+        if file.version != 1 {
+            let message = format!("found version {}, expected 1", file.version);
+            return Err(document.fault("version", message));
+        }
+        for mesh in file.meshes.keys() {
+            check_word(document, &format!("meshes.{mesh}"), mesh)?;
+        }
+        let meshes = file.meshes.into_iter().map(|(name, mesh)| MeshJob {
+            name,
+            spec: folder.join(mesh.spec),
+            options: Options { texture: mesh.texture, surface: mesh.surface },
+        });
+        Ok(Self {
+            name: name.into(),
+            title: file.title,
+            meshes: meshes.collect(),
+            scene: folder.join(file.scene),
+            modes: modes(document, file.modes)?,
+        })
+    }
+}
+
+fn modes(document: &Document<'_>, modes: Option<Vec<ModeFile>>) -> Result<Vec<Mode>, JsonError> {
+    let Some(modes) = modes else {
+        return Ok(vec![Mode { name: "tent".into(), filter: Filter::Tent, samples: 1 }]);
+    };
+    if modes.is_empty() {
+        return Err(document.fault("modes", "found no modes, expected at least one"));
+    }
+    let mut checked: Vec<Mode> = Vec::with_capacity(modes.len());
+    for (k, mode) in modes.into_iter().enumerate() {
+        let name_path = format!("modes[{k}].name");
+        check_word(document, &name_path, &mode.name)?;
+        if checked.iter().any(|other| other.name == mode.name) {
+            let message = format!("found {:?} twice, expected a name for each mode", mode.name);
+            return Err(document.fault(&name_path, message));
+        }
+        if !(1..=MOST_SAMPLES).contains(&mode.samples) {
+            let message = format!("found {}, expected 1 to {MOST_SAMPLES}", mode.samples);
+            return Err(document.fault(&format!("modes[{k}].samples"), message));
+        }
+        let filter = match mode.filter {
+            FilterFile::Point => Filter::Point,
+            FilterFile::Bilinear => Filter::Bilinear,
+            FilterFile::Box => Filter::Box,
+            FilterFile::Tent => Filter::Tent,
+        };
+        checked.push(Mode { name: mode.name, filter, samples: mode.samples });
+    }
+    Ok(checked)
+}
+
+/// Names become parts of file names.
+fn check_word(document: &Document<'_>, path: &str, name: &str) -> Result<(), JsonError> {
+    let plain = |c: char| c.is_alphanumeric() || matches!(c, '-' | '_' | '.');
+    if !name.is_empty() && !name.starts_with('.') && name.chars().all(plain) {
+        return Ok(());
+    }
+    let message = format!("found name {name:?}, expected letters, digits, - and _");
+    Err(document.fault(path, message))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(text: &str) -> Result<Job, JsonError> {
+        let document = Document::new("a.json", text.as_bytes())?;
+        Job::parse(&document, "a", Path::new("jobs"))
+    }
+
+    #[test]
+    fn the_example_on_this_page_is_a_job() {
+        let page = include_str!("job.rs");
+        let lines = page.lines().skip_while(|line| *line != "//! ```json").skip(1);
+        let text: String = lines
+            .take_while(|line| *line != "//! ```")
+            .map(|line| line.trim_start_matches("//!").to_string() + "\n")
+            .collect();
+        let job = parse(&text).unwrap();
+        assert_eq!(job.meshes[0].options, Options { texture: 2, surface: 0 });
+        assert_eq!(job.scene, Path::new("jobs/../scenes/vase.json"));
+        assert_eq!(job.modes[0].filter, Filter::Point);
+    }
+
+    #[test]
+    fn what_is_wrong_has_its_place() {
+        let job = |rest: &str| {
+            let text = format!("{{\"format\": \"tb-job\", \"version\": 1, {rest}}}");
+            parse(&text).unwrap_err().to_string()
+        };
+        let scene = "\"scene\": \"s.json\"";
+        for (rest, expected) in [
+            (format!("{scene}, \"modes\": []"), "modes: found no modes"),
+            (format!("{scene}, \"mods\": []"), "did you mean `modes`?"),
+            (
+                format!("{scene}, \"modes\": [{{\"name\": \"../x\", \"filter\": \"tent\"}}]"),
+                "modes[0].name: found name \"../x\"",
+            ),
+            (
+                format!("{scene}, \"modes\": [{{\"name\": \"a\", \"filter\": \"tend\"}}]"),
+                "did you mean `tent`?",
+            ),
+            (
+                format!(
+                    "{scene}, \"modes\": [{{\"name\": \"a\", \"filter\": \"box\", \"samples\": 0}}]"
+                ),
+                "modes[0].samples: found 0, expected 1 to 256",
+            ),
+            ("\"title\": \"no scene\"".into(), "missing key `scene`"),
+        ] {
+            let complaint = job(&rest);
+            assert!(complaint.starts_with("a.json:1:"), "{complaint}");
+            assert!(complaint.contains(expected), "{complaint}");
+        }
+        let other = parse("{\"format\": \"tb-scene\", \"version\": 1, \"scene\": \"\"}");
+        assert!(other.unwrap_err().to_string().contains("expected \"tb-job\""));
+    }
+}

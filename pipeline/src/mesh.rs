@@ -1,0 +1,24 @@
+//! The triangles that `triangulate` made as the mesh that `render` takes.
+
+use render::shape::Mesh;
+use render::shape::mesh::Triangle;
+use triangulate::TriMesh;
+
+/// The same mesh that `render` reads from the OBJ that `triangulate` writes: the same numbers in
+/// the same order.
+#[must_use]
+pub fn for_render(mesh: TriMesh) -> Mesh {
+    let triangles = mesh.triangles.iter().map(|triangle| Triangle {
+        position: triangle.position,
+        uv: triangle.uv,
+        normal: triangle.normal,
+        surface: 0,
+    });
+    Mesh {
+        triangles: triangles.collect(),
+        positions: mesh.positions,
+        uvs: mesh.uvs,
+        normals: mesh.normals,
+        surfaces: vec![format!("tex{}_surf{}", mesh.texture, mesh.surface)],
+    }
+}

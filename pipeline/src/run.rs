@@ -1,0 +1,180 @@
+//! Does a job: specs to grids to meshes to pictures.
+
+use crate::job::{MeshJob, Mode};
+use crate::{Job, PipelineError, mesh};
+use files::json::Document;
+use files::{Output, Source};
+use render::color::Encoding;
+use render::film::encode::{self, Format};
+use render::scene::{MeshSource, read};
+use render::stats::Stats;
+use render::{Picture, Scene, Settings};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+use sweep::Sweep;
+use sweep::grid::file as grid_file;
+use triangulate::TriangulateError;
+
+/// White between the pictures of a strip, in pixels.
+const GAP: u32 = 8;
+
+/// Where the results of a job go, and how large they are.
+#[derive(Debug, Clone)]
+pub struct Options {
+    /// The folder for all files; it exists.
+    pub folder: PathBuf,
+    /// Pixels across and down.
+    pub size: (u32, u32),
+    /// Whether grids and OBJ files are written too.
+    pub keep: bool,
+    /// Whether files that exist are replaced.
+    pub clobber: bool,
+}
+
+/// What a job wants to say while it works.
+#[derive(Debug)]
+pub enum Event<'a> {
+    /// A mesh is made.
+    Mesh {
+        /// Its name in the scene.
+        name: &'a str,
+        /// How many triangles it has.
+        triangles: usize,
+        /// How long it took.
+        time: Duration,
+    },
+    /// Some of a mode's picture is done.
+    Progress {
+        /// The mode.
+        mode: &'a str,
+        /// Tiles done, of `total`.
+        done: usize,
+        /// All tiles.
+        total: usize,
+    },
+    /// A mode's picture is done.
+    Picture {
+        /// The mode.
+        mode: &'a str,
+        /// What it cost.
+        stats: &'a Stats,
+    },
+    /// A file is written.
+    Written(&'a Path),
+}
+
+/// Does a job, whose files are read from `source`.
+///
+/// Each mode gives a picture `JOB-MODE.png`; several modes also give `JOB.png`, all of them side by
+/// side. With `keep`, each mesh gives `JOB-MESH.grid` and `JOB-MESH.obj`, the bytes that the programs
+/// would have piped.
+///
+/// # Errors
+/// On the first thing that is wrong; files already written stay.
+pub fn run(
+    job: &Job,
+    source: &dyn Source,
+    options: &Options,
+    tell: &(dyn Fn(Event<'_>) + Sync),
+) -> Result<(), PipelineError> {
+    let work = Work { job, source, options, tell };
+    let started = Instant::now();
+    let scene = work.scene()?;
+    let read_time = started.elapsed();
+    let mut pictures = Vec::with_capacity(job.modes.len());
+    for mode in &job.modes {
+        pictures.push(work.picture(&scene, mode, read_time)?);
+    }
+    if pictures.len() > 1 {
+        work.write_picture(&format!("{}.png", job.name), &Picture::side_by_side(&pictures, GAP))?;
+    }
+    Ok(())
+}
+
+struct Work<'a> {
+    job: &'a Job,
+    source: &'a dyn Source,
+    options: &'a Options,
+    tell: &'a (dyn Fn(Event<'_>) + Sync),
+}
+
+impl Work<'_> {
+    /// The scene with the job's meshes in it.
+    fn scene(&self) -> Result<Scene, PipelineError> {
+        let path = &self.job.scene;
+        let (name, bytes) = (path.display().to_string(), self.source.read(path)?);
+        let document = Document::new(&name, &bytes)?;
+        let file = read::parse(&document)?;
+        read::check_mesh_names(&file, self.job.meshes.iter().map(|mesh| mesh.name.as_str()))?;
+        let mut meshes = MeshSource::new();
+        for mesh in &self.job.meshes {
+            meshes.insert(mesh.name.clone(), self.mesh(mesh)?);
+        }
+        let folder = path.parent().unwrap_or(Path::new(""));
+        Ok(read::resolve(&document, &file, folder, self.source, meshes)?)
+    }
+
+    fn mesh(&self, mesh: &MeshJob) -> Result<render::shape::Mesh, PipelineError> {
+        let started = Instant::now();
+        let (name, bytes) = (mesh.spec.display().to_string(), self.source.read(&mesh.spec)?);
+        let grid = Sweep::read(&Document::new(&name, &bytes)?)?.grid();
+        if self.options.keep {
+            self.write(&format!("{}-{}.grid", self.job.name, mesh.name), |out| {
+                grid_file::write(&grid, grid_file::Encoding::Binary, out)
+                    .map_err(|source| out.failed(source).into())
+            })?;
+            self.write(&format!("{}-{}.obj", self.job.name, mesh.name), |out| {
+                match triangulate::write_grid_obj(&grid, &mesh.options, out) {
+                    Ok(_) => Ok(()),
+                    Err(TriangulateError::Write(source)) => Err(out.failed(source).into()),
+                    Err(error) => Err(error.into()),
+                }
+            })?;
+        }
+        let triangles = mesh::for_render(triangulate::mesh(&grid, &mesh.options)?);
+        (self.tell)(Event::Mesh {
+            name: &mesh.name,
+            triangles: triangles.triangles.len(),
+            time: started.elapsed(),
+        });
+        Ok(triangles)
+    }
+
+    fn picture(
+        &self,
+        scene: &Scene,
+        mode: &Mode,
+        read_time: Duration,
+    ) -> Result<Picture, PipelineError> {
+        let (width, height) = self.options.size;
+        let settings = Settings { width, height, samples: mode.samples, filter: mode.filter };
+        let progress = |done, total| (self.tell)(Event::Progress { mode: &mode.name, done, total });
+        let (picture, mut stats) = render::render(scene, &settings, &progress);
+        let started = Instant::now();
+        self.write_picture(&format!("{}-{}.png", self.job.name, mode.name), &picture)?;
+        stats.read_time = read_time;
+        stats.write_time = started.elapsed();
+        (self.tell)(Event::Picture { mode: &mode.name, stats: &stats });
+        Ok(picture)
+    }
+
+    fn write_picture(&self, name: &str, picture: &Picture) -> Result<(), PipelineError> {
+        let bytes = encode::encode(picture, Format::Png, Encoding::Srgb)
+            .map_err(|source| PipelineError::Encode { name: name.into(), source })?;
+        self.write(name, |out| out.write_all(&bytes).map_err(|source| out.failed(source).into()))
+    }
+
+    fn write(
+        &self,
+        name: &str,
+        fill: impl FnOnce(&mut Output) -> Result<(), PipelineError>,
+    ) -> Result<(), PipelineError> {
+        let path = self.options.folder.join(name);
+        let mut output = Output::create(&path, self.options.clobber)?;
+        fill(&mut output)?;
+        output.commit()?;
+        (self.tell)(Event::Written(&path));
+        Ok(())
+    }
+}

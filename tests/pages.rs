@@ -1,0 +1,148 @@
+//! The pages that are built in, made in an empty folder.
+
+mod support;
+
+use render::color::Encoding;
+use std::fs;
+use std::path::Path;
+use support::{run, words};
+
+fn make(arguments: &[&str], folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let ran = run("pipeline", arguments, folder);
+    assert!(ran.status.success(), "{}", words(&ran));
+    assert!(ran.stdout.is_empty(), "words go to standard error");
+    let mut files: Vec<(String, Vec<u8>)> = fs::read_dir(folder.join("out"))
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .map(|path| (path.file_name().unwrap().to_str().unwrap().into(), fs::read(&path).unwrap()))
+        .collect();
+    files.sort();
+    files
+}
+
+#[test]
+fn all_pages_are_the_same_bytes_on_one_thread_and_on_five() {
+    let make_with = |threads: &str| {
+        let folder = tempfile::tempdir().unwrap();
+        let size = ["--size", "96x70", "--threads", threads];
+        make(&[&["run", "all", "-o", "out"], size.as_slice()].concat(), folder.path())
+    };
+    let (one, five) = (make_with("1"), make_with("5"));
+    assert!(one == five, "threads show in the pictures");
+    let names: Vec<&str> = one.iter().map(|(name, _)| name.as_str()).collect();
+    for page in ["glass-sphere", "vase"] {
+        for mode in ["-point", "-prefiltered", "-supersampled", ""] {
+            let name = format!("{page}{mode}.png");
+            assert!(names.contains(&name.as_str()), "{name} is missing from {names:?}");
+        }
+    }
+}
+
+#[test]
+fn the_strip_shows_the_modes_side_by_side() {
+    let folder = tempfile::tempdir().unwrap();
+    let files = make(&["run", "glass-sphere", "-o", "out", "--size", "60x40"], folder.path());
+    let picture = |name: &str| {
+        let (_, bytes) = files.iter().find(|(file, _)| file == name).unwrap();
+        image::load_from_memory(bytes).unwrap().to_rgb8()
+    };
+    let strip = picture("glass-sphere.png");
+    assert_eq!(strip.dimensions(), (60 * 3 + 8 * 2, 40));
+    let second = picture("glass-sphere-prefiltered.png");
+    for (x, y, pixel) in second.enumerate_pixels() {
+        assert_eq!(strip.get_pixel(x + 68, y), pixel);
+    }
+}
+
+/// Thesis A.10 against A.11: the far floor of the point sampled picture is noise, and the
+/// prefiltered one is calm; near the eye they agree.
+#[test]
+fn the_far_floor_is_calm_only_when_prefiltered() {
+    let folder = tempfile::tempdir().unwrap();
+    let files = make(&["run", "glass-sphere", "-o", "out", "--size", "256x256"], folder.path());
+    // Mean and standard deviation of the green light left of the sphere.
+    let light = |name: &str, rows: std::ops::Range<u32>| {
+        let (_, bytes) = files.iter().find(|(file, _)| file == name).unwrap();
+        let picture = image::load_from_memory(bytes).unwrap().to_rgb8();
+        let light: Vec<f64> = rows
+            .flat_map(|y| (0..50).map(move |x| (x, y)))
+            .map(|(x, y)| Encoding::Srgb.decode(f64::from(picture.get_pixel(x, y)[1]) / 255.0))
+            .collect();
+        let mean = light.iter().sum::<f64>() / light.len() as f64;
+        let spread = light.iter().map(|c| (c - mean).powi(2)).sum::<f64>() / light.len() as f64;
+        (mean, spread.sqrt())
+    };
+    let [point, filtered] = ["glass-sphere-point.png", "glass-sphere-prefiltered.png"];
+    let (far, near) = (90..96, 200..256);
+    // Half the checks are nearly black, so noise of them spreads by about its own mean.
+    let noise = |name: &str| light(name, far.clone()).1 / light(name, far.clone()).0;
+    assert!(noise(point) > 0.7, "{}", noise(point));
+    assert!(noise(filtered) < 0.1, "{}", noise(filtered));
+    let lost = light(point, near.clone()).0 - light(filtered, near).0;
+    assert!(lost.abs() < 0.01, "the near floor keeps its light, but for {lost}");
+}
+
+#[test]
+fn a_job_of_ones_own_runs_from_its_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let job = format!(
+        "{{\"format\": \"tb-job\", \"version\": 1, \"scene\": {:?}, \
+         \"meshes\": {{\"vase\": {{\"spec\": {:?}, \"texture\": 2}}}}}}",
+        support::root().join("examples/scenes/vase.json"),
+        support::root().join("examples/curves/vase.json"),
+    );
+    fs::write(folder.path().join("mine.json"), job).unwrap();
+    let files = make(&["run", "mine.json", "-o", "out", "--size", "16x16"], folder.path());
+    let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
+    assert_eq!(names, ["mine-tent.png"]);
+}
+
+#[test]
+fn every_scene_in_examples_renders() {
+    let folder = tempfile::tempdir().unwrap();
+    let scenes = support::root().join("examples/scenes");
+    for entry in fs::read_dir(&scenes).unwrap() {
+        let scene = entry.unwrap().path();
+        let scene = scene.to_str().unwrap();
+        // The vase is the one mesh that a scene leaves to be given.
+        if scene.ends_with("vase.json") {
+            continue;
+        }
+        let ran = run("render", &[scene, "--size", "16x16", "-o", "a.exr"], folder.path());
+        assert!(ran.status.success(), "{scene}: {}", words(&ran));
+    }
+}
+
+#[test]
+fn what_is_wrong_is_said_in_one_line_with_its_exit_code() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    let job = "{\"format\": \"tb-job\", \"version\": 1, ";
+    write("typo.json", &format!("{job}\"scen\": \"s.json\"}}"));
+    write("lost.json", &format!("{job}\"scene\": \"no.json\"}}"));
+    write(
+        "stray.json",
+        &format!("{job}\"scene\": \"s.json\", \"meshes\": {{\"a\": {{\"spec\": \"c.json\"}}}}}}"),
+    );
+    write(
+        "s.json",
+        "{\"format\": \"tb-scene\", \"version\": 1, \"camera\": {\"eye\": [0, 0, 1], \
+         \"target\": [0, 0, 0], \"fov_deg\": 40}, \"objects\": []}",
+    );
+    for (arguments, code, expected) in [
+        (vec!["run", "vaes"], 2, "did you mean vase?"),
+        (vec!["run", "typo.json"], 3, "typo.json:1:"),
+        (vec!["run", "lost.json"], 5, "cannot read no.json"),
+        (vec!["run", "stray.json"], 2, "no mesh of that name"),
+        (vec!["run", "missing.json"], 5, "cannot read missing.json"),
+        (vec!["run", "vase", "-o", "s.json/out"], 5, "cannot write s.json/out"),
+        (vec!["run", "vase", "--size", "0x9"], 2, "WIDTHxHEIGHT"),
+        (vec!["run"], 2, "required"),
+    ] {
+        let ran = run("pipeline", &arguments, folder.path());
+        let words = words(&ran);
+        assert_eq!(ran.status.code(), Some(code), "{arguments:?}: {words}");
+        assert!(words.contains(expected), "{arguments:?}: {words}");
+        assert!(!words.contains("panicked"), "{arguments:?}: {words}");
+    }
+}

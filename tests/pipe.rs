@@ -1,0 +1,100 @@
+//! The three programs piped into each other, as the README shows them.
+#![cfg(unix)]
+
+mod support;
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+use support::{programs, root, run, words};
+
+/// Runs a line of the shell in `folder`, with our programs on the path and `examples` beside.
+fn shell(line: &str, folder: &Path) -> Output {
+    let examples = folder.join("examples");
+    if !examples.exists() {
+        std::os::unix::fs::symlink(root().join("examples"), examples).expect("a link is made");
+    }
+    let path = std::env::var("PATH").unwrap_or_default();
+    Command::new("sh")
+        .args(["-c", line])
+        .env("PATH", format!("{}:{path}", programs().display()))
+        .current_dir(folder)
+        .output()
+        .expect("the shell starts")
+}
+
+/// The pipe as the README has it.
+fn readme_line() -> String {
+    let readme = fs::read_to_string(root().join("README.md")).unwrap();
+    let line = readme.lines().find(|line| line.starts_with("sweep ")).expect("the README's pipe");
+    assert_eq!(
+        line,
+        "sweep examples/curves/vase.json | triangulate --texture 2 | \
+         render examples/scenes/vase.json --mesh vase=- -o vase.png"
+    );
+    line.into()
+}
+
+#[test]
+fn the_pipe_in_the_readme_makes_the_picture_that_the_pipeline_makes() {
+    let folder = tempfile::tempdir().unwrap();
+    let line = readme_line().replace("-o vase.png", "--size 160x120 -o vase.png");
+    let piped = shell(&line, folder.path());
+    assert!(piped.status.success() && piped.stderr.is_empty(), "{}", words(&piped));
+
+    let arguments = ["run", "vase", "-o", "out", "--size", "160x120", "--keep"];
+    let ran = run("pipeline", &arguments, folder.path());
+    assert!(ran.status.success(), "{}", words(&ran));
+    let read = |name: &str| fs::read(folder.path().join(name)).unwrap();
+    assert_eq!(read("vase.png"), read("out/vase-prefiltered.png"));
+
+    // And the files that were kept are what went through the pipes.
+    let line = "sweep examples/curves/vase.json | tee a.grid | triangulate --texture 2 > a.obj";
+    assert!(shell(line, folder.path()).status.success());
+    assert_eq!(read("a.grid"), read("out/vase-vase.grid"));
+    assert_eq!(read("a.obj"), read("out/vase-vase.obj"));
+}
+
+#[test]
+fn the_json_grid_gives_the_same_triangles_as_the_binary_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let line = "sweep examples/curves/trefoil.json --rows 40 --cols 12 | triangulate > a.obj && \
+                sweep examples/curves/trefoil.json --rows 40 --cols 12 --format json | \
+                triangulate > b.obj && cmp a.obj b.obj";
+    let compared = shell(line, folder.path());
+    assert!(compared.status.success(), "{}", words(&compared));
+}
+
+#[test]
+fn a_program_that_died_upstream_is_noticed_and_the_old_picture_stays() {
+    for broken in [
+        "sweep no-such-spec.json | triangulate --texture 2",
+        "sweep examples/curves/vase.json | head -c 100000 | triangulate --texture 2",
+        "sweep examples/curves/vase.json | triangulate --texture 2 | head -c 100000",
+        "sweep examples/curves/vase.json | triangulate --texture 2 | head -n -1",
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("vase.png"), "old").unwrap();
+        let render = "render examples/scenes/vase.json --size 8x8 --mesh vase=- -o vase.png";
+        let ran = shell(&format!("{broken} | {render}"), folder.path());
+        assert_eq!(ran.status.code(), Some(3), "{broken}: {}", words(&ran));
+        assert!(words(&ran).contains("render: <stdin>: "), "{broken}: {}", words(&ran));
+        assert!(!words(&ran).contains("panicked"), "{broken}: {}", words(&ran));
+        assert_eq!(fs::read_to_string(folder.path().join("vase.png")).unwrap(), "old");
+        let left: Vec<_> =
+            fs::read_dir(folder.path()).unwrap().map(|e| e.unwrap().path()).collect();
+        assert_eq!(left.len(), 2, "only the picture and the examples are there: {left:?}");
+    }
+}
+
+#[test]
+fn a_reader_that_stops_reading_ends_the_programs_quietly() {
+    let folder = tempfile::tempdir().unwrap();
+    for line in [
+        "{ sweep examples/curves/vase.json; echo $? >&2; } | head -c 10 > /dev/null",
+        "sweep examples/curves/vase.json > a.grid; { triangulate a.grid; echo $? >&2; } | head -c 10 > /dev/null",
+    ] {
+        let ran = shell(line, folder.path());
+        assert_eq!(words(&ran).trim(), "141", "{line}");
+    }
+}
