@@ -1,0 +1,311 @@
+//! The shape of the house, held against the source: who may import whom, how long a file may be,
+//! and that what the pages name is there.
+
+#[path = "architecture/source.rs"]
+mod source;
+
+use source::{code, has_word, paths, read, root, rust_files, spans, without_tests};
+use std::collections::BTreeSet;
+
+/// The crates, and which of ours each may import.
+const CRATES: [(&str, &[&str]); 5] = [
+    ("files", &[]),
+    ("sweep", &["files"]),
+    ("triangulate", &["files", "sweep"]),
+    ("render", &["files"]),
+    ("pipeline", &["files", "sweep", "triangulate", "render"]),
+];
+
+/// The rooms of `render` from the bottom up, and into which others each one looks.
+///
+/// A room looks only at rooms above it in this list, which is below it in the house. Two folders
+/// count as two rooms each: `scene` wants the texels of `filter` but not its tables, and `filter`
+/// wants the shapes of `footprint` but not the trees that they come from.
+const ROOMS: [(&str, &[&str]); 15] = [
+    ("color", &[]),
+    ("optics", &[]),
+    ("progress", &[]),
+    ("ray", &[]),
+    ("shape", &[]),
+    ("footprint", &[]),
+    ("filter::texture", &["color"]),
+    ("filter", &["color", "filter::texture", "footprint"]),
+    ("scene", &["color", "filter::texture", "ray", "shape"]),
+    ("accel", &["ray", "shape"]),
+    ("trace", &["accel", "optics", "ray", "scene"]),
+    ("footprint::neighbours", &["footprint", "shape", "trace"]),
+    (
+        "shade",
+        &[
+            "accel",
+            "color",
+            "filter",
+            "footprint",
+            "footprint::neighbours",
+            "optics",
+            "ray",
+            "scene",
+            "shape",
+            "trace",
+        ],
+    ),
+    ("stats", &["shade", "trace"]),
+    (
+        "film",
+        &[
+            "accel",
+            "color",
+            "filter",
+            "footprint::neighbours",
+            "scene",
+            "shade",
+            "shape",
+            "stats",
+            "trace",
+        ],
+    ),
+];
+
+/// Names that a room gives on for another.
+const GIVEN_ON: [(&str, &str); 1] = [("filter::Texture", "filter::texture")];
+
+/// The doors of `render`, which see all rooms.
+const DOORS: [&str; 3] = ["lib", "main", "cli"];
+
+/// Lines of a file at most, its tests included.
+const LONGEST: usize = 400;
+
+/// Files that are longer, each with the reason.
+const LONGER: [(&str, &str); 1] = [(
+    "render/src/scene/read.rs",
+    "one reader of one format; its checks of objects and meshes could move to a file of their own",
+)];
+
+/// Library files that may print, each with the reason.
+const PRINTERS: [(&str, &str); 1] =
+    [("files/src/exit.rs", "the one place where the programs print an error")];
+
+#[test]
+fn crates_import_only_what_they_may() {
+    let ours = CRATES.map(|(name, _)| name);
+    for (name, allowed) in CRATES {
+        let may = |other: &str| other == name || allowed.contains(&other) || !ours.contains(&other);
+        let mut table = String::new();
+        for line in read(&format!("{name}/Cargo.toml")).lines() {
+            if line.starts_with('[') {
+                table = line.into();
+            }
+            let key = line.split(['.', ' ', '=']).next().unwrap_or_default();
+            let fits = !table.contains("dependencies") || may(key);
+            assert!(fits, "{name}/Cargo.toml: found {key} in {table}, expected only {allowed:?}");
+        }
+        for file in rust_files(name) {
+            for path in paths(&code(&read(&file)), &ours) {
+                assert!(may(&path[0]), "{file}: found {path:?}, expected only {allowed:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn rooms_of_render_look_only_one_way() {
+    for (at, (room, allowed)) in ROOMS.iter().enumerate() {
+        for below in *allowed {
+            let known = ROOMS[..at].iter().any(|(name, _)| name == below);
+            assert!(known, "the list lets {room} look at {below}, which is not above it there");
+        }
+    }
+    let mut looks = BTreeSet::new();
+    for file in rust_files("render/src") {
+        let module = module_of(file.strip_prefix("render/src/").unwrap());
+        if DOORS.contains(&module.join("::").as_str()) {
+            continue;
+        }
+        let room = room_of(&module).unwrap_or_else(|| panic!("{file}: in no room of the list"));
+        for path in paths(&without_tests(&code(&read(&file))), &["crate", "super"]) {
+            let path = from_the_root(&module, &path);
+            let Some(other) = room_of(&path) else {
+                panic!("{file}: found crate::{}, expected a room of the list", path.join("::"));
+            };
+            if other == room {
+                continue;
+            }
+            let (_, allowed) = ROOMS.iter().find(|(name, _)| *name == room).unwrap();
+            assert!(
+                allowed.contains(&other),
+                "{file}: {room} looks at {other}, as no list lets it"
+            );
+            looks.insert((room, other));
+        }
+    }
+    for (room, allowed) in ROOMS {
+        for other in allowed {
+            assert!(
+                looks.contains(&(room, other)),
+                "{room} looks at {other} no more; take it off the list"
+            );
+        }
+    }
+}
+
+#[test]
+fn no_file_is_long_without_a_reason() {
+    for file in rust_files("") {
+        let lines = read(&file).lines().count();
+        let reason = LONGER.iter().find(|(name, _)| *name == file);
+        match reason {
+            None => assert!(lines <= LONGEST, "{file}: found {lines} lines, expected {LONGEST}"),
+            Some(_) => assert!(lines > LONGEST, "{file}: short again; take it off the list"),
+        }
+    }
+    for (file, _) in LONGER {
+        assert!(root().join(file).exists(), "{file} is gone; take it off the list");
+    }
+}
+
+#[test]
+fn every_top_level_test_and_example_is_registered() {
+    let manifest = read("pipeline/Cargo.toml");
+    let registered: BTreeSet<&str> = manifest
+        .lines()
+        .filter_map(|line| line.strip_prefix("path = \"../")?.strip_suffix('"'))
+        .collect();
+    let all: Vec<String> = ["tests", "examples"].into_iter().flat_map(rust_files).collect();
+    // What lies in a folder there belongs to the file that takes it in.
+    let present: BTreeSet<&str> =
+        all.iter().map(String::as_str).filter(|file| file.matches('/').count() == 1).collect();
+    assert_eq!(registered, present);
+}
+
+#[test]
+fn files_and_folders_that_pages_name_exist() {
+    for page in ["ARCHITECTURE.md", "docs/conventions.md", "docs/thesis-map.md"] {
+        let text = read(page);
+        let named = spans(&text);
+        let named = named.iter().filter(|span| span.ends_with(".rs") || span.ends_with('/'));
+        for span in named {
+            assert!(is_there(span), "{page}: found `{span}`, expected a file or a folder");
+        }
+    }
+}
+
+#[test]
+fn the_thesis_map_names_code_and_tests_that_exist() {
+    let tests = test_functions();
+    let page = read("docs/thesis-map.md");
+    let rows: Vec<Vec<&str>> = page
+        .lines()
+        .filter(|line| line.starts_with("| ") && !line.starts_with("| Thesis "))
+        .map(|line| line.split('|').collect())
+        .collect();
+    assert!(rows.len() > 20, "found {} rows, expected the whole thesis", rows.len());
+    for row in rows {
+        assert_eq!(row.len(), 6, "expected four columns: {row:?}");
+        let (place, held_by) = (row[2], row[3]);
+        let mut source = String::new();
+        for span in spans(place) {
+            if span.contains('/') {
+                assert!(root().join(span).exists(), "{span} does not exist: {row:?}");
+                source = code(&read(span));
+            } else {
+                assert!(has_word(&source, span), "`{span}` is not in that file: {row:?}");
+            }
+        }
+        let named = spans(held_by);
+        assert!(!named.is_empty() || held_by.contains("none yet"), "held by what? {row:?}");
+        for test in named {
+            assert!(tests.contains(test), "no test is called `{test}`: {row:?}");
+        }
+    }
+}
+
+#[test]
+fn every_lint_let_pass_has_its_reason() {
+    for file in rust_files("") {
+        let code = code(&read(&file));
+        for attribute in ["[allow(", "[expect("] {
+            for (at, _) in code.match_indices(attribute) {
+                let end = code[at..].find(']').map_or(code.len(), |end| at + end);
+                let line = 1 + code[..at].matches('\n').count();
+                assert!(code[at..end].contains("reason ="), "{file}:{line}: without a reason");
+            }
+        }
+    }
+}
+
+#[test]
+fn libraries_do_not_print() {
+    for (name, _) in CRATES {
+        let source = format!("{name}/src");
+        let main = format!("{source}/main.rs");
+        let of_program = |file: &str| {
+            let module = module_of(file.strip_prefix(&format!("{source}/")).unwrap());
+            root().join(&main).exists()
+                && (file == main || code(&read(&main)).contains(&format!("mod {};", module[0])))
+        };
+        for file in rust_files(&source).iter().filter(|file| !of_program(file)) {
+            let code = without_tests(&code(&read(file)));
+            let prints = ["print!", "println!", "eprint!", "eprintln!", "dbg!"]
+                .into_iter()
+                .find(|print| has_word(&code, print));
+            if !PRINTERS.iter().any(|(name, _)| name == file) {
+                assert_eq!(prints, None, "{file}: a library prints");
+            }
+        }
+    }
+}
+
+/// The module of a file under `src`: `filter/axis.rs` is `filter::axis`, `filter/mod.rs` `filter`.
+fn module_of(file: &str) -> Vec<String> {
+    let path = file.trim_end_matches(".rs").trim_end_matches("/mod");
+    path.split('/').map(Into::into).collect()
+}
+
+/// A path that starts with `crate` or `super` in a module, from the root of its crate.
+fn from_the_root(module: &[String], path: &[String]) -> Vec<String> {
+    let up = path.iter().take_while(|word| *word == "super").count();
+    if up == 0 {
+        return path[1..].to_vec();
+    }
+    [&module[..module.len() - up], &path[up..]].concat()
+}
+
+/// The room that a path from the root of `render` leads into: the longest name that fits.
+fn room_of(path: &[String]) -> Option<&'static str> {
+    let within = |name: &str| {
+        let words: Vec<&str> = name.split("::").collect();
+        path.len() >= words.len() && path.iter().zip(&words).all(|(a, b)| a == b)
+    };
+    if let Some((_, room)) = GIVEN_ON.iter().find(|(name, _)| within(name)) {
+        return Some(room);
+    }
+    ROOMS.iter().map(|(name, _)| *name).filter(|name| within(name)).max_by_key(|name| name.len())
+}
+
+/// Whether a page's name for a file or a folder (with a slash at its end) leads to one: from the
+/// root, from a crate, or from a crate's source.
+fn is_there(name: &str) -> bool {
+    let mut places = vec![root()];
+    for (krate, _) in CRATES {
+        places.push(root().join(krate));
+        places.push(root().join(krate).join("src"));
+    }
+    places
+        .iter()
+        .map(|place| place.join(name))
+        .any(|path| if name.ends_with('/') { path.is_dir() } else { path.is_file() })
+}
+
+/// The names of all test functions of the tree.
+fn test_functions() -> BTreeSet<String> {
+    let mut names = BTreeSet::new();
+    for file in rust_files("") {
+        let code = code(&read(&file));
+        for (at, mark) in code.match_indices("#[test]") {
+            let rest = &code[at + mark.len()..];
+            let name = rest.split_once("fn ").and_then(|(_, rest)| rest.split(['(', '<']).next());
+            names.extend(name.map(String::from));
+        }
+    }
+    names
+}
