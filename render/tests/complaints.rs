@@ -145,6 +145,29 @@ fn unknown_materials_and_textures_are_met_with_a_suggestion() {
 }
 
 #[test]
+fn files_that_cannot_be_read_end_with_5_and_are_named() {
+    let bench = Bench::with_scene(TEXTURED_WALL);
+    bench.refuse(&["none.json"], b"", 5, &["cannot read none.json: "]);
+    bench.refuse(
+        &["scene.json"],
+        b"",
+        5,
+        &["scene.json:4:36: textures.checks.image: cannot read checks.png: "],
+    );
+    let own = MESH_WALL.replace(r#""name": "wall","#, r#""name": "wall", "file": "none.obj","#);
+    let bench = Bench::with_scene(&own);
+    bench.refuse(
+        &["scene.json"],
+        b"",
+        5,
+        &["scene.json:5:50: objects[0].mesh.file: cannot read none.obj: "],
+    );
+    let arguments = ["scene.json", "--mesh", "wall=other.obj"];
+    bench.refuse(&arguments, b"", 5, &["cannot read other.obj: "]);
+    bench.refuse(&["."], b"", 5, &["cannot read .: "]);
+}
+
+#[test]
 fn textures_that_are_no_picture_are_refused() {
     refuse_texture(
         b"not a picture\n",

@@ -32,6 +32,9 @@ pub enum SceneError {
     /// A file cannot be read.
     #[error(transparent)]
     File(#[from] FileError),
+    /// A file that the scene names cannot be read.
+    #[error(transparent)]
+    Named(JsonError),
     /// A mesh file is wrong.
     #[error(transparent)]
     Obj(#[from] ObjError),
@@ -69,6 +72,7 @@ impl Failure for SceneError {
     fn exit(&self) -> Exit {
         match self {
             Self::File(error) => error.exit(),
+            Self::Named(_) => Exit::ReadWrite,
             Self::UnknownMesh { .. } | Self::MissingMesh { .. } => Exit::Use,
             _ => Exit::Malformed,
         }
@@ -172,6 +176,13 @@ impl Reader<'_> {
         Err(self.document.fault(path, message).into())
     }
 
+    /// The file that the scene names at `place`.
+    fn named_file(&self, place: &str, path: &Path) -> Result<Vec<u8>, SceneError> {
+        let named =
+            |error: FileError| SceneError::Named(self.document.fault(place, error.to_string()));
+        self.source.read(path).map_err(named)
+    }
+
     /// The value, if it lies in the closed range.
     fn within(&self, path: &str, value: f64, low: f64, high: f64) -> Result<f64, SceneError> {
         if (low..=high).contains(&value) {
@@ -253,10 +264,7 @@ impl Reader<'_> {
     fn texture(&self, name: &str, texture: &TextureFile) -> Result<Texture, SceneError> {
         let place = format!("textures.{name}.image");
         let path = self.folder.join(&texture.image);
-        let bytes = match self.source.read(&path) {
-            Ok(bytes) => bytes,
-            Err(error) => return self.fault(&place, error.to_string()),
-        };
+        let bytes = self.named_file(&place, &path)?;
         let decoded = ImageReader::new(Cursor::new(bytes))
             .with_guessed_format()
             .map_err(image::ImageError::IoError)
@@ -390,10 +398,8 @@ impl Reader<'_> {
             }
             (None, Some(path)) => {
                 let path = self.folder.join(path);
-                match self.source.read(&path) {
-                    Ok(bytes) => obj::read(&path.display().to_string(), &bytes)?,
-                    Err(error) => return self.fault(&format!("{at}.file"), error.to_string()),
-                }
+                let bytes = self.named_file(&format!("{at}.file"), &path)?;
+                obj::read(&path.display().to_string(), &bytes)?
             }
             (None, None) => {
                 return Err(SceneError::MissingMesh {
