@@ -84,6 +84,9 @@ fn scenes_of_another_format_or_version_are_refused() {
         "\"version\": 2",
         &["scene.json:1:36: version: found version 2, expected 1"],
     );
+    // A spec of the program before this one has none of a scene's keys.
+    let bench = Bench::with_scene(r#"{ "format": "tb-sweep", "version": 1, "name": "pipe" }"#);
+    bench.refuse(&["scene.json"], b"", 3, &["scene.json:1:", "tb-sweep"]);
 }
 
 #[test]

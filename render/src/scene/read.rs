@@ -15,6 +15,7 @@ use files::json::{Document, nearest};
 use files::{Exit, Failure, FileError, JsonError, Source};
 use glam::{DVec2, DVec3};
 use image::ImageReader;
+use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::io::Cursor;
 use std::path::Path;
@@ -82,16 +83,25 @@ impl Failure for SceneError {
 /// Meshes given by name from outside the scene file.
 pub type MeshSource = BTreeMap<String, Mesh>;
 
+/// What is looked at of any JSON file, whatever else is in it.
+#[derive(Debug, Deserialize)]
+struct FormatOnly {
+    format: Option<String>,
+}
+
 /// Reads a scene file's text and checks what can be checked without other files.
 ///
 /// # Errors
 /// On JSON that is not a scene of this version.
 pub fn parse(document: &Document<'_>) -> Result<SceneFile, SceneError> {
-    let file: SceneFile = document.parse()?;
-    if file.format != "tb-scene" {
-        let message = format!("found format {:?}, expected \"tb-scene\"", file.format);
+    // First, since the keys of another format would be taken for misspelt ones of a scene.
+    if let Ok(FormatOnly { format: Some(format) }) = document.parse()
+        && format != "tb-scene"
+    {
+        let message = format!("found format {format:?}, expected \"tb-scene\"");
         return Err(document.fault("format", message).into());
     }
+    let file: SceneFile = document.parse()?;
     if file.version != 1 {
         let message = format!("found version {}, expected 1", file.version);
         return Err(document.fault("version", message).into());
