@@ -44,7 +44,7 @@ pub struct Arguments {
     /// How textures are averaged
     #[arg(long, default_value = "tent")]
     filter: FilterName,
-    /// Rays along each side of a pixel, NxN in each
+    /// Rays along each side of a pixel: N times N in each
     #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..=256))]
     samples: u32,
     /// How a PNG is encoded: srgb, or a gamma such as 2.2
