@@ -305,3 +305,27 @@ fn the_seam_of_a_globe_is_not_seen() {
         assert_near(&across, &away, tolerance);
     }
 }
+
+#[test]
+fn at_a_pole_a_globe_shows_nothing_of_the_other_pole() {
+    // The rows next to the north pole are white or black, those next to the south pole red.
+    let map: Vec<[u8; 3]> = (0..512)
+        .map(|k| match (k / 32, k % 32) {
+            (8.., _) => [255, 0, 0],
+            (_, 16..) => [255; 3],
+            _ => [0; 3],
+        })
+        .collect();
+    for filter in FILTERS {
+        for (y, truth) in [(4.0, 0.0), (-4.0, 1.0)] {
+            // An odd number of pixels looks straight at the pole.
+            let eye = camera([0.0, y, 0.0], [0.0, 0.0, 1.0]);
+            let shown = picture(&textured(32, &map, &eye, GLOBE), 49, filter);
+            for (x, y, pixel) in pixels(&shown) {
+                let [a, b] = on_film(x, y, 49);
+                let near = (pixel[0] - pixel[1] - truth).abs() < 1e-6;
+                assert!(near || a.hypot(b) > 0.3, "{filter:?} at {x} {y}: {pixel:?}");
+            }
+        }
+    }
+}
