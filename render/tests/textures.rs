@@ -45,7 +45,7 @@ fn paper(wrap: &str, width: usize, texels: &[[u8; 3]], objects: &str, obj: &[u8]
 /// `high`, as letters; a filter may mix a little of the neighbours in.
 fn quarters(picture: &Picture, low: u32, high: u32) -> String {
     let (a, b) = ((3 * low + high) / 4, (low + 3 * high) / 4);
-    let letter = |(x, y)| match at(picture, x, y).map(|light| light.round()) {
+    let letter = |(x, y)| match at(picture, x, y).map(f32::round) {
         [1.0, 0.0, 0.0] => 'R',
         [0.0, 1.0, 0.0] => 'G',
         [0.0, 0.0, 1.0] => 'B',
@@ -153,9 +153,16 @@ fn a_square_of_two_triangles_looks_like_the_rectangle() {
 /// filter takes points there.
 fn floor(fine: usize) -> Scene {
     let side = 2 * fine;
-    let texels: Vec<[u8; 3]> = (0..side * side)
-        .map(|k| if (k / side / fine + k % side / fine) % 2 == 0 { [230; 3] } else { [20; 3] })
-        .collect();
+    let texels: Vec<[u8; 3]> =
+        (0..side * side)
+            .map(|k| {
+                if (k / side / fine + k % side / fine).is_multiple_of(2) {
+                    [230; 3]
+                } else {
+                    [20; 3]
+                }
+            })
+            .collect();
     let object = r#"{ "plane": { "point": [0.03, -1, 0.01], "edge_u": [1, 0, 0.2],
         "edge_v": [0.2, 0, -1], "material": "paper", "texture": "image" } }"#;
     paper("repeat", side, &texels, object, b"")
