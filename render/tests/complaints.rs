@@ -59,6 +59,17 @@ fn unknown_keys_are_met_with_a_suggestion() {
 }
 
 #[test]
+fn names_that_come_twice_are_refused() {
+    let twice = r#""materials": { "wall": {}, "wall": "#;
+    refuse_scene(
+        r#""materials": { "wall": "#,
+        twice,
+        &["scene.json:4:", "materials: duplicate key `wall`"],
+    );
+    refuse_scene("\"ambient\"", "\"ambient\": 1, \"ambient\"", &["scene.json:3:", "duplicate key"]);
+}
+
+#[test]
 fn wrong_types_and_missing_keys_are_placed() {
     refuse_scene("[0, 0, 1]", "[0, \"0\", 1]", &["scene.json:2:24: camera.eye[1]: "]);
     refuse_scene("[0, 0, 1]", "[0, 0]", &["scene.json:2:", "camera.eye"]);
