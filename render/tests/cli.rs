@@ -254,6 +254,17 @@ fn a_full_device_ends_with_5() {
     assert_eq!(said.lines().count(), 1, "{said}");
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn stats_that_cannot_be_printed_do_not_spoil_the_picture() {
+    let bench = Bench::with_scene(WALL);
+    let full = fs::File::options().write(true).open("/dev/full").unwrap();
+    let arguments = ["scene.json", "-o", "wall.png", "--size", "2x2", "--stats"];
+    let status = bench.command(&arguments).stderr(full).status().unwrap();
+    assert_eq!(status.code(), Some(0));
+    assert_eq!(only_pixel(&bench.read("wall.png"), (2, 2)), SRGB_WALL);
+}
+
 #[cfg(unix)]
 #[test]
 fn a_closed_pipe_ends_quietly_with_141() {
