@@ -9,7 +9,7 @@ use render::film::encode::{self, Format};
 use render::progress::Progress;
 use render::scene::{MeshSource, obj, read};
 use render::{Settings, filter::Filter, stats::Stats};
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use thiserror::Error;
@@ -44,7 +44,7 @@ pub struct Arguments {
     /// How textures are averaged
     #[arg(long, default_value = "tent")]
     filter: FilterName,
-    /// Rays along each side of a pixel, NxN in each
+    /// Rays along each side of a pixel: N times N in each
     #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..=256))]
     samples: u32,
     /// How a PNG is encoded: srgb, or a gamma such as 2.2
@@ -212,18 +212,23 @@ fn check_stdin(arguments: &Arguments) -> Result<(), UseError> {
     Ok(())
 }
 
-#[expect(clippy::print_stderr, reason = "what --stats asks for, from a program")]
+/// Prints what `--stats` asks for. The picture is there already, so that a standard error which
+/// takes nothing is no reason to fail.
 fn print_stats(arguments: &Arguments, stats: &Stats) {
+    let mut text = String::new();
     if stats.not_finite > 0 {
-        eprintln!("render: {} pixels came out not finite and are black", stats.not_finite);
+        let count = stats.not_finite;
+        text = format!("render: {count} pixels came out not finite and are black\n");
     }
     match arguments.stats {
-        Some(StatsForm::Text) => eprint!("{stats}"),
+        Some(StatsForm::Text) => text.push_str(&stats.to_string()),
         Some(StatsForm::Json) => {
-            eprintln!("{}", serde_json::to_string(stats).unwrap_or_default());
+            text.push_str(&serde_json::to_string(stats).unwrap_or_default());
+            text.push('\n');
         }
         None => {}
     }
+    let _ = std::io::stderr().write_all(text.as_bytes());
 }
 
 fn mesh_argument(text: &str) -> Result<MeshArgument, String> {

@@ -9,30 +9,21 @@ pub struct Ray {
     pub origin: DVec3,
     /// Where it goes; unit, so that `t` is a distance.
     pub direction: DVec3,
-    /// The piece of surface it leaves, which it cannot hit again at its own start.
+    /// The piece of surface it leaves; [`crate::accel`] says what it cannot hit at its start.
     pub leaving: Option<Piece>,
-    /// Hits nearer than this are taken for the surface that it leaves.
-    ///
-    /// It is the rounding error of the origin, not a tuned epsilon: see [`Ray::leaving`].
-    pub t_min: f64,
 }
 
 impl Ray {
     /// A ray that starts in free space.
     #[must_use]
     pub fn from_eye(origin: DVec3, direction: DVec3) -> Self {
-        Self { origin, direction, leaving: None, t_min: 0.0 }
+        Self { origin, direction, leaving: None }
     }
 
     /// A ray that leaves a surface at `origin`.
-    ///
-    /// A flat piece of surface is never hit by the ray that leaves it, and a sphere only at its
-    /// far side; so only the neighbours of a triangle need a margin, and that is a few units in
-    /// the last place of the coordinates.
     #[must_use]
     pub fn leaving(piece: Piece, origin: DVec3, direction: DVec3) -> Self {
-        let t_min = 64.0 * f64::EPSILON * origin.abs().max_element();
-        Self { origin, direction, leaving: Some(piece), t_min }
+        Self { origin, direction, leaving: Some(piece) }
     }
 
     /// The point at distance `t`.

@@ -11,7 +11,7 @@ use std::path::Path;
 pub enum Format {
     /// 24 bits per pixel, encoded (sRGB or a gamma).
     Png,
-    /// OpenEXR: linear 32-bit floats.
+    /// EXR: linear 32-bit floats.
     Exr,
 }
 

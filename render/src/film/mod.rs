@@ -187,7 +187,7 @@ impl Exposure<'_> {
         if self.halo {
             let mut window = RowWindow::new((columns.end - columns.start) as usize + 2);
             for y in rows.start - 1..=rows.end {
-                for (tree, x) in window.next().iter_mut().zip(columns.start - 1..) {
+                for (tree, x) in window.advance().iter_mut().zip(columns.start - 1..) {
                     self.trace(x, y, tree, &mut exposed.rays);
                 }
                 // The first two rows only fill the window.

@@ -76,6 +76,31 @@ impl<'a> FilteredTexture<'a> {
         }
     }
 
+    /// The footprint, moved upward or downward as far as its filter reaches past the first or the
+    /// last row of texels.
+    ///
+    /// On a sphere those rows are poles, and beyond a pole is not the other one, though the texture
+    /// repeats. Footprints end at the poles, so only the filter's smallest width moves any: by less
+    /// than a texel.
+    #[must_use]
+    pub fn between_poles(&self, footprint: Footprint) -> Footprint {
+        let smallest = match self.filter {
+            Filter::Point | Filter::Bilinear | Filter::Box => 0.5,
+            Filter::Tent => 1.0,
+        };
+        let within = |v: f64, half: f64| {
+            let reach = half.max(smallest / self.texture.height as f64).min(0.5);
+            v.clamp(reach, 1.0 - reach)
+        };
+        match footprint {
+            Footprint::Point(at) => Footprint::Point(DVec2::new(at.x, within(at.y, 0.0))),
+            Footprint::Rectangle { center, half } => {
+                let center = DVec2::new(center.x, within(center.y, half.y));
+                Footprint::Rectangle { center, half }
+            }
+        }
+    }
+
     /// Texels or table entries that one average reads (a footprint larger than the texture is
     /// folded and may read other numbers).
     #[must_use]

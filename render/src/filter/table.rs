@@ -30,6 +30,9 @@ enum Sums {
 
 impl PrefilteredTable {
     /// Integrates a texture; `order` is 1 or 2.
+    ///
+    /// # Panics
+    /// On any other order.
     #[must_use]
     pub fn build(texture: &Texture, order: usize) -> Self {
         assert!(order == 1 || order == 2, "tables of order 1 and 2 exist");
@@ -149,13 +152,13 @@ fn weigh<W: Word>(table: &[[W; 3]], stride: usize, column: &Axis, row: &Axis) ->
         }
     }
     let mut sum = DVec3::ZERO;
-    for i in 0..column.reduce.reduced() {
+    for (i, &column_weight) in column.weights.iter().enumerate().take(column.reduce.reduced()) {
         let along = reduced(row.reduce, &std::array::from_fn(|slot| lines[slot][i]));
         let mut average = DVec3::ZERO;
         for (value, &weight) in along.iter().zip(&row.weights).take(row.reduce.reduced()) {
             average += weight * DVec3::from(value.map(W::to_f64));
         }
-        sum += column.weights[i] * average;
+        sum += column_weight * average;
     }
     sum
 }

@@ -31,15 +31,19 @@
 //! axes are right-handed. A texture fills a rectangle, or the unit square of a mesh's or sphere's
 //! texture coordinates; `repeat` lays it several times. Paths count from the scene file's folder.
 //!
+//! Where two surfaces coincide one of them is seen, the other is not behind it: leave a small gap
+//! between glass and what it stands on.
+//!
 //! A mesh comes from `--mesh NAME=FILE`, or else from its own `"file"`. The surfaces of a mesh that
 //! `triangulate` made are named by a texture id and a surface id: `textures` binds texture ids to
 //! textures, `materials` binds surface ids to materials; `material` and `texture` stand for all that
 //! are not bound. In an OBJ of another tool both maps are keyed by the name that `usemtl` gives.
 
 use serde::Deserialize;
-use serde::de::{self, Deserializer, SeqAccess, Visitor};
+use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
 use std::collections::BTreeMap;
 use std::fmt;
+use std::marker::PhantomData;
 use std::path::PathBuf;
 
 /// A scene as its file says it; nothing is checked but its types.
@@ -60,9 +64,9 @@ pub struct SceneFile {
     pub max_depth: u32,
     #[serde(default = "one_ten_thousandth")]
     pub min_weight: f64,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "each_name_once")]
     pub textures: BTreeMap<String, TextureFile>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "each_name_once")]
     pub materials: BTreeMap<String, MaterialFile>,
     pub objects: Vec<ObjectFile>,
 }
@@ -219,9 +223,9 @@ pub struct MeshFile {
     pub file: Option<PathBuf>,
     pub material: Option<String>,
     pub texture: Option<String>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "each_name_once")]
     pub materials: BTreeMap<String, String>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "each_name_once")]
     pub textures: BTreeMap<String, String>,
 }
 
@@ -266,6 +270,34 @@ impl<'de> Visitor<'de> for ColorVisitor {
             None => Ok(ColorFile(color)),
             Some(_) => Err(de::Error::invalid_length(4, &self)),
         }
+    }
+}
+
+/// A map in which a name that comes twice is refused; serde's own would keep the last.
+fn each_name_once<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
+    deserializer: D,
+) -> Result<BTreeMap<String, T>, D::Error> {
+    deserializer.deserialize_map(NamesVisitor(PhantomData))
+}
+
+struct NamesVisitor<T>(PhantomData<T>);
+
+impl<'de, T: Deserialize<'de>> Visitor<'de> for NamesVisitor<T> {
+    type Value = BTreeMap<String, T>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("an object of named values")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut entries: A) -> Result<Self::Value, A::Error> {
+        let mut named = BTreeMap::new();
+        while let Some((name, value)) = entries.next_entry::<String, T>()? {
+            if named.contains_key(&name) {
+                return Err(de::Error::custom(format!("duplicate key `{name}`")));
+            }
+            named.insert(name, value);
+        }
+        Ok(named)
     }
 }
 

@@ -15,6 +15,7 @@ use files::json::{Document, nearest};
 use files::{Exit, Failure, FileError, JsonError, Source};
 use glam::{DVec2, DVec3};
 use image::ImageReader;
+use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::io::Cursor;
 use std::path::Path;
@@ -32,6 +33,9 @@ pub enum SceneError {
     /// A file cannot be read.
     #[error(transparent)]
     File(#[from] FileError),
+    /// A file that the scene names cannot be read.
+    #[error(transparent)]
+    Named(JsonError),
     /// A mesh file is wrong.
     #[error(transparent)]
     Obj(#[from] ObjError),
@@ -69,6 +73,7 @@ impl Failure for SceneError {
     fn exit(&self) -> Exit {
         match self {
             Self::File(error) => error.exit(),
+            Self::Named(_) => Exit::ReadWrite,
             Self::UnknownMesh { .. } | Self::MissingMesh { .. } => Exit::Use,
             _ => Exit::Malformed,
         }
@@ -78,16 +83,25 @@ impl Failure for SceneError {
 /// Meshes given by name from outside the scene file.
 pub type MeshSource = BTreeMap<String, Mesh>;
 
+/// What is looked at of any JSON file, whatever else is in it.
+#[derive(Debug, Deserialize)]
+struct FormatOnly {
+    format: Option<String>,
+}
+
 /// Reads a scene file's text and checks what can be checked without other files.
 ///
 /// # Errors
 /// On JSON that is not a scene of this version.
 pub fn parse(document: &Document<'_>) -> Result<SceneFile, SceneError> {
-    let file: SceneFile = document.parse()?;
-    if file.format != "tb-scene" {
-        let message = format!("found format {:?}, expected \"tb-scene\"", file.format);
+    // First, since the keys of another format would be taken for misspelt ones of a scene.
+    if let Ok(FormatOnly { format: Some(format) }) = document.parse()
+        && format != "tb-scene"
+    {
+        let message = format!("found format {format:?}, expected \"tb-scene\"");
         return Err(document.fault("format", message).into());
     }
+    let file: SceneFile = document.parse()?;
     if file.version != 1 {
         let message = format!("found version {}, expected 1", file.version);
         return Err(document.fault("version", message).into());
@@ -172,6 +186,13 @@ impl Reader<'_> {
         Err(self.document.fault(path, message).into())
     }
 
+    /// The file that the scene names at `place`.
+    fn named_file(&self, place: &str, path: &Path) -> Result<Vec<u8>, SceneError> {
+        let named =
+            |error: FileError| SceneError::Named(self.document.fault(place, error.to_string()));
+        self.source.read(path).map_err(named)
+    }
+
     /// The value, if it lies in the closed range.
     fn within(&self, path: &str, value: f64, low: f64, high: f64) -> Result<f64, SceneError> {
         if (low..=high).contains(&value) {
@@ -253,10 +274,7 @@ impl Reader<'_> {
     fn texture(&self, name: &str, texture: &TextureFile) -> Result<Texture, SceneError> {
         let place = format!("textures.{name}.image");
         let path = self.folder.join(&texture.image);
-        let bytes = match self.source.read(&path) {
-            Ok(bytes) => bytes,
-            Err(error) => return self.fault(&place, error.to_string()),
-        };
+        let bytes = self.named_file(&place, &path)?;
         let decoded = ImageReader::new(Cursor::new(bytes))
             .with_guessed_format()
             .map_err(image::ImageError::IoError)
@@ -390,10 +408,8 @@ impl Reader<'_> {
             }
             (None, Some(path)) => {
                 let path = self.folder.join(path);
-                match self.source.read(&path) {
-                    Ok(bytes) => obj::read(&path.display().to_string(), &bytes)?,
-                    Err(error) => return self.fault(&format!("{at}.file"), error.to_string()),
-                }
+                let bytes = self.named_file(&format!("{at}.file"), &path)?;
+                obj::read(&path.display().to_string(), &bytes)?
             }
             (None, None) => {
                 return Err(SceneError::MissingMesh {

@@ -22,6 +22,22 @@ pub enum Shape {
     Mesh(Mesh),
 }
 
+impl Shape {
+    /// The largest coordinate, without its sign, that its points are computed from.
+    #[must_use]
+    pub fn extent(&self) -> f64 {
+        let largest = |corners: [DVec3; 2]| corners[0].abs().max(corners[1].abs()).max_element();
+        match self {
+            Self::Sphere(sphere) => largest(sphere.bounds()),
+            Self::Quad(quad) => quad.bounds().map_or(quad.corner().abs().max_element(), largest),
+            Self::Mesh(mesh) => {
+                let coordinates = mesh.positions.iter().flatten();
+                coordinates.fold(0.0, |most: f64, &x| most.max(f64::from(x).abs()))
+            }
+        }
+    }
+}
+
 /// What a shape knows of one of its points.
 #[derive(Debug, Clone, Copy)]
 pub struct SurfacePoint {

@@ -43,12 +43,14 @@ impl Quad {
         Some(Self { corner, edge_u, edge_v, repeat, bounded, normal, dual_u, dual_v })
     }
 
-    /// The distance above `t_min` at which the ray meets it.
+    /// The distance above 0 at which the ray meets it; not at all when the ray starts within
+    /// `skin` of its plane.
     #[must_use]
-    pub fn intersect(&self, origin: DVec3, direction: DVec3, t_min: f64) -> Option<f64> {
-        let t = (self.corner - origin).dot(self.normal) / direction.dot(self.normal);
+    pub fn intersect(&self, origin: DVec3, direction: DVec3, skin: f64) -> Option<f64> {
+        let height = (self.corner - origin).dot(self.normal);
+        let t = height / direction.dot(self.normal);
         // A ray along the plane gives an infinity or NaN, and both are refused here.
-        if !(t > t_min && t < f64::INFINITY) {
+        if !(t > 0.0 && t < f64::INFINITY) || height.abs() <= skin {
             return None;
         }
         if self.bounded {
@@ -71,6 +73,12 @@ impl Quad {
             uv: DVec2::new(a, b) * self.repeat,
             part: 0,
         }
+    }
+
+    /// The corner at which both edges begin.
+    #[must_use]
+    pub fn corner(&self) -> DVec3 {
+        self.corner
     }
 
     /// Lower and upper corner of its box; nothing for a whole plane.

@@ -18,23 +18,25 @@ pub struct Sphere {
 }
 
 impl Sphere {
-    /// The nearest distance above `t_min` at which the ray meets the sphere.
+    /// The nearest distance above 0 at which the ray meets the sphere.
     ///
-    /// A ray that leaves this sphere has its own start as one root; the other root is then known
-    /// without cancellation.
+    /// A ray that starts within `skin` of this sphere, or `leaves` it, has its start as one root;
+    /// the other root is then known without cancellation, and counts if it is beyond the skin.
     #[must_use]
     pub fn intersect(
         &self,
         origin: DVec3,
         direction: DVec3,
         leaves: bool,
-        t_min: f64,
+        skin: f64,
     ) -> Option<f64> {
         let to_center = self.center - origin;
         let along = to_center.dot(direction);
-        if leaves {
+        // |d^2 - r^2| is 2 r times the distance |d - r| from the surface.
+        let off = to_center.length_squared() - self.radius * self.radius;
+        if leaves || off.abs() < 2.0 * self.radius * skin {
             let far = 2.0 * along;
-            return (far > t_min).then_some(far);
+            return (far > skin).then_some(far);
         }
         // The distance of the centre from the ray, by the vector itself: no cancellation far away.
         let aside = to_center - along * direction;
@@ -43,7 +45,7 @@ impl Sphere {
             return None;
         }
         let half_chord = half_chord_sq.sqrt();
-        [along - half_chord, along + half_chord].into_iter().find(|&t| t > t_min)
+        [along - half_chord, along + half_chord].into_iter().find(|&t| t > 0.0)
     }
 
     /// The surface point at a hit; `near` is the hit as found along the ray.

@@ -43,15 +43,10 @@ impl ShearedRay {
         Self { origin, axes, shear }
     }
 
-    /// The hit with distance in `(t_min, t_max]`, from either side. Triangles of zero area as
+    /// The hit with distance in `(0, t_max]`, from either side. Triangles of zero area as
     /// seen along the ray are missed.
     #[must_use]
-    pub fn intersect(
-        &self,
-        corners: &[[f32; 3]; 3],
-        t_min: f64,
-        t_max: f64,
-    ) -> Option<TriangleHit> {
+    pub fn intersect(&self, corners: &[[f32; 3]; 3], t_max: f64) -> Option<TriangleHit> {
         let [a, b, c] =
             [self.sheared(corners[0]), self.sheared(corners[1]), self.sheared(corners[2])];
         let edges =
@@ -67,7 +62,15 @@ impl ShearedRay {
         }
         let weights = edges.map(|edge| edge / area);
         let t = weights[0] * a[2] + weights[1] * b[2] + weights[2] * c[2];
-        (t > t_min && t <= t_max).then_some((t, [weights[1], weights[2]]))
+        (t > 0.0 && t <= t_max).then_some((t, [weights[1], weights[2]]))
+    }
+
+    /// Whether the ray starts within `skin` of the triangle's plane.
+    #[must_use]
+    pub fn starts_on(&self, corners: &[[f32; 3]; 3], skin: f64) -> bool {
+        let [a, b, c] = corners.map(|corner| DVec3::from(corner.map(f64::from)) - self.origin);
+        let across = (b - a).cross(c - a);
+        a.dot(across).abs() <= skin * across.length()
     }
 
     #[inline]
@@ -88,9 +91,9 @@ mod tests {
         let corners = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]];
         for (z, direction) in [(2.0, DVec3::NEG_Z), (-2.0, DVec3::Z)] {
             let ray = ShearedRay::new(DVec3::new(1.0, 2.0, z), direction);
-            let (t, weights) = ray.intersect(&corners, 0.0, f64::INFINITY).unwrap();
+            let (t, weights) = ray.intersect(&corners, f64::INFINITY).unwrap();
             assert_eq!((t, weights), (2.0, [0.25, 0.5]));
-            assert!(ray.intersect(&corners, 2.0, f64::INFINITY).is_none());
+            assert!(ray.intersect(&corners, 1.9).is_none());
         }
     }
 
@@ -115,7 +118,7 @@ mod tests {
             let ray = ShearedRay::new(eye, direction);
             let hits = (0..5)
                 .filter(|&k| {
-                    ray.intersect(&[hub, rim(k), rim(k + 1)], 0.0, f64::INFINITY).is_some()
+                    ray.intersect(&[hub, rim(k), rim(k + 1)], f64::INFINITY).is_some()
                 })
                 .count();
             prop_assert!(hits >= 1);

@@ -17,7 +17,7 @@ impl RowWindow {
     }
 
     /// Shifts the rows by one and gives the freed one to be filled.
-    pub fn next(&mut self) -> &mut [IntersectionTree] {
+    pub fn advance(&mut self) -> &mut [IntersectionTree] {
         self.rows.rotate_left(1);
         &mut self.rows[2]
     }
