@@ -151,6 +151,23 @@ fn a_full_device_ends_with_5() {
     assert!(message.starts_with("sweep: cannot write /dev/full"), "{message}");
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn words_that_cannot_be_printed_change_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let (spec, grid) = (folder.path().join("pipe.json"), folder.path().join("pipe.grid"));
+    fs::write(&spec, PIPE).unwrap();
+    for (spec, code) in [(spec.as_path(), 0), (Path::new("no/such/curve.json"), 5)] {
+        let status = Command::new(env!("CARGO_BIN_EXE_sweep"))
+            .arg(spec)
+            .args(["--stats", "-o", grid.to_str().unwrap()])
+            .stderr(fs::OpenOptions::new().write(true).open("/dev/full").unwrap())
+            .status()
+            .unwrap();
+        assert_eq!(status.code(), Some(code));
+    }
+}
+
 #[cfg(unix)]
 #[test]
 fn a_closed_pipe_ends_quietly_with_141() {

@@ -1,6 +1,7 @@
 //! `triangulate`: a grid of `sweep` to triangles, as OBJ.
 
 use clap::Parser;
+use files::exit::say;
 use files::{Output, Report, exit, input};
 use std::io::{IsTerminal, stdin};
 use std::path::PathBuf;
@@ -70,20 +71,19 @@ fn work(arguments: &Arguments) -> Result<(), Report> {
 }
 
 /// Words for people, on standard error.
-#[expect(clippy::print_stderr, reason = "the program's own words; the library has none")]
 fn report(arguments: &Arguments, grid: &str, counts: &Counts) {
     let Counts { positions, uvs, normals, triangles, collapsed, slivers } = counts;
     if arguments.stats {
-        eprintln!(
+        say(format_args!(
             "triangles {triangles}\npositions {positions}\nnormals {normals}\n\
              picture_coordinates {uvs}\nleft_out_at_poles_and_creases {collapsed}\n\
              left_out_slivers {slivers}"
-        );
+        ));
     }
     if *slivers > 0 && !arguments.quiet {
-        eprintln!(
+        say(format_args!(
             "triangulate: {grid}: left out {slivers} triangles whose corners lie on a line; the mesh \
              has slits of no width there"
-        );
+        ));
     }
 }
