@@ -68,6 +68,9 @@ fn rows_and_cols_take_the_place_of_the_specs() {
     assert_eq!(message, "sweep: cols: found 2, expected at least 3 to go around\n");
     let (code, message) = ending(&sweep(&["--rows", "9000000000", "--cols", "9000000000"], PIPE));
     assert_eq!(code, Some(2));
+    assert!(message.contains("expected at most 1048576"), "{message}");
+    let (code, message) = ending(&sweep(&["--rows", "9000000000", "--cols", "9000"], PIPE));
+    assert_eq!(code, Some(2));
     assert!(message.contains("expected at most 100000000"), "{message}");
 }
 

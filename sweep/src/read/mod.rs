@@ -31,7 +31,7 @@ pub fn read(document: &Document) -> Result<Sweep, SweepError> {
     let spec: Spec = document.parse()?;
     let reader = Reader { document };
     reader.header(&spec)?;
-    let contour = reader.contour(&spec.contour)?;
+    let mut contour = reader.contour(&spec.contour)?;
     let trajectory = reader.trajectory(&spec.trajectory, spec.frame.as_ref())?;
     if trajectory.is_rotation() {
         let (low, high) = contour.x_range();
@@ -50,6 +50,7 @@ pub fn read(document: &Document) -> Result<Sweep, SweepError> {
                 "found a contour on the axis of the rotation, expected some x above 0",
             ));
         }
+        contour = contour.rotated(ON_AXIS * high);
     }
     let sweep = Sweep {
         name: spec.name,
@@ -182,7 +183,7 @@ impl Reader<'_> {
         if free.points.len() < fewest {
             let found = free.points.len();
             let message =
-                format!("found {found} points, expected at least {fewest} for {kind} curve");
+                format!("found {found}, expected at least {fewest} points for {kind} curve");
             return Err(self.fault(&points_path, message));
         }
         self.points(&points_path, &free.points)?;
@@ -197,7 +198,7 @@ impl Reader<'_> {
         }
         if points.len() < fewest {
             let message = format!(
-                "found {} points that differ, expected at least {fewest} for {kind} curve",
+                "found {} that differ, expected at least {fewest} points for {kind} curve",
                 points.len()
             );
             return Err(self.geometry(&points_path, message));
