@@ -10,12 +10,16 @@ use crate::sweep::ON_AXIS;
 use crate::{Sweep, SweepError};
 use files::json::Document;
 use glam::DVec3;
+use std::ops::RangeInclusive;
 
 /// Coordinates beyond this have squares of squares that a double cannot hold.
 const LARGEST: f64 = 1e60;
 
 /// Curves smaller than this have squares of squares that vanish.
 const SMALLEST: f64 = 1e-60;
+
+/// Repeats of a picture, whose coordinates become f32 in a mesh.
+const REPEATS: RangeInclusive<f64> = 1e-30..=1e30;
 
 /// Segments meet when their ends are this fraction of the curve apart.
 ///
@@ -97,7 +101,14 @@ impl Reader<'_> {
             return Err(self.fault("name", message));
         }
         for (i, &repeat) in spec.uv.repeat.iter().enumerate() {
-            self.positive(&format!("uv.repeat[{i}]"), repeat)?;
+            let path = format!("uv.repeat[{i}]");
+            self.positive(&path, repeat)?;
+            if !REPEATS.contains(&repeat) {
+                let [least, most] = [REPEATS.start(), REPEATS.end()];
+                let message =
+                    format!("found {repeat:?}, expected a number from {least:?} to {most:?}");
+                return Err(self.fault(&path, message));
+            }
         }
         self.point("position", &spec.position)
     }
@@ -261,6 +272,11 @@ mod tests {
                 "\"mesh\"",
                 "\"uv\": {\"repeat\": [1, 0]}, \"mesh\"",
                 "a.json:4:22: uv.repeat[1]: found 0.0, expected a number above 0",
+            ),
+            (
+                "\"mesh\"",
+                "\"uv\": {\"repeat\": [1e31, 1]}, \"mesh\"",
+                "a.json:4:19: uv.repeat[0]: found 1e31, expected a number from 1e-30 to 1e30",
             ),
             (
                 "\"mesh\"",
