@@ -1,6 +1,8 @@
 //! How a program ends: its exit code, and the one line it prints when it fails.
 
 use std::error::Error;
+use std::fmt::Display;
+use std::io::{self, Write};
 use std::panic::{self, AssertUnwindSafe};
 use std::process::ExitCode;
 
@@ -41,7 +43,7 @@ impl Report {
     }
 }
 
-impl std::fmt::Display for Report {
+impl Display for Report {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         self.0.fmt(f)
     }
@@ -57,20 +59,53 @@ impl<E: Failure + 'static> From<E> for Report {
 ///
 /// A panic is a bug of ours: it ends with [`Exit::Bug`] and a request to report it.
 #[must_use]
-#[expect(clippy::print_stderr, reason = "the one place where the programs print an error")]
 pub fn run(program: &str, work: impl FnOnce() -> Result<(), Report>) -> ExitCode {
     let exit = match panic::catch_unwind(AssertUnwindSafe(work)) {
         Ok(Ok(())) => return ExitCode::SUCCESS,
         Ok(Err(report)) => {
             if report.exit() != Exit::ClosedPipe {
-                eprintln!("{program}: {report}");
+                say(one_line(&format!("{program}: {report}")));
             }
             report.exit()
         }
         Err(_) => {
-            eprintln!("{program}: this is a bug in {program}; please report it with the input");
+            say(format!("{program}: this is a bug in {program}; please report it with the input"));
             Exit::Bug
         }
     };
     ExitCode::from(exit as u8)
+}
+
+/// Prints words for people on standard error, and a newline.
+///
+/// Where they cannot be printed they are lost, and the program goes on: what it was asked for is
+/// not these words.
+pub fn say(words: impl Display) {
+    // One write, so that programs that share a terminal do not mix their lines.
+    let _ = io::stderr().write_all(format!("{words}\n").as_bytes());
+}
+
+/// The text with its control characters spelled out.
+///
+/// Messages quote names and keys from files, which may hold newlines and commands to a terminal.
+fn one_line(text: &str) -> String {
+    let mut line = String::with_capacity(text.len());
+    for c in text.chars() {
+        if c.is_control() {
+            line.extend(c.escape_default());
+        } else {
+            line.push(c);
+        }
+    }
+    line
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_message_stays_on_its_line() {
+        assert_eq!(one_line("key `a\nb\u{1b}[2J`: Väse"), "key `a\\nb\\u{1b}[2J`: Väse");
+    }
 }

@@ -5,7 +5,9 @@
 //! miss in a key is met with a suggestion. Checks that only the reader of the value can make (a
 //! radius must be positive) go through [`Document::fault`], which finds the place from the path.
 
-use crate::{Exit, Failure};
+pub use crate::words::nearest;
+
+use crate::{Exit, Failure, words};
 use jsonc_parser::ast::Value;
 use jsonc_parser::common::Ranged;
 use jsonc_parser::{CollectOptions, ParseOptions, parse_to_ast};
@@ -94,7 +96,7 @@ impl<'a> Document<'a> {
             file: self.file.into(),
             line: 1 + before.matches('\n').count(),
             column: 1 + before[line_start..].chars().count(),
-            path: path.into(),
+            path: words::shortened(path),
             message: message.into(),
         }
     }
@@ -105,7 +107,7 @@ impl<'a> Document<'a> {
         let message = match message {
             // What serde says of a fourth number in a point of three.
             "trailing characters" if !path.is_empty() => "found more values than expected".into(),
-            _ => in_plain_words(message),
+            _ => words::plain(message),
         };
         // serde's column is where reading stopped; the value itself is a better place, if the
         // text is whole enough to find it.
@@ -119,7 +121,7 @@ impl<'a> Document<'a> {
             file: self.file.into(),
             line: error.line().max(1),
             column: error.column().max(1),
-            path,
+            path: words::shortened(&path),
             message,
         }
     }
@@ -172,39 +174,6 @@ fn offset_of(text: &str, path: &str) -> Option<usize> {
     Some(value.start())
 }
 
-/// serde's message with Rust's type names put in words, and a suggestion for a near miss.
-fn in_plain_words(message: &str) -> String {
-    let mut text = message
-        .replace("expected f64", "expected a number")
-        .replace("expected f32", "expected a number")
-        .replace("expected usize", "expected a whole number of at least 0")
-        .replace("expected u32", "expected a whole number of at least 0")
-        .replace("expected u16", "expected a whole number from 0 to 65535")
-        .replace("unknown field", "unknown key")
-        .replace("missing field", "missing key")
-        .replace("duplicate field", "duplicate key");
-    if message.starts_with("unknown ") {
-        let mut names = message.split('`').skip(1).step_by(2);
-        if let Some(found) = names.next()
-            && let Some(near) = nearest(found, names)
-        {
-            text.push_str(&format!(" (did you mean `{near}`?)"));
-        }
-    }
-    text
-}
-
-/// The candidate that a slip of the fingers would turn into `found`, if there is one.
-#[must_use]
-pub fn nearest<'a>(found: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    let allowed = 1 + found.chars().count() / 4;
-    candidates
-        .map(|candidate| (strsim::damerau_levenshtein(found, candidate), candidate))
-        .filter(|&(distance, _)| distance <= allowed)
-        .min_by_key(|&(distance, _)| distance)
-        .map(|(_, candidate)| candidate)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -238,7 +207,7 @@ mod tests {
         let text = "{\"contour\":\n {\"free\": [[0, 0], [1, \"x\"]]}}";
         assert_eq!(
             complaint(text),
-            "a.json:2:24: contour.free[1][1]: invalid type: string \"x\", expected a number"
+            "a.json:2:24: contour.free[1][1]: found the string \"x\", expected a number"
         );
     }
 
@@ -277,7 +246,7 @@ mod tests {
         let error = Document::new("b", b"{}\n\xff").unwrap_err();
         assert_eq!(error.line, 2);
         let text = complaint("{\"contour\": {\"circle\": 1}} x");
-        assert!(text.contains("trailing characters"), "{text}");
+        assert!(text.contains("found more text"), "{text}");
     }
 
     #[test]

@@ -13,6 +13,7 @@ pub mod exit;
 pub mod input;
 pub mod json;
 pub mod output;
+mod words;
 
 pub use exit::{Exit, Failure, Report};
 pub use input::{Disk, Embedded, Source};

@@ -40,11 +40,11 @@ impl Output {
         // A link is followed, so that the file it points at is replaced and not the link.
         let target = fs::canonicalize(argument).unwrap_or_else(|_| argument.to_path_buf());
         let metadata = fs::metadata(&target).ok();
-        if metadata.is_some() && !clobber {
-            return Err(FileError::Exists { name });
-        }
         if metadata.as_ref().is_some_and(fs::Metadata::is_dir) {
             return Err(write_error(io::ErrorKind::IsADirectory.into()));
+        }
+        if metadata.as_ref().is_some_and(fs::Metadata::is_file) && !clobber {
+            return Err(FileError::Exists { name });
         }
         if metadata.as_ref().is_some_and(|found| !found.is_file()) {
             let device = File::options().write(true).open(&target).map_err(write_error)?;
@@ -81,7 +81,11 @@ impl Output {
                 } else {
                     temporary.persist_noclobber(&target)
                 };
-                renamed.map(drop).map_err(|failed| write_error(name, failed.error))
+                renamed.map(drop).map_err(|failed| match failed.error.kind() {
+                    // Made by another program since we looked.
+                    io::ErrorKind::AlreadyExists if !clobber => FileError::Exists { name },
+                    _ => write_error(name, failed.error),
+                })
             }
         }
     }
@@ -171,6 +175,23 @@ mod tests {
         fs::write(&path, "old").unwrap();
         let error = Output::create(&path, false).unwrap_err().to_string();
         assert!(error.contains("--no-clobber"), "{error}");
+    }
+
+    #[test]
+    fn no_clobber_keeps_a_file_that_was_made_meanwhile() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.txt");
+        let output = Output::create(&path, false).unwrap();
+        fs::write(&path, "theirs").unwrap();
+        let error = output.commit_all(b"ours").unwrap_err().to_string();
+        assert!(error.contains("--no-clobber"), "{error}");
+        assert_eq!(fs::read_to_string(&path).unwrap(), "theirs");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn no_clobber_lets_a_device_be_written() {
+        Output::create(Path::new("/dev/null"), false).unwrap().commit_all(b"gone").unwrap();
     }
 
     #[test]

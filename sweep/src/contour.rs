@@ -47,6 +47,24 @@ impl Contour {
     /// A closed path that encloses as much to its left as to its right keeps its direction.
     pub(crate) fn path(path: Path<DVec2>) -> Self {
         let path = if path.closed() { counter_clockwise(path) } else { path };
+        Self::of(path)
+    }
+
+    /// The contour as a rotation about the y axis takes it: an open one from the axis to the axis
+    /// closes there, and is turned round like a closed one when it runs clockwise.
+    pub(crate) fn rotated(self, on_axis: f64) -> Self {
+        match self.0 {
+            Form::Path { path, .. }
+                if [path.start(), path.end()].iter().all(|&end| path.point(end).x <= on_axis) =>
+            {
+                // The way back along the axis adds nothing to an area about the start.
+                Self::of(counter_clockwise(path))
+            }
+            form => Self(form),
+        }
+    }
+
+    fn of(path: Path<DVec2>) -> Self {
         let creases = path.joints().filter(|joint| joint.angle.to_degrees() > CREASE_DEG).collect();
         Self(Form::Path { path, creases })
     }
@@ -188,7 +206,7 @@ fn counter_clockwise(path: Path<DVec2>) -> Path<DVec2> {
     if area < -NO_AREA * path.length().powi(2) {
         let mut reversed: Vec<_> = path.cubics().map(Cubic::reversed).collect();
         reversed.reverse();
-        return Path::new(&reversed, true).unwrap_or(path);
+        return Path::new(&reversed, path.closed()).unwrap_or(path);
     }
     path
 }

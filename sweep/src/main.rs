@@ -1,7 +1,7 @@
 //! `sweep`: a spec of curves in, a contour x trajectory grid out.
 
 use clap::{Parser, ValueEnum};
-use files::exit::{Exit, Failure, Report};
+use files::exit::{Exit, Failure, Report, say};
 use files::input;
 use files::json::Document;
 use files::{Output, exit};
@@ -133,30 +133,28 @@ fn work(arguments: &Arguments) -> Result<(), Report> {
 }
 
 /// Says what is legal and most often not meant.
-#[expect(clippy::print_stderr, reason = "a note for the person at the terminal")]
 fn note(sweep: &Sweep) {
     if let Some(folded) = NonZeroUsize::new(sweep.folded_rows()) {
-        eprintln!(
+        say(format_args!(
             "sweep: note: {}: the surface folds back on itself in {folded} rows, where the \
              trajectory bends more sharply than the contour is wide",
             sweep.name()
-        );
+        ));
     }
 }
 
-#[expect(clippy::print_stderr, reason = "what --stats asks for")]
 fn stats(sweep: &Sweep, grid: &GridMesh, stages: &[(&str, std::time::Duration)]) {
-    eprintln!("object      {}", sweep.name());
-    eprintln!("cells       {} x {} (rows x cols)", sweep.rows(), sweep.cols());
-    eprintln!("points      {} x {}, {}", grid.rows(), grid.cols(), grid.positions.len());
-    eprintln!("creases     {}", sweep.contour().creases());
-    eprintln!("contour     {} long", sweep.contour().length());
+    say(format_args!("object      {}", sweep.name()));
+    say(format_args!("cells       {} x {} (rows x cols)", sweep.rows(), sweep.cols()));
+    say(format_args!("points      {} x {}, {}", grid.rows(), grid.cols(), grid.positions.len()));
+    say(format_args!("creases     {}", sweep.contour().creases()));
+    say(format_args!("contour     {} long", sweep.contour().length()));
     if sweep.trajectory().is_rotation() {
-        eprintln!("trajectory  a rotation");
+        say("trajectory  a rotation");
     } else {
-        eprintln!("trajectory  {} long", sweep.trajectory().length());
+        say(format_args!("trajectory  {} long", sweep.trajectory().length()));
     }
     for (stage, time) in stages {
-        eprintln!("{stage:<11} {:.2} ms", 1e3 * time.as_secs_f64());
+        say(format_args!("{stage:<11} {:.2} ms", 1e3 * time.as_secs_f64()));
     }
 }

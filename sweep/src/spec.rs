@@ -50,8 +50,9 @@
 //!
 //! Axes are right-handed and y points up. A contour's (x, y) lies on the directions (w1, w2) of a
 //! frame with `w1 x w2 = T`, the direction of the trajectory. Closed contours run counter-clockwise
-//! there (they are turned round if they do not), which puts their outside outside; the outer side
-//! of an open contour is to the right of its direction of travel.
+//! there (they are turned round if they do not), which puts their outside outside; so do open ones
+//! that a rotation takes from its axis to its axis. The outer side of any other open contour is to
+//! the right of its direction of travel.
 //!
 //! On a circle and a rotation `w1` points away from the axis and `w2` along it. They start where
 //! `w1` is as near as can be to the coordinate axis least aligned with their axis (x before y

@@ -1,6 +1,7 @@
 //! A sweep that has been checked, and the grid it gives.
 
 use crate::contour::{Column, Contour};
+use crate::grid::file::MAX_COLS;
 use crate::grid::{GridMesh, Seam, UvLayout};
 use crate::trajectory::Trajectory;
 use crate::{SweepError, read};
@@ -8,7 +9,7 @@ use files::json::Document;
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-/// Cells of one grid at most: 3.6 GB of points and normals.
+/// Cells of one grid at most: 3.6 GB of points and normals, and twice that when it is one cell wide.
 pub const MOST_CELLS: usize = 100_000_000;
 
 /// Distances from the axis of a rotation below this fraction of the largest are on it.
@@ -98,12 +99,18 @@ impl Sweep {
             let why = match self.contour.creases() {
                 0 if self.contour.closed() => around.to_owned(),
                 0 => "along the contour".to_owned(),
-                creases => format!("for the pieces of a contour with {creases} corners"),
+                _ => "along a contour with corners: one for each piece between them".to_owned(),
             };
             return Some((
                 "cols",
                 format!("found {}, expected at least {fewest} {why}", self.cols),
             ));
+        }
+        // What is given besides the cells' first points: corners twice, an open end.
+        let more = self.contour.creases() + usize::from(!self.contour.closed());
+        let most = MAX_COLS.saturating_sub(more);
+        if self.cols > most {
+            return Some(("cols", format!("found {}, expected at most {most}", self.cols)));
         }
         let cells = self.rows.checked_mul(self.cols).filter(|&cells| cells <= MOST_CELLS);
         cells.is_none().then(|| {

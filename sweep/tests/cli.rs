@@ -68,6 +68,9 @@ fn rows_and_cols_take_the_place_of_the_specs() {
     assert_eq!(message, "sweep: cols: found 2, expected at least 3 to go around\n");
     let (code, message) = ending(&sweep(&["--rows", "9000000000", "--cols", "9000000000"], PIPE));
     assert_eq!(code, Some(2));
+    assert!(message.contains("expected at most 1048576"), "{message}");
+    let (code, message) = ending(&sweep(&["--rows", "9000000000", "--cols", "9000"], PIPE));
+    assert_eq!(code, Some(2));
     assert!(message.contains("expected at most 100000000"), "{message}");
 }
 
@@ -149,6 +152,23 @@ fn a_full_device_ends_with_5() {
     let (code, message) = ending(&sweep(&["-o", "/dev/full"], PIPE));
     assert_eq!(code, Some(5));
     assert!(message.starts_with("sweep: cannot write /dev/full"), "{message}");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn words_that_cannot_be_printed_change_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let (spec, grid) = (folder.path().join("pipe.json"), folder.path().join("pipe.grid"));
+    fs::write(&spec, PIPE).unwrap();
+    for (spec, code) in [(spec.as_path(), 0), (Path::new("no/such/curve.json"), 5)] {
+        let status = Command::new(env!("CARGO_BIN_EXE_sweep"))
+            .arg(spec)
+            .args(["--stats", "-o", grid.to_str().unwrap()])
+            .stderr(fs::OpenOptions::new().write(true).open("/dev/full").unwrap())
+            .status()
+            .unwrap();
+        assert_eq!(status.code(), Some(code));
+    }
 }
 
 #[cfg(unix)]

@@ -180,6 +180,25 @@ fn turning_a_closed_contour_round_changes_nothing() {
 }
 
 #[test]
+fn a_rotation_from_axis_to_axis_faces_outward_however_it_is_drawn() {
+    for (up, down) in [
+        ("M0 1A1 1 0 0 0 0 -1", "M0 -1A1 1 0 0 1 0 1"),
+        ("M0 1H2V-1H0", "M0 -1H2V1H0"),
+        ("M0 0H2V-3H1.9V-.1H0", "M0 -.1H1.9V-3H2V0H0"),
+    ] {
+        let swept = |svg: &str| grid(&json!({"svg": svg}), &json!({"rotation": {"degrees": 270}}));
+        for (a, b) in points(&swept(up)).zip(points(&swept(down))) {
+            assert!((a.2 - b.2).length() < 1e-12, "{up}");
+            assert!((a.3 - b.3).length() < 1e-6, "{up}");
+        }
+    }
+    // From the axis to a rim there is no inside, and the direction decides.
+    let bowl = |svg: &str| grid(&json!({"svg": svg}), &json!({"rotation": {}}));
+    let (from_axis, to_axis) = (bowl("M0 0H2V-1"), bowl("M2 -1V0H0"));
+    assert_eq!(from_axis.normals[0], -to_axis.normals[to_axis.cols() - 1]);
+}
+
+#[test]
 fn handles_of_no_length_change_nothing_but_the_parameter() {
     let (a, b) = ([1, 2, 3], [4, -2, 5]);
     let line = grid(&json!({"circle": 1}), &json!({"line": [a, b]}));

@@ -51,7 +51,7 @@ pub enum TriangulateError {
     },
     /// A number that a mesh of f32 does not hold.
     #[error(
-        "{object}: row {row}, column {col}: found the {what} ({}, {}, {}), expected numbers within 3.4e38, \
+        "{object}: row {row}, column {col}: found the {what} ({:?}, {:?}, {:?}), expected numbers within 3.4e38, \
          which is what an OBJ holds", found.x, found.y, found.z
     )]
     Number {
@@ -67,7 +67,7 @@ pub enum TriangulateError {
         found: DVec3,
     },
     /// The picture repeats more often than f32 can count.
-    #[error("{object}: found a picture that repeats {found} times, expected at most 1e30 times")]
+    #[error("{object}: found a picture that repeats {found:?} times, expected at most 1e30 times")]
     Repeat {
         /// The object's name.
         object: String,

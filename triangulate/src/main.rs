@@ -1,6 +1,7 @@
 //! `triangulate`: a grid of `sweep` to triangles, as OBJ.
 
 use clap::Parser;
+use files::exit::say;
 use files::{Output, Report, exit, input};
 use std::io::{IsTerminal, stdin};
 use std::path::PathBuf;
@@ -69,21 +70,38 @@ fn work(arguments: &Arguments) -> Result<(), Report> {
     Ok(())
 }
 
+/// Coordinates moved by more than this fraction of the object's size are worth a word: a tenth of
+/// a pixel where the object fills a picture of a thousand.
+const MOVED: f64 = 1e-4;
+
 /// Words for people, on standard error.
-#[expect(clippy::print_stderr, reason = "the program's own words; the library has none")]
 fn report(arguments: &Arguments, grid: &str, counts: &Counts) {
-    let Counts { positions, uvs, normals, triangles, collapsed, slivers } = counts;
+    let Counts { positions, uvs, normals, triangles, collapsed, slivers, moved } = counts;
     if arguments.stats {
-        eprintln!(
+        say(format_args!(
             "triangles {triangles}\npositions {positions}\nnormals {normals}\n\
              picture_coordinates {uvs}\nleft_out_at_poles_and_creases {collapsed}\n\
-             left_out_slivers {slivers}"
-        );
+             left_out_slivers {slivers}\nmoved_by_rounding {moved:.1e}"
+        ));
     }
-    if *slivers > 0 && !arguments.quiet {
-        eprintln!(
-            "triangulate: {grid}: left out {slivers} triangles whose corners lie on a line; the mesh \
-             has slits of no width there"
-        );
+    if arguments.quiet {
+        return;
+    }
+    if *triangles == 0 {
+        say(format_args!(
+            "triangulate: note: {grid}: the mesh has no triangles: all its points lie on a line, or \
+             are one point"
+        ));
+    } else if *slivers > 0 {
+        say(format_args!(
+            "triangulate: note: {grid}: left out {slivers} triangles whose corners lie on a line; \
+             the mesh has slits of no width there"
+        ));
+    }
+    if *moved > MOVED {
+        say(format_args!(
+            "triangulate: note: {grid}: the seven digits of an OBJ moved points by up to {moved:.0e} \
+             of the object's size; it would keep its shape nearer to the origin"
+        ));
     }
 }

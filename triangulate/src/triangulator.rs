@@ -3,6 +3,7 @@
 use crate::cell::{Cell, Picture, Teller};
 use crate::station::{Station, UNTOLD};
 use crate::{Triangle, TriangulateError};
+use glam::DVec3;
 use std::io;
 use sweep::grid::file::Header;
 use sweep::grid::{Row, Seam};
@@ -30,7 +31,7 @@ pub trait Sink {
 }
 
 /// How much a mesh has of everything.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Counts {
     /// Different positions.
     pub positions: u32,
@@ -45,6 +46,39 @@ pub struct Counts {
     /// Triangles left out because their three corners lie on a line. The mesh has a slit there,
     /// of no width.
     pub slivers: u64,
+    /// How far rounding to f32 moved a coordinate, at most, as a fraction of the object's size (the
+    /// diagonal of its box): some 1e-8 for an object about the origin, and more by as much as
+    /// it lies farther away than it is large. Infinite for an object that is one point.
+    pub moved: f64,
+}
+
+/// What rounding does to an object.
+#[derive(Debug)]
+struct Rounding {
+    low: DVec3,
+    high: DVec3,
+    /// The farthest that a coordinate was moved.
+    moved: f64,
+}
+
+impl Rounding {
+    fn none() -> Self {
+        Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY, moved: 0.0 }
+    }
+
+    fn add(&mut self, points: &[DVec3], rounded: &[[f32; 3]]) {
+        for (&point, &rounded) in points.iter().zip(rounded) {
+            self.low = self.low.min(point);
+            self.high = self.high.max(point);
+            let off = (point - DVec3::from(rounded.map(f64::from))).abs();
+            self.moved = self.moved.max(off.max_element());
+        }
+    }
+
+    /// As a fraction of the object's size.
+    fn fraction(&self) -> f64 {
+        if self.moved == 0.0 { 0.0 } else { self.moved / (self.high - self.low).length() }
+    }
 }
 
 /// The most points of a grid. A pole gives a cell at most one more normal and one more pair of
@@ -66,6 +100,7 @@ pub struct Triangulator<S> {
     spare: Station,
     /// Triangles of the row at hand.
     triangles: Vec<Triangle>,
+    rounding: Rounding,
     /// Rows taken so far.
     rows: usize,
 }
@@ -97,6 +132,7 @@ impl<S: Sink> Triangulator<S> {
             before: None,
             spare: Station::default(),
             triangles: Vec::new(),
+            rounding: Rounding::none(),
             rows: 0,
         })
     }
@@ -114,6 +150,7 @@ impl<S: Sink> Triangulator<S> {
         self.rows += 1;
         let mut station = std::mem::take(&mut self.spare);
         station.take(&row, &self.header.name, self.rows, self.teller.picture.cols())?;
+        self.rounding.add(row.positions, &station.points);
         self.number_positions(&mut station);
         if let Some(mut before) = self.before.take() {
             self.band(&mut before, &mut station);
@@ -142,7 +179,8 @@ impl<S: Sink> Triangulator<S> {
             self.band(&mut last, &mut first);
             self.teller.sink.row_done().map_err(TriangulateError::Write)?;
         }
-        Ok((self.teller.sink, self.teller.counts))
+        let counts = Counts { moved: self.rounding.fraction(), ..self.teller.counts };
+        Ok((self.teller.sink, counts))
     }
 
     /// Numbers the points of a row. A point that equals its neighbour to the left, below, or over a
@@ -199,7 +237,7 @@ impl<S: Sink> Triangulator<S> {
 mod tests {
     use super::*;
     use crate::{Options, TriMesh};
-    use glam::{DVec3, Vec3};
+    use glam::Vec3;
     use sweep::grid::UvLayout;
 
     fn header(rows: usize, cols: usize) -> Header {

@@ -13,10 +13,14 @@ use sweep::grid::{Seam, UvLayout};
 
 /// A bent sheet.
 fn sheet(rows: usize, cols: usize) -> Vec<u8> {
+    sheet_at(DVec3::ZERO, rows, cols)
+}
+
+fn sheet_at(corner: DVec3, rows: usize, cols: usize) -> Vec<u8> {
     let even =
         |count: usize| -> Vec<f64> { (0..count).map(|i| i as f64 / (count - 1) as f64).collect() };
     let (u, v) = (even(cols), even(rows));
-    let point = |u: f64, v: f64| DVec3::new(u, v, (u * v).sin());
+    let point = |u: f64, v: f64| corner + DVec3::new(u, v, (u * v).sin());
     let grid = GridMesh {
         name: "sheet".into(),
         seam_u: Seam::Open,
@@ -76,6 +80,24 @@ fn stats_go_to_standard_error() {
     let run = triangulate(&["-q", "--stats", "-o", "a.obj"], &sheet(3, 4), folder.path());
     assert!(said(&run).starts_with("triangles 12\npositions 12\nnormals 1\n"), "{}", said(&run));
     assert!(run.stdout.is_empty());
+}
+
+#[test]
+fn an_object_too_far_away_for_its_size_is_noted() {
+    let folder = tempfile::tempdir().unwrap();
+    for (away, expected) in [
+        (1e2, &[][..]),
+        (1e5, &["note: <stdin>: the seven digits of an OBJ moved points by up to "]),
+        (1e9, &["the mesh has no triangles", "nearer to the origin"]),
+    ] {
+        let grid = sheet_at(DVec3::splat(away), 3, 4);
+        let run = triangulate(&["-o", "a.obj"], &grid, folder.path());
+        assert_eq!(run.status.code(), Some(0));
+        assert_eq!(said(&run).lines().count(), expected.len(), "{}", said(&run));
+        assert!(expected.iter().all(|words| said(&run).contains(words)), "{}", said(&run));
+        let quiet = triangulate(&["-q", "-o", "a.obj"], &grid, folder.path());
+        assert_eq!((quiet.status.code(), said(&quiet).as_str()), (Some(0), ""));
+    }
 }
 
 #[test]

@@ -22,6 +22,13 @@ const STRAIGHT: f64 = 1e8;
 /// A path ends where it began when its ends are this fraction of its size apart.
 const MEETS: f64 = 1e-9;
 
+/// A `Z` whose line would be shorter than this fraction of the path's size closes a gap of rounding.
+///
+/// Drawing programs write relative commands with three decimals or fewer, whose errors add up along
+/// the path. Drawn as a line such a gap would be a cell of its own between two creases. A line that
+/// was meant is longer, and to move an end by so little is seen by nobody.
+const ROUNDING: f64 = 1e-4;
+
 /// The subpath of an SVG path, y up.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outline {
@@ -41,7 +48,8 @@ pub fn outline(text: &str) -> Result<Outline, String> {
     let (start, closed) = reader.read()?;
     let mut segments = reader.segments;
     let gap = (reader.pen - start).length();
-    let meets = gap <= MEETS * extent(segments.iter().flat_map(|segment| segment.0));
+    let widest = if closed { ROUNDING } else { MEETS };
+    let meets = gap <= widest * extent(segments.iter().flat_map(|segment| segment.0));
     if closed && !meets {
         segments.push(Cubic::line(reader.pen, start));
     }
@@ -325,6 +333,18 @@ mod tests {
         assert!(read.closed);
         assert_eq!(read.segments.len(), 2);
         assert_eq!(read.segments[1].0[3], p(0.0, 0.0));
+    }
+
+    #[test]
+    fn a_gap_of_rounding_is_closed_without_a_line() {
+        let read = outline(
+            "m10.12 5.46c-2.761 0-5-2.239-5-5s2.239-5 5-5 5.001 2.239 5.001 5-2.24 5.001-5 5.001z",
+        );
+        let read = read.unwrap();
+        assert_eq!(read.segments.len(), 4);
+        assert_eq!(read.segments[3].0[3], read.segments[0].0[0]);
+        let meant = outline("m0 0h10v10h-10v-9.9z").unwrap();
+        assert_eq!(meant.segments.len(), 5);
     }
 
     #[test]

@@ -39,6 +39,7 @@ mod text;
 
 pub use error::GridError;
 pub use header::Header;
+pub(crate) use header::MAX_COLS;
 pub use reader::{GridReader, read};
 
 use crate::GridMesh;

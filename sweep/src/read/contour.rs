@@ -50,17 +50,17 @@ mod tests {
             ),
             (
                 "{\"free\": {\"points\": [[0, 0]]}}",
-                "2:32: contour.free.points: found 1 points, expected at least 2 for an open curve",
+                "2:32: contour.free.points: found 1, expected at least 2 points for an open curve",
                 3,
             ),
             (
                 "{\"free\": {\"closed\": true, \"points\": [[0, 0], [1, 0]]}}",
-                "2:48: contour.free.points: found 2 points, expected at least 3 for a closed curve",
+                "2:48: contour.free.points: found 2, expected at least 3 points for a closed curve",
                 3,
             ),
             (
                 "{\"free\": {\"points\": [[1, 1], [1, 1]]}}",
-                "2:32: contour.free.points: found 1 points that differ",
+                "2:32: contour.free.points: found 1 that differ",
                 4,
             ),
             (

@@ -10,12 +10,16 @@ use crate::sweep::ON_AXIS;
 use crate::{Sweep, SweepError};
 use files::json::Document;
 use glam::DVec3;
+use std::ops::RangeInclusive;
 
 /// Coordinates beyond this have squares of squares that a double cannot hold.
 const LARGEST: f64 = 1e60;
 
 /// Curves smaller than this have squares of squares that vanish.
 const SMALLEST: f64 = 1e-60;
+
+/// Repeats of a picture, whose coordinates become f32 in a mesh.
+const REPEATS: RangeInclusive<f64> = 1e-30..=1e30;
 
 /// Segments meet when their ends are this fraction of the curve apart.
 ///
@@ -31,7 +35,7 @@ pub fn read(document: &Document) -> Result<Sweep, SweepError> {
     let spec: Spec = document.parse()?;
     let reader = Reader { document };
     reader.header(&spec)?;
-    let contour = reader.contour(&spec.contour)?;
+    let mut contour = reader.contour(&spec.contour)?;
     let trajectory = reader.trajectory(&spec.trajectory, spec.frame.as_ref())?;
     if trajectory.is_rotation() {
         let (low, high) = contour.x_range();
@@ -50,6 +54,7 @@ pub fn read(document: &Document) -> Result<Sweep, SweepError> {
                 "found a contour on the axis of the rotation, expected some x above 0",
             ));
         }
+        contour = contour.rotated(ON_AXIS * high);
     }
     let sweep = Sweep {
         name: spec.name,
@@ -96,7 +101,14 @@ impl Reader<'_> {
             return Err(self.fault("name", message));
         }
         for (i, &repeat) in spec.uv.repeat.iter().enumerate() {
-            self.positive(&format!("uv.repeat[{i}]"), repeat)?;
+            let path = format!("uv.repeat[{i}]");
+            self.positive(&path, repeat)?;
+            if !REPEATS.contains(&repeat) {
+                let [least, most] = [REPEATS.start(), REPEATS.end()];
+                let message =
+                    format!("found {repeat:?}, expected a number from {least:?} to {most:?}");
+                return Err(self.fault(&path, message));
+            }
         }
         self.point("position", &spec.position)
     }
@@ -182,7 +194,7 @@ impl Reader<'_> {
         if free.points.len() < fewest {
             let found = free.points.len();
             let message =
-                format!("found {found} points, expected at least {fewest} for {kind} curve");
+                format!("found {found}, expected at least {fewest} points for {kind} curve");
             return Err(self.fault(&points_path, message));
         }
         self.points(&points_path, &free.points)?;
@@ -197,7 +209,7 @@ impl Reader<'_> {
         }
         if points.len() < fewest {
             let message = format!(
-                "found {} points that differ, expected at least {fewest} for {kind} curve",
+                "found {} that differ, expected at least {fewest} points for {kind} curve",
                 points.len()
             );
             return Err(self.geometry(&points_path, message));
@@ -260,6 +272,11 @@ mod tests {
                 "\"mesh\"",
                 "\"uv\": {\"repeat\": [1, 0]}, \"mesh\"",
                 "a.json:4:22: uv.repeat[1]: found 0.0, expected a number above 0",
+            ),
+            (
+                "\"mesh\"",
+                "\"uv\": {\"repeat\": [1e31, 1]}, \"mesh\"",
+                "a.json:4:19: uv.repeat[0]: found 1e31, expected a number from 1e-30 to 1e30",
             ),
             (
                 "\"mesh\"",

@@ -171,7 +171,7 @@ mod tests {
             ("{\"rotation\": {\"degrees\": 0}}", "trajectory.rotation.degrees: found 0.0", 3),
             (
                 "{\"free\": {\"closed\": true, \"points\": [[0,0,0],[1,0,0],[1,0,0],[0,0,0]]}}",
-                "trajectory.free.points: found 2 points that differ, expected at least 3",
+                "trajectory.free.points: found 2 that differ, expected at least 3 points",
                 4,
             ),
             (

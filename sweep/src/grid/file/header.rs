@@ -16,7 +16,7 @@ const START: &[u8] = br#"{"format":"tb-grid","#;
 const VERSION: u64 = 1;
 /// The longest station: it bounds the memory that a reader gives a file it cannot trust yet.
 /// A row of this length is 36 MiB; the finest pictures need a thousandth of it.
-const MAX_COLS: usize = 1 << 20;
+pub(crate) const MAX_COLS: usize = 1 << 20;
 /// Rows are counted with 32 bits, as in the OBJ that is made of them.
 const MAX_ROWS: usize = u32::MAX as usize;
 /// The longest header line: room for [`MAX_COLS`] numbers of 24 characters, and a name.
