@@ -16,70 +16,36 @@ const CRATES: [(&str, &[&str]); 5] = [
     ("pipeline", &["files", "sweep", "triangulate", "render"]),
 ];
 
-/// The rooms of `render` from the bottom up, and into which others each one looks.
-///
-/// A room looks only at rooms above it in this list, which is below it in the house. Two folders
-/// count as two rooms each: `scene` wants the texels of `filter` but not its tables, and `filter`
-/// wants the shapes of `footprint` but not the trees that they come from.
-const ROOMS: [(&str, &[&str]); 15] = [
+/// The rooms of `render` from the bottom up, and into which others each one looks: only at rooms
+/// above it in this list, which is below it in the house.
+const ROOMS: [(&str, &[&str]); 14] = [
     ("color", &[]),
     ("optics", &[]),
     ("progress", &[]),
     ("ray", &[]),
     ("shape", &[]),
-    ("footprint", &[]),
-    ("filter::texture", &["color"]),
-    ("filter", &["color", "filter::texture", "footprint"]),
-    ("scene", &["color", "filter::texture", "ray", "shape"]),
+    ("texture", &["color"]),
+    ("scene", &["color", "ray", "shape", "texture"]),
     ("accel", &["ray", "shape"]),
     ("trace", &["accel", "optics", "ray", "scene"]),
-    ("footprint::neighbours", &["footprint", "shape", "trace"]),
+    ("footprint", &["shape", "trace"]),
+    ("filter", &["color", "footprint", "texture"]),
     (
         "shade",
-        &[
-            "accel",
-            "color",
-            "filter",
-            "footprint",
-            "footprint::neighbours",
-            "optics",
-            "ray",
-            "scene",
-            "shape",
-            "trace",
-        ],
+        &["accel", "color", "filter", "footprint", "optics", "ray", "scene", "shape", "trace"],
     ),
     ("stats", &["shade", "trace"]),
     (
         "film",
-        &[
-            "accel",
-            "color",
-            "filter",
-            "footprint::neighbours",
-            "scene",
-            "shade",
-            "shape",
-            "stats",
-            "trace",
-        ],
+        &["accel", "color", "filter", "footprint", "scene", "shade", "shape", "stats", "trace"],
     ),
 ];
-
-/// Names that a room gives on for another.
-const GIVEN_ON: [(&str, &str); 1] = [("filter::Texture", "filter::texture")];
 
 /// The doors of `render`, which see all rooms.
 const DOORS: [&str; 3] = ["lib", "main", "cli"];
 
 /// Lines of a file at most, its tests included.
 const LONGEST: usize = 400;
-
-/// Files that are longer, each with the reason.
-const LONGER: [(&str, &str); 1] = [(
-    "render/src/scene/read.rs",
-    "one reader of one format; its checks of objects and meshes could move to a file of their own",
-)];
 
 /// Library files that may print, each with the reason.
 const PRINTERS: [(&str, &str); 1] =
@@ -149,17 +115,10 @@ fn rooms_of_render_look_only_one_way() {
 }
 
 #[test]
-fn no_file_is_long_without_a_reason() {
+fn no_file_is_long() {
     for file in rust_files("") {
         let lines = read(&file).lines().count();
-        let reason = LONGER.iter().find(|(name, _)| *name == file);
-        match reason {
-            None => assert!(lines <= LONGEST, "{file}: found {lines} lines, expected {LONGEST}"),
-            Some(_) => assert!(lines > LONGEST, "{file}: short again; take it off the list"),
-        }
-    }
-    for (file, _) in LONGER {
-        assert!(root().join(file).exists(), "{file} is gone; take it off the list");
+        assert!(lines <= LONGEST, "{file}: found {lines} lines, expected at most {LONGEST}");
     }
 }
 
@@ -270,16 +229,10 @@ fn from_the_root(module: &[String], path: &[String]) -> Vec<String> {
     [&module[..module.len() - up], &path[up..]].concat()
 }
 
-/// The room that a path from the root of `render` leads into: the longest name that fits.
+/// The room of `render` that a path from its root leads into.
 fn room_of(path: &[String]) -> Option<&'static str> {
-    let within = |name: &str| {
-        let words: Vec<&str> = name.split("::").collect();
-        path.len() >= words.len() && path.iter().zip(&words).all(|(a, b)| a == b)
-    };
-    if let Some((_, room)) = GIVEN_ON.iter().find(|(name, _)| within(name)) {
-        return Some(room);
-    }
-    ROOMS.iter().map(|(name, _)| *name).filter(|name| within(name)).max_by_key(|name| name.len())
+    let first = path.first()?;
+    ROOMS.iter().map(|(name, _)| *name).find(|name| name == first)
 }
 
 /// Whether a page's name for a file or a folder (with a slash at its end) leads to one: from the

@@ -17,7 +17,7 @@ pub enum Exit {
     Geometry = 4,
     /// A file could not be read or written.
     ReadWrite = 5,
-    /// A limit on memory was met.
+    /// A limit on memory, threads or numbering was met.
     Resource = 6,
     /// A bug of ours.
     Bug = 70,

@@ -11,6 +11,9 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
+/// Bytes gathered before they are written.
+const BUFFER: usize = 1 << 16;
+
 /// A file to be replaced, or standard output.
 #[derive(Debug)]
 pub struct Output {
@@ -31,35 +34,36 @@ impl Output {
     /// # Errors
     /// When the folder cannot be written, or when the file exists and `clobber` is false.
     pub fn create(argument: &Path, clobber: bool) -> Result<Self, FileError> {
-        if argument.as_os_str() == "-" {
-            let sink = Sink::Stdout(BufWriter::with_capacity(1 << 16, io::stdout()));
-            return Ok(Self { name: "<stdout>".into(), sink });
-        }
-        let name = argument.display().to_string();
-        let write_error = |source| FileError::Write { name: name.clone(), source };
-        // A link is followed, so that the file it points at is replaced and not the link.
-        let target = fs::canonicalize(argument).unwrap_or_else(|_| argument.to_path_buf());
-        let metadata = fs::metadata(&target).ok();
-        if metadata.as_ref().is_some_and(fs::Metadata::is_dir) {
-            return Err(write_error(io::ErrorKind::IsADirectory.into()));
-        }
-        if metadata.as_ref().is_some_and(fs::Metadata::is_file) && !clobber {
-            return Err(FileError::Exists { name });
-        }
-        if metadata.as_ref().is_some_and(|found| !found.is_file()) {
-            let device = File::options().write(true).open(&target).map_err(write_error)?;
-            return Ok(Self { name, sink: Sink::Device(BufWriter::new(device)) });
-        }
-        if metadata.as_ref().is_some_and(|found| found.permissions().readonly()) {
-            return Err(write_error(io::ErrorKind::PermissionDenied.into()));
-        }
-        let folder = match target.parent() {
-            Some(parent) if !parent.as_os_str().is_empty() => parent,
-            _ => Path::new("."),
+        let name = name_of(argument);
+        let failed = |source| write_error(name.clone(), source);
+        let sink = match Target::of(argument, clobber)? {
+            Target::Stdout => Sink::Stdout(BufWriter::with_capacity(BUFFER, io::stdout())),
+            Target::Device(path) => {
+                let device = File::options().write(true).open(path).map_err(failed)?;
+                Sink::Device(BufWriter::with_capacity(BUFFER, device))
+            }
+            Target::File { path, replaced } => {
+                let temporary = create_beside(&path, replaced.as_ref()).map_err(failed)?;
+                let temporary = BufWriter::with_capacity(BUFFER, temporary);
+                Sink::Replace { temporary, target: path, clobber }
+            }
         };
-        let temporary = create_beside(folder, metadata.as_ref()).map_err(write_error)?;
-        let temporary = BufWriter::with_capacity(1 << 16, temporary);
-        Ok(Self { name, sink: Sink::Replace { temporary, target, clobber } })
+        Ok(Self { name, sink })
+    }
+
+    /// Finds out whether [`Output::create`] would succeed, before long work whose result it will
+    /// take; leaves nothing behind if the program is stopped meanwhile.
+    ///
+    /// # Errors
+    /// As [`Output::create`].
+    pub fn check(argument: &Path, clobber: bool) -> Result<(), FileError> {
+        match Target::of(argument, clobber)? {
+            // A named pipe must be opened once only.
+            Target::Stdout | Target::Device(_) => Ok(()),
+            Target::File { path, replaced } => create_beside(&path, replaced.as_ref())
+                .map(drop)
+                .map_err(|source| write_error(name_of(argument), source)),
+        }
     }
 
     /// Makes what was written the content of the file.
@@ -106,6 +110,43 @@ impl Output {
     }
 }
 
+/// What an argument names.
+enum Target {
+    Stdout,
+    /// Anything that is there and is not a regular file.
+    Device(PathBuf),
+    /// A file, links followed, and what is known of the one that it replaces.
+    File {
+        path: PathBuf,
+        replaced: Option<fs::Metadata>,
+    },
+}
+
+impl Target {
+    fn of(argument: &Path, clobber: bool) -> Result<Self, FileError> {
+        if argument.as_os_str() == "-" {
+            return Ok(Self::Stdout);
+        }
+        let refused = |kind: io::ErrorKind| write_error(name_of(argument), kind.into());
+        // A link is followed, so that the file it points at is replaced and not the link.
+        let path = fs::canonicalize(argument).unwrap_or_else(|_| argument.to_path_buf());
+        let replaced = fs::metadata(&path).ok();
+        match &replaced {
+            Some(found) if found.is_dir() => Err(refused(io::ErrorKind::IsADirectory)),
+            Some(found) if !found.is_file() => Ok(Self::Device(path)),
+            Some(_) if !clobber => Err(FileError::Exists { name: name_of(argument) }),
+            Some(found) if found.permissions().readonly() => {
+                Err(refused(io::ErrorKind::PermissionDenied))
+            }
+            _ => Ok(Self::File { path, replaced }),
+        }
+    }
+}
+
+fn name_of(argument: &Path) -> String {
+    if argument.as_os_str() == "-" { "<stdout>".into() } else { argument.display().to_string() }
+}
+
 impl Write for Output {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         match &mut self.sink {
@@ -124,9 +165,13 @@ impl Write for Output {
     }
 }
 
-/// A temporary file in `folder` with the permissions of the file it will replace, or those the
+/// A temporary file beside `target` with the permissions of the file it will replace, or those the
 /// system gives a new one.
-fn create_beside(folder: &Path, replaced: Option<&fs::Metadata>) -> io::Result<NamedTempFile> {
+fn create_beside(target: &Path, replaced: Option<&fs::Metadata>) -> io::Result<NamedTempFile> {
+    let folder = match target.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
     let mut builder = tempfile::Builder::new();
     builder.prefix(".").suffix(".part");
     #[cfg(unix)]

@@ -21,7 +21,8 @@ Examples:
   sweep vase.json | triangulate --texture 2 | render scene.json --mesh vase=- -o vase.png
   render scene.json --filter point --stats -o - --format exr > picture.exr
 
-Exit codes: 2 bad use, 3 malformed input, 5 cannot read or write, 70 a bug, 141 closed pipe.";
+Exit codes: 2 bad use, 3 malformed input, 5 cannot read or write, 6 too large, 70 a bug,
+141 closed pipe.";
 
 /// Renders a JSON scene with area sampled textures.
 #[derive(Debug, Parser)]
@@ -113,7 +114,10 @@ enum UseError {
 
 impl Failure for UseError {
     fn exit(&self) -> Exit {
-        Exit::Use
+        match self {
+            Self::Threads(..) => Exit::Resource,
+            _ => Exit::Use,
+        }
     }
 }
 
@@ -132,8 +136,8 @@ impl Failure for EncodeError {
 pub fn run(arguments: &Arguments) -> Result<(), Report> {
     let format = format(arguments)?;
     check_stdin(arguments)?;
-    // Opened before the work, so that a folder that cannot be written is told at once.
-    let output = Output::create(&arguments.output, !arguments.no_clobber)?;
+    let clobber = !arguments.no_clobber;
+    Output::check(&arguments.output, clobber)?;
 
     let started = Instant::now();
     let scene = read_scene(arguments)?;
@@ -159,7 +163,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
 
     let started = Instant::now();
     let bytes = encode::encode(&picture, format, arguments.gamma).map_err(EncodeError)?;
-    output.commit_all(&bytes)?;
+    Output::create(&arguments.output, clobber)?.commit_all(&bytes)?;
     stats.read_time = read_time;
     stats.write_time = started.elapsed();
     print_stats(arguments, &stats);

@@ -12,7 +12,8 @@ pub type Color = DVec3;
 pub enum Encoding {
     /// The sRGB curve (IEC 61966-2-1).
     Srgb,
-    /// A pure power: `code = value^(1/gamma)`, as the thesis's ray tracer wrote its files.
+    /// A pure power, `code = value^(1/gamma)`: our reading of the thesis's "gamma corrected"
+    /// files (appendix B).
     Gamma(f64),
 }
 

@@ -24,6 +24,7 @@ pub mod scene;
 pub mod shade;
 pub mod shape;
 pub mod stats;
+pub mod texture;
 pub mod trace;
 
 pub use film::{Picture, Settings, render};

@@ -44,15 +44,24 @@ pub struct Settings {
     pub filter: Filter,
 }
 
+/// Pixels of one picture at most: 3 GB of them, and as much again while tiles come together.
+const MOST_PIXELS: u64 = 1 << 28;
+
 /// Reads a size in pixels, such as `640x480`.
 ///
 /// # Errors
-/// When the text is not two numbers from 1 to 65536 with an `x` between them.
+/// When the text is not two numbers from 1 to 65536 with an `x` between them, or asks for more
+/// pixels than memory should be expected to hold.
 pub fn size(text: &str) -> Result<(u32, u32), String> {
     let side = |text: &str| text.parse().ok().filter(|side| (1..=65536).contains(side));
-    text.split_once(['x', 'X'])
+    let (width, height): (u32, u32) = text
+        .split_once(['x', 'X'])
         .and_then(|(width, height)| Some((side(width)?, side(height)?)))
-        .ok_or_else(|| "expected WIDTHxHEIGHT in pixels, each 1 to 65536".into())
+        .ok_or("expected WIDTHxHEIGHT in pixels, each 1 to 65536")?;
+    if u64::from(width) * u64::from(height) > MOST_PIXELS {
+        return Err(format!("expected at most {MOST_PIXELS} pixels in all"));
+    }
+    Ok((width, height))
 }
 
 /// Renders a scene. `progress` is told after each tile how many of how many are done.

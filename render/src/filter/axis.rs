@@ -42,7 +42,7 @@
 //! `h` is that of half-width `r`, its distance from the nearest multiple of the size, with weight
 //! `(r/h)^2` and the mean for the rest.
 
-use super::texture::Wrap;
+use crate::texture::Wrap;
 
 /// At most this many entries make an axis: three points of three.
 pub const MOST: usize = 9;

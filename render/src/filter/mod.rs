@@ -11,14 +11,13 @@
 
 mod axis;
 mod table;
-pub mod texture;
 mod word;
 
 pub use table::PrefilteredTable;
-pub use texture::Texture;
 
 use crate::color::Color;
 use crate::footprint::Footprint;
+use crate::texture::Texture;
 use glam::DVec2;
 
 /// How a texture is averaged.

@@ -9,9 +9,9 @@
 //! meet real weights.
 
 use super::axis::{self, Axis, Entry, MOST, MOST_REDUCED, Part, Reduce};
-use super::texture::Texture;
 use super::word::Word;
 use crate::color::Color;
+use crate::texture::Texture;
 use glam::{DVec2, DVec3};
 
 /// A texture integrated `order` times along both axes.
@@ -203,7 +203,7 @@ fn minus<W: Word>(a: [W; 3], b: [W; 3]) -> [W; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::filter::texture::Wrap;
+    use crate::texture::Wrap;
     use proptest::prelude::*;
 
     /// A texture of codes from a counter that leaves no pattern.

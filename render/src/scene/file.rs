@@ -27,8 +27,22 @@
 //! }
 //! ```
 //!
-//! Colours are linear, one number for grey or `[red, green, blue]`. Lengths are in any one unit,
-//! axes are right-handed. A texture fills a rectangle, or the unit square of a mesh's or sphere's
+//! Colours are linear, one number for grey or `[red, green, blue]`, each at least 0. Lengths are in
+//! any one unit, axes are right-handed. `up` defaults to y. A ray is reflected or refracted at most
+//! `max_depth` times (0 to 64, default 12), and not when it would count for less than `min_weight`
+//! in its pixel (0 to 1, default 0.0001). `ambient` is light from everywhere (default 0.1),
+//! `background` what a ray sees that leaves the scene (default black).
+//!
+//! | a material's key | meaning | range | default |
+//! |---|---|---|---|
+//! | `color` | multiplies the texture, or stands for it | at least 0 | 1 |
+//! | `ambient`, `diffuse` | shares of the ambient light and of the lights | 0 to 1 | 1, 0.9 |
+//! | `specular`, `shininess` | strength and Phong's exponent of the highlight | 0 to 1, 1 to 1e6 | 0, 50 |
+//! | `reflectivity`, `transparency` | weights of the mirrored and the refracted ray | 0 to 1 | 0 |
+//! | `index_of_refraction` | of the inside; outside is 1 | 0.1 to 10 | 1.5 |
+//! | `fresnel` | whether those weights take Fresnel's share and its rest | true, false | false |
+//!
+//! `wrap` is `repeat` or `clamp`, `values` is `srgb` or `linear`; the first is the default. A texture fills a rectangle, or the unit square of a mesh's or sphere's
 //! texture coordinates; `repeat` lays it several times. Paths count from the scene file's folder.
 //!
 //! Where two surfaces coincide one of them is seen, the other is not behind it: leave a small gap
@@ -49,7 +63,7 @@ use std::path::PathBuf;
 /// A scene as its file says it; nothing is checked but its types.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-#[expect(missing_docs, reason = "the module page explains the keys; read.rs their ranges")]
+#[expect(missing_docs, reason = "the module page explains the keys")]
 pub struct SceneFile {
     pub format: String,
     pub version: u32,
@@ -323,4 +337,24 @@ fn y_axis() -> [f64; 3] {
 
 fn once() -> [f64; 2] {
     [1.0; 2]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use files::json::Document;
+
+    #[test]
+    fn the_example_on_this_page_is_a_scene() {
+        let page = include_str!("file.rs");
+        let lines = page.lines().skip_while(|line| *line != "//! ```json").skip(1);
+        let text: String = lines
+            .take_while(|line| *line != "//! ```")
+            .map(|line| line.trim_start_matches("//!").to_string() + "\n")
+            .collect();
+        let document = Document::new("page", text.as_bytes()).unwrap();
+        let scene: SceneFile = document.parse().unwrap();
+        assert_eq!(scene.objects.len(), 4);
+        assert_eq!(scene.ambient, ColorFile([0.2; 3]));
+    }
 }

@@ -3,7 +3,7 @@
 use crate::color::Color;
 use glam::DVec3;
 
-/// A light at a point, equally bright at every distance (as in the thesis).
+/// A light at a point, equally bright at every distance (the thesis names no fall-off).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PointLight {
     /// Where it is.

@@ -13,8 +13,8 @@ pub use material::Material;
 pub use read::{MeshSource, SceneError};
 
 use crate::color::Color;
-use crate::filter::Texture;
 use crate::shape::Shape;
+use crate::texture::Texture;
 
 /// Everything a picture is made from.
 #[derive(Debug, Clone)]

@@ -71,7 +71,7 @@ impl Tracer<'_> {
             normal = geometric_normal;
         }
 
-        let split = Split::at(material, ray.direction, normal, inside);
+        let split = Split::at(material, ray.direction, normal, geometric_normal, inside);
         let slot = tree.push(Node {
             piece: hit.piece,
             part: point.part,
@@ -118,7 +118,13 @@ struct Split {
 }
 
 impl Split {
-    fn at(material: &Material, incident: DVec3, normal: DVec3, inside: bool) -> Self {
+    fn at(
+        material: &Material,
+        incident: DVec3,
+        normal: DVec3,
+        geometric_normal: DVec3,
+        inside: bool,
+    ) -> Self {
         let Material { reflectivity, transparency, index_of_refraction, .. } = *material;
         let mirror_only =
             Self { reflect_weight: reflectivity, refract_weight: 0.0, refracted: None };
@@ -131,7 +137,15 @@ impl Split {
         if transparency == 0.0 {
             return Self { reflect_weight: reflectivity * share, ..mirror_only };
         }
-        match optics::refract(incident, normal, eta) {
+        // Where the interpolated normal would keep the ray on this side, the facet's does not.
+        let refracted = optics::refract(incident, normal, eta).and_then(|direction| {
+            if direction.dot(geometric_normal) < 0.0 {
+                Some(direction)
+            } else {
+                optics::refract(incident, geometric_normal, eta)
+            }
+        });
+        match refracted {
             Some(direction) if material.fresnel => Self {
                 reflect_weight: reflectivity * share,
                 refract_weight: transparency * (1.0 - share),
