@@ -56,8 +56,9 @@ pub fn plain(message: &str) -> String {
     // Only what serde says itself is rewritten, never the user's text between quotes.
     let (found, expected) = message.rsplit_once(", expected ").unwrap_or((message, ""));
     if let Some(length) = found.strip_prefix("invalid length ") {
-        let count = expected.rsplit(' ').next().unwrap_or_default();
-        return format!("found {length} values, expected {count}");
+        let fixed = ["an array of length ", "a tuple of size "];
+        let count = fixed.iter().find_map(|serdes| expected.strip_prefix(serdes));
+        return format!("found {length} values, expected {}", count.unwrap_or(expected));
     }
     let mut text = shortened(found);
     for (serdes, words) in FOUND {
@@ -163,6 +164,9 @@ mod tests {
             #[expect(dead_code, reason = "only its reading is tested")]
             rows: u64,
         }
+        let error = serde_json::from_str::<Counts>("[]").unwrap_err().to_string();
+        let words = plain(error.rsplit_once(" at line ").unwrap().0);
+        assert_eq!(words, "found 0 values, expected struct Counts with 1 element");
         for text in ["{\"rows\": -1}", "{\"rows\": 1.5}"] {
             let error = serde_json::from_str::<Counts>(text).unwrap_err().to_string();
             let words = plain(error.rsplit_once(" at line ").unwrap().0);

@@ -15,6 +15,18 @@ pub enum SweepError {
     /// The rows or columns asked for beside the spec cannot be made.
     #[error("{0}")]
     Resolution(String),
+    /// The system does not give the memory for the grid.
+    #[error(
+        "{name}: found no memory for {points} points ({bytes} bytes): ask for fewer rows or cols"
+    )]
+    Memory {
+        /// The object's name.
+        name: String,
+        /// Points of the grid.
+        points: usize,
+        /// What they take.
+        bytes: usize,
+    },
 }
 
 impl Failure for SweepError {
@@ -23,6 +35,7 @@ impl Failure for SweepError {
             Self::Malformed(_) => Exit::Malformed,
             Self::Geometry(_) => Exit::Geometry,
             Self::Resolution(_) => Exit::Use,
+            Self::Memory { .. } => Exit::Resource,
         }
     }
 }

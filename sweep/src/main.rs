@@ -115,7 +115,7 @@ fn work(arguments: &Arguments) -> Result<(), Report> {
         .with_resolution(arguments.rows, arguments.cols)?;
     let read = Instant::now();
     let mut output = Output::create(&arguments.output, !arguments.no_clobber)?;
-    let grid = sweep.grid();
+    let grid = sweep.try_grid()?;
     let swept = Instant::now();
     file::write(&grid, encoding, &mut output).map_err(|source| output.failed(source))?;
     output.commit()?;

@@ -123,12 +123,31 @@ impl Sweep {
     ///
     /// Rows and columns lie at equal lengths of the trajectory and of each smooth piece of the
     /// contour. The grid is the same for any number of threads.
+    ///
+    /// # Panics
+    /// When there is no memory for it; see [`Sweep::try_grid`].
     #[must_use]
     pub fn grid(&self) -> GridMesh {
+        self.try_grid().unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    /// The same as [`Sweep::grid`].
+    ///
+    /// # Errors
+    /// When there is no memory for it.
+    pub fn try_grid(&self) -> Result<GridMesh, SweepError> {
         let columns = self.columns();
         let v = self.row_places();
         let count = v.len() * columns.len();
-        let (mut positions, mut normals) = (vec![DVec3::ZERO; count], vec![Vec3::ZERO; count]);
+        let (mut positions, mut normals) = (Vec::new(), Vec::new());
+        let reserved = positions.try_reserve_exact(count).and(normals.try_reserve_exact(count));
+        reserved.map_err(|_| SweepError::Memory {
+            name: self.name.clone(),
+            points: count,
+            bytes: count * (size_of::<DVec3>() + size_of::<Vec3>()),
+        })?;
+        positions.resize(count, DVec3::ZERO);
+        normals.resize(count, Vec3::ZERO);
         let rows = positions
             .par_chunks_mut(columns.len())
             .zip(normals.par_chunks_mut(columns.len()))
@@ -141,7 +160,7 @@ impl Sweep {
             }
         });
         let seam = |closed| if closed { Seam::Closed } else { Seam::Open };
-        GridMesh {
+        Ok(GridMesh {
             name: self.name.clone(),
             seam_u: seam(self.contour.closed()),
             seam_v: seam(self.trajectory.closed()),
@@ -150,7 +169,7 @@ impl Sweep {
             v,
             positions,
             normals,
-        }
+        })
     }
 
     /// The number of rows in which some of the surface folds back on itself, since the trajectory
