@@ -12,9 +12,12 @@ fn make(arguments: &[&str], folder: &Path) -> Vec<(String, Vec<u8>)> {
     assert!(ran.status.success(), "{}", words(&ran));
     assert!(ran.stdout.is_empty(), "words go to standard error");
     let mut files: Vec<(String, Vec<u8>)> = fs::read_dir(folder.join("out"))
-        .unwrap()
-        .map(|entry| entry.unwrap().path())
-        .map(|path| (path.file_name().unwrap().to_str().unwrap().into(), fs::read(&path).unwrap()))
+        .expect("the folder is there")
+        .map(|entry| entry.expect("the folder is read"))
+        .map(|entry| {
+            let bytes = fs::read(entry.path()).expect("the file is read");
+            (entry.file_name().to_string_lossy().into_owned(), bytes)
+        })
         .collect();
     files.sort();
     files

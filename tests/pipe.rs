@@ -25,7 +25,7 @@ fn shell(line: &str, folder: &Path) -> Output {
 
 /// The pipe as the README has it.
 fn readme_line() -> String {
-    let readme = fs::read_to_string(root().join("README.md")).unwrap();
+    let readme = fs::read_to_string(root().join("README.md")).expect("there is a README");
     let line = readme.lines().find(|line| line.starts_with("sweep ")).expect("the README's pipe");
     assert_eq!(
         line,

@@ -2,11 +2,11 @@
 
 use clap::builder::TypedValueParser;
 use clap::{Args, Parser, Subcommand};
+use files::exit::say;
 use files::{Disk, Exit, Failure, FileError, Output, Report, Source};
 use pipeline::run::{Event, Options};
 use pipeline::{Job, PipelineError, pages, run as run_job};
 use render::progress::Progress;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::time::Instant;
@@ -203,8 +203,7 @@ impl<'a> Talk<'a> {
 
     fn say(&self, words: &str) {
         if !self.arguments.quiet {
-            // Standard error may be gone; the pictures are what matters.
-            let _ = writeln!(std::io::stderr(), "{}", words.trim_end());
+            say(words.trim_end());
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use clap::builder::TypedValueParser;
 use clap::{Parser, ValueEnum};
+use files::exit::say;
 use files::json::Document;
 use files::{Disk, Exit, Failure, Output, Report, input};
 use render::color::Encoding;
@@ -9,7 +10,7 @@ use render::film::encode::{self, Format};
 use render::progress::Progress;
 use render::scene::{MeshSource, obj, read};
 use render::{Settings, filter::Filter, stats::Stats};
-use std::io::{IsTerminal, Write};
+use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use thiserror::Error;
@@ -216,23 +217,17 @@ fn check_stdin(arguments: &Arguments) -> Result<(), UseError> {
     Ok(())
 }
 
-/// Prints what `--stats` asks for. The picture is there already, so that a standard error which
-/// takes nothing is no reason to fail.
+/// Says what `--stats` asks for.
 fn print_stats(arguments: &Arguments, stats: &Stats) {
-    let mut text = String::new();
     if stats.not_finite > 0 {
         let count = stats.not_finite;
-        text = format!("render: {count} pixels came out not finite and are black\n");
+        say(format_args!("render: {count} pixels came out not finite and are black"));
     }
     match arguments.stats {
-        Some(StatsForm::Text) => text.push_str(&stats.to_string()),
-        Some(StatsForm::Json) => {
-            text.push_str(&serde_json::to_string(stats).unwrap_or_default());
-            text.push('\n');
-        }
+        Some(StatsForm::Text) => say(stats.to_string().trim_end()),
+        Some(StatsForm::Json) => say(serde_json::to_string(stats).unwrap_or_default()),
         None => {}
     }
-    let _ = std::io::stderr().write_all(text.as_bytes());
 }
 
 fn mesh_argument(text: &str) -> Result<MeshArgument, String> {

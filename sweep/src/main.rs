@@ -42,7 +42,7 @@ struct Arguments {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
 
-    /// Print nothing but errors
+    /// Print no notes
     #[arg(short, long)]
     quiet: bool,
 
@@ -123,11 +123,10 @@ fn work(arguments: &Arguments) -> Result<(), Report> {
 
     if !arguments.quiet {
         note(&sweep);
-        if arguments.stats {
-            let stages =
-                [("read", read - start), ("sweep", swept - read), ("write", written - swept)];
-            stats(&sweep, &grid, &stages);
-        }
+    }
+    if arguments.stats {
+        let stages = [("read", read - start), ("sweep", swept - read), ("write", written - swept)];
+        stats(&sweep, &grid, &stages);
     }
     Ok(())
 }

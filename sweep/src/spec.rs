@@ -4,7 +4,7 @@
 //! {
 //!   "format": "tb-sweep", "version": 1, "name": "ring",
 //!   "contour": { "circle": 0.25 },
-//!   "trajectory": { "circle": { "radius": 1, "center": [0, 0, 0], "axis": [0, 1, 0], "degrees": 360 } },
+//!   "trajectory": { "circle": { "radius": 1, "center": [0, 0, 0], "axis": [0, 1, 0], "angle_deg": 360 } },
 //!   "mesh": { "rows": 96, "cols": 32 },
 //!   "uv": { "across": "contour", "repeat": [1, 4] },
 //!   "position": [0, 0.25, 0]
@@ -13,7 +13,7 @@
 //!
 //! Lengths are in any one unit; angles are in degrees. `uv`, `position` and `frame` may be
 //! left out, and inside the objects `closed` (false), `center` and `origin` (zero), `axis` (y) and
-//! `degrees` (360). Unknown keys are errors. A **contour** is one of
+//! `angle_deg` (360). Unknown keys are errors. A **contour** is one of
 //!
 //! | contour                                         | what                                         |
 //! |-------------------------------------------------|----------------------------------------------|
@@ -27,10 +27,10 @@
 //! | trajectory                                      | what                                         |
 //! |-------------------------------------------------|----------------------------------------------|
 //! | `{"line": [A, B]}`                              | a straight line                              |
-//! | `{"circle": {"radius": r, ...}}`                | a circle or, by `degrees`, a part of it      |
+//! | `{"circle": {"radius": r, ...}}`                | a circle or, by `angle_deg`, a part of it      |
 //! | `{"bezier": {"closed": c, "segments": [S, ...]}}` | cubics; `S` is four points `[x, y, z]`     |
 //! | `{"free": {"closed": c, "points": [P, ...]}}`   | a C2 spline through points `[x, y, z]`       |
-//! | `{"rotation": {"degrees": d, ...}}`             | contour x is the distance from an axis, y the height on it |
+//! | `{"rotation": {"angle_deg": d, ...}}`             | contour x is the distance from an axis, y the height on it |
 //!
 //! `mesh` counts cells, which become quads: rows along the trajectory, cols along the contour. Going
 //! around takes three, a contour at least one for each piece between corners, and all together are
@@ -40,7 +40,7 @@
 //! {
 //!   "format": "tb-sweep", "version": 1, "name": "bowl",
 //!   "contour": { "free": { "points": [[0, 0], [0.5, 0.1], [0.8, 0.5], [0.75, 0.5], [0.45, 0.15], [0, 0.06]] } },
-//!   "trajectory": { "rotation": { "origin": [0, 0, 0], "axis": [0, 1, 0], "degrees": 360 } },
+//!   "trajectory": { "rotation": { "origin": [0, 0, 0], "axis": [0, 1, 0], "angle_deg": 360 } },
 //!   "mesh": { "rows": 90, "cols": 60 },
 //!   "uv": { "across": "trajectory" }
 //! }
@@ -162,7 +162,7 @@ pub struct Free<P> {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(
     deny_unknown_fields,
-    expecting = "an object with the key radius, and any of center, axis, degrees"
+    expecting = "an object with the key radius, and any of center, axis, angle_deg"
 )]
 pub struct Circle {
     /// The distance of the contour's origin from the centre; positive.
@@ -175,16 +175,16 @@ pub struct Circle {
     pub axis: [f64; 3],
     /// Above 0, up to 360, which is closed.
     #[serde(default = "full_turn")]
-    pub degrees: f64,
+    pub angle_deg: f64,
 }
 
 /// A turn of the contour about an axis in its plane.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "an object with any of the keys degrees, origin, axis")]
+#[serde(deny_unknown_fields, expecting = "an object with any of the keys angle_deg, origin, axis")]
 pub struct Rotation {
     /// Above 0, up to 360, which is closed.
     #[serde(default = "full_turn")]
-    pub degrees: f64,
+    pub angle_deg: f64,
     /// Where the contour's origin lies.
     #[serde(default)]
     pub origin: [f64; 3],

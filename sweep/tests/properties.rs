@@ -88,7 +88,7 @@ fn a_half_circle_rotated_is_a_sphere_with_poles() {
 
 #[test]
 fn part_of_a_rotation_about_any_axis_is_open() {
-    let rotation = json!({"rotation": {"degrees": 90, "origin": [1, 1, 1], "axis": [0, 0, 2]}});
+    let rotation = json!({"rotation": {"angle_deg": 90, "origin": [1, 1, 1], "axis": [0, 0, 2]}});
     let grid = grid(&json!({"svg": "M3 0V-2"}), &rotation);
     assert_eq!((grid.seam_v, grid.rows()), (Seam::Open, 25));
     for (u, v, position, _) in points(&grid) {
@@ -186,7 +186,8 @@ fn a_rotation_from_axis_to_axis_faces_outward_however_it_is_drawn() {
         ("M0 1H2V-1H0", "M0 -1H2V1H0"),
         ("M0 0H2V-3H1.9V-.1H0", "M0 -.1H1.9V-3H2V0H0"),
     ] {
-        let swept = |svg: &str| grid(&json!({"svg": svg}), &json!({"rotation": {"degrees": 270}}));
+        let swept =
+            |svg: &str| grid(&json!({"svg": svg}), &json!({"rotation": {"angle_deg": 270}}));
         for (a, b) in points(&swept(up)).zip(points(&swept(down))) {
             assert!((a.2 - b.2).length() < 1e-12, "{up}");
             assert!((a.3 - b.3).length() < 1e-6, "{up}");

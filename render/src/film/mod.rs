@@ -72,6 +72,15 @@ pub fn render(
     settings: &Settings,
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> (Picture, Stats) {
+    render_in_tiles(scene, settings, TILE_SAMPLES, progress)
+}
+
+fn render_in_tiles(
+    scene: &Scene,
+    settings: &Settings,
+    tile_samples: u32,
+    progress: &(dyn Fn(usize, usize) + Sync),
+) -> (Picture, Stats) {
     let started = Instant::now();
     let accel = Accel::build(scene.objects.iter().map(|object| &object.shape).collect());
     let accel_time = started.elapsed();
@@ -87,7 +96,7 @@ pub fn render(
         shader,
         settings: *settings,
     };
-    let tiles = exposure.tiles();
+    let tiles = exposure.tiles(tile_samples);
     let done = std::sync::atomic::AtomicUsize::new(0);
     let exposed: Vec<Exposed> = tiles
         .par_iter()
@@ -169,9 +178,9 @@ struct Exposed {
 }
 
 impl Exposure<'_> {
-    fn tiles(&self) -> Vec<Tile> {
+    fn tiles(&self, tile_samples: u32) -> Vec<Tile> {
         let Settings { width, height, samples, .. } = self.settings;
-        let side = (TILE_SAMPLES / samples).max(1);
+        let side = (tile_samples / samples).max(1);
         let columns = (0..width).step_by(side as usize);
         let rows = (0..height).step_by(side as usize);
         rows.flat_map(|y| columns.clone().map(move |x| (x, y)))
@@ -228,5 +237,94 @@ impl Exposure<'_> {
         let place = (DVec2::new(x as f64, y as f64) + 0.5) / f64::from(samples);
         let size = DVec2::new(f64::from(width), f64::from(height));
         self.tracer.trace(&self.tracer.scene.camera.ray(place, size), tree, rays);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Camera, Material, Object, PointLight, Surface};
+    use crate::shape::{Quad, Sphere};
+    use crate::texture::{Texture, Wrap};
+    use glam::DVec3;
+
+    /// A glass sphere on a textured floor.
+    fn scene() -> Scene {
+        let texels = (0..64u16).map(|k| [k * 1000, 60000 - k * 900, (k % 8) * 8000]).collect();
+        let texture = Texture { width: 8, height: 8, wrap: Wrap::Repeat, texels, white: u16::MAX };
+        let plain = Material {
+            color: Color::ONE,
+            ambient: 1.0,
+            diffuse: 0.5,
+            specular: 0.0,
+            shininess: 1.0,
+            reflectivity: 0.0,
+            transparency: 0.0,
+            index_of_refraction: 1.5,
+            fresnel: false,
+        };
+        let glass = Material {
+            ambient: 0.0,
+            diffuse: 0.0,
+            reflectivity: 1.0,
+            transparency: 1.0,
+            fresnel: true,
+            ..plain
+        };
+        let floor = Quad::new(DVec3::ZERO, DVec3::Z, DVec3::X, DVec2::ONE, false).unwrap();
+        let ball = Sphere { center: DVec3::new(0.0, 1.2, 0.0), radius: 1.0 };
+        let object =
+            |shape, material, texture| Object { shape, parts: vec![Surface { material, texture }] };
+        let eye = DVec3::new(0.3, 1.5, 5.0);
+        Scene {
+            camera: Camera::new(eye, DVec3::Y, DVec3::Y, 0.7).unwrap(),
+            background: Color::splat(0.2),
+            ambient: Color::splat(0.5),
+            lights: vec![PointLight { position: DVec3::new(3.0, 5.0, 4.0), color: Color::ONE }],
+            materials: vec![plain, glass],
+            textures: vec![texture],
+            objects: vec![
+                object(Shape::Quad(floor), 0, Some(0)),
+                object(Shape::Sphere(ball), 1, None),
+            ],
+            max_depth: 8,
+            min_weight: 0.0,
+        }
+    }
+
+    #[test]
+    fn the_picture_does_not_depend_on_how_it_is_cut_into_tiles() {
+        let scene = scene();
+        for (filter, samples) in [(Filter::Tent, 1), (Filter::Box, 2), (Filter::Point, 2)] {
+            let settings = Settings { width: 37, height: 29, samples, filter };
+            let cut = |side| render_in_tiles(&scene, &settings, side, &|_, _| {}).0;
+            let whole = cut(1000);
+            for side in [1, 6, 16, 64] {
+                assert!(cut(side) == whole, "{filter:?} in tiles of {side} samples");
+            }
+        }
+    }
+
+    #[test]
+    fn rays_that_count_for_little_are_left_out() {
+        let settings = Settings { width: 16, height: 16, samples: 1, filter: Filter::Point };
+        let mut scene = scene();
+        let (all, cost) = render(&scene, &settings, &|_, _| {});
+        scene.min_weight = 1e-3;
+        let (most, less) = render(&scene, &settings, &|_, _| {});
+        assert!(less.refracted_rays < cost.refracted_rays);
+        // A pixel lacks at most as many branches as it has surfaces on its way, 8 here.
+        for (a, b) in all.pixels.iter().flatten().zip(most.pixels.iter().flatten()) {
+            assert!((a - b).abs() <= 8e-3 && b <= a, "{a} {b}");
+        }
+    }
+
+    #[test]
+    fn sizes_are_two_numbers() {
+        assert_eq!(size("640x480"), Ok((640, 480)));
+        for bad in ["640", "0x9", "9x", "65537x1", "-1x4", "1x1x1"] {
+            assert!(size(bad).unwrap_err().contains("WIDTHxHEIGHT"), "{bad}");
+        }
+        assert!(size("65536x65536").unwrap_err().contains("268435456 pixels"));
     }
 }

@@ -172,3 +172,49 @@ fn mirror(incident: DVec3, normal: DVec3, geometric_normal: DVec3) -> DVec3 {
         optics::reflect(incident, geometric_normal)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::color::Color;
+    use proptest::prelude::*;
+
+    fn unit() -> impl Strategy<Value = DVec3> {
+        prop::array::uniform3(-1.0..1.0f64)
+            .prop_map(DVec3::from)
+            .prop_filter("a direction", |v| v.length() > 0.1)
+            .prop_map(DVec3::normalize)
+    }
+
+    proptest! {
+        /// However wrong the interpolated normal, mirrored light stays on its side of the facet
+        /// and refracted light leaves it, and no light is made.
+        #[test]
+        fn an_interpolated_normal_sends_no_ray_through_the_facet(
+            incident in unit(), facet in unit(), normal in unit(), inside in any::<bool>(),
+            fresnel in any::<bool>(),
+        ) {
+            let facet = if incident.dot(facet) < 0.0 { facet } else { -facet };
+            prop_assume!(incident.dot(facet) < -1e-3 && incident.dot(normal) < -1e-3);
+            prop_assert!(mirror(incident, normal, facet).dot(facet) > 0.0);
+            let glass = Material {
+                color: Color::ONE,
+                ambient: 0.0,
+                diffuse: 0.0,
+                specular: 0.0,
+                shininess: 1.0,
+                reflectivity: 1.0,
+                transparency: 1.0,
+                index_of_refraction: 1.5,
+                fresnel,
+            };
+            let split = Split::at(&glass, incident, normal, facet, inside);
+            if let Some(direction) = split.refracted {
+                prop_assert!(direction.dot(facet) < 0.0);
+            }
+            if fresnel {
+                prop_assert!((split.reflect_weight + split.refract_weight - 1.0).abs() < 1e-12);
+            }
+        }
+    }
+}

@@ -28,7 +28,7 @@ impl Reader<'_> {
                 self.point(&format!("{path}.center"), &circle.center)?;
                 let center = DVec3::from_array(circle.center);
                 let frame = self.upright(path, center, circle.axis, start)?;
-                let fraction = self.fraction(path, circle.degrees)?;
+                let fraction = self.fraction(path, circle.angle_deg)?;
                 Ok(Trajectory::turn(frame, circle.radius, fraction))
             }
             spec::Trajectory::Rotation(rotation) => {
@@ -36,7 +36,7 @@ impl Reader<'_> {
                 self.point(&format!("{path}.origin"), &rotation.origin)?;
                 let origin = DVec3::from_array(rotation.origin);
                 let frame = self.upright(path, origin, rotation.axis, start)?;
-                let fraction = self.fraction(path, rotation.degrees)?;
+                let fraction = self.fraction(path, rotation.angle_deg)?;
                 Ok(Trajectory::turn(frame, 0.0, fraction))
             }
             spec::Trajectory::Bezier(bezier) => {
@@ -117,7 +117,7 @@ impl Reader<'_> {
             return Ok(degrees / 360.0);
         }
         let message = format!("found {degrees:?}, expected degrees above 0 and up to 360");
-        Err(self.fault(&format!("{path}.degrees"), message))
+        Err(self.fault(&format!("{path}.angle_deg"), message))
     }
 
     /// Refuses corners and cusps.
@@ -159,8 +159,8 @@ mod tests {
             ("{\"line\": [[1,1,1],[1,1e80,1]]}", "3:33: trajectory.line[1]: found 1e80", 3),
             ("{\"circle\": {\"radius\": 0}}", "3:37: trajectory.circle.radius: found 0.0", 3),
             (
-                "{\"circle\": {\"radius\": 1, \"degrees\": 361}}",
-                "3:51: trajectory.circle.degrees: found 361.0, expected degrees above 0 and up to 360",
+                "{\"circle\": {\"radius\": 1, \"angle_deg\": 361}}",
+                "3:53: trajectory.circle.angle_deg: found 361.0, expected degrees above 0 and up to 360",
                 3,
             ),
             (
@@ -168,7 +168,7 @@ mod tests {
                 "3:37: trajectory.rotation.axis: found no direction",
                 3,
             ),
-            ("{\"rotation\": {\"degrees\": 0}}", "trajectory.rotation.degrees: found 0.0", 3),
+            ("{\"rotation\": {\"angle_deg\": 0}}", "trajectory.rotation.angle_deg: found 0.0", 3),
             (
                 "{\"free\": {\"closed\": true, \"points\": [[0,0,0],[1,0,0],[1,0,0],[0,0,0]]}}",
                 "trajectory.free.points: found 2 that differ, expected at least 3 points",
