@@ -11,6 +11,7 @@ use crate::{Exit, Failure, words};
 use jsonc_parser::ast::Value;
 use jsonc_parser::common::Ranged;
 use jsonc_parser::{CollectOptions, ParseOptions, parse_to_ast};
+use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_path_to_error::{Path, Segment};
 use thiserror::Error;
@@ -83,6 +84,26 @@ impl<'a> Document<'a> {
         Ok(value)
     }
 
+    /// Checks the keys `format` and `version`, whatever else the text holds.
+    ///
+    /// Asked first, it says that a file is of another kind, where [`Document::parse`] would take its
+    /// keys for misspelt ones. Text in which they are not found passes: parsing says what it lacks.
+    ///
+    /// # Errors
+    /// When one of them has another value.
+    pub fn expect(&self, format: &str, version: u64) -> Result<(), JsonError> {
+        let Ok(Head { format: found_format, version: found_version }) = self.parse() else {
+            return Ok(());
+        };
+        if let Some(found) = found_format.filter(|found| found != format) {
+            return Err(self.fault("format", format!("found {found}, expected \"{format}\"")));
+        }
+        if let Some(found) = found_version.filter(|found| *found != version) {
+            return Err(self.fault("version", format!("found {found}, expected {version}")));
+        }
+        Ok(())
+    }
+
     /// A complaint about the value at `path`: `message` says what was found and expected.
     ///
     /// A path that leads nowhere (a key that is missing) gives the place of the deepest value on
@@ -125,6 +146,13 @@ impl<'a> Document<'a> {
             message,
         }
     }
+}
+
+/// What every file of ours begins with.
+#[derive(Deserialize)]
+struct Head {
+    format: Option<serde_json::Value>,
+    version: Option<serde_json::Value>,
 }
 
 /// The path as `a.b[2].c`, without the marker serde gives a place it could not name.
@@ -177,7 +205,6 @@ fn offset_of(text: &str, path: &str) -> Option<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use serde::Deserialize;
 
     #[derive(Debug, Deserialize)]
     #[serde(deny_unknown_fields)]
@@ -247,6 +274,24 @@ mod tests {
         assert_eq!(error.line, 2);
         let text = complaint("{\"contour\": {\"circle\": 1}} x");
         assert!(text.contains("found more text"), "{text}");
+    }
+
+    #[test]
+    fn a_file_of_another_kind_is_told_by_its_format() {
+        let expect = |text: &str| {
+            let document = Document::new("a.json", text.as_bytes()).unwrap();
+            document.expect("tb-sweep", 1).map_err(|error| error.to_string())
+        };
+        assert_eq!(expect("{\"format\": \"tb-sweep\", \"version\": 1, \"x\": []}"), Ok(()));
+        assert_eq!(
+            expect("{\"camera\": {}, \"format\": \"tb-scene\"}").unwrap_err(),
+            "a.json:1:26: format: found \"tb-scene\", expected \"tb-sweep\""
+        );
+        assert_eq!(
+            expect("{\"version\": 2}").unwrap_err(),
+            "a.json:1:13: version: found 2, expected 1"
+        );
+        assert_eq!(expect("{\"version\":"), Ok(()));
     }
 
     #[test]

@@ -172,6 +172,8 @@ fn create_beside(target: &Path, replaced: Option<&fs::Metadata>) -> io::Result<N
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
     };
+    // tempfile's own complaint about a folder would name the temporary file.
+    fs::metadata(folder)?;
     let mut builder = tempfile::Builder::new();
     builder.prefix(".").suffix(".part");
     #[cfg(unix)]
@@ -179,7 +181,10 @@ fn create_beside(target: &Path, replaced: Option<&fs::Metadata>) -> io::Result<N
         use std::os::unix::fs::PermissionsExt;
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
-    let temporary = builder.tempfile_in(folder)?;
+    let temporary = builder.tempfile_in(folder).map_err(|error| match error.kind() {
+        io::ErrorKind::Other => error,
+        kind => kind.into(),
+    })?;
     if let Some(metadata) = replaced {
         temporary.as_file().set_permissions(metadata.permissions())?;
     }

@@ -70,7 +70,9 @@ pub struct Mode {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct JobFile {
+    #[expect(dead_code, reason = "looked at by Document::expect, and must be there")]
     format: String,
+    #[expect(dead_code, reason = "looked at by Document::expect, and must be there")]
     version: u32,
     #[serde(default)]
     title: String,
@@ -128,15 +130,8 @@ impl Job {
 
     /// The job in a document; its paths count from `folder`.
     fn parse(document: &Document<'_>, name: &str, folder: &Path) -> Result<Self, JsonError> {
+        document.expect("tb-job", 1)?;
         let file: JobFile = document.parse()?;
-        if file.format != "tb-job" {
-            let message = format!("found format {:?}, expected \"tb-job\"", file.format);
-            return Err(document.fault("format", message));
-        }
-        if file.version != 1 {
-            let message = format!("found version {}, expected 1", file.version);
-            return Err(document.fault("version", message));
-        }
         for mesh in file.meshes.keys() {
             check_word(document, &format!("meshes.{mesh}"), mesh)?;
         }

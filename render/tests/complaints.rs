@@ -88,12 +88,12 @@ fn wrong_types_and_missing_keys_are_placed() {
 
 #[test]
 fn scenes_of_another_format_or_version_are_refused() {
-    let place = "scene.json:1:13: format: found format \"tb-sweep\", expected \"tb-scene\"";
+    let place = "scene.json:1:13: format: found \"tb-sweep\", expected \"tb-scene\"";
     refuse_scene("tb-scene", "tb-sweep", &[place]);
     refuse_scene(
         "\"version\": 1",
         "\"version\": 2",
-        &["scene.json:1:36: version: found version 2, expected 1"],
+        &["scene.json:1:36: version: found 2, expected 1"],
     );
     // A spec of the program before this one has none of a scene's keys.
     let bench = Bench::with_scene(r#"{ "format": "tb-sweep", "version": 1, "name": "pipe" }"#);

@@ -2,7 +2,7 @@
 //!
 //! A few shapes stand apart and are tried one by one: planes, which have no box, and shapes so
 //! large beside the rest (a floor under a vase) that they would spoil a tree. All others are
-//! leaves of one [`Bvh`]. One function, [`Accel::try_piece`], decides for both.
+//! leaves of one tree of boxes. One function, `Accel::try_piece`, decides for both.
 //!
 //! A ray that leaves a surface does not hit it again at its start, nor any surface that coincides
 //! with it there: those whose distance from the start, measured across the surface, is less than

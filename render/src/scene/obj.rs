@@ -25,6 +25,14 @@ pub enum ObjError {
         /// The file.
         file: String,
     },
+    /// A file of another kind.
+    #[error(
+        "{file}: found JSON or a grid, expected an OBJ mesh; `triangulate` makes one of a grid"
+    )]
+    Json {
+        /// The file.
+        file: String,
+    },
     /// Not text.
     #[error("{file}:{line}: found bytes that are not UTF-8, expected the text of an OBJ mesh")]
     NotText {
@@ -86,6 +94,10 @@ impl Failure for ObjError {
 /// With the line that is to blame wherever it can be told.
 pub fn read(file: &str, bytes: &[u8]) -> Result<Mesh, ObjError> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    // No line of an OBJ begins so; our grids, and JSON of any kind, do.
+    if bytes.starts_with(b"{") {
+        return Err(ObjError::Json { file: file.into() });
+    }
     let text = std::str::from_utf8(bytes).map_err(|error| ObjError::NotText {
         file: file.into(),
         line: 1 + bytes[..error.valid_up_to()].iter().filter(|&&byte| byte == b'\n').count(),
@@ -348,6 +360,7 @@ mod tests {
         assert!(complaint("").contains("found nothing"));
         assert!(complaint("# only a comment\n").contains("no triangles"));
         assert!(complaint(SQUARE).contains("no triangles"));
+        assert!(complaint("{\"format\":\"tb-grid\"}").contains("`triangulate` makes one"));
         let error = read("a.obj", b"v 0 0 0\n\xff").unwrap_err().to_string();
         assert!(error.starts_with("a.obj:2: found bytes"), "{error}");
         let mesh = read("a.obj", format!("\u{feff}{SQUARE}f 1 2 3\n").as_bytes()).unwrap();

@@ -16,7 +16,6 @@ use crate::texture::{Texture, Values, Wrap};
 use files::json::{Document, nearest};
 use files::{Exit, Failure, FileError, JsonError, Source};
 use image::ImageReader;
-use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::io::Cursor;
 use std::path::Path;
@@ -84,30 +83,13 @@ impl Failure for SceneError {
 /// Meshes given by name from outside the scene file.
 pub type MeshSource = BTreeMap<String, Mesh>;
 
-/// What is looked at of any JSON file, whatever else is in it.
-#[derive(Debug, Deserialize)]
-struct FormatOnly {
-    format: Option<String>,
-}
-
 /// Reads a scene file's text and checks what can be checked without other files.
 ///
 /// # Errors
 /// On JSON that is not a scene of this version.
 pub fn parse(document: &Document<'_>) -> Result<SceneFile, SceneError> {
-    // First, since the keys of another format would be taken for misspelt ones of a scene.
-    if let Ok(FormatOnly { format: Some(format) }) = document.parse()
-        && format != "tb-scene"
-    {
-        let message = format!("found format {format:?}, expected \"tb-scene\"");
-        return Err(document.fault("format", message).into());
-    }
-    let file: SceneFile = document.parse()?;
-    if file.version != 1 {
-        let message = format!("found version {}, expected 1", file.version);
-        return Err(document.fault("version", message).into());
-    }
-    Ok(file)
+    document.expect("tb-scene", 1)?;
+    Ok(document.parse()?)
 }
 
 /// Checks that each of `given` names a mesh of the scene.

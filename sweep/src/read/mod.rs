@@ -32,6 +32,7 @@ const COINCIDENT: f64 = 1e-12;
 
 /// Reads and checks a spec.
 pub fn read(document: &Document) -> Result<Sweep, SweepError> {
+    document.expect(FORMAT, VERSION.into())?;
     let spec: Spec = document.parse()?;
     let reader = Reader { document };
     reader.header(&spec)?;
@@ -87,14 +88,6 @@ impl Reader<'_> {
 
     /// All that is no curve.
     fn header(&self, spec: &Spec) -> Result<(), SweepError> {
-        if spec.format != FORMAT {
-            let message = format!("found {:?}, expected \"{FORMAT}\"", spec.format);
-            return Err(self.fault("format", message));
-        }
-        if spec.version != VERSION {
-            let message = format!("found {}, expected {VERSION}", spec.version);
-            return Err(self.fault("version", message));
-        }
         let blank = |c: char| c.is_whitespace() || c.is_control();
         if spec.name.is_empty() || spec.name.contains(blank) {
             let message = format!("found {:?}, expected one word", spec.name);
