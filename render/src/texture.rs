@@ -119,8 +119,13 @@ impl Texture {
 
 impl Wrap {
     /// The index in `0..size` that a whole number stands for.
-    fn index(self, at: f64, size: usize) -> usize {
+    #[must_use]
+    pub fn index(self, at: f64, size: usize) -> usize {
         let size_f = size as f64;
+        // The usual case, without a slow remainder.
+        if at >= 0.0 && at < size_f {
+            return at as usize;
+        }
         let inside = match self {
             Self::Repeat => at.rem_euclid(size_f),
             Self::Clamp => at.clamp(0.0, size_f - 1.0),

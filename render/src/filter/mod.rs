@@ -10,6 +10,7 @@
 //! The last two work from tables, which are built only for textures that a scene shows.
 
 mod axis;
+mod direct;
 mod table;
 mod word;
 
@@ -100,8 +101,8 @@ impl<'a> FilteredTexture<'a> {
         }
     }
 
-    /// Texels or table entries that one average reads (a footprint larger than the texture is
-    /// folded and may read other numbers).
+    /// Texels or table entries that one average reads. Footprints of few texels, which are averaged
+    /// directly, and those larger than the texture, which are folded, read other numbers.
     #[must_use]
     pub fn reads(&self) -> u64 {
         match self.filter {
