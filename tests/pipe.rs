@@ -56,6 +56,17 @@ fn the_pipe_in_the_readme_makes_the_picture_that_the_pipeline_makes() {
 }
 
 #[test]
+fn the_surface_of_ones_own_in_the_readme_is_swept() {
+    let readme = fs::read_to_string(root().join("README.md")).unwrap();
+    let spec = readme.split("```json\n").nth(1).and_then(|rest| rest.split("```").next());
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("ring.json"), spec.expect("the README has a spec")).unwrap();
+    let line = "sweep ring.json | triangulate | tail -n 1";
+    let ran = shell(line, folder.path());
+    assert_eq!(String::from_utf8_lossy(&ran.stdout), "# end 4608 9216\n", "{}", words(&ran));
+}
+
+#[test]
 fn the_json_grid_gives_the_same_triangles_as_the_binary_one() {
     let folder = tempfile::tempdir().unwrap();
     let line = "sweep examples/curves/trefoil.json --rows 40 --cols 12 | triangulate > a.obj && \
