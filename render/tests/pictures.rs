@@ -151,8 +151,12 @@ fn shaded(objects: &str) -> Picture {
         "objects": [ {{ "plane": {{ "point": [0, 0, 0], "edge_u": [1, 0, 0], "edge_v": [0, 1, 0],
         "material": "wall" }} }} {comma} {objects} ]"#
     );
-    picture(&scene(&keys, &[]), 48, Filter::Point)
+    picture(&scene(&keys, &[("sheets.obj", SHEETS.to_vec())]), 48, Filter::Point)
 }
+
+/// Two large sheets one behind the other, between the camera and the light.
+const SHEETS: &[u8] = b"v -9 -9 1.5\nv 9 -9 1.5\nv 9 9 1.5\nv -9 9 1.5\n\
+    v -9 -9 2\nv 9 -9 2\nv 9 9 2\nv -9 9 2\nf 1 2 3 4\nf 5 6 7 8\n";
 
 /// Checks the wall behind a ball at z = 2 whose shadow has the radius 3 tan(asin 0.3) = 0.943:
 /// the light is multiplied by `passed` there, and by 1 beyond.
@@ -175,6 +179,16 @@ fn behind_an_opaque_ball_there_is_ambient_light_exactly_and_beside_it_nothing_ch
 #[test]
 fn a_transparent_ball_dims_the_light_once_though_it_is_crossed_twice() {
     assert_shadow(&shaded(&sphere([0.0, 0.0, 2.0], 0.3, "smoke")), 0.375);
+}
+
+#[test]
+fn a_transparent_mesh_dims_the_light_once_though_two_of_its_sheets_are_crossed() {
+    let sheets = r#"{ "mesh": { "name": "sheets", "file": "sheets.obj", "material": "smoke" } }"#;
+    let (free, dimmed) = (shaded(""), shaded(sheets));
+    for (free, dimmed) in free.pixels.iter().zip(&dimmed.pixels) {
+        let truth = 0.25 + 0.375 * (free[0] - 0.25);
+        assert!((dimmed[0] - truth).abs() <= ROUNDING, "{dimmed:?}, expected {truth}");
+    }
 }
 
 #[test]
