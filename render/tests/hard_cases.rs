@@ -5,7 +5,8 @@ mod studio;
 
 use glam::DVec3;
 use render::filter::Filter;
-use render::{Picture, Scene};
+use render::trace::tree::MOST_NODES;
+use render::{Picture, Scene, Settings};
 use studio::{FILTERS, assert_near, at, on_film, picture, pixels, png, scene};
 
 /// A few roundings to `f32` of colours up to 1.
@@ -242,6 +243,25 @@ fn between_two_mirrors_light_is_a_geometric_series() {
         let seen = shown(&keys, &mirrors, b"");
         assert!(seen.pixels.iter().all(|pixel| pixel.map(f64::from) == [f64::from(sum as f32); 3]));
     }
+}
+
+#[test]
+fn behind_many_half_transparent_panes_a_picture_still_comes() {
+    // Each pane sends two rays on, and 64 levels of them would never end.
+    let materials = r#""materials": { "pane": { "ambient": 0, "diffuse": 0, "reflectivity": 1,
+        "transparency": 1, "index_of_refraction": 1 } }"#;
+    let panes: Vec<String> = (0..10)
+        .map(|k| {
+            quad([-9.0, -9.0, -0.2 * f64::from(k)], [18.0, 0.0, 0.0], [0.0, 18.0, 0.0], "pane")
+        })
+        .collect();
+    let keys = format!(
+        r#""max_depth": 64, "min_weight": 0, {materials}, "objects": [ {} ]"#,
+        panes.join(",")
+    );
+    let settings = Settings { width: 2, height: 2, samples: 1, filter: Filter::Tent };
+    let (_, stats) = render::render(&scene(&keys, &[]), &settings, &|_, _| {});
+    assert_eq!(stats.hits, 4 * MOST_NODES as u64);
 }
 
 /// An unlit square, or whatever object, with a picture on it.

@@ -55,6 +55,9 @@ impl Tracer<'_> {
         tree: &mut IntersectionTree,
         counts: &mut RayCounts,
     ) -> Branch {
+        if tree.is_full() {
+            return Branch::Cut;
+        }
         let Some(hit) = self.accel.nearest(ray) else { return Branch::Background };
         counts.hits += 1;
         let point = self.accel.surface_point(ray, &hit);

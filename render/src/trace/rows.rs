@@ -22,12 +22,6 @@ impl RowWindow {
         &mut self.rows[2]
     }
 
-    /// The newest row.
-    #[must_use]
-    pub fn newest(&self) -> &[IntersectionTree] {
-        &self.rows[2]
-    }
-
     /// The tree in column `x` of the middle row with its eight neighbours around it, row by row;
     /// `x` is neither the first nor the last column.
     #[must_use]

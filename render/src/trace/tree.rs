@@ -3,6 +3,13 @@
 use crate::ray::Piece;
 use glam::{DVec2, DVec3};
 
+/// A tree has at most so many nodes; rays that would lead to more are cut.
+///
+/// Where many half transparent surfaces stand behind each other, each hit sends two rays and the
+/// number of hits doubles with the depth. Larger, and such a scene ends for want of memory, since
+/// each thread holds two hundred trees; this many hold every ray of a depth of 12, the default.
+pub const MOST_NODES: usize = (1 << 13) - 1;
+
 /// All hits of one ray from the eye and of the rays that follow from it.
 ///
 /// The thesis links its nodes in lists, across for reflection and down for refraction; here they
@@ -18,7 +25,7 @@ pub struct IntersectionTree {
 /// What became of a ray.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Branch {
-    /// It was not sent: too deep, or it would count for too little.
+    /// It was not sent: too deep, or it would count for too little, or the tree was full.
     #[default]
     Cut,
     /// It left the scene.
@@ -67,6 +74,12 @@ impl IntersectionTree {
     pub fn clear(&mut self) {
         self.root = Branch::Cut;
         self.nodes.clear();
+    }
+
+    /// Whether it has [`MOST_NODES`] nodes.
+    #[must_use]
+    pub fn is_full(&self) -> bool {
+        self.nodes.len() >= MOST_NODES
     }
 
     /// Adds a node and gives its index.
