@@ -160,7 +160,8 @@ impl Mesh {
         let textured = self.triangles.iter().filter(|triangle| triangle.uv[0] != NONE);
         for triangle in textured {
             for (&position, &uv) in triangle.position.iter().zip(&triangle.uv) {
-                let place = self.positions[position as usize].map(f32::to_bits);
+                // Minus zero is the same place as zero.
+                let place = self.positions[position as usize].map(|x| (x + 0.0).to_bits());
                 let uv = self.uvs[uv as usize];
                 let range = ranges.entry(place).or_insert([uv, uv]);
                 for k in 0..2 {
@@ -222,6 +223,10 @@ mod tests {
         let mut tube = square(4.0);
         tube.positions[1] = tube.positions[0];
         tube.positions[2] = tube.positions[3];
+        assert_eq!(tube.seam(), DVec2::new(4.0, 0.0));
+        // So they do as programs write them that round to six digits.
+        tube.positions[1][0] = -0.0;
+        tube.positions[2][0] = -0.0;
         assert_eq!(tube.seam(), DVec2::new(4.0, 0.0));
     }
 
