@@ -161,22 +161,24 @@ impl<'a> Accel<'a> {
         let piece = leaf.piece;
         let leaves = ray.leaving == Some(piece);
         // What lies this near to the start is the surface that the ray leaves, or coincides with it.
-        let skin = ray.leaving.map_or(0.0, |from| {
-            self.rounding(from.object, ray.origin) + self.rounding(piece.object, DVec3::ZERO)
-        });
+        let skin = || {
+            ray.leaving.map_or(0.0, |from| {
+                self.rounding(from.object, ray.origin) + self.rounding(piece.object, DVec3::ZERO)
+            })
+        };
         let (t, barycentric) = match self.shapes[piece.object as usize] {
             Shape::Mesh(_) if leaves => return None,
             Shape::Mesh(_) => {
                 let hit = sheared.intersect(&leaf.corners, t_max)?;
-                if skin > 0.0 && sheared.starts_on(&leaf.corners, skin) {
+                if ray.leaving.is_some() && sheared.starts_on(&leaf.corners, skin()) {
                     return None;
                 }
                 hit
             }
             Shape::Quad(_) if leaves => return None,
-            Shape::Quad(quad) => (quad.intersect(ray.origin, ray.direction, skin)?, [0.0; 2]),
+            Shape::Quad(quad) => (quad.intersect(ray.origin, ray.direction, skin())?, [0.0; 2]),
             Shape::Sphere(sphere) => {
-                (sphere.intersect(ray.origin, ray.direction, leaves, skin)?, [0.0; 2])
+                (sphere.intersect(ray.origin, ray.direction, leaves, skin())?, [0.0; 2])
             }
         };
         (t <= t_max).then_some(Hit { t, piece, barycentric })
