@@ -47,7 +47,7 @@ pub struct Arguments {
     #[arg(long, default_value = "tent")]
     filter: FilterName,
     /// Rays along each side of a pixel: N times N in each
-    #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..=256))]
+    #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..=i64::from(render::film::MOST_SAMPLES)))]
     samples: u32,
     /// How a PNG is encoded: srgb, or a gamma such as 2.2
     #[arg(long, value_name = "srgb|G", default_value = "srgb", value_parser = gamma_argument)]

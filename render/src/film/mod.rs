@@ -22,6 +22,7 @@ use crate::trace::tree::IntersectionTree;
 use crate::trace::{RayCounts, Tracer};
 use glam::DVec2;
 use rayon::prelude::*;
+use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 /// Samples along the side of a tile.
@@ -44,8 +45,11 @@ pub struct Settings {
     pub filter: Filter,
 }
 
-/// Pixels of one picture at most: 3 GB of them, and as much again while tiles come together.
+/// Pixels of one picture at most: 3 GB of them.
 const MOST_PIXELS: u64 = 1 << 28;
+
+/// Rays along each side of a pixel at most: more would show in no 16-bit file.
+pub const MOST_SAMPLES: u32 = 256;
 
 /// Reads a size in pixels, such as `640x480`.
 ///
@@ -97,22 +101,18 @@ fn render_in_tiles(
         settings: *settings,
     };
     let tiles = exposure.tiles(tile_samples);
-    let done = std::sync::atomic::AtomicUsize::new(0);
-    let exposed: Vec<Exposed> = tiles
-        .par_iter()
-        .map(|tile| {
-            let exposed = exposure.expose(tile);
-            let done = 1 + done.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
-            progress(done, tiles.len());
-            exposed
-        })
-        .collect();
-    let mut picture = Picture::black(settings.width, settings.height);
-    let mut stats = Stats { accel_time, table_time, ..Stats::default() };
-    for (tile, exposed) in tiles.iter().zip(&exposed) {
-        picture.place(tile.x, tile.y, tile.width, &exposed.pixels);
-        stats.add(&exposed.rays, &exposed.shading);
-    }
+    let film = Mutex::new(Film {
+        picture: Picture::black(settings.width, settings.height),
+        stats: Stats { accel_time, table_time, ..Stats::default() },
+        done: 0,
+    });
+    tiles.par_iter().for_each(|tile| {
+        let exposed = exposure.expose(tile);
+        let done = film.lock().unwrap_or_else(PoisonError::into_inner).take(tile, &exposed);
+        progress(done, tiles.len());
+    });
+    let Film { mut picture, mut stats, .. } =
+        film.into_inner().unwrap_or_else(PoisonError::into_inner);
     stats.tables = exposure.shader.tables();
     stats.table_bytes = exposure.shader.table_bytes();
     stats.not_finite = picture.remove_not_finite();
@@ -175,6 +175,24 @@ struct Exposed {
     pixels: Vec<Color>,
     rays: RayCounts,
     shading: ShadeCounts,
+}
+
+/// Where tiles come together, in any order: they do not overlap, and counts are whole numbers.
+struct Film {
+    picture: Picture,
+    stats: Stats,
+    /// Tiles that are there.
+    done: usize,
+}
+
+impl Film {
+    /// Puts a tile in its place and says how many there are now.
+    fn take(&mut self, tile: &Tile, exposed: &Exposed) -> usize {
+        self.picture.place(tile.x, tile.y, tile.width, &exposed.pixels);
+        self.stats.add(&exposed.rays, &exposed.shading);
+        self.done += 1;
+        self.done
+    }
 }
 
 impl Exposure<'_> {
