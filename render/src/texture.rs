@@ -3,6 +3,7 @@
 use crate::color::{Color, Encoding};
 use glam::{DVec2, DVec3};
 use image::DynamicImage;
+use serde::Deserialize;
 
 /// A picture to be laid on surfaces.
 ///
@@ -28,18 +29,22 @@ pub struct Texture {
 }
 
 /// What lies beyond the edges of a texture.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Wrap {
     /// The texture again.
+    #[default]
     Repeat,
     /// Its edge texels, without end.
     Clamp,
 }
 
 /// What the codes of a picture file mean.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Values {
     /// sRGB: codes become 16-bit linear before anything is summed.
+    #[default]
     Srgb,
     /// Codes proportional to light; they stay as they are, 8 or 16 bits.
     Linear,
@@ -117,7 +122,23 @@ impl Texture {
     }
 }
 
+/// Further than this many texels from the origin, places are taken nearer before they are weighed.
+///
+/// A few texels from here `f64` still tells a thousandth of a texel; from 2^53 on it does not tell
+/// one texel from the next, and the weights of a filter no longer sum to one.
+const FAR: f64 = (1u64 << 42) as f64;
+
 impl Wrap {
+    /// A place in texels, not too far from the origin, that looks like the one at `at`.
+    #[must_use]
+    pub fn nearer(self, at: f64, size: usize) -> f64 {
+        match self {
+            _ if at.abs() <= FAR => at,
+            Self::Repeat => at.rem_euclid(size as f64),
+            Self::Clamp => at.clamp(-FAR, FAR),
+        }
+    }
+
     /// The index in `0..size` that a whole number stands for.
     #[must_use]
     pub fn index(self, at: f64, size: usize) -> usize {

@@ -20,9 +20,11 @@ use crate::color::Color;
 use crate::footprint::Footprint;
 use crate::texture::Texture;
 use glam::DVec2;
+use serde::Deserialize;
 
 /// How a texture is averaged.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Filter {
     /// The texel at the point.
     Point,

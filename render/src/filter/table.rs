@@ -69,6 +69,10 @@ impl PrefilteredTable {
         if !(at.is_finite() && half.is_finite()) {
             return texture.point(center);
         }
+        let at = DVec2::new(
+            texture.wrap.nearer(at.x, texture.width),
+            texture.wrap.nearer(at.y, texture.height),
+        );
         let step = half.max(DVec2::ONE);
         if self.order == 2 && step.max_element() <= direct::WIDEST {
             return direct::tent(texture, at, step);
@@ -316,8 +320,9 @@ mod tests {
 
     #[test]
     fn footprints_without_size_or_place_stay_finite() {
-        let texture = texture(5, 3, 255, Wrap::Clamp);
-        for order in [1, 2] {
+        let ways = [(1, Wrap::Repeat), (1, Wrap::Clamp), (2, Wrap::Repeat), (2, Wrap::Clamp)];
+        for (order, wrap) in ways {
+            let texture = texture(5, 3, 255, wrap);
             let table = PrefilteredTable::build(&texture, order);
             for bad in [f64::NAN, f64::INFINITY, 1e300, -1e300] {
                 let far = table.average(&texture, DVec2::splat(bad), DVec2::splat(0.1));
@@ -354,10 +359,12 @@ mod tests {
 
         #[test]
         fn a_constant_texture_stays_constant(
-            order in 1usize..=2, center in prop::array::uniform2(-1e3..1e3f64),
-            half in prop::array::uniform2(0.0..40.0f64),
+            order in 1usize..=2, clamp in any::<bool>(),
+            center in prop::array::uniform2(prop_oneof![-1e3..1e3f64, -1e60..1e60f64, 9e15..9e16]),
+            half in prop::array::uniform2(prop_oneof![0.0..0.2f64, 0.0..40.0f64]),
         ) {
-            let mut texture = texture(7, 11, u16::MAX, Wrap::Repeat);
+            let wrap = if clamp { Wrap::Clamp } else { Wrap::Repeat };
+            let mut texture = texture(7, 11, u16::MAX, wrap);
             texture.texels.fill([12345; 3]);
             let table = PrefilteredTable::build(&texture, order);
             let average = table.average(&texture, center.into(), half.into()).x * 65535.0;

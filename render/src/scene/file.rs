@@ -30,8 +30,9 @@
 //! Colours are linear, one number for grey or `[red, green, blue]`, each at least 0. Lengths are in
 //! any one unit, axes are right-handed. `up` defaults to y. A ray is reflected or refracted at most
 //! `max_depth` times (0 to 64, default 12), and not when it would count for less than `min_weight`
-//! in its pixel (0 to 1, default 0.0001). `ambient` is light from everywhere (default 0.1),
-//! `background` what a ray sees that leaves the scene (default black).
+//! in its pixel (0 to 1, default 0.0001); and of one ray from the eye and all that follow from it the
+//! first 8191 hits count, as many as a depth of 12 can have. `ambient` is light from everywhere
+//! (default 0.1), `background` what a ray sees that leaves the scene (default black).
 //!
 //! | a material's key | meaning | range | default |
 //! |---|---|---|---|
@@ -53,6 +54,7 @@
 //! textures, `materials` binds surface ids to materials; `material` and `texture` stand for all that
 //! are not bound. In an OBJ of another tool both maps are keyed by the name that `usemtl` gives.
 
+use crate::texture::{Values, Wrap};
 use serde::Deserialize;
 use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
 use std::collections::BTreeMap;
@@ -123,29 +125,9 @@ pub struct PointLightFile {
 pub struct TextureFile {
     pub image: PathBuf,
     #[serde(default)]
-    pub wrap: WrapFile,
+    pub wrap: Wrap,
     #[serde(default)]
-    pub values: ValuesFile,
-}
-
-/// What lies beyond a texture's edges.
-#[derive(Debug, Clone, Copy, Default, Deserialize)]
-#[serde(rename_all = "snake_case")]
-#[expect(missing_docs, reason = "see SceneFile")]
-pub enum WrapFile {
-    #[default]
-    Repeat,
-    Clamp,
-}
-
-/// What a picture's codes mean.
-#[derive(Debug, Clone, Copy, Default, Deserialize)]
-#[serde(rename_all = "snake_case")]
-#[expect(missing_docs, reason = "see SceneFile")]
-pub enum ValuesFile {
-    #[default]
-    Srgb,
-    Linear,
+    pub values: Values,
 }
 
 /// One of `materials`.
@@ -288,7 +270,10 @@ impl<'de> Visitor<'de> for ColorVisitor {
 }
 
 /// A map in which a name that comes twice is refused; serde's own would keep the last.
-fn each_name_once<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
+///
+/// # Errors
+/// On the second of two equal names.
+pub fn each_name_once<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
     deserializer: D,
 ) -> Result<BTreeMap<String, T>, D::Error> {
     deserializer.deserialize_map(NamesVisitor(PhantomData))

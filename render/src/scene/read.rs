@@ -4,15 +4,14 @@
 mod objects;
 
 use super::file::{
-    ColorFile, LightFile, MaterialFile, MeshFile, ObjectFile, SceneFile, TextureFile, ValuesFile,
-    WrapFile,
+    ColorFile, LightFile, MaterialFile, MeshFile, ObjectFile, SceneFile, TextureFile,
 };
 use super::obj::ObjError;
 use super::{Camera, Material, PointLight, Scene};
 use crate::color::Color;
 use crate::shape::Mesh;
 use crate::shape::mesh::MeshError;
-use crate::texture::{Texture, Values, Wrap};
+use crate::texture::Texture;
 use files::json::{Document, nearest};
 use files::{Exit, Failure, FileError, JsonError, Source};
 use image::ImageReader;
@@ -272,15 +271,7 @@ impl Reader<'_> {
                 return self.fault(&place, message);
             }
         };
-        let wrap = match texture.wrap {
-            WrapFile::Repeat => Wrap::Repeat,
-            WrapFile::Clamp => Wrap::Clamp,
-        };
-        let values = match texture.values {
-            ValuesFile::Srgb => Values::Srgb,
-            ValuesFile::Linear => Values::Linear,
-        };
-        match Texture::from_picture(&picture, values, wrap) {
+        match Texture::from_picture(&picture, texture.values, texture.wrap) {
             Some(texture) => Ok(texture),
             None => self.fault(
                 &place,
