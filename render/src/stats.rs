@@ -23,7 +23,8 @@ pub struct Stats {
     pub texture_areas: u64,
     /// Textures looked up at a point.
     pub texture_points: u64,
-    /// Texels or table entries read for both.
+    /// Texels or table entries read for both; an average over an area counts as the number that the
+    /// usual footprint reads ([`crate::filter::FilteredTexture::reads`]).
     pub texels: u64,
     /// Prefiltered tables built.
     pub tables: u64,

@@ -1,10 +1,15 @@
 //! Textures in pictures: which way up they are, what stays constant, and what the thesis says of
 //! its filters.
 
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
 mod studio;
 
+use image::{DynamicImage, ImageBuffer, ImageFormat, Luma};
+use render::color::Encoding;
 use render::filter::Filter;
 use render::{Picture, Scene};
+use std::io::Cursor;
 use studio::{FILTERS, assert_near, at, picture, pixels, png, scene, supersampled};
 
 /// Four colours, the upper two first.
@@ -224,5 +229,66 @@ fn the_filters_keep_the_mean_brightness_of_the_floor() {
     for filter in [Filter::Bilinear, Filter::Box, Filter::Tent] {
         let [mean, _] = moments(&picture(&floor(16), 64, filter), whole.clone());
         assert!((mean - truth).abs() < 0.01, "{filter:?}: {mean}, expected {truth}");
+    }
+}
+
+/// Greys of codes 0 and 85 above 170 and 255, as a palette of which one entry is transparent.
+const PALETTE_PNG: &[u8] =
+    b"\x89PNG\x0d\x0a\x1a\x0a\x00\x00\x00\x0dIHDR\x00\x00\x00\x02\x00\x00\x00\x02\x08\x03\
+    \x00\x00\x00Eh\xfd\x16\x00\x00\x00\x0cPLTEUUU\xaa\xaa\xaa\x00\x00\x00\xff\xff\xffn\
+    \x87\x7f\xe4\x00\x00\x00\x02tRNS\xff\x00\xe5\xb70J\x00\x00\x00\x0eIDATx\xdac`b``d\
+    \x06\x00\x00\x15\x00\x07\xbe\x0ax\xb3\x00\x00\x00\x00IEND\xaeB`\x82";
+
+/// The same in two bits for each texel.
+const TWO_BIT_PNG: &[u8] =
+    b"\x89PNG\x0d\x0a\x1a\x0a\x00\x00\x00\x0dIHDR\x00\x00\x00\x02\x00\x00\x00\x02\x02\x00\
+    \x00\x00\x00\x1dmJY\x00\x00\x00\x0cIDATx\xdac\x10`\xd8\x00\x00\x00\xe4\x00\xc1\x19U;\
+    \xfb\x00\x00\x00\x00IEND\xaeB`\x82";
+
+#[test]
+fn every_kind_of_picture_is_the_same_texture() {
+    let codes = [0u8, 85, 170, 255];
+    let wide: Vec<u16> = codes.iter().map(|&code| 257 * u16::from(code)).collect();
+    let grey = ImageBuffer::<Luma<u8>, _>::from_raw(2, 2, codes.to_vec()).unwrap();
+    let deep = ImageBuffer::<Luma<u16>, _>::from_raw(2, 2, wide).unwrap();
+    let (grey, deep) = (DynamicImage::from(grey), DynamicImage::from(deep));
+    // With nothing but transparent texels, which are passed over.
+    let mut clear = grey.to_luma_alpha8();
+    clear.pixels_mut().for_each(|pixel| pixel[1] = 0);
+    let mut deep_clear = deep.to_rgba16();
+    deep_clear.pixels_mut().for_each(|pixel| pixel[3] = 0);
+    let kinds = [
+        DynamicImage::from(grey.to_rgb8()),
+        DynamicImage::from(clear.clone()).to_rgba8().into(),
+        clear.into(),
+        deep.to_luma_alpha16().into(),
+        deep.to_rgb16().into(),
+        deep_clear.into(),
+        grey.clone(),
+        deep,
+    ];
+    let encoded = |picture: &DynamicImage| {
+        let mut bytes = Cursor::new(Vec::new());
+        picture.write_to(&mut bytes, ImageFormat::Png).unwrap();
+        bytes.into_inner()
+    };
+    let files = kinds.iter().map(encoded).chain([PALETTE_PNG.to_vec(), TWO_BIT_PNG.to_vec()]);
+    let files: Vec<Vec<u8>> = files.collect();
+    for values in ["linear", "srgb"] {
+        let keys = format!(
+            r#""ambient": 1, "materials": {{ "paper": {{ "diffuse": 0 }} }}, "textures":
+            {{ "image": {{ "image": "i.png", "values": "{values}" }} }}, "objects": [ {RECTANGLE} ]"#
+        );
+        for (kind, file) in files.iter().enumerate() {
+            let shown = picture(&scene(&keys, &[("i.png", file.clone())]), 2, Filter::Point);
+            for (pixel, code) in shown.pixels.iter().zip(codes) {
+                let code = f64::from(code) / 255.0;
+                let light = if values == "linear" { code } else { Encoding::Srgb.decode(code) };
+                // Light is kept in 16 bits.
+                let near =
+                    pixel.iter().all(|&x| (f64::from(x) - light).abs() < 0.5 / 65535.0 + 1e-7);
+                assert!(near, "{values}, kind {kind}: found {pixel:?}, expected {light}");
+            }
+        }
     }
 }
