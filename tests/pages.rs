@@ -101,6 +101,34 @@ fn a_job_of_ones_own_runs_from_its_file() {
 }
 
 #[test]
+fn no_clobber_refuses_before_the_first_picture_is_made() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("out")).unwrap();
+    // The last file to be written.
+    fs::write(folder.path().join("out/glass-sphere.png"), "old").unwrap();
+    let arguments = ["run", "glass-sphere", "-o", "out", "--size", "8x8", "--no-clobber"];
+    let ran = run("pipeline", &arguments, folder.path());
+    assert_eq!(ran.status.code(), Some(5), "{}", words(&ran));
+    assert!(words(&ran).contains("out/glass-sphere.png exists"), "{}", words(&ran));
+    let files: Vec<_> = fs::read_dir(folder.path().join("out")).unwrap().collect();
+    assert_eq!(files.len(), 1, "{files:?}");
+    assert_eq!(fs::read(folder.path().join("out/glass-sphere.png")).unwrap(), b"old");
+}
+
+#[test]
+fn pixels_that_are_not_finite_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = "{\"format\": \"tb-scene\", \"version\": 1, \"background\": 1e39, \
+        \"camera\": {\"eye\": [0, 0, 1], \"target\": [0, 0, 0], \"fov_deg\": 40}, \"objects\": []}";
+    fs::write(folder.path().join("s.json"), scene).unwrap();
+    let job = "{\"format\": \"tb-job\", \"version\": 1, \"scene\": \"s.json\"}";
+    fs::write(folder.path().join("bright.json"), job).unwrap();
+    let ran = run("pipeline", &["run", "bright.json", "-q", "--size", "3x2"], folder.path());
+    let told = "pipeline: bright tent: 6 pixels came out not finite and are black\n";
+    assert_eq!(words(&ran), told);
+}
+
+#[test]
 fn every_scene_in_examples_renders() {
     let folder = tempfile::tempdir().unwrap();
     let scenes = support::root().join("examples/scenes");
@@ -132,11 +160,30 @@ fn what_is_wrong_is_said_in_one_line_with_its_exit_code() {
         "{\"format\": \"tb-scene\", \"version\": 1, \"camera\": {\"eye\": [0, 0, 1], \
          \"target\": [0, 0, 0], \"fov_deg\": 40}, \"objects\": []}",
     );
+    write("bare.json", &format!("{job}\"scene\": \"bare-scene.json\"}}"));
+    write(
+        "bare-scene.json",
+        "{\"format\": \"tb-scene\", \"version\": 1, \"camera\": {\"eye\": [0, 0, 1], \
+         \"target\": [0, 0, 0], \"fov_deg\": 40}, \"materials\": {\"m\": {}}, \
+         \"objects\": [{\"mesh\": {\"name\": \"vase\", \"material\": \"m\"}}]}",
+    );
+    // One's picture of mode `b` is called as the other's strip.
+    let mode = |name: &str| format!("{{\"name\": \"{name}\", \"filter\": \"point\"}}");
+    let modes = format!("\"modes\": [{}, {}]", mode("b"), mode("c"));
+    write("a.json", &format!("{job}\"scene\": \"s.json\", {modes}}}"));
+    write("a-b.json", &format!("{job}\"scene\": \"s.json\", {modes}}}"));
     for (arguments, code, expected) in [
         (vec!["run", "vaes"], 2, "did you mean vase?"),
         (vec!["run", "typo.json"], 3, "typo.json:1:"),
         (vec!["run", "lost.json"], 5, "cannot read no.json"),
-        (vec!["run", "stray.json"], 2, "no mesh of that name"),
+        (
+            vec!["run", "stray.json"],
+            2,
+            "job stray makes mesh a: the scene has no mesh of that name",
+        ),
+        (vec!["run", "bare.json"], 2, "job bare makes no mesh vase, which bare-scene.json needs"),
+        (vec!["run", "a.json", "a-b.json"], 2, "a.json and a-b.json would both write a-b.png"),
+        (vec!["run", "vase", "-o", "s.json"], 5, "cannot write s.json: "),
         (vec!["run", "missing.json"], 5, "cannot read missing.json"),
         (vec!["run", "vase", "-o", "s.json/out"], 5, "cannot write s.json/out"),
         (vec!["run", "vase", "--size", "0x9"], 2, "WIDTHxHEIGHT"),

@@ -7,6 +7,7 @@ use files::{Disk, Exit, Failure, FileError, Output, Report, Source};
 use pipeline::run::{Event, Options};
 use pipeline::{Job, PipelineError, pages, run as run_job};
 use render::progress::Progress;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::time::Instant;
@@ -40,7 +41,7 @@ enum Command {
 
 #[derive(Debug, Args)]
 struct RunArguments {
-    /// Pages by name, all, or job files ending in .json
+    /// Pages by name, all of them, or job files, whose names end in .json
     #[arg(required = true, value_name = "NAME|all|FILE.json")]
     jobs: Vec<String>,
     /// The folder for the pictures; made if it is missing
@@ -98,11 +99,16 @@ fn list() -> Result<(), Report> {
 
 fn run_all(arguments: &RunArguments) -> Result<(), Report> {
     // Every job is read before the first is done, so that a slip in a name costs no waiting.
-    let jobs = jobs(&arguments.jobs)?;
+    let jobs = jobs(arguments)?;
     std::fs::create_dir_all(&arguments.output).map_err(|source| FileError::Write {
         name: arguments.output.display().to_string(),
         source,
     })?;
+    for (job, _) in &jobs {
+        for file in job.files(arguments.keep) {
+            Output::check(&arguments.output.join(file), !arguments.no_clobber)?;
+        }
+    }
     let threads = arguments.threads.unwrap_or(0);
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
@@ -121,10 +127,10 @@ fn run_all(arguments: &RunArguments) -> Result<(), Report> {
     Ok(())
 }
 
-/// The jobs that were named, each with the place where its files are.
-fn jobs(names: &[String]) -> Result<Vec<(Job, &'static dyn Source)>, PipelineError> {
+/// The jobs that were named, each with the place where its files are; no two write the same file.
+fn jobs(arguments: &RunArguments) -> Result<Vec<(Job, &'static dyn Source)>, PipelineError> {
     let mut asked: Vec<&str> = Vec::new();
-    for name in names {
+    for name in &arguments.jobs {
         let all = if name == "all" { pages::names() } else { vec![name.as_str()] };
         for name in all {
             // A page named twice is made once.
@@ -134,6 +140,7 @@ fn jobs(names: &[String]) -> Result<Vec<(Job, &'static dyn Source)>, PipelineErr
         }
     }
     let mut jobs: Vec<(Job, &'static dyn Source)> = Vec::new();
+    let mut written: BTreeMap<String, &str> = BTreeMap::new();
     for name in asked {
         let is_file = Path::new(name).extension().is_some_and(|extension| extension == "json");
         let job: (Job, &'static dyn Source) = if is_file {
@@ -141,8 +148,12 @@ fn jobs(names: &[String]) -> Result<Vec<(Job, &'static dyn Source)>, PipelineErr
         } else {
             (pages::page(name)?, &pages::FILES)
         };
-        if jobs.iter().any(|(other, _)| other.name == job.0.name) {
-            return Err(PipelineError::SameName { name: job.0.name });
+        for file in job.0.files(arguments.keep) {
+            if let Some(first) = written.get(&file) {
+                let (first, second) = (first.to_string(), name.to_string());
+                return Err(PipelineError::SameFile { first, second, file });
+            }
+            written.insert(file, name);
         }
         jobs.push(job);
     }
@@ -172,6 +183,11 @@ impl<'a> Talk<'a> {
             }
             Event::Picture { mode, stats } => {
                 self.clear();
+                if stats.not_finite > 0 {
+                    let (job, count) = (self.job, stats.not_finite);
+                    let words = "pixels came out not finite and are black";
+                    say(format_args!("pipeline: {job} {mode}: {count} {words}"));
+                }
                 if self.arguments.stats {
                     self.say(&format!("{} {mode}:\n{stats}", self.job));
                 }

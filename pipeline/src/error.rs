@@ -32,11 +32,39 @@ pub enum PipelineError {
         /// What the encoder said.
         source: image::ImageError,
     },
-    /// Two jobs would write the same files.
-    #[error("two jobs are called {name} and would write the same files: run them into two folders")]
-    SameName {
-        /// The name of both.
+    /// Two jobs would write the same file.
+    #[error("{first} and {second} would both write {file}: run them into two folders")]
+    SameFile {
+        /// The job named first.
+        first: String,
+        /// The job named after it.
+        second: String,
+        /// The file.
+        file: String,
+    },
+    /// The job makes a mesh that its scene does not have.
+    #[error("job {job} makes mesh {name}: the scene has no mesh of that name; it has {known}")]
+    UnknownMesh {
+        /// The job.
+        job: String,
+        /// The mesh.
         name: String,
+        /// The names there are, with a suggestion.
+        known: String,
+    },
+    /// The scene has a mesh without a file, and the job does not make it.
+    #[error(
+        "job {job} makes no mesh {name}, which {scene} needs: add it to the job's \"meshes\", or a \"file\" to {path} in {scene}"
+    )]
+    MissingMesh {
+        /// The job.
+        job: String,
+        /// The mesh.
+        name: String,
+        /// Its place in the scene file.
+        path: String,
+        /// The scene file.
+        scene: String,
     },
     /// There is no page of that name.
     #[error(
@@ -59,7 +87,10 @@ impl Failure for PipelineError {
             Self::Triangulate(error) => error.exit(),
             Self::Scene(error) => error.exit(),
             Self::Encode { .. } => Exit::Resource,
-            Self::SameName { .. } | Self::UnknownPage { .. } => Exit::Use,
+            Self::SameFile { .. }
+            | Self::UnknownMesh { .. }
+            | Self::MissingMesh { .. }
+            | Self::UnknownPage { .. } => Exit::Use,
         }
     }
 }

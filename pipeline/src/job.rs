@@ -19,16 +19,15 @@
 
 use files::json::Document;
 use files::{JsonError, Source};
+use render::film::MOST_SAMPLES;
 use render::filter::Filter;
+use render::scene::file::each_name_once;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use triangulate::Options;
 
 use crate::PipelineError;
-
-/// The largest number of rays along the side of a pixel; as in `render --samples`.
-const MOST_SAMPLES: u32 = 256;
 
 /// A job, checked; the files that it names are not yet read.
 #[derive(Debug, Clone)]
@@ -57,13 +56,15 @@ pub struct MeshJob {
 }
 
 /// A way to render a scene.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Mode {
     /// What its picture is called, after the job.
     pub name: String,
     /// How textures are averaged.
     pub filter: Filter,
     /// Rays along each side of a pixel.
+    #[serde(default = "one")]
     pub samples: u32,
 }
 
@@ -76,11 +77,11 @@ struct JobFile {
     version: u32,
     #[serde(default)]
     title: String,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "each_name_once")]
     meshes: BTreeMap<String, MeshFile>,
     scene: PathBuf,
     #[serde(default)]
-    modes: Option<Vec<ModeFile>>,
+    modes: Option<Vec<Mode>>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -91,24 +92,6 @@ struct MeshFile {
     texture: u32,
     #[serde(default)]
     surface: u32,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ModeFile {
-    name: String,
-    filter: FilterFile,
-    #[serde(default = "one")]
-    samples: u32,
-}
-
-#[derive(Debug, Clone, Copy, Deserialize)]
-#[serde(rename_all = "snake_case")]
-enum FilterFile {
-    Point,
-    Bilinear,
-    Box,
-    Tent,
 }
 
 fn one() -> u32 {
@@ -126,6 +109,36 @@ impl Job {
         let folder = path.parent().unwrap_or(Path::new(""));
         let stem = path.file_stem().unwrap_or_default().to_string_lossy();
         Ok(Self::parse(&Document::new(&name, &bytes)?, &stem, folder)?)
+    }
+
+    /// The names of all files that it writes; with `keep` also of its grids and OBJ files.
+    #[must_use]
+    pub fn files(&self, keep: bool) -> Vec<String> {
+        let kept = self.meshes.iter().filter(|_| keep);
+        kept.flat_map(|mesh| [self.grid_file(mesh), self.obj_file(mesh)])
+            .chain(self.modes.iter().map(|mode| self.picture_file(mode)))
+            .chain(self.strip_file())
+            .collect()
+    }
+
+    /// The file of a mode's picture.
+    pub(crate) fn picture_file(&self, mode: &Mode) -> String {
+        format!("{}-{}.png", self.name, mode.name)
+    }
+
+    /// The file of all pictures side by side, when there are several.
+    pub(crate) fn strip_file(&self) -> Option<String> {
+        (self.modes.len() > 1).then(|| format!("{}.png", self.name))
+    }
+
+    /// The file of a mesh's grid.
+    pub(crate) fn grid_file(&self, mesh: &MeshJob) -> String {
+        format!("{}-{}.grid", self.name, mesh.name)
+    }
+
+    /// The file of a mesh's triangles.
+    pub(crate) fn obj_file(&self, mesh: &MeshJob) -> String {
+        format!("{}-{}.obj", self.name, mesh.name)
     }
 
     /// The job in a document; its paths count from `folder`.
@@ -150,7 +163,7 @@ impl Job {
     }
 }
 
-fn modes(document: &Document<'_>, modes: Option<Vec<ModeFile>>) -> Result<Vec<Mode>, JsonError> {
+fn modes(document: &Document<'_>, modes: Option<Vec<Mode>>) -> Result<Vec<Mode>, JsonError> {
     let Some(modes) = modes else {
         return Ok(vec![Mode { name: "tent".into(), filter: Filter::Tent, samples: 1 }]);
     };
@@ -169,13 +182,7 @@ fn modes(document: &Document<'_>, modes: Option<Vec<ModeFile>>) -> Result<Vec<Mo
             let message = format!("found {}, expected 1 to {MOST_SAMPLES}", mode.samples);
             return Err(document.fault(&format!("modes[{k}].samples"), message));
         }
-        let filter = match mode.filter {
-            FilterFile::Point => Filter::Point,
-            FilterFile::Bilinear => Filter::Bilinear,
-            FilterFile::Box => Filter::Box,
-            FilterFile::Tent => Filter::Tent,
-        };
-        checked.push(Mode { name: mode.name, filter, samples: mode.samples });
+        checked.push(mode);
     }
     Ok(checked)
 }
@@ -236,6 +243,12 @@ mod tests {
                     "{scene}, \"modes\": [{{\"name\": \"a\", \"filter\": \"box\", \"samples\": 0}}]"
                 ),
                 "modes[0].samples: found 0, expected 1 to 256",
+            ),
+            (
+                format!(
+                    "{scene}, \"meshes\": {{\"a\": {{\"spec\": \"b\"}}, \"a\": {{\"spec\": \"c\"}}}}"
+                ),
+                "meshes: duplicate key `a`",
             ),
             ("\"title\": \"no scene\"".into(), "missing key `scene`"),
         ] {

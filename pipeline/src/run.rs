@@ -6,7 +6,7 @@ use files::json::Document;
 use files::{Output, Source};
 use render::color::Encoding;
 use render::film::encode::{self, Format};
-use render::scene::{MeshSource, read};
+use render::scene::{MeshSource, SceneError, read};
 use render::stats::Stats;
 use render::{Picture, Scene, Settings};
 use std::io::Write;
@@ -86,8 +86,8 @@ pub fn run(
     for mode in &job.modes {
         pictures.push(work.picture(&scene, mode, read_time)?);
     }
-    if pictures.len() > 1 {
-        work.write_picture(&format!("{}.png", job.name), &Picture::side_by_side(&pictures, GAP))?;
+    if let Some(strip) = job.strip_file() {
+        work.write_picture(&strip, &Picture::side_by_side(&pictures, GAP))?;
     }
     Ok(())
 }
@@ -106,13 +106,29 @@ impl Work<'_> {
         let (name, bytes) = (path.display().to_string(), self.source.read(path)?);
         let document = Document::new(&name, &bytes)?;
         let file = read::parse(&document)?;
-        read::check_mesh_names(&file, self.job.meshes.iter().map(|mesh| mesh.name.as_str()))?;
+        read::check_mesh_names(&file, self.job.meshes.iter().map(|mesh| mesh.name.as_str()))
+            .map_err(|error| self.of_meshes(error))?;
         let mut meshes = MeshSource::new();
         for mesh in &self.job.meshes {
             meshes.insert(mesh.name.clone(), self.mesh(mesh)?);
         }
         let folder = path.parent().unwrap_or(Path::new(""));
-        Ok(read::resolve(&document, &file, folder, self.source, meshes)?)
+        read::resolve(&document, &file, folder, self.source, meshes)
+            .map_err(|error| self.of_meshes(error))
+    }
+
+    /// What is wrong with a scene, where it is the job that has a mesh too many or too few.
+    fn of_meshes(&self, error: SceneError) -> PipelineError {
+        let job = self.job.name.clone();
+        match error {
+            SceneError::UnknownMesh { name, known } => {
+                PipelineError::UnknownMesh { job, name, known }
+            }
+            SceneError::MissingMesh { name, path, scene } => {
+                PipelineError::MissingMesh { job, name, path, scene }
+            }
+            other => other.into(),
+        }
     }
 
     fn mesh(&self, mesh: &MeshJob) -> Result<render::shape::Mesh, PipelineError> {
@@ -120,11 +136,11 @@ impl Work<'_> {
         let (name, bytes) = (mesh.spec.display().to_string(), self.source.read(&mesh.spec)?);
         let grid = Sweep::read(&Document::new(&name, &bytes)?)?.grid();
         if self.options.keep {
-            self.write(&format!("{}-{}.grid", self.job.name, mesh.name), |out| {
+            self.write(&self.job.grid_file(mesh), |out| {
                 grid_file::write(&grid, grid_file::Encoding::Binary, out)
                     .map_err(|source| out.failed(source).into())
             })?;
-            self.write(&format!("{}-{}.obj", self.job.name, mesh.name), |out| {
+            self.write(&self.job.obj_file(mesh), |out| {
                 match triangulate::write_grid_obj(&grid, &mesh.options, out) {
                     Ok(_) => Ok(()),
                     Err(TriangulateError::Write(source)) => Err(out.failed(source).into()),
@@ -152,7 +168,7 @@ impl Work<'_> {
         let progress = |done, total| (self.tell)(Event::Progress { mode: &mode.name, done, total });
         let (picture, mut stats) = render::render(scene, &settings, &progress);
         let started = Instant::now();
-        self.write_picture(&format!("{}-{}.png", self.job.name, mode.name), &picture)?;
+        self.write_picture(&self.job.picture_file(mode), &picture)?;
         stats.read_time = read_time;
         stats.write_time = started.elapsed();
         (self.tell)(Event::Picture { mode: &mode.name, stats: &stats });
