@@ -190,13 +190,13 @@ pub fn parts(n: usize, x: f64, half: f64, size: usize, wrap: Wrap) -> [Option<Pa
 
 /// The step of the narrower filter that, with the mean, stands for one of `step`.
 fn fold(n: usize, step: f64, size: f64) -> f64 {
-    let rest = step % size;
-    match n {
-        _ if step <= 0.5 * size => step,
-        1 if step < size => step,
-        1 => rest,
-        _ => rest.min(size - rest),
+    let widest = if n == 1 { size } else { 0.5 * size };
+    if step < widest {
+        // The usual case, without a slow remainder.
+        return step;
     }
+    let rest = step % size;
+    if n == 1 { rest } else { rest.min(size - rest) }
 }
 
 /// The n-th difference of the n-fold integral around `x`.
