@@ -1,49 +1,15 @@
-//! `triangulate`: a grid of `sweep` to triangles, as OBJ.
+//! `triangulate`: a grid of `sweep` to triangles, as OBJ, STL or PLY.
+
+mod cli;
 
 use clap::Parser;
+use cli::{Arguments, Format};
 use files::exit::say;
 use files::{Output, Report, exit, input};
-use std::io::{IsTerminal, stdin};
-use std::path::PathBuf;
+use std::io::{IsTerminal, stdin, stdout};
 use std::process::ExitCode;
 use sweep::grid::file::GridReader;
-use triangulate::{Counts, Options, TriangulateError, write_obj};
-
-const EXAMPLES: &str = "\
-Examples:
-  sweep vase.json -o vase.grid            a grid from a curve spec, then
-  triangulate vase.grid -o vase.obj       its triangles
-  sweep vase.json | triangulate --texture 2 | render scene.json --mesh vase=- -o vase.png
-
-An output file is replaced only when the whole grid was read and found undamaged. An OBJ on
-standard output is whole when its last line is `# end V F` (numbers of v and f lines).";
-
-/// Makes triangles of a grid that `sweep` wrote, as OBJ.
-#[derive(Debug, Parser)]
-#[command(version, after_help = EXAMPLES)]
-struct Arguments {
-    /// The grid file; - is standard input
-    #[arg(default_value = "-")]
-    grid: PathBuf,
-    /// The OBJ file; - is standard output
-    #[arg(short, long, value_name = "MESH.obj", default_value = "-")]
-    output: PathBuf,
-    /// Texture id, which a scene binds to a picture; 0 is none
-    #[arg(long, value_name = "ID", default_value_t = 0)]
-    texture: u32,
-    /// Surface id, which a scene binds to a material
-    #[arg(long, value_name = "ID", default_value_t = 0)]
-    surface: u32,
-    /// Say nothing but errors
-    #[arg(short, long)]
-    quiet: bool,
-    /// Print how many vertices and triangles were made, to standard error
-    #[arg(long)]
-    stats: bool,
-    /// Do not replace an existing output file
-    #[arg(long)]
-    no_clobber: bool,
-}
+use triangulate::{Counts, TriangulateError, read_mesh, write_obj, write_ply, write_stl};
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
@@ -51,7 +17,8 @@ fn main() -> ExitCode {
 }
 
 fn work(arguments: &Arguments) -> Result<(), Report> {
-    let options = Options { texture: arguments.texture, surface: arguments.surface };
+    arguments.check(stdout().is_terminal())?;
+    let (options, format) = (arguments.options(), arguments.format());
     if input::is_stdin(&arguments.grid) && stdin().is_terminal() {
         return Err(TriangulateError::Terminal.into());
     }
@@ -60,11 +27,20 @@ fn work(arguments: &Arguments) -> Result<(), Report> {
     let name = input::name_of(&arguments.grid);
     let mut reader =
         GridReader::open(&name, input::open(&arguments.grid)?).map_err(TriangulateError::Grid)?;
-    let counts = match write_obj(&mut reader, &options, &mut output) {
-        Ok(counts) => counts,
-        Err(TriangulateError::Write(source)) => return Err(output.failed(source).into()),
-        Err(error) => return Err(error.into()),
+    let written = match format {
+        Format::Obj => write_obj(&mut reader, &options, &mut output),
+        Format::Stl | Format::Ply => read_mesh(&mut reader, &options).and_then(|(mesh, counts)| {
+            let done = match format {
+                Format::Ply => write_ply(&mesh, &mut output),
+                _ => write_stl(&mesh, &mut output),
+            };
+            done.map(|()| counts).map_err(TriangulateError::Write)
+        }),
     };
+    let counts = written.map_err(|error| match error {
+        TriangulateError::Write(source) => Report::from(output.failed(source)),
+        error => error.into(),
+    })?;
     output.commit()?;
     report(arguments, &name, &counts);
     Ok(())
@@ -98,10 +74,13 @@ fn report(arguments: &Arguments, grid: &str, counts: &Counts) {
              the mesh has slits of no width there"
         ));
     }
+    let format = arguments.format();
     if *moved > MOVED {
         say(format_args!(
-            "triangulate: note: {grid}: the seven digits of an OBJ moved points by up to {moved:.0e} \
-             of the object's size; it would keep its shape nearer to the origin"
+            "triangulate: note: {grid}: the seven digits of {} {} moved points by up to {moved:.0e} \
+             of the object's size; it would keep its shape nearer to the origin",
+            if format == Format::Ply { "a" } else { "an" },
+            format.name()
         ));
     }
 }

@@ -176,6 +176,12 @@ fn a_full_disk_is_told() {
         let run = triangulate(&["-o", "/dev/full"], &sheet(rows, 50), folder.path());
         assert_eq!(run.status.code(), Some(5));
         assert!(said(&run).starts_with("triangulate: cannot write /dev/full: "), "{}", said(&run));
+        for format in ["stl", "ply"] {
+            let arguments = ["--format", format, "-o", "/dev/full"];
+            let run = triangulate(&arguments, &sheet(rows, 50), folder.path());
+            assert_eq!(run.status.code(), Some(5));
+            assert!(said(&run).contains("cannot write /dev/full: "), "{}", said(&run));
+        }
     }
 }
 
@@ -194,4 +200,36 @@ fn a_closed_pipe_ends_quietly() {
     drop(child.stdout.take());
     let run = child.wait_with_output().unwrap();
     assert_eq!((run.status.code(), said(&run).as_str()), (Some(141), ""));
+}
+
+#[test]
+fn stl_and_ply_are_chosen_by_flag_or_by_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let grid = sheet(3, 4);
+    // 12 triangles, and 12 vertices: the sheet has no seam.
+    for (format, start, end) in [
+        ("stl", &b"topobook triangulate STL 1 sheet\0"[..], 80 + 4 + 12 * 50),
+        ("ply", b"ply\nformat binary_little_endian 1.0\n", 12 * 32 + 12 * 13),
+    ] {
+        let file = format!("sheet.{format}");
+        let named = triangulate(&["-o", &file], &grid, folder.path());
+        assert_eq!((named.status.code(), said(&named).as_str()), (Some(0), ""));
+        let named = fs::read(folder.path().join(&file)).unwrap();
+        let piped = triangulate(&["--format", format], &grid, folder.path());
+        assert_eq!(piped.status.code(), Some(0));
+        assert!(piped.stdout == named && named.starts_with(start));
+        let header = b"end_header\n";
+        let header = named.windows(header.len()).position(|w| w == header).map_or(0, |at| at + 11);
+        assert_eq!(named.len() - header, end);
+
+        let cut = triangulate(&["-o", &file], &grid[..grid.len() - 1], folder.path());
+        assert_eq!(cut.status.code(), Some(3));
+        assert!(fs::read(folder.path().join(&file)).unwrap() == named, "the old file stays");
+    }
+    let run = triangulate(&["-o", "a.stl", "--format", "obj"], &grid, folder.path());
+    assert_eq!(run.status.code(), Some(0));
+    assert!(fs::read(folder.path().join("a.stl")).unwrap().starts_with(b"# topobook"));
+    let run = triangulate(&["--format", "step"], &grid, folder.path());
+    assert_eq!(run.status.code(), Some(2));
+    assert!(said(&run).contains("possible values: obj, stl, ply"), "{}", said(&run));
 }

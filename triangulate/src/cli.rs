@@ -1,0 +1,151 @@
+//! The command line: what may be asked for, and what fits together.
+
+use clap::{Parser, ValueEnum};
+use files::{Exit, Failure};
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+use triangulate::Options;
+
+const EXAMPLES: &str = "\
+Examples:
+  sweep vase.json -o vase.grid            a grid from a curve spec, then
+  triangulate vase.grid -o vase.obj       its triangles
+  sweep vase.json | triangulate --texture 2 | render scene.json --mesh vase=- -o vase.png
+  triangulate vase.grid -o vase.stl       for a printer
+
+An output file is replaced only when the whole grid was read and found undamaged. An OBJ on
+standard output is whole when its last line is `# end V F` (numbers of v and f lines).";
+
+/// Makes triangles of a grid that `sweep` wrote, as OBJ, STL or PLY.
+#[derive(Debug, Parser)]
+#[command(name = "triangulate", version, after_help = EXAMPLES)]
+pub struct Arguments {
+    /// The grid file; - is standard input
+    #[arg(default_value = "-")]
+    pub grid: PathBuf,
+    /// The mesh file; - is standard output
+    #[arg(short, long, value_name = "MESH", default_value = "-")]
+    pub output: PathBuf,
+    /// How the mesh is written; by default as the output's name ends (.stl, .ply), and else as OBJ
+    #[arg(long, value_enum)]
+    format: Option<Format>,
+    /// Texture id, which a scene binds to a picture; 0 is none
+    #[arg(long, value_name = "ID", default_value_t = 0)]
+    texture: u32,
+    /// Surface id, which a scene binds to a material
+    #[arg(long, value_name = "ID", default_value_t = 0)]
+    surface: u32,
+    /// Say nothing but errors
+    #[arg(short, long)]
+    pub quiet: bool,
+    /// Print how many vertices and triangles were made, to standard error
+    #[arg(long)]
+    pub stats: bool,
+    /// Do not replace an existing output file
+    #[arg(long)]
+    pub no_clobber: bool,
+}
+
+/// How a mesh is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// Text, written row by row; what render reads
+    Obj,
+    /// Binary STL: triangles only, for printers; needs the mesh in memory
+    Stl,
+    /// Binary PLY with normals and picture coordinates; needs the mesh in memory
+    Ply,
+}
+
+/// Arguments that do not fit together, or not the place where the program runs.
+#[derive(Debug, Error)]
+pub enum UseError {
+    /// Bytes that a terminal would take for commands.
+    #[error("a binary {0} is not for a terminal: name a file with -o, or use --format obj")]
+    Terminal(&'static str),
+}
+
+impl Failure for UseError {
+    fn exit(&self) -> Exit {
+        Exit::Use
+    }
+}
+
+impl Arguments {
+    /// What the triangles are bound to.
+    pub fn options(&self) -> Options {
+        Options { texture: self.texture, surface: self.surface }
+    }
+
+    /// The format asked for, or the one that the output's name ends with.
+    pub fn format(&self) -> Format {
+        let by_name = || {
+            let extension = self.output.extension()?.to_str()?;
+            Format::value_variants()
+                .iter()
+                .find(|format| extension.eq_ignore_ascii_case(format.name()))
+                .copied()
+        };
+        self.format.or_else(by_name).unwrap_or(Format::Obj)
+    }
+
+    /// Complains of what cannot be meant; `terminal` says that standard output is one.
+    pub fn check(&self, terminal: bool) -> Result<(), UseError> {
+        let format = self.format();
+        if terminal && format != Format::Obj && is_stdout(&self.output) {
+            return Err(UseError::Terminal(format.name()));
+        }
+        Ok(())
+    }
+}
+
+impl Format {
+    /// Its name, in capitals.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Obj => "OBJ",
+            Self::Stl => "STL",
+            Self::Ply => "PLY",
+        }
+    }
+}
+
+fn is_stdout(argument: &Path) -> bool {
+    argument.as_os_str() == "-"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parsed(words: &[&str]) -> Arguments {
+        Arguments::try_parse_from([&["triangulate"], words].concat()).unwrap()
+    }
+
+    #[test]
+    fn the_format_is_the_one_asked_for_or_the_one_of_the_name() {
+        for (words, expected) in [
+            (&[][..], Format::Obj),
+            (&["-o", "a.stl"], Format::Stl),
+            (&["-o", "b.a/a.PLY"], Format::Ply),
+            (&["-o", "a.obj"], Format::Obj),
+            (&["-o", "stl"], Format::Obj),
+            (&["-o", "a.stl", "--format", "ply"], Format::Ply),
+            (&["--format", "stl"], Format::Stl),
+        ] {
+            assert_eq!(parsed(words).format(), expected, "{words:?}");
+        }
+    }
+
+    #[test]
+    fn bytes_are_not_sent_to_a_terminal() {
+        for format in ["stl", "ply"] {
+            let arguments = parsed(&["--format", format]);
+            let message = arguments.check(true).unwrap_err().to_string();
+            assert!(message.contains("is not for a terminal"), "{message}");
+            assert!(arguments.check(false).is_ok());
+            assert!(parsed(&["--format", format, "-o", "a"]).check(true).is_ok());
+        }
+        assert!(parsed(&[]).check(true).is_ok());
+    }
+}
