@@ -5,6 +5,8 @@ use files::{Exit, Failure};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 use triangulate::Options;
+use triangulate::mtl::is_map_name;
+use triangulate::obj::object_name;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -12,6 +14,7 @@ Examples:
   triangulate vase.grid -o vase.obj       its triangles
   sweep vase.json | triangulate --texture 2 | render scene.json --mesh vase=- -o vase.png
   triangulate vase.grid -o vase.stl       for a printer
+  triangulate vase.grid -o vase.obj --mtl --map marble.png        for other renderers
 
 An output file is replaced only when the whole grid was read and found undamaged. An OBJ on
 standard output is whole when its last line is `# end V F` (numbers of v and f lines).";
@@ -35,6 +38,12 @@ pub struct Arguments {
     /// Surface id, which a scene binds to a material
     #[arg(long, value_name = "ID", default_value_t = 0)]
     surface: u32,
+    /// Write a material file beside the OBJ, under its name with .mtl
+    #[arg(long)]
+    mtl: bool,
+    /// The picture of the material, written as it stands here: readers look for it beside the MTL
+    #[arg(long, value_name = "FILE", requires = "mtl", value_parser = map_name)]
+    pub map: Option<String>,
     /// Say nothing but errors
     #[arg(short, long)]
     pub quiet: bool,
@@ -63,6 +72,15 @@ pub enum UseError {
     /// Bytes that a terminal would take for commands.
     #[error("a binary {0} is not for a terminal: name a file with -o, or use --format obj")]
     Terminal(&'static str),
+    /// A material file for a mesh that names none.
+    #[error("--mtl is for OBJ, and the format is {0}")]
+    MtlFormat(&'static str),
+    /// A material file beside nothing.
+    #[error("--mtl found {0} as the output, expected a file to lie beside: name one with -o")]
+    MtlPlace(String),
+    /// A material file in the place of the mesh.
+    #[error("--mtl would write {0} over the mesh: let the name of the output end otherwise")]
+    MtlName(String),
 }
 
 impl Failure for UseError {
@@ -95,7 +113,44 @@ impl Arguments {
         if terminal && format != Format::Obj && is_stdout(&self.output) {
             return Err(UseError::Terminal(format.name()));
         }
+        if let Some(mtl) = self.mtl() {
+            if format != Format::Obj {
+                return Err(UseError::MtlFormat(format.name()));
+            }
+            if is_stdout(&self.output) {
+                return Err(UseError::MtlPlace("standard output".into()));
+            }
+            if self.output.exists() && !self.output.is_file() {
+                return Err(UseError::MtlPlace(self.output.display().to_string()));
+            }
+            if mtl == self.output {
+                return Err(UseError::MtlName(mtl.display().to_string()));
+            }
+        }
         Ok(())
+    }
+
+    /// The material file, if one is wanted.
+    pub fn mtl(&self) -> Option<PathBuf> {
+        self.mtl_name().map(|name| self.output.with_file_name(name))
+    }
+
+    /// Its name, which the OBJ has too: one word, as an OBJ cannot quote it.
+    pub fn mtl_name(&self) -> Option<String> {
+        let path = self.output.with_extension("mtl");
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        self.mtl.then(|| object_name(&name))
+    }
+}
+
+/// A picture that an MTL can name.
+fn map_name(argument: &str) -> Result<String, String> {
+    if is_map_name(argument) {
+        Ok(argument.into())
+    } else {
+        Err("expected a name without `#`, line breaks, a dash before it or blanks around it, which \
+             an MTL cannot hold"
+            .into())
     }
 }
 
@@ -147,5 +202,20 @@ mod tests {
             assert!(parsed(&["--format", format, "-o", "a"]).check(true).is_ok());
         }
         assert!(parsed(&[]).check(true).is_ok());
+    }
+
+    #[test]
+    fn a_material_file_lies_beside_the_mesh_under_one_word() {
+        for (output, expected) in [
+            ("a.obj", "a.mtl"),
+            ("some/my vase.v2.obj", "some/my_vase.v2.mtl"),
+            ("#a", "_a.mtl"),
+            ("../a.stl.obj", "../a.stl.mtl"),
+        ] {
+            let arguments = parsed(&["--mtl", "-o", output]);
+            assert!(arguments.check(false).is_ok());
+            assert_eq!(arguments.mtl(), Some(expected.into()));
+            assert_eq!(parsed(&["-o", output]).mtl(), None);
+        }
     }
 }

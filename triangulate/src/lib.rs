@@ -30,6 +30,7 @@
 //! | [`diagonal`]     | which way a cell is cut                                      |
 //! | [`tri_mesh`]     | the mesh in memory, and its [`TriMesh::validate`]            |
 //! | [`obj`]          | the mesh as OBJ                                              |
+//! | [`mtl`]          | the material file beside an OBJ                              |
 //! | [`stl`]          | the mesh as binary STL                                       |
 //! | [`split`]        | vertices that carry position, normal and picture coordinates |
 //! | [`ply`]          | the mesh as binary PLY                                       |
@@ -37,6 +38,7 @@
 mod cell;
 pub mod diagonal;
 mod error;
+pub mod mtl;
 pub mod obj;
 mod picture;
 pub mod ply;

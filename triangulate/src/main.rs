@@ -6,10 +6,12 @@ use clap::Parser;
 use cli::{Arguments, Format};
 use files::exit::say;
 use files::{Output, Report, exit, input};
-use std::io::{IsTerminal, stdin, stdout};
+use std::io::{BufRead, IsTerminal, Write, stdin, stdout};
+use std::path::Path;
 use std::process::ExitCode;
 use sweep::grid::file::GridReader;
-use triangulate::{Counts, TriangulateError, read_mesh, write_obj, write_ply, write_stl};
+use triangulate::mtl::mtl;
+use triangulate::{Counts, ObjWriter, TriangulateError, read_mesh, run_rows, write_ply, write_stl};
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
@@ -18,32 +20,48 @@ fn main() -> ExitCode {
 
 fn work(arguments: &Arguments) -> Result<(), Report> {
     arguments.check(stdout().is_terminal())?;
-    let (options, format) = (arguments.options(), arguments.format());
     if input::is_stdin(&arguments.grid) && stdin().is_terminal() {
         return Err(TriangulateError::Terminal.into());
     }
     // Before any reading, so that a folder that cannot be written is told at once.
-    let mut output = Output::create(&arguments.output, !arguments.no_clobber)?;
+    let create = |path: &Path| Output::create(path, !arguments.no_clobber);
+    let mut output = create(&arguments.output)?;
+    let mtl_output = arguments.mtl().as_deref().map(create).transpose()?;
     let name = input::name_of(&arguments.grid);
     let mut reader =
         GridReader::open(&name, input::open(&arguments.grid)?).map_err(TriangulateError::Grid)?;
-    let written = match format {
-        Format::Obj => write_obj(&mut reader, &options, &mut output),
-        Format::Stl | Format::Ply => read_mesh(&mut reader, &options).and_then(|(mesh, counts)| {
-            let done = match format {
-                Format::Ply => write_ply(&mesh, &mut output),
-                _ => write_stl(&mesh, &mut output),
-            };
-            done.map(|()| counts).map_err(TriangulateError::Write)
-        }),
-    };
-    let counts = written.map_err(|error| match error {
+    let counts = write(arguments, &mut reader, &mut output).map_err(|error| match error {
         TriangulateError::Write(source) => Report::from(output.failed(source)),
         error => error.into(),
     })?;
+    // The mesh last: when it is there, so is what it names.
+    if let Some(output) = mtl_output {
+        output.commit_all(mtl(&arguments.options(), arguments.map.as_deref()).as_bytes())?;
+    }
     output.commit()?;
     report(arguments, &name, &counts);
     Ok(())
+}
+
+/// Writes the mesh in the wanted format.
+fn write(
+    arguments: &Arguments,
+    reader: &mut GridReader<impl BufRead>,
+    out: &mut impl Write,
+) -> Result<Counts, TriangulateError> {
+    let (options, format) = (arguments.options(), arguments.format());
+    if format == Format::Obj {
+        let mtl = arguments.mtl_name();
+        let name = reader.header().name.clone();
+        let writer = ObjWriter::with_materials(&name, &options, mtl.as_deref(), out);
+        let (writer, counts) = run_rows(reader, writer)?;
+        writer.finish(&counts).map_err(TriangulateError::Write)?;
+        return Ok(counts);
+    }
+    let (mesh, counts) = read_mesh(reader, &options)?;
+    let done = if format == Format::Ply { write_ply(&mesh, out) } else { write_stl(&mesh, out) };
+    done.map_err(TriangulateError::Write)?;
+    Ok(counts)
 }
 
 /// Coordinates moved by more than this fraction of the object's size are worth a word: a tenth of

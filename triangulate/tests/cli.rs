@@ -233,3 +233,53 @@ fn stl_and_ply_are_chosen_by_flag_or_by_name() {
     assert_eq!(run.status.code(), Some(2));
     assert!(said(&run).contains("possible values: obj, stl, ply"), "{}", said(&run));
 }
+
+#[test]
+fn a_material_file_is_written_when_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let (grid, path) = (sheet(3, 4), |name: &str| folder.path().join(name));
+    let plain = triangulate(&["--texture", "2"], &grid, folder.path()).stdout;
+    let plain = String::from_utf8(plain).unwrap();
+    assert!(!plain.contains("mtllib"));
+
+    let arguments = ["--texture", "2", "--mtl", "--map", "marble.png", "-o", "my sheet.obj"];
+    let run = triangulate(&arguments, &grid, folder.path());
+    assert_eq!((run.status.code(), said(&run).as_str()), (Some(0), ""));
+    let obj = fs::read_to_string(path("my sheet.obj")).unwrap();
+    let (first, rest) = plain.split_once('\n').unwrap();
+    assert_eq!(obj, format!("{first}\nmtllib my_sheet.mtl\n{rest}"));
+    let (models, materials) =
+        tobj::load_obj(path("my sheet.obj"), &tobj::LoadOptions::default()).unwrap();
+    let material = &materials.unwrap()[models[0].mesh.material_id.unwrap()];
+    assert_eq!(material.name, "tex2_surf0");
+    assert_eq!(material.diffuse_texture.as_deref(), Some("marble.png"));
+
+    // What cannot be written leaves everything as it was.
+    fs::write(path("my_sheet.mtl"), "old").unwrap();
+    fs::remove_file(path("my sheet.obj")).unwrap();
+    let run = triangulate(&[&arguments[..], &["--no-clobber"]].concat(), &grid, folder.path());
+    assert_eq!(run.status.code(), Some(5));
+    assert!(said(&run).contains("my_sheet.mtl"), "{}", said(&run));
+    let run = triangulate(&arguments, &grid[..grid.len() - 1], folder.path());
+    assert_eq!(run.status.code(), Some(3));
+    assert_eq!(fs::read_to_string(path("my_sheet.mtl")).unwrap(), "old");
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+}
+
+#[test]
+fn a_material_file_needs_an_obj_to_lie_beside() {
+    let folder = tempfile::tempdir().unwrap();
+    for (arguments, expected) in [
+        (&["--mtl"][..], "found standard output as the output"),
+        (&["--mtl", "-o", "."], "found . as the output"),
+        (&["--mtl", "-o", "a.stl"], "--mtl is for OBJ, and the format is STL"),
+        (&["--mtl", "-o", "a.mtl"], "--mtl would write a.mtl over the mesh"),
+        (&["--map", "a.png", "-o", "a.obj"], "--mtl"),
+        (&["--mtl", "--map", "a\nb", "-o", "a.obj"], "which an MTL cannot hold"),
+    ] {
+        let run = triangulate(arguments, &sheet(3, 4), folder.path());
+        assert_eq!(run.status.code(), Some(2), "{}", said(&run));
+        assert!(said(&run).contains(expected), "{}", said(&run));
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+    }
+}
