@@ -14,6 +14,7 @@ Examples:
   triangulate vase.grid -o vase.obj       its triangles
   sweep vase.json | triangulate --texture 2 | render scene.json --mesh vase=- -o vase.png
   triangulate vase.grid -o vase.stl       for a printer
+  triangulate vase.grid -o vase.obj --report -                    is it closed?
   triangulate vase.grid -o vase.obj --mtl --map marble.png        for other renderers
 
 An output file is replaced only when the whole grid was read and found undamaged. An OBJ on
@@ -44,6 +45,10 @@ pub struct Arguments {
     /// The picture of the material, written as it stands here: readers look for it beside the MTL
     #[arg(long, value_name = "FILE", requires = "mtl", value_parser = map_name)]
     pub map: Option<String>,
+    /// Write what the mesh is like (Euler number, rims, sides, measures) as JSON; - is standard output.
+    /// Keeps the mesh in memory
+    #[arg(long, value_name = "FILE.json")]
+    pub report: Option<PathBuf>,
     /// Say nothing but errors
     #[arg(short, long)]
     pub quiet: bool,
@@ -81,6 +86,12 @@ pub enum UseError {
     /// A material file in the place of the mesh.
     #[error("--mtl would write {0} over the mesh: let the name of the output end otherwise")]
     MtlName(String),
+    /// Two things on standard output.
+    #[error("--report - would write into the mesh on standard output: name a file for one of them")]
+    ReportPlace,
+    /// A report in the place of another output.
+    #[error("--report would write over {0}, which is another output: name another file")]
+    ReportName(String),
 }
 
 impl Failure for UseError {
@@ -127,6 +138,15 @@ impl Arguments {
                 return Err(UseError::MtlName(mtl.display().to_string()));
             }
         }
+        if let Some(report) = &self.report {
+            if is_stdout(report) && is_stdout(&self.output) {
+                return Err(UseError::ReportPlace);
+            }
+            let others = [Some(self.output.clone()), self.mtl()];
+            if others.iter().flatten().any(|other| place(other) == place(report)) {
+                return Err(UseError::ReportName(report.display().to_string()));
+            }
+        }
         Ok(())
     }
 
@@ -163,6 +183,13 @@ impl Format {
             Self::Ply => "PLY",
         }
     }
+}
+
+/// The path of a file that need not be there, the same for all ways to write it.
+fn place(path: &Path) -> PathBuf {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let folder = folder.unwrap_or(Path::new(".")).canonicalize().unwrap_or_default();
+    folder.join(path.file_name().unwrap_or_default())
 }
 
 fn is_stdout(argument: &Path) -> bool {

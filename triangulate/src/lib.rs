@@ -30,6 +30,8 @@
 //! | [`diagonal`]     | which way a cell is cut                                      |
 //! | [`tri_mesh`]     | the mesh in memory, and its [`TriMesh::validate`]            |
 //! | [`obj`]          | the mesh as OBJ                                              |
+//! | [`topology`]     | what a mesh is like as a surface: Euler number, rims, sides  |
+//! | [`report`]       | that and its measures, as JSON                               |
 //! | [`mtl`]          | the material file beside an OBJ                              |
 //! | [`stl`]          | the mesh as binary STL                                       |
 //! | [`split`]        | vertices that carry position, normal and picture coordinates |
@@ -38,13 +40,16 @@
 mod cell;
 pub mod diagonal;
 mod error;
+mod forest;
 pub mod mtl;
 pub mod obj;
 mod picture;
 pub mod ply;
+pub mod report;
 pub mod split;
 mod station;
 pub mod stl;
+pub mod topology;
 pub mod tri_mesh;
 pub mod triangulator;
 mod validate;
@@ -52,8 +57,10 @@ mod validate;
 pub use error::TriangulateError;
 pub use obj::ObjWriter;
 pub use ply::write_ply;
+pub use report::MeshReport;
 pub use split::SplitMesh;
 pub use stl::write_stl;
+pub use topology::Topology;
 pub use tri_mesh::{TriMesh, Triangle};
 pub use triangulator::{Counts, Sink, Triangulator};
 

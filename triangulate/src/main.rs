@@ -11,7 +11,10 @@ use std::path::Path;
 use std::process::ExitCode;
 use sweep::grid::file::GridReader;
 use triangulate::mtl::mtl;
-use triangulate::{Counts, ObjWriter, TriangulateError, read_mesh, run_rows, write_ply, write_stl};
+use triangulate::{
+    Counts, MeshReport, ObjWriter, TriMesh, TriangulateError, read_mesh, run_rows, write_ply,
+    write_stl,
+};
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
@@ -27,41 +30,54 @@ fn work(arguments: &Arguments) -> Result<(), Report> {
     let create = |path: &Path| Output::create(path, !arguments.no_clobber);
     let mut output = create(&arguments.output)?;
     let mtl_output = arguments.mtl().as_deref().map(create).transpose()?;
+    let report_output = arguments.report.as_deref().map(create).transpose()?;
     let name = input::name_of(&arguments.grid);
     let mut reader =
         GridReader::open(&name, input::open(&arguments.grid)?).map_err(TriangulateError::Grid)?;
-    let counts = write(arguments, &mut reader, &mut output).map_err(|error| match error {
-        TriangulateError::Write(source) => Report::from(output.failed(source)),
-        error => error.into(),
-    })?;
+    let (mesh, counts) =
+        write(arguments, &mut reader, &mut output).map_err(|error| match error {
+            TriangulateError::Write(source) => Report::from(output.failed(source)),
+            error => error.into(),
+        })?;
     // The mesh last: when it is there, so is what it names.
     if let Some(output) = mtl_output {
         output.commit_all(mtl(&arguments.options(), arguments.map.as_deref()).as_bytes())?;
     }
     output.commit()?;
-    report(arguments, &name, &counts);
+    if let (Some(mut output), Some(mesh)) = (report_output, mesh) {
+        let report = MeshReport::of(&mesh, &counts);
+        report.write(&mut output).map_err(|source| output.failed(source))?;
+        output.commit()?;
+    }
+    note(arguments, &name, &counts);
     Ok(())
 }
 
-/// Writes the mesh in the wanted format.
+/// Writes the mesh in the wanted format, and gives it back where it was needed whole.
 fn write(
     arguments: &Arguments,
     reader: &mut GridReader<impl BufRead>,
     out: &mut impl Write,
-) -> Result<Counts, TriangulateError> {
+) -> Result<(Option<TriMesh>, Counts), TriangulateError> {
     let (options, format) = (arguments.options(), arguments.format());
     if format == Format::Obj {
-        let mtl = arguments.mtl_name();
-        let name = reader.header().name.clone();
+        let (name, mtl) = (reader.header().name.clone(), arguments.mtl_name());
         let writer = ObjWriter::with_materials(&name, &options, mtl.as_deref(), out);
-        let (writer, counts) = run_rows(reader, writer)?;
+        let (writer, mesh, counts) = if arguments.report.is_some() {
+            let ((writer, mesh), counts) =
+                run_rows(reader, (writer, TriMesh::new(&name, &options)))?;
+            (writer, Some(mesh), counts)
+        } else {
+            let (writer, counts) = run_rows(reader, writer)?;
+            (writer, None, counts)
+        };
         writer.finish(&counts).map_err(TriangulateError::Write)?;
-        return Ok(counts);
+        return Ok((mesh, counts));
     }
     let (mesh, counts) = read_mesh(reader, &options)?;
     let done = if format == Format::Ply { write_ply(&mesh, out) } else { write_stl(&mesh, out) };
     done.map_err(TriangulateError::Write)?;
-    Ok(counts)
+    Ok((Some(mesh), counts))
 }
 
 /// Coordinates moved by more than this fraction of the object's size are worth a word: a tenth of
@@ -69,8 +85,8 @@ fn write(
 const MOVED: f64 = 1e-4;
 
 /// Words for people, on standard error.
-fn report(arguments: &Arguments, grid: &str, counts: &Counts) {
-    let Counts { positions, uvs, normals, triangles, collapsed, slivers, moved } = counts;
+fn note(arguments: &Arguments, grid: &str, counts: &Counts) {
+    let Counts { positions, uvs, normals, triangles, collapsed, slivers, moved, .. } = counts;
     if arguments.stats {
         say(format_args!(
             "triangles {triangles}\npositions {positions}\nnormals {normals}\n\

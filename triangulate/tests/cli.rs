@@ -283,3 +283,49 @@ fn a_material_file_needs_an_obj_to_lie_beside() {
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
     }
 }
+
+#[test]
+fn a_report_says_what_the_mesh_is_like_and_changes_nothing_else() {
+    let folder = tempfile::tempdir().unwrap();
+    let (grid, read) = (sheet(3, 4), |name: &str| fs::read(folder.path().join(name)).unwrap());
+    for format in ["obj", "stl", "ply"] {
+        let plain = triangulate(&["--format", format], &grid, folder.path()).stdout;
+        let arguments = ["--format", format, "-o", "mesh", "--report", "-"];
+        let run = triangulate(&arguments, &grid, folder.path());
+        assert_eq!((run.status.code(), said(&run).as_str()), (Some(0), ""));
+        assert!(read("mesh") == plain, "{format}");
+        let json: serde_json::Value = serde_json::from_slice(&run.stdout).unwrap();
+        for (key, expected) in
+            [("vertices", 12), ("edges", 23), ("faces", 12), ("euler", 1), ("boundary_loops", 1)]
+        {
+            assert_eq!(json[key], expected, "{format}: {key}");
+        }
+        assert_eq!((&json["manifold"], &json["closed"]), (&true.into(), &false.into()));
+
+        let arguments = ["--format", format, "--report", "report.json"];
+        let piped = triangulate(&arguments, &grid, folder.path());
+        assert!(piped.stdout == plain && read("report.json") == run.stdout, "{format}");
+    }
+}
+
+#[test]
+fn a_report_goes_where_nothing_else_goes() {
+    let folder = tempfile::tempdir().unwrap();
+    let grid = sheet(3, 4);
+    for (arguments, expected) in [
+        (&["--report", "-"][..], "--report - would write into the mesh on standard output"),
+        (&["-o", "a.obj", "--report", "./a.obj"], "--report would write over ./a.obj"),
+        (&["-o", "a.obj", "--mtl", "--report", "a.mtl"], "--report would write over a.mtl"),
+    ] {
+        let run = triangulate(arguments, &grid, folder.path());
+        assert_eq!((run.status.code(), run.stdout.len()), (Some(2), 0), "{}", said(&run));
+        assert!(said(&run).contains(expected), "{}", said(&run));
+    }
+    let run = triangulate(&["-o", "a.obj", "--report", "no/a.json"], &grid, folder.path());
+    assert_eq!(run.status.code(), Some(5));
+    assert!(said(&run).contains("cannot write no/a.json"), "{}", said(&run));
+    let cut = &grid[..grid.len() - 1];
+    let run = triangulate(&["-o", "a.obj", "--report", "-"], cut, folder.path());
+    assert_eq!((run.status.code(), run.stdout.len()), (Some(3), 0));
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0, "nothing is left");
+}
