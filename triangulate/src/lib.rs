@@ -1,9 +1,10 @@
-//! A contour x trajectory grid to triangles with texture ids, in memory or as OBJ.
+//! A contour x trajectory grid to triangles with texture ids, in memory or as OBJ, STL or PLY.
 //!
 //! Each cell of the grid becomes two triangles, counter-clockwise seen from outside. Rows come in
 //! and go out one at a time, so that writing an OBJ takes the memory of three rows whatever the
 //! length of the grid. What goes out is the same either way: the [`TriMesh`] of [`mesh`] has
-//! the numbers and the order of triangles that [`write_obj`] writes, to the bit.
+//! the numbers and the order of triangles that [`write_obj`] writes, to the bit. STL and PLY
+//! begin with counts, so they are written from a whole [`TriMesh`].
 //!
 //! What makes a mesh of a grid:
 //!
@@ -29,19 +30,37 @@
 //! | [`diagonal`]     | which way a cell is cut                                      |
 //! | [`tri_mesh`]     | the mesh in memory, and its [`TriMesh::validate`]            |
 //! | [`obj`]          | the mesh as OBJ                                              |
+//! | [`topology`]     | what a mesh is like as a surface: Euler number, rims, sides  |
+//! | [`report`]       | that and its measures, as JSON                               |
+//! | [`mtl`]          | the material file beside an OBJ                              |
+//! | [`stl`]          | the mesh as binary STL                                       |
+//! | [`split`]        | vertices that carry position, normal and picture coordinates |
+//! | [`ply`]          | the mesh as binary PLY                                       |
 
 mod cell;
 pub mod diagonal;
 mod error;
+mod forest;
+pub mod mtl;
 pub mod obj;
 mod picture;
+pub mod ply;
+pub mod report;
+pub mod split;
 mod station;
+pub mod stl;
+pub mod topology;
 pub mod tri_mesh;
 pub mod triangulator;
 mod validate;
 
 pub use error::TriangulateError;
 pub use obj::ObjWriter;
+pub use ply::write_ply;
+pub use report::MeshReport;
+pub use split::SplitMesh;
+pub use stl::write_stl;
+pub use topology::Topology;
 pub use tri_mesh::{TriMesh, Triangle};
 pub use triangulator::{Counts, Sink, Triangulator};
 
@@ -95,13 +114,36 @@ pub fn write_obj(
     out: &mut impl Write,
 ) -> Result<Counts, TriangulateError> {
     let sink = ObjWriter::new(&reader.header().name, options, out);
+    let (writer, counts) = run_rows(reader, sink)?;
+    writer.finish(&counts).map_err(TriangulateError::Write)?;
+    Ok(counts)
+}
+
+/// The triangles of a grid file, in memory.
+///
+/// # Errors
+/// When the grid is cut short or damaged, or holds a number that f32 does not.
+pub fn read_mesh(
+    reader: &mut GridReader<impl BufRead>,
+    options: &Options,
+) -> Result<(TriMesh, Counts), TriangulateError> {
+    let sink = TriMesh::new(&reader.header().name, options);
+    run_rows(reader, sink)
+}
+
+/// Tells a sink the triangles of a grid file, row by row.
+///
+/// # Errors
+/// When the grid is cut short or damaged, holds a number that f32 does not, or the sink fails.
+pub fn run_rows<S: Sink>(
+    reader: &mut GridReader<impl BufRead>,
+    sink: S,
+) -> Result<(S, Counts), TriangulateError> {
     let mut triangulator = Triangulator::new(reader.header().clone(), sink)?;
     while let Some(row) = reader.next_row()? {
         triangulator.row(row)?;
     }
-    let (writer, counts) = triangulator.finish()?;
-    writer.finish(&counts).map_err(TriangulateError::Write)?;
-    Ok(counts)
+    triangulator.finish()
 }
 
 fn run_grid<S: Sink>(grid: &GridMesh, sink: S) -> Result<(S, Counts), TriangulateError> {

@@ -1,49 +1,20 @@
-//! `triangulate`: a grid of `sweep` to triangles, as OBJ.
+//! `triangulate`: a grid of `sweep` to triangles, as OBJ, STL or PLY.
+
+mod cli;
 
 use clap::Parser;
+use cli::{Arguments, Format};
 use files::exit::say;
 use files::{Output, Report, exit, input};
-use std::io::{IsTerminal, stdin};
-use std::path::PathBuf;
+use std::io::{BufRead, IsTerminal, Write, stdin, stdout};
+use std::path::Path;
 use std::process::ExitCode;
 use sweep::grid::file::GridReader;
-use triangulate::{Counts, Options, TriangulateError, write_obj};
-
-const EXAMPLES: &str = "\
-Examples:
-  sweep vase.json -o vase.grid            a grid from a curve spec, then
-  triangulate vase.grid -o vase.obj       its triangles
-  sweep vase.json | triangulate --texture 2 | render scene.json --mesh vase=- -o vase.png
-
-An output file is replaced only when the whole grid was read and found undamaged. An OBJ on
-standard output is whole when its last line is `# end V F` (numbers of v and f lines).";
-
-/// Makes triangles of a grid that `sweep` wrote, as OBJ.
-#[derive(Debug, Parser)]
-#[command(version, after_help = EXAMPLES)]
-struct Arguments {
-    /// The grid file; - is standard input
-    #[arg(default_value = "-")]
-    grid: PathBuf,
-    /// The OBJ file; - is standard output
-    #[arg(short, long, value_name = "MESH.obj", default_value = "-")]
-    output: PathBuf,
-    /// Texture id, which a scene binds to a picture; 0 is none
-    #[arg(long, value_name = "ID", default_value_t = 0)]
-    texture: u32,
-    /// Surface id, which a scene binds to a material
-    #[arg(long, value_name = "ID", default_value_t = 0)]
-    surface: u32,
-    /// Say nothing but errors
-    #[arg(short, long)]
-    quiet: bool,
-    /// Print how many vertices and triangles were made, to standard error
-    #[arg(long)]
-    stats: bool,
-    /// Do not replace an existing output file
-    #[arg(long)]
-    no_clobber: bool,
-}
+use triangulate::mtl::mtl;
+use triangulate::{
+    Counts, MeshReport, ObjWriter, TriMesh, TriangulateError, read_mesh, run_rows, write_ply,
+    write_stl,
+};
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
@@ -51,23 +22,62 @@ fn main() -> ExitCode {
 }
 
 fn work(arguments: &Arguments) -> Result<(), Report> {
-    let options = Options { texture: arguments.texture, surface: arguments.surface };
+    arguments.check(stdout().is_terminal())?;
     if input::is_stdin(&arguments.grid) && stdin().is_terminal() {
         return Err(TriangulateError::Terminal.into());
     }
     // Before any reading, so that a folder that cannot be written is told at once.
-    let mut output = Output::create(&arguments.output, !arguments.no_clobber)?;
+    let create = |path: &Path| Output::create(path, !arguments.no_clobber);
+    let mut output = create(&arguments.output)?;
+    let mtl_output = arguments.mtl().as_deref().map(create).transpose()?;
+    let report_output = arguments.report.as_deref().map(create).transpose()?;
     let name = input::name_of(&arguments.grid);
     let mut reader =
         GridReader::open(&name, input::open(&arguments.grid)?).map_err(TriangulateError::Grid)?;
-    let counts = match write_obj(&mut reader, &options, &mut output) {
-        Ok(counts) => counts,
-        Err(TriangulateError::Write(source)) => return Err(output.failed(source).into()),
-        Err(error) => return Err(error.into()),
-    };
+    let (mesh, counts) =
+        write(arguments, &mut reader, &mut output).map_err(|error| match error {
+            TriangulateError::Write(source) => Report::from(output.failed(source)),
+            error => error.into(),
+        })?;
+    // The mesh last: when it is there, so is what it names.
+    if let Some(output) = mtl_output {
+        output.commit_all(mtl(&arguments.options(), arguments.map.as_deref()).as_bytes())?;
+    }
     output.commit()?;
-    report(arguments, &name, &counts);
+    if let (Some(mut output), Some(mesh)) = (report_output, mesh) {
+        let report = MeshReport::of(&mesh, &counts);
+        report.write(&mut output).map_err(|source| output.failed(source))?;
+        output.commit()?;
+    }
+    note(arguments, &name, &counts);
     Ok(())
+}
+
+/// Writes the mesh in the wanted format, and gives it back where it was needed whole.
+fn write(
+    arguments: &Arguments,
+    reader: &mut GridReader<impl BufRead>,
+    out: &mut impl Write,
+) -> Result<(Option<TriMesh>, Counts), TriangulateError> {
+    let (options, format) = (arguments.options(), arguments.format());
+    if format == Format::Obj {
+        let (name, mtl) = (reader.header().name.clone(), arguments.mtl_name());
+        let writer = ObjWriter::with_materials(&name, &options, mtl.as_deref(), out);
+        let (writer, mesh, counts) = if arguments.report.is_some() {
+            let ((writer, mesh), counts) =
+                run_rows(reader, (writer, TriMesh::new(&name, &options)))?;
+            (writer, Some(mesh), counts)
+        } else {
+            let (writer, counts) = run_rows(reader, writer)?;
+            (writer, None, counts)
+        };
+        writer.finish(&counts).map_err(TriangulateError::Write)?;
+        return Ok((mesh, counts));
+    }
+    let (mesh, counts) = read_mesh(reader, &options)?;
+    let done = if format == Format::Ply { write_ply(&mesh, out) } else { write_stl(&mesh, out) };
+    done.map_err(TriangulateError::Write)?;
+    Ok((Some(mesh), counts))
 }
 
 /// Coordinates moved by more than this fraction of the object's size are worth a word: a tenth of
@@ -75,8 +85,8 @@ fn work(arguments: &Arguments) -> Result<(), Report> {
 const MOVED: f64 = 1e-4;
 
 /// Words for people, on standard error.
-fn report(arguments: &Arguments, grid: &str, counts: &Counts) {
-    let Counts { positions, uvs, normals, triangles, collapsed, slivers, moved } = counts;
+fn note(arguments: &Arguments, grid: &str, counts: &Counts) {
+    let Counts { positions, uvs, normals, triangles, collapsed, slivers, moved, .. } = counts;
     if arguments.stats {
         say(format_args!(
             "triangles {triangles}\npositions {positions}\nnormals {normals}\n\
@@ -98,10 +108,13 @@ fn report(arguments: &Arguments, grid: &str, counts: &Counts) {
              the mesh has slits of no width there"
         ));
     }
+    let format = arguments.format();
     if *moved > MOVED {
         say(format_args!(
-            "triangulate: note: {grid}: the seven digits of an OBJ moved points by up to {moved:.0e} \
-             of the object's size; it would keep its shape nearer to the origin"
+            "triangulate: note: {grid}: the seven digits of {} {} moved points by up to {moved:.0e} \
+             of the object's size; it would keep its shape nearer to the origin",
+            if format == Format::Ply { "a" } else { "an" },
+            format.name()
         ));
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! # topobook triangulate OBJ 1        ours; the last line must be there too
+//! mtllib vase.mtl                     only where a material file was asked for
 //! o vase                              one object
 //! usemtl tex2_surf0                   texture id 2, surface id 0: a scene binds both
 //! v 0.5 0 -1                          a row's new positions,
@@ -35,9 +36,15 @@ pub struct ObjWriter<W> {
 impl<W: Write> ObjWriter<W> {
     /// A writer to `out`, which gets one write a row and need not be buffered.
     pub fn new(name: &str, options: &Options, out: W) -> Self {
-        let Options { texture, surface } = options;
-        let name = object_name(name);
-        let text = format!("{FIRST_LINE}\no {name}\nusemtl tex{texture}_surf{surface}\n");
+        Self::with_materials(name, options, None, out)
+    }
+
+    /// As [`ObjWriter::new`], for an OBJ that names a material file, as its readers shall find it:
+    /// they look beside the OBJ. The name becomes one word, as [`object_name`] has it.
+    pub fn with_materials(name: &str, options: &Options, file: Option<&str>, out: W) -> Self {
+        let (name, material) = (object_name(name), material_name(options));
+        let library = file.map_or(String::new(), |file| format!("mtllib {}\n", object_name(file)));
+        let text = format!("{FIRST_LINE}\n{library}o {name}\nusemtl {material}\n");
         Self { out, text: text.into_bytes() }
     }
 
@@ -136,6 +143,13 @@ impl Backward {
             rest /= 10;
         }
     }
+}
+
+/// The name under which a scene, or a material file, binds texture and surface.
+#[must_use]
+pub fn material_name(options: &Options) -> String {
+    let Options { texture, surface } = options;
+    format!("tex{texture}_surf{surface}")
 }
 
 /// The name as one word that no OBJ reader takes apart: blanks, control characters, comment signs

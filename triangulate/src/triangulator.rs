@@ -30,6 +30,34 @@ pub trait Sink {
     }
 }
 
+/// Two sinks that are told the same.
+impl<A: Sink, B: Sink> Sink for (A, B) {
+    fn position(&mut self, position: [f32; 3]) {
+        self.0.position(position);
+        self.1.position(position);
+    }
+
+    fn uv(&mut self, uv: [f32; 2]) {
+        self.0.uv(uv);
+        self.1.uv(uv);
+    }
+
+    fn normal(&mut self, normal: [f32; 3]) {
+        self.0.normal(normal);
+        self.1.normal(normal);
+    }
+
+    fn triangle(&mut self, triangle: &Triangle) {
+        self.0.triangle(triangle);
+        self.1.triangle(triangle);
+    }
+
+    fn row_done(&mut self) -> io::Result<()> {
+        self.0.row_done()?;
+        self.1.row_done()
+    }
+}
+
 /// How much a mesh has of everything.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Counts {
@@ -50,6 +78,8 @@ pub struct Counts {
     /// diagonal of its box): some 1e-8 for an object about the origin, and more by as much as
     /// it lies farther away than it is large. Infinite for an object that is one point.
     pub moved: f64,
+    /// How far it moved a point, at most, in the grid's unit.
+    pub displacement: f64,
 }
 
 /// What rounding does to an object.
@@ -59,19 +89,22 @@ struct Rounding {
     high: DVec3,
     /// The farthest that a coordinate was moved.
     moved: f64,
+    /// The square of the farthest that a point was moved.
+    displacement_sq: f64,
 }
 
 impl Rounding {
     fn none() -> Self {
-        Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY, moved: 0.0 }
+        Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY, moved: 0.0, displacement_sq: 0.0 }
     }
 
     fn add(&mut self, points: &[DVec3], rounded: &[[f32; 3]]) {
         for (&point, &rounded) in points.iter().zip(rounded) {
             self.low = self.low.min(point);
             self.high = self.high.max(point);
-            let off = (point - DVec3::from(rounded.map(f64::from))).abs();
-            self.moved = self.moved.max(off.max_element());
+            let off = point - DVec3::from(rounded.map(f64::from));
+            self.moved = self.moved.max(off.abs().max_element());
+            self.displacement_sq = self.displacement_sq.max(off.length_squared());
         }
     }
 
@@ -179,7 +212,11 @@ impl<S: Sink> Triangulator<S> {
             self.band(&mut last, &mut first);
             self.teller.sink.row_done().map_err(TriangulateError::Write)?;
         }
-        let counts = Counts { moved: self.rounding.fraction(), ..self.teller.counts };
+        let counts = Counts {
+            moved: self.rounding.fraction(),
+            displacement: self.rounding.displacement_sq.sqrt(),
+            ..self.teller.counts
+        };
         Ok((self.teller.sink, counts))
     }
 

@@ -176,6 +176,12 @@ fn a_full_disk_is_told() {
         let run = triangulate(&["-o", "/dev/full"], &sheet(rows, 50), folder.path());
         assert_eq!(run.status.code(), Some(5));
         assert!(said(&run).starts_with("triangulate: cannot write /dev/full: "), "{}", said(&run));
+        for format in ["stl", "ply"] {
+            let arguments = ["--format", format, "-o", "/dev/full"];
+            let run = triangulate(&arguments, &sheet(rows, 50), folder.path());
+            assert_eq!(run.status.code(), Some(5));
+            assert!(said(&run).contains("cannot write /dev/full: "), "{}", said(&run));
+        }
     }
 }
 
@@ -194,4 +200,132 @@ fn a_closed_pipe_ends_quietly() {
     drop(child.stdout.take());
     let run = child.wait_with_output().unwrap();
     assert_eq!((run.status.code(), said(&run).as_str()), (Some(141), ""));
+}
+
+#[test]
+fn stl_and_ply_are_chosen_by_flag_or_by_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let grid = sheet(3, 4);
+    // 12 triangles, and 12 vertices: the sheet has no seam.
+    for (format, start, end) in [
+        ("stl", &b"topobook triangulate STL 1 sheet\0"[..], 80 + 4 + 12 * 50),
+        ("ply", b"ply\nformat binary_little_endian 1.0\n", 12 * 32 + 12 * 13),
+    ] {
+        let file = format!("sheet.{format}");
+        let named = triangulate(&["-o", &file], &grid, folder.path());
+        assert_eq!((named.status.code(), said(&named).as_str()), (Some(0), ""));
+        let named = fs::read(folder.path().join(&file)).unwrap();
+        let piped = triangulate(&["--format", format], &grid, folder.path());
+        assert_eq!(piped.status.code(), Some(0));
+        assert!(piped.stdout == named && named.starts_with(start));
+        let header = b"end_header\n";
+        let header = named.windows(header.len()).position(|w| w == header).map_or(0, |at| at + 11);
+        assert_eq!(named.len() - header, end);
+
+        let cut = triangulate(&["-o", &file], &grid[..grid.len() - 1], folder.path());
+        assert_eq!(cut.status.code(), Some(3));
+        assert!(fs::read(folder.path().join(&file)).unwrap() == named, "the old file stays");
+    }
+    let run = triangulate(&["-o", "a.stl", "--format", "obj"], &grid, folder.path());
+    assert_eq!(run.status.code(), Some(0));
+    assert!(fs::read(folder.path().join("a.stl")).unwrap().starts_with(b"# topobook"));
+    let run = triangulate(&["--format", "step"], &grid, folder.path());
+    assert_eq!(run.status.code(), Some(2));
+    assert!(said(&run).contains("possible values: obj, stl, ply"), "{}", said(&run));
+}
+
+#[test]
+fn a_material_file_is_written_when_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let (grid, path) = (sheet(3, 4), |name: &str| folder.path().join(name));
+    let plain = triangulate(&["--texture", "2"], &grid, folder.path()).stdout;
+    let plain = String::from_utf8(plain).unwrap();
+    assert!(!plain.contains("mtllib"));
+
+    let arguments = ["--texture", "2", "--mtl", "--map", "marble.png", "-o", "my sheet.obj"];
+    let run = triangulate(&arguments, &grid, folder.path());
+    assert_eq!((run.status.code(), said(&run).as_str()), (Some(0), ""));
+    let obj = fs::read_to_string(path("my sheet.obj")).unwrap();
+    let (first, rest) = plain.split_once('\n').unwrap();
+    assert_eq!(obj, format!("{first}\nmtllib my_sheet.mtl\n{rest}"));
+    let (models, materials) =
+        tobj::load_obj(path("my sheet.obj"), &tobj::LoadOptions::default()).unwrap();
+    let material = &materials.unwrap()[models[0].mesh.material_id.unwrap()];
+    assert_eq!(material.name, "tex2_surf0");
+    assert_eq!(material.diffuse_texture.as_deref(), Some("marble.png"));
+
+    // What cannot be written leaves everything as it was.
+    fs::write(path("my_sheet.mtl"), "old").unwrap();
+    fs::remove_file(path("my sheet.obj")).unwrap();
+    let run = triangulate(&[&arguments[..], &["--no-clobber"]].concat(), &grid, folder.path());
+    assert_eq!(run.status.code(), Some(5));
+    assert!(said(&run).contains("my_sheet.mtl"), "{}", said(&run));
+    let run = triangulate(&arguments, &grid[..grid.len() - 1], folder.path());
+    assert_eq!(run.status.code(), Some(3));
+    assert_eq!(fs::read_to_string(path("my_sheet.mtl")).unwrap(), "old");
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+}
+
+#[test]
+fn a_material_file_needs_an_obj_to_lie_beside() {
+    let folder = tempfile::tempdir().unwrap();
+    for (arguments, expected) in [
+        (&["--mtl"][..], "found standard output as the output"),
+        (&["--mtl", "-o", "."], "found . as the output"),
+        (&["--mtl", "-o", "a.stl"], "--mtl is for OBJ, and the format is STL"),
+        (&["--mtl", "-o", "a.mtl"], "--mtl would write a.mtl over the mesh"),
+        (&["--map", "a.png", "-o", "a.obj"], "--mtl"),
+        (&["--mtl", "--map", "a\nb", "-o", "a.obj"], "which an MTL cannot hold"),
+    ] {
+        let run = triangulate(arguments, &sheet(3, 4), folder.path());
+        assert_eq!(run.status.code(), Some(2), "{}", said(&run));
+        assert!(said(&run).contains(expected), "{}", said(&run));
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+    }
+}
+
+#[test]
+fn a_report_says_what_the_mesh_is_like_and_changes_nothing_else() {
+    let folder = tempfile::tempdir().unwrap();
+    let (grid, read) = (sheet(3, 4), |name: &str| fs::read(folder.path().join(name)).unwrap());
+    for format in ["obj", "stl", "ply"] {
+        let plain = triangulate(&["--format", format], &grid, folder.path()).stdout;
+        let arguments = ["--format", format, "-o", "mesh", "--report", "-"];
+        let run = triangulate(&arguments, &grid, folder.path());
+        assert_eq!((run.status.code(), said(&run).as_str()), (Some(0), ""));
+        assert!(read("mesh") == plain, "{format}");
+        let json: serde_json::Value = serde_json::from_slice(&run.stdout).unwrap();
+        for (key, expected) in
+            [("vertices", 12), ("edges", 23), ("faces", 12), ("euler", 1), ("boundary_loops", 1)]
+        {
+            assert_eq!(json[key], expected, "{format}: {key}");
+        }
+        assert_eq!((&json["manifold"], &json["closed"]), (&true.into(), &false.into()));
+
+        let arguments = ["--format", format, "--report", "report.json"];
+        let piped = triangulate(&arguments, &grid, folder.path());
+        assert!(piped.stdout == plain && read("report.json") == run.stdout, "{format}");
+    }
+}
+
+#[test]
+fn a_report_goes_where_nothing_else_goes() {
+    let folder = tempfile::tempdir().unwrap();
+    let grid = sheet(3, 4);
+    for (arguments, expected) in [
+        (&["--report", "-"][..], "--report - would write into the mesh on standard output"),
+        (&["-o", "a.obj", "--report", "./a.obj"], "--report would write over ./a.obj"),
+        (&["-o", "a.obj", "--mtl", "--report", "a.mtl"], "--report would write over a.mtl"),
+    ] {
+        let run = triangulate(arguments, &grid, folder.path());
+        assert_eq!((run.status.code(), run.stdout.len()), (Some(2), 0), "{}", said(&run));
+        assert!(said(&run).contains(expected), "{}", said(&run));
+    }
+    let run = triangulate(&["-o", "a.obj", "--report", "no/a.json"], &grid, folder.path());
+    assert_eq!(run.status.code(), Some(5));
+    assert!(said(&run).contains("cannot write no/a.json"), "{}", said(&run));
+    let cut = &grid[..grid.len() - 1];
+    let run = triangulate(&["-o", "a.obj", "--report", "-"], cut, folder.path());
+    assert_eq!((run.status.code(), run.stdout.len()), (Some(3), 0));
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0, "nothing is left");
 }

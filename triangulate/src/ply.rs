@@ -1,0 +1,100 @@
+//! The mesh as a binary PLY file, for viewers.
+//!
+//! ```text
+//! ply
+//! format binary_little_endian 1.0
+//! comment topobook triangulate PLY 1
+//! comment object vase
+//! comment texture 2 surface 0         texture and surface id, as in an OBJ of ours
+//! element vertex 1024                 split where picture coordinates or normals differ
+//! property float x
+//! property float y
+//! property float z
+//! property float nx                   unit normal, outward
+//! property float ny
+//! property float nz
+//! property float s                    picture coordinates from the lower left corner
+//! property float t
+//! element face 1856
+//! property list uchar uint vertex_indices
+//! end_header
+//! ```
+//!
+//! Then come the vertices, 32 bytes each, and the faces, 13 bytes each: a 3 and three indices from
+//! 0, counter-clockwise seen from outside. The header is ASCII: other characters of the
+//! object's name become `_`.
+
+use crate::TriMesh;
+use crate::split::{SplitMesh, SplitVertex};
+use std::io::{self, BufWriter, Write};
+
+/// The first comment of a PLY of ours.
+pub const FIRST_COMMENT: &str = "topobook triangulate PLY 1";
+
+/// Writes a mesh as binary PLY to `out`, which need not be buffered.
+///
+/// # Errors
+/// When the output fails.
+///
+/// # Panics
+/// As [`SplitMesh::of`].
+pub fn write_ply(mesh: &TriMesh, out: impl Write) -> io::Result<()> {
+    let split = SplitMesh::of(mesh);
+    let mut out = BufWriter::new(out);
+    out.write_all(header(mesh, &split).as_bytes())?;
+    for SplitVertex { position, normal, uv } in &split.vertices {
+        for number in position.iter().chain(normal).chain(uv) {
+            out.write_all(&number.to_le_bytes())?;
+        }
+    }
+    for corners in &split.triangles {
+        out.write_all(&[3])?;
+        for index in corners {
+            out.write_all(&index.to_le_bytes())?;
+        }
+    }
+    out.flush()
+}
+
+fn header(mesh: &TriMesh, split: &SplitMesh) -> String {
+    let TriMesh { texture, surface, .. } = mesh;
+    let name: String =
+        mesh.name.chars().map(|c| if c.is_ascii_graphic() { c } else { '_' }).collect();
+    let mut header = format!(
+        "ply\nformat binary_little_endian 1.0\ncomment {FIRST_COMMENT}\ncomment object {name}\n\
+         comment texture {texture} surface {surface}\nelement vertex {}\n",
+        split.vertices.len()
+    );
+    for property in ["x", "y", "z", "nx", "ny", "nz", "s", "t"] {
+        header += &format!("property float {property}\n");
+    }
+    header
+        + &format!(
+            "element face {}\nproperty list uchar uint vertex_indices\nend_header\n",
+            split.triangles.len()
+        )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_header_is_the_one_of_the_page_above() {
+        let mesh = TriMesh { name: "Väse".into(), texture: 2, surface: 5, ..TriMesh::default() };
+        let mut bytes = Vec::new();
+        write_ply(&mesh, &mut bytes).unwrap();
+        let text = String::from_utf8(bytes).unwrap();
+        // The lines of the module's page, without the words beside them.
+        let page = include_str!("ply.rs").lines().filter_map(|line| line.strip_prefix("//! "));
+        let lines = page.skip_while(|line| *line != "ply").take_while(|line| *line != "```");
+        let lines = lines.map(|line| line.split("  ").next().unwrap_or_default());
+        let expected = lines.collect::<Vec<_>>().join("\n") + "\n";
+        let expected = expected
+            .replace("object vase", "object V_se")
+            .replace("surface 0", "surface 5")
+            .replace("1024", "0")
+            .replace("1856", "0");
+        assert_eq!(text, expected);
+    }
+}

@@ -1,0 +1,104 @@
+//! Vertices that carry everything: position, normal and picture coordinates under one index.
+//!
+//! OBJ and [`TriMesh`] share the three separately; most other formats know only whole vertices. A
+//! position is split where picture coordinates or normals differ: along a seam, a crease, and at a
+//! pole into one vertex for each triangle. It is not split where they only have
+//! different numbers and the same value.
+
+use crate::TriMesh;
+use std::collections::HashMap;
+
+/// The triangles of a mesh over whole vertices.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct SplitMesh {
+    /// Vertices in the order in which triangles first use them; none is unused.
+    pub vertices: Vec<SplitVertex>,
+    /// Three indices each, from 0, in the order and with the winding of the mesh.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+/// All that is known of a vertex.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SplitVertex {
+    /// The point, in the grid's unit.
+    pub position: [f32; 3],
+    /// Unit normal, outward.
+    pub normal: [f32; 3],
+    /// Picture coordinates.
+    pub uv: [f32; 2],
+}
+
+/// What makes a vertex: the number of its position, and the bits of the rest.
+type Key = (u32, [u32; 3], [u32; 2]);
+
+impl SplitMesh {
+    /// Splits the vertices of a mesh.
+    ///
+    /// # Panics
+    /// When an index of the mesh points nowhere, as [`TriMesh::validate`] tells, or there are more
+    /// than 2^32 vertices, which no grid makes.
+    #[must_use]
+    pub fn of(mesh: &TriMesh) -> Self {
+        let mut split = Self::default();
+        // Only looked up, never walked through: its order decides nothing.
+        let mut known: HashMap<Key, u32> = HashMap::with_capacity(mesh.positions.len());
+        split.triangles.reserve_exact(mesh.triangles.len());
+        for triangle in &mesh.triangles {
+            split.triangles.push([0, 1, 2].map(|corner| {
+                let position = triangle.position[corner];
+                let normal = mesh.normals[triangle.normal[corner] as usize];
+                let uv = mesh.uvs[triangle.uv[corner] as usize];
+                let key = (position, normal.map(f32::to_bits), uv.map(f32::to_bits));
+                *known.entry(key).or_insert_with(|| {
+                    let number = u32::try_from(split.vertices.len()).expect("at most 2^32");
+                    let position = mesh.positions[position as usize];
+                    split.vertices.push(SplitVertex { position, normal, uv });
+                    number
+                })
+            }));
+        }
+        split
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Triangle;
+
+    /// Two triangles of a square; the second has numbers of its own for what the first has too.
+    fn square(uvs: Vec<[f32; 2]>, normals: Vec<[f32; 3]>) -> TriMesh {
+        TriMesh {
+            positions: vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]],
+            uvs,
+            normals,
+            triangles: vec![
+                Triangle { position: [0, 1, 2], uv: [0; 3], normal: [0; 3] },
+                Triangle { position: [0, 2, 3], uv: [1; 3], normal: [1; 3] },
+            ],
+            ..TriMesh::default()
+        }
+    }
+
+    #[test]
+    fn equal_values_are_one_vertex_and_different_ones_are_two() {
+        let (up, tilted) = ([0.0, 0.0, 1.0], [0.6, 0.0, 0.8]);
+        for (uvs, normals, expected) in [
+            ([[0.0; 2]; 2], [up; 2], vec![[0, 1, 2], [0, 2, 3]]),
+            ([[0.0; 2], [1.0, 0.0]], [up; 2], vec![[0, 1, 2], [3, 4, 5]]),
+            ([[0.0; 2]; 2], [up, tilted], vec![[0, 1, 2], [3, 4, 5]]),
+        ] {
+            let mesh = square(uvs.into(), normals.into());
+            let split = SplitMesh::of(&mesh);
+            assert_eq!(split.triangles, expected);
+            for (triangle, corners) in mesh.triangles.iter().zip(&split.triangles) {
+                for (corner, &vertex) in corners.iter().enumerate() {
+                    let found = split.vertices[vertex as usize];
+                    assert_eq!(found.position, mesh.positions[triangle.position[corner] as usize]);
+                    assert_eq!(found.normal, mesh.normals[triangle.normal[corner] as usize]);
+                    assert_eq!(found.uv, mesh.uvs[triangle.uv[corner] as usize]);
+                }
+            }
+        }
+    }
+}
