@@ -258,7 +258,8 @@ fn joined(models: &[tobj::Model], names: Vec<String>) -> Mesh {
     let mut mesh = Mesh::default();
     let mut surface_of = vec![NONE; names.len()];
     for tobj::Model { mesh: model, .. } in models {
-        let name = model.material_id.unwrap_or(0);
+        // Each `mtllib` line of the file gives tobj the same names once more.
+        let name = model.material_id.unwrap_or(0) % names.len();
         if !model.indices.is_empty() && surface_of[name] == NONE {
             surface_of[name] = mesh.surfaces.len() as u32;
             mesh.surfaces.push(names[name].clone());
@@ -310,6 +311,16 @@ mod tests {
         assert_eq!(mesh.triangles.iter().map(|t| t.surface).collect::<Vec<_>>(), [0, 0, 1]);
         assert_eq!(mesh.corners(1), [[0., 0., 0.], [1., 1., 0.], [0., 1., 0.]]);
         assert_eq!(mesh.triangles[0].normal, [NONE; 3]);
+    }
+
+    #[test]
+    fn material_files_are_passed_over() {
+        let text = format!(
+            "mtllib a.mtl b.mtl\n{SQUARE}usemtl wood\nf 1/1 2/2 3/3\nmtllib names\nusemtl tex1_surf0\nf 1/1 3/3 4/4\n"
+        );
+        let mesh = read("a.obj", text.as_bytes()).unwrap();
+        assert_eq!(mesh.surfaces, ["wood", "tex1_surf0"]);
+        assert_eq!(mesh.triangles.iter().map(|t| t.surface).collect::<Vec<_>>(), [0, 1]);
     }
 
     #[test]
