@@ -6,6 +6,7 @@
 //! | [`Sweep`]      | a spec that has been checked, and the grid it gives                 |
 //! | [`contour`]    | the curve that is swept; columns, creases                           |
 //! | [`trajectory`] | the curve it follows; stations, normals in closed form              |
+//! | [`law`]        | numbers that change along the trajectory                            |
 //! | [`frame`]      | rotation-minimizing frames                                          |
 //! | [`curve`]      | cubic Bezier paths by arc length, splines, SVG                      |
 //! | [`grid`]       | the grid and its file                                               |
@@ -27,6 +28,7 @@ pub mod curve;
 pub mod error;
 pub mod frame;
 pub mod grid;
+pub mod law;
 mod read;
 pub mod spec;
 mod sweep;

@@ -70,6 +70,10 @@
 //! normals. A trajectory may not: it would need a mitre, and is refused. A rotation wants contour x
 //! of at least 0; where it is 0 the surface has a pole. Points given twice count once.
 
+mod law;
+
+pub use law::{Ease, Law, Scale};
+
 use crate::grid::UvLayout;
 use serde::{Deserialize, Serialize};
 
@@ -228,12 +232,15 @@ impl TryFrom<ContourKeys> for Contour {
     type Error = String;
 
     fn try_from(keys: ContourKeys) -> Result<Self, String> {
-        only([
-            ("circle", keys.circle.map(Self::Circle)),
-            ("bezier", keys.bezier.map(Self::Bezier)),
-            ("svg", keys.svg.map(Self::Svg)),
-            ("free", keys.free.map(Self::Free)),
-        ])
+        only(
+            "curve",
+            [
+                ("circle", keys.circle.map(Self::Circle)),
+                ("bezier", keys.bezier.map(Self::Bezier)),
+                ("svg", keys.svg.map(Self::Svg)),
+                ("free", keys.free.map(Self::Free)),
+            ],
+        )
     }
 }
 
@@ -255,18 +262,21 @@ impl TryFrom<TrajectoryKeys> for Trajectory {
     type Error = String;
 
     fn try_from(keys: TrajectoryKeys) -> Result<Self, String> {
-        only([
-            ("line", keys.line.map(Self::Line)),
-            ("circle", keys.circle.map(Self::Circle)),
-            ("bezier", keys.bezier.map(Self::Bezier)),
-            ("free", keys.free.map(Self::Free)),
-            ("rotation", keys.rotation.map(Self::Rotation)),
-        ])
+        only(
+            "curve",
+            [
+                ("line", keys.line.map(Self::Line)),
+                ("circle", keys.circle.map(Self::Circle)),
+                ("bezier", keys.bezier.map(Self::Bezier)),
+                ("free", keys.free.map(Self::Free)),
+                ("rotation", keys.rotation.map(Self::Rotation)),
+            ],
+        )
     }
 }
 
-/// The one value that is there.
-fn only<T, const N: usize>(keys: [(&str, Option<T>); N]) -> Result<T, String> {
+/// The one value of a kind that is there.
+fn only<T, const N: usize>(kind: &str, keys: [(&str, Option<T>); N]) -> Result<T, String> {
     let names = keys.each_ref().map(|key| key.0).join(", ");
     let mut given = keys.into_iter().filter_map(|(name, value)| value.map(|value| (name, value)));
     match (given.next(), given.next()) {
@@ -274,7 +284,7 @@ fn only<T, const N: usize>(keys: [(&str, Option<T>); N]) -> Result<T, String> {
         (Some((first, _)), Some((second, _))) => {
             Err(format!("found both `{first}` and `{second}`, expected one of {names}"))
         }
-        (None, _) => Err(format!("found no curve, expected one of {names}")),
+        (None, _) => Err(format!("found no {kind}, expected one of {names}")),
     }
 }
 
