@@ -124,14 +124,19 @@ impl Contour {
     pub fn columns(&self, cells: usize) -> Vec<Column> {
         let cells = cells.max(self.fewest_cells());
         match &self.0 {
-            Form::Circle { radius } => (0..cells)
-                .map(|i| {
-                    let u = i as f64 / cells as f64;
-                    let point = turn(u);
-                    Column { u, point: point * *radius, tangent: point.perp() }
-                })
-                .collect(),
+            Form::Circle { radius } => {
+                (0..cells).map(|i| on_circle(*radius, i as f64 / cells as f64)).collect()
+            }
             Form::Path { path, creases } => columns_of(path, creases, cells),
+        }
+    }
+
+    /// The place at `u`, a fraction of the length; at a crease that of the side after.
+    #[must_use]
+    pub fn at(&self, u: f64) -> Column {
+        match &self.0 {
+            Form::Circle { radius } => on_circle(*radius, u),
+            Form::Path { path, .. } => on_path(path, u, path.locate(u * path.length())),
         }
     }
 
@@ -144,13 +149,18 @@ impl Contour {
     }
 }
 
+fn on_circle(radius: f64, u: f64) -> Column {
+    let point = turn(u);
+    Column { u, point: point * radius, tangent: point.perp() }
+}
+
+fn on_path(path: &Path<DVec2>, u: f64, place: Place) -> Column {
+    Column { u, point: path.point(place), tangent: path.tangent(place) }
+}
+
 fn columns_of(path: &Path<DVec2>, creases: &[Joint], cells: usize) -> Vec<Column> {
     let length = path.length();
-    let column = |s: f64, place: Place| Column {
-        u: s / length,
-        point: path.point(place),
-        tangent: path.tangent(place),
-    };
+    let column = |s: f64, place: Place| on_path(path, s / length, place);
     let mut columns = Vec::with_capacity(cells + creases.len() + 1);
     let mut inner = creases;
     if let Some(first) = creases.first().filter(|joint| joint.s == 0.0) {

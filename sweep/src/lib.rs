@@ -7,6 +7,7 @@
 //! | [`contour`]    | the curve that is swept; columns, creases                           |
 //! | [`trajectory`] | the curve it follows; stations, normals in closed form              |
 //! | [`law`]        | numbers that change along the trajectory                            |
+//! | [`modulation`] | the contour scaled and twisted on its way                          |
 //! | [`frame`]      | rotation-minimizing frames                                          |
 //! | [`curve`]      | cubic Bezier paths by arc length, splines, SVG                      |
 //! | [`grid`]       | the grid and its file                                               |
@@ -29,6 +30,7 @@ pub mod error;
 pub mod frame;
 pub mod grid;
 pub mod law;
+pub mod modulation;
 mod read;
 pub mod spec;
 mod sweep;

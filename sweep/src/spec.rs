@@ -11,8 +11,8 @@
 //! }
 //! ```
 //!
-//! Lengths are in any one unit; angles are in degrees. `uv`, `position` and `frame` may be
-//! left out, and inside the objects `closed` (false), `center` and `origin` (zero), `axis` (y) and
+//! Lengths are in any one unit; angles are in degrees. `uv`, `position`, `frame`, `scale` and
+//! `twist` may be left out, and inside the objects `closed` (false), `center` and `origin` (zero), `axis` (y) and
 //! `angle_deg` (360). Unknown keys are errors. A **contour** is one of
 //!
 //! | contour                                         | what                                         |
@@ -64,6 +64,35 @@
 //!
 //! A spec can choose for itself what `w1` starts toward: `"frame": {"start": [x, y, z]}`.
 //!
+//! # Laws: scale and twist
+//!
+//! A **law** is a number that may change along the trajectory, by the fraction `at` of its length:
+//!
+//! | law                                             | what                                         |
+//! |-------------------------------------------------|----------------------------------------------|
+//! | `x`                                             | the same number everywhere                   |
+//! | `{"keys": [[at, x], ...], "ease": "smooth"}`    | from key to key, `linear` (the default) or `smooth`; held outside |
+//! | `{"bezier": [[[at, x], ... four], ...]}`        | the graph of a curve, along which `at` rises; held outside |
+//! | `{"total": x}`                                  | from 0 at the start evenly to x at the end   |
+//!
+//! ```json
+//! {
+//!   "format": "tb-sweep", "version": 1, "name": "drill",
+//!   "contour": { "svg": "M1 1H-1V-1H1Z" },
+//!   "trajectory": { "line": [[0, 0, 0], [0, 9, 0]] },
+//!   "scale": [{ "keys": [[0, 0], [0.3, 1]], "ease": "smooth" }, { "bezier": [[[0, 0], [0, 0.8], [0.5, 1], [1, 1]]] }],
+//!   "twist": { "total": 270 },
+//!   "mesh": { "rows": 90, "cols": 40 }
+//! }
+//! ```
+//!
+//! `scale` is one law for both axes of the contour or two, for x and y; it is not negative, and where
+//! it is 0 the surface has a pole. `twist` then turns the contour about the trajectory, in degrees,
+//! right-handed about its direction. Along a closed trajectory a scale ends as it starts, and a
+//! twist ends a multiple of 360 degrees from there, since each column meets itself. About the axis
+//! of a rotation there is no twist; its scale stays above 0, and wants a contour off the axis.
+//! A law whose derivative jumps, as linear keys do, gives the surface an edge with one normal.
+//!
 //! # Corners
 //!
 //! A contour may have corners; one of more than a degree is a crease, where the surface has two
@@ -100,6 +129,12 @@ pub struct Spec {
     /// How the frame starts, where the trajectory leaves that open.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frame: Option<FrameStart>,
+    /// Factors of the contour along the trajectory.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scale: Option<Scale>,
+    /// Turn of the contour about the trajectory, in degrees.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub twist: Option<Law>,
     /// How finely.
     pub mesh: Mesh,
     /// How a picture lies on the surface.
@@ -311,7 +346,7 @@ mod tests {
             .collect();
         let snippets: Vec<&str> =
             page.split("```json").skip(1).filter_map(|rest| rest.split("```").next()).collect();
-        assert_eq!(snippets.len(), 2);
+        assert_eq!(snippets.len(), 3);
         for snippet in snippets {
             let document = Document::new("snippet", snippet.as_bytes()).unwrap();
             let sweep = Sweep::read(&document).unwrap_or_else(|error| panic!("{error}"));

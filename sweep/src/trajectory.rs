@@ -76,6 +76,14 @@ impl Trajectory {
         }
     }
 
+    /// What laws are differentiated by: the length, or the angle of a rotation in radians.
+    pub(crate) fn extent(&self) -> f64 {
+        match &self.0 {
+            Form::Turn { radius: 0.0, fraction, .. } => TAU * fraction,
+            _ => self.length(),
+        }
+    }
+
     /// The fewest cells along the trajectory: three around.
     #[must_use]
     pub fn fewest_cells(&self) -> usize {
@@ -131,6 +139,21 @@ impl Station {
         origin + normal * q.x + binormal * q.y
     }
 
+    /// The same place with the contour turned about the tangent by a fraction of a full turn, which
+    /// changes at `rate` radians by length. Right-handed: from w1 toward w2.
+    pub(crate) fn turned(self, fraction: f64, rate: f64) -> Self {
+        let angle = turn(fraction);
+        let Frame { normal, binormal, .. } = self.frame;
+        let frame = Frame {
+            normal: normal * angle.x + binormal * angle.y,
+            binormal: binormal * angle.x - normal * angle.y,
+            ..self.frame
+        };
+        // The same vector in space, on the new axes.
+        let bend = DVec2::new(angle.x, -angle.y).rotate(self.bend);
+        Self { frame, bend, spin: self.spin + rate, ..self }
+    }
+
     /// How far the point over `q` moves along the tangent, by length of the trajectory at the
     /// origin (by radian, for a rotation). Not above 0 where the surface folds back on itself.
     #[must_use]
@@ -153,6 +176,18 @@ impl Station {
         }
         let across = outward * stretch + tangent * (self.spin * q.dot(q_u));
         across.try_normalize().unwrap_or(outward)
+    }
+
+    /// The same as [`Station::normal`] for a contour that changes on its way: `q_u` is along it, of
+    /// any length, and `q_s` is how its point moves on it by length of the trajectory.
+    #[must_use]
+    pub(crate) fn normal_of_moving(&self, q: DVec2, q_u: DVec2, q_s: DVec2) -> DVec3 {
+        let Frame { tangent, normal, binormal, .. } = self.frame;
+        let outward = normal * q_u.y - binormal * q_u.x;
+        let moving = q_s + q.perp() * self.spin;
+        let across = outward * self.stretch(q) + tangent * q_u.perp_dot(moving);
+        // A contour pressed flat has no direction where it turns back.
+        across.try_normalize().or(outward.try_normalize()).unwrap_or(normal)
     }
 }
 

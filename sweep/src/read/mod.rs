@@ -1,6 +1,8 @@
 //! From a spec to a [`Sweep`]: every value is looked at before any work is done.
 
 mod contour;
+mod law;
+mod modulation;
 mod trajectory;
 
 use crate::curve::vector::extent;
@@ -57,9 +59,11 @@ pub fn read(document: &Document) -> Result<Sweep, SweepError> {
         }
         contour = contour.rotated(ON_AXIS * high);
     }
+    let modulation = reader.modulation(&spec, &contour, &trajectory)?;
     let sweep = Sweep {
         name: spec.name,
         contour,
+        modulation,
         trajectory,
         rows: spec.mesh.rows,
         cols: spec.mesh.cols,
