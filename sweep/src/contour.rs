@@ -24,6 +24,8 @@ pub struct Column {
     pub point: DVec2,
     /// The unit tangent; at a crease that of one side.
     pub tangent: DVec2,
+    /// Turn of the tangent by length, above 0 to the left; 0 where it has no bound.
+    pub curvature: f64,
 }
 
 /// A contour, checked: it has a length, and a closed one runs counter-clockwise.
@@ -151,11 +153,13 @@ impl Contour {
 
 fn on_circle(radius: f64, u: f64) -> Column {
     let point = turn(u);
-    Column { u, point: point * radius, tangent: point.perp() }
+    Column { u, point: point * radius, tangent: point.perp(), curvature: 1.0 / radius }
 }
 
 fn on_path(path: &Path<DVec2>, u: f64, place: Place) -> Column {
-    Column { u, point: path.point(place), tangent: path.tangent(place) }
+    let tangent = path.tangent(place);
+    let curvature = tangent.perp_dot(path.curvature(place));
+    Column { u, point: path.point(place), tangent, curvature }
 }
 
 fn columns_of(path: &Path<DVec2>, creases: &[Joint], cells: usize) -> Vec<Column> {
@@ -246,7 +250,8 @@ mod tests {
         let circle = Contour::circle(2.0);
         assert_eq!(circle.length(), 4.0 * PI);
         let columns = circle.columns(4);
-        assert_eq!(columns[1], Column { u: 0.25, point: DVec2::Y * 2.0, tangent: DVec2::NEG_X });
+        let (point, tangent) = (DVec2::Y * 2.0, DVec2::NEG_X);
+        assert_eq!(columns[1], Column { u: 0.25, point, tangent, curvature: 0.5 });
         assert_eq!(us(&columns), [0.0, 0.25, 0.5, 0.75]);
     }
 

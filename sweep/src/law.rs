@@ -149,9 +149,9 @@ fn parameter(segment: &Cubic<DVec2>, at: f64) -> f64 {
             break;
         }
         if off > 0.0 {
-            high = t
+            high = t;
         } else {
-            low = t
+            low = t;
         }
         let step = t - off / segment.velocity(t).x;
         let next = if step > low && step < high { step } else { 0.5 * (low + high) };

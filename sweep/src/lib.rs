@@ -7,6 +7,7 @@
 //! | [`contour`]    | the curve that is swept; columns, creases                           |
 //! | [`trajectory`] | the curve it follows; stations, normals in closed form              |
 //! | [`law`]        | numbers that change along the trajectory                            |
+//! | [`depth`]      | relief on the contour, in waves                                     |
 //! | [`modulation`] | the contour scaled and twisted on its way                          |
 //! | [`frame`]      | rotation-minimizing frames                                          |
 //! | [`curve`]      | cubic Bezier paths by arc length, splines, SVG                      |
@@ -26,6 +27,7 @@
 
 pub mod contour;
 pub mod curve;
+pub mod depth;
 pub mod error;
 pub mod frame;
 pub mod grid;

@@ -1,6 +1,7 @@
-//! How the contour changes on its way: scaled along its axes, then turned about the trajectory.
+//! How the contour changes on its way: given a relief, scaled along its axes, then turned about the
+//! trajectory.
 //!
-//! With `q(u, s)` the contour's point after scaling, on a frame that turns by `phi(s)` more than it
+//! With `q(u, s)` the contour's point after relief and scale, on a frame that turns by `phi(s)` more than it
 //! must, and the trajectory's curvature `k` on that frame's `(w1, w2)`,
 //!
 //! ```text
@@ -16,6 +17,7 @@
 //! vertically.
 
 use crate::contour::Column;
+use crate::depth::{Depth, Raised, Relief};
 use crate::law::Law;
 use crate::trajectory::{Station, Trajectory};
 use glam::{DVec2, DVec3};
@@ -27,6 +29,8 @@ pub struct Modulation {
     pub(crate) scale: Option<[Law; 2]>,
     /// Turn about the trajectory, in degrees as in the file.
     pub(crate) twist: Option<Law>,
+    /// Relief on the contour, under the scale.
+    pub(crate) depth: Option<Depth>,
 }
 
 /// A contour in its place on the trajectory, with all that has changed there.
@@ -36,6 +40,9 @@ pub struct Section {
     scale: DVec2,
     /// Derivative of the scale by length of the trajectory; by radian for a rotation.
     scale_s: DVec2,
+    relief: Option<Relief>,
+    /// Length of the trajectory, by which derivatives by `v` become those by length.
+    extent: f64,
     /// Whether the contour is as it was drawn.
     plain: bool,
 }
@@ -47,6 +54,8 @@ struct Local {
     /// Direction of the contour, divided by the scale: it does not vanish with it.
     q_u: DVec2,
     q_s: DVec2,
+    /// Whether the contour itself folds back.
+    folds: bool,
 }
 
 impl Modulation {
@@ -54,7 +63,8 @@ impl Modulation {
     #[must_use]
     pub fn section(&self, trajectory: &Trajectory, v: f64) -> Section {
         let station = trajectory.station(v);
-        let pace = 1.0 / trajectory.extent();
+        let extent = trajectory.extent();
+        let pace = 1.0 / extent;
         let station = match &self.twist {
             Some(law) => {
                 let (degrees, slope) = law.at(v);
@@ -69,7 +79,9 @@ impl Modulation {
             }
             None => (DVec2::ONE, DVec2::ZERO),
         };
-        Section { station, scale, scale_s, plain: self.scale.is_none() }
+        let relief = self.depth.as_ref().map(|depth| depth.at(v));
+        let plain = self.scale.is_none() && relief.is_none();
+        Section { station, scale, scale_s, relief, extent, plain }
     }
 }
 
@@ -86,21 +98,31 @@ impl Section {
         if self.plain {
             return self.station.normal(column.point, column.tangent);
         }
-        let Local { q, q_u, q_s } = self.local(column);
+        let Local { q, q_u, q_s, .. } = self.local(column);
         self.station.normal_of_moving(q, q_u, q_s)
     }
 
     /// Whether the surface folds back on itself here.
     #[must_use]
     pub fn folds(&self, column: &Column) -> bool {
-        self.station.stretch(self.local(column).q) < 0.0
+        let local = self.local(column);
+        local.folds || self.station.stretch(local.q) < 0.0
     }
 
     fn local(&self, column: &Column) -> Local {
-        let Column { point, tangent, .. } = *column;
+        let Raised { point, along, across, folds } = match &self.relief {
+            Some(relief) => relief.on(column),
+            None => Raised {
+                point: column.point,
+                along: column.tangent,
+                across: DVec2::ZERO,
+                folds: false,
+            },
+        };
         // The proportion of the axes; where both are 0 it is that in which they leave it.
         let axes = if self.scale == DVec2::ZERO { self.scale_s.abs() } else { self.scale };
         let axes = if axes == DVec2::ZERO { DVec2::ONE } else { axes / axes.max_element() };
-        Local { q: self.scale * point, q_u: axes * tangent, q_s: self.scale_s * point }
+        let q_s = self.scale_s * point + self.scale * (across / self.extent);
+        Local { q: self.scale * point, q_u: axes * along, q_s, folds }
     }
 }

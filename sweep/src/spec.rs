@@ -11,8 +11,8 @@
 //! }
 //! ```
 //!
-//! Lengths are in any one unit; angles are in degrees. `uv`, `position`, `frame`, `scale` and
-//! `twist` may be left out, and inside the objects `closed` (false), `center` and `origin` (zero), `axis` (y) and
+//! Lengths are in any one unit; angles are in degrees. `uv`, `position`, `frame`, `scale`,
+//! `twist` and `depth` may be left out, and inside the objects `closed` (false), `center` and `origin` (zero), `axis` (y) and
 //! `angle_deg` (360). Unknown keys are errors. A **contour** is one of
 //!
 //! | contour                                         | what                                         |
@@ -93,14 +93,34 @@
 //! of a rotation there is no twist; its scale stays above 0, and wants a contour off the axis.
 //! A law whose derivative jumps, as linear keys do, gives the surface an edge with one normal.
 //!
+//! # Depth
+//!
+//! `depth` is a relief on the contour, made of waves: `delta` is the sum over `terms` of
+//! `amp * along(v) * sin(2 pi (u_count u + v_count v) + phase)`. Where `mode` is `factor` the contour
+//! is multiplied by `1 + delta`, which must stay above 0; where it is `offset` the contour, which has
+//! no corners then, is moved along its outer normal by `delta`. The rest acts on the contour with its
+//! relief. Counts are whole along closed curves; all keys of a term but `amp` may be left out.
+//!
+//! ```json
+//! {
+//!   "format": "tb-sweep", "version": 1, "name": "candle",
+//!   "contour": { "circle": 0.4 },
+//!   "trajectory": { "line": [[0, 0, 0], [0, 2, 0]] },
+//!   "depth": { "mode": "offset", "terms": [{ "amp": 0.05, "u": 8, "v": 1.5, "phase_deg": 90, "along": { "total": 1 } }] },
+//!   "mesh": { "rows": 60, "cols": 96 }
+//! }
+//! ```
+//!
 //! # Corners
 //!
 //! A contour may have corners; one of more than a degree is a crease, where the surface has two
 //! normals. A trajectory may not: it would need a mitre, and is refused. A rotation wants contour x
 //! of at least 0; where it is 0 the surface has a pole. Points given twice count once.
 
+mod depth;
 mod law;
 
+pub use depth::{Depth, DepthMode, DepthTerm};
 pub use law::{Ease, Law, Scale};
 
 use crate::grid::UvLayout;
@@ -135,6 +155,9 @@ pub struct Spec {
     /// Turn of the contour about the trajectory, in degrees.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub twist: Option<Law>,
+    /// Relief on the contour.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub depth: Option<Depth>,
     /// How finely.
     pub mesh: Mesh,
     /// How a picture lies on the surface.
@@ -346,7 +369,7 @@ mod tests {
             .collect();
         let snippets: Vec<&str> =
             page.split("```json").skip(1).filter_map(|rest| rest.split("```").next()).collect();
-        assert_eq!(snippets.len(), 3);
+        assert_eq!(snippets.len(), 4);
         for snippet in snippets {
             let document = Document::new("snippet", snippet.as_bytes()).unwrap();
             let sweep = Sweep::read(&document).unwrap_or_else(|error| panic!("{error}"));

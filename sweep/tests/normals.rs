@@ -90,6 +90,24 @@ fn trajectories() -> [(Value, bool); 4] {
     ]
 }
 
+fn depth(closed: bool) -> impl Strategy<Value = Value> {
+    let term = (-1.0..1.0, 0..9, 0..4, 0.0..360.0, law(0.0, 1.0, closed));
+    let terms = prop::collection::vec(term, 0..3);
+    (terms, any::<bool>()).prop_map(|(terms, factor)| {
+        if terms.is_empty() {
+            return Value::Null;
+        }
+        let (mode, size) = if factor { ("factor", 0.2) } else { ("offset", 0.03) };
+        let terms: Vec<Value> = terms
+            .into_iter()
+            .map(|(amp, u, v, phase, along)| {
+                json!({"amp": amp * size, "u": u, "v": v, "phase_deg": phase, "along": along})
+            })
+            .collect();
+        json!({"mode": mode, "terms": terms})
+    })
+}
+
 fn laws(closed: bool) -> impl Strategy<Value = Value> {
     let twist = if closed {
         prop_oneof![Just(json!({"total": 360})), Just(json!({"total": -720}))].boxed()
@@ -97,9 +115,12 @@ fn laws(closed: bool) -> impl Strategy<Value = Value> {
         law(-200.0, 200.0, false).boxed()
     };
     let scale = (law(0.4, 1.2, closed), law(0.4, 1.2, closed), any::<bool>());
-    (scale, twist).prop_map(|((x, y, both), twist)| {
+    (scale, twist, depth(closed)).prop_map(|((x, y, both), twist, depth)| {
         let scale = if both { x } else { json!([x, y]) };
-        json!({"scale": scale, "twist": twist})
+        let laws = json!({"scale": scale, "twist": twist, "depth": depth});
+        // Each of them comes alone and with the others.
+        let keys = laws.as_object().unwrap().iter().filter(|(_, value)| !value.is_null());
+        Value::Object(keys.map(|(key, value)| (key.clone(), value.clone())).collect())
     })
 }
 
@@ -122,16 +143,18 @@ proptest! {
 }
 
 #[test]
-fn normals_of_a_scaled_rotation_agree_with_differences() {
+fn normals_of_a_modulated_rotation_agree_with_differences() {
     let smooth = json!({"keys": [[0, 1], [0.5, 2], [1, 1]], "ease": "smooth"});
-    let sweep = swept(
-        &json!({"bezier": {"segments": [[[0.3, 0], [0.9, 0.1], [0.7, 0.6], [0.5, 1]]]}}),
-        &json!({"rotation": {}}),
-        &json!({"scale": [smooth, {"keys": [[0, 2], [0.5, 1], [1, 2]]}]}),
-    );
-    let worst = worst_normal(&sweep, &JOINTS);
-    println!("{worst:.1e}");
-    assert!(worst < 1e-8, "{worst:e}");
+    let contour = json!({"bezier": {"segments": [[[0.3, 0], [0.9, 0.1], [0.7, 0.6], [0.5, 1]]]}});
+    for mode in ["factor", "offset"] {
+        let laws = json!({
+            "scale": [smooth, {"keys": [[0, 2], [0.5, 1], [1, 2]]}],
+            "depth": {"mode": mode, "terms": [{"amp": 0.1, "u": 1.5, "v": 5}]},
+        });
+        let worst = worst_normal(&swept(&contour, &json!({"rotation": {}}), &laws), &JOINTS);
+        println!("{worst:.1e}");
+        assert!(worst < 1e-8, "{worst:e}");
+    }
 }
 
 #[test]
@@ -206,4 +229,30 @@ fn folds_are_counted_on_the_contour_as_it_is_scaled() {
     assert_eq!(folded(json!({"scale": {"keys": [[0, 1], [1, 2]]}})), 22);
     // Turned by a half, the long side points outward.
     assert_eq!(folded(json!({"scale": 1.2, "twist": 180})), 0);
+}
+
+#[test]
+fn a_relief_of_a_circle_is_the_wave_it_says() {
+    let line = json!({"line": [[0, 0, 0], [0, 0, 1]]});
+    let term = json!({"amp": 0.1, "u": 5, "v": 2, "phase_deg": 30, "along": {"total": 1}});
+    for (mode, factor) in [("factor", 2.0), ("offset", 1.0)] {
+        let laws = json!({"depth": {"mode": mode, "terms": [term]}});
+        let sweep = swept(&json!({"circle": 2}), &line, &laws);
+        for (u, v) in [(0.0, 0.0), (0.13, 0.4), (0.7, 1.0)] {
+            let wave = (std::f64::consts::TAU * (5.0 * u + 2.0 * v + 1.0 / 12.0)).sin();
+            let radius = sweep.at(u, v).0.truncate().length();
+            assert!((radius - (2.0 + factor * 0.1 * v * wave)).abs() < 1e-14);
+        }
+    }
+}
+
+#[test]
+fn an_offset_deeper_than_the_contour_bends_is_a_fold() {
+    let line = json!({"line": [[0, 0, 0], [0, 0, 1]]});
+    let folded = |amp: f64| {
+        let laws = json!({"depth": {"mode": "offset", "terms": [{"amp": amp, "phase_deg": 90,
+            "along": {"keys": [[0.5, 0], [1, 1]]}}]}});
+        swept(&json!({"circle": 1}), &line, &laws).folded_rows()
+    };
+    assert_eq!([folded(2.0), folded(-0.9), folded(-2.0)], [0, 0, 6]);
 }

@@ -1,6 +1,7 @@
 //! From a spec to a [`Sweep`]: every value is looked at before any work is done.
 
 mod contour;
+mod depth;
 mod law;
 mod modulation;
 mod trajectory;

@@ -24,11 +24,13 @@ impl Reader<'_> {
         }
         let scale = spec.scale.as_ref().map(|scale| self.scale(scale, trajectory)).transpose()?;
         let twist = spec.twist.as_ref().map(|twist| self.twist(twist, trajectory)).transpose()?;
-        Ok(Modulation { scale, twist })
+        let depth =
+            spec.depth.as_ref().map(|depth| self.depth(depth, contour, trajectory)).transpose()?;
+        Ok(Modulation { scale, twist, depth })
     }
 
     /// Refuses what would move the pole that a contour makes on the axis of a rotation.
-    fn off_axis(&self, path: &str, contour: &Contour) -> Result<(), SweepError> {
+    pub(super) fn off_axis(&self, path: &str, contour: &Contour) -> Result<(), SweepError> {
         let (low, high) = contour.x_range();
         if low > ON_AXIS * high {
             return Ok(());
@@ -98,7 +100,12 @@ impl Reader<'_> {
     }
 
     /// Refuses a law that ends otherwise than it starts, along a closed trajectory.
-    fn ends_meet(&self, path: &str, law: &Law, trajectory: &Trajectory) -> Result<(), SweepError> {
+    pub(super) fn ends_meet(
+        &self,
+        path: &str,
+        law: &Law,
+        trajectory: &Trajectory,
+    ) -> Result<(), SweepError> {
         let [start, end] = law.ends();
         if !trajectory.closed() || (end - start).abs() <= SAME * start.abs().max(end.abs()) {
             return Ok(());
