@@ -28,6 +28,7 @@
 //! |-------------------------------------------------|----------------------------------------------|
 //! | `{"line": [A, B]}`                              | a straight line                              |
 //! | `{"circle": {"radius": r, ...}}`                | a circle or, by `angle_deg`, a part of it      |
+//! | `{"helix": {"radius": r, "rise": h, "turns": n, ...}}` | a helix that rises by h in each turn |
 //! | `{"bezier": {"closed": c, "segments": [S, ...]}}` | cubics; `S` is four points `[x, y, z]`     |
 //! | `{"free": {"closed": c, "points": [P, ...]}}`   | a C2 spline through points `[x, y, z]`       |
 //! | `{"rotation": {"angle_deg": d, ...}}`             | contour x is the distance from an axis, y the height on it |
@@ -56,7 +57,9 @@
 //!
 //! On a circle and a rotation `w1` points away from the axis and `w2` along it. They start where
 //! `w1` is as near as can be to the coordinate axis least aligned with their axis (x before y
-//! before z): with the axis at y on the side of +x, from where they run toward +z.
+//! before z): with the axis at y on the side of +x, from where they run toward +z. So does a helix,
+//! which is left-handed then if it rises, and right-handed if its turns are below 0; on its way its
+//! frame turns as little as it can.
 //!
 //! Any other trajectory starts with `w1` as near as can be to the coordinate axis least aligned
 //! with its direction. From there the frame turns about the trajectory as little as it can, and
@@ -118,9 +121,11 @@
 //! of at least 0; where it is 0 the surface has a pole. Points given twice count once.
 
 mod depth;
+mod helix;
 mod law;
 
 pub use depth::{Depth, DepthMode, DepthTerm};
+pub use helix::Helix;
 pub use law::{Ease, Law, Scale};
 
 use crate::grid::UvLayout;
@@ -190,6 +195,8 @@ pub enum Trajectory {
     Line([[f64; 3]; 2]),
     /// A circle or an arc of one.
     Circle(Circle),
+    /// A helix.
+    Helix(Helix),
     /// Cubic Bezier segments.
     Bezier(Bezier<[f64; 3]>),
     /// Points that a spline goes through.
@@ -306,11 +313,12 @@ impl TryFrom<ContourKeys> for Contour {
 #[derive(Deserialize)]
 #[serde(
     deny_unknown_fields,
-    expecting = "an object with one of the keys line, circle, bezier, free, rotation"
+    expecting = "an object with one of the keys line, circle, helix, bezier, free, rotation"
 )]
 struct TrajectoryKeys {
     line: Option<[[f64; 3]; 2]>,
     circle: Option<Circle>,
+    helix: Option<Helix>,
     bezier: Option<Bezier<[f64; 3]>>,
     free: Option<Free<[f64; 3]>>,
     rotation: Option<Rotation>,
@@ -325,6 +333,7 @@ impl TryFrom<TrajectoryKeys> for Trajectory {
             [
                 ("line", keys.line.map(Self::Line)),
                 ("circle", keys.circle.map(Self::Circle)),
+                ("helix", keys.helix.map(Self::Helix)),
                 ("bezier", keys.bezier.map(Self::Bezier)),
                 ("free", keys.free.map(Self::Free)),
                 ("rotation", keys.rotation.map(Self::Rotation)),

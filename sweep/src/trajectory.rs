@@ -1,6 +1,6 @@
 //! The curve that a contour follows, and the stations on it.
 
-use crate::curve::{Path, turn};
+use crate::curve::{Helix, Path, turn};
 use crate::frame::{Frame, Frames};
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
@@ -13,6 +13,7 @@ pub struct Trajectory(Form);
 enum Form {
     Line { start: Frame, end: DVec3 },
     Turn { start: Frame, radius: f64, fraction: f64 },
+    Helix(Helix),
     Path(Frames<Path<DVec3>>),
 }
 
@@ -45,6 +46,11 @@ impl Trajectory {
         Self(Form::Turn { start, radius, fraction })
     }
 
+    /// A helix.
+    pub(crate) fn helix(helix: Helix) -> Self {
+        Self(Form::Helix(helix))
+    }
+
     /// A path, with the frames along it.
     pub(crate) fn path(frames: Frames<Path<DVec3>>) -> Self {
         Self(Form::Path(frames))
@@ -60,7 +66,7 @@ impl Trajectory {
     #[must_use]
     pub fn closed(&self) -> bool {
         match &self.0 {
-            Form::Line { .. } => false,
+            Form::Line { .. } | Form::Helix(_) => false,
             Form::Turn { fraction, .. } => *fraction == 1.0,
             Form::Path(frames) => frames.curve().closed(),
         }
@@ -72,6 +78,7 @@ impl Trajectory {
         match &self.0 {
             Form::Line { start, end } => (*end - start.origin).length(),
             Form::Turn { radius, fraction, .. } => TAU * fraction * radius,
+            Form::Helix(helix) => helix.length(),
             Form::Path(frames) => frames.curve().length(),
         }
     }
@@ -113,6 +120,10 @@ impl Trajectory {
                 }
                 let frame = Frame { origin: start.origin + normal * *radius, ..frame };
                 Station { bend: DVec2::X / *radius, ..straight(frame) }
+            }
+            Form::Helix(helix) => {
+                let (frame, curvature) = helix.at(v);
+                Station { bend: -curvature, ..straight(frame) }
             }
             Form::Path(frames) => {
                 let (frame, curvature) = frames.at(v * frames.curve().length());

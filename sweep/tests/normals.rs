@@ -78,11 +78,12 @@ fn contour() -> impl Strategy<Value = Value> {
 /// Trajectories, and whether they are closed. The Bezier bends gently: where one bends sharply the
 /// frames' own error, some 1e-10 radians from node to node, divided by the step of the differences
 /// hides that of the normals.
-fn trajectories() -> [(Value, bool); 4] {
+fn trajectories() -> [(Value, bool); 5] {
     [
         (json!({"line": [[0, 0, 0], [1, 3, 0.5]]}), false),
         (json!({"circle": {"radius": 2, "angle_deg": 200}}), false),
         (json!({"circle": {"radius": 2}}), true),
+        (json!({"helix": {"radius": 2, "rise": 1.5, "turns": -1.2}}), false),
         (
             json!({"bezier": {"segments": [[[0, 0, 0], [1, 0, 0.3], [2, 0.6, 0.2], [2.8, 1.4, 0.8]]]}}),
             false,
@@ -179,7 +180,7 @@ fn a_cone_has_a_normal_for_every_column_at_its_tip() {
 fn a_round_cap_ends_along_the_trajectory() {
     let cap = json!({"bezier": [[[0, 0], [0, 0.55], [0.2, 1], [0.5, 1]],
                                 [[0.5, 1], [0.8, 1], [1, 0.55], [1, 0]]]});
-    for trajectory in [&trajectories()[0].0, &trajectories()[3].0] {
+    for trajectory in [&trajectories()[0].0, &trajectories()[4].0] {
         for scale in [cap.clone(), json!([cap, cap])] {
             let laws = json!({"scale": scale, "twist": {"total": 90}});
             let sweep = swept(&json!({"circle": 0.2}), trajectory, &laws);
