@@ -24,6 +24,8 @@ pub struct Column {
     pub point: DVec2,
     /// The unit tangent; at a crease that of one side.
     pub tangent: DVec2,
+    /// Turn of the tangent by length, above 0 to the left; 0 where it has no bound.
+    pub curvature: f64,
 }
 
 /// A contour, checked: it has a length, and a closed one runs counter-clockwise.
@@ -124,14 +126,19 @@ impl Contour {
     pub fn columns(&self, cells: usize) -> Vec<Column> {
         let cells = cells.max(self.fewest_cells());
         match &self.0 {
-            Form::Circle { radius } => (0..cells)
-                .map(|i| {
-                    let u = i as f64 / cells as f64;
-                    let point = turn(u);
-                    Column { u, point: point * *radius, tangent: point.perp() }
-                })
-                .collect(),
+            Form::Circle { radius } => {
+                (0..cells).map(|i| on_circle(*radius, i as f64 / cells as f64)).collect()
+            }
             Form::Path { path, creases } => columns_of(path, creases, cells),
+        }
+    }
+
+    /// The place at `u`, a fraction of the length; at a crease that of the side after.
+    #[must_use]
+    pub fn at(&self, u: f64) -> Column {
+        match &self.0 {
+            Form::Circle { radius } => on_circle(*radius, u),
+            Form::Path { path, .. } => on_path(path, u, path.locate(u * path.length())),
         }
     }
 
@@ -144,13 +151,20 @@ impl Contour {
     }
 }
 
+fn on_circle(radius: f64, u: f64) -> Column {
+    let point = turn(u);
+    Column { u, point: point * radius, tangent: point.perp(), curvature: 1.0 / radius }
+}
+
+fn on_path(path: &Path<DVec2>, u: f64, place: Place) -> Column {
+    let tangent = path.tangent(place);
+    let curvature = tangent.perp_dot(path.curvature(place));
+    Column { u, point: path.point(place), tangent, curvature }
+}
+
 fn columns_of(path: &Path<DVec2>, creases: &[Joint], cells: usize) -> Vec<Column> {
     let length = path.length();
-    let column = |s: f64, place: Place| Column {
-        u: s / length,
-        point: path.point(place),
-        tangent: path.tangent(place),
-    };
+    let column = |s: f64, place: Place| on_path(path, s / length, place);
     let mut columns = Vec::with_capacity(cells + creases.len() + 1);
     let mut inner = creases;
     if let Some(first) = creases.first().filter(|joint| joint.s == 0.0) {
@@ -236,7 +250,8 @@ mod tests {
         let circle = Contour::circle(2.0);
         assert_eq!(circle.length(), 4.0 * PI);
         let columns = circle.columns(4);
-        assert_eq!(columns[1], Column { u: 0.25, point: DVec2::Y * 2.0, tangent: DVec2::NEG_X });
+        let (point, tangent) = (DVec2::Y * 2.0, DVec2::NEG_X);
+        assert_eq!(columns[1], Column { u: 0.25, point, tangent, curvature: 0.5 });
         assert_eq!(us(&columns), [0.0, 0.25, 0.5, 0.75]);
     }
 

@@ -6,6 +6,9 @@
 //! | [`Sweep`]      | a spec that has been checked, and the grid it gives                 |
 //! | [`contour`]    | the curve that is swept; columns, creases                           |
 //! | [`trajectory`] | the curve it follows; stations, normals in closed form              |
+//! | [`law`]        | numbers that change along the trajectory                            |
+//! | [`depth`]      | relief on the contour, in waves                                     |
+//! | [`modulation`] | the contour scaled and twisted on its way                          |
 //! | [`frame`]      | rotation-minimizing frames                                          |
 //! | [`curve`]      | cubic Bezier paths by arc length, splines, SVG                      |
 //! | [`grid`]       | the grid and its file                                               |
@@ -24,9 +27,12 @@
 
 pub mod contour;
 pub mod curve;
+pub mod depth;
 pub mod error;
 pub mod frame;
 pub mod grid;
+pub mod law;
+pub mod modulation;
 mod read;
 pub mod spec;
 mod sweep;

@@ -136,7 +136,8 @@ fn note(sweep: &Sweep) {
     if let Some(folded) = NonZeroUsize::new(sweep.folded_rows()) {
         say(format_args!(
             "sweep: note: {}: the surface folds back on itself in {folded} rows, where the \
-             trajectory bends more sharply than the contour is wide",
+             trajectory (or, under a relief, the contour) bends more sharply than the contour (or \
+             the relief) is wide",
             sweep.name()
         ));
     }

@@ -11,8 +11,8 @@
 //! }
 //! ```
 //!
-//! Lengths are in any one unit; angles are in degrees. `uv`, `position` and `frame` may be
-//! left out, and inside the objects `closed` (false), `center` and `origin` (zero), `axis` (y) and
+//! Lengths are in any one unit; angles are in degrees. `uv`, `position`, `frame`, `scale`,
+//! `twist` and `depth` may be left out, and inside the objects `closed` (false), `center` and `origin` (zero), `axis` (y) and
 //! `angle_deg` (360). Unknown keys are errors. A **contour** is one of
 //!
 //! | contour                                         | what                                         |
@@ -28,6 +28,7 @@
 //! |-------------------------------------------------|----------------------------------------------|
 //! | `{"line": [A, B]}`                              | a straight line                              |
 //! | `{"circle": {"radius": r, ...}}`                | a circle or, by `angle_deg`, a part of it      |
+//! | `{"helix": {"radius": r, "rise": h, "turns": n, ...}}` | a helix that rises by h in each turn |
 //! | `{"bezier": {"closed": c, "segments": [S, ...]}}` | cubics; `S` is four points `[x, y, z]`     |
 //! | `{"free": {"closed": c, "points": [P, ...]}}`   | a C2 spline through points `[x, y, z]`       |
 //! | `{"rotation": {"angle_deg": d, ...}}`             | contour x is the distance from an axis, y the height on it |
@@ -56,7 +57,9 @@
 //!
 //! On a circle and a rotation `w1` points away from the axis and `w2` along it. They start where
 //! `w1` is as near as can be to the coordinate axis least aligned with their axis (x before y
-//! before z): with the axis at y on the side of +x, from where they run toward +z.
+//! before z): with the axis at y on the side of +x, from where they run toward +z. So does a helix,
+//! which is left-handed then if it rises, and right-handed if its turns are below 0; on its way its
+//! frame turns as little as it can.
 //!
 //! Any other trajectory starts with `w1` as near as can be to the coordinate axis least aligned
 //! with its direction. From there the frame turns about the trajectory as little as it can, and
@@ -64,11 +67,66 @@
 //!
 //! A spec can choose for itself what `w1` starts toward: `"frame": {"start": [x, y, z]}`.
 //!
+//! # Laws: scale and twist
+//!
+//! A **law** is a number that may change along the trajectory, by the fraction `at` of its length:
+//!
+//! | law                                             | what                                         |
+//! |-------------------------------------------------|----------------------------------------------|
+//! | `x`                                             | the same number everywhere                   |
+//! | `{"keys": [[at, x], ...], "ease": "smooth"}`    | from key to key, `linear` (the default) or `smooth`; held outside |
+//! | `{"bezier": [[[at, x], ... four], ...]}`        | the graph of a curve, along which `at` rises; held outside |
+//! | `{"total": x}`                                  | from 0 at the start evenly to x at the end   |
+//!
+//! ```json
+//! {
+//!   "format": "tb-sweep", "version": 1, "name": "drill",
+//!   "contour": { "svg": "M1 1H-1V-1H1Z" },
+//!   "trajectory": { "line": [[0, 0, 0], [0, 9, 0]] },
+//!   "scale": [{ "keys": [[0, 0], [0.3, 1]], "ease": "smooth" }, { "bezier": [[[0, 0], [0, 0.8], [0.5, 1], [1, 1]]] }],
+//!   "twist": { "total": 270 },
+//!   "mesh": { "rows": 90, "cols": 40 }
+//! }
+//! ```
+//!
+//! `scale` is one law for both axes of the contour or two, for x and y; it is not negative, and where
+//! it is 0 the surface has a pole. `twist` then turns the contour about the trajectory, in degrees,
+//! right-handed about its direction. Along a closed trajectory a scale ends as it starts, and a
+//! twist ends a multiple of 360 degrees from there, since each column meets itself. About the axis
+//! of a rotation there is no twist; its scale stays above 0, and wants a contour off the axis.
+//! A law whose derivative jumps, as linear keys do, gives the surface an edge with one normal.
+//!
+//! # Depth
+//!
+//! `depth` is a relief on the contour, made of waves: `delta` is the sum over `terms` of
+//! `amp * along(v) * sin(2 pi (u_count u + v_count v) + phase)`. Where `mode` is `factor` the contour
+//! is multiplied by `1 + delta`, which must stay above 0; where it is `offset` the contour, which has
+//! no corners then, is moved along its outer normal by `delta`. The rest acts on the contour with its
+//! relief. Counts are whole along closed curves; all keys of a term but `amp` may be left out.
+//!
+//! ```json
+//! {
+//!   "format": "tb-sweep", "version": 1, "name": "candle",
+//!   "contour": { "circle": 0.4 },
+//!   "trajectory": { "line": [[0, 0, 0], [0, 2, 0]] },
+//!   "depth": { "mode": "offset", "terms": [{ "amp": 0.05, "u": 8, "v": 1.5, "phase_deg": 90, "along": { "total": 1 } }] },
+//!   "mesh": { "rows": 60, "cols": 96 }
+//! }
+//! ```
+//!
 //! # Corners
 //!
 //! A contour may have corners; one of more than a degree is a crease, where the surface has two
 //! normals. A trajectory may not: it would need a mitre, and is refused. A rotation wants contour x
 //! of at least 0; where it is 0 the surface has a pole. Points given twice count once.
+
+mod depth;
+mod helix;
+mod law;
+
+pub use depth::{Depth, DepthMode, DepthTerm};
+pub use helix::Helix;
+pub use law::{Ease, Law, Scale};
 
 use crate::grid::UvLayout;
 use serde::{Deserialize, Serialize};
@@ -96,6 +154,15 @@ pub struct Spec {
     /// How the frame starts, where the trajectory leaves that open.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frame: Option<FrameStart>,
+    /// Factors of the contour along the trajectory.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scale: Option<Scale>,
+    /// Turn of the contour about the trajectory, in degrees.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub twist: Option<Law>,
+    /// Relief on the contour.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub depth: Option<Depth>,
     /// How finely.
     pub mesh: Mesh,
     /// How a picture lies on the surface.
@@ -128,6 +195,8 @@ pub enum Trajectory {
     Line([[f64; 3]; 2]),
     /// A circle or an arc of one.
     Circle(Circle),
+    /// A helix.
+    Helix(Helix),
     /// Cubic Bezier segments.
     Bezier(Bezier<[f64; 3]>),
     /// Points that a spline goes through.
@@ -228,12 +297,15 @@ impl TryFrom<ContourKeys> for Contour {
     type Error = String;
 
     fn try_from(keys: ContourKeys) -> Result<Self, String> {
-        only([
-            ("circle", keys.circle.map(Self::Circle)),
-            ("bezier", keys.bezier.map(Self::Bezier)),
-            ("svg", keys.svg.map(Self::Svg)),
-            ("free", keys.free.map(Self::Free)),
-        ])
+        only(
+            "curve",
+            [
+                ("circle", keys.circle.map(Self::Circle)),
+                ("bezier", keys.bezier.map(Self::Bezier)),
+                ("svg", keys.svg.map(Self::Svg)),
+                ("free", keys.free.map(Self::Free)),
+            ],
+        )
     }
 }
 
@@ -241,11 +313,12 @@ impl TryFrom<ContourKeys> for Contour {
 #[derive(Deserialize)]
 #[serde(
     deny_unknown_fields,
-    expecting = "an object with one of the keys line, circle, bezier, free, rotation"
+    expecting = "an object with one of the keys line, circle, helix, bezier, free, rotation"
 )]
 struct TrajectoryKeys {
     line: Option<[[f64; 3]; 2]>,
     circle: Option<Circle>,
+    helix: Option<Helix>,
     bezier: Option<Bezier<[f64; 3]>>,
     free: Option<Free<[f64; 3]>>,
     rotation: Option<Rotation>,
@@ -255,18 +328,22 @@ impl TryFrom<TrajectoryKeys> for Trajectory {
     type Error = String;
 
     fn try_from(keys: TrajectoryKeys) -> Result<Self, String> {
-        only([
-            ("line", keys.line.map(Self::Line)),
-            ("circle", keys.circle.map(Self::Circle)),
-            ("bezier", keys.bezier.map(Self::Bezier)),
-            ("free", keys.free.map(Self::Free)),
-            ("rotation", keys.rotation.map(Self::Rotation)),
-        ])
+        only(
+            "curve",
+            [
+                ("line", keys.line.map(Self::Line)),
+                ("circle", keys.circle.map(Self::Circle)),
+                ("helix", keys.helix.map(Self::Helix)),
+                ("bezier", keys.bezier.map(Self::Bezier)),
+                ("free", keys.free.map(Self::Free)),
+                ("rotation", keys.rotation.map(Self::Rotation)),
+            ],
+        )
     }
 }
 
-/// The one value that is there.
-fn only<T, const N: usize>(keys: [(&str, Option<T>); N]) -> Result<T, String> {
+/// The one value of a kind that is there.
+fn only<T, const N: usize>(kind: &str, keys: [(&str, Option<T>); N]) -> Result<T, String> {
     let names = keys.each_ref().map(|key| key.0).join(", ");
     let mut given = keys.into_iter().filter_map(|(name, value)| value.map(|value| (name, value)));
     match (given.next(), given.next()) {
@@ -274,7 +351,7 @@ fn only<T, const N: usize>(keys: [(&str, Option<T>); N]) -> Result<T, String> {
         (Some((first, _)), Some((second, _))) => {
             Err(format!("found both `{first}` and `{second}`, expected one of {names}"))
         }
-        (None, _) => Err(format!("found no curve, expected one of {names}")),
+        (None, _) => Err(format!("found no {kind}, expected one of {names}")),
     }
 }
 
@@ -301,7 +378,7 @@ mod tests {
             .collect();
         let snippets: Vec<&str> =
             page.split("```json").skip(1).filter_map(|rest| rest.split("```").next()).collect();
-        assert_eq!(snippets.len(), 2);
+        assert_eq!(snippets.len(), 4);
         for snippet in snippets {
             let document = Document::new("snippet", snippet.as_bytes()).unwrap();
             let sweep = Sweep::read(&document).unwrap_or_else(|error| panic!("{error}"));

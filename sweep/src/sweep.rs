@@ -3,6 +3,7 @@
 use crate::contour::{Column, Contour};
 use crate::grid::file::MAX_COLS;
 use crate::grid::{GridMesh, Seam, UvLayout};
+use crate::modulation::Modulation;
 use crate::trajectory::Trajectory;
 use crate::{SweepError, read};
 use files::json::Document;
@@ -21,6 +22,7 @@ pub struct Sweep {
     pub(crate) name: String,
     pub(crate) contour: Contour,
     pub(crate) trajectory: Trajectory,
+    pub(crate) modulation: Modulation,
     pub(crate) rows: usize,
     pub(crate) cols: usize,
     pub(crate) uv: UvLayout,
@@ -153,10 +155,10 @@ impl Sweep {
             .zip(normals.par_chunks_mut(columns.len()))
             .zip(&v);
         rows.for_each(|((points, normals), &v)| {
-            let station = self.trajectory.station(v);
+            let section = self.modulation.section(&self.trajectory, v);
             for ((column, point), normal) in columns.iter().zip(points).zip(normals) {
-                *point = station.point(column.point) + self.position;
-                *normal = station.normal(column.point, column.tangent).as_vec3();
+                *point = section.point(column) + self.position;
+                *normal = section.normal(column).as_vec3();
             }
         });
         let seam = |closed| if closed { Seam::Closed } else { Seam::Open };
@@ -172,6 +174,18 @@ impl Sweep {
         })
     }
 
+    /// The surface at any place: the point and the unit normal, both as in the grid.
+    ///
+    /// `u` and `v` are fractions of the contour's and the trajectory's length. At a crease the
+    /// normal is that of the side after.
+    #[must_use]
+    pub fn at(&self, u: f64, v: f64) -> (DVec3, DVec3) {
+        let mut column = self.contour.at(u);
+        self.snap_to_axis(std::slice::from_mut(&mut column));
+        let section = self.modulation.section(&self.trajectory, v);
+        (section.point(&column) + self.position, section.normal(&column))
+    }
+
     /// The number of rows in which some of the surface folds back on itself, since the trajectory
     /// bends more sharply than the contour is wide. Normals are turned over there.
     #[must_use]
@@ -180,8 +194,8 @@ impl Sweep {
         self.row_places()
             .par_iter()
             .filter(|&&v| {
-                let station = self.trajectory.station(v);
-                columns.iter().any(|column| station.stretch(column.point) < 0.0)
+                let section = self.modulation.section(&self.trajectory, v);
+                columns.iter().any(|column| section.folds(column))
             })
             .count()
     }
@@ -194,14 +208,19 @@ impl Sweep {
 
     fn columns(&self) -> Vec<Column> {
         let mut columns = self.contour.columns(self.cols);
+        self.snap_to_axis(&mut columns);
+        columns
+    }
+
+    /// Puts points of a rotation that all but touch its axis on it.
+    fn snap_to_axis(&self, columns: &mut [Column]) {
         if self.trajectory.is_rotation() {
             let on_axis = ON_AXIS * self.contour.x_range().1;
-            for column in &mut columns {
+            for column in columns {
                 if column.point.x <= on_axis {
                     column.point.x = 0.0;
                 }
             }
         }
-        columns
     }
 }

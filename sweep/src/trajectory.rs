@@ -1,6 +1,6 @@
 //! The curve that a contour follows, and the stations on it.
 
-use crate::curve::{Path, turn};
+use crate::curve::{Helix, Path, turn};
 use crate::frame::{Frame, Frames};
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
@@ -13,6 +13,7 @@ pub struct Trajectory(Form);
 enum Form {
     Line { start: Frame, end: DVec3 },
     Turn { start: Frame, radius: f64, fraction: f64 },
+    Helix(Helix),
     Path(Frames<Path<DVec3>>),
 }
 
@@ -45,6 +46,11 @@ impl Trajectory {
         Self(Form::Turn { start, radius, fraction })
     }
 
+    /// A helix.
+    pub(crate) fn helix(helix: Helix) -> Self {
+        Self(Form::Helix(helix))
+    }
+
     /// A path, with the frames along it.
     pub(crate) fn path(frames: Frames<Path<DVec3>>) -> Self {
         Self(Form::Path(frames))
@@ -60,7 +66,7 @@ impl Trajectory {
     #[must_use]
     pub fn closed(&self) -> bool {
         match &self.0 {
-            Form::Line { .. } => false,
+            Form::Line { .. } | Form::Helix(_) => false,
             Form::Turn { fraction, .. } => *fraction == 1.0,
             Form::Path(frames) => frames.curve().closed(),
         }
@@ -72,7 +78,16 @@ impl Trajectory {
         match &self.0 {
             Form::Line { start, end } => (*end - start.origin).length(),
             Form::Turn { radius, fraction, .. } => TAU * fraction * radius,
+            Form::Helix(helix) => helix.length(),
             Form::Path(frames) => frames.curve().length(),
+        }
+    }
+
+    /// What laws are differentiated by: the length, or the angle of a rotation in radians.
+    pub(crate) fn extent(&self) -> f64 {
+        match &self.0 {
+            Form::Turn { radius: 0.0, fraction, .. } => TAU * fraction,
+            _ => self.length(),
         }
     }
 
@@ -106,6 +121,10 @@ impl Trajectory {
                 let frame = Frame { origin: start.origin + normal * *radius, ..frame };
                 Station { bend: DVec2::X / *radius, ..straight(frame) }
             }
+            Form::Helix(helix) => {
+                let (frame, curvature) = helix.at(v);
+                Station { bend: -curvature, ..straight(frame) }
+            }
             Form::Path(frames) => {
                 let (frame, curvature) = frames.at(v * frames.curve().length());
                 Station { bend: -curvature, spin: frames.spin(), ..straight(frame) }
@@ -131,6 +150,21 @@ impl Station {
         origin + normal * q.x + binormal * q.y
     }
 
+    /// The same place with the contour turned about the tangent by a fraction of a full turn, which
+    /// changes at `rate` radians by length. Right-handed: from w1 toward w2.
+    pub(crate) fn turned(self, fraction: f64, rate: f64) -> Self {
+        let angle = turn(fraction);
+        let Frame { normal, binormal, .. } = self.frame;
+        let frame = Frame {
+            normal: normal * angle.x + binormal * angle.y,
+            binormal: binormal * angle.x - normal * angle.y,
+            ..self.frame
+        };
+        // The same vector in space, on the new axes.
+        let bend = DVec2::new(angle.x, -angle.y).rotate(self.bend);
+        Self { frame, bend, spin: self.spin + rate, ..self }
+    }
+
     /// How far the point over `q` moves along the tangent, by length of the trajectory at the
     /// origin (by radian, for a rotation). Not above 0 where the surface folds back on itself.
     #[must_use]
@@ -153,6 +187,18 @@ impl Station {
         }
         let across = outward * stretch + tangent * (self.spin * q.dot(q_u));
         across.try_normalize().unwrap_or(outward)
+    }
+
+    /// The same as [`Station::normal`] for a contour that changes on its way: `q_u` is along it, of
+    /// any length, and `q_s` is how its point moves on it by length of the trajectory.
+    #[must_use]
+    pub(crate) fn normal_of_moving(&self, q: DVec2, q_u: DVec2, q_s: DVec2) -> DVec3 {
+        let Frame { tangent, normal, binormal, .. } = self.frame;
+        let outward = normal * q_u.y - binormal * q_u.x;
+        let moving = q_s + q.perp() * self.spin;
+        let across = outward * self.stretch(q) + tangent * q_u.perp_dot(moving);
+        // A contour pressed flat has no direction where it turns back.
+        across.try_normalize().or(outward.try_normalize()).unwrap_or(normal)
     }
 }
 

@@ -5,6 +5,7 @@
 //! | [`cubic`]      | one segment: point, derivatives, tangents, cusps                  |
 //! | [`path`]       | segments joined, located by arc length; corners                   |
 //! | [`arc_length`] | the length of a segment and its inverse                           |
+//! | [`helix`]      | a helix and its frames, in closed form                            |
 //! | [`spline`]     | a C2 curve through free points                                    |
 //! | [`svg`]        | the path of an SVG file                                           |
 //!
@@ -13,6 +14,7 @@
 
 pub mod arc_length;
 pub mod cubic;
+pub mod helix;
 pub mod path;
 mod quadrature;
 pub mod spline;
@@ -20,6 +22,7 @@ pub mod svg;
 pub mod vector;
 
 pub use cubic::Cubic;
+pub use helix::Helix;
 pub use path::Path;
 pub use vector::Vector;
 

@@ -1,6 +1,9 @@
 //! From a spec to a [`Sweep`]: every value is looked at before any work is done.
 
 mod contour;
+mod depth;
+mod law;
+mod modulation;
 mod trajectory;
 
 use crate::curve::vector::extent;
@@ -57,9 +60,11 @@ pub fn read(document: &Document) -> Result<Sweep, SweepError> {
         }
         contour = contour.rotated(ON_AXIS * high);
     }
+    let modulation = reader.modulation(&spec, &contour, &trajectory)?;
     let sweep = Sweep {
         name: spec.name,
         contour,
+        modulation,
         trajectory,
         rows: spec.mesh.rows,
         cols: spec.mesh.cols,

@@ -1,7 +1,7 @@
 //! The trajectory of a spec, and the frame it starts with.
 
 use super::Reader;
-use crate::curve::{Curve3, Local3, Path};
+use crate::curve::{Curve3, Helix, Local3, Path};
 use crate::frame::{Frame, Frames};
 use crate::spec::FrameStart;
 use crate::trajectory::Trajectory;
@@ -10,6 +10,9 @@ use glam::DVec3;
 
 /// A trajectory may turn at a joint by this many degrees, as handles rounded to a few decimals do.
 const SMOOTH_DEG: f64 = 1.0;
+
+/// Turns of a helix at most: digits enough are left for the place within one.
+const MOST_TURNS: f64 = 1e6;
 
 impl Reader<'_> {
     pub(super) fn trajectory(
@@ -31,6 +34,7 @@ impl Reader<'_> {
                 let fraction = self.fraction(path, circle.angle_deg)?;
                 Ok(Trajectory::turn(frame, circle.radius, fraction))
             }
+            spec::Trajectory::Helix(helix) => self.helix(helix, start),
             spec::Trajectory::Rotation(rotation) => {
                 let path = "trajectory.rotation";
                 self.point(&format!("{path}.origin"), &rotation.origin)?;
@@ -69,6 +73,28 @@ impl Reader<'_> {
         };
         let place = Local3 { position: from, tangent, curvature: DVec3::ZERO };
         Ok(Trajectory::line(self.first_frame(&place, start)?, to))
+    }
+
+    fn helix(
+        &self,
+        helix: &spec::Helix,
+        start: Option<&FrameStart>,
+    ) -> Result<Trajectory, SweepError> {
+        let path = "trajectory.helix";
+        self.positive(&format!("{path}.radius"), helix.radius)?;
+        self.number(&format!("{path}.rise"), helix.rise)?;
+        if helix.turns == 0.0 || helix.turns.abs() > MOST_TURNS {
+            let message = format!(
+                "found {:?}, expected turns other than 0 and at most {MOST_TURNS:?}",
+                helix.turns
+            );
+            return Err(self.fault(&format!("{path}.turns"), message));
+        }
+        self.point(&format!("{path}.center"), &helix.center)?;
+        let center = DVec3::from_array(helix.center);
+        let start = self.upright(path, center, helix.axis, start)?;
+        let spec::Helix { radius, rise, turns, .. } = *helix;
+        Ok(Trajectory::helix(Helix { start, radius, rise, turns }))
     }
 
     /// A trajectory of cubics, with its frames.
@@ -163,6 +189,17 @@ mod tests {
                 "3:53: trajectory.circle.angle_deg: found 361.0, expected degrees above 0 and up to 360",
                 3,
             ),
+            (
+                "{\"helix\": {\"radius\": 1, \"rise\": 1, \"turns\": 0}}",
+                "trajectory.helix.turns: found 0.0, expected turns other than 0",
+                3,
+            ),
+            (
+                "{\"helix\": {\"radius\": 0, \"rise\": 1, \"turns\": 1}}",
+                "helix.radius: found 0.0",
+                3,
+            ),
+            ("{\"helix\": {\"radius\": 1, \"turns\": 1}}", "helix", 3),
             (
                 "{\"rotation\": {\"axis\": [0, 0, 0]}}",
                 "3:37: trajectory.rotation.axis: found no direction",

@@ -1,0 +1,140 @@
+//! A helix, with frames that turn as little as they can, in closed form.
+//!
+//! Its tangent keeps an angle to the axis, with the cosine `h` and the sine `c`; so curvature and
+//! torsion are the same everywhere, and a rotation-minimizing frame turns evenly against one whose
+//! `w1` points away from the axis. Nothing is summed up, and a place takes no longer far from the
+//! start than near it.
+
+use super::turn;
+use crate::frame::Frame;
+use glam::DVec2;
+use std::f64::consts::TAU;
+
+/// A helix about the y direction of a frame through the frame's origin.
+#[derive(Debug, Clone, Copy)]
+pub struct Helix {
+    /// The frame of the circle below it, at its centre: the helix starts toward `w1`.
+    pub(crate) start: Frame,
+    /// Distance from the axis; above 0.
+    pub(crate) radius: f64,
+    /// Way along the axis in one turn.
+    pub(crate) rise: f64,
+    /// Turns, from `w1` toward `T`; below 0 the other way.
+    pub(crate) turns: f64,
+}
+
+impl Helix {
+    /// The length of one turn.
+    fn turn_length(&self) -> f64 {
+        (TAU * self.radius).hypot(self.rise)
+    }
+
+    /// The length of the whole.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        self.turns.abs() * self.turn_length()
+    }
+
+    /// The frame at `v`, a fraction of the length, and the curvature there on its `(w1, w2)`.
+    ///
+    /// It starts with `w1` away from the axis.
+    #[must_use]
+    pub fn at(&self, v: f64) -> (Frame, DVec2) {
+        let Frame { origin, normal, tangent, binormal: axis } = self.start;
+        let angle = turn(self.turns * v);
+        let outward = normal * angle.x + tangent * angle.y;
+        let around = tangent * angle.x - normal * angle.y;
+        let (c, h) = (TAU * self.radius / self.turn_length(), self.rise / self.turn_length());
+        let along = around * c.copysign(self.turns) + axis * h;
+        let sideways = along.cross(outward);
+        // Away from the axis, w1 would turn toward w2 by -c h / r of an angle for each length.
+        let back = turn(self.turns * v * h);
+        let frame = Frame {
+            origin: origin + outward * self.radius + axis * (self.turns.abs() * v * self.rise),
+            tangent: along,
+            normal: outward * back.x + sideways * back.y,
+            binormal: sideways * back.x - outward * back.y,
+        };
+        (frame, DVec2::new(-back.x, back.y) * (c * c / self.radius))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::curve::{Curve3, Local3};
+    use crate::frame::Frames;
+    use glam::DVec3;
+
+    fn helix(rise: f64, turns: f64) -> Helix {
+        let start =
+            Frame { origin: DVec3::ONE, normal: DVec3::X, binormal: DVec3::Y, tangent: DVec3::Z };
+        Helix { start, radius: 2.0, rise, turns }
+    }
+
+    /// The same curve without its frames, which double reflection then finds.
+    struct Bare(Helix);
+
+    impl Curve3 for Bare {
+        fn length(&self) -> f64 {
+            self.0.length()
+        }
+
+        fn closed(&self) -> bool {
+            false
+        }
+
+        fn knots(&self) -> Vec<f64> {
+            (0..=40).map(|i| self.length() * f64::from(i) / 40.0).collect()
+        }
+
+        fn at(&self, s: f64) -> Local3 {
+            let (frame, k) = self.0.at(s / self.length());
+            let curvature = frame.normal * k.x + frame.binormal * k.y;
+            Local3 { position: frame.origin, tangent: frame.tangent, curvature }
+        }
+    }
+
+    #[test]
+    fn frames_are_those_of_double_reflection() {
+        for (rise, turns) in [(1.0, 3.0), (-9.0, 2.3), (4.0, -2.0), (0.0, 0.7)] {
+            let helix = helix(rise, turns);
+            let frames = Frames::new(Bare(helix), helix.at(0.0).0);
+            for i in 0..=50 {
+                let v = f64::from(i) / 50.0;
+                let (frame, curvature) = helix.at(v);
+                let (other, other_curvature) = frames.at(v * helix.length());
+                assert!((frame.normal - other.normal).length() < 1e-9, "{rise} {turns} {v}");
+                assert!((curvature - other_curvature).length() < 1e-9);
+                assert!((frame.normal.cross(frame.binormal) - frame.tangent).length() < 1e-14);
+            }
+        }
+    }
+
+    #[test]
+    fn derivatives_agree_with_differences() {
+        for turns in [3.0, -3.0] {
+            let (helix, h) = (helix(1.5, turns), 1e-5);
+            for i in 1..20 {
+                let v = f64::from(i) / 20.0;
+                let ((after, _), (before, _)) = (helix.at(v + h), helix.at(v - h));
+                let step = 2.0 * h * helix.length();
+                let (frame, k) = helix.at(v);
+                assert!(((after.origin - before.origin) / step - frame.tangent).length() < 1e-8);
+                let curvature = frame.normal * k.x + frame.binormal * k.y;
+                assert!(((after.tangent - before.tangent) / step - curvature).length() < 1e-8);
+            }
+        }
+    }
+
+    #[test]
+    fn each_turn_rises_alike_whichever_way_it_goes() {
+        for (turns, quarter) in [(1.0, DVec3::Z), (-1.0, DVec3::NEG_Z)] {
+            let helix = helix(8.0, turns);
+            let at = |v: f64| helix.at(v).0.origin - DVec3::ONE;
+            assert_eq!(at(0.25), quarter * 2.0 + DVec3::Y * 2.0);
+            assert_eq!(at(1.0), DVec3::new(2.0, 8.0, 0.0));
+            assert_eq!(helix.length(), (TAU * 2.0).hypot(8.0));
+        }
+    }
+}

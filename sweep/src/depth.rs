@@ -1,0 +1,145 @@
+//! Depth modulation: a relief on the contour, in waves along both directions of the surface.
+//!
+//! The thesis names depth modulation and does not say what it is; this is our reading. With
+//!
+//! ```text
+//!     delta(u, v) = sum of amp * along(v) * sin(2 pi (m u + n v) + phase)
+//! ```
+//!
+//! a *factor* makes the contour `C` into `(1 + delta) C`, and an *offset* into `C + delta n`, with
+//! `n` its outer normal. The relief is the contour's: what scales and twists the contour scales and
+//! twists it too.
+
+use crate::contour::Column;
+use crate::curve::turn;
+use crate::law::Law;
+use glam::DVec2;
+use std::f64::consts::TAU;
+
+/// A relief on a contour, checked against it.
+#[derive(Debug, Clone)]
+pub struct Depth {
+    /// What `delta` does to the contour.
+    pub(crate) mode: Mode,
+    /// The waves that add up to `delta`.
+    pub(crate) terms: Vec<Term>,
+    /// One over the length of the contour.
+    pub(crate) pace: f64,
+}
+
+/// What `delta` does to the contour.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mode {
+    /// It is multiplied by `1 + delta`.
+    Factor,
+    /// It is moved along its outer normal by `delta`.
+    Offset,
+}
+
+/// One wave.
+#[derive(Debug, Clone)]
+pub struct Term {
+    /// Height of the wave, before its law.
+    pub(crate) amp: f64,
+    /// Waves along the contour.
+    pub(crate) u: f64,
+    /// Waves along the trajectory.
+    pub(crate) v: f64,
+    /// Where it begins, as a fraction of a turn.
+    pub(crate) phase: f64,
+    /// Factor of the height along the trajectory.
+    pub(crate) along: Law,
+}
+
+/// A relief at one place of the trajectory.
+#[derive(Debug, Clone)]
+pub struct Relief {
+    mode: Mode,
+    waves: Vec<Wave>,
+    pace: f64,
+}
+
+/// A term at one place of the trajectory.
+#[derive(Debug, Clone, Copy)]
+struct Wave {
+    u: f64,
+    /// Phase as a fraction of a turn, and its derivative by `v` in radians.
+    phase: f64,
+    phase_v: f64,
+    height: f64,
+    height_v: f64,
+}
+
+/// A point of a contour with its relief.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Raised {
+    pub point: DVec2,
+    /// Derivative of the point by length of the contour as drawn.
+    pub along: DVec2,
+    /// Derivative by `v`.
+    pub across: DVec2,
+    /// Whether the contour folds back on itself here.
+    pub folds: bool,
+}
+
+impl Depth {
+    /// A bound of the size of `delta`.
+    #[must_use]
+    pub fn most(&self) -> f64 {
+        let most = |term: &Term| {
+            let (low, high) = term.along.range();
+            term.amp.abs() * low.abs().max(high.abs())
+        };
+        self.terms.iter().map(most).sum()
+    }
+
+    /// The relief at `v`.
+    #[must_use]
+    pub fn at(&self, v: f64) -> Relief {
+        let wave = |term: &Term| {
+            let (height, height_v) = term.along.at(v);
+            Wave {
+                u: term.u,
+                phase: term.v * v + term.phase,
+                phase_v: TAU * term.v,
+                height: term.amp * height,
+                height_v: term.amp * height_v,
+            }
+        };
+        let waves = self.terms.iter().map(wave).collect();
+        Relief { mode: self.mode, waves, pace: self.pace }
+    }
+}
+
+impl Relief {
+    /// The contour's point with the relief on it.
+    pub(crate) fn on(&self, column: &Column) -> Raised {
+        let (mut delta, mut delta_u, mut delta_v) = (0.0, 0.0, 0.0);
+        for wave in &self.waves {
+            let angle = turn(wave.u * column.u + wave.phase);
+            delta += wave.height * angle.y;
+            delta_u += wave.height * angle.x * (TAU * wave.u * self.pace);
+            delta_v += wave.height_v * angle.y + wave.height * angle.x * wave.phase_v;
+        }
+        let Column { point, tangent, curvature, .. } = *column;
+        match self.mode {
+            Mode::Factor => Raised {
+                point: point * (1.0 + delta),
+                along: tangent * (1.0 + delta) + point * delta_u,
+                across: point * delta_v,
+                folds: false,
+            },
+            Mode::Offset => {
+                // Outward of a counter-clockwise contour, whose curvature is above 0 at a bulge.
+                let normal = -tangent.perp();
+                let stretch = 1.0 + delta * curvature;
+                Raised {
+                    point: point + normal * delta,
+                    along: tangent * stretch + normal * delta_u,
+                    across: normal * delta_v,
+                    folds: stretch < 0.0,
+                }
+            }
+        }
+    }
+}

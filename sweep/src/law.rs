@@ -1,0 +1,256 @@
+//! Laws: numbers that change along a trajectory.
+//!
+//! A law is a function of `at`, the fraction of the trajectory's length, and knows its derivative
+//! in closed form. What each kind promises of that derivative:
+//!
+//! | law           | continuous | derivative continuous (C1)                                      |
+//! |---------------|------------|-----------------------------------------------------------------|
+//! | a number      | yes        | yes                                                             |
+//! | smooth keys   | yes        | yes: it is 0 at every key (`3 x^2 - 2 x^3` between two)          |
+//! | linear keys   | yes        | no: it jumps at keys, and the surface has an edge there          |
+//! | Bezier        | yes        | inside a segment, and at joints whose handles are in line        |
+//! | total         | yes        | yes                                                             |
+//!
+//! Keys and Beziers keep their end values outside their ends, with a derivative of 0. Where the
+//! derivative jumps it is that of the side after, and at the end of the trajectory that of the side
+//! before. A Bezier may be vertical, as at the end of a round cap; its derivative is then
+//! [`STEEPEST`].
+
+use crate::curve::Cubic;
+use glam::DVec2;
+use kurbo::{CubicBez, Point, Shape};
+
+/// Derivatives are kept within this: beyond it a surface is level to all of its 16 digits, and far
+/// larger ones would overflow when they are squared.
+pub const STEEPEST: f64 = 1e30;
+
+/// Steps toward a place on a Bezier at most; halving alone would need 53 of them.
+const MOST_STEPS: usize = 80;
+
+/// A function of the fraction of the trajectory's length, checked.
+#[derive(Debug, Clone)]
+pub struct Law(Form);
+
+#[derive(Debug, Clone)]
+enum Form {
+    Constant(f64),
+    Keys { keys: Vec<[f64; 2]>, smooth: bool },
+    Bezier(Vec<Cubic<DVec2>>),
+}
+
+impl Law {
+    /// The same number everywhere.
+    #[must_use]
+    pub fn constant(value: f64) -> Self {
+        Self(Form::Constant(value))
+    }
+
+    /// Keys `[at, value]`, at least one, `at` strictly rising.
+    pub(crate) fn keys(keys: Vec<[f64; 2]>, smooth: bool) -> Self {
+        Self(Form::Keys { keys, smooth })
+    }
+
+    /// Cubics of points `(at, value)`, at least one, that meet and along which `at` does not fall.
+    pub(crate) fn bezier(segments: Vec<Cubic<DVec2>>) -> Self {
+        Self(Form::Bezier(segments))
+    }
+
+    /// From 0 at the start to `value` at the end.
+    pub(crate) fn total(value: f64) -> Self {
+        Self::keys(vec![[0.0, 0.0], [1.0, value]], false)
+    }
+
+    /// The value and its derivative by `at`, which lies in `[0, 1]`.
+    #[must_use]
+    pub fn at(&self, at: f64) -> (f64, f64) {
+        match &self.0 {
+            Form::Constant(value) => (*value, 0.0),
+            Form::Keys { keys, smooth } => {
+                let next = keys.partition_point(|key| key[0] <= at);
+                let next = if is_end(at, keys[keys.len() - 1][0]) { next - 1 } else { next };
+                if next == 0 || next == keys.len() {
+                    return (keys[next.min(keys.len() - 1)][1], 0.0);
+                }
+                let ([from, a], [to, b]) = (keys[next - 1], keys[next]);
+                let x = (at - from) / (to - from);
+                let (part, slope) =
+                    if *smooth { (x * x * (3.0 - 2.0 * x), 6.0 * x * (1.0 - x)) } else { (x, 1.0) };
+                // Of this form, so that both ends are met exactly.
+                (a * (1.0 - part) + b * part, bounded((b - a) * slope / (to - from)))
+            }
+            Form::Bezier(segments) => {
+                let last = segments[segments.len() - 1].0[3];
+                let first = segments[0].0[0];
+                let next = segments.partition_point(|segment| segment.0[3].x <= at);
+                let next = if is_end(at, last.x) { next - 1 } else { next };
+                if at < first.x || next == segments.len() {
+                    return (if at < first.x { first.y } else { last.y }, 0.0);
+                }
+                let segment = &segments[next];
+                let t = parameter(segment, at);
+                // Where the speed is 0 the direction still is one.
+                let direction = segment.tangent(t);
+                (segment.point(t).y, bounded(direction.y / direction.x.max(0.0)))
+            }
+        }
+    }
+
+    /// The least and the greatest value.
+    #[must_use]
+    pub fn range(&self) -> (f64, f64) {
+        let wider = |(low, high): (f64, f64), (a, b): (f64, f64)| (low.min(a), high.max(b));
+        let none = (f64::INFINITY, f64::NEG_INFINITY);
+        match &self.0 {
+            Form::Constant(value) => (*value, *value),
+            Form::Keys { keys, .. } => keys.iter().map(|key| (key[1], key[1])).fold(none, wider),
+            Form::Bezier(segments) => segments
+                .iter()
+                .map(|segment| {
+                    let [p0, p1, p2, p3] = segment.0.map(|p| Point::new(p.x, p.y));
+                    let bounds = CubicBez::new(p0, p1, p2, p3).bounding_box();
+                    (bounds.y0, bounds.y1)
+                })
+                .fold(none, wider),
+        }
+    }
+
+    /// The values at the start and at the end of the trajectory.
+    #[must_use]
+    pub fn ends(&self) -> [f64; 2] {
+        [self.at(0.0).0, self.at(1.0).0]
+    }
+}
+
+/// Whether a place is the end of the trajectory and of the law, where only one side is left.
+fn is_end(at: f64, last: f64) -> bool {
+    at == last && last == 1.0
+}
+
+fn bounded(slope: f64) -> f64 {
+    if slope.is_nan() { 0.0 } else { slope.clamp(-STEEPEST, STEEPEST) }
+}
+
+/// Whether `at` nowhere falls along a segment, and rises from its start to its end.
+pub(crate) fn is_graph(segment: &Cubic<DVec2>) -> bool {
+    let [p0, p1, p2, p3] = segment.0.map(|p| p.x);
+    let (a, b, c) = (p1 - p0, p2 - p1, p3 - p2);
+    // The speed is 3 (a s^2 + 2 b s t + c t^2) with s = 1 - t.
+    p3 > p0 && a >= 0.0 && c >= 0.0 && (b >= 0.0 || b * b <= a * c)
+}
+
+/// The parameter at which a segment reaches `at`, by Newton's method kept between its bounds.
+fn parameter(segment: &Cubic<DVec2>, at: f64) -> f64 {
+    let [from, .., to] = segment.0.map(|p| p.x);
+    let (mut low, mut high) = (0.0, 1.0);
+    let mut t = (at - from) / (to - from);
+    for _ in 0..MOST_STEPS {
+        let off = segment.point(t).x - at;
+        if off == 0.0 {
+            break;
+        }
+        if off > 0.0 {
+            high = t;
+        } else {
+            low = t;
+        }
+        let step = t - off / segment.velocity(t).x;
+        let next = if step > low && step < high { step } else { 0.5 * (low + high) };
+        if next == t {
+            break;
+        }
+        t = next;
+    }
+    t
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cubic(points: [[f64; 2]; 4]) -> Cubic<DVec2> {
+        Cubic(points.map(DVec2::from_array))
+    }
+
+    fn laws() -> Vec<Law> {
+        let keys = vec![[0.1, 2.0], [0.4, -1.0], [0.9, 3.0]];
+        let up = cubic([[0.0, 1.0], [0.2, 3.0], [0.3, -2.0], [0.6, 0.5]]);
+        let down = cubic([[0.6, 0.5], [0.6, 1.0], [0.9, 1.0], [1.0, 0.0]]);
+        vec![
+            Law::constant(3.0),
+            Law::keys(keys.clone(), false),
+            Law::keys(keys, true),
+            Law::bezier(vec![up, down]),
+            Law::total(360.0),
+        ]
+    }
+
+    #[test]
+    fn slopes_agree_with_differences() {
+        for law in laws() {
+            let (low, high) = law.range();
+            for i in 1..200 {
+                let at = f64::from(i) / 200.0;
+                assert!((low..=high).contains(&law.at(at).0));
+                if [0.1, 0.4, 0.6, 0.9].iter().any(|knot: &f64| (knot - at).abs() < 0.04) {
+                    continue;
+                }
+                let h = 1e-4;
+                let value = |at| law.at(at).0;
+                let slope = (8.0 * (value(at + h) - value(at - h))
+                    - (value(at + 2.0 * h) - value(at - 2.0 * h)))
+                    / (12.0 * h);
+                let error = (slope - law.at(at).1).abs();
+                assert!(error < 1e-9 * (1.0 + slope.abs()), "{law:?} at {at}: {error:e}");
+            }
+        }
+    }
+
+    #[test]
+    fn keys_are_met_exactly_and_held_outside() {
+        for law in &laws()[1..3] {
+            for (at, value) in [(0.0, 2.0), (0.1, 2.0), (0.4, -1.0), (0.9, 3.0), (1.0, 3.0)] {
+                assert_eq!(law.at(at).0, value);
+            }
+            assert_eq!((law.at(0.05).1, law.at(0.95).1, law.at(1.0).1), (0.0, 0.0, 0.0));
+            assert_eq!((law.ends(), law.range()), ([2.0, 3.0], (-1.0, 3.0)));
+        }
+        assert_eq!(Law::keys(vec![[0.5, 7.0]], true).at(0.2), (7.0, 0.0));
+    }
+
+    #[test]
+    fn a_total_runs_evenly_to_the_end() {
+        let law = Law::total(90.0);
+        assert_eq!([0.0, 0.5, 1.0].map(|at| law.at(at)), [(0.0, 90.0), (45.0, 90.0), (90.0, 90.0)]);
+    }
+
+    #[test]
+    fn smooth_keys_and_handles_in_line_are_c1() {
+        let first = cubic([[0.0, 0.0], [0.1, 1.0], [0.3, 1.0], [0.5, 2.0]]);
+        let second = cubic([[0.5, 2.0], [0.6, 2.5], [0.8, 0.0], [1.0, 0.0]]);
+        for law in [laws()[2].clone(), Law::bezier(vec![first, second])] {
+            for at in [0.1, 0.4, 0.5, 0.9] {
+                let jump = law.at(at + 1e-12).1 - law.at(at - 1e-12).1;
+                assert!(jump.abs() < 1e-8, "{law:?} at {at}: {jump:e}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_vertical_end_is_steep_and_finite() {
+        // A quarter of a circle, nearly, from full width to nothing.
+        let cap = Law::bezier(vec![cubic([[0.0, 1.0], [0.55, 1.0], [1.0, 0.55], [1.0, 0.0]])]);
+        assert_eq!(cap.at(0.0), (1.0, 0.0));
+        assert_eq!(cap.at(1.0), (0.0, -STEEPEST));
+        assert!((cap.at(0.6).0 - 0.8).abs() < 1e-2);
+        assert!(cap.at(1.0 - 1e-12).1 < -1e5);
+    }
+
+    #[test]
+    fn a_graph_does_not_turn_back() {
+        let with =
+            |x1: f64, x2: f64| is_graph(&cubic([[0.0, 0.0], [x1, 0.0], [x2, 0.0], [1.0, 0.0]]));
+        assert!(with(0.3, 0.6) && with(0.0, 1.0) && with(1.0, 0.0) && with(0.6, 0.4));
+        assert!(!with(-0.1, 0.5) && !with(0.5, 1.1) && !with(1.0, -0.01));
+        assert!(!is_graph(&cubic([[0.5, 0.0], [0.5, 1.0], [0.5, 2.0], [0.5, 3.0]])));
+    }
+}
