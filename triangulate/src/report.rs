@@ -2,7 +2,7 @@
 //!
 //! ```json
 //! {
-//!   "format": "topobook-mesh-report",
+//!   "format": "tb-mesh-report",
 //!   "version": 1,
 //!   "object": "tube",
 //!   "texture": 0,
@@ -39,7 +39,7 @@ use std::io::{self, Write};
 /// What a mesh is like.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MeshReport {
-    /// What the file is: `topobook-mesh-report`.
+    /// What the file is: `tb-mesh-report`.
     pub format: &'static str,
     /// The version of the format: 1.
     pub version: u32,
@@ -125,7 +125,7 @@ impl MeshReport {
             0.5 * (b - a).cross(c - a).length()
         };
         Self {
-            format: "topobook-mesh-report",
+            format: "tb-mesh-report",
             version: 1,
             object: mesh.name.clone(),
             texture: mesh.texture,
