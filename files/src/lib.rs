@@ -4,6 +4,7 @@
 //! |------------|--------------------------------------------------------------------------|
 //! | [`json`]   | JSON into typed values; every complaint has file, line, column and path  |
 //! | [`input`]  | bytes from a file, from standard input, or from pages built in           |
+//! | [`names`]  | JSON objects of names that a user chose, each once                       |
 //! | [`output`] | a file that is replaced only when it is whole, or standard output        |
 //! | [`exit`]   | the exit codes, and the one place that prints an error                   |
 //!
@@ -12,6 +13,7 @@
 pub mod exit;
 pub mod input;
 pub mod json;
+pub mod names;
 pub mod output;
 mod words;
 

@@ -18,10 +18,10 @@
 //! `modes`, once with the tent filter. Paths count from the job file's folder.
 
 use files::json::Document;
+use files::names::each_name_once;
 use files::{JsonError, Source};
 use render::film::MOST_SAMPLES;
 use render::filter::Filter;
-use render::scene::file::each_name_once;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

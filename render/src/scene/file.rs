@@ -55,11 +55,11 @@
 //! are not bound. In an OBJ of another tool both maps are keyed by the name that `usemtl` gives.
 
 use crate::texture::{Values, Wrap};
+use files::names::each_name_once;
 use serde::Deserialize;
-use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
+use serde::de::{self, Deserializer, SeqAccess, Visitor};
 use std::collections::BTreeMap;
 use std::fmt;
-use std::marker::PhantomData;
 use std::path::PathBuf;
 
 /// A scene as its file says it; nothing is checked but its types.
@@ -266,37 +266,6 @@ impl<'de> Visitor<'de> for ColorVisitor {
             None => Ok(ColorFile(color)),
             Some(_) => Err(de::Error::invalid_length(4, &self)),
         }
-    }
-}
-
-/// A map in which a name that comes twice is refused; serde's own would keep the last.
-///
-/// # Errors
-/// On the second of two equal names.
-pub fn each_name_once<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
-    deserializer: D,
-) -> Result<BTreeMap<String, T>, D::Error> {
-    deserializer.deserialize_map(NamesVisitor(PhantomData))
-}
-
-struct NamesVisitor<T>(PhantomData<T>);
-
-impl<'de, T: Deserialize<'de>> Visitor<'de> for NamesVisitor<T> {
-    type Value = BTreeMap<String, T>;
-
-    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("an object of named values")
-    }
-
-    fn visit_map<A: MapAccess<'de>>(self, mut entries: A) -> Result<Self::Value, A::Error> {
-        let mut named = BTreeMap::new();
-        while let Some((name, value)) = entries.next_entry::<String, T>()? {
-            if named.contains_key(&name) {
-                return Err(de::Error::custom(format!("duplicate key `{name}`")));
-            }
-            named.insert(name, value);
-        }
-        Ok(named)
     }
 }
 
