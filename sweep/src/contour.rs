@@ -2,6 +2,7 @@
 
 use crate::curve::path::{Joint, Place};
 use crate::curve::{Cubic, Path, turn};
+use crate::cut::{self, Side, Stop};
 use glam::DVec2;
 use kurbo::{CubicBez, ParamCurveArea, Point, Shape};
 use std::f64::consts::TAU;
@@ -102,7 +103,7 @@ impl Contour {
     #[must_use]
     pub fn fewest_cells(&self) -> usize {
         let around = if self.closed() { 3 } else { 1 };
-        self.pieces().max(around)
+        cut::pieces(&self.breaks()).max(around)
     }
 
     /// The smallest and the largest `x`.
@@ -118,18 +119,28 @@ impl Contour {
         }
     }
 
-    /// Cuts the contour into `cells` parts; into [`Contour::fewest_cells`] when those are more.
-    ///
-    /// Each smooth piece gets cells in proportion to its length, at least one, of equal length.
-    /// A crease is given twice. The last point of a closed contour is not given again.
+    /// Where the creases lie, as fractions of the length.
     #[must_use]
-    pub fn columns(&self, cells: usize) -> Vec<Column> {
-        let cells = cells.max(self.fewest_cells());
+    pub fn breaks(&self) -> Vec<f64> {
+        match &self.0 {
+            Form::Circle { .. } => Vec::new(),
+            Form::Path { path, creases } => {
+                creases.iter().map(|joint| joint.s / path.length()).collect()
+            }
+        }
+    }
+
+    /// The places at `stops`.
+    #[must_use]
+    pub fn columns(&self, stops: &[Stop]) -> Vec<Column> {
         match &self.0 {
             Form::Circle { radius } => {
-                (0..cells).map(|i| on_circle(*radius, i as f64 / cells as f64)).collect()
+                stops.iter().map(|stop| on_circle(*radius, stop.at)).collect()
             }
-            Form::Path { path, creases } => columns_of(path, creases, cells),
+            Form::Path { path, creases } => stops
+                .iter()
+                .map(|&stop| on_path(path, stop.at, place(path, creases, stop)))
+                .collect(),
         }
     }
 
@@ -139,14 +150,6 @@ impl Contour {
         match &self.0 {
             Form::Circle { radius } => on_circle(*radius, u),
             Form::Path { path, .. } => on_path(path, u, path.locate(u * path.length())),
-        }
-    }
-
-    /// The number of smooth pieces; one that runs over the start of a closed contour counts as two.
-    fn pieces(&self) -> usize {
-        match &self.0 {
-            Form::Circle { .. } => 1,
-            Form::Path { creases, .. } => 1 + creases.iter().filter(|joint| joint.s > 0.0).count(),
         }
     }
 }
@@ -162,53 +165,15 @@ fn on_path(path: &Path<DVec2>, u: f64, place: Place) -> Column {
     Column { u, point: path.point(place), tangent, curvature }
 }
 
-fn columns_of(path: &Path<DVec2>, creases: &[Joint], cells: usize) -> Vec<Column> {
-    let length = path.length();
-    let column = |s: f64, place: Place| on_path(path, s / length, place);
-    let mut columns = Vec::with_capacity(cells + creases.len() + 1);
-    let mut inner = creases;
-    if let Some(first) = creases.first().filter(|joint| joint.s == 0.0) {
-        columns.push(column(0.0, first.before));
-        inner = &creases[1..];
+/// The place of a stop: at a crease that of its side.
+fn place(path: &Path<DVec2>, creases: &[Joint], stop: Stop) -> Place {
+    let crease = creases.iter().find(|joint| joint.s / path.length() == stop.at);
+    match (crease, stop) {
+        (Some(joint), Stop { side: Side::Before, .. }) => joint.before,
+        (Some(joint), Stop { side: Side::After, .. }) => joint.after,
+        (None, Stop { at, .. }) if at >= 1.0 => path.end(),
+        (None, Stop { at, .. }) => path.locate(at * path.length()),
     }
-    let mut breaks: Vec<f64> = inner.iter().map(|joint| joint.s).collect();
-    breaks.push(length);
-    let ends = shares(&breaks, cells);
-    let (mut from, mut first, mut done) = (0.0, path.start(), 0);
-    for (piece, (&to, &end)) in breaks.iter().zip(&ends).enumerate() {
-        columns.push(column(from, first));
-        for cell in 1..end - done {
-            let s = from + (to - from) * (cell as f64 / (end - done) as f64);
-            columns.push(column(s, path.locate(s)));
-        }
-        if let Some(crease) = inner.get(piece) {
-            columns.push(column(to, crease.before));
-            first = crease.after;
-        }
-        (from, done) = (to, end);
-    }
-    if !path.closed() {
-        columns.push(column(length, path.end()));
-    }
-    columns
-}
-
-/// Divides `cells` among pieces that end at `breaks`: how many cells there are up to each break.
-///
-/// Each piece has at least one; `cells` is at least the number of pieces.
-fn shares(breaks: &[f64], cells: usize) -> Vec<usize> {
-    let (pieces, length) = (breaks.len(), breaks[breaks.len() - 1]);
-    let mut before = 0;
-    breaks
-        .iter()
-        .enumerate()
-        .map(|(piece, &s)| {
-            let fair = (cells as f64 * (s / length)).round() as usize;
-            // One for this piece, and enough left for those after it.
-            before = fair.clamp(before + 1, cells - (pieces - 1 - piece));
-            before
-        })
-        .collect()
 }
 
 /// The path itself, or turned round when it runs clockwise.
@@ -241,6 +206,10 @@ mod tests {
         Contour::path(Path::new(&outline.segments, outline.closed).unwrap())
     }
 
+    fn cut(contour: &Contour, cells: usize) -> Vec<Column> {
+        contour.columns(&cut::evenly(&contour.breaks(), contour.closed(), cells))
+    }
+
     fn us(columns: &[Column]) -> Vec<f64> {
         columns.iter().map(|column| (column.u * 1e6).round() / 1e6).collect()
     }
@@ -249,7 +218,7 @@ mod tests {
     fn a_circle_is_cut_evenly() {
         let circle = Contour::circle(2.0);
         assert_eq!(circle.length(), 4.0 * PI);
-        let columns = circle.columns(4);
+        let columns = cut(&circle, 4);
         let (point, tangent) = (DVec2::Y * 2.0, DVec2::NEG_X);
         assert_eq!(columns[1], Column { u: 0.25, point, tangent, curvature: 0.5 });
         assert_eq!(us(&columns), [0.0, 0.25, 0.5, 0.75]);
@@ -260,7 +229,7 @@ mod tests {
         // A rectangle of 3 x 1, counter-clockwise; SVG's y points down.
         let rectangle = contour("M0 0H3V-1H0Z");
         assert_eq!((rectangle.creases(), rectangle.fewest_cells()), (4, 4));
-        let columns = rectangle.columns(8);
+        let columns = cut(&rectangle, 8);
         assert_eq!(columns.len(), 12);
         assert_eq!(
             us(&columns),
@@ -274,7 +243,7 @@ mod tests {
     #[test]
     fn an_open_contour_has_both_its_ends() {
         let bend = contour("M0 0H1V-1");
-        let columns = bend.columns(4);
+        let columns = cut(&bend, 4);
         assert_eq!(us(&columns), [0.0, 0.25, 0.5, 0.5, 0.75, 1.0]);
         assert_eq!(columns[5].point, DVec2::ONE);
         assert_eq!(bend.fewest_cells(), 2);
@@ -284,7 +253,7 @@ mod tests {
     fn a_corner_elsewhere_than_at_the_start_leaves_the_start_smooth() {
         let drop = contour("M0 0C0 -1 1 -1 2 0C1 1 0 1 0 0Z");
         assert_eq!((drop.creases(), drop.fewest_cells()), (1, 3));
-        let columns = drop.columns(10);
+        let columns = cut(&drop, 10);
         assert_eq!(columns.len(), 11);
         assert_eq!(columns[0].u, 0.0);
         assert!(columns[1].u > 0.0);
@@ -293,20 +262,13 @@ mod tests {
     #[test]
     fn clockwise_contours_are_turned_round_from_the_same_start() {
         let (clockwise, counter) = (contour("M0 0V-1H1V0Z"), contour("M0 0H1V-1H0Z"));
-        let (a, b) = (clockwise.columns(8), counter.columns(8));
+        let (a, b) = (cut(&clockwise, 8), cut(&counter, 8));
         for (a, b) in a.iter().zip(&b) {
             assert!((a.point - b.point).length() < 1e-15);
             assert!((a.tangent - b.tangent).length() < 1e-15);
         }
         let open = contour("M0 0V-1H1");
-        assert_eq!(open.columns(2)[0].tangent, DVec2::Y, "an open one is kept");
-    }
-
-    #[test]
-    fn cells_are_shared_by_length_and_every_piece_has_one() {
-        assert_eq!(shares(&[1.0, 2.0, 4.0], 8), [2, 4, 8]);
-        assert_eq!(shares(&[0.001, 0.002, 4.0], 4), [1, 2, 4]);
-        assert_eq!(shares(&[3.9, 3.95, 4.0], 3), [1, 2, 3]);
+        assert_eq!(cut(&open, 2)[0].tangent, DVec2::Y, "an open one is kept");
     }
 
     #[test]

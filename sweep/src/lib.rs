@@ -5,6 +5,7 @@
 //! | [`spec`]       | the spec as JSON; here are its keys and its conventions             |
 //! | [`Sweep`]      | a spec that has been checked, and the grid it gives                 |
 //! | [`contour`]    | the curve that is swept; columns, creases                           |
+//! | [`cut`]        | where a curve is cut into cells                                     |
 //! | [`trajectory`] | the curve it follows; stations, normals in closed form              |
 //! | [`law`]        | numbers that change along the trajectory                            |
 //! | [`depth`]      | relief on the contour, in waves                                     |
@@ -27,6 +28,7 @@
 
 pub mod contour;
 pub mod curve;
+pub mod cut;
 pub mod depth;
 pub mod error;
 pub mod frame;

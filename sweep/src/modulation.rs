@@ -17,6 +17,7 @@
 //! vertically.
 
 use crate::contour::Column;
+use crate::cut::Stop;
 use crate::depth::{Depth, Raised, Relief};
 use crate::law::Law;
 use crate::trajectory::{Station, Trajectory};
@@ -59,10 +60,10 @@ struct Local {
 }
 
 impl Modulation {
-    /// The section at `v`, a fraction of the trajectory's length.
+    /// The section at a stop of the trajectory.
     #[must_use]
-    pub fn section(&self, trajectory: &Trajectory, v: f64) -> Section {
-        let station = trajectory.station(v);
+    pub fn section(&self, trajectory: &Trajectory, stop: Stop) -> Section {
+        let (station, v) = (trajectory.station_at(stop), stop.at);
         let extent = trajectory.extent();
         let pace = 1.0 / extent;
         let station = match &self.twist {

@@ -1,6 +1,7 @@
 //! A sweep that has been checked, and the grid it gives.
 
 use crate::contour::{Column, Contour};
+use crate::cut::{self, Stop};
 use crate::grid::file::MAX_COLS;
 use crate::grid::{GridMesh, Seam, UvLayout};
 use crate::modulation::Modulation;
@@ -139,8 +140,8 @@ impl Sweep {
     /// When there is no memory for it.
     pub fn try_grid(&self) -> Result<GridMesh, SweepError> {
         let columns = self.columns();
-        let v = self.row_places();
-        let count = v.len() * columns.len();
+        let rows = self.row_stops();
+        let count = rows.len() * columns.len();
         let (mut positions, mut normals) = (Vec::new(), Vec::new());
         let reserved = positions.try_reserve_exact(count).and(normals.try_reserve_exact(count));
         reserved.map_err(|_| SweepError::Memory {
@@ -150,12 +151,12 @@ impl Sweep {
         })?;
         positions.resize(count, DVec3::ZERO);
         normals.resize(count, Vec3::ZERO);
-        let rows = positions
+        let stations = positions
             .par_chunks_mut(columns.len())
             .zip(normals.par_chunks_mut(columns.len()))
-            .zip(&v);
-        rows.for_each(|((points, normals), &v)| {
-            let section = self.modulation.section(&self.trajectory, v);
+            .zip(&rows);
+        stations.for_each(|((points, normals), &stop)| {
+            let section = self.modulation.section(&self.trajectory, stop);
             for ((column, point), normal) in columns.iter().zip(points).zip(normals) {
                 *point = section.point(column) + self.position;
                 *normal = section.normal(column).as_vec3();
@@ -168,7 +169,7 @@ impl Sweep {
             seam_v: seam(self.trajectory.closed()),
             uv: self.uv,
             u: columns.iter().map(|column| column.u).collect(),
-            v,
+            v: rows.iter().map(|stop| stop.at).collect(),
             positions,
             normals,
         })
@@ -182,7 +183,7 @@ impl Sweep {
     pub fn at(&self, u: f64, v: f64) -> (DVec3, DVec3) {
         let mut column = self.contour.at(u);
         self.snap_to_axis(std::slice::from_mut(&mut column));
-        let section = self.modulation.section(&self.trajectory, v);
+        let section = self.modulation.section(&self.trajectory, Stop::after(v));
         (section.point(&column) + self.position, section.normal(&column))
     }
 
@@ -191,23 +192,22 @@ impl Sweep {
     #[must_use]
     pub fn folded_rows(&self) -> usize {
         let columns = self.columns();
-        self.row_places()
+        self.row_stops()
             .par_iter()
-            .filter(|&&v| {
-                let section = self.modulation.section(&self.trajectory, v);
+            .filter(|&&stop| {
+                let section = self.modulation.section(&self.trajectory, stop);
                 columns.iter().any(|column| section.folds(column))
             })
             .count()
     }
 
-    /// `v` of each row.
-    fn row_places(&self) -> Vec<f64> {
-        let rows = self.rows + usize::from(!self.trajectory.closed());
-        (0..rows).map(|row| row as f64 / self.rows as f64).collect()
+    fn row_stops(&self) -> Vec<Stop> {
+        cut::evenly(self.trajectory.breaks(), self.trajectory.closed(), self.rows)
     }
 
     fn columns(&self) -> Vec<Column> {
-        let mut columns = self.contour.columns(self.cols);
+        let stops = cut::evenly(&self.contour.breaks(), self.contour.closed(), self.cols);
+        let mut columns = self.contour.columns(&stops);
         self.snap_to_axis(&mut columns);
         columns
     }

@@ -1,6 +1,7 @@
 //! The curve that a contour follows, and the stations on it.
 
 use crate::curve::{Helix, Path, turn};
+use crate::cut::Stop;
 use crate::frame::{Frame, Frames};
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
@@ -95,6 +96,18 @@ impl Trajectory {
     #[must_use]
     pub fn fewest_cells(&self) -> usize {
         if self.closed() { 3 } else { 1 }
+    }
+
+    /// Where the corners lie, as fractions of the length.
+    #[must_use]
+    pub fn breaks(&self) -> &[f64] {
+        &[]
+    }
+
+    /// The station at a stop: at a corner that of its side.
+    #[must_use]
+    pub fn station_at(&self, stop: Stop) -> Station {
+        self.station(stop.at)
     }
 
     /// The station at `v`, a fraction of the length.
