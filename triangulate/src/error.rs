@@ -49,6 +49,14 @@ pub enum TriangulateError {
         /// Points on a station.
         cols: usize,
     },
+    /// A grid in memory that leads back to its start as none can.
+    #[error("{object}: {fault}")]
+    Seam {
+        /// The object's name.
+        object: String,
+        /// What was found and what was expected.
+        fault: String,
+    },
     /// A number that a mesh of f32 does not hold.
     #[error(
         "{object}: row {row}, column {col}: found the {what} ({:?}, {:?}, {:?}), expected numbers within 3.4e38, \
@@ -116,6 +124,7 @@ impl Failure for TriangulateError {
             Self::Terminal => Exit::Use,
             Self::TooMany { .. } => Exit::Resource,
             Self::TooFew { .. }
+            | Self::Seam { .. }
             | Self::Number { .. }
             | Self::Repeat { .. }
             | Self::Arrays { .. }

@@ -9,10 +9,13 @@
 //! What makes a mesh of a grid:
 //!
 //! - *One vertex where the surface has one point.* A seam that closes leads back to the first row or
-//!   column, and a point equal to its neighbour in the grid shares its vertex: at a pole a
+//!   column, shifted or mirrored as the grid says, and a point equal to its neighbour in the grid shares its vertex: at a pole a
 //!   whole row or column does, at a crease two columns do. Texture coordinates are not shared over a
 //!   seam; they run on to `u = 1` and `v = 1`, so that no triangle has the whole picture squeezed
 //!   into it.
+//! - *Two sides of one row* where a seam is mirrored: the surface comes back with its other side out,
+//!   so the first row has a second set of normals there, turned over. Seen from one side, its
+//!   triangles on either hand of that seam run round opposite ways, as on every such surface.
 //! - *No triangle without area.* The cell between the two columns of a crease gives none, a cell at
 //!   a pole gives one. [`Counts`] says how many were left out.
 //! - *Half a cell at a pole.* All of a picture's edge meets there; each triangle takes the middle of

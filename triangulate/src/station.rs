@@ -2,7 +2,8 @@
 
 use crate::TriangulateError;
 use glam::DVec3;
-use sweep::grid::Row;
+use sweep::grid::file::Header;
+use sweep::grid::{Row, Seam};
 
 /// The number of a vertex that was not told to the sink yet.
 pub const UNTOLD: u32 = u32::MAX;
@@ -10,7 +11,7 @@ pub const UNTOLD: u32 = u32::MAX;
 /// A row, rounded, and the numbers of its vertices.
 #[derive(Debug, Default)]
 pub struct Station {
-    /// Where on the trajectory; 1 where a closed trajectory comes back to its first row.
+    /// Where on the trajectory; 1 where the trajectory comes back to its first row.
     pub v: f64,
     /// Points, by column.
     pub points: Vec<[f32; 3]>,
@@ -65,6 +66,27 @@ impl Station {
         self.uv.clear();
         self.uv.resize(uv_slots, UNTOLD);
         Ok(())
+    }
+
+    /// The first row as the last one leads on to it: at `v = 1`, with its columns in the order of
+    /// the last row's, and turned over where the seam is mirrored. Points are the same vertices;
+    /// so are normals that keep their side.
+    pub fn over_seam(self, header: &Header) -> Self {
+        let cols = self.points.len();
+        let from: Vec<usize> =
+            (0..cols).map(|col| header.seam_v.leads_to(col, header.shift, cols)).collect();
+        let mirrored = header.seam_v == Seam::Mirror;
+        // Taken from zero, 0 becomes +0.
+        let turned = |n: [f32; 3]| if mirrored { n.map(|x| 0.0 - x) } else { n };
+        let normal = |&col: &usize| if mirrored { UNTOLD } else { self.normal[col] };
+        Self {
+            v: 1.0,
+            points: from.iter().map(|&col| self.points[col]).collect(),
+            normals: from.iter().map(|&col| turned(self.normals[col])).collect(),
+            position: from.iter().map(|&col| self.position[col]).collect(),
+            normal: from.iter().map(normal).collect(),
+            uv: vec![UNTOLD; self.uv.len()],
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Rows in, vertices and triangles out.
 
 use crate::cell::{Cell, Picture, Teller};
-use crate::station::{Station, UNTOLD};
+use crate::station::Station;
 use crate::{Triangle, TriangulateError};
 use glam::DVec3;
 use std::io;
@@ -127,6 +127,7 @@ const MAX_REPEAT: f64 = 1e30;
 pub struct Triangulator<S> {
     header: Header,
     teller: Teller<S>,
+    /// The first row as the last one leads on to it, if it does.
     first: Option<Station>,
     before: Option<Station>,
     /// A station no longer needed, whose memory is used again.
@@ -148,6 +149,9 @@ impl<S: Sink> Triangulator<S> {
         let object = header.name.clone();
         if rows < 2 || cols < 2 {
             return Err(TriangulateError::TooFew { object, rows, cols });
+        }
+        if let Some(fault) = header.seam_fault() {
+            return Err(TriangulateError::Seam { object, fault });
         }
         // Counted with the row and the column that seams add to the picture.
         if (rows as u64 + 1).saturating_mul(cols as u64 + 1) > MAX_POINTS {
@@ -187,11 +191,8 @@ impl<S: Sink> Triangulator<S> {
         self.number_positions(&mut station);
         if let Some(mut before) = self.before.take() {
             self.band(&mut before, &mut station);
-            if self.rows == 2 && self.header.seam_v == Seam::Closed {
-                // The last row leads to the same points and normals, at the picture's other end.
-                before.v = 1.0;
-                before.uv.fill(UNTOLD);
-                self.first = Some(before);
+            if self.rows == 2 && self.header.seam_v.joins() {
+                self.first = Some(before.over_seam(&self.header));
             } else {
                 self.spare = before;
             }
@@ -278,14 +279,7 @@ mod tests {
     use sweep::grid::UvLayout;
 
     fn header(rows: usize, cols: usize) -> Header {
-        Header {
-            name: "sheet".into(),
-            rows,
-            seam_u: Seam::Open,
-            seam_v: Seam::Open,
-            uv: UvLayout::default(),
-            u: vec![0.0; cols],
-        }
+        Header { name: "sheet".into(), rows, u: vec![0.0; cols], ..Header::default() }
     }
 
     fn complaint(header: Header) -> String {
@@ -299,6 +293,8 @@ mod tests {
         assert!(message.contains("found 3000000000 x 2 points, expected at most"), "{message}");
         let message = complaint(header(1, 5));
         assert_eq!(message, "sheet: found 1 rows of 5 columns, expected at least 2 of each");
+        let message = complaint(Header { seam_v: Seam::Mirror, ..header(3, 3) });
+        assert!(message.starts_with("sheet: shift: found 0, expected 2: an open"), "{message}");
         let uv = UvLayout { repeat: [1.0, 1e300], ..UvLayout::default() };
         assert!(complaint(Header { uv, ..header(2, 2) }).contains("a picture that repeats"));
     }

@@ -30,6 +30,7 @@ fn sheet_at(corner: DVec3, rows: usize, cols: usize) -> Vec<u8> {
         normals: vec![Vec3::Z; rows * cols],
         u,
         v,
+        ..GridMesh::default()
     };
     let mut bytes = Vec::new();
     write(&grid, Encoding::Binary, &mut bytes).unwrap();

@@ -11,6 +11,13 @@
 //! {"rows":2,"crc32":1421911981}
 //! ```
 //!
+//! A header may hold more than this one, and leaves out what has its default:
+//!
+//! | key         | default  | what                                                          |
+//! |-------------|----------|---------------------------------------------------------------|
+//! | `seam_v`    |          | `open`, `closed`, or `mirror`: the last row leads to the first, read the other way round |
+//! | `shift`     | 0        | by how many columns, as [`Seam`](crate::grid::Seam) has it    |
+//!
 //! A row is `[v, flags, positions, normals]`; the numbers are the shortest that read back to the
 //! same bits. A binary row holds the same in the same order, little-endian and without padding:
 //!

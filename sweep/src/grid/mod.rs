@@ -2,8 +2,10 @@
 
 pub mod file;
 mod row;
+mod seam;
 
 pub use row::Row;
+pub use seam::Seam;
 
 use glam::{DVec3, Vec3};
 use serde::{Deserialize, Serialize};
@@ -21,17 +23,20 @@ use serde::{Deserialize, Serialize};
 /// ```
 ///
 /// In a closed direction the first row or column is not repeated at the end: the cell after the
-/// last one leads back to the first. A *crease* (a corner of the contour) is a column given twice,
+/// last one leads back to the first, over a seam that [`Seam`] describes. A *crease* (a corner of the contour) is a column given twice,
 /// at the same positions with the same `u`, once with the normals of each side.
 /// Where a contour meets the axis of a rotational sweep all rows share one position (a pole).
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct GridMesh {
     /// The object's name, from the spec; one word per OBJ object.
     pub name: String,
-    /// Whether the contour leads back to its start.
+    /// Whether the contour leads back to its start; never mirrored.
     pub seam_u: Seam,
     /// Whether the trajectory leads back to its start.
     pub seam_v: Seam,
+    /// Columns by which the contour comes back turned in itself, below `cols`; 0 where it does not
+    /// come back.
+    pub shift: usize,
     /// How a picture lies on the surface.
     pub uv: UvLayout,
     /// `u` of each column, not decreasing, from 0; up to 1 when open, below 1 when closed.
@@ -42,16 +47,6 @@ pub struct GridMesh {
     pub positions: Vec<DVec3>,
     /// Unit normals, outward for a counter-clockwise contour, one per position.
     pub normals: Vec<Vec3>,
-}
-
-/// Whether a direction of the grid leads back to its start.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Seam {
-    /// The last row or column is an edge of the surface.
-    Open,
-    /// The last row or column is followed by the first.
-    Closed,
 }
 
 /// How a picture lies on the surface: which grid direction runs across it, and how often it

@@ -68,8 +68,8 @@ pub(super) fn check_parameter(found: f64, before: Option<f64>, seam: Seam) -> Re
         (None, _) => "0, where every grid starts".into(),
         (Some(before), Seam::Open) if found >= before && found <= 1.0 => return Ok(()),
         (Some(before), Seam::Open) => format!("a number from {before} (the one before it) to 1"),
-        (Some(before), Seam::Closed) if found >= before && found < 1.0 => return Ok(()),
-        (Some(before), Seam::Closed) => {
+        (Some(before), _) if found >= before && found < 1.0 => return Ok(()),
+        (Some(before), _) => {
             format!("a number from {before} (the one before it) to below 1, where it closes")
         }
     };

@@ -14,7 +14,7 @@ pub fn grid_of(
     surface: impl Fn(f64, f64) -> (DVec3, DVec3),
 ) -> GridMesh {
     let even = |count: usize, seam: Seam| -> Vec<f64> {
-        let last = if seam == Seam::Closed { count } else { count - 1 };
+        let last = if seam.joins() { count } else { count - 1 };
         (0..count).map(|i| i as f64 / last as f64).collect()
     };
     let (v, u) = (even(rows, seam_v), even(cols, seam_u));
@@ -27,7 +27,9 @@ pub fn grid_of(
         }
     }
     let name = "shape".into();
-    GridMesh { name, seam_u, seam_v, uv: UvLayout::default(), u, v, positions, normals }
+    let shift = if seam_v == Seam::Mirror && seam_u == Seam::Open { cols - 1 } else { 0 };
+    let uv = UvLayout::default();
+    GridMesh { name, seam_u, seam_v, shift, uv, u, v, positions, normals }
 }
 
 /// Radii 3 and 1. Along `u` around the tube, along `v` around the hole.
@@ -60,5 +62,34 @@ pub fn cylinder(rows: usize, cols: usize) -> GridMesh {
     grid_of([rows, cols], [Seam::Open, Seam::Closed], |u, v| {
         let (sin, cos) = (TAU * u).sin_cos();
         (DVec3::new(cos, sin, 2.0 * v), DVec3::new(cos, sin, 0.0))
+    })
+}
+
+/// A figure of eight, turned half round on its way about an axis: the Klein bottle that crosses
+/// itself along a circle of radius 3.
+pub fn klein_bottle(rows: usize, cols: usize) -> GridMesh {
+    grid_of([rows, cols], [Seam::Mirror, Seam::Closed], |u, v| {
+        let (a, b) = (TAU * u, TAU * v);
+        let (sin, cos) = (0.5 * b).sin_cos();
+        // The figure of eight (sin a, sin 2a) in a plane turned by b/2, and its derivatives.
+        let turned = |x: f64, y: f64| [cos * x - sin * y, sin * x + cos * y];
+        let around = |[r, z]: [f64; 2], b: f64| DVec3::new(r * b.cos(), r * b.sin(), z);
+        let (eight, along) = ([a.sin(), (2.0 * a).sin()], [a.cos(), 2.0 * (2.0 * a).cos()]);
+        let [r, z] = turned(eight[0], eight[1]);
+        let s_u = around(turned(along[0], along[1]), b);
+        let s_v = around([-0.5 * z, 0.5 * r], b) + (3.0 + r) * DVec3::new(-b.sin(), b.cos(), 0.0);
+        (around([3.0 + r, z], b), s_u.cross(s_v))
+    })
+}
+
+/// A straight line of length 2, turned half round on its way about an axis, at radius 3.
+pub fn moebius_band(rows: usize, cols: usize) -> GridMesh {
+    grid_of([rows, cols], [Seam::Mirror, Seam::Open], |u, v| {
+        let (w, b) = (2.0 * u - 1.0, TAU * v);
+        let (sin, cos) = (0.5 * b).sin_cos();
+        let around = |[r, z]: [f64; 2]| DVec3::new(r * b.cos(), r * b.sin(), z);
+        let s_v = around([-0.5 * w * sin, 0.5 * w * cos])
+            + (3.0 + w * cos) * DVec3::new(-b.sin(), b.cos(), 0.0);
+        (around([3.0 + w * cos, w * sin]), around([cos, sin]).cross(s_v))
     })
 }

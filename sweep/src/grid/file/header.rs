@@ -1,8 +1,9 @@
 //! The header line: everything about a grid but its rows.
 
 use super::{Encoding, GridError, stranger};
+use crate::GridMesh;
 use crate::grid::row::{Fault, check_parameter};
-use crate::{GridMesh, grid::Seam, grid::UvLayout};
+use crate::grid::{Seam, UvLayout, seam};
 use files::json::Document;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -23,7 +24,7 @@ const MAX_ROWS: usize = u32::MAX as usize;
 const MAX_LINE: usize = 32 << 20;
 
 /// Everything about a grid but its rows.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Header {
     /// The object's name.
     pub name: String,
@@ -33,6 +34,8 @@ pub struct Header {
     pub seam_u: Seam,
     /// Whether the trajectory leads back to its start.
     pub seam_v: Seam,
+    /// Columns by which the contour comes back turned in itself.
+    pub shift: usize,
     /// How a picture lies on the surface.
     pub uv: UvLayout,
     /// `u` of each column.
@@ -52,6 +55,8 @@ struct Line {
     cols: usize,
     seam_u: Seam,
     seam_v: Seam,
+    #[serde(default, skip_serializing_if = "is_zero")]
+    shift: usize,
     uv: UvLayout,
     u: Vec<f64>,
 }
@@ -81,6 +86,7 @@ impl Header {
             rows: grid.rows(),
             seam_u: grid.seam_u,
             seam_v: grid.seam_v,
+            shift: grid.shift,
             uv: grid.uv,
             u: grid.u.clone(),
         }
@@ -90,6 +96,13 @@ impl Header {
     #[must_use]
     pub fn cols(&self) -> usize {
         self.u.len()
+    }
+
+    /// What is wrong with how the last row leads back to the first, if anything is.
+    #[must_use]
+    pub fn seam_fault(&self) -> Option<String> {
+        let fault = seam::check([self.seam_u, self.seam_v], self.shift, self.cols()).err();
+        fault.map(|fault| fault.to_string())
     }
 
     /// The header line with its newline.
@@ -104,6 +117,7 @@ impl Header {
             cols: self.cols(),
             seam_u: self.seam_u,
             seam_v: self.seam_v,
+            shift: self.shift,
             uv: self.uv,
             u: self.u.clone(),
         };
@@ -118,12 +132,13 @@ impl Header {
             ("rows", self.rows, self.seam_v, MAX_ROWS),
             ("cols", self.cols(), self.seam_u, MAX_COLS),
         ] {
-            let least = if seam == Seam::Closed { 3 } else { 2 };
+            let least = if seam.joins() { 3 } else { 2 };
             if !(least..=limit).contains(&count) {
                 let message = format!("found {count}, expected from {least} to {limit}");
                 return Err(Fault { place: place.into(), message });
             }
         }
+        seam::check([self.seam_u, self.seam_v], self.shift, self.cols())?;
         for (i, found) in self.uv.repeat.iter().enumerate() {
             if !(found.is_finite() && *found > 0.0) {
                 let message = format!("found {found}, expected a positive number");
@@ -138,6 +153,10 @@ impl Header {
         }
         Ok(())
     }
+}
+
+fn is_zero(number: &usize) -> bool {
+    *number == 0
 }
 
 /// Reads and checks the header line; gives its bytes, newline included, for the checksum.
@@ -194,6 +213,7 @@ pub(super) fn read(
         cols,
         seam_u,
         seam_v,
+        shift,
         uv,
         u,
     } = document.parse()?;
@@ -201,7 +221,7 @@ pub(super) fn read(
         let message = format!("found {cols}, expected {}, the number of values in u", u.len());
         return Err(document.fault("cols", message).into());
     }
-    let header = Header { name, rows, seam_u, seam_v, uv, u };
+    let header = Header { name, rows, seam_u, seam_v, shift, uv, u };
     header.check().map_err(|fault| document.fault(&fault.place, fault.message))?;
     Ok((header, encoding, bytes))
 }

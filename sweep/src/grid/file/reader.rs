@@ -42,8 +42,8 @@ pub fn read(name: &str, input: impl BufRead) -> Result<GridMesh, GridError> {
         positions.extend_from_slice(row.positions);
         normals.extend_from_slice(row.normals);
     }
-    let Header { name, rows: _, seam_u, seam_v, uv, u } = reader.header;
-    Ok(GridMesh { name, seam_u, seam_v, uv, u, v, positions, normals })
+    let Header { name, rows: _, seam_u, seam_v, shift, uv, u } = reader.header;
+    Ok(GridMesh { name, seam_u, seam_v, shift, uv, u, v, positions, normals })
 }
 
 impl<R: BufRead> GridReader<R> {

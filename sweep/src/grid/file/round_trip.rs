@@ -63,27 +63,38 @@ fn parameters(count: usize) -> impl Strategy<Value = Vec<f64>> {
     })
 }
 
+/// Ways for `cols` columns to come back.
+fn seams(cols: usize) -> impl Strategy<Value = (Seam, Seam, usize)> {
+    let seam = |all: &[Seam]| prop::sample::select(all.to_vec());
+    let ways = (seam(&[Seam::Open, Seam::Closed]), seam(&[Seam::Open, Seam::Closed, Seam::Mirror]));
+    (ways, 0..cols).prop_map(move |((seam_u, seam_v), shift)| match (seam_u, seam_v) {
+        (Seam::Open, Seam::Mirror) => (seam_u, seam_v, cols - 1),
+        (Seam::Open, _) | (_, Seam::Open) => (seam_u, seam_v, 0),
+        _ => (seam_u, seam_v, shift),
+    })
+}
+
 fn grids() -> impl Strategy<Value = GridMesh> {
-    let seam = || prop::sample::select(vec![Seam::Open, Seam::Closed]);
-    (3_usize..6, 3_usize..6).prop_flat_map(move |(rows, cols)| {
+    (3_usize..6, 3_usize..6).prop_flat_map(|(rows, cols)| {
         let points = rows * cols;
         (
-            (".*", seam(), seam(), 1e-9..1e9),
+            (".*", seams(cols), 1e-9..1e9),
             (parameters(cols), parameters(rows)),
             prop::collection::vec(prop::array::uniform3(nasty_f64()), points),
             prop::collection::vec(prop::array::uniform3(nasty_f32()), points),
         )
-            .prop_map(|((name, seam_u, seam_v, repeat), (u, v), positions, normals)| {
-                GridMesh {
+            .prop_map(
+                |((name, (seam_u, seam_v, shift), repeat), (u, v), positions, normals)| GridMesh {
                     name,
                     seam_u,
                     seam_v,
+                    shift,
                     uv: UvLayout { across: Across::Contour, repeat: [repeat, 1.0] },
                     u,
                     v,
                     positions: positions.into_iter().map(DVec3::from_array).collect(),
                     normals: normals.into_iter().map(Vec3::from_array).collect(),
-                }
-            })
+                },
+            )
     })
 }

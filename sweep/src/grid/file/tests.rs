@@ -20,6 +20,7 @@ fn small() -> GridMesh {
         v: vec![0.0, 1.0 / 3.0, 1.0],
         positions: (0..12).map(point).collect(),
         normals: (0..12).map(|i| point(i).as_vec3().normalize()).collect(),
+        ..GridMesh::default()
     }
 }
 
@@ -191,6 +192,21 @@ fn the_header_is_checked() {
         ("0.25,0.7", "0.25,0.2", "u[3]: found 0.2, expected a number from 0.25"),
         ("\"u\":[0.0", "\"u\":[0.1", "u[0]: found 0.1, expected 0"),
         ("[2.0,0.1]", "[2.0,-0.1]", "uv.repeat[1]: found -0.1, expected a positive number"),
+        (
+            "\"seam_v\":\"open\"",
+            "\"seam_v\":\"open\",\"shift\":2",
+            "shift: found 2, expected 0 along",
+        ),
+        (
+            "\"seam_u\":\"closed\"",
+            "\"seam_u\":\"mirror\"",
+            "seam_u: found mirror, expected open or",
+        ),
+        (
+            "\"seam_v\":\"open\"",
+            "\"seam_v\":\"mirror\",\"shift\":4",
+            "shift: found 4, expected less than 4",
+        ),
         ("\"endian\":\"little\"", "\"endian\":\"big\"", "endian"),
         ("\"seam_u\"", "\"seem_u\"", "did you mean `seam_u`?"),
         ("\"tb-grid\"", "\"tb-sweep\"", "it is JSON without \"format\":\"tb-grid\""),
