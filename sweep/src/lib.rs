@@ -10,6 +10,8 @@
 //! | [`law`]        | numbers that change along the trajectory                            |
 //! | [`depth`]      | relief on the contour, in waves                                     |
 //! | [`modulation`] | the contour scaled and twisted on its way                          |
+//! | [`cap`]        | what closes the ends                                                |
+//! | [`deform`]     | taper, twist and bend of the finished surface                       |
 //! | [`frame`]      | rotation-minimizing frames                                          |
 //! | [`curve`]      | cubic Bezier paths by arc length, splines, SVG                      |
 //! | [`grid`]       | the grid and its file                                               |
@@ -26,9 +28,11 @@
 //! # Ok::<(), sweep::SweepError>(())
 //! ```
 
+pub mod cap;
 pub mod contour;
 pub mod curve;
 pub mod cut;
+pub mod deform;
 pub mod depth;
 pub mod error;
 pub mod frame;

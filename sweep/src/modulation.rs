@@ -16,6 +16,7 @@
 //! normal is the limit along the column: that of a cone, or `-T` or `T` on a cap whose scale ends
 //! vertically.
 
+use crate::cap::Gathered;
 use crate::contour::Column;
 use crate::cut::Stop;
 use crate::depth::{Depth, Raised, Relief};
@@ -44,6 +45,8 @@ pub struct Section {
     relief: Option<Relief>,
     /// Length of the trajectory, by which derivatives by `v` become those by length.
     extent: f64,
+    /// The contour gathered to a pole, on a cap.
+    gathered: Option<Gathered>,
     /// Whether the contour is as it was drawn.
     plain: bool,
 }
@@ -82,15 +85,32 @@ impl Modulation {
         };
         let relief = self.depth.as_ref().map(|depth| depth.at(v));
         let plain = self.scale.is_none() && relief.is_none();
-        Section { station, scale, scale_s, relief, extent, plain }
+        Section { station, scale, scale_s, relief, extent, gathered: None, plain }
     }
 }
 
 impl Section {
+    /// The section of a cap: gathered from this one, beyond the trajectory's end (`outward` of 1)
+    /// or before its start (-1).
+    #[must_use]
+    pub(crate) fn gathered(self, gathered: Gathered, outward: f64) -> Self {
+        let Gathered { part_t, beyond, beyond_t, .. } = gathered;
+        // Along the trajectory `t` rises at the end and falls at the start.
+        let station = self.station.beyond(outward * beyond, beyond_t);
+        let gathered = Gathered { part_t: outward * part_t, ..gathered };
+        Self { station, gathered: Some(gathered), plain: false, ..self }
+    }
+
     /// The point of the surface.
     #[must_use]
     pub fn point(&self, column: &Column) -> DVec3 {
         self.station.point(self.local(column).q)
+    }
+
+    /// Where a point of the contour lies on the station's axes.
+    #[must_use]
+    pub fn place(&self, column: &Column) -> DVec2 {
+        self.local(column).q
     }
 
     /// The unit normal of the surface.
@@ -124,6 +144,13 @@ impl Section {
         let axes = if self.scale == DVec2::ZERO { self.scale_s.abs() } else { self.scale };
         let axes = if axes == DVec2::ZERO { DVec2::ONE } else { axes / axes.max_element() };
         let q_s = self.scale_s * point + self.scale * (across / self.extent);
-        Local { q: self.scale * point, q_u: axes * along, q_s, folds }
+        let local = Local { q: self.scale * point, q_u: axes * along, q_s, folds };
+        match self.gathered {
+            None => local,
+            Some(Gathered { center, part, part_t, .. }) => {
+                let arm = local.q - center;
+                Local { q: center + arm * part, q_s: arm * part_t, ..local }
+            }
+        }
     }
 }

@@ -114,16 +114,24 @@
 //! }
 //! ```
 //!
+//! # Caps and deformations
+//!
+//! [`Caps`] close the ends; [`Deform`] bends, twists and tapers the finished surface.
+//!
 //! # Corners
 //!
 //! A contour may have corners; one of more than a degree is a crease, where the surface has two
 //! normals. A trajectory may not: it would need a mitre, and is refused. A rotation wants contour x
 //! of at least 0; where it is 0 the surface has a pole. Points given twice count once.
 
+mod caps;
+mod deform;
 mod depth;
 mod helix;
 mod law;
 
+pub use caps::{Cap, Caps};
+pub use deform::{AxisTwist, Bend, Deform, Taper};
 pub use depth::{Depth, DepthMode, DepthTerm};
 pub use helix::Helix;
 pub use law::{Ease, Law, Scale};
@@ -163,6 +171,12 @@ pub struct Spec {
     /// Relief on the contour.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub depth: Option<Depth>,
+    /// What closes the ends.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub caps: Option<Caps>,
+    /// What happens to the surface in the end, one after another.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub deform: Vec<Deform>,
     /// How finely.
     pub mesh: Mesh,
     /// How a picture lies on the surface.
@@ -368,21 +382,28 @@ mod tests {
     use crate::Sweep;
     use files::json::Document;
 
+    /// The pages that show specs, and how many each shows.
+    const PAGES: [(&str, usize); 3] = [
+        (include_str!("spec.rs"), 4),
+        (include_str!("spec/caps.rs"), 1),
+        (include_str!("spec/deform.rs"), 1),
+    ];
+
     #[test]
-    fn the_snippets_above_are_specs() {
-        let page = include_str!("spec.rs");
-        let page: String = page
-            .lines()
-            .map_while(|line| line.strip_prefix("//!"))
-            .map(|line| format!("{line}\n"))
-            .collect();
-        let snippets: Vec<&str> =
-            page.split("```json").skip(1).filter_map(|rest| rest.split("```").next()).collect();
-        assert_eq!(snippets.len(), 4);
-        for snippet in snippets {
-            let document = Document::new("snippet", snippet.as_bytes()).unwrap();
-            let sweep = Sweep::read(&document).unwrap_or_else(|error| panic!("{error}"));
-            assert_eq!(sweep.grid().positions.len(), sweep.grid().rows() * sweep.grid().cols());
+    fn the_snippets_on_the_pages_are_specs() {
+        for (page, count) in PAGES {
+            let lines = page.lines().map_while(|line| line.strip_prefix("//!"));
+            let page: String = lines.map(|line| format!("{line}\n")).collect();
+            let snippets =
+                page.split("```json").skip(1).filter_map(|rest| rest.split("```").next());
+            let snippets: Vec<&str> = snippets.collect();
+            assert_eq!(snippets.len(), count);
+            for snippet in snippets {
+                let document = Document::new("snippet", snippet.as_bytes()).unwrap();
+                let sweep = Sweep::read(&document).unwrap_or_else(|error| panic!("{error}"));
+                let grid = sweep.grid();
+                assert_eq!(grid.positions.len(), grid.rows() * grid.cols());
+            }
         }
     }
 }

@@ -1,10 +1,12 @@
 //! A sweep that has been checked, and the grid it gives.
 
+use crate::cap::Cap;
 use crate::contour::{Column, Contour};
 use crate::cut::{self, Stop};
+use crate::deform::{Deform, Moved};
 use crate::grid::file::MAX_COLS;
 use crate::grid::{GridMesh, Seam, UvLayout};
-use crate::modulation::Modulation;
+use crate::modulation::{Modulation, Section};
 use crate::trajectory::Trajectory;
 use crate::{SweepError, read};
 use files::json::Document;
@@ -24,6 +26,10 @@ pub struct Sweep {
     pub(crate) contour: Contour,
     pub(crate) trajectory: Trajectory,
     pub(crate) modulation: Modulation,
+    /// What closes the start and the end.
+    pub(crate) caps: [Option<Cap>; 2],
+    /// What happens to the surface in the end, one after another.
+    pub(crate) deforms: Vec<Deform>,
     pub(crate) rows: usize,
     pub(crate) cols: usize,
     pub(crate) uv: UvLayout,
@@ -89,9 +95,14 @@ impl Sweep {
     /// What is wrong with the numbers of cells: the key and a sentence.
     pub(crate) fn resolution_fault(&self) -> Option<(&'static str, String)> {
         let around = "to go around";
-        let fewest = self.trajectory.fewest_cells();
+        let pieces = cut::pieces(&self.row_breaks());
+        let fewest = self.trajectory.fewest_cells().max(pieces);
         if self.rows < fewest {
-            let why = if fewest > 1 { around } else { "along the trajectory" };
+            let why = match fewest {
+                1 => "along the trajectory",
+                _ if fewest == pieces => "one for each piece between corners and for each cap",
+                _ => around,
+            };
             return Some((
                 "rows",
                 format!("found {}, expected at least {fewest} {why}", self.rows),
@@ -156,10 +167,10 @@ impl Sweep {
             .zip(normals.par_chunks_mut(columns.len()))
             .zip(&rows);
         stations.for_each(|((points, normals), &stop)| {
-            let section = self.modulation.section(&self.trajectory, stop);
+            let section = self.section(stop);
             for ((column, point), normal) in columns.iter().zip(points).zip(normals) {
-                *point = section.point(column) + self.position;
-                *normal = section.normal(column).as_vec3();
+                let place = self.place(&section, column);
+                (*point, *normal) = (place.point, place.normal.as_vec3());
             }
         });
         let seam = |closed| if closed { Seam::Closed } else { Seam::Open };
@@ -184,8 +195,8 @@ impl Sweep {
     pub fn at(&self, u: f64, v: f64) -> (DVec3, DVec3) {
         let mut column = self.contour.at(u);
         self.snap_to_axis(std::slice::from_mut(&mut column));
-        let section = self.modulation.section(&self.trajectory, Stop::after(v));
-        (section.point(&column) + self.position, section.normal(&column))
+        let place = self.place(&self.section(Stop::after(v)), &column);
+        (place.point, place.normal)
     }
 
     /// The number of rows in which some of the surface folds back on itself, since the trajectory
@@ -196,14 +207,64 @@ impl Sweep {
         self.row_stops()
             .par_iter()
             .filter(|&&stop| {
-                let section = self.modulation.section(&self.trajectory, stop);
-                columns.iter().any(|column| section.folds(column))
+                let section = self.section(stop);
+                columns
+                    .iter()
+                    .any(|column| section.folds(column) || self.place(&section, column).folds)
             })
             .count()
     }
 
+    /// The contour at a stop of the rows, on the trajectory or on a cap.
+    pub(crate) fn section(&self, stop: Stop) -> Section {
+        let [start, end] = self.body();
+        let on_trajectory = |at| self.modulation.section(&self.trajectory, Stop { at, ..stop });
+        match self.caps {
+            [None, None] => on_trajectory(stop.at),
+            [Some(cap), _] if stop.at < start || stop == Stop::before(start) => {
+                on_trajectory(0.0).gathered(cap.at(1.0 - stop.at / start), -1.0)
+            }
+            [_, Some(cap)] if stop.at > end || stop == Stop::after(end) => {
+                on_trajectory(1.0).gathered(cap.at((stop.at - end) / (1.0 - end)), 1.0)
+            }
+            _ => on_trajectory(((stop.at - start) / (end - start)).clamp(0.0, 1.0)),
+        }
+    }
+
+    /// A point of a section in its place in space, with its unit normal.
+    fn place(&self, section: &Section, column: &Column) -> Moved {
+        let (point, normal) = (section.point(column), section.normal(column));
+        let mut moved = Moved { point, normal, folds: false };
+        for deform in &self.deforms {
+            let next = deform.apply(moved.point, moved.normal);
+            moved = Moved {
+                normal: next.normal.try_normalize().unwrap_or(moved.normal),
+                folds: next.folds || moved.folds,
+                ..next
+            };
+        }
+        Moved { point: moved.point + self.position, ..moved }
+    }
+
+    /// Which part of `v` is on the trajectory: before and after it are the caps.
+    fn body(&self) -> [f64; 2] {
+        let [start, end] = self.caps.map(|cap| cap.map_or(0.0, |cap| cap.length()));
+        let whole = start + self.trajectory.length() + end;
+        [start / whole, if end == 0.0 { 1.0 } else { 1.0 - end / whole }]
+    }
+
+    /// Where the surface may have an edge along the contour: at caps, and at corners of the
+    /// trajectory.
+    fn row_breaks(&self) -> Vec<f64> {
+        let [start, end] = self.body();
+        let inner = self.trajectory.breaks().iter().map(|at| start + (end - start) * at);
+        let first = self.caps[0].map(|_| start);
+        let last = self.caps[1].map(|_| end);
+        first.into_iter().chain(inner).chain(last).collect()
+    }
+
     fn row_stops(&self) -> Vec<Stop> {
-        cut::evenly(self.trajectory.breaks(), self.trajectory.closed(), self.rows)
+        cut::evenly(&self.row_breaks(), self.trajectory.closed(), self.rows)
     }
 
     fn columns(&self) -> Vec<Column> {

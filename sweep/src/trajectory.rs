@@ -178,6 +178,12 @@ impl Station {
         Self { frame, bend, spin: self.spin + rate, ..self }
     }
 
+    /// A place straight ahead, which is moved through at `rate`.
+    pub(crate) fn beyond(self, way: f64, rate: f64) -> Self {
+        let origin = self.frame.origin + self.frame.tangent * way;
+        Self { forward: rate, ..Self::along(Frame { origin, ..self.frame }) }
+    }
+
     /// How far the point over `q` moves along the tangent, by length of the trajectory at the
     /// origin (by radian, for a rotation). Not above 0 where the surface folds back on itself.
     #[must_use]

@@ -1,6 +1,8 @@
 //! From a spec to a [`Sweep`]: every value is looked at before any work is done.
 
+mod caps;
 mod contour;
+mod deform;
 mod depth;
 mod law;
 mod modulation;
@@ -61,11 +63,14 @@ pub fn read(document: &Document) -> Result<Sweep, SweepError> {
         contour = contour.rotated(ON_AXIS * high);
     }
     let modulation = reader.modulation(&spec, &contour, &trajectory)?;
+    let caps = reader.caps(spec.caps, &contour, &trajectory, &modulation)?;
     let sweep = Sweep {
         name: spec.name,
         contour,
         modulation,
         trajectory,
+        caps,
+        deforms: reader.deforms(&spec.deform)?,
         rows: spec.mesh.rows,
         cols: spec.mesh.cols,
         uv: spec.uv,
