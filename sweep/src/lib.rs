@@ -3,6 +3,7 @@
 //! | module         | what                                                                |
 //! |----------------|---------------------------------------------------------------------|
 //! | [`spec`]       | the spec as JSON; here are its keys and its conventions             |
+//! | [`Object`]     | what a spec is of: one sweep or several                             |
 //! | [`Sweep`]      | a spec that has been checked, and the grid it gives                 |
 //! | [`contour`]    | the curve that is swept; columns, creases                           |
 //! | [`cut`]        | where a curve is cut into cells                                     |
@@ -39,6 +40,7 @@ pub mod frame;
 pub mod grid;
 pub mod law;
 pub mod modulation;
+mod object;
 mod read;
 pub mod spec;
 mod sweep;
@@ -46,4 +48,5 @@ pub mod trajectory;
 
 pub use error::SweepError;
 pub use grid::GridMesh;
+pub use object::Object;
 pub use sweep::{MOST_CELLS, Sweep};

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 use sweep::grid::file::{self, Encoding};
-use sweep::{GridMesh, Sweep};
+use sweep::{GridMesh, Object, Sweep};
 use thiserror::Error;
 
 /// Sweep a contour along a trajectory: a JSON spec in, a grid of points and normals out.
@@ -111,22 +111,29 @@ fn work(arguments: &Arguments) -> Result<(), Report> {
     let start = Instant::now();
     let bytes = input::read(&arguments.spec)?;
     let name = input::name_of(&arguments.spec);
-    let sweep = Sweep::read(&Document::new(&name, &bytes)?)?
+    let object = Object::read(&Document::new(&name, &bytes)?)?
         .with_resolution(arguments.rows, arguments.cols)?;
     let read = Instant::now();
     let mut output = Output::create(&arguments.output, !arguments.no_clobber)?;
-    let grid = sweep.try_grid()?;
+    let grids = object.grids()?;
     let swept = Instant::now();
-    file::write(&grid, encoding, &mut output).map_err(|source| output.failed(source))?;
+    for grid in &grids {
+        file::write(grid, encoding, &mut output).map_err(|source| output.failed(source))?;
+    }
     output.commit()?;
     let written = Instant::now();
 
     if !arguments.quiet {
-        note(&sweep);
+        object.parts().iter().for_each(note);
     }
     if arguments.stats {
         let stages = [("read", read - start), ("sweep", swept - read), ("write", written - swept)];
-        stats(&sweep, &grid, &stages);
+        for (sweep, grid) in object.parts().iter().zip(&grids) {
+            stats(sweep, grid);
+        }
+        for (stage, time) in stages {
+            say(format_args!("{stage:<11} {:.2} ms", 1e3 * time.as_secs_f64()));
+        }
     }
     Ok(())
 }
@@ -143,7 +150,7 @@ fn note(sweep: &Sweep) {
     }
 }
 
-fn stats(sweep: &Sweep, grid: &GridMesh, stages: &[(&str, std::time::Duration)]) {
+fn stats(sweep: &Sweep, grid: &GridMesh) {
     say(format_args!("object      {}", sweep.name()));
     say(format_args!("cells       {} x {} (rows x cols)", sweep.rows(), sweep.cols()));
     say(format_args!("points      {} x {}, {}", grid.rows(), grid.cols(), grid.positions.len()));
@@ -153,8 +160,5 @@ fn stats(sweep: &Sweep, grid: &GridMesh, stages: &[(&str, std::time::Duration)])
         say("trajectory  a rotation");
     } else {
         say(format_args!("trajectory  {} long", sweep.trajectory().length()));
-    }
-    for (stage, time) in stages {
-        say(format_args!("{stage:<11} {:.2} ms", 1e3 * time.as_secs_f64()));
     }
 }

@@ -114,9 +114,10 @@
 //! }
 //! ```
 //!
-//! # Caps and deformations
+//! # Caps, deformations, parts
 //!
-//! [`Caps`] close the ends; [`Deform`] bends, twists and tapers the finished surface.
+//! [`Caps`] close the ends; [`Deform`] bends, twists and tapers the finished surface; [`Parts`] are
+//! several sweeps in one object.
 //!
 //! # Corners
 //!
@@ -129,12 +130,14 @@ mod deform;
 mod depth;
 mod helix;
 mod law;
+mod parts;
 
 pub use caps::{Cap, Caps};
 pub use deform::{AxisTwist, Bend, Deform, Taper};
 pub use depth::{Depth, DepthMode, DepthTerm};
 pub use helix::Helix;
 pub use law::{Ease, Law, Scale};
+pub use parts::Parts;
 
 use crate::grid::UvLayout;
 use serde::{Deserialize, Serialize};
@@ -149,10 +152,12 @@ pub const VERSION: u32 = 1;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "an object, a sweep's spec")]
 pub struct Spec {
-    /// `tb-sweep`.
-    pub format: String,
-    /// 1.
-    pub version: u32,
+    /// `tb-sweep`; may be left out in a part of an object.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub format: Option<String>,
+    /// 1; may be left out in a part of an object.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub version: Option<u32>,
     /// The object's name; one word.
     pub name: String,
     /// What is swept.
@@ -379,14 +384,15 @@ fn full_turn() -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use crate::Sweep;
+    use crate::Object;
     use files::json::Document;
 
     /// The pages that show specs, and how many each shows.
-    const PAGES: [(&str, usize); 3] = [
+    const PAGES: [(&str, usize); 4] = [
         (include_str!("spec.rs"), 4),
         (include_str!("spec/caps.rs"), 1),
         (include_str!("spec/deform.rs"), 1),
+        (include_str!("spec/parts.rs"), 1),
     ];
 
     #[test]
@@ -400,9 +406,10 @@ mod tests {
             assert_eq!(snippets.len(), count);
             for snippet in snippets {
                 let document = Document::new("snippet", snippet.as_bytes()).unwrap();
-                let sweep = Sweep::read(&document).unwrap_or_else(|error| panic!("{error}"));
-                let grid = sweep.grid();
-                assert_eq!(grid.positions.len(), grid.rows() * grid.cols());
+                let object = Object::read(&document).unwrap_or_else(|error| panic!("{error}"));
+                for grid in object.grids().unwrap() {
+                    assert_eq!(grid.positions.len(), grid.rows() * grid.cols());
+                }
             }
         }
     }

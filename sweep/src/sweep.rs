@@ -8,7 +8,7 @@ use crate::grid::file::MAX_COLS;
 use crate::grid::{GridMesh, Seam, UvLayout};
 use crate::modulation::{Modulation, Section};
 use crate::trajectory::Trajectory;
-use crate::{SweepError, read};
+use crate::{Object, SweepError};
 use files::json::Document;
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
@@ -37,12 +37,19 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// Reads and checks a [`Spec`](crate::spec::Spec).
+    /// Reads and checks a spec of one sweep.
     ///
     /// # Errors
-    /// When the text is not a spec, or its surface does not exist; the message has the place.
-    pub fn read(document: &Document) -> Result<Self, SweepError> {
-        read::read(document)
+    /// As [`Object::read`], and when the object has several parts.
+    pub fn read(document: &Document<'_>) -> Result<Self, SweepError> {
+        let mut parts = Object::read(document)?.parts;
+        match (parts.pop(), parts.len()) {
+            (Some(sweep), 0) => Ok(sweep),
+            (_, more) => {
+                let message = format!("found {} parts, expected one sweep", more + 1);
+                Err(document.fault("parts", message).into())
+            }
+        }
     }
 
     /// The object's name.

@@ -10,11 +10,13 @@ mod trajectory;
 
 use crate::curve::vector::extent;
 use crate::curve::{Cubic, Path, Vector, spline};
-use crate::spec::{Bezier, FORMAT, Free, Spec, VERSION};
+use crate::spec::{Bezier, FORMAT, Free, Parts, Spec, VERSION};
 use crate::sweep::ON_AXIS;
-use crate::{Sweep, SweepError};
+use crate::{Object, Sweep, SweepError};
 use files::json::Document;
 use glam::DVec3;
+use serde::Deserialize;
+use serde::de::IgnoredAny;
 use std::ops::RangeInclusive;
 
 /// Coordinates beyond this have squares of squares that a double cannot hold.
@@ -35,74 +37,122 @@ const MEETS: f64 = 1e-6;
 /// Free points closer than this fraction of the curve are one point given twice.
 const COINCIDENT: f64 = 1e-12;
 
-/// Reads and checks a spec.
-pub fn read(document: &Document) -> Result<Sweep, SweepError> {
+/// Reads and checks a spec of one sweep or of several.
+pub fn read(document: &Document<'_>) -> Result<Object, SweepError> {
     document.expect(FORMAT, VERSION.into())?;
+    if document.parse::<Probe>().is_ok_and(|probe| probe.parts.is_some()) {
+        return read_parts(document, document.parse()?);
+    }
     let spec: Spec = document.parse()?;
-    let reader = Reader { document };
-    reader.header(&spec)?;
-    let mut contour = reader.contour(&spec.contour)?;
-    let trajectory = reader.trajectory(&spec.trajectory, spec.frame.as_ref())?;
-    if trajectory.is_rotation() {
-        let (low, high) = contour.x_range();
-        if low < -ON_AXIS * high.max(-low) {
-            return Err(reader.geometry(
-                "contour",
-                format!(
-                    "found a contour that reaches x = {low:?}, expected x of at least 0, \
-                     the distance from the axis of the rotation"
-                ),
-            ));
+    let reader = Reader { document, prefix: String::new() };
+    for (key, missing) in [("format", spec.format.is_none()), ("version", spec.version.is_none())] {
+        if missing {
+            return Err(reader.fault("", format!("missing key `{key}`")));
         }
-        if high <= 0.0 {
-            return Err(reader.geometry(
-                "contour",
-                "found a contour on the axis of the rotation, expected some x above 0",
-            ));
+    }
+    let name = spec.name.clone();
+    Ok(Object { name, parts: vec![reader.sweep(spec)?] })
+}
+
+/// Whether a text has parts, whatever else it has.
+#[derive(Deserialize)]
+struct Probe {
+    parts: Option<IgnoredAny>,
+}
+
+fn read_parts(document: &Document<'_>, object: Parts) -> Result<Object, SweepError> {
+    let whole = Reader { document, prefix: String::new() };
+    whole.name(&object.name)?;
+    if object.parts.is_empty() {
+        return Err(whole.fault("parts", "found no parts, expected at least one"));
+    }
+    let mut parts: Vec<Sweep> = Vec::with_capacity(object.parts.len());
+    for (i, spec) in object.parts.into_iter().enumerate() {
+        let reader = Reader { document, prefix: format!("parts[{i}].") };
+        if parts.iter().any(|part| part.name == spec.name) {
+            let message = format!("found {:?} twice, expected a name for each part", spec.name);
+            return Err(reader.fault("name", message));
         }
-        contour = contour.rotated(ON_AXIS * high);
+        parts.push(reader.sweep(spec)?);
     }
-    let modulation = reader.modulation(&spec, &contour, &trajectory)?;
-    let caps = reader.caps(spec.caps, &contour, &trajectory, &modulation)?;
-    let sweep = Sweep {
-        name: spec.name,
-        contour,
-        modulation,
-        trajectory,
-        caps,
-        deforms: reader.deforms(&spec.deform)?,
-        rows: spec.mesh.rows,
-        cols: spec.mesh.cols,
-        uv: spec.uv,
-        position: DVec3::from_array(spec.position),
-    };
-    match sweep.resolution_fault() {
-        Some((key, message)) => Err(reader.fault(&format!("mesh.{key}"), message)),
-        None => Ok(sweep),
-    }
+    Ok(Object { name: object.name, parts })
 }
 
 /// The checks, with the document that their complaints are placed in.
 struct Reader<'a> {
     document: &'a Document<'a>,
+    /// What all paths start with.
+    prefix: String,
 }
 
 impl Reader<'_> {
+    fn sweep(&self, spec: Spec) -> Result<Sweep, SweepError> {
+        self.header(&spec)?;
+        let mut contour = self.contour(&spec.contour)?;
+        let trajectory = self.trajectory(&spec.trajectory, spec.frame.as_ref())?;
+        if trajectory.is_rotation() {
+            let (low, high) = contour.x_range();
+            if low < -ON_AXIS * high.max(-low) {
+                return Err(self.geometry(
+                    "contour",
+                    format!(
+                        "found a contour that reaches x = {low:?}, expected x of at least 0, \
+                     the distance from the axis of the rotation"
+                    ),
+                ));
+            }
+            if high <= 0.0 {
+                return Err(self.geometry(
+                    "contour",
+                    "found a contour on the axis of the rotation, expected some x above 0",
+                ));
+            }
+            contour = contour.rotated(ON_AXIS * high);
+        }
+        let modulation = self.modulation(&spec, &contour, &trajectory)?;
+        let caps = self.caps(spec.caps, &contour, &trajectory, &modulation)?;
+        let sweep = Sweep {
+            name: spec.name,
+            contour,
+            modulation,
+            trajectory,
+            caps,
+            deforms: self.deforms(&spec.deform)?,
+            rows: spec.mesh.rows,
+            cols: spec.mesh.cols,
+            uv: spec.uv,
+            position: DVec3::from_array(spec.position),
+        };
+        match sweep.resolution_fault() {
+            Some((key, message)) => Err(self.fault(&format!("mesh.{key}"), message)),
+            None => Ok(sweep),
+        }
+    }
+
     fn fault(&self, path: &str, message: impl Into<String>) -> SweepError {
-        SweepError::Malformed(self.document.fault(path, message))
+        SweepError::Malformed(self.document.fault(&self.whole(path), message))
     }
 
     fn geometry(&self, path: &str, message: impl Into<String>) -> SweepError {
-        SweepError::Geometry(self.document.fault(path, message))
+        SweepError::Geometry(self.document.fault(&self.whole(path), message))
+    }
+
+    /// A path from the root of the document.
+    fn whole(&self, path: &str) -> String {
+        format!("{}{path}", self.prefix)
+    }
+
+    fn name(&self, name: &str) -> Result<(), SweepError> {
+        let blank = |c: char| c.is_whitespace() || c.is_control();
+        if name.is_empty() || name.contains(blank) {
+            return Err(self.fault("name", format!("found {name:?}, expected one word")));
+        }
+        Ok(())
     }
 
     /// All that is no curve.
     fn header(&self, spec: &Spec) -> Result<(), SweepError> {
-        let blank = |c: char| c.is_whitespace() || c.is_control();
-        if spec.name.is_empty() || spec.name.contains(blank) {
-            let message = format!("found {:?}, expected one word", spec.name);
-            return Err(self.fault("name", message));
-        }
+        self.name(&spec.name)?;
         for (i, &repeat) in spec.uv.repeat.iter().enumerate() {
             let path = format!("uv.repeat[{i}]");
             self.positive(&path, repeat)?;

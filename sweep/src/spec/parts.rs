@@ -1,0 +1,41 @@
+//! An object of several sweeps as it is written.
+//!
+//! `parts` are specs, whose `format` and `version` may be left out. Each has a name of its own, under
+//! which it becomes a mesh; together they are one object.
+//!
+//! ```json
+//! {
+//!   "format": "tb-sweep", "version": 1, "name": "mug",
+//!   "parts": [
+//!     {
+//!       "name": "wall",
+//!       "contour": { "svg": "M0 0H1V-2H.9V-.1H0" },
+//!       "trajectory": { "rotation": {} },
+//!       "mesh": { "rows": 60, "cols": 40 }
+//!     },
+//!     {
+//!       "name": "handle",
+//!       "contour": { "circle": 0.12 },
+//!       "trajectory": { "free": { "points": [[0.95, 1.6, 0], [1.5, 1.5, 0], [1.5, 0.6, 0], [0.95, 0.4, 0]] } },
+//!       "mesh": { "rows": 40, "cols": 16 }
+//!     }
+//!   ]
+//! }
+//! ```
+
+use super::Spec;
+use serde::{Deserialize, Serialize};
+
+/// Several sweeps that are one object.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object, a spec of parts")]
+pub struct Parts {
+    /// `tb-sweep`.
+    pub format: String,
+    /// 1.
+    pub version: u32,
+    /// The object's name; one word.
+    pub name: String,
+    /// At least one.
+    pub parts: Vec<Spec>,
+}
