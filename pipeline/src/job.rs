@@ -14,7 +14,7 @@
 //! ```
 //!
 //! `meshes` says which spec makes each mesh that the scene names, and the texture and surface ids
-//! that its triangles carry (0 when left out). The scene is rendered once in each mode; without
+//! that its triangles carry (those of the spec, or 0, when left out). The scene is rendered once in each mode; without
 //! `modes`, once with the tent filter. Paths count from the job file's folder.
 
 use files::json::Document;
@@ -89,9 +89,9 @@ struct JobFile {
 struct MeshFile {
     spec: PathBuf,
     #[serde(default)]
-    texture: u32,
+    texture: Option<u32>,
     #[serde(default)]
-    surface: u32,
+    surface: Option<u32>,
 }
 
 fn one() -> u32 {
@@ -215,7 +215,7 @@ mod tests {
             .map(|line| line.trim_start_matches("//!").to_string() + "\n")
             .collect();
         let job = parse(&text).unwrap();
-        assert_eq!(job.meshes[0].options, Options { texture: 2, surface: 0 });
+        assert_eq!(job.meshes[0].options, Options { texture: Some(2), surface: Some(0) });
         assert_eq!(job.scene, Path::new("jobs/../scenes/vase.json"));
         assert_eq!(job.modes[0].filter, Filter::Point);
     }

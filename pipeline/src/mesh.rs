@@ -8,17 +8,19 @@ use triangulate::TriMesh;
 /// the same order.
 #[must_use]
 pub fn for_render(mesh: TriMesh) -> Mesh {
-    let triangles = mesh.triangles.iter().map(|triangle| Triangle {
+    let surfaces = mesh.materials().into_iter().map(triangulate::Material::name).collect();
+    let numbers = mesh.material_numbers();
+    let triangles = mesh.triangles.iter().zip(numbers).map(|(triangle, surface)| Triangle {
         position: triangle.position,
         uv: triangle.uv,
         normal: triangle.normal,
-        surface: 0,
+        surface,
     });
     Mesh {
         triangles: triangles.collect(),
         positions: mesh.positions,
         uvs: mesh.uvs,
         normals: mesh.normals,
-        surfaces: vec![format!("tex{}_surf{}", mesh.texture, mesh.surface)],
+        surfaces,
     }
 }

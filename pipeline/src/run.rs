@@ -134,21 +134,21 @@ impl Work<'_> {
     fn mesh(&self, mesh: &MeshJob) -> Result<render::shape::Mesh, PipelineError> {
         let started = Instant::now();
         let (name, bytes) = (mesh.spec.display().to_string(), self.source.read(&mesh.spec)?);
-        let grid = Sweep::read(&Document::new(&name, &bytes)?)?.grid();
+        let grids = [Sweep::read(&Document::new(&name, &bytes)?)?.grid()];
         if self.options.keep {
             self.write(&self.job.grid_file(mesh), |out| {
-                grid_file::write(&grid, grid_file::Encoding::Binary, out)
+                grid_file::write_all(&grids, grid_file::Encoding::Binary, out)
                     .map_err(|source| out.failed(source).into())
             })?;
             self.write(&self.job.obj_file(mesh), |out| {
-                match triangulate::write_grid_obj(&grid, &mesh.options, out) {
+                match triangulate::write_grids_obj(&grids, &mesh.options, out) {
                     Ok(_) => Ok(()),
                     Err(TriangulateError::Write(source)) => Err(out.failed(source).into()),
                     Err(error) => Err(error.into()),
                 }
             })?;
         }
-        let triangles = mesh::for_render(triangulate::mesh(&grid, &mesh.options)?);
+        let triangles = mesh::for_render(triangulate::mesh_all(&grids, &mesh.options)?);
         (self.tell)(Event::Mesh {
             name: &mesh.name,
             triangles: triangles.triangles.len(),

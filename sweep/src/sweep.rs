@@ -185,12 +185,12 @@ impl Sweep {
             name: self.name.clone(),
             seam_u: seam(self.contour.closed()),
             seam_v: seam(self.trajectory.closed()),
-            shift: 0,
             uv: self.uv,
             u: columns.iter().map(|column| column.u).collect(),
             v: rows.iter().map(|stop| stop.at).collect(),
             positions,
             normals,
+            ..GridMesh::default()
         })
     }
 

@@ -33,12 +33,12 @@ pub struct Arguments {
     /// How the mesh is written; by default as the output's name ends (.stl, .ply), and else as OBJ
     #[arg(long, value_enum)]
     format: Option<Format>,
-    /// Texture id, which a scene binds to a picture; 0 is none
-    #[arg(long, value_name = "ID", default_value_t = 0)]
-    texture: u32,
-    /// Surface id, which a scene binds to a material
-    #[arg(long, value_name = "ID", default_value_t = 0)]
-    surface: u32,
+    /// Texture id, which a scene binds to a picture; 0 is none. In place of those in the grid
+    #[arg(long, value_name = "ID")]
+    texture: Option<u32>,
+    /// Surface id, which a scene binds to a material. In place of those in the grid
+    #[arg(long, value_name = "ID")]
+    surface: Option<u32>,
     /// Write a material file beside the OBJ, under its name with .mtl
     #[arg(long)]
     mtl: bool,
@@ -101,7 +101,7 @@ impl Failure for UseError {
 }
 
 impl Arguments {
-    /// What the triangles are bound to.
+    /// What the triangles are bound to, where it is said here.
     pub fn options(&self) -> Options {
         Options { texture: self.texture, surface: self.surface }
     }

@@ -24,6 +24,9 @@
 //! - *Rounding to f32 happens here, once*, and zero is always `+0`: OBJ holds no more, and `render`
 //!   intersects exactly these vertices.
 //!
+//! A grid file may hold several patches, an object's sweeps. Each is triangulated by itself, its
+//! vertices numbered on, and nothing is welded between them.
+//!
 //! Only neighbours in the grid are compared: where a surface touches itself elsewhere it
 //! stays two surfaces. A cell is not made convex, and a mesh is not thinned.
 //!
@@ -44,6 +47,7 @@ mod cell;
 pub mod diagonal;
 mod error;
 mod forest;
+mod material;
 pub mod mtl;
 pub mod obj;
 mod picture;
@@ -58,6 +62,7 @@ pub mod triangulator;
 mod validate;
 
 pub use error::TriangulateError;
+pub use material::{Material, Options};
 pub use obj::ObjWriter;
 pub use ply::write_ply;
 pub use report::MeshReport;
@@ -71,22 +76,20 @@ use std::io::{BufRead, Write};
 use sweep::GridMesh;
 use sweep::grid::file::{GridReader, Header};
 
-/// What the triangles of an object are bound to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Options {
-    /// The texture id, which a scene binds to a picture; 0 is none.
-    pub texture: u32,
-    /// The surface id, which a scene binds to a material.
-    pub surface: u32,
-}
-
 /// The triangles of a grid, in memory.
 ///
 /// # Errors
 /// When the grid's arrays do not fit each other, or hold a number that f32 does not.
 pub fn mesh(grid: &GridMesh, options: &Options) -> Result<TriMesh, TriangulateError> {
-    let sink = TriMesh::new(&grid.name, options);
-    let (mesh, _) = run_grid(grid, sink)?;
+    mesh_all(std::slice::from_ref(grid), options)
+}
+
+/// The triangles of all patches of an object, in memory.
+///
+/// # Errors
+/// As [`mesh`].
+pub fn mesh_all(grids: &[GridMesh], options: &Options) -> Result<TriMesh, TriangulateError> {
+    let (mesh, _) = run_grids(grids, options, TriMesh::default())?;
     Ok(mesh)
 }
 
@@ -100,14 +103,27 @@ pub fn write_grid_obj(
     options: &Options,
     out: &mut impl Write,
 ) -> Result<Counts, TriangulateError> {
-    let (writer, counts) = run_grid(grid, ObjWriter::new(&grid.name, options, out))?;
+    write_grids_obj(std::slice::from_ref(grid), options, out)
+}
+
+/// The triangles of all patches of an object in memory, as OBJ: the same bytes that [`write_obj`]
+/// makes of their file.
+///
+/// # Errors
+/// As [`write_grid_obj`].
+pub fn write_grids_obj(
+    grids: &[GridMesh],
+    options: &Options,
+    out: &mut impl Write,
+) -> Result<Counts, TriangulateError> {
+    let (writer, counts) = run_grids(grids, options, ObjWriter::new(out))?;
     writer.finish(&counts).map_err(TriangulateError::Write)?;
     Ok(counts)
 }
 
-/// The triangles of a grid file, row by row, as OBJ.
+/// The triangles of a grid file with all its patches, row by row, as OBJ.
 ///
-/// The closing comment is written only when the grid's footer was read and found right.
+/// The closing comment is written only when the last footer was read and found right.
 ///
 /// # Errors
 /// When the grid is cut short or damaged, holds a number that f32 does not, or `out` fails.
@@ -116,13 +132,12 @@ pub fn write_obj(
     options: &Options,
     out: &mut impl Write,
 ) -> Result<Counts, TriangulateError> {
-    let sink = ObjWriter::new(&reader.header().name, options, out);
-    let (writer, counts) = run_rows(reader, sink)?;
+    let (writer, counts) = run_rows(reader, options, ObjWriter::new(out))?;
     writer.finish(&counts).map_err(TriangulateError::Write)?;
     Ok(counts)
 }
 
-/// The triangles of a grid file, in memory.
+/// The triangles of a grid file with all its patches, in memory.
 ///
 /// # Errors
 /// When the grid is cut short or damaged, or holds a number that f32 does not.
@@ -130,35 +145,54 @@ pub fn read_mesh(
     reader: &mut GridReader<impl BufRead>,
     options: &Options,
 ) -> Result<(TriMesh, Counts), TriangulateError> {
-    let sink = TriMesh::new(&reader.header().name, options);
-    run_rows(reader, sink)
+    run_rows(reader, options, TriMesh::default())
 }
 
-/// Tells a sink the triangles of a grid file, row by row.
+/// Tells a sink the triangles of a grid file with all its patches, row by row.
 ///
 /// # Errors
 /// When the grid is cut short or damaged, holds a number that f32 does not, or the sink fails.
 pub fn run_rows<S: Sink>(
     reader: &mut GridReader<impl BufRead>,
-    sink: S,
+    options: &Options,
+    mut sink: S,
 ) -> Result<(S, Counts), TriangulateError> {
-    let mut triangulator = Triangulator::new(reader.header().clone(), sink)?;
-    while let Some(row) = reader.next_row()? {
-        triangulator.row(row)?;
+    let mut counts = Counts::default();
+    loop {
+        let header = reader.header().clone();
+        let mut triangulator = Triangulator::following(counts, header, options, sink)?;
+        while let Some(row) = reader.next_row()? {
+            triangulator.row(row)?;
+        }
+        (sink, counts) = triangulator.finish()?;
+        if !reader.next_patch()? {
+            return Ok((sink, counts));
+        }
     }
-    triangulator.finish()
 }
 
-fn run_grid<S: Sink>(grid: &GridMesh, sink: S) -> Result<(S, Counts), TriangulateError> {
-    let points = grid.rows().saturating_mul(grid.cols());
-    if grid.positions.len() != points || grid.normals.len() != points {
-        let (positions, normals) = (grid.positions.len(), grid.normals.len());
-        let object = grid.name.clone();
-        return Err(TriangulateError::Arrays { object, positions, normals, expected: points });
+/// Tells a sink the triangles of grids in memory, the patches of one object.
+///
+/// # Errors
+/// As [`mesh`], and when the sink fails.
+pub fn run_grids<S: Sink>(
+    grids: &[GridMesh],
+    options: &Options,
+    mut sink: S,
+) -> Result<(S, Counts), TriangulateError> {
+    let mut counts = Counts::default();
+    for grid in grids {
+        let points = grid.rows().saturating_mul(grid.cols());
+        if grid.positions.len() != points || grid.normals.len() != points {
+            let (positions, normals) = (grid.positions.len(), grid.normals.len());
+            let object = grid.name.clone();
+            return Err(TriangulateError::Arrays { object, positions, normals, expected: points });
+        }
+        let mut triangulator = Triangulator::following(counts, Header::of(grid), options, sink)?;
+        for row in grid.row_views() {
+            triangulator.row(row)?;
+        }
+        (sink, counts) = triangulator.finish()?;
     }
-    let mut triangulator = Triangulator::new(Header::of(grid), sink)?;
-    for row in grid.row_views() {
-        triangulator.row(row)?;
-    }
-    triangulator.finish()
+    Ok((sink, counts))
 }

@@ -12,8 +12,8 @@ use std::process::ExitCode;
 use sweep::grid::file::GridReader;
 use triangulate::mtl::mtl;
 use triangulate::{
-    Counts, MeshReport, ObjWriter, TriMesh, TriangulateError, read_mesh, run_rows, write_ply,
-    write_stl,
+    Counts, Material, MeshReport, ObjWriter, TriMesh, TriangulateError, read_mesh, run_rows,
+    write_ply, write_stl,
 };
 
 fn main() -> ExitCode {
@@ -34,14 +34,14 @@ fn work(arguments: &Arguments) -> Result<(), Report> {
     let name = input::name_of(&arguments.grid);
     let mut reader =
         GridReader::open(&name, input::open(&arguments.grid)?).map_err(TriangulateError::Grid)?;
-    let (mesh, counts) =
+    let Written { mesh, materials, counts } =
         write(arguments, &mut reader, &mut output).map_err(|error| match error {
             TriangulateError::Write(source) => Report::from(output.failed(source)),
             error => error.into(),
         })?;
     // The mesh last: when it is there, so is what it names.
     if let Some(output) = mtl_output {
-        output.commit_all(mtl(&arguments.options(), arguments.map.as_deref()).as_bytes())?;
+        output.commit_all(mtl(&materials, arguments.map.as_deref()).as_bytes())?;
     }
     output.commit()?;
     if let (Some(mut output), Some(mesh)) = (report_output, mesh) {
@@ -53,31 +53,40 @@ fn work(arguments: &Arguments) -> Result<(), Report> {
     Ok(())
 }
 
-/// Writes the mesh in the wanted format, and gives it back where it was needed whole.
+/// What is known once the mesh is written.
+struct Written {
+    /// The mesh, where it was needed whole.
+    mesh: Option<TriMesh>,
+    /// The materials that it names.
+    materials: Vec<Material>,
+    counts: Counts,
+}
+
+/// Writes the mesh in the wanted format.
 fn write(
     arguments: &Arguments,
     reader: &mut GridReader<impl BufRead>,
     out: &mut impl Write,
-) -> Result<(Option<TriMesh>, Counts), TriangulateError> {
+) -> Result<Written, TriangulateError> {
     let (options, format) = (arguments.options(), arguments.format());
     if format == Format::Obj {
-        let (name, mtl) = (reader.header().name.clone(), arguments.mtl_name());
-        let writer = ObjWriter::with_materials(&name, &options, mtl.as_deref(), out);
+        let writer = ObjWriter::with_materials(arguments.mtl_name().as_deref(), out);
         let (writer, mesh, counts) = if arguments.report.is_some() {
             let ((writer, mesh), counts) =
-                run_rows(reader, (writer, TriMesh::new(&name, &options)))?;
+                run_rows(reader, &options, (writer, TriMesh::default()))?;
             (writer, Some(mesh), counts)
         } else {
-            let (writer, counts) = run_rows(reader, writer)?;
+            let (writer, counts) = run_rows(reader, &options, writer)?;
             (writer, None, counts)
         };
+        let materials = writer.materials();
         writer.finish(&counts).map_err(TriangulateError::Write)?;
-        return Ok((mesh, counts));
+        return Ok(Written { mesh, materials, counts });
     }
     let (mesh, counts) = read_mesh(reader, &options)?;
     let done = if format == Format::Ply { write_ply(&mesh, out) } else { write_stl(&mesh, out) };
     done.map_err(TriangulateError::Write)?;
-    Ok((Some(mesh), counts))
+    Ok(Written { mesh: Some(mesh), materials: Vec::new(), counts })
 }
 
 /// Coordinates moved by more than this fraction of the object's size are worth a word: a tenth of

@@ -5,28 +5,31 @@
 //! newmtl tex2_surf0                   the name that the OBJ uses
 //! Kd 0.8 0.8 0.8                      a neutral grey; white under a picture
 //! map_Kd marble.png                   the picture, if one was named
+//! ...                                 and so on for each material of the mesh
 //! ```
 //!
 //! It is for viewers and for other renderers; ours binds ids to textures and materials in its
 //! scene.
 
-use crate::Options;
-use crate::obj::material_name;
+use crate::Material;
 
 /// The first line of an MTL of ours.
 pub const FIRST_LINE: &str = "# topobook triangulate MTL 1";
 
-/// The text of a material file with the one material of an object; `map` is the picture on
-/// it, as readers of the MTL shall find it: most look beside the MTL.
+/// The text of a material file with the materials of an object; `map` is the picture on all of
+/// them, as readers of the MTL shall find it: most look beside the MTL.
 #[must_use]
-pub fn mtl(options: &Options, map: Option<&str>) -> String {
+pub fn mtl(materials: &[Material], map: Option<&str>) -> String {
     // White where a picture gives the colour, which readers multiply by it.
     let (grey, map) = match map {
         Some(map) => (1.0, format!("map_Kd {map}\n")),
         None => (0.8, String::new()),
     };
-    let name = material_name(options);
-    format!("{FIRST_LINE}\nnewmtl {name}\nKd {grey} {grey} {grey}\n{map}")
+    let mut text = format!("{FIRST_LINE}\n");
+    for material in materials {
+        text += &format!("newmtl {}\nKd {grey} {grey} {grey}\n{map}", material.name());
+    }
+    text
 }
 
 /// Whether a picture can be named so in an MTL: one line, of which nothing is taken for a comment,
@@ -43,14 +46,18 @@ mod tests {
 
     #[test]
     fn a_material_is_grey_or_shows_its_picture() {
-        let options = Options { texture: 2, surface: 5 };
+        let one = Material { texture: 2, surface: 5 };
+        let two = [one, Material { texture: 3, surface: 5 }];
         let grey = "# topobook triangulate MTL 1\nnewmtl tex2_surf5\nKd 0.8 0.8 0.8\n";
-        assert_eq!(mtl(&options, None), grey);
-        let text = mtl(&options, Some("my marble.png"));
+        assert_eq!(mtl(&[one], None), grey);
+        let text = mtl(&two, Some("my marble.png"));
         let (materials, names) = tobj::load_mtl_buf(&mut text.as_bytes()).unwrap();
         assert_eq!(names["tex2_surf5"], 0);
-        assert_eq!(materials[0].diffuse, Some([1.0; 3]));
-        assert_eq!(materials[0].diffuse_texture.as_deref(), Some("my marble.png"));
+        assert_eq!((names["tex3_surf5"], materials.len()), (1, 2));
+        for material in materials {
+            assert_eq!(material.diffuse, Some([1.0; 3]));
+            assert_eq!(material.diffuse_texture.as_deref(), Some("my marble.png"));
+        }
     }
 
     #[test]

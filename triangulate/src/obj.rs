@@ -3,7 +3,7 @@
 //! ```text
 //! # topobook triangulate OBJ 1        ours; the last line must be there too
 //! mtllib vase.mtl                     only where a material file was asked for
-//! o vase                              one object
+//! o vase                              an object, or a patch of one
 //! usemtl tex2_surf0                   texture id 2, surface id 0: a scene binds both
 //! v 0.5 0 -1                          a row's new positions,
 //! vn 1 0 0                            normals
@@ -13,13 +13,15 @@
 //! # end 960 1856                      the number of v lines and of f lines
 //! ```
 //!
-//! The last line says that nothing is missing: a program that died upstream leaves an OBJ without
+//! An object that is several sweeps has an `o` for each; indices run on. Where the material changes
+//! there is another `usemtl`. The last line says that nothing is missing: a program that died upstream leaves an OBJ without
 //! it. Indices count from 1. There are neither groups nor smoothing groups, as every
 //! corner has its normal. Numbers are the shortest decimals that read back to the same f32, without
 //! exponents; zero is always written `0`.
 
 use crate::triangulator::{Counts, Sink};
-use crate::{Options, Triangle};
+use crate::{Material, Triangle};
+use std::collections::BTreeSet;
 use std::io::{self, Write};
 
 /// The first line of an OBJ of ours. A file that starts with it ends with `# end V F`, or is cut.
@@ -31,21 +33,26 @@ pub struct ObjWriter<W> {
     out: W,
     /// What was said since the last row.
     text: Vec<u8>,
+    materials: BTreeSet<Material>,
 }
 
 impl<W: Write> ObjWriter<W> {
     /// A writer to `out`, which gets one write a row and need not be buffered.
-    pub fn new(name: &str, options: &Options, out: W) -> Self {
-        Self::with_materials(name, options, None, out)
+    pub fn new(out: W) -> Self {
+        Self::with_materials(None, out)
     }
 
     /// As [`ObjWriter::new`], for an OBJ that names a material file, as its readers shall find it:
     /// they look beside the OBJ. The name becomes one word, as [`object_name`] has it.
-    pub fn with_materials(name: &str, options: &Options, file: Option<&str>, out: W) -> Self {
-        let (name, material) = (object_name(name), material_name(options));
+    pub fn with_materials(file: Option<&str>, out: W) -> Self {
         let library = file.map_or(String::new(), |file| format!("mtllib {}\n", object_name(file)));
-        let text = format!("{FIRST_LINE}\n{library}o {name}\nusemtl {material}\n");
-        Self { out, text: text.into_bytes() }
+        let text = format!("{FIRST_LINE}\n{library}").into_bytes();
+        Self { out, text, materials: BTreeSet::new() }
+    }
+
+    /// The materials named so far, in order.
+    pub fn materials(&self) -> Vec<Material> {
+        self.materials.iter().copied().collect()
     }
 
     /// Writes the closing comment. Without this call the file stays marked as cut.
@@ -70,6 +77,15 @@ impl<W: Write> ObjWriter<W> {
 }
 
 impl<W: Write> Sink for ObjWriter<W> {
+    fn patch(&mut self, name: &str) {
+        self.text.extend_from_slice(format!("o {}\n", object_name(name)).as_bytes());
+    }
+
+    fn material(&mut self, material: Material) {
+        self.text.extend_from_slice(format!("usemtl {}\n", material.name()).as_bytes());
+        self.materials.insert(material);
+    }
+
     fn position(&mut self, position: [f32; 3]) {
         self.numbers("v", &position);
     }
@@ -145,13 +161,6 @@ impl Backward {
     }
 }
 
-/// The name under which a scene, or a material file, binds texture and surface.
-#[must_use]
-pub fn material_name(options: &Options) -> String {
-    let Options { texture, surface } = options;
-    format!("tex{texture}_surf{surface}")
-}
-
 /// The name as one word that no OBJ reader takes apart: blanks, control characters, comment signs
 /// and line continuations become `_`.
 #[must_use]
@@ -206,7 +215,7 @@ mod tests {
 
     #[test]
     fn indices_count_from_one() {
-        let mut writer = ObjWriter::new("a", &Options::default(), Vec::new());
+        let mut writer = ObjWriter::new(Vec::new());
         writer.text.clear();
         let most = u32::MAX;
         writer.triangle(&Triangle { position: [0, 8, 9], uv: [99, 1, 2], normal: [3, 4, 5] });

@@ -5,7 +5,7 @@
 //! format binary_little_endian 1.0
 //! comment topobook triangulate PLY 1
 //! comment object vase
-//! comment texture 2 surface 0         texture and surface id, as in an OBJ of ours
+//! comment texture 2 surface 0         texture and surface id, as in an OBJ of ours; one for each material
 //! element vertex 1024                 split where picture coordinates or normals differ
 //! property float x
 //! property float y
@@ -22,10 +22,11 @@
 //!
 //! Then come the vertices, 32 bytes each, and the faces, 13 bytes each: a 3 and three indices from
 //! 0, counter-clockwise seen from outside. The header is ASCII: other characters of the
-//! object's name become `_`.
+//! object's name become `_`. With several materials a face has two more properties, `texture` and
+//! `surface`, u32 each behind the indices. With several patches there is a `comment object` for each.
 
-use crate::TriMesh;
 use crate::split::{SplitMesh, SplitVertex};
+use crate::{Material, TriMesh};
 use std::io::{self, BufWriter, Write};
 
 /// The first comment of a PLY of ours.
@@ -47,43 +48,66 @@ pub fn write_ply(mesh: &TriMesh, out: impl Write) -> io::Result<()> {
             out.write_all(&number.to_le_bytes())?;
         }
     }
-    for corners in &split.triangles {
+    let (materials, numbers) = (mesh.materials(), mesh.material_numbers());
+    for (corners, number) in split.triangles.iter().zip(numbers) {
         out.write_all(&[3])?;
         for index in corners {
             out.write_all(&index.to_le_bytes())?;
+        }
+        if materials.len() > 1 {
+            let Material { texture, surface } = materials[number as usize];
+            out.write_all(&texture.to_le_bytes())?;
+            out.write_all(&surface.to_le_bytes())?;
         }
     }
     out.flush()
 }
 
 fn header(mesh: &TriMesh, split: &SplitMesh) -> String {
-    let TriMesh { texture, surface, .. } = mesh;
-    let name: String =
-        mesh.name.chars().map(|c| if c.is_ascii_graphic() { c } else { '_' }).collect();
-    let mut header = format!(
-        "ply\nformat binary_little_endian 1.0\ncomment {FIRST_COMMENT}\ncomment object {name}\n\
-         comment texture {texture} surface {surface}\nelement vertex {}\n",
-        split.vertices.len()
-    );
+    let ascii = |c: char| if c.is_ascii_graphic() { c } else { '_' };
+    let materials = mesh.materials();
+    let mut header = format!("ply\nformat binary_little_endian 1.0\ncomment {FIRST_COMMENT}\n");
+    for patch in &mesh.patches {
+        header +=
+            &format!("comment object {}\n", patch.name.chars().map(ascii).collect::<String>());
+    }
+    for Material { texture, surface } in &materials {
+        header += &format!("comment texture {texture} surface {surface}\n");
+    }
+    header += &format!("element vertex {}\n", split.vertices.len());
     for property in ["x", "y", "z", "nx", "ny", "nz", "s", "t"] {
         header += &format!("property float {property}\n");
     }
-    header
-        + &format!(
-            "element face {}\nproperty list uchar uint vertex_indices\nend_header\n",
-            split.triangles.len()
-        )
+    header += &format!(
+        "element face {}\nproperty list uchar uint vertex_indices\n",
+        split.triangles.len()
+    );
+    if materials.len() > 1 {
+        header += "property uint texture\nproperty uint surface\n";
+    }
+    header + "end_header\n"
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Triangle;
+    use crate::triangulator::Sink;
 
     #[test]
     fn the_header_is_the_one_of_the_page_above() {
-        let mesh = TriMesh { name: "Väse".into(), texture: 2, surface: 5, ..TriMesh::default() };
+        let mut mesh = TriMesh {
+            positions: vec![[0.0; 3]],
+            uvs: vec![[0.0; 2]],
+            normals: vec![[0.0, 0.0, 1.0]],
+            ..TriMesh::default()
+        };
+        mesh.patch("Väse");
+        mesh.material(Material { texture: 2, surface: 5 });
+        mesh.triangle(&Triangle { position: [0; 3], uv: [0; 3], normal: [0; 3] });
         let mut bytes = Vec::new();
         write_ply(&mesh, &mut bytes).unwrap();
+        bytes.truncate(bytes.len() - 32 - 13);
         let text = String::from_utf8(bytes).unwrap();
         // The lines of the module's page, without the words beside them.
         let page = include_str!("ply.rs").lines().filter_map(|line| line.strip_prefix("//! "));
@@ -93,8 +117,8 @@ mod tests {
         let expected = expected
             .replace("object vase", "object V_se")
             .replace("surface 0", "surface 5")
-            .replace("1024", "0")
-            .replace("1856", "0");
+            .replace("1024", "1")
+            .replace("1856", "1");
         assert_eq!(text, expected);
     }
 }

@@ -5,8 +5,7 @@
 //!   "format": "tb-mesh-report",
 //!   "version": 1,
 //!   "object": "tube",
-//!   "texture": 0,
-//!   "surface": 0,
+//!   "materials": [{ "texture": 0, "surface": 0, "faces": 36 }],
 //!   "vertices": 24,
 //!   "unused_vertices": 0,
 //!   "edges": 60,
@@ -21,17 +20,24 @@
 //!   "triangle_area": { "min": 0.125, "max": 0.25 },
 //!   "left_out": { "collapsed": 0, "slivers": 0 },
 //!   "displacement": 5e-8,
-//!   "box": { "low": [-1.0, -1.0, 0.0], "high": [1.0, 1.0, 2.0] }
+//!   "box": { "low": [-1.0, -1.0, 0.0], "high": [1.0, 1.0, 2.0] },
+//!   "patches": [
+//!     {
+//!       "object": "tube", "vertices": 24, "edges": 60, "faces": 36, "euler": 0, "boundary_loops": 2,
+//!       "orientable": true, "manifold": true, "closed": false
+//!     }
+//!   ]
 //! }
 //! ```
 //!
 //! `vertices` to `closed` are those of [`Topology`]; `unused_vertices` are positions that are
 //! written and that no triangle uses. Lengths are in the grid's unit, measured in f64 between the
 //! points as written, in f32. `displacement` is the farthest that rounding to f32 moved a point.
-//! Extremes are null where there is nothing to measure.
+//! Extremes are null where there is nothing to measure. All but `patches` is of the mesh as a whole,
+//! named for its first patch; patches that touch are not joined there.
 
 use crate::topology::{Topology, edges_of, sides};
-use crate::{Counts, TriMesh};
+use crate::{Counts, Material, TriMesh};
 use glam::DVec3;
 use serde::Serialize;
 use std::io::{self, Write};
@@ -45,10 +51,8 @@ pub struct MeshReport {
     pub version: u32,
     /// The object's name.
     pub object: String,
-    /// The texture id; 0 is none.
-    pub texture: u32,
-    /// The surface id.
-    pub surface: u32,
+    /// What triangles are bound to, in the order in which they first are.
+    pub materials: Vec<MaterialReport>,
     /// Positions that triangles use.
     pub vertices: usize,
     /// Positions that none uses.
@@ -80,6 +84,42 @@ pub struct MeshReport {
     /// The box around all positions.
     #[serde(rename = "box")]
     pub bounds: Option<Bounds>,
+    /// The patches, each by itself.
+    pub patches: Vec<PatchReport>,
+}
+
+/// A material and how much has it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct MaterialReport {
+    /// The texture id; 0 is none.
+    pub texture: u32,
+    /// The surface id.
+    pub surface: u32,
+    /// Triangles.
+    pub faces: usize,
+}
+
+/// What a patch is like.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct PatchReport {
+    /// Its name.
+    pub object: String,
+    /// Positions that its triangles use.
+    pub vertices: usize,
+    /// Edges.
+    pub edges: usize,
+    /// Triangles.
+    pub faces: usize,
+    /// Vertices - edges + faces.
+    pub euler: i64,
+    /// Rims.
+    pub boundary_loops: usize,
+    /// Whether it has two sides.
+    pub orientable: bool,
+    /// Whether it is a surface around every point.
+    pub manifold: bool,
+    /// Whether it has no rim.
+    pub closed: bool,
 }
 
 /// The smallest and the largest of something.
@@ -128,8 +168,7 @@ impl MeshReport {
             format: "tb-mesh-report",
             version: 1,
             object: mesh.name.clone(),
-            texture: mesh.texture,
-            surface: mesh.surface,
+            materials: MaterialReport::all_of(mesh),
             vertices: found.vertices,
             unused_vertices: mesh.positions.len() - found.vertices,
             edges: found.edges,
@@ -145,6 +184,7 @@ impl MeshReport {
             left_out: LeftOut { collapsed: counts.collapsed, slivers: counts.slivers },
             displacement: counts.displacement,
             bounds: Bounds::of(&mesh.positions),
+            patches: (0..mesh.patches.len()).map(|k| PatchReport::of(&mesh.of_patch(k))).collect(),
         }
     }
 
@@ -155,6 +195,34 @@ impl MeshReport {
     pub fn write(&self, mut out: impl Write) -> io::Result<()> {
         serde_json::to_writer_pretty(&mut out, self)?;
         writeln!(out)
+    }
+}
+
+impl MaterialReport {
+    fn all_of(mesh: &TriMesh) -> Vec<Self> {
+        let of_one = |Material { texture, surface }| Self { texture, surface, faces: 0 };
+        let mut all: Vec<Self> = mesh.materials().into_iter().map(of_one).collect();
+        for number in mesh.material_numbers() {
+            all[number as usize].faces += 1;
+        }
+        all
+    }
+}
+
+impl PatchReport {
+    fn of(patch: &TriMesh) -> Self {
+        let found = Topology::of(patch);
+        Self {
+            object: patch.name.clone(),
+            vertices: found.vertices,
+            edges: found.edges,
+            faces: found.faces,
+            euler: found.euler(),
+            boundary_loops: found.boundary_loops,
+            orientable: found.orientable,
+            manifold: found.manifold,
+            closed: found.closed,
+        }
     }
 }
 
@@ -182,11 +250,14 @@ impl Bounds {
 mod tests {
     use super::*;
     use crate::Triangle;
+    use crate::tri_mesh::Patch;
     use serde_json::Value;
 
     fn keys(value: &Value) -> Vec<String> {
         let object = value.as_object().into_iter().flatten();
-        object.flat_map(|(key, value)| [vec![key.clone()], keys(value)].concat()).collect()
+        let of_object = object.flat_map(|(key, value)| [vec![key.clone()], keys(value)].concat());
+        let of_list = value.as_array().into_iter().flatten().flat_map(keys);
+        of_object.chain(of_list).collect()
     }
 
     #[test]
@@ -194,6 +265,7 @@ mod tests {
         let triangle = Triangle { position: [0, 1, 2], uv: [0; 3], normal: [0; 3] };
         let mesh = TriMesh {
             name: "a \"b\"".into(),
+            patches: vec![Patch { name: "a".into(), first: 0 }],
             positions: vec![[1.0, 0.0, 0.0], [4.0, 0.0, 0.0], [1.0, 4.0, 0.0], [0.0, 0.0, -7.5]],
             triangles: vec![triangle],
             ..TriMesh::default()

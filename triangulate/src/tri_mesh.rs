@@ -1,28 +1,32 @@
 //! Triangles in memory.
 
-use crate::Options;
+use crate::Material;
 use crate::obj::object_name;
 use crate::triangulator::Sink;
+use std::collections::{HashMap, HashSet};
+use std::ops::Range;
 
 /// A mesh of triangles; flat arrays that indices point into, as in OBJ, but from 0.
 ///
 /// Positions, texture coordinates and normals are shared separately: a vertex on a seam is one
-/// position with two texture coordinates, on a crease one position with two normals.
+/// position with two texture coordinates, on a crease one position with two normals. The patches of
+/// an object share nothing.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct TriMesh {
-    /// The object's name, one word.
+    /// The object's name, one word: that of its first patch.
     pub name: String,
-    /// The texture id of all triangles; 0 is none.
-    pub texture: u32,
-    /// The surface id of all triangles.
-    pub surface: u32,
+    /// The patches in their order. Without any, all triangles are one.
+    pub patches: Vec<Patch>,
+    /// Where the material changes, in the order of triangles. Those before the first of these have
+    /// no texture and surface 0.
+    pub runs: Vec<Run>,
     /// Points in the grid's unit.
     pub positions: Vec<[f32; 3]>,
     /// Picture coordinates from the lower left corner, one picture to the unit; they repeat.
     pub uvs: Vec<[f32; 2]>,
     /// Unit normals, outward.
     pub normals: Vec<[f32; 3]>,
-    /// Triangles in the order of rows, then columns.
+    /// Triangles in the order of patches, then rows; of a row by material, then columns.
     pub triangles: Vec<Triangle>,
 }
 
@@ -37,20 +41,100 @@ pub struct Triangle {
     pub normal: [u32; 3],
 }
 
+/// A patch of a mesh: the triangles from one number to that of the next patch.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Patch {
+    /// Its name, one word.
+    pub name: String,
+    /// The number of its first triangle.
+    pub first: usize,
+}
+
+/// Triangles of one material: those from one number to that of the next run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Run {
+    /// What they are bound to.
+    pub material: Material,
+    /// The number of the first one.
+    pub first: usize,
+}
+
 impl TriMesh {
-    /// A mesh without triangles yet; `name` becomes one word.
+    /// The materials of triangles, in the order in which triangles first have them.
     #[must_use]
-    pub fn new(name: &str, options: &Options) -> Self {
-        Self {
-            name: object_name(name),
-            texture: options.texture,
-            surface: options.surface,
-            ..Self::default()
+    pub fn materials(&self) -> Vec<Material> {
+        let mut known = HashSet::new();
+        let mut materials = Vec::new();
+        for (material, triangles) in self.runs() {
+            if !triangles.is_empty() && known.insert(material) {
+                materials.push(material);
+            }
         }
+        materials
+    }
+
+    /// For each triangle, which of [`TriMesh::materials`] it has.
+    #[must_use]
+    pub fn material_numbers(&self) -> Vec<u32> {
+        let materials = self.materials();
+        let numbers: HashMap<Material, u32> = materials.into_iter().zip(0..).collect();
+        let of_run = |(material, triangles): (Material, Range<usize>)| {
+            std::iter::repeat_n(numbers.get(&material).copied().unwrap_or(0), triangles.len())
+        };
+        self.runs().flat_map(of_run).collect()
+    }
+
+    /// The triangles of a patch, with all vertices, as a mesh of one patch.
+    ///
+    /// # Panics
+    /// When there is no patch of this number, from 0.
+    #[must_use]
+    pub fn of_patch(&self, number: usize) -> Self {
+        let Patch { name, first } = self.patches[number].clone();
+        let end = self.patches.get(number + 1).map_or(self.triangles.len(), |patch| patch.first);
+        let within = |(material, triangles): (Material, Range<usize>)| {
+            let (from, to) = (triangles.start.max(first), triangles.end.min(end));
+            (from < to).then(|| Run { material, first: from - first })
+        };
+        Self {
+            name: name.clone(),
+            patches: vec![Patch { name, first: 0 }],
+            runs: self.runs().filter_map(within).collect(),
+            triangles: self.triangles[first..end].to_vec(),
+            positions: self.positions.clone(),
+            uvs: self.uvs.clone(),
+            normals: self.normals.clone(),
+        }
+    }
+
+    /// The materials one after another, each with the numbers of its triangles.
+    fn runs(&self) -> impl Iterator<Item = (Material, Range<usize>)> {
+        let ends = self.runs.iter().map(|run| run.first).chain([self.triangles.len()]);
+        let materials = self.runs.iter().map(|run| (run.material, run.first));
+        std::iter::once((Material::default(), 0))
+            .chain(materials)
+            .zip(ends)
+            .map(|((material, first), end)| (material, first..end))
     }
 }
 
 impl Sink for TriMesh {
+    fn patch(&mut self, name: &str) {
+        let name = object_name(name);
+        if self.patches.is_empty() {
+            self.name.clone_from(&name);
+        }
+        self.patches.push(Patch { name, first: self.triangles.len() });
+    }
+
+    fn material(&mut self, material: Material) {
+        let first = self.triangles.len();
+        self.runs.pop_if(|run| run.first == first);
+        if self.runs.last().is_none_or(|run| run.material != material) {
+            self.runs.push(Run { material, first });
+        }
+    }
+
     fn position(&mut self, position: [f32; 3]) {
         self.positions.push(position);
     }
@@ -65,5 +149,56 @@ impl Sink for TriMesh {
 
     fn triangle(&mut self, triangle: &Triangle) {
         self.triangles.push(*triangle);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn material(texture: u32) -> Material {
+        Material { texture, surface: 0 }
+    }
+
+    #[test]
+    fn materials_are_numbered_as_triangles_first_have_them() {
+        let mut mesh = TriMesh::default();
+        let mut told = |texture: Option<u32>, triangles: usize| {
+            if let Some(texture) = texture {
+                mesh.material(material(texture));
+            }
+            for _ in 0..triangles {
+                mesh.triangle(&Triangle { position: [0; 3], uv: [0; 3], normal: [0; 3] });
+            }
+        };
+        told(None, 1);
+        told(Some(7), 0);
+        told(Some(5), 2);
+        told(Some(5), 1);
+        told(Some(0), 1);
+        told(Some(6), 0);
+        assert_eq!(mesh.runs.len(), 3);
+        assert_eq!(mesh.materials(), [material(0), material(5)]);
+        assert_eq!(mesh.material_numbers(), [0, 1, 1, 1, 0]);
+    }
+
+    #[test]
+    fn a_patch_has_its_triangles_and_their_materials() {
+        let mut mesh = TriMesh::default();
+        for texture in 1..4 {
+            mesh.patch(&format!("a {texture}"));
+            for texture in [0, texture] {
+                mesh.material(material(texture));
+                mesh.triangle(&Triangle { position: [texture; 3], uv: [0; 3], normal: [0; 3] });
+            }
+        }
+        assert_eq!(mesh.name, "a_1");
+        for number in 0..3 {
+            let patch = mesh.of_patch(number);
+            let texture = number as u32 + 1;
+            assert_eq!((patch.name.as_str(), patch.triangles.len()), (&*format!("a_{texture}"), 2));
+            assert_eq!(patch.materials(), [material(0), material(texture)]);
+            assert_eq!(patch.triangles[1].position, [texture; 3]);
+        }
     }
 }

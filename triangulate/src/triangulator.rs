@@ -2,7 +2,7 @@
 
 use crate::cell::{Cell, Picture, Teller};
 use crate::station::Station;
-use crate::{Triangle, TriangulateError};
+use crate::{Material, Options, Triangle, TriangulateError};
 use glam::DVec3;
 use std::io;
 use sweep::grid::file::Header;
@@ -13,6 +13,10 @@ use sweep::grid::{Row, Seam};
 /// Positions, picture coordinates and normals are numbered from 0 in the order they are told,
 /// each kind by itself; a triangle only names numbers told before it.
 pub trait Sink {
+    /// What is told from here on is a patch of this name.
+    fn patch(&mut self, name: &str);
+    /// Triangles told from here on are bound to this.
+    fn material(&mut self, material: Material);
     /// The next position.
     fn position(&mut self, position: [f32; 3]);
     /// The next picture coordinates.
@@ -32,6 +36,16 @@ pub trait Sink {
 
 /// Two sinks that are told the same.
 impl<A: Sink, B: Sink> Sink for (A, B) {
+    fn patch(&mut self, name: &str) {
+        self.0.patch(name);
+        self.1.patch(name);
+    }
+
+    fn material(&mut self, material: Material) {
+        self.0.material(material);
+        self.1.material(material);
+    }
+
     fn position(&mut self, position: [f32; 3]) {
         self.0.position(position);
         self.1.position(position);
@@ -114,9 +128,11 @@ impl Rounding {
     }
 }
 
-/// The most points of a grid. A pole gives a cell at most one more normal and one more pair of
-/// picture coordinates than it has points, and those are numbered with 32 bits.
-const MAX_POINTS: u64 = (1 << 31) - 1;
+/// The numbers there are for vertices of each kind.
+const NUMBERS: u64 = u32::MAX as u64;
+/// The most numbers that a point takes. A pole gives a cell at most one more normal and one more
+/// pair of picture coordinates than it has points.
+const NUMBERS_OF_POINT: u64 = 2;
 /// The most repeats of a picture; far below the end of f32.
 const MAX_REPEAT: f64 = 1e30;
 
@@ -140,11 +156,25 @@ pub struct Triangulator<S> {
 }
 
 impl<S: Sink> Triangulator<S> {
-    /// A triangulator of rows that fit `header`.
+    /// A triangulator of rows that fit `header`, of an object's first patch.
+    ///
+    /// # Errors
+    /// As [`Triangulator::following`].
+    pub fn new(header: Header, options: &Options, sink: S) -> Result<Self, TriangulateError> {
+        Self::following(Counts::default(), header, options, sink)
+    }
+
+    /// The same for a patch that follows others, which have made so many `counts` of everything:
+    /// its vertices are numbered on.
     ///
     /// # Errors
     /// When the grid has fewer points than a surface, or more than can be numbered.
-    pub fn new(header: Header, sink: S) -> Result<Self, TriangulateError> {
+    pub fn following(
+        counts: Counts,
+        header: Header,
+        options: &Options,
+        mut sink: S,
+    ) -> Result<Self, TriangulateError> {
         let (rows, cols) = (header.rows, header.cols());
         let object = header.name.clone();
         if rows < 2 || cols < 2 {
@@ -154,17 +184,21 @@ impl<S: Sink> Triangulator<S> {
             return Err(TriangulateError::Seam { object, fault });
         }
         // Counted with the row and the column that seams add to the picture.
-        if (rows as u64 + 1).saturating_mul(cols as u64 + 1) > MAX_POINTS {
-            return Err(TriangulateError::TooMany { object, rows, cols, limit: MAX_POINTS });
+        let taken = counts.positions.max(counts.uvs).max(counts.normals);
+        let limit = (NUMBERS - u64::from(taken)) / NUMBERS_OF_POINT;
+        if (rows as u64 + 1).saturating_mul(cols as u64 + 1) > limit {
+            return Err(TriangulateError::TooMany { object, rows, cols, limit });
         }
         let found = header.uv.repeat[0].max(header.uv.repeat[1]);
         if found > MAX_REPEAT {
             return Err(TriangulateError::Repeat { object, found });
         }
         let picture = Picture::new(&header);
+        sink.patch(&header.name);
+        sink.material(options.material(&header));
         Ok(Self {
             header,
-            teller: Teller { sink, counts: Counts::default(), picture },
+            teller: Teller { sink, counts, picture },
             first: None,
             before: None,
             spare: Station::default(),
@@ -213,10 +247,11 @@ impl<S: Sink> Triangulator<S> {
             self.band(&mut last, &mut first);
             self.teller.sink.row_done().map_err(TriangulateError::Write)?;
         }
+        let before = self.teller.counts;
         let counts = Counts {
-            moved: self.rounding.fraction(),
-            displacement: self.rounding.displacement_sq.sqrt(),
-            ..self.teller.counts
+            moved: before.moved.max(self.rounding.fraction()),
+            displacement: before.displacement.max(self.rounding.displacement_sq.sqrt()),
+            ..before
         };
         Ok((self.teller.sink, counts))
     }
@@ -274,7 +309,7 @@ impl<S: Sink> Triangulator<S> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Options, TriMesh};
+    use crate::TriMesh;
     use glam::Vec3;
     use sweep::grid::UvLayout;
 
@@ -283,14 +318,22 @@ mod tests {
     }
 
     fn complaint(header: Header) -> String {
-        let sink = TriMesh::new("sheet", &Options::default());
-        Triangulator::new(header, sink).unwrap_err().to_string()
+        let options = Options::default();
+        Triangulator::new(header, &options, TriMesh::default()).unwrap_err().to_string()
     }
 
     #[test]
     fn a_grid_that_makes_no_mesh_is_refused_at_once() {
         let message = complaint(header(3_000_000_000, 2));
         assert!(message.contains("found 3000000000 x 2 points, expected at most"), "{message}");
+        let most = Counts { uvs: u32::MAX - 40, ..Counts::default() };
+        let following = |cols| {
+            let options = Options::default();
+            Triangulator::following(most, header(3, cols), &options, TriMesh::default())
+        };
+        assert!(following(4).is_ok());
+        let message = following(5).unwrap_err().to_string();
+        assert!(message.contains("found 3 x 5 points, expected at most 20"), "{message}");
         let message = complaint(header(1, 5));
         assert_eq!(message, "sheet: found 1 rows of 5 columns, expected at least 2 of each");
         let message = complaint(Header { seam_v: Seam::Mirror, ..header(3, 3) });
@@ -304,8 +347,8 @@ mod tests {
         let (positions, normals) = ([DVec3::ZERO; 3], [Vec3::Z; 3]);
         let row = |cols| Row { v: 0.0, positions: &positions[..cols], normals: &normals[..cols] };
         let started = || {
-            let sink = TriMesh::new("sheet", &Options::default());
-            Triangulator::new(header(2, 3), sink).unwrap()
+            let options = Options::default();
+            Triangulator::new(header(2, 3), &options, TriMesh::default()).unwrap()
         };
         let mut short = started();
         let message = short.row(row(2)).unwrap_err().to_string();

@@ -89,7 +89,7 @@ fn read_ply(file: &[u8]) -> Ply {
 }
 
 fn made(grid: &GridMesh) -> TriMesh {
-    mesh(grid, &Options { texture: 2, surface: 5 }).unwrap()
+    mesh(grid, &Options { texture: Some(2), surface: Some(5) }).unwrap()
 }
 
 fn stl_of(mesh: &TriMesh) -> Vec<u8> {

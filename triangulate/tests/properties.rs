@@ -69,7 +69,8 @@ fn what_f32_cannot_hold_is_refused() {
 fn an_obj_says_what_it_is_and_that_it_is_whole() {
     let mut grid = cylinder(2, 3);
     grid.name = "a tube".into();
-    let text = String::from_utf8(obj_of(&grid, &Options { texture: 2, surface: 7 })).unwrap();
+    let text =
+        String::from_utf8(obj_of(&grid, &Options { texture: Some(2), surface: Some(7) })).unwrap();
     let lines: Vec<&str> = text.lines().collect();
     assert_eq!(lines[..3], ["# topobook triangulate OBJ 1", "o a_tube", "usemtl tex2_surf7"]);
     assert_eq!(lines.last(), Some(&"# end 6 6"));
@@ -138,7 +139,7 @@ fn any_grid() -> impl Strategy<Value = GridMesh> {
 proptest! {
     #[test]
     fn file_and_memory_give_the_same_mesh_to_the_bit(grid in any_grid()) {
-        let options = Options { texture: 3, surface: 1 };
+        let options = Options { texture: Some(3), surface: Some(1) };
         let obj = obj_of(&grid, &options);
         for encoding in [Encoding::Binary, Encoding::Json] {
             let mut file = Vec::new();

@@ -1,6 +1,7 @@
 //! The grid file, `tb-grid` version 1: what goes through the pipe from `sweep` to `triangulate`.
 //!
-//! A header line of JSON, the rows in the order of `v`, and a footer that tells a whole file from
+//! A file is one grid or several, one behind the other: the patches of an object, or objects. A grid is
+//! a header line of JSON, the rows in the order of `v`, and a footer that tells a whole file from
 //! one that was cut or damaged. The rows are binary (36 bytes a point), or JSON text for people
 //! and diffs; the header is the same. A strip of two rows, three columns, as text:
 //!
@@ -16,6 +17,8 @@
 //! | key         | default  | what                                                          |
 //! |-------------|----------|---------------------------------------------------------------|
 //! | `seam_v`    |          | `open`, `closed`, or `mirror`: the last row leads to the first, read the other way round |
+//! | `patch`     | `[1, 1]` | which patch of its object the grid is: number, from 1, and how many; so a file cut between two is noticed |
+//! | `texture`, `surface` | none | ids of the patch                                     |
 //! | `shift`     | 0        | by how many columns, as [`Seam`](crate::grid::Seam) has it    |
 //!
 //! A row is `[v, flags, positions, normals]`; the numbers are the shortest that read back to the
@@ -30,12 +33,12 @@
 //!
 //! The binary footer is the number of rows (u64) and the CRC-32 (u32, the one of zip and PNG) of
 //! every byte before the footer; as text it is the last line, its CRC-32 that of all lines before
-//! it with their newlines. Nothing follows the footer.
+//! it with their newlines. Behind it comes the next grid, or nothing.
 //!
 //! [`GridReader`] holds one row at a time, so a grid of any length passes through `triangulate` in
 //! the memory of a few rows. It trusts nothing it reads. A row is handed on before the
 //! checksum behind it is known: what is made of the rows is good only once [`GridReader::next_row`]
-//! has given `None`.
+//! has given `None`, and all grids once [`GridReader::next_patch`] has given `false`.
 
 mod binary;
 mod error;
@@ -45,9 +48,9 @@ mod stranger;
 mod text;
 
 pub use error::GridError;
-pub use header::Header;
 pub(crate) use header::MAX_COLS;
-pub use reader::{GridReader, read};
+pub use header::{Header, Patch};
+pub use reader::{GridReader, read, read_all};
 
 use crate::GridMesh;
 use std::io::{self, Write};
@@ -62,7 +65,7 @@ pub enum Encoding {
     Json,
 }
 
-/// Writes a grid.
+/// Writes a grid, as the only patch of its object.
 ///
 /// `out` gets one write a row; it need not be buffered.
 ///
@@ -70,7 +73,30 @@ pub enum Encoding {
 /// When `out` fails. A grid that no reader would take (an array of the wrong length, a number that
 /// is not finite, `u` or `v` out of order) is [`io::ErrorKind::InvalidInput`].
 pub fn write(grid: &GridMesh, encoding: Encoding, out: &mut impl Write) -> io::Result<()> {
-    let header = Header::of(grid);
+    write_all(std::slice::from_ref(grid), encoding, out)
+}
+
+/// Writes the patches of an object, one behind the other.
+///
+/// # Errors
+/// As [`write()`]; and when there is none.
+pub fn write_all(grids: &[GridMesh], encoding: Encoding, out: &mut impl Write) -> io::Result<()> {
+    if grids.is_empty() {
+        return Err(refused("found no patch, expected at least one"));
+    }
+    for (index, grid) in grids.iter().enumerate() {
+        write_patch(grid, Patch { number: index + 1, of: grids.len() }, encoding, out)?;
+    }
+    Ok(())
+}
+
+fn write_patch(
+    grid: &GridMesh,
+    patch: Patch,
+    encoding: Encoding,
+    out: &mut impl Write,
+) -> io::Result<()> {
+    let header = Header { patch, ..Header::of(grid) };
     header.check().map_err(|fault| refused(&fault.to_string()))?;
     let points = grid.rows().saturating_mul(grid.cols());
     if grid.positions.len() != points || grid.normals.len() != points {
@@ -128,6 +154,8 @@ fn refused(fault: &str) -> io::Error {
     io::Error::new(io::ErrorKind::InvalidInput, format!("the grid cannot be written: {fault}"))
 }
 
+#[cfg(test)]
+mod patches;
 #[cfg(test)]
 mod round_trip;
 #[cfg(test)]

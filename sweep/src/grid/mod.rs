@@ -10,7 +10,8 @@ pub use seam::Seam;
 use glam::{DVec3, Vec3};
 use serde::{Deserialize, Serialize};
 
-/// A swept surface as a grid of points, row-major by station.
+/// A swept surface as a grid of points, row-major by station: an object, or a patch of one that is
+/// several sweeps.
 ///
 /// A *station* is one contour placed on the trajectory; it is a row. `u` runs along the contour
 /// (columns), `v` along the trajectory (rows), both over `[0, 1]`.
@@ -37,6 +38,10 @@ pub struct GridMesh {
     /// Columns by which the contour comes back turned in itself, below `cols`; 0 where it does not
     /// come back.
     pub shift: usize,
+    /// The texture id, where the patch has one of its own.
+    pub texture: Option<u32>,
+    /// The surface id, where the patch has one of its own.
+    pub surface: Option<u32>,
     /// How a picture lies on the surface.
     pub uv: UvLayout,
     /// `u` of each column, not decreasing, from 0; up to 1 when open, below 1 when closed.

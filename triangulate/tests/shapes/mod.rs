@@ -5,7 +5,7 @@
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 use sweep::GridMesh;
-use sweep::grid::{Seam, UvLayout};
+use sweep::grid::Seam;
 
 /// A grid of a surface given by point and normal at `(u, v)`, evenly spaced.
 pub fn grid_of(
@@ -28,8 +28,7 @@ pub fn grid_of(
     }
     let name = "shape".into();
     let shift = if seam_v == Seam::Mirror && seam_u == Seam::Open { cols - 1 } else { 0 };
-    let uv = UvLayout::default();
-    GridMesh { name, seam_u, seam_v, shift, uv, u, v, positions, normals }
+    GridMesh { name, seam_u, seam_v, shift, u, v, positions, normals, ..GridMesh::default() }
 }
 
 /// Radii 3 and 1. Along `u` around the tube, along `v` around the hole.

@@ -1,5 +1,6 @@
 //! What can be wrong with a grid file.
 
+use super::Patch;
 use files::input::STDIN;
 use files::{Exit, Failure, JsonError};
 use std::io;
@@ -130,9 +131,35 @@ pub enum GridError {
         /// The CRC-32 of the bytes before it.
         expected: u32,
     },
-    /// Something stands behind the footer.
-    #[error("{name}: found bytes behind the end of the grid, expected one grid and nothing more")]
+    /// Something stands behind the last footer.
+    #[error("{name}: found bytes behind the end of the grid, expected another grid or nothing")]
     Trailing {
+        /// The file as the user named it.
+        name: String,
+    },
+    /// The file ends between two patches.
+    #[error(
+        "{name}: {patch} is missing, the grid is cut short: the program that wrote it stopped early"
+    )]
+    PatchCut {
+        /// The file as the user named it.
+        name: String,
+        /// The one that should have followed.
+        patch: Patch,
+    },
+    /// Patches that do not follow each other.
+    #[error("{name}: found {found}, expected {expected}: the file was put together wrongly")]
+    PatchOrder {
+        /// The file as the user named it.
+        name: String,
+        /// The one that is there.
+        found: Patch,
+        /// The one that should be.
+        expected: Patch,
+    },
+    /// Several grids where one is wanted.
+    #[error("{name}: found several grids, expected one")]
+    Several {
         /// The file as the user named it.
         name: String,
     },

@@ -4,6 +4,7 @@ use super::{Encoding, GridError, stranger};
 use crate::GridMesh;
 use crate::grid::row::{Fault, check_parameter};
 use crate::grid::{Seam, UvLayout, seam};
+use files::JsonError;
 use files::json::Document;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -23,11 +24,23 @@ const MAX_ROWS: usize = u32::MAX as usize;
 /// The longest header line: room for [`MAX_COLS`] numbers of 24 characters, and a name.
 const MAX_LINE: usize = 32 << 20;
 
+/// Which patch of its object a grid is; `[2, 3]` in a file is the second of three.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(from = "[usize; 2]", into = "[usize; 2]")]
+pub struct Patch {
+    /// Its number, from 1.
+    pub number: usize,
+    /// How many there are.
+    pub of: usize,
+}
+
 /// Everything about a grid but its rows.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Header {
     /// The object's name.
     pub name: String,
+    /// Which patch of its object it is.
+    pub patch: Patch,
     /// Number of stations.
     pub rows: usize,
     /// Whether the contour leads back to its start.
@@ -36,6 +49,10 @@ pub struct Header {
     pub seam_v: Seam,
     /// Columns by which the contour comes back turned in itself.
     pub shift: usize,
+    /// The texture id, where the patch has one of its own.
+    pub texture: Option<u32>,
+    /// The surface id, where the patch has one of its own.
+    pub surface: Option<u32>,
     /// How a picture lies on the surface.
     pub uv: UvLayout,
     /// `u` of each column.
@@ -51,12 +68,18 @@ struct Line {
     encoding: Encoding,
     endian: Endian,
     name: String,
+    #[serde(default, skip_serializing_if = "Patch::is_whole")]
+    patch: Patch,
     rows: usize,
     cols: usize,
     seam_u: Seam,
     seam_v: Seam,
     #[serde(default, skip_serializing_if = "is_zero")]
     shift: usize,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    texture: Option<u32>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    surface: Option<u32>,
     uv: UvLayout,
     u: Vec<f64>,
 }
@@ -77,16 +100,58 @@ enum Endian {
     Little,
 }
 
+impl Patch {
+    /// An object that is one patch.
+    pub(super) const WHOLE: Self = Self { number: 1, of: 1 };
+
+    fn is_whole(&self) -> bool {
+        *self == Self::WHOLE
+    }
+
+    /// The patch that follows in a stream of grids: the next one of the object, or the first of
+    /// another, of which anything is known only then.
+    pub(super) fn next(self) -> Option<Self> {
+        (self.number < self.of).then(|| Self { number: self.number + 1, of: self.of })
+    }
+}
+
+impl Default for Patch {
+    fn default() -> Self {
+        Self::WHOLE
+    }
+}
+
+impl From<[usize; 2]> for Patch {
+    fn from([number, of]: [usize; 2]) -> Self {
+        Self { number, of }
+    }
+}
+
+impl From<Patch> for [usize; 2] {
+    fn from(patch: Patch) -> Self {
+        [patch.number, patch.of]
+    }
+}
+
+impl std::fmt::Display for Patch {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "patch {} of {}", self.number, self.of)
+    }
+}
+
 impl Header {
-    /// The header of a grid in memory.
+    /// The header of a grid in memory, as the only patch of its object.
     #[must_use]
     pub fn of(grid: &GridMesh) -> Self {
         Self {
             name: grid.name.clone(),
+            patch: Patch::WHOLE,
             rows: grid.rows(),
             seam_u: grid.seam_u,
             seam_v: grid.seam_v,
             shift: grid.shift,
+            texture: grid.texture,
+            surface: grid.surface,
             uv: grid.uv,
             u: grid.u.clone(),
         }
@@ -113,11 +178,14 @@ impl Header {
             encoding,
             endian: Endian::Little,
             name: self.name.clone(),
+            patch: self.patch,
             rows: self.rows,
             cols: self.cols(),
             seam_u: self.seam_u,
             seam_v: self.seam_v,
             shift: self.shift,
+            texture: self.texture,
+            surface: self.surface,
             uv: self.uv,
             u: self.u.clone(),
         };
@@ -128,6 +196,12 @@ impl Header {
 
     /// Checks what the types do not say.
     pub(super) fn check(&self) -> Result<(), Fault> {
+        let Patch { number, of } = self.patch;
+        if !(1..=of).contains(&number) {
+            let message =
+                format!("found [{number}, {of}], expected a number from 1 and how many there are");
+            return Err(Fault { place: "patch".into(), message });
+        }
         for (place, count, seam, limit) in [
             ("rows", self.rows, self.seam_v, MAX_ROWS),
             ("cols", self.cols(), self.seam_u, MAX_COLS),
@@ -159,9 +233,11 @@ fn is_zero(number: &usize) -> bool {
     *number == 0
 }
 
-/// Reads and checks the header line; gives its bytes, newline included, for the checksum.
+/// Reads and checks the header line, behind `lines` others; gives its bytes, newline included, for
+/// the checksum.
 pub(super) fn read(
     name: &str,
+    lines: usize,
     input: &mut impl BufRead,
 ) -> Result<(Header, Encoding, Vec<u8>), GridError> {
     let read_error = |source| GridError::Read { name: name.into(), source };
@@ -182,7 +258,12 @@ pub(super) fn read(
     let whole = bytes.ends_with(b"\n");
     if !whole && bytes.len() == MAX_LINE {
         let expected = "the header line of a grid";
-        return Err(GridError::LongLine { name: name.into(), line: 1, limit: MAX_LINE, expected });
+        return Err(GridError::LongLine {
+            name: name.into(),
+            line: lines + 1,
+            limit: MAX_LINE,
+            expected,
+        });
     }
 
     // What it claims to be comes before what is wrong in it.
@@ -202,26 +283,30 @@ pub(super) fn read(
         _ => return Err(not_a_grid(stranger::OTHER_JSON.into())),
     }
 
-    let document = Document::new(name, &bytes)?;
+    let placed = |error: JsonError| JsonError { line: lines + error.line, ..error };
+    let document = Document::new(name, &bytes).map_err(placed)?;
     let Line {
         format: _,
         version: _,
         encoding,
         endian: _,
         name,
+        patch,
         rows,
         cols,
         seam_u,
         seam_v,
         shift,
+        texture,
+        surface,
         uv,
         u,
-    } = document.parse()?;
+    } = document.parse().map_err(placed)?;
     if cols != u.len() {
         let message = format!("found {cols}, expected {}, the number of values in u", u.len());
-        return Err(document.fault("cols", message).into());
+        return Err(placed(document.fault("cols", message)).into());
     }
-    let header = Header { name, rows, seam_u, seam_v, shift, uv, u };
-    header.check().map_err(|fault| document.fault(&fault.place, fault.message))?;
+    let header = Header { name, patch, rows, seam_u, seam_v, shift, texture, surface, uv, u };
+    header.check().map_err(|fault| placed(document.fault(&fault.place, fault.message)))?;
     Ok((header, encoding, bytes))
 }

@@ -1,16 +1,23 @@
-//! Reading a grid row by row, trusting nothing.
+//! Reading grids row by row, trusting nothing.
 
-use super::{Encoding, Footer, GridError, Header, binary, header, text};
+use super::{Encoding, Footer, GridError, Header, Patch, binary, header, text};
 use crate::GridMesh;
 use crate::grid::Row;
 use glam::{DVec3, Vec3};
 use std::io::{self, BufRead, Read};
 
 /// A grid file being read, one row in memory at a time.
+///
+/// It stands at one patch; [`GridReader::next_patch`] goes on to the one behind it.
 #[derive(Debug)]
 pub struct GridReader<R> {
+    /// The file as the user named it.
     name: String,
+    /// The same, with the patch where there are several.
+    label: String,
     input: R,
+    /// Lines before this patch; only of patches that are text is there a number of them.
+    lines: usize,
     header: Header,
     encoding: Encoding,
     crc: crc32fast::Hasher,
@@ -30,36 +37,61 @@ pub(super) struct RowBuffer {
     pub normals: Vec<Vec3>,
 }
 
-/// Reads a whole grid into memory.
+/// Reads a file of one grid into memory.
 ///
 /// # Errors
-/// As [`GridReader::open`] and [`GridReader::next_row`].
+/// As [`read_all`], and when the file has several grids.
 pub fn read(name: &str, input: impl BufRead) -> Result<GridMesh, GridError> {
     let mut reader = GridReader::open(name, input)?;
+    let grid = rest_of(&mut reader)?;
+    if reader.next_patch()? {
+        return Err(GridError::Several { name: name.into() });
+    }
+    Ok(grid)
+}
+
+/// Reads all grids of a file into memory, at least one.
+///
+/// # Errors
+/// As [`GridReader::open`], [`GridReader::next_row`] and [`GridReader::next_patch`].
+pub fn read_all(name: &str, input: impl BufRead) -> Result<Vec<GridMesh>, GridError> {
+    let mut reader = GridReader::open(name, input)?;
+    let mut grids = vec![rest_of(&mut reader)?];
+    while reader.next_patch()? {
+        grids.push(rest_of(&mut reader)?);
+    }
+    Ok(grids)
+}
+
+/// The patch that a reader stands at.
+fn rest_of(reader: &mut GridReader<impl BufRead>) -> Result<GridMesh, GridError> {
     let (mut v, mut positions, mut normals) = (Vec::new(), Vec::new(), Vec::new());
     while let Some(row) = reader.next_row()? {
         v.push(row.v);
         positions.extend_from_slice(row.positions);
         normals.extend_from_slice(row.normals);
     }
-    let Header { name, rows: _, seam_u, seam_v, shift, uv, u } = reader.header;
-    Ok(GridMesh { name, seam_u, seam_v, shift, uv, u, v, positions, normals })
+    let Header { name, patch: _, rows: _, seam_u, seam_v, shift, texture, surface, uv, u } =
+        reader.header.clone();
+    Ok(GridMesh { name, seam_u, seam_v, shift, texture, surface, uv, u, v, positions, normals })
 }
 
 impl<R: BufRead> GridReader<R> {
-    /// Reads and checks the header line; `name` is how messages call the file.
+    /// Reads and checks the first header line; `name` is how messages call the file.
     ///
     /// Memory is taken for what was read, never for what a header only promises.
     ///
     /// # Errors
     /// When the input cannot be read, is not a grid, or has a header with a wrong value in it.
     pub fn open(name: &str, mut input: R) -> Result<Self, GridError> {
-        let (header, encoding, bytes) = header::read(name, &mut input)?;
+        let (header, encoding, bytes) = header::read(name, 0, &mut input)?;
         let mut crc = crc32fast::Hasher::new();
         crc.update(&bytes);
-        Ok(Self {
+        let mut reader = Self {
             name: name.into(),
+            label: name.into(),
             input,
+            lines: 0,
             header,
             encoding,
             crc,
@@ -67,10 +99,60 @@ impl<R: BufRead> GridReader<R> {
             finished: false,
             bytes: Vec::new(),
             row: RowBuffer::default(),
-        })
+        };
+        reader.follows(None)?;
+        Ok(reader)
     }
 
-    /// What the header line says.
+    /// Goes on to the next patch, past rows that were not asked for; false at the end of the file.
+    ///
+    /// # Errors
+    /// As [`GridReader::next_row`] and [`GridReader::open`]; and when the file ends where the
+    /// header of the patch before promised another one, or is followed by something else.
+    pub fn next_patch(&mut self) -> Result<bool, GridError> {
+        while self.next_row()?.is_some() {}
+        let due = self.header.patch.next();
+        let mut first = Vec::new();
+        if let Err(source) = self.input.by_ref().take(1).read_to_end(&mut first) {
+            return Err(self.read_error(source));
+        }
+        if first.is_empty() {
+            let missing = |patch| GridError::PatchCut { name: self.name.clone(), patch };
+            return due.map_or(Ok(false), |patch| Err(missing(patch)));
+        }
+        if first != b"{" {
+            return Err(GridError::Trailing { name: self.name.clone() });
+        }
+        self.lines += match self.encoding {
+            Encoding::Binary => 0,
+            Encoding::Json => self.header.rows + 2,
+        };
+        let mut input = first.chain(&mut self.input);
+        let (header, encoding, bytes) = header::read(&self.name, self.lines, &mut input)?;
+        (self.header, self.encoding) = (header, encoding);
+        self.crc = crc32fast::Hasher::new();
+        self.crc.update(&bytes);
+        (self.given, self.finished) = (0, false);
+        self.follows(due)?;
+        Ok(true)
+    }
+
+    /// Holds the patch at hand against the one that is `due`, or the first of an object, and takes
+    /// it into the name.
+    fn follows(&mut self, due: Option<Patch>) -> Result<(), GridError> {
+        let found = self.header.patch;
+        let expected = due.unwrap_or(Patch { number: 1, of: found.of });
+        if found != expected {
+            return Err(GridError::PatchOrder { name: self.name.clone(), found, expected });
+        }
+        self.label = match found.of {
+            1 => self.name.clone(),
+            _ => format!("{}, {found}", self.name),
+        };
+        Ok(())
+    }
+
+    /// What the header line of this patch says.
     #[must_use]
     pub fn header(&self) -> &Header {
         &self.header
@@ -82,7 +164,8 @@ impl<R: BufRead> GridReader<R> {
         &self.name
     }
 
-    /// The next row, or `None` when all rows were given and the footer behind them agrees.
+    /// The next row of this patch, or `None` when all rows were given and the footer behind them
+    /// agrees.
     ///
     /// # Errors
     /// When the file is cut short, damaged, or holds a number that no grid holds. Nothing more can
@@ -133,11 +216,11 @@ impl<R: BufRead> GridReader<R> {
             return Err(self.row_cut());
         }
         let (cols, number) = (self.header.cols(), self.given + 1);
-        match text::decode(&self.name, number + 1, &self.bytes, cols, &mut self.row) {
+        match text::decode(&self.label, self.lines + number + 1, &self.bytes, cols, &mut self.row) {
             Ok(()) => Ok(()),
             Err(mut error) => {
                 let rows = self.header.rows;
-                error.message = match text::decode_footer(&self.name, 0, &self.bytes) {
+                error.message = match text::decode_footer(&self.label, 0, &self.bytes) {
                     Ok(_) => format!("row {number} of {rows} is missing, found the closing line"),
                     Err(_) => format!("{} (row {number} of {rows})", error.message),
                 };
@@ -146,7 +229,7 @@ impl<R: BufRead> GridReader<R> {
         }
     }
 
-    /// Reads the footer, holds it against what was read, and sees that nothing follows.
+    /// Reads the footer and holds it against what was read.
     fn read_footer(&mut self) -> Result<(), GridError> {
         let footer = match self.encoding {
             Encoding::Binary => {
@@ -163,7 +246,7 @@ impl<R: BufRead> GridReader<R> {
                 if !self.read_line(text::FOOTER_LIMIT, "the closing row count and checksum")? {
                     return Err(self.footer_cut());
                 }
-                text::decode_footer(&self.name, self.header.rows + 2, &self.bytes)?
+                text::decode_footer(&self.label, self.lines + self.header.rows + 2, &self.bytes)?
             }
         };
         if footer.rows != self.header.rows as u64 {
@@ -171,15 +254,10 @@ impl<R: BufRead> GridReader<R> {
         }
         let expected = self.crc.clone().finalize();
         if footer.crc32 != expected {
-            let (name, found) = (self.name.clone(), footer.crc32);
+            let (name, found) = (self.label.clone(), footer.crc32);
             return Err(GridError::Checksum { name, found, expected });
         }
-        self.bytes.clear();
-        match self.input.by_ref().take(1).read_to_end(&mut self.bytes) {
-            Ok(0) => Ok(()),
-            Ok(_) => Err(GridError::Trailing { name: self.name.clone() }),
-            Err(source) => Err(self.read_error(source)),
-        }
+        Ok(())
     }
 
     /// Reads a line into the byte buffer; false when the input ends before its newline.
@@ -193,32 +271,32 @@ impl<R: BufRead> GridReader<R> {
             return Ok(true);
         }
         if self.bytes.len() == limit {
-            let (name, line) = (self.name.clone(), self.given + 2);
+            let (name, line) = (self.label.clone(), self.lines + self.given + 2);
             return Err(GridError::LongLine { name, line, limit, expected });
         }
         Ok(false)
     }
 
     fn read_error(&self, source: io::Error) -> GridError {
-        GridError::Read { name: self.name.clone(), source }
+        GridError::Read { name: self.label.clone(), source }
     }
 
     fn row_cut(&self) -> GridError {
-        let (name, rows) = (self.name.clone(), self.header.rows);
+        let (name, rows) = (self.label.clone(), self.header.rows);
         GridError::RowCut { name, row: self.given + 1, rows }
     }
 
     fn row_error(&self, place: String, message: String) -> GridError {
-        let (name, rows) = (self.name.clone(), self.header.rows);
+        let (name, rows) = (self.label.clone(), self.header.rows);
         GridError::Row { name, row: self.given + 1, rows, place, message }
     }
 
     fn footer_cut(&self) -> GridError {
-        GridError::FooterCut { name: self.name.clone(), rows: self.header.rows }
+        GridError::FooterCut { name: self.label.clone(), rows: self.header.rows }
     }
 
     fn count_error(&self, footer: Footer) -> GridError {
-        let (name, expected) = (self.name.clone(), self.header.rows);
+        let (name, expected) = (self.label.clone(), self.header.rows);
         GridError::Count { name, found: footer.rows, expected }
     }
 }

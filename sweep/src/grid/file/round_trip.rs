@@ -78,22 +78,26 @@ fn grids() -> impl Strategy<Value = GridMesh> {
     (3_usize..6, 3_usize..6).prop_flat_map(|(rows, cols)| {
         let points = rows * cols;
         (
-            (".*", seams(cols), 1e-9..1e9),
+            (".*", seams(cols), 1e-9..1e9, any::<[Option<u32>; 2]>()),
             (parameters(cols), parameters(rows)),
             prop::collection::vec(prop::array::uniform3(nasty_f64()), points),
             prop::collection::vec(prop::array::uniform3(nasty_f32()), points),
         )
             .prop_map(
-                |((name, (seam_u, seam_v, shift), repeat), (u, v), positions, normals)| GridMesh {
-                    name,
-                    seam_u,
-                    seam_v,
-                    shift,
-                    uv: UvLayout { across: Across::Contour, repeat: [repeat, 1.0] },
-                    u,
-                    v,
-                    positions: positions.into_iter().map(DVec3::from_array).collect(),
-                    normals: normals.into_iter().map(Vec3::from_array).collect(),
+                |((name, (seam_u, seam_v, shift), repeat, ids), (u, v), positions, normals)| {
+                    GridMesh {
+                        name,
+                        seam_u,
+                        seam_v,
+                        shift,
+                        texture: ids[0],
+                        surface: ids[1],
+                        uv: UvLayout { across: Across::Contour, repeat: [repeat, 1.0] },
+                        u,
+                        v,
+                        positions: positions.into_iter().map(DVec3::from_array).collect(),
+                        normals: normals.into_iter().map(Vec3::from_array).collect(),
+                    }
                 },
             )
     })

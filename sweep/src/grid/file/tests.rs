@@ -9,7 +9,7 @@ use proptest::prelude::*;
 const ENCODINGS: [Encoding; 2] = [Encoding::Binary, Encoding::Json];
 
 /// Three rows, four columns, closed along `u`; the name needs escapes.
-fn small() -> GridMesh {
+pub(super) fn small() -> GridMesh {
     let point = |i: usize| DVec3::new(i as f64 / 3.0, -(i as f64) * 1e-7, 1.0 + i as f64);
     GridMesh {
         name: "a \"small\" grid\n".into(),
@@ -24,7 +24,7 @@ fn small() -> GridMesh {
     }
 }
 
-fn bytes_of(grid: &GridMesh, encoding: Encoding) -> Vec<u8> {
+pub(super) fn bytes_of(grid: &GridMesh, encoding: Encoding) -> Vec<u8> {
     let mut bytes = Vec::new();
     write(grid, encoding, &mut bytes).unwrap();
     bytes
