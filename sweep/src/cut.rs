@@ -65,6 +65,40 @@ pub fn evenly(breaks: &[f64], closed: bool, cells: usize) -> Vec<Stop> {
     at(breaks, closed, &inner)
 }
 
+/// Cuts a curve into about `cells` parts, and at `anchors` in any case.
+///
+/// What lies between two neighbours among breaks and anchors is cut by its length alone, so that
+/// pieces of equal length have equally many cells.
+#[must_use]
+pub fn between(breaks: &[f64], closed: bool, cells: usize, anchors: &[f64]) -> Vec<Stop> {
+    let near = |a: f64, b: f64| (a - b).abs() < 1e-9;
+    let mut ends: Vec<f64> = breaks.iter().copied().filter(|&at| at > 0.0).chain([1.0]).collect();
+    let known = ends.clone();
+    ends.extend(
+        anchors
+            .iter()
+            .filter(|&&at| at > 1e-9 && at < 1.0 && !known.iter().any(|&other| near(other, at))),
+    );
+    ends.sort_by(f64::total_cmp);
+    let mut inner = vec![Vec::new()];
+    let mut from = 0.0;
+    for to in ends {
+        // Rounding must not tell pieces of equal length apart.
+        let count = ((cells as f64 * (to - from) + 1e-6).round() as usize).max(1);
+        let part = |cell: usize| from + (to - from) * (cell as f64 / count as f64);
+        if let Some(piece) = inner.last_mut() {
+            piece.extend((1..count).map(part));
+            if !known.contains(&to) {
+                piece.push(to);
+            } else if to < 1.0 {
+                inner.push(Vec::new());
+            }
+        }
+        from = to;
+    }
+    at(breaks, closed, &inner)
+}
+
 /// Cuts a curve at given places: `inner` has for each piece the places between its ends, rising.
 ///
 /// Breaks come twice. A closed curve has no stop at 1; its start comes twice if it is a break, first

@@ -12,6 +12,7 @@
 //! | [`depth`]      | relief on the contour, in waves                                     |
 //! | [`modulation`] | the contour scaled and twisted on its way                          |
 //! | [`cap`]        | what closes the ends                                                |
+//! | [`closing`]    | how the surface comes back to its start                             |
 //! | [`deform`]     | taper, twist and bend of the finished surface                       |
 //! | [`frame`]      | rotation-minimizing frames                                          |
 //! | [`curve`]      | cubic Bezier paths by arc length, splines, SVG                      |
@@ -30,6 +31,7 @@
 //! ```
 
 pub mod cap;
+pub mod closing;
 pub mod contour;
 pub mod curve;
 pub mod cut;

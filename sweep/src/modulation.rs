@@ -20,9 +20,11 @@ use crate::cap::Gathered;
 use crate::contour::Column;
 use crate::cut::Stop;
 use crate::depth::{Depth, Raised, Relief};
+use crate::frame::Frame;
 use crate::law::Law;
 use crate::trajectory::{Station, Trajectory};
 use glam::{DVec2, DVec3};
+use std::f64::consts::TAU;
 
 /// The laws by which a contour changes; none of them leaves it as it is.
 #[derive(Debug, Clone, Default)]
@@ -33,6 +35,8 @@ pub struct Modulation {
     pub(crate) twist: Option<Law>,
     /// Relief on the contour, under the scale.
     pub(crate) depth: Option<Depth>,
+    /// Turn in all that closes the surface, as a fraction of a full turn; evenly on top of the twist.
+    pub(crate) turn: f64,
 }
 
 /// A contour in its place on the trajectory, with all that has changed there.
@@ -69,12 +73,12 @@ impl Modulation {
         let (station, v) = (trajectory.station_at(stop), stop.at);
         let extent = trajectory.extent();
         let pace = 1.0 / extent;
-        let station = match &self.twist {
-            Some(law) => {
-                let (degrees, slope) = law.at(v);
-                station.turned(degrees / 360.0, slope.to_radians() * pace)
-            }
-            None => station,
+        let (degrees, slope) = self.twist.as_ref().map_or((0.0, 0.0), |law| law.at(v));
+        let (turns, rate) = (degrees / 360.0 + self.turn * v, slope / 360.0 + self.turn);
+        let station = if turns == 0.0 && rate == 0.0 {
+            station
+        } else {
+            station.turned(turns, rate * TAU * pace)
         };
         let (scale, scale_s) = match &self.scale {
             Some([x, y]) => {
@@ -105,6 +109,11 @@ impl Section {
     #[must_use]
     pub fn point(&self, column: &Column) -> DVec3 {
         self.station.point(self.local(column).q)
+    }
+
+    /// Where the contour's axes lie.
+    pub(crate) fn frame(&self) -> &Frame {
+        &self.station.frame
     }
 
     /// Where a point of the contour lies on the station's axes.

@@ -114,9 +114,9 @@
 //! }
 //! ```
 //!
-//! # Caps, deformations, parts
+//! # Seam, caps, deformations, parts
 //!
-//! [`Caps`] close the ends; [`Deform`] bends, twists and tapers the finished surface; [`Parts`] are
+//! [`SeamKind`] closes one-sided surfaces; [`Caps`] close the ends; [`Deform`] bends, twists and tapers the finished surface; [`Parts`] are
 //! several sweeps in one object.
 //!
 //! # Corners
@@ -131,6 +131,7 @@ mod depth;
 mod helix;
 mod law;
 mod parts;
+mod seam;
 
 pub use caps::{Cap, Caps};
 pub use deform::{AxisTwist, Bend, Deform, Taper};
@@ -138,6 +139,7 @@ pub use depth::{Depth, DepthMode, DepthTerm};
 pub use helix::Helix;
 pub use law::{Ease, Law, Scale};
 pub use parts::Parts;
+pub use seam::SeamKind;
 
 use crate::grid::UvLayout;
 use serde::{Deserialize, Serialize};
@@ -176,6 +178,9 @@ pub struct Spec {
     /// Relief on the contour.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub depth: Option<Depth>,
+    /// How it comes back to its start, where columns do not meet themselves.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub seam: Option<SeamKind>,
     /// What closes the ends.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub caps: Option<Caps>,
@@ -388,11 +393,12 @@ mod tests {
     use files::json::Document;
 
     /// The pages that show specs, and how many each shows.
-    const PAGES: [(&str, usize); 4] = [
+    const PAGES: [(&str, usize); 5] = [
         (include_str!("spec.rs"), 4),
         (include_str!("spec/caps.rs"), 1),
         (include_str!("spec/deform.rs"), 1),
         (include_str!("spec/parts.rs"), 1),
+        (include_str!("spec/seam.rs"), 1),
     ];
 
     #[test]

@@ -1,6 +1,7 @@
 //! A sweep that has been checked, and the grid it gives.
 
 use crate::cap::Cap;
+use crate::closing::Closing;
 use crate::contour::{Column, Contour};
 use crate::cut::{self, Stop};
 use crate::deform::{Deform, Moved};
@@ -28,6 +29,8 @@ pub struct Sweep {
     pub(crate) modulation: Modulation,
     /// What closes the start and the end.
     pub(crate) caps: [Option<Cap>; 2],
+    /// How it comes back to its start, where columns do not meet themselves.
+    pub(crate) closing: Option<Closing>,
     /// What happens to the surface in the end, one after another.
     pub(crate) deforms: Vec<Deform>,
     pub(crate) rows: usize,
@@ -103,7 +106,7 @@ impl Sweep {
     pub(crate) fn resolution_fault(&self) -> Option<(&'static str, String)> {
         let around = "to go around";
         let pieces = cut::pieces(&self.row_breaks());
-        let fewest = self.trajectory.fewest_cells().max(pieces);
+        let fewest = if self.closed() { 3 } else { 1 }.max(pieces);
         if self.rows < fewest {
             let why = match fewest {
                 1 => "along the trajectory",
@@ -169,22 +172,34 @@ impl Sweep {
         })?;
         positions.resize(count, DVec3::ZERO);
         normals.resize(count, Vec3::ZERO);
+        let stops = self.col_stops();
+        let (seam_v, shift) = self.seam(&stops);
         let stations = positions
             .par_chunks_mut(columns.len())
             .zip(normals.par_chunks_mut(columns.len()))
             .zip(&rows);
         stations.for_each(|((points, normals), &stop)| {
             let section = self.section(stop);
-            for ((column, point), normal) in columns.iter().zip(points).zip(normals) {
+            for ((column, point), normal) in columns.iter().zip(points).zip(&mut *normals) {
                 let place = self.place(&section, column);
                 (*point, *normal) = (place.point, place.normal.as_vec3());
+            }
+            if self.closing.is_some() && stop == Stop::before(0.0) {
+                // The end has come to the points of the start, with normals of its own.
+                let end = self.section(Stop::before(1.0));
+                let side = if seam_v == Seam::Mirror { -1.0 } else { 1.0 };
+                for (col, column) in columns.iter().enumerate() {
+                    let led = seam_v.leads_to(col, shift, columns.len());
+                    normals[led] = (self.place(&end, column).normal * side).as_vec3();
+                }
             }
         });
         let seam = |closed| if closed { Seam::Closed } else { Seam::Open };
         Ok(GridMesh {
             name: self.name.clone(),
             seam_u: seam(self.contour.closed()),
-            seam_v: seam(self.trajectory.closed()),
+            seam_v,
+            shift,
             uv: self.uv,
             u: columns.iter().map(|column| column.u).collect(),
             v: rows.iter().map(|stop| stop.at).collect(),
@@ -267,16 +282,48 @@ impl Sweep {
         let inner = self.trajectory.breaks().iter().map(|at| start + (end - start) * at);
         let first = self.caps[0].map(|_| start);
         let last = self.caps[1].map(|_| end);
-        first.into_iter().chain(inner).chain(last).collect()
+        let edge = self.closing.filter(|closing| closing.edge).map(|_| 0.0);
+        edge.into_iter().chain(first).chain(inner).chain(last).collect()
     }
 
     fn row_stops(&self) -> Vec<Stop> {
-        cut::evenly(&self.row_breaks(), self.trajectory.closed(), self.rows)
+        cut::evenly(&self.row_breaks(), self.closed(), self.rows)
+    }
+
+    fn col_stops(&self) -> Vec<Stop> {
+        let (breaks, closed) = (self.contour.breaks(), self.contour.closed());
+        match self.closing {
+            Some(closing) => {
+                cut::between(&breaks, closed, self.cols, &closing.anchors(&breaks, closed))
+            }
+            None => cut::evenly(&breaks, closed, self.cols),
+        }
+    }
+
+    /// Whether the rows lead back to the first.
+    fn closed(&self) -> bool {
+        self.trajectory.closed() || self.closing.is_some()
+    }
+
+    /// The seam of the rows, and its shift, with columns at these stops.
+    fn seam(&self, stops: &[Stop]) -> (Seam, usize) {
+        let plain = if self.closed() { Seam::Closed } else { Seam::Open };
+        let closing = self
+            .closing
+            .as_ref()
+            .and_then(|closing| closing.seam(stops, &self.contour.breaks(), self.contour.closed()));
+        closing.unwrap_or((plain, 0))
+    }
+
+    /// Whether the columns of the end meet those of the start.
+    pub(crate) fn columns_meet(&self) -> bool {
+        let (breaks, closed) = (self.contour.breaks(), self.contour.closed());
+        let stops = self.col_stops();
+        self.closing.is_none_or(|closing| closing.seam(&stops, &breaks, closed).is_some())
     }
 
     fn columns(&self) -> Vec<Column> {
-        let stops = cut::evenly(&self.contour.breaks(), self.contour.closed(), self.cols);
-        let mut columns = self.contour.columns(&stops);
+        let mut columns = self.contour.columns(&self.col_stops());
         self.snap_to_axis(&mut columns);
         columns
     }

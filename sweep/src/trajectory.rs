@@ -92,6 +92,15 @@ impl Trajectory {
         }
     }
 
+    /// By how much the frame is turned along a closed trajectory so that it comes back to itself, as
+    /// a fraction of a full turn.
+    pub(crate) fn closing_turn(&self) -> f64 {
+        match &self.0 {
+            Form::Path(frames) => frames.spin() * frames.curve().length() / TAU,
+            _ => 0.0,
+        }
+    }
+
     /// The fewest cells along the trajectory: three around.
     #[must_use]
     pub fn fewest_cells(&self) -> usize {

@@ -18,7 +18,7 @@ mod along;
 pub use along::Frames;
 
 use crate::curve::Local3;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 /// A place on a curve with two directions across it; all three are unit vectors.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -99,6 +99,11 @@ impl Frame {
             binormal: self.binormal * cos - self.normal * sin,
             ..*self
         }
+    }
+
+    /// A direction on the axes of the contour.
+    pub(crate) fn across(&self, direction: DVec3) -> DVec2 {
+        DVec2::new(direction.dot(self.normal), direction.dot(self.binormal))
     }
 
     /// The angle about the tangent from this frame's `w1` to a direction.

@@ -6,6 +6,7 @@ mod deform;
 mod depth;
 mod law;
 mod modulation;
+mod seam;
 mod trajectory;
 
 use crate::curve::vector::extent;
@@ -111,18 +112,22 @@ impl Reader<'_> {
         }
         let modulation = self.modulation(&spec, &contour, &trajectory)?;
         let caps = self.caps(spec.caps, &contour, &trajectory, &modulation)?;
-        let sweep = Sweep {
+        let mut sweep = Sweep {
             name: spec.name,
             contour,
             modulation,
             trajectory,
             caps,
+            closing: None,
             deforms: self.deforms(&spec.deform)?,
             rows: spec.mesh.rows,
             cols: spec.mesh.cols,
             uv: spec.uv,
             position: DVec3::from_array(spec.position),
         };
+        if let Some(kind) = spec.seam {
+            self.close(&mut sweep, kind)?;
+        }
         match sweep.resolution_fault() {
             Some((key, message)) => Err(self.fault(&format!("mesh.{key}"), message)),
             None => Ok(sweep),

@@ -5,7 +5,7 @@ use crate::SweepError;
 use crate::contour::Contour;
 use crate::law::Law;
 use crate::modulation::Modulation;
-use crate::spec::{self, Scale, Spec};
+use crate::spec::{self, Scale, SeamKind, Spec};
 use crate::sweep::ON_AXIS;
 use crate::trajectory::Trajectory;
 
@@ -23,10 +23,14 @@ impl Reader<'_> {
             self.off_axis("scale", contour)?;
         }
         let scale = spec.scale.as_ref().map(|scale| self.scale(scale, trajectory)).transpose()?;
-        let twist = spec.twist.as_ref().map(|twist| self.twist(twist, trajectory)).transpose()?;
+        let twist = spec
+            .twist
+            .as_ref()
+            .map(|twist| self.twist(twist, trajectory, spec.seam))
+            .transpose()?;
         let depth =
             spec.depth.as_ref().map(|depth| self.depth(depth, contour, trajectory)).transpose()?;
-        Ok(Modulation { scale, twist, depth })
+        Ok(Modulation { scale, twist, depth, turn: 0.0 })
     }
 
     /// Refuses what would move the pole that a contour makes on the axis of a rotation.
@@ -77,20 +81,25 @@ impl Reader<'_> {
         Ok(law)
     }
 
-    fn twist(&self, law: &spec::Law, trajectory: &Trajectory) -> Result<Law, SweepError> {
+    fn twist(
+        &self,
+        law: &spec::Law,
+        trajectory: &Trajectory,
+        seam: Option<SeamKind>,
+    ) -> Result<Law, SweepError> {
         if trajectory.is_rotation() {
             let message = "found a twist of a rotation, whose contour would leave the plane of its \
                            axis, expected none";
             return Err(self.geometry("twist", message));
         }
         let law = self.law("twist", law)?;
-        if trajectory.closed() {
+        if trajectory.closed() && seam.is_none() {
             let [start, end] = law.ends();
             let turns = (end - start) / 360.0;
             if (turns - turns.round()).abs() > SAME * turns.abs().max(1.0) {
                 let message = format!(
                     "found a turn of {:?} degrees along a closed trajectory, expected a multiple \
-                     of 360, so that each column meets itself",
+                     of 360, so that each column meets itself, or a `seam`",
                     end - start
                 );
                 return Err(self.geometry("twist", message));

@@ -1,0 +1,145 @@
+//! How the surface of a spec comes back to its start.
+
+use super::Reader;
+use crate::closing::{Closing, Ends, SAMPLES};
+use crate::cut::Stop;
+use crate::modulation::Section;
+use crate::spec::SeamKind;
+use crate::{Sweep, SweepError};
+
+/// Ends of a trajectory that are this part of the section's size apart are one point.
+const MEETS: f64 = 1e-6;
+
+/// Directions that differ by less than this many radians are one.
+const ALIKE: f64 = 1e-3;
+
+impl Reader<'_> {
+    /// Closes a sweep that is open at its ends, or whose contour does not come back to itself.
+    pub(super) fn close(&self, sweep: &mut Sweep, kind: SeamKind) -> Result<(), SweepError> {
+        let refusal = |message: String| self.geometry("seam", message);
+        let refused = |message: String| Err(refusal(message));
+        let mirrored = kind == SeamKind::Mirror;
+        let closed = sweep.contour.closed();
+        if sweep.trajectory.is_rotation() {
+            return refused(
+                "found a seam of a rotation, expected none, since each column meets itself".into(),
+            );
+        }
+        if sweep.caps.iter().any(Option::is_some) {
+            return refused("found a seam and caps, expected one of them".into());
+        }
+        if !closed && !mirrored {
+            return refused(
+                "found the shift of an open contour, expected `mirror` or a closed contour".into(),
+            );
+        }
+        if sweep.trajectory.breaks().first() == Some(&0.0) {
+            return refused(
+                "found a corner where the trajectory closes, expected it to start elsewhere".into(),
+            );
+        }
+        let stops: Vec<Stop> = (0..SAMPLES + usize::from(!closed))
+            .map(|i| Stop::after(i as f64 / SAMPLES as f64))
+            .collect();
+        let columns = sweep.contour.columns(&stops);
+        let [first, last] = [Stop::after(0.0), Stop::before(1.0)]
+            .map(|stop| sweep.modulation.section(&sweep.trajectory, stop));
+        let [from, to] = [&first, &last].map(Section::frame);
+        let size = columns.iter().map(|column| first.place(column).length()).fold(0.0, f64::max);
+        let gap = from.origin.distance(to.origin);
+        if gap > MEETS * size {
+            return refused(format!(
+                "found a trajectory that ends {gap:.1e} from its start, expected the same point"
+            ));
+        }
+        let agree = from.tangent.dot(to.tangent).signum();
+        let off = from.tangent.distance(to.tangent * agree);
+        if off > ALIKE {
+            return refused(format!(
+                "found a trajectory that comes back at {:.2} degrees to its direction, expected it \
+                 along that or against it",
+                from.tangent.dot(to.tangent).clamp(-1.0, 1.0).acos().to_degrees()
+            ));
+        }
+        let ends = Ends {
+            start: &columns.iter().map(|column| first.place(column)).collect::<Vec<_>>(),
+            end: &columns
+                .iter()
+                .map(|column| from.across(last.point(column) - to.origin))
+                .collect::<Vec<_>>(),
+            closed,
+            against: agree < 0.0,
+            turned: sweep.trajectory.closing_turn(),
+        };
+        let free = sweep.modulation.twist.is_none();
+        let closing = ends.close(mirrored, free).map_err(|missed| {
+            let how = match (mirrored, free) {
+                (true, true) => "turned and mirrored",
+                (true, false) => "mirrored after its twist",
+                (false, true) => "turned",
+                (false, false) => "shifted after its twist",
+            };
+            refusal(format!(
+                "found a contour that misses itself by {missed:.1e} of its size when it comes back \
+                 {how}, expected one that meets itself"
+            ))
+        })?;
+        sweep.modulation.turn = closing.turn;
+        sweep.closing = Some(closing);
+        let edge = Self::has_edge(sweep, closing, &stops);
+        sweep.closing = Some(Closing { edge, ..closing });
+        if sweep.columns_meet() {
+            return Ok(());
+        }
+        refused(
+            "found corners of the contour that do not meet corners, expected a contour that is cut \
+             where it meets itself"
+                .into(),
+        )
+    }
+
+    /// Whether the surface turns by more than rounding where it closes.
+    fn has_edge(sweep: &Sweep, closing: Closing, stops: &[Stop]) -> bool {
+        let side = if closing.mirrored { -1.0 } else { 1.0 };
+        stops.iter().step_by(7).any(|&stop| {
+            let led = closing.leads_to(sweep.contour.closed(), stop);
+            let (_, before) = sweep.at(stop.at, 1.0);
+            let (_, after) = sweep.at(led.at, 0.0);
+            before.distance(after * side) > ALIKE
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::read::tests::complaint;
+    use files::Exit;
+
+    #[test]
+    fn what_does_not_meet_itself_is_refused_with_how_far_it_misses() {
+        for (contour, keys, message) in [
+            ("{\"circle\": 1}", "\"caps\": {\"end\": \"flat\"}", "caps: found a closed trajectory"),
+            ("{\"svg\": \"M0 0H1\"}", "\"seam\": \"shift\"", "seam: found the shift of an open"),
+            (
+                "{\"svg\": \"M0 0H1\"}",
+                "\"seam\": \"mirror\"",
+                "seam: found a contour that misses itself by 1.0e0 of its size when it comes back \
+                 turned and mirrored",
+            ),
+            (
+                "{\"svg\": \"M-1 0H1\"}",
+                "\"seam\": \"mirror\", \"twist\": {\"total\": 90}",
+                "mirrored after its twist",
+            ),
+            (
+                "{\"svg\": \"M2 0L-1 1L-1 -1.1Z\"}",
+                "\"seam\": \"mirror\"",
+                "seam: found a contour that misses itself by",
+            ),
+        ] {
+            let (found, exit) = complaint("{\"circle\": 0.25}", &format!("{contour}, {keys}"));
+            assert!(found.contains(message), "{found}");
+            assert_eq!(exit, Exit::Geometry);
+        }
+    }
+}

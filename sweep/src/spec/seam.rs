@@ -1,0 +1,39 @@
+//! How a surface comes back to its start, as it is written.
+//!
+//! Along a closed trajectory each column meets itself, and a twist is a multiple of 360 degrees. With
+//! `"seam": "shift"` a contour with a symmetry may meet itself turned: a column leads on to another
+//! one. With `"seam": "mirror"` columns are led on in reverse order, so that the surface has one side.
+//!
+//! | surface                  | trajectory                       | contour                       | seam     |
+//! |--------------------------|----------------------------------|-------------------------------|----------|
+//! | Moebius band             | closed                           | open, the same from both ends | `mirror` |
+//! | figure-8 Klein immersion | closed                           | a figure of eight             | `mirror` |
+//! | Klein bottle             | back at its start, against itself | the same on both sides       | `mirror` |
+//! | threefold torus          | closed                           | a threefold star              | `shift`  |
+//!
+//! A trajectory that comes back to its start against its own direction is given open, with both
+//! ends at one point. What the contour lacks to meet itself is turned in evenly along the way, if no
+//! `twist` is given; of all ways to meet the one with the least turn is taken. A `twist` must fit by itself. The contour
+//! starts at one of 2 to 8, 10 or 12 equal parts from its image: on its axis of symmetry.
+//!
+//! ```json
+//! {
+//!   "format": "tb-sweep", "version": 1, "name": "moebius-band",
+//!   "contour": { "svg": "M-0.4 0H0.4" },
+//!   "trajectory": { "circle": { "radius": 1 } },
+//!   "seam": "mirror", "twist": { "total": 180 },
+//!   "mesh": { "rows": 120, "cols": 12 }
+//! }
+//! ```
+
+use serde::{Deserialize, Serialize};
+
+/// How the last section meets the first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SeamKind {
+    /// Turned onto itself by a symmetry.
+    Shift,
+    /// In reverse.
+    Mirror,
+}
