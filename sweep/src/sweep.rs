@@ -2,7 +2,7 @@
 
 use crate::contour::{Column, Contour};
 use crate::grid::file::MAX_COLS;
-use crate::grid::{GridMesh, Seam, UvLayout};
+use crate::grid::{Area, GridMesh, Seam, UvLayout};
 use crate::modulation::Modulation;
 use crate::trajectory::Trajectory;
 use crate::{SweepError, read};
@@ -26,6 +26,7 @@ pub struct Sweep {
     pub(crate) rows: usize,
     pub(crate) cols: usize,
     pub(crate) uv: UvLayout,
+    pub(crate) areas: Vec<Area>,
     pub(crate) position: DVec3,
 }
 
@@ -81,7 +82,14 @@ impl Sweep {
             Self { rows: rows.unwrap_or(self.rows), cols: cols.unwrap_or(self.cols), ..self };
         match sweep.resolution_fault() {
             Some((key, message)) => Err(SweepError::Resolution(format!("{key}: {message}"))),
-            None => Ok(sweep),
+            None => {
+                match sweep.areas.iter().find_map(|area| area.fault([sweep.rows, sweep.cols])) {
+                    Some((key, message)) => {
+                        Err(SweepError::Resolution(format!("areas, {key}: {message}")))
+                    }
+                    None => Ok(sweep),
+                }
+            }
         }
     }
 
@@ -167,6 +175,7 @@ impl Sweep {
             seam_u: seam(self.contour.closed()),
             seam_v: seam(self.trajectory.closed()),
             uv: self.uv,
+            areas: self.areas.clone(),
             u: columns.iter().map(|column| column.u).collect(),
             v,
             positions,

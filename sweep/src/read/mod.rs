@@ -1,5 +1,6 @@
 //! From a spec to a [`Sweep`]: every value is looked at before any work is done.
 
+mod areas;
 mod contour;
 mod depth;
 mod law;
@@ -69,11 +70,12 @@ pub fn read(document: &Document) -> Result<Sweep, SweepError> {
         rows: spec.mesh.rows,
         cols: spec.mesh.cols,
         uv: spec.uv,
+        areas: spec.areas,
         position: DVec3::from_array(spec.position),
     };
     match sweep.resolution_fault() {
         Some((key, message)) => Err(reader.fault(&format!("mesh.{key}"), message)),
-        None => Ok(sweep),
+        None => reader.areas(&sweep.areas, &sweep).map(|()| sweep),
     }
 }
 
