@@ -11,7 +11,7 @@
 //! }
 //! ```
 //!
-//! Lengths are in any one unit; angles are in degrees. `uv`, `position`, `frame`, `scale`,
+//! Lengths are in any one unit; angles are in degrees. `uv`, `areas` ([`Area`]), `position`, `frame`, `scale`,
 //! `twist` and `depth` may be left out, and inside the objects `closed` (false), `center` and `origin` (zero), `axis` (y) and
 //! `angle_deg` (360). Unknown keys are errors. A **contour** is one of
 //!
@@ -125,6 +125,7 @@
 //! normals. A trajectory may not: it would need a mitre, and is refused. A rotation wants contour x
 //! of at least 0; where it is 0 the surface has a pole. Points given twice count once.
 
+mod areas;
 mod caps;
 mod deform;
 mod depth;
@@ -133,6 +134,7 @@ mod law;
 mod parts;
 mod seam;
 
+pub use areas::Area;
 pub use caps::{Cap, Caps};
 pub use deform::{AxisTwist, Bend, Deform, Taper};
 pub use depth::{Depth, DepthMode, DepthTerm};
@@ -192,6 +194,9 @@ pub struct Spec {
     /// How a picture lies on the surface.
     #[serde(default)]
     pub uv: UvLayout,
+    /// Parts with pictures of their own.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub areas: Vec<Area>,
     /// By how much the whole is moved in the end.
     #[serde(default)]
     pub position: [f64; 3],

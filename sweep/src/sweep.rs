@@ -6,7 +6,7 @@ use crate::contour::{Column, Contour};
 use crate::cut::{self, Stop};
 use crate::deform::{Deform, Moved};
 use crate::grid::file::MAX_COLS;
-use crate::grid::{GridMesh, Seam, UvLayout};
+use crate::grid::{Area, GridMesh, Seam, UvLayout};
 use crate::modulation::{Modulation, Section};
 use crate::trajectory::Trajectory;
 use crate::{Object, SweepError};
@@ -36,6 +36,7 @@ pub struct Sweep {
     pub(crate) rows: usize,
     pub(crate) cols: usize,
     pub(crate) uv: UvLayout,
+    pub(crate) areas: Vec<Area>,
     pub(crate) position: DVec3,
 }
 
@@ -98,7 +99,14 @@ impl Sweep {
             Self { rows: rows.unwrap_or(self.rows), cols: cols.unwrap_or(self.cols), ..self };
         match sweep.resolution_fault() {
             Some((key, message)) => Err(SweepError::Resolution(format!("{key}: {message}"))),
-            None => Ok(sweep),
+            None => {
+                match sweep.areas.iter().find_map(|area| area.fault([sweep.rows, sweep.cols])) {
+                    Some((key, message)) => {
+                        Err(SweepError::Resolution(format!("areas, {key}: {message}")))
+                    }
+                    None => Ok(sweep),
+                }
+            }
         }
     }
 
@@ -201,6 +209,7 @@ impl Sweep {
             seam_v,
             shift,
             uv: self.uv,
+            areas: self.areas.clone(),
             u: columns.iter().map(|column| column.u).collect(),
             v: rows.iter().map(|stop| stop.at).collect(),
             positions,

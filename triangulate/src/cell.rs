@@ -1,13 +1,13 @@
 //! The triangles of one cell of the grid.
 
-use crate::Triangle;
+use crate::areas::Areas;
 use crate::diagonal::{self, Diagonal, is_flat};
-use crate::picture;
-use crate::station::{Station, UNTOLD};
+use crate::station::{Station, ToldUv, UNTOLD};
 use crate::triangulator::{Counts, Sink};
+use crate::{Material, Options, Triangle};
 use glam::DVec3;
+use sweep::grid::Seam;
 use sweep::grid::file::Header;
-use sweep::grid::{Seam, UvLayout};
 
 /// A sink, and how much it was told.
 #[derive(Debug)]
@@ -15,12 +15,16 @@ pub struct Teller<S> {
     pub sink: S,
     pub counts: Counts,
     pub picture: Picture,
+    /// The material last told.
+    pub material: Material,
+    /// Triangles of the band at hand, each with its area.
+    triangles: Vec<(u32, Triangle)>,
 }
 
 /// How the columns lie on the picture.
 #[derive(Debug)]
 pub struct Picture {
-    layout: UvLayout,
+    pub areas: Areas,
     /// `u` by column, and 1 over the seam of a closed contour.
     u: Vec<f64>,
     /// For each of them, the first with the same `u`: the columns of a crease are one here.
@@ -43,7 +47,7 @@ pub struct Cell<'a> {
 const SIDES: [[usize; 2]; 4] = [[0, 1], [1, 2], [3, 2], [0, 3]];
 
 impl Picture {
-    pub fn new(header: &Header) -> Self {
+    pub fn new(header: &Header, options: &Options) -> Self {
         let mut u = header.u.clone();
         if header.seam_u == Seam::Closed {
             u.push(1.0);
@@ -52,7 +56,7 @@ impl Picture {
         for col in 0..u.len() {
             same.push(if col > 0 && u[col] == u[col - 1] { same[col - 1] } else { col });
         }
-        Self { layout: header.uv, u, same }
+        Self { areas: Areas::new(header, options, &u), u, same }
     }
 
     /// Columns of the picture: those of the grid, and one more over a seam.
@@ -62,13 +66,38 @@ impl Picture {
 }
 
 impl<S: Sink> Teller<S> {
+    /// A teller of a patch; `material` is what the sink was told of it.
+    pub fn new(sink: S, counts: Counts, picture: Picture, material: Material) -> Self {
+        Self { sink, counts, picture, material, triangles: Vec::new() }
+    }
+
     pub fn position(&mut self, position: [f32; 3]) -> u32 {
         self.sink.position(position);
         counted(&mut self.counts.positions)
     }
 
-    /// Appends the triangles of a cell; their vertices are told to the sink when they are new.
-    pub fn cell(&mut self, cell: &mut Cell<'_>, triangles: &mut Vec<Triangle>) {
+    /// Tells the triangles of the band, all of a material together.
+    pub fn band_done(&mut self) {
+        let areas = &self.picture.areas;
+        if !areas.none() {
+            let owners: Vec<u32> = self.triangles.iter().map(|(owner, _)| *owner).collect();
+            let ranks = areas.ranks(self.material, &owners);
+            self.triangles.sort_by_key(|(owner, _)| ranks.get(&areas.material(*owner)));
+        }
+        for (owner, triangle) in &self.triangles {
+            let material = areas.material(*owner);
+            if material != self.material {
+                self.material = material;
+                self.sink.material(material);
+            }
+            self.sink.triangle(triangle);
+        }
+        self.triangles.clear();
+    }
+
+    /// Takes the triangles of a cell; their vertices are told to the sink when they are new.
+    pub fn cell(&mut self, cell: &mut Cell<'_>) {
+        let owner = self.picture.areas.owner(cell.left);
         let corners = cell.each(|station, col| station.points[col]);
         let normals = cell.each(|station, col| station.normals[col]);
         let cut = least_flat(&corners, diagonal::choose(&corners, &normals));
@@ -89,30 +118,35 @@ impl<S: Sink> Teller<S> {
                 match pole {
                     Some(side) if SIDES[side].contains(&corner) => {
                         let (uv, normal) =
-                            *half_way.get_or_insert_with(|| self.half_way(cell, side));
+                            *half_way.get_or_insert_with(|| self.half_way(cell, owner, side));
                         [position, uv, normal]
                     }
-                    _ => [position, self.uv(cell, corner), self.normal(cell, corner)],
+                    _ => [position, self.uv(cell, owner, corner), self.normal(cell, corner)],
                 }
             });
-            triangles.push(Triangle {
+            let triangle = Triangle {
                 position: told.map(|[position, _, _]| position),
                 uv: told.map(|[_, uv, _]| uv),
                 normal: told.map(|[_, _, normal]| normal),
-            });
+            };
+            self.triangles.push((owner, triangle));
             self.counts.triangles += 1;
         }
     }
 
-    /// The picture coordinates of a corner.
-    fn uv(&mut self, cell: &mut Cell<'_>, corner: usize) -> u32 {
+    /// The picture coordinates of a corner, in the area of its cell.
+    fn uv(&mut self, cell: &mut Cell<'_>, owner: u32, corner: usize) -> u32 {
         let col = self.picture.same[cell.picture_col(corner)];
         let station = cell.station(corner);
-        if station.uv[col] == UNTOLD {
-            let uv = picture::coordinates(&self.picture.layout, self.picture.u[col], station.v);
-            station.uv[col] = self.tell_uv(uv);
+        let known = |told: &&ToldUv| told.owner == owner && told.number != UNTOLD;
+        if let Some(told) = station.uv[col].iter().find(known) {
+            return told.number;
         }
-        station.uv[col]
+        let uv = self.picture.areas.coordinates(owner, self.picture.u[col], station.v);
+        let number = self.tell_uv(uv);
+        let told = &mut cell.station(corner).uv[col];
+        *told = [ToldUv { owner, number }, told[0]];
+        number
     }
 
     /// The normal of a corner; the one of the column to the left or the row below where it is the
@@ -136,14 +170,14 @@ impl<S: Sink> Teller<S> {
     }
 
     /// Picture coordinates and normal in the middle of a side that is one point in space.
-    fn half_way(&mut self, cell: &mut Cell<'_>, side: usize) -> (u32, u32) {
+    fn half_way(&mut self, cell: &mut Cell<'_>, owner: u32, side: usize) -> (u32, u32) {
         let ends = SIDES[side];
         let [u, v] = {
             let u = ends.map(|corner| self.picture.u[cell.picture_col(corner)]);
             let v = ends.map(|corner| cell.station(corner).v);
             [0.5 * (u[0] + u[1]), 0.5 * (v[0] + v[1])]
         };
-        let uv = self.tell_uv(picture::coordinates(&self.picture.layout, u, v));
+        let uv = self.tell_uv(self.picture.areas.coordinates(owner, u, v));
 
         let [m, n] = ends.map(|corner| cell.of(corner, |station, col| station.normals[col]));
         let middle = (m != n)

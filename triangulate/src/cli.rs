@@ -39,6 +39,9 @@ pub struct Arguments {
     /// Surface id, which a scene binds to a material. In place of those in the grid
     #[arg(long, value_name = "ID")]
     surface: Option<u32>,
+    /// Texture areas (tb-areas JSON) to lay on the grid's own. Keeps the grid in memory
+    #[arg(long, value_name = "FILE.json")]
+    pub areas: Option<PathBuf>,
     /// Write a material file beside the OBJ, under its name with .mtl
     #[arg(long)]
     mtl: bool,
@@ -77,6 +80,9 @@ pub enum UseError {
     /// Bytes that a terminal would take for commands.
     #[error("a binary {0} is not for a terminal: name a file with -o, or use --format obj")]
     Terminal(&'static str),
+    /// Two things from standard input.
+    #[error("--areas - would read from the grid's standard input: name a file for one of them")]
+    AreasPlace,
     /// A material file for a mesh that names none.
     #[error("--mtl is for OBJ, and the format is {0}")]
     MtlFormat(&'static str),
@@ -123,6 +129,9 @@ impl Arguments {
         let format = self.format();
         if terminal && format != Format::Obj && is_stdout(&self.output) {
             return Err(UseError::Terminal(format.name()));
+        }
+        if self.areas.as_deref().is_some_and(is_stdout) && is_stdout(&self.grid) {
+            return Err(UseError::AreasPlace);
         }
         if let Some(mtl) = self.mtl() {
             if format != Format::Obj {

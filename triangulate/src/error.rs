@@ -57,6 +57,14 @@ pub enum TriangulateError {
         /// What was found and what was expected.
         fault: String,
     },
+    /// A grid in memory with an area that is not on it.
+    #[error("{object}: {fault}")]
+    Area {
+        /// The object's name.
+        object: String,
+        /// The place, what was found and what was expected.
+        fault: String,
+    },
     /// A number that a mesh of f32 does not hold.
     #[error(
         "{object}: row {row}, column {col}: found the {what} ({:?}, {:?}, {:?}), expected numbers within 3.4e38, \
@@ -125,6 +133,7 @@ impl Failure for TriangulateError {
             Self::TooMany { .. } => Exit::Resource,
             Self::TooFew { .. }
             | Self::Seam { .. }
+            | Self::Area { .. }
             | Self::Number { .. }
             | Self::Repeat { .. }
             | Self::Arrays { .. }

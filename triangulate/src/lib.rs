@@ -27,6 +27,10 @@
 //! A grid file may hold several patches, an object's sweeps. Each is triangulated by itself, its
 //! vertices numbered on, and nothing is welded between them.
 //!
+//! A patch may have areas with pictures of their own ([`Area`](sweep::grid::Area)). Where two meet, points and normals are
+//! shared and picture coordinates are not; a row's triangles are told by material, so that an OBJ
+//! says `usemtl` once for each in a row, and is still written row by row.
+//!
 //! Only neighbours in the grid are compared: where a surface touches itself elsewhere it
 //! stays two surfaces. A cell is not made convex, and a mesh is not thinned.
 //!
@@ -38,11 +42,14 @@
 //! | [`obj`]          | the mesh as OBJ                                              |
 //! | [`topology`]     | what a mesh is like as a surface: Euler number, rims, sides  |
 //! | [`report`]       | that and its measures, as JSON                               |
+//! | [`area_file`]    | texture areas for a grid of others                           |
 //! | [`mtl`]          | the material file beside an OBJ                              |
 //! | [`stl`]          | the mesh as binary STL                                       |
 //! | [`split`]        | vertices that carry position, normal and picture coordinates |
 //! | [`ply`]          | the mesh as binary PLY                                       |
 
+pub mod area_file;
+mod areas;
 mod cell;
 pub mod diagonal;
 mod error;
@@ -187,6 +194,10 @@ pub fn run_grids<S: Sink>(
             let (positions, normals) = (grid.positions.len(), grid.normals.len());
             let object = grid.name.clone();
             return Err(TriangulateError::Arrays { object, positions, normals, expected: points });
+        }
+        if let Some((number, key, message)) = grid.area_fault() {
+            let fault = format!("areas[{number}].{key}: {message}");
+            return Err(TriangulateError::Area { object: grid.name.clone(), fault });
         }
         let mut triangulator = Triangulator::following(counts, Header::of(grid), options, sink)?;
         for row in grid.row_views() {

@@ -5,15 +5,17 @@ mod cli;
 use clap::Parser;
 use cli::{Arguments, Format};
 use files::exit::say;
+use files::json::Document;
 use files::{Output, Report, exit, input};
 use std::io::{BufRead, IsTerminal, Write, stdin, stdout};
 use std::path::Path;
 use std::process::ExitCode;
+use sweep::GridMesh;
 use sweep::grid::file::GridReader;
 use triangulate::mtl::mtl;
 use triangulate::{
-    Counts, Material, MeshReport, ObjWriter, TriMesh, TriangulateError, read_mesh, run_rows,
-    write_ply, write_stl,
+    Counts, Material, MeshReport, ObjWriter, Options, Sink, TriMesh, TriangulateError, area_file,
+    run_grids, run_rows, write_ply, write_stl,
 };
 
 fn main() -> ExitCode {
@@ -34,11 +36,17 @@ fn work(arguments: &Arguments) -> Result<(), Report> {
     let name = input::name_of(&arguments.grid);
     let mut reader =
         GridReader::open(&name, input::open(&arguments.grid)?).map_err(TriangulateError::Grid)?;
-    let Written { mesh, materials, counts } =
-        write(arguments, &mut reader, &mut output).map_err(|error| match error {
-            TriangulateError::Write(source) => Report::from(output.failed(source)),
-            error => error.into(),
-        })?;
+    let written = match &arguments.areas {
+        None => write(arguments, &mut Grid::File(&mut reader), &mut output),
+        Some(areas) => {
+            let grids = with_areas(areas, &mut reader)?;
+            write(arguments, &mut Grid::<&[u8]>::Memory(&grids), &mut output)
+        }
+    };
+    let Written { mesh, materials, counts } = written.map_err(|error| match error {
+        TriangulateError::Write(source) => Report::from(output.failed(source)),
+        error => error.into(),
+    })?;
     // The mesh last: when it is there, so is what it names.
     if let Some(output) = mtl_output {
         output.commit_all(mtl(&materials, arguments.map.as_deref()).as_bytes())?;
@@ -53,6 +61,40 @@ fn work(arguments: &Arguments) -> Result<(), Report> {
     Ok(())
 }
 
+/// All patches of a grid, with the areas of a file on them.
+fn with_areas(
+    areas: &Path,
+    reader: &mut GridReader<impl BufRead>,
+) -> Result<Vec<GridMesh>, Report> {
+    let bytes = input::read(areas)?;
+    let name = input::name_of(areas);
+    let document = Document::new(&name, &bytes)?;
+    let mut grids = reader.read_rest().map_err(TriangulateError::Grid)?;
+    area_file::add(&document, &mut grids)?;
+    Ok(grids)
+}
+
+/// Where rows come from.
+enum Grid<'a, R> {
+    /// One by one from a file.
+    File(&'a mut GridReader<R>),
+    /// From memory.
+    Memory(&'a [GridMesh]),
+}
+
+impl<R: BufRead> Grid<'_, R> {
+    fn run<S: Sink>(
+        &mut self,
+        options: &Options,
+        sink: S,
+    ) -> Result<(S, Counts), TriangulateError> {
+        match self {
+            Self::File(reader) => run_rows(reader, options, sink),
+            Self::Memory(grids) => run_grids(grids, options, sink),
+        }
+    }
+}
+
 /// What is known once the mesh is written.
 struct Written {
     /// The mesh, where it was needed whole.
@@ -65,25 +107,24 @@ struct Written {
 /// Writes the mesh in the wanted format.
 fn write(
     arguments: &Arguments,
-    reader: &mut GridReader<impl BufRead>,
+    grid: &mut Grid<'_, impl BufRead>,
     out: &mut impl Write,
 ) -> Result<Written, TriangulateError> {
     let (options, format) = (arguments.options(), arguments.format());
     if format == Format::Obj {
         let writer = ObjWriter::with_materials(arguments.mtl_name().as_deref(), out);
         let (writer, mesh, counts) = if arguments.report.is_some() {
-            let ((writer, mesh), counts) =
-                run_rows(reader, &options, (writer, TriMesh::default()))?;
+            let ((writer, mesh), counts) = grid.run(&options, (writer, TriMesh::default()))?;
             (writer, Some(mesh), counts)
         } else {
-            let (writer, counts) = run_rows(reader, &options, writer)?;
+            let (writer, counts) = grid.run(&options, writer)?;
             (writer, None, counts)
         };
         let materials = writer.materials();
         writer.finish(&counts).map_err(TriangulateError::Write)?;
         return Ok(Written { mesh, materials, counts });
     }
-    let (mesh, counts) = read_mesh(reader, &options)?;
+    let (mesh, counts) = grid.run(&options, TriMesh::default())?;
     let done = if format == Format::Ply { write_ply(&mesh, out) } else { write_stl(&mesh, out) };
     done.map_err(TriangulateError::Write)?;
     Ok(Written { mesh: Some(mesh), materials: Vec::new(), counts })

@@ -22,8 +22,23 @@ pub struct Station {
     /// Numbers of the normals, by column. These and the picture coordinates are told when a
     /// triangle first needs them, since those at a pole are never needed.
     pub normal: Vec<u32>,
-    /// Numbers of the picture coordinates, by column, and one more for `u = 1` over a seam.
-    pub uv: Vec<u32>,
+    /// Numbers of the picture coordinates, by column, and one more for `u = 1` over a seam: the two
+    /// last told, as two cells of a band meet at a point.
+    pub uv: Vec<[ToldUv; 2]>,
+}
+
+/// Picture coordinates of a point, which are others in each area that meets there.
+#[derive(Debug, Clone, Copy)]
+pub struct ToldUv {
+    /// The area.
+    pub owner: u32,
+    /// Their number.
+    pub number: u32,
+}
+
+impl ToldUv {
+    /// None told yet.
+    pub const NONE: Self = Self { owner: 0, number: UNTOLD };
 }
 
 impl Station {
@@ -64,7 +79,7 @@ impl Station {
         self.normal.clear();
         self.normal.resize(self.normals.len(), UNTOLD);
         self.uv.clear();
-        self.uv.resize(uv_slots, UNTOLD);
+        self.uv.resize(uv_slots, [ToldUv::NONE; 2]);
         Ok(())
     }
 
@@ -85,7 +100,7 @@ impl Station {
             normals: from.iter().map(|&col| turned(self.normals[col])).collect(),
             position: from.iter().map(|&col| self.position[col]).collect(),
             normal: from.iter().map(normal).collect(),
-            uv: vec![UNTOLD; self.uv.len()],
+            uv: vec![[ToldUv::NONE; 2]; self.uv.len()],
         }
     }
 }

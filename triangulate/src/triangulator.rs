@@ -133,6 +133,8 @@ const NUMBERS: u64 = u32::MAX as u64;
 /// The most numbers that a point takes. A pole gives a cell at most one more normal and one more
 /// pair of picture coordinates than it has points.
 const NUMBERS_OF_POINT: u64 = 2;
+/// The same where a cell may share no picture coordinates with its neighbours.
+const NUMBERS_IN_AREAS: u64 = 4;
 /// The most repeats of a picture; far below the end of f32.
 const MAX_REPEAT: f64 = 1e30;
 
@@ -148,8 +150,6 @@ pub struct Triangulator<S> {
     before: Option<Station>,
     /// A station no longer needed, whose memory is used again.
     spare: Station,
-    /// Triangles of the row at hand.
-    triangles: Vec<Triangle>,
     rounding: Rounding,
     /// Rows taken so far.
     rows: usize,
@@ -185,7 +185,8 @@ impl<S: Sink> Triangulator<S> {
         }
         // Counted with the row and the column that seams add to the picture.
         let taken = counts.positions.max(counts.uvs).max(counts.normals);
-        let limit = (NUMBERS - u64::from(taken)) / NUMBERS_OF_POINT;
+        let of_point = if header.areas.is_empty() { NUMBERS_OF_POINT } else { NUMBERS_IN_AREAS };
+        let limit = (NUMBERS - u64::from(taken)) / of_point;
         if (rows as u64 + 1).saturating_mul(cols as u64 + 1) > limit {
             return Err(TriangulateError::TooMany { object, rows, cols, limit });
         }
@@ -193,16 +194,15 @@ impl<S: Sink> Triangulator<S> {
         if found > MAX_REPEAT {
             return Err(TriangulateError::Repeat { object, found });
         }
-        let picture = Picture::new(&header);
+        let (picture, material) = (Picture::new(&header, options), options.material(&header));
         sink.patch(&header.name);
-        sink.material(options.material(&header));
+        sink.material(material);
         Ok(Self {
             header,
-            teller: Teller { sink, counts, picture },
+            teller: Teller::new(sink, counts, picture, material),
             first: None,
             before: None,
             spare: Station::default(),
-            triangles: Vec::new(),
             rounding: Rounding::none(),
             rows: 0,
         })
@@ -294,15 +294,13 @@ impl<S: Sink> Triangulator<S> {
     /// Tells the triangles between two rows.
     fn band(&mut self, lower: &mut Station, upper: &mut Station) {
         let cols = self.header.cols();
-        self.triangles.clear();
+        self.teller.picture.areas.next_band([lower.v, upper.v]);
         for left in 0..self.teller.picture.cols() - 1 {
             let right = if left + 1 == cols { 0 } else { left + 1 };
             let mut cell = Cell { lower, upper, left, right };
-            self.teller.cell(&mut cell, &mut self.triangles);
+            self.teller.cell(&mut cell);
         }
-        for triangle in &self.triangles {
-            self.teller.sink.triangle(triangle);
-        }
+        self.teller.band_done();
     }
 }
 

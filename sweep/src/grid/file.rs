@@ -19,6 +19,7 @@
 //! | `seam_v`    |          | `open`, `closed`, or `mirror`: the last row leads to the first, read the other way round |
 //! | `patch`     | `[1, 1]` | which patch of its object the grid is: number, from 1, and how many; so a file cut between two is noticed |
 //! | `texture`, `surface` | none | ids of the patch                                     |
+//! | `areas`     | `[]`     | `{"area": A, "v": [from, to]}` each: an [`Area`](crate::grid::Area), and `v` at its ends |
 //! | `shift`     | 0        | by how many columns, as [`Seam`](crate::grid::Seam) has it    |
 //!
 //! A row is `[v, flags, positions, normals]`; the numbers are the shortest that read back to the
@@ -98,6 +99,9 @@ fn write_patch(
 ) -> io::Result<()> {
     let header = Header { patch, ..Header::of(grid) };
     header.check().map_err(|fault| refused(&fault.to_string()))?;
+    if let Some((number, key, message)) = grid.area_fault() {
+        return Err(refused(&format!("areas[{number}].{key}: {message}")));
+    }
     let points = grid.rows().saturating_mul(grid.cols());
     if grid.positions.len() != points || grid.normals.len() != points {
         return Err(refused(&format!(

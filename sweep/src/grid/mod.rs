@@ -1,9 +1,11 @@
 //! The contour x trajectory grid: what `sweep` makes and `triangulate` reads.
 
+pub mod area;
 pub mod file;
 mod row;
 mod seam;
 
+pub use area::{Area, PlacedArea};
 pub use row::Row;
 pub use seam::Seam;
 
@@ -42,6 +44,8 @@ pub struct GridMesh {
     pub texture: Option<u32>,
     /// The surface id, where the patch has one of its own.
     pub surface: Option<u32>,
+    /// Parts with pictures of their own; later ones lie on earlier ones.
+    pub areas: Vec<Area>,
     /// How a picture lies on the surface.
     pub uv: UvLayout,
     /// `u` of each column, not decreasing, from 0; up to 1 when open, below 1 when closed.

@@ -1,5 +1,6 @@
 //! From a spec to a [`Sweep`]: every value is looked at before any work is done.
 
+mod areas;
 mod caps;
 mod contour;
 mod deform;
@@ -123,6 +124,7 @@ impl Reader<'_> {
             rows: spec.mesh.rows,
             cols: spec.mesh.cols,
             uv: spec.uv,
+            areas: spec.areas,
             position: DVec3::from_array(spec.position),
         };
         if let Some(kind) = spec.seam {
@@ -130,7 +132,7 @@ impl Reader<'_> {
         }
         match sweep.resolution_fault() {
             Some((key, message)) => Err(self.fault(&format!("mesh.{key}"), message)),
-            None => Ok(sweep),
+            None => self.areas(&sweep.areas, &sweep).map(|()| sweep),
         }
     }
 

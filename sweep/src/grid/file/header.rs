@@ -3,7 +3,7 @@
 use super::{Encoding, GridError, stranger};
 use crate::GridMesh;
 use crate::grid::row::{Fault, check_parameter};
-use crate::grid::{Seam, UvLayout, seam};
+use crate::grid::{PlacedArea, Seam, UvLayout, area, seam};
 use files::JsonError;
 use files::json::Document;
 use serde::{Deserialize, Serialize};
@@ -53,6 +53,8 @@ pub struct Header {
     pub texture: Option<u32>,
     /// The surface id, where the patch has one of its own.
     pub surface: Option<u32>,
+    /// Parts with pictures of their own; later ones lie on earlier ones.
+    pub areas: Vec<PlacedArea>,
     /// How a picture lies on the surface.
     pub uv: UvLayout,
     /// `u` of each column.
@@ -80,6 +82,8 @@ struct Line {
     texture: Option<u32>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     surface: Option<u32>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    areas: Vec<PlacedArea>,
     uv: UvLayout,
     u: Vec<f64>,
 }
@@ -152,6 +156,7 @@ impl Header {
             shift: grid.shift,
             texture: grid.texture,
             surface: grid.surface,
+            areas: grid.placed_areas(),
             uv: grid.uv,
             u: grid.u.clone(),
         }
@@ -186,6 +191,7 @@ impl Header {
             shift: self.shift,
             texture: self.texture,
             surface: self.surface,
+            areas: self.areas.clone(),
             uv: self.uv,
             u: self.u.clone(),
         };
@@ -224,6 +230,22 @@ impl Header {
             check_parameter(found, before, self.seam_u)
                 .map_err(|message| Fault { place: format!("u[{i}]"), message })?;
             before = Some(found);
+        }
+        self.check_areas()
+    }
+
+    /// Checks areas as far as can be told without the rows.
+    fn check_areas(&self) -> Result<(), Fault> {
+        let cols = area::edges(&self.u, self.seam_u).len().max(1) - 1;
+        let rows = if self.seam_v.joins() { self.rows } else { self.rows.saturating_sub(1) };
+        for (i, PlacedArea { area, v }) in self.areas.iter().enumerate() {
+            if let Some((key, message)) = area.fault([rows, cols]) {
+                return Err(Fault { place: format!("areas[{i}].area.{key}"), message });
+            }
+            if !(v[0] >= 0.0 && v[0] < v[1] && v[1] <= 1.0) {
+                let message = format!("found {v:?}, expected two rising numbers from 0 to 1");
+                return Err(Fault { place: format!("areas[{i}].v"), message });
+            }
         }
         Ok(())
     }
@@ -299,6 +321,7 @@ pub(super) fn read(
         shift,
         texture,
         surface,
+        areas,
         uv,
         u,
     } = document.parse().map_err(placed)?;
@@ -306,7 +329,8 @@ pub(super) fn read(
         let message = format!("found {cols}, expected {}, the number of values in u", u.len());
         return Err(placed(document.fault("cols", message)).into());
     }
-    let header = Header { name, patch, rows, seam_u, seam_v, shift, texture, surface, uv, u };
+    let header =
+        Header { name, patch, rows, seam_u, seam_v, shift, texture, surface, areas, uv, u };
     header.check().map_err(|fault| placed(document.fault(&fault.place, fault.message)))?;
     Ok((header, encoding, bytes))
 }

@@ -55,12 +55,7 @@ pub fn read(name: &str, input: impl BufRead) -> Result<GridMesh, GridError> {
 /// # Errors
 /// As [`GridReader::open`], [`GridReader::next_row`] and [`GridReader::next_patch`].
 pub fn read_all(name: &str, input: impl BufRead) -> Result<Vec<GridMesh>, GridError> {
-    let mut reader = GridReader::open(name, input)?;
-    let mut grids = vec![rest_of(&mut reader)?];
-    while reader.next_patch()? {
-        grids.push(rest_of(&mut reader)?);
-    }
-    Ok(grids)
+    GridReader::open(name, input)?.read_rest()
 }
 
 /// The patch that a reader stands at.
@@ -71,9 +66,21 @@ fn rest_of(reader: &mut GridReader<impl BufRead>) -> Result<GridMesh, GridError>
         positions.extend_from_slice(row.positions);
         normals.extend_from_slice(row.normals);
     }
-    let Header { name, patch: _, rows: _, seam_u, seam_v, shift, texture, surface, uv, u } =
-        reader.header.clone();
-    Ok(GridMesh { name, seam_u, seam_v, shift, texture, surface, uv, u, v, positions, normals })
+    let header = reader.header.clone();
+    Ok(GridMesh {
+        name: header.name,
+        seam_u: header.seam_u,
+        seam_v: header.seam_v,
+        shift: header.shift,
+        texture: header.texture,
+        surface: header.surface,
+        areas: header.areas.into_iter().map(|placed| placed.area).collect(),
+        uv: header.uv,
+        u: header.u,
+        v,
+        positions,
+        normals,
+    })
 }
 
 impl<R: BufRead> GridReader<R> {
@@ -135,6 +142,18 @@ impl<R: BufRead> GridReader<R> {
         (self.given, self.finished) = (0, false);
         self.follows(due)?;
         Ok(true)
+    }
+
+    /// This patch and all behind it, in memory; of this one, the rows that were not given yet.
+    ///
+    /// # Errors
+    /// As [`GridReader::next_row`] and [`GridReader::next_patch`].
+    pub fn read_rest(&mut self) -> Result<Vec<GridMesh>, GridError> {
+        let mut grids = vec![rest_of(self)?];
+        while self.next_patch()? {
+            grids.push(rest_of(self)?);
+        }
+        Ok(grids)
     }
 
     /// Holds the patch at hand against the one that is `due`, or the first of an object, and takes

@@ -1,7 +1,7 @@
 //! Any grid, written and read back to the same bits.
 
 use super::*;
-use crate::grid::{Across, Seam, UvLayout};
+use crate::grid::{Across, Area, Seam, UvLayout, area};
 use glam::{DVec3, Vec3};
 use proptest::prelude::*;
 
@@ -74,6 +74,14 @@ fn seams(cols: usize) -> impl Strategy<Value = (Seam, Seam, usize)> {
     })
 }
 
+/// The first cell along the contour, and all of them, where there are any.
+fn areas_on(u: &[f64], seam_u: Seam, [texture, surface]: [Option<u32>; 2]) -> Vec<Area> {
+    let cells = area::edges(u, seam_u).len() - 1;
+    let of = |cols, repeat| Area { rows: [0, 1], cols, texture, surface, repeat };
+    let areas = vec![of([0, 1], [1.0, 0.1]), of([0, cells], [1e-9, 1e9])];
+    if cells > 0 && texture.is_some() { areas } else { Vec::new() }
+}
+
 fn grids() -> impl Strategy<Value = GridMesh> {
     (3_usize..6, 3_usize..6).prop_flat_map(|(rows, cols)| {
         let points = rows * cols;
@@ -92,6 +100,7 @@ fn grids() -> impl Strategy<Value = GridMesh> {
                         shift,
                         texture: ids[0],
                         surface: ids[1],
+                        areas: areas_on(&u, seam_u, ids),
                         uv: UvLayout { across: Across::Contour, repeat: [repeat, 1.0] },
                         u,
                         v,

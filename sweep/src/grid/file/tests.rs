@@ -207,6 +207,16 @@ fn the_header_is_checked() {
             "\"seam_v\":\"mirror\",\"shift\":4",
             "shift: found 4, expected less than 4",
         ),
+        (
+            "\"uv\"",
+            "\"areas\":[{\"area\":{\"rows\":[0,1],\"cols\":[0,4]},\"v\":[0,1]}],\"uv\"",
+            "areas[0].area.cols: found [0, 4], expected two rising numbers from 0 to 3",
+        ),
+        (
+            "\"uv\"",
+            "\"areas\":[{\"area\":{\"rows\":[0,1],\"cols\":[0,1]},\"v\":[1,1]}],\"uv\"",
+            "areas[0].v: found [1.0, 1.0], expected two rising numbers from 0 to 1",
+        ),
         ("\"endian\":\"little\"", "\"endian\":\"big\"", "endian"),
         ("\"seam_u\"", "\"seem_u\"", "did you mean `seam_u`?"),
         ("\"tb-grid\"", "\"tb-sweep\"", "it is JSON without \"format\":\"tb-grid\""),
