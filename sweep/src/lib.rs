@@ -10,7 +10,7 @@
 //! | [`law`]        | numbers that change along the trajectory                            |
 //! | [`depth`]      | relief on the contour, in waves                                     |
 //! | [`modulation`] | the contour scaled and twisted on its way                          |
-//! | [`frame`]      | rotation-minimizing frames                                          |
+//! | [`frame`]      | rotation-minimizing frames, and those that a direction fixes        |
 //! | [`curve`]      | cubic Bezier paths by arc length, splines, SVG                      |
 //! | [`grid`]       | the grid and its file                                               |
 //!

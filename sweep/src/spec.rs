@@ -65,7 +65,8 @@
 //! with its direction. From there the frame turns about the trajectory as little as it can, and
 //! along a closed one it is turned evenly so that it closes.
 //!
-//! A spec can choose for itself what `w1` starts toward: `"frame": {"start": [x, y, z]}`.
+//! A spec can choose for itself what `w1` starts toward: `"frame": {"start": [x, y, z]}`. Or it fixes
+//! the frame everywhere, by `up`, `frenet` or `guide`; see [`Frame`].
 //!
 //! # Laws: scale and twist
 //!
@@ -121,10 +122,12 @@
 //! of at least 0; where it is 0 the surface has a pole. Points given twice count once.
 
 mod depth;
+mod frame;
 mod helix;
 mod law;
 
 pub use depth::{Depth, DepthMode, DepthTerm};
+pub use frame::{Frame, Frenet};
 pub use helix::Helix;
 pub use law::{Ease, Law, Scale};
 
@@ -151,9 +154,9 @@ pub struct Spec {
     pub contour: Contour,
     /// What it is swept along.
     pub trajectory: Trajectory,
-    /// How the frame starts, where the trajectory leaves that open.
+    /// How the contour's axes lie along the trajectory.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub frame: Option<FrameStart>,
+    pub frame: Option<Frame>,
     /// Factors of the contour along the trajectory.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scale: Option<Scale>,
@@ -262,14 +265,6 @@ pub struct Rotation {
     pub axis: [f64; 3],
 }
 
-/// How the frame starts.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "an object with the key start")]
-pub struct FrameStart {
-    /// What the contour's x points at, as near as the trajectory lets it.
-    pub start: [f64; 3],
-}
-
 /// How finely a surface is cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "an object with the keys rows and cols")]
@@ -369,20 +364,22 @@ mod tests {
     use files::json::Document;
 
     #[test]
-    fn the_snippets_above_are_specs() {
-        let page = include_str!("spec.rs");
-        let page: String = page
-            .lines()
-            .map_while(|line| line.strip_prefix("//!"))
-            .map(|line| format!("{line}\n"))
-            .collect();
-        let snippets: Vec<&str> =
-            page.split("```json").skip(1).filter_map(|rest| rest.split("```").next()).collect();
-        assert_eq!(snippets.len(), 4);
-        for snippet in snippets {
-            let document = Document::new("snippet", snippet.as_bytes()).unwrap();
-            let sweep = Sweep::read(&document).unwrap_or_else(|error| panic!("{error}"));
-            assert_eq!(sweep.grid().positions.len(), sweep.grid().rows() * sweep.grid().cols());
+    fn the_snippets_are_specs() {
+        for (page, count) in [(include_str!("spec.rs"), 4), (include_str!("spec/frame.rs"), 3)] {
+            let page: String = page
+                .lines()
+                .map_while(|line| line.strip_prefix("//!"))
+                .map(|line| format!("{line}\n"))
+                .collect();
+            let snippets: Vec<&str> =
+                page.split("```json").skip(1).filter_map(|rest| rest.split("```").next()).collect();
+            assert_eq!(snippets.len(), count);
+            for snippet in snippets {
+                let document = Document::new("snippet", snippet.as_bytes()).unwrap();
+                let sweep = Sweep::read(&document).unwrap_or_else(|error| panic!("{error}"));
+                let grid = sweep.grid();
+                assert_eq!(grid.positions.len(), grid.rows() * grid.cols());
+            }
         }
     }
 }
