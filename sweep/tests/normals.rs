@@ -79,10 +79,12 @@ fn contour() -> impl Strategy<Value = Value> {
     ]
 }
 
-/// Trajectories, and whether they are closed. The Bezier bends gently: where one bends sharply the
-/// frames' own error, some 1e-10 radians from node to node, divided by the step of the differences
-/// hides that of the normals.
-fn trajectories() -> [(Value, bool); 5] {
+/// Trajectories, and whether they are closed.
+fn trajectories() -> [(Value, bool); 8] {
+    let bent = json!([[[0, 0, 0], [2, 0.4, 0.3], [1.9, 1.1, 0.2], [0.2, 0.9, 0.8]]]);
+    // Their symmetries put the joints of both splines at quarters of their lengths.
+    let points = json!([[-1.5, 0, -1], [0, 0.8, 0], [1.5, 0, 1]]);
+    let ring = json!([[2, 0.5, 0], [0, -0.5, 2], [-2, 0.5, 0], [0, -0.5, -2]]);
     [
         (json!({"line": [[0, 0, 0], [1, 3, 0.5]]}), false),
         (json!({"circle": {"radius": 2, "angle_deg": 200}}), false),
@@ -92,6 +94,9 @@ fn trajectories() -> [(Value, bool); 5] {
             json!({"bezier": {"segments": [[[0, 0, 0], [1, 0, 0.3], [2, 0.6, 0.2], [2.8, 1.4, 0.8]]]}}),
             false,
         ),
+        (json!({"bezier": {"segments": bent}}), false),
+        (json!({"free": {"points": points}}), false),
+        (json!({"free": {"closed": true, "points": ring}}), true),
     ]
 }
 
@@ -132,11 +137,11 @@ fn laws(closed: bool) -> impl Strategy<Value = Value> {
 /// Ways to frame the open trajectories above, none of which comes near to having no frame (where it
 /// turns too fast for differences).
 fn frames() -> [Value; 5] {
-    let wave = json!([[0.3, 2, 0], [1, 3, 1], [1, 4, -1], [2, 5, 0.4]]);
+    let wave = json!([[0.3, 6, 0], [1, 7, 1], [1, 8, -1], [2, 9, 0.4]]);
     [
         json!({"start": [0.3, -0.5, 0.7]}),
         json!({"up": [0.1, 1, -0.3]}),
-        json!({"guide": {"line": [[4, 0, 1], [5, 3, 2]]}}),
+        json!({"guide": {"line": [[0, 9, 0], [0, 9, 1]]}}),
         json!({"guide": {"bezier": {"segments": [wave]}}}),
         json!({"frenet": {}}),
     ]
