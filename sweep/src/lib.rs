@@ -14,7 +14,7 @@
 //! | [`cap`]        | what closes the ends                                                |
 //! | [`closing`]    | how the surface comes back to its start                             |
 //! | [`deform`]     | taper, twist and bend of the finished surface                       |
-//! | [`frame`]      | rotation-minimizing frames                                          |
+//! | [`frame`]      | rotation-minimizing frames, and those that a direction fixes        |
 //! | [`curve`]      | cubic Bezier paths by arc length, splines, SVG                      |
 //! | [`grid`]       | the grid and its file                                               |
 //!

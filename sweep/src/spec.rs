@@ -65,7 +65,8 @@
 //! with its direction. From there the frame turns about the trajectory as little as it can, and
 //! along a closed one it is turned evenly so that it closes.
 //!
-//! A spec can choose for itself what `w1` starts toward: `"frame": {"start": [x, y, z]}`.
+//! A spec can choose for itself what `w1` starts toward: `"frame": {"start": [x, y, z]}`. Or it fixes
+//! the frame everywhere, by `up`, `frenet` or `guide`; see [`Frame`].
 //!
 //! # Laws: scale and twist
 //!
@@ -129,6 +130,7 @@ mod areas;
 mod caps;
 mod deform;
 mod depth;
+mod frame;
 mod helix;
 mod law;
 mod parts;
@@ -138,6 +140,7 @@ pub use areas::Area;
 pub use caps::{Cap, Caps};
 pub use deform::{AxisTwist, Bend, Deform, Taper};
 pub use depth::{Depth, DepthMode, DepthTerm};
+pub use frame::{Frame, Frenet};
 pub use helix::Helix;
 pub use law::{Ease, Law, Scale};
 pub use parts::Parts;
@@ -168,9 +171,9 @@ pub struct Spec {
     pub contour: Contour,
     /// What it is swept along.
     pub trajectory: Trajectory,
-    /// How the frame starts, where the trajectory leaves that open.
+    /// How the contour's axes lie along the trajectory.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub frame: Option<FrameStart>,
+    pub frame: Option<Frame>,
     /// Factors of the contour along the trajectory.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scale: Option<Scale>,
@@ -291,14 +294,6 @@ pub struct Rotation {
     pub axis: [f64; 3],
 }
 
-/// How the frame starts.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "an object with the key start")]
-pub struct FrameStart {
-    /// What the contour's x points at, as near as the trajectory lets it.
-    pub start: [f64; 3],
-}
-
 /// How finely a surface is cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "an object with the keys rows and cols")]
@@ -398,10 +393,11 @@ mod tests {
     use files::json::Document;
 
     /// The pages that show specs, and how many each shows.
-    const PAGES: [(&str, usize); 5] = [
+    const PAGES: [(&str, usize); 6] = [
         (include_str!("spec.rs"), 4),
         (include_str!("spec/caps.rs"), 1),
         (include_str!("spec/deform.rs"), 1),
+        (include_str!("spec/frame.rs"), 3),
         (include_str!("spec/parts.rs"), 1),
         (include_str!("spec/seam.rs"), 1),
     ];

@@ -79,6 +79,23 @@ impl<V: Vector> Cubic<V> {
         (acceleration - tangent * acceleration.dot(tangent)) * (1.0 / speed)
     }
 
+    /// The derivative of the curvature by arc length; the zero vector where the speed is zero.
+    pub fn third(&self, t: f64) -> V {
+        let velocity = self.velocity(t);
+        let speed = velocity.length();
+        if speed <= 3.0 * ZERO_SPEED * self.size() {
+            return V::ZERO;
+        }
+        let tangent = velocity * (1.0 / speed);
+        let curvature = self.curvature(t);
+        let [d0, d1, d2] = self.differences();
+        let jerk = ((d2 - d1) - (d1 - d0)) * (6.0 / speed);
+        let across = jerk - tangent * jerk.dot(tangent);
+        let lag = self.acceleration(t).dot(tangent) / speed;
+        (across * (1.0 / speed) - curvature * (3.0 * lag)) * (1.0 / speed)
+            - tangent * curvature.dot(curvature)
+    }
+
     /// The length of the longest side of the control polygon.
     pub fn size(&self) -> f64 {
         self.differences().into_iter().map(Vector::length).fold(0.0, f64::max)
@@ -176,6 +193,9 @@ mod tests {
             let turning = (curve.tangent(t + h) - curve.tangent(t - h)) / (2.0 * h);
             let curvature = turning / curve.velocity(t).length();
             assert!((curvature - curve.curvature(t)).length() < 1e-8);
+            let bending = (curve.curvature(t + h) - curve.curvature(t - h)) / (2.0 * h);
+            let third = bending / curve.velocity(t).length();
+            assert!((third - curve.third(t)).length() < 1e-8);
         }
     }
 

@@ -5,9 +5,9 @@
 //! `w1` points away from the axis. Nothing is summed up, and a place takes no longer far from the
 //! start than near it.
 
-use super::turn;
+use super::{Local3, turn};
 use crate::frame::Frame;
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 
 /// A helix about the y direction of a frame through the frame's origin.
@@ -35,36 +35,62 @@ impl Helix {
         self.turns.abs() * self.turn_length()
     }
 
+    /// The place at `v`, a fraction of the length.
+    #[must_use]
+    pub fn place(&self, v: f64) -> Local3 {
+        let (outward, around) = self.spoke(v);
+        let (c, h) = self.slope();
+        // Turn about the axis by length.
+        let rate = (c / self.radius).copysign(self.turns);
+        Local3 {
+            position: self.start.origin
+                + outward * self.radius
+                + self.start.binormal * (self.turns.abs() * v * self.rise),
+            tangent: around * c.copysign(self.turns) + self.start.binormal * h,
+            curvature: -outward * (c * c / self.radius),
+            third: -around * (c * c / self.radius * rate),
+        }
+    }
+
     /// The frame at `v`, a fraction of the length, and the curvature there on its `(w1, w2)`.
     ///
     /// It starts with `w1` away from the axis.
     #[must_use]
     pub fn at(&self, v: f64) -> (Frame, DVec2) {
-        let Frame { origin, normal, tangent, binormal: axis } = self.start;
-        let angle = turn(self.turns * v);
-        let outward = normal * angle.x + tangent * angle.y;
-        let around = tangent * angle.x - normal * angle.y;
-        let (c, h) = (TAU * self.radius / self.turn_length(), self.rise / self.turn_length());
-        let along = around * c.copysign(self.turns) + axis * h;
-        let sideways = along.cross(outward);
+        let (outward, _) = self.spoke(v);
+        let (c, h) = self.slope();
+        let Local3 { position, tangent, .. } = self.place(v);
+        let sideways = tangent.cross(outward);
         // Away from the axis, w1 would turn toward w2 by -c h / r of an angle for each length.
         let back = turn(self.turns * v * h);
         let frame = Frame {
-            origin: origin + outward * self.radius + axis * (self.turns.abs() * v * self.rise),
-            tangent: along,
+            origin: position,
+            tangent,
             normal: outward * back.x + sideways * back.y,
             binormal: sideways * back.x - outward * back.y,
         };
         (frame, DVec2::new(-back.x, back.y) * (c * c / self.radius))
+    }
+
+    /// The direction away from the axis, and the one a quarter of a turn further.
+    fn spoke(&self, v: f64) -> (DVec3, DVec3) {
+        let Frame { normal, tangent, .. } = self.start;
+        let angle = turn(self.turns * v);
+        (normal * angle.x + tangent * angle.y, tangent * angle.x - normal * angle.y)
+    }
+
+    /// The sine and the cosine of the tangent's angle to the axis.
+    fn slope(&self) -> (f64, f64) {
+        (TAU * self.radius / self.turn_length(), self.rise / self.turn_length())
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::curve::{Curve3, Local3};
+    use crate::curve::Curve3;
+    use crate::cut::Side;
     use crate::frame::Frames;
-    use glam::DVec3;
 
     fn helix(rise: f64, turns: f64) -> Helix {
         let start =
@@ -89,9 +115,7 @@ mod tests {
         }
 
         fn at(&self, s: f64) -> Local3 {
-            let (frame, k) = self.0.at(s / self.length());
-            let curvature = frame.normal * k.x + frame.binormal * k.y;
-            Local3 { position: frame.origin, tangent: frame.tangent, curvature }
+            self.0.place(s / self.length())
         }
     }
 
@@ -99,13 +123,15 @@ mod tests {
     fn frames_are_those_of_double_reflection() {
         for (rise, turns) in [(1.0, 3.0), (-9.0, 2.3), (4.0, -2.0), (0.0, 0.7)] {
             let helix = helix(rise, turns);
-            let frames = Frames::new(Bare(helix), helix.at(0.0).0);
+            let frames = Frames::new(&Bare(helix), helix.at(0.0).0);
             for i in 0..=50 {
                 let v = f64::from(i) / 50.0;
                 let (frame, curvature) = helix.at(v);
-                let (other, other_curvature) = frames.at(v * helix.length());
+                let place = helix.place(v);
+                let other = frames.at(v * helix.length(), &place, Side::After);
                 assert!((frame.normal - other.normal).length() < 1e-9, "{rise} {turns} {v}");
-                assert!((curvature - other_curvature).length() < 1e-9);
+                let in_space = frame.normal * curvature.x + frame.binormal * curvature.y;
+                assert!((place.curvature - in_space).length() < 1e-14);
                 assert!((frame.normal.cross(frame.binormal) - frame.tangent).length() < 1e-14);
             }
         }
@@ -123,6 +149,8 @@ mod tests {
                 assert!(((after.origin - before.origin) / step - frame.tangent).length() < 1e-8);
                 let curvature = frame.normal * k.x + frame.binormal * k.y;
                 assert!(((after.tangent - before.tangent) / step - curvature).length() < 1e-8);
+                let bending = helix.place(v + h).curvature - helix.place(v - h).curvature;
+                assert!((bending / step - helix.place(v).third).length() < 1e-8);
             }
         }
     }

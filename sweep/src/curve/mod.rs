@@ -41,7 +41,14 @@ pub trait Curve3 {
     fn knots(&self) -> Vec<f64>;
 
     /// The curve at arc length `s` from its start; `s` outside the curve gives its ends.
+    ///
+    /// At a joint it is the side after.
     fn at(&self, s: f64) -> Local3;
+
+    /// The same, but at a joint the side before.
+    fn before(&self, s: f64) -> Local3 {
+        self.at(s)
+    }
 }
 
 /// A curve in space at one place.
@@ -53,6 +60,16 @@ pub struct Local3 {
     pub tangent: DVec3,
     /// The derivative of the tangent by arc length: towards the centre, one over the radius long.
     pub curvature: DVec3,
+    /// The derivative of the curvature by arc length.
+    pub third: DVec3,
+}
+
+impl Local3 {
+    /// A place where the curve is straight.
+    #[must_use]
+    pub fn straight(position: DVec3, tangent: DVec3) -> Self {
+        Self { position, tangent, curvature: DVec3::ZERO, third: DVec3::ZERO }
+    }
 }
 
 /// The point of the unit circle after a fraction of a turn; exact at the quarters.

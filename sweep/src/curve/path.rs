@@ -110,6 +110,16 @@ impl<V: Vector> Path<V> {
         Place { segment: index, t: segment.lengths.parameter_at(s - segment.start) }
     }
 
+    /// The same, but at a joint the end of the segment before.
+    pub fn locate_before(&self, s: f64) -> Place {
+        let after = self.segments.partition_point(|segment| segment.start < s);
+        let index = after.max(1) - 1;
+        let segment = &self.segments[index];
+        let last = self.segments.get(index + 1).is_some_and(|next| next.start <= s);
+        let t = if last { 1.0 } else { segment.lengths.parameter_at(s - segment.start) };
+        Place { segment: index, t }
+    }
+
     /// The length of the path before a place.
     pub fn length_to(&self, place: Place) -> f64 {
         let segment = &self.segments[place.segment];
@@ -129,6 +139,11 @@ impl<V: Vector> Path<V> {
     /// The derivative of the tangent by arc length; zero where the speed is zero.
     pub fn curvature(&self, place: Place) -> V {
         self.segments[place.segment].cubic.curvature(place.t)
+    }
+
+    /// The derivative of the curvature by arc length; zero where the speed is zero.
+    pub fn third(&self, place: Place) -> V {
+        self.segments[place.segment].cubic.third(place.t)
     }
 
     /// All joints, by rising `s`; in a closed path the first is the one that closes it.
@@ -168,11 +183,22 @@ impl Curve3 for Path<DVec3> {
     }
 
     fn at(&self, s: f64) -> Local3 {
-        let place = self.locate(s);
+        self.local(self.locate(s))
+    }
+
+    fn before(&self, s: f64) -> Local3 {
+        self.local(self.locate_before(s))
+    }
+}
+
+impl Path<DVec3> {
+    /// The curve at a place.
+    pub fn local(&self, place: Place) -> Local3 {
         Local3 {
             position: self.point(place),
             tangent: self.tangent(place),
             curvature: self.curvature(place),
+            third: self.third(place),
         }
     }
 }

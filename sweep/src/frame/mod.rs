@@ -11,11 +11,14 @@
 //! D. Zheng, Y. Liu, "Computation of rotation minimizing frames", 2008): a reflection takes the
 //! first point to the second, another takes the reflected tangent to the tangent there. With exact
 //! tangents the error of the whole is of order 4 in the step; with chords for tangents it would be
-//! of order 2, so curves are asked for theirs. [`Frames`] are the frames along a whole curve.
+//! of order 2, so curves are asked for theirs. [`Frames`] are the frames along a whole curve;
+//! [`Directed`] are those that a direction fixes instead.
 
 mod along;
+mod directed;
 
 pub use along::Frames;
+pub use directed::{Directed, Lack};
 
 use crate::curve::Local3;
 use glam::{DVec2, DVec3};
@@ -119,7 +122,7 @@ mod tests {
     #[test]
     fn the_seed_is_the_axis_least_aligned() {
         let seed = |tangent: DVec3| {
-            let place = Local3 { position: DVec3::ZERO, tangent, curvature: DVec3::ZERO };
+            let place = Local3::straight(DVec3::ZERO, tangent);
             let frame = Frame::seed(&place);
             (frame.normal, frame.binormal)
         };
@@ -132,14 +135,14 @@ mod tests {
     #[test]
     fn a_direction_along_the_curve_gives_no_frame() {
         let tangent = DVec3::new(0.6, 0.0, 0.8);
-        let place = Local3 { position: DVec3::ONE, tangent, curvature: DVec3::ZERO };
+        let place = Local3::straight(DVec3::ONE, tangent);
         assert!(Frame::toward(&place, place.tangent * 3.0).is_none());
         assert!(Frame::toward(&place, DVec3::ZERO).is_none());
     }
 
     #[test]
     fn rounding_of_a_point_does_not_mirror_the_frame() {
-        let at = |position| Local3 { position, tangent: DVec3::X, curvature: DVec3::ZERO };
+        let at = |position| Local3::straight(position, DVec3::X);
         let frame = Frame::toward(&at(DVec3::ONE), DVec3::Y).unwrap();
         for off in [DVec3::Y, DVec3::new(1e-3, 1.0, 0.0), DVec3::new(1.0, 1.0, 1.0)] {
             let moved = frame.carried_to(&at(DVec3::ONE + off * 4.0 * f64::EPSILON));
@@ -149,7 +152,7 @@ mod tests {
 
     #[test]
     fn a_point_that_stays_turns_the_frame_with_its_tangent() {
-        let place = |tangent| Local3 { position: DVec3::ONE, tangent, curvature: DVec3::ZERO };
+        let place = |tangent| Local3::straight(DVec3::ONE, tangent);
         let frame = Frame::toward(&place(DVec3::X), DVec3::Y).unwrap();
         let turned = frame.carried_to(&place(DVec3::Y));
         assert!((turned.normal - DVec3::NEG_X).length() < 1e-15);

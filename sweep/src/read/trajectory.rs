@@ -2,9 +2,8 @@
 
 use super::Reader;
 use crate::curve::{Curve3, Helix, Local3, Path};
-use crate::frame::{Frame, Frames};
-use crate::spec::FrameStart;
-use crate::trajectory::Trajectory;
+use crate::frame::{Directed, Frame, Lack};
+use crate::trajectory::{Course, Trajectory};
 use crate::{SweepError, spec};
 use glam::DVec3;
 
@@ -18,69 +17,114 @@ impl Reader<'_> {
     pub(super) fn trajectory(
         &self,
         trajectory: &spec::Trajectory,
-        start: Option<&FrameStart>,
+        frame: Option<&spec::Frame>,
     ) -> Result<Trajectory, SweepError> {
-        if let Some(start) = start {
-            self.point("frame.start", &start.start)?;
+        if let spec::Trajectory::Rotation(rotation) = trajectory {
+            return self.rotation(rotation, frame);
         }
+        let start = match frame {
+            Some(spec::Frame::Start(start)) => {
+                self.point("frame.start", start)?;
+                Some(start)
+            }
+            _ => None,
+        };
+        let course = self.course("trajectory", trajectory, start)?;
+        match frame {
+            None | Some(spec::Frame::Start(_)) => {
+                let first = self.first_frame(&course.at(0.0), start)?;
+                Ok(Trajectory::minimizing(course, first))
+            }
+            Some(frame) => self.directed(course, frame),
+        }
+    }
+
+    fn rotation(
+        &self,
+        rotation: &spec::Rotation,
+        frame: Option<&spec::Frame>,
+    ) -> Result<Trajectory, SweepError> {
+        let path = "trajectory.rotation";
+        let start = match frame {
+            None => None,
+            Some(spec::Frame::Start(start)) => {
+                self.point("frame.start", start)?;
+                Some(start)
+            }
+            Some(_) => {
+                let message = "found a frame for a rotation, whose contour lies in the plane of its \
+                               axis, expected none, or `start`";
+                return Err(self.geometry("frame", message));
+            }
+        };
+        self.point(&format!("{path}.origin"), &rotation.origin)?;
+        let origin = DVec3::from_array(rotation.origin);
+        let frame = self.upright(path, origin, rotation.axis, start)?;
+        let fraction = self.fraction(path, rotation.angle_deg)?;
+        Ok(Trajectory::rotation(frame, fraction))
+    }
+
+    /// A curve in space: the trajectory, or the guide of its frame.
+    fn course(
+        &self,
+        path: &str,
+        trajectory: &spec::Trajectory,
+        start: Option<&[f64; 3]>,
+    ) -> Result<Course, SweepError> {
         match trajectory {
-            spec::Trajectory::Line(ends) => self.line(ends, start),
+            spec::Trajectory::Line(ends) => self.line(&format!("{path}.line"), ends, start),
             spec::Trajectory::Circle(circle) => {
-                let path = "trajectory.circle";
+                let path = format!("{path}.circle");
                 self.positive(&format!("{path}.radius"), circle.radius)?;
                 self.point(&format!("{path}.center"), &circle.center)?;
                 let center = DVec3::from_array(circle.center);
-                let frame = self.upright(path, center, circle.axis, start)?;
-                let fraction = self.fraction(path, circle.angle_deg)?;
-                Ok(Trajectory::turn(frame, circle.radius, fraction))
+                let start = self.upright(&path, center, circle.axis, start)?;
+                let fraction = self.fraction(&path, circle.angle_deg)?;
+                Ok(Course::Circle { start, radius: circle.radius, fraction })
             }
-            spec::Trajectory::Helix(helix) => self.helix(helix, start),
-            spec::Trajectory::Rotation(rotation) => {
-                let path = "trajectory.rotation";
-                self.point(&format!("{path}.origin"), &rotation.origin)?;
-                let origin = DVec3::from_array(rotation.origin);
-                let frame = self.upright(path, origin, rotation.axis, start)?;
-                let fraction = self.fraction(path, rotation.angle_deg)?;
-                Ok(Trajectory::turn(frame, 0.0, fraction))
+            spec::Trajectory::Helix(helix) => self.helix(&format!("{path}.helix"), helix, start),
+            spec::Trajectory::Rotation(_) => {
+                let message = "found a rotation, which is no curve, expected one of line, circle, \
+                               helix, bezier, free";
+                Err(self.geometry(path, message))
             }
             spec::Trajectory::Bezier(bezier) => {
-                let path = "trajectory.bezier";
-                let curve = self.bezier(path, bezier)?;
+                let path = format!("{path}.bezier");
+                let curve = self.bezier(&path, bezier)?;
                 self.smooth(&curve, |segment| format!("{path}.segments[{segment}]"))?;
-                self.framed(curve, start)
+                Ok(Course::Path(curve))
             }
             spec::Trajectory::Free(free) => {
-                let path = "trajectory.free";
-                let curve = self.free(path, free)?;
-                self.smooth(&curve, |_| path.into())?;
-                self.framed(curve, start)
+                let path = format!("{path}.free");
+                let curve = self.free(&path, free)?;
+                self.smooth(&curve, |_| path.clone())?;
+                Ok(Course::Path(curve))
             }
         }
     }
 
     fn line(
         &self,
+        path: &str,
         ends: &[[f64; 3]; 2],
-        start: Option<&FrameStart>,
-    ) -> Result<Trajectory, SweepError> {
-        self.points("trajectory.line", ends)?;
-        let [from, to] = ends.map(DVec3::from_array);
-        let Some(tangent) = (to - from).try_normalize() else {
-            return Err(self.geometry(
-                "trajectory.line",
-                "found ends that coincide, expected a line of some length",
-            ));
+        start: Option<&[f64; 3]>,
+    ) -> Result<Course, SweepError> {
+        self.points(path, ends)?;
+        let [from, end] = ends.map(DVec3::from_array);
+        let Some(tangent) = (end - from).try_normalize() else {
+            let message = "found ends that coincide, expected a line of some length";
+            return Err(self.geometry(path, message));
         };
-        let place = Local3 { position: from, tangent, curvature: DVec3::ZERO };
-        Ok(Trajectory::line(self.first_frame(&place, start)?, to))
+        let start = self.first_frame(&Local3::straight(from, tangent), start)?;
+        Ok(Course::Line { start, end })
     }
 
     fn helix(
         &self,
+        path: &str,
         helix: &spec::Helix,
-        start: Option<&FrameStart>,
-    ) -> Result<Trajectory, SweepError> {
-        let path = "trajectory.helix";
+        start: Option<&[f64; 3]>,
+    ) -> Result<Course, SweepError> {
         self.positive(&format!("{path}.radius"), helix.radius)?;
         self.number(&format!("{path}.rise"), helix.rise)?;
         if helix.turns == 0.0 || helix.turns.abs() > MOST_TURNS {
@@ -94,22 +138,56 @@ impl Reader<'_> {
         let center = DVec3::from_array(helix.center);
         let start = self.upright(path, center, helix.axis, start)?;
         let spec::Helix { radius, rise, turns, .. } = *helix;
-        Ok(Trajectory::helix(Helix { start, radius, rise, turns }))
+        Ok(Course::Helix(Helix { start, radius, rise, turns }))
     }
 
-    /// A trajectory of cubics, with its frames.
-    fn framed(
-        &self,
-        curve: Path<DVec3>,
-        start: Option<&FrameStart>,
-    ) -> Result<Trajectory, SweepError> {
-        let first = self.first_frame(&curve.at(0.0), start)?;
-        Ok(Trajectory::path(Frames::new(curve, first)))
+    /// A curve whose frames a direction fixes.
+    fn directed(&self, course: Course, frame: &spec::Frame) -> Result<Trajectory, SweepError> {
+        let (path, directed, what) = match frame {
+            spec::Frame::Up(up) => {
+                self.point("frame.up", up)?;
+                let Some(up) = DVec3::from_array(*up).try_normalize() else {
+                    return Err(self.fault("frame.up", "found no direction, expected one"));
+                };
+                ("frame.up", Directed::Up(up), "the direction lies along the trajectory")
+            }
+            spec::Frame::Guide(guide) => {
+                let path = "frame.guide";
+                let guide = self.course(path, guide, None)?;
+                if course.closed() && !guide.closed() {
+                    let message = "found an open guide, expected a closed one, since the trajectory \
+                                   is closed";
+                    return Err(self.geometry(path, message));
+                }
+                (path, Directed::Guide(Box::new(guide)), "the guide lies on the tangent")
+            }
+            spec::Frame::Frenet(_) | spec::Frame::Start(_) => {
+                ("frame.frenet", Directed::Frenet, "the trajectory does not bend")
+            }
+        };
+        match directed.lack(&course) {
+            None => Ok(Trajectory::directed(course, directed)),
+            Some(Lack::Along(at)) => {
+                let message = format!(
+                    "found no frame at {at:.6} of the trajectory's length, where {what}, expected \
+                     one everywhere"
+                );
+                Err(self.geometry(path, message))
+            }
+            Some(Lack::Jump(at, angle)) => {
+                let message = format!(
+                    "found a frame that jumps by {:.1} degrees at {at:.6} of the trajectory's \
+                     length, expected one that turns smoothly",
+                    angle.to_degrees()
+                );
+                Err(self.geometry(path, message))
+            }
+        }
     }
 
     /// The frame at the start: as the spec wants it, or the seed.
-    fn first_frame(&self, place: &Local3, start: Option<&FrameStart>) -> Result<Frame, SweepError> {
-        let Some(FrameStart { start }) = start else {
+    fn first_frame(&self, place: &Local3, start: Option<&[f64; 3]>) -> Result<Frame, SweepError> {
+        let Some(start) = start else {
             return Ok(Frame::seed(place));
         };
         Frame::toward(place, DVec3::from_array(*start)).ok_or_else(|| {
@@ -125,7 +203,7 @@ impl Reader<'_> {
         path: &str,
         origin: DVec3,
         axis: [f64; 3],
-        start: Option<&FrameStart>,
+        start: Option<&[f64; 3]>,
     ) -> Result<Frame, SweepError> {
         let axis_path = format!("{path}.axis");
         self.point(&axis_path, &axis)?;
@@ -133,8 +211,7 @@ impl Reader<'_> {
             return Err(self.fault(&axis_path, "found no direction, expected an axis"));
         };
         // The frame of a line along the axis has the right w1; the turn begins across both.
-        let along = Local3 { position: origin, tangent: axis, curvature: DVec3::ZERO };
-        let normal = self.first_frame(&along, start)?.normal;
+        let normal = self.first_frame(&Local3::straight(origin, axis), start)?.normal;
         Ok(Frame { origin, tangent: normal.cross(axis), normal, binormal: axis })
     }
 

@@ -1,0 +1,249 @@
+//! Frames that a direction fixes: an upright one, the centre of curvature, a guide curve.
+//!
+//! Let `D(s)` be the direction and `d = D - (D.T) T` what of it lies across the trajectory. Then
+//!
+//! ```text
+//!     n = d / |d|,   b = T x n,   spin = n'.b = (D'.b - (D.T)(K.b)) / |d|
+//! ```
+//!
+//! with the curvature vector `K = T'`. An upright direction is constant; that of Frenet's frame is `K`
+//! itself, whose spin is the torsion; that of a guide leads from the trajectory to the guide's point
+//! at the same fraction of its length. `w1 = n`, but for an upright frame, where `w2 = n`; both
+//! have the same spin.
+//!
+//! Where `d` is 0 there is no frame. [`Directed::lack`] looks for such places: it samples the curve
+//! between its knots, halves steps until `n` turns by less than half a radian in each (where it
+//! turns over, it cannot), and goes down to the bottom of every valley of `|d|`.
+
+use super::Frame;
+use crate::curve::vector::angle_between;
+use crate::curve::{Curve3, Local3};
+use crate::cut::Side;
+use glam::DVec3;
+
+/// Below this a direction lies along the trajectory: its sine for an upright one, the curvature
+/// times the length of the trajectory, the distance of a guide as a part of that length.
+const NONE: f64 = 1e-9;
+
+/// Samples from knot to knot, fewer where there are very many knots.
+const SAMPLES: usize = 64;
+
+/// Samples of one curve, more or less, for curves of very many knots.
+const MOST_SAMPLES: usize = 1 << 20;
+
+/// Further than this, in radians, `n` does not turn from sample to sample.
+const LARGEST_TURN: f64 = 0.5;
+
+/// Halvings of a step at most: `n` turns over within a trillionth of the curve then.
+const MOST_HALVINGS: u32 = 40;
+
+/// Steps toward the bottom of a valley; each leaves 0.62 of it.
+const GOLDEN_STEPS: usize = 90;
+
+/// A joint turns a frame by this at most, in radians: a degree, as for the tangent.
+const SMOOTH: f64 = std::f64::consts::PI / 180.0;
+
+/// What fixes the frames.
+#[derive(Debug, Clone)]
+pub enum Directed<C> {
+    /// `w2` is as near to this unit vector as the trajectory lets it.
+    Up(DVec3),
+    /// `w1` points to the centre of curvature.
+    Frenet,
+    /// `w1` points to the point of the guide at the same fraction of the length.
+    Guide(Box<C>),
+}
+
+/// Why there are no such frames along a curve.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Lack {
+    /// The direction lies along the trajectory, at a fraction of the length.
+    Along(f64),
+    /// The direction jumps at a joint, at a fraction of the length, by an angle in radians.
+    Jump(f64, f64),
+}
+
+impl<C: Curve3> Directed<C> {
+    /// The frame of a curve at arc length `s`, and its spin in radians by length.
+    ///
+    /// `None` where there is none.
+    pub fn at(&self, s: f64, length: f64, place: &Local3, side: Side) -> Option<(Frame, f64)> {
+        let (wanted, change) = self.direction(s, length, place, side);
+        let along = wanted.dot(place.tangent);
+        let across = wanted - place.tangent * along;
+        let normal = across.try_normalize()?;
+        let frame = Frame::new(place, normal);
+        let (b, size) = (frame.binormal, across.length());
+        let spin = (change.dot(b) - along * place.curvature.dot(b)) / size;
+        Some(match self {
+            Self::Up(_) => (Frame { normal: -b, binormal: normal, ..frame }, spin),
+            _ => (frame, spin),
+        })
+    }
+
+    /// Looks for a place without a frame; the first that is found.
+    pub fn lack(&self, curve: &impl Curve3) -> Option<Lack> {
+        let (length, knots) = (curve.length(), curve.knots());
+        let mut search = Search { directed: self, curve, length, samples: Vec::new() };
+        let steps = (MOST_SAMPLES / knots.len().max(1)).clamp(8, SAMPLES);
+        for ends in knots.windows(2) {
+            search.samples.clear();
+            let first = search.look(ends[0], Side::After);
+            search.samples.push(first);
+            for step in 1..=steps {
+                let last = step == steps;
+                let part = ends[0] + (ends[1] - ends[0]) * (step as f64 / steps as f64);
+                let (s, side) = if last { (ends[1], Side::Before) } else { (part, Side::After) };
+                let next = search.look(s, side);
+                if let Err(s) = search.extend_to(next, MOST_HALVINGS) {
+                    return Some(Lack::Along(s / length));
+                }
+            }
+            if let Some(s) = search.bottom() {
+                return Some(Lack::Along(s / length));
+            }
+        }
+        let inner = if curve.closed() { 0..knots.len() - 1 } else { 1..knots.len() - 1 };
+        inner
+            .map(|knot| (knots[knot], self.jump(curve, knots[knot])))
+            .find(|&(_, jump)| jump > SMOOTH)
+            .map(|(s, jump)| Lack::Jump(s / length, jump))
+    }
+
+    /// By how much, in radians, the frame turns at a joint more than the joint turns it.
+    pub fn jump(&self, curve: &impl Curve3, s: f64) -> f64 {
+        let length = curve.length();
+        let end = if s == 0.0 { length } else { s };
+        let (last, next) = (curve.before(end), curve.at(s));
+        let before = self.at(end, length, &last, Side::Before);
+        let after = self.at(s, length, &next, Side::After);
+        match (before, after) {
+            (Some((before, _)), Some((after, _))) => {
+                before.carried_to(&next).angle_to(after.normal).abs()
+            }
+            _ => std::f64::consts::PI,
+        }
+    }
+
+    /// The direction and its derivative by length.
+    fn direction(&self, s: f64, length: f64, place: &Local3, side: Side) -> (DVec3, DVec3) {
+        match self {
+            Self::Up(up) => (*up, DVec3::ZERO),
+            Self::Frenet => {
+                // A curve that ends straight, as a natural spline does, has the limit: cubics that are
+                // straight at one place lie in a plane, in which the limit is the third derivative.
+                let straight = place.curvature.length() * length <= NONE;
+                if straight && s <= 0.0 {
+                    (place.third, DVec3::ZERO)
+                } else if straight && s >= length {
+                    (-place.third, DVec3::ZERO)
+                } else {
+                    (place.curvature, place.third)
+                }
+            }
+            Self::Guide(guide) => {
+                let whole = guide.length();
+                let at = whole * (s / length);
+                let there = match side {
+                    Side::Before => guide.before(at),
+                    Side::After => guide.at(at),
+                };
+                let pace = whole / length;
+                (there.position - place.position, there.tangent * pace - place.tangent)
+            }
+        }
+    }
+
+    /// The part of the direction across the trajectory, in units that [`NONE`] is in.
+    fn across(&self, s: f64, length: f64, place: &Local3, side: Side) -> DVec3 {
+        let (wanted, _) = self.direction(s, length, place, side);
+        let across = wanted - place.tangent * wanted.dot(place.tangent);
+        match self {
+            Self::Up(_) => across,
+            Self::Frenet
+                if place.curvature.length() * length <= NONE && wanted != place.curvature =>
+            {
+                // At a straight end only the direction counts.
+                across.normalize_or_zero() * (2.0 * NONE)
+            }
+            Self::Frenet => across * length,
+            Self::Guide(_) => across / length,
+        }
+    }
+}
+
+/// A search along one curve.
+struct Search<'a, C, D> {
+    directed: &'a Directed<C>,
+    curve: &'a D,
+    length: f64,
+    /// The samples of one piece, rising.
+    samples: Vec<Sample>,
+}
+
+#[derive(Clone, Copy)]
+struct Sample {
+    s: f64,
+    across: DVec3,
+}
+
+impl<C: Curve3, D: Curve3> Search<'_, C, D> {
+    fn look(&self, s: f64, side: Side) -> Sample {
+        let place = match side {
+            Side::Before => self.curve.before(s),
+            Side::After => self.curve.at(s),
+        };
+        Sample { s, across: self.directed.across(s, self.length, &place, side) }
+    }
+
+    /// Adds a sample, and before it those that a turn needs; or the place without a direction.
+    fn extend_to(&mut self, next: Sample, halvings: u32) -> Result<(), f64> {
+        let Some(&last) = self.samples.last() else {
+            self.samples.push(next);
+            return Ok(());
+        };
+        let (Some(from), Some(to)) = (last.direction(), next.direction()) else {
+            return Err(if last.direction().is_none() { last.s } else { next.s });
+        };
+        if angle_between(from, to) > LARGEST_TURN {
+            if halvings == 0 {
+                return Err(next.s);
+            }
+            let middle = self.look(0.5 * (last.s + next.s), Side::After);
+            self.extend_to(middle, halvings - 1)?;
+            return self.extend_to(next, halvings - 1);
+        }
+        self.samples.push(next);
+        Ok(())
+    }
+
+    /// The first bottom of a valley at which there is no direction.
+    fn bottom(&self) -> Option<f64> {
+        self.samples.windows(3).find_map(|three| {
+            let [a, b, c] = [three[0], three[1], three[2]].map(|sample| sample.across.length());
+            if b > a || b > c {
+                return None;
+            }
+            let golden = 0.5 * (5_f64.sqrt() - 1.0);
+            let size = |s: f64| self.look(s, Side::After).across.length();
+            let (mut low, mut high) = (three[0].s, three[2].s);
+            for _ in 0..GOLDEN_STEPS {
+                let step = golden * (high - low);
+                let (left, right) = (high - step, low + step);
+                if size(left) < size(right) {
+                    high = right;
+                } else {
+                    low = left;
+                }
+            }
+            let s = 0.5 * (low + high);
+            (size(s) <= NONE).then_some(s)
+        })
+    }
+}
+
+impl Sample {
+    fn direction(&self) -> Option<DVec3> {
+        (self.across.length() > NONE).then(|| self.across.normalize())
+    }
+}

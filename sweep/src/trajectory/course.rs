@@ -1,0 +1,114 @@
+//! The curves that a trajectory or a guide can be.
+
+use crate::curve::{Curve3, Helix, Local3, Path, turn};
+use crate::frame::Frame;
+use glam::{DVec2, DVec3};
+use std::f64::consts::TAU;
+
+/// Knots of a helix at most; beyond, they are more than an eighth of a turn apart.
+const MOST_KNOTS: f64 = 65536.0;
+
+/// A curve in space by arc length.
+#[derive(Debug, Clone)]
+pub enum Course {
+    /// A straight line, from the origin of its frame.
+    Line {
+        /// The frame at its start, which it keeps.
+        start: Frame,
+        /// Where it ends.
+        end: DVec3,
+    },
+    /// A circle about the y direction of a frame through the frame's origin, which is the centre.
+    Circle {
+        /// The frame at the centre; the circle starts toward its `w1` and along its `T`.
+        start: Frame,
+        /// The radius, above 0.
+        radius: f64,
+        /// The part of a full turn; of 1 it is closed.
+        fraction: f64,
+    },
+    /// A helix.
+    Helix(Helix),
+    /// Cubics.
+    Path(Path<DVec3>),
+}
+
+impl Course {
+    /// The rotation-minimizing frame at `v`, a fraction of the length, and the curvature there on its
+    /// `(w1, w2)`, where both are known in closed form.
+    pub(super) fn own_frame(&self, v: f64) -> Option<(Frame, DVec2)> {
+        match self {
+            Self::Line { start, end } => {
+                Some((Frame { origin: start.origin.lerp(*end, v), ..*start }, DVec2::ZERO))
+            }
+            Self::Circle { start, radius, fraction } => {
+                let angle = turn(fraction * v);
+                let normal = start.normal * angle.x + start.tangent * angle.y;
+                let tangent = start.tangent * angle.x - start.normal * angle.y;
+                let origin = start.origin + normal * *radius;
+                let frame = Frame { origin, normal, tangent, ..*start };
+                Some((frame, -DVec2::X / *radius))
+            }
+            Self::Helix(helix) => Some(helix.at(v)),
+            Self::Path(_) => None,
+        }
+    }
+}
+
+impl Curve3 for Course {
+    fn length(&self) -> f64 {
+        match self {
+            Self::Line { start, end } => (*end - start.origin).length(),
+            Self::Circle { radius, fraction, .. } => TAU * fraction * radius,
+            Self::Helix(helix) => helix.length(),
+            Self::Path(path) => path.length(),
+        }
+    }
+
+    fn closed(&self) -> bool {
+        match self {
+            Self::Line { .. } | Self::Helix(_) => false,
+            Self::Circle { fraction, .. } => *fraction == 1.0,
+            Self::Path(path) => path.closed(),
+        }
+    }
+
+    fn knots(&self) -> Vec<f64> {
+        let pieces = match self {
+            Self::Line { .. } => 1.0,
+            Self::Circle { fraction, .. } => (8.0 * fraction).ceil(),
+            Self::Helix(helix) => (8.0 * helix.turns.abs()).ceil().min(MOST_KNOTS),
+            Self::Path(path) => return path.knots(),
+        };
+        (0..=pieces as usize).map(|i| self.length() * (i as f64 / pieces)).collect()
+    }
+
+    fn at(&self, s: f64) -> Local3 {
+        match self {
+            Self::Line { start, end } => {
+                let v = (s / self.length()).clamp(0.0, 1.0);
+                Local3::straight(start.origin.lerp(*end, v), start.tangent)
+            }
+            Self::Circle { start, radius, fraction } => {
+                let angle = turn(fraction * (s / self.length()).clamp(0.0, 1.0));
+                let outward = start.normal * angle.x + start.tangent * angle.y;
+                let tangent = start.tangent * angle.x - start.normal * angle.y;
+                Local3 {
+                    position: start.origin + outward * *radius,
+                    tangent,
+                    curvature: -outward / *radius,
+                    third: -tangent / (radius * radius),
+                }
+            }
+            Self::Helix(helix) => helix.place((s / self.length()).clamp(0.0, 1.0)),
+            Self::Path(path) => path.at(s),
+        }
+    }
+
+    fn before(&self, s: f64) -> Local3 {
+        match self {
+            Self::Path(path) => path.before(s),
+            _ => self.at(s),
+        }
+    }
+}

@@ -1,0 +1,242 @@
+//! The curve that a contour follows, and the stations on it.
+
+mod course;
+mod station;
+
+pub use course::Course;
+pub use station::Station;
+
+use crate::curve::{Curve3, turn};
+use crate::cut::{Side, Stop};
+use crate::frame::{Directed, Frame, Frames};
+use glam::DVec2;
+use std::f64::consts::TAU;
+
+/// A trajectory, checked: it has a length (or is a rotation) and a frame everywhere.
+#[derive(Debug, Clone)]
+pub struct Trajectory(Form);
+
+#[derive(Debug, Clone)]
+enum Form {
+    Rotation { start: Frame, fraction: f64 },
+    Along { course: Course, framing: Framing },
+}
+
+/// How the frames along a curve are found.
+#[derive(Debug, Clone)]
+enum Framing {
+    /// They turn as little as they can, and the curve knows them in closed form.
+    Own,
+    /// They turn as little as they can, from node to node.
+    Carried(Frames),
+    /// A direction fixes them.
+    Directed(Directed<Course>),
+}
+
+impl Trajectory {
+    /// A turn about the y direction of a frame through the frame's origin: contour x is the distance
+    /// from that axis. `fraction` of 1 is a full turn, which is closed.
+    pub(crate) fn rotation(start: Frame, fraction: f64) -> Self {
+        Self(Form::Rotation { start, fraction })
+    }
+
+    /// A curve with frames that turn as little as they can from the first.
+    ///
+    /// A line, a circle and a helix hold their first frame, and pass over `first`.
+    pub(crate) fn minimizing(course: Course, first: Frame) -> Self {
+        let framing = if course.own_frame(0.0).is_some() {
+            Framing::Own
+        } else {
+            Framing::Carried(Frames::new(&course, first))
+        };
+        Self(Form::Along { course, framing })
+    }
+
+    /// A curve with frames that a direction fixes, which must not lack one anywhere.
+    pub(crate) fn directed(course: Course, directed: Directed<Course>) -> Self {
+        Self(Form::Along { course, framing: Framing::Directed(directed) })
+    }
+
+    /// Whether the contour is turned about an axis that its x is measured from.
+    #[must_use]
+    pub fn is_rotation(&self) -> bool {
+        matches!(self.0, Form::Rotation { .. })
+    }
+
+    /// Whether the trajectory leads back to its start.
+    #[must_use]
+    pub fn closed(&self) -> bool {
+        match &self.0 {
+            Form::Rotation { fraction, .. } => *fraction == 1.0,
+            Form::Along { course, .. } => course.closed(),
+        }
+    }
+
+    /// The length of the trajectory; 0 for a rotational sweep.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        match &self.0 {
+            Form::Rotation { .. } => 0.0,
+            Form::Along { course, .. } => course.length(),
+        }
+    }
+
+    /// What laws are differentiated by: the length, or the angle of a rotation in radians.
+    pub(crate) fn extent(&self) -> f64 {
+        match &self.0 {
+            Form::Rotation { fraction, .. } => TAU * fraction,
+            Form::Along { course, .. } => course.length(),
+        }
+    }
+
+    /// By how much the frame is turned along a closed trajectory so that it comes back to itself, as
+    /// a fraction of a full turn.
+    pub(crate) fn closing_turn(&self) -> f64 {
+        match &self.0 {
+            Form::Along { course, framing: Framing::Carried(frames) } => {
+                frames.spin() * course.length() / TAU
+            }
+            _ => 0.0,
+        }
+    }
+
+    /// The fewest cells along the trajectory: three around.
+    #[must_use]
+    pub fn fewest_cells(&self) -> usize {
+        if self.closed() { 3 } else { 1 }
+    }
+
+    /// Where the corners lie, as fractions of the length.
+    #[must_use]
+    pub fn breaks(&self) -> &[f64] {
+        &[]
+    }
+
+    /// The station at `v`, a fraction of the length; at a corner that of the side after.
+    #[must_use]
+    pub fn station(&self, v: f64) -> Station {
+        self.station_at(Stop::after(v))
+    }
+
+    /// The station at a stop: at a corner that of its side.
+    #[must_use]
+    pub fn station_at(&self, stop: Stop) -> Station {
+        match &self.0 {
+            Form::Rotation { start, fraction } => {
+                let angle = turn(fraction * stop.at);
+                let frame = Frame {
+                    normal: start.normal * angle.x + start.tangent * angle.y,
+                    tangent: start.tangent * angle.x - start.normal * angle.y,
+                    ..*start
+                };
+                Station { forward: 0.0, bend: DVec2::X, on_axis: true, ..Station::along(frame) }
+            }
+            Form::Along { course, framing } => station(course, framing, stop),
+        }
+    }
+}
+
+fn station(course: &Course, framing: &Framing, stop: Stop) -> Station {
+    let v = stop.at;
+    if let (Framing::Own, Some((frame, curvature))) = (framing, course.own_frame(v)) {
+        return Station { bend: -curvature, ..Station::along(frame) };
+    }
+    let length = course.length();
+    let s = v * length;
+    let place = match stop.side {
+        Side::Before => course.before(s),
+        Side::After => course.at(s),
+    };
+    let (frame, spin) = match framing {
+        Framing::Carried(frames) => (frames.at(s, &place, stop.side), frames.spin()),
+        Framing::Directed(directed) => directed
+            .at(s, length, &place, stop.side)
+            // The reader has looked for places without a frame; any will do at the one it missed.
+            .unwrap_or_else(|| (Frame::seed(&place), 0.0)),
+        Framing::Own => (Frame::seed(&place), 0.0),
+    };
+    let curvature =
+        DVec2::new(place.curvature.dot(frame.normal), place.curvature.dot(frame.binormal));
+    Station { bend: -curvature, spin, ..Station::along(frame) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::curve::{Curve3, Local3, Path, spline};
+    use glam::DVec3;
+
+    fn seed(tangent: DVec3) -> Frame {
+        Frame::seed(&Local3::straight(DVec3::ZERO, tangent))
+    }
+
+    fn minimizing(course: Course) -> Trajectory {
+        let first = Frame::seed(&course.at(0.0));
+        Trajectory::minimizing(course, first)
+    }
+
+    /// The frame of a turn about the y axis: from +x toward +z.
+    fn upright() -> Frame {
+        let place = Local3::straight(DVec3::ZERO, DVec3::Z);
+        Frame::toward(&place, DVec3::X).unwrap()
+    }
+
+    #[test]
+    fn a_rotation_runs_from_x_toward_z() {
+        let rotation = Trajectory::rotation(upright(), 1.0);
+        let point = |v| rotation.station(v).point(DVec2::new(2.0, 5.0));
+        assert_eq!(point(0.0), DVec3::new(2.0, 5.0, 0.0));
+        assert_eq!(point(0.25), DVec3::new(0.0, 5.0, 2.0));
+        assert!(rotation.closed());
+        assert!(!Trajectory::rotation(upright(), 0.5).closed());
+    }
+
+    #[test]
+    fn frames_are_right_handed_and_poles_have_normals() {
+        for trajectory in [
+            minimizing(Course::Line { start: seed(DVec3::Y), end: DVec3::Y * 3.0 }),
+            minimizing(Course::Circle { start: upright(), radius: 2.0, fraction: 0.75 }),
+            Trajectory::rotation(upright(), 1.0),
+        ] {
+            for i in 0..=7 {
+                let station = trajectory.station(f64::from(i) / 7.0);
+                let Frame { tangent, normal, binormal, .. } = station.frame;
+                assert!((normal.cross(binormal) - tangent).length() < 1e-15);
+                let pole = station.normal(DVec2::ZERO, DVec2::X);
+                assert!((pole + binormal).length() < 1e-15);
+            }
+        }
+    }
+
+    #[test]
+    fn normals_agree_with_differences_also_where_the_frame_is_spun() {
+        let points = [[2.0, 0.0, 0.0], [0.0, 1.0, 2.0], [-2.0, 0.0, -0.5], [0.0, -1.0, -2.0]];
+        let path = spline::through(&points.map(DVec3::from_array), true);
+        let path = Path::new(&path, true).unwrap();
+        let trajectory = minimizing(Course::Path(path));
+        // An ellipse, whose points are not at a right angle to its tangents.
+        let ellipse = |a: f64| DVec2::new(0.5 * a.cos(), 0.2 * a.sin());
+        let (h, mut worst) = (4e-4, 0.0_f64);
+        let surface = |a: f64, v: f64| trajectory.station(v).point(ellipse(a));
+        // Differences of order 6.
+        let slope = |f: &dyn Fn(f64) -> DVec3| {
+            (f(h) - f(-h)) * 0.75 - (f(2.0 * h) - f(-2.0 * h)) * 0.15
+                + (f(3.0 * h) - f(-3.0 * h)) / 60.0
+        };
+        for i in 0..400 {
+            let (a, v) = (f64::from(i) * 0.37, 0.01 + 0.98 * (f64::from(i) * 0.618).fract());
+            // Third derivatives of a spline jump at its points.
+            if (v * 4.0 - (v * 4.0).round()).abs() < 0.05 {
+                continue;
+            }
+            let along_u = slope(&|d| surface(a + d, v));
+            let along_v = slope(&|d| surface(a, v + d));
+            let q_u = DVec2::new(-0.5 * a.sin(), 0.2 * a.cos()).normalize();
+            let error =
+                along_u.cross(along_v).normalize() - trajectory.station(v).normal(ellipse(a), q_u);
+            worst = worst.max(error.length());
+        }
+        println!("normals against differences: {worst:.1e}");
+        assert!(worst < 1e-9, "{worst:e}");
+    }
+}
