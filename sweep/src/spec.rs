@@ -21,6 +21,7 @@
 //! | `{"bezier": {"closed": c, "segments": [S, ...]}}` | cubics; `S` is four points `[x, y]`        |
 //! | `{"svg": "M0 0 C..."}`                          | one subpath, closed by `Z` or by its end; y is negated, as SVG's points down |
 //! | `{"free": {"closed": c, "points": [P, ...]}}`   | a C2 spline through points `[x, y]`          |
+//! | `{"polyline": {"closed": c, "points": [P, ...]}}` | straight from point to point; see [`contour`] |
 //!
 //! and a **trajectory** is one of
 //!
@@ -120,10 +121,12 @@
 //! normals. A trajectory may not: it would need a mitre, and is refused. A rotation wants contour x
 //! of at least 0; where it is 0 the surface has a pole. Points given twice count once.
 
+pub mod contour;
 mod depth;
 mod helix;
 mod law;
 
+pub use contour::Contour;
 pub use depth::{Depth, DepthMode, DepthTerm};
 pub use helix::Helix;
 pub use law::{Ease, Law, Scale};
@@ -171,20 +174,6 @@ pub struct Spec {
     /// By how much the whole is moved in the end.
     #[serde(default)]
     pub position: [f64; 3],
-}
-
-/// A curve in the plane.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case", try_from = "ContourKeys")]
-pub enum Contour {
-    /// A circle about the origin, by its radius.
-    Circle(f64),
-    /// Cubic Bezier segments.
-    Bezier(Bezier<[f64; 2]>),
-    /// The `d` attribute of an SVG path.
-    Svg(String),
-    /// Points that a spline goes through.
-    Free(Free<[f64; 2]>),
 }
 
 /// A curve in space, or a rotation.
@@ -280,36 +269,7 @@ pub struct Mesh {
     pub cols: usize,
 }
 
-/// The keys of a contour as they are read, so that none and two of them get a sentence.
-#[derive(Deserialize)]
-#[serde(
-    deny_unknown_fields,
-    expecting = "an object with one of the keys circle, bezier, svg, free"
-)]
-struct ContourKeys {
-    circle: Option<f64>,
-    bezier: Option<Bezier<[f64; 2]>>,
-    svg: Option<String>,
-    free: Option<Free<[f64; 2]>>,
-}
-
-impl TryFrom<ContourKeys> for Contour {
-    type Error = String;
-
-    fn try_from(keys: ContourKeys) -> Result<Self, String> {
-        only(
-            "curve",
-            [
-                ("circle", keys.circle.map(Self::Circle)),
-                ("bezier", keys.bezier.map(Self::Bezier)),
-                ("svg", keys.svg.map(Self::Svg)),
-                ("free", keys.free.map(Self::Free)),
-            ],
-        )
-    }
-}
-
-/// The keys of a trajectory as they are read.
+/// The keys of a trajectory as they are read, so that none and two of them get a sentence.
 #[derive(Deserialize)]
 #[serde(
     deny_unknown_fields,
@@ -364,13 +324,12 @@ fn full_turn() -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use crate::Sweep;
     use files::json::Document;
 
-    #[test]
-    fn the_snippets_above_are_specs() {
-        let page = include_str!("spec.rs");
+    /// Makes the grid of every snippet in the header of a page, and counts them.
+    pub(crate) fn swept_snippets(page: &str) -> usize {
         let page: String = page
             .lines()
             .map_while(|line| line.strip_prefix("//!"))
@@ -378,11 +337,17 @@ mod tests {
             .collect();
         let snippets: Vec<&str> =
             page.split("```json").skip(1).filter_map(|rest| rest.split("```").next()).collect();
-        assert_eq!(snippets.len(), 4);
-        for snippet in snippets {
+        for snippet in &snippets {
             let document = Document::new("snippet", snippet.as_bytes()).unwrap();
             let sweep = Sweep::read(&document).unwrap_or_else(|error| panic!("{error}"));
-            assert_eq!(sweep.grid().positions.len(), sweep.grid().rows() * sweep.grid().cols());
+            let grid = sweep.grid();
+            assert_eq!(grid.positions.len(), grid.rows() * grid.cols());
         }
+        snippets.len()
+    }
+
+    #[test]
+    fn the_snippets_above_are_specs() {
+        assert_eq!(swept_snippets(include_str!("spec.rs")), 4);
     }
 }

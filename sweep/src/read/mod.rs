@@ -187,6 +187,16 @@ impl Reader<'_> {
         P: AsRef<[f64]> + Copy,
         V: Vector + From<P>,
     {
+        let points = self.distinct(path, free)?;
+        self.path(path, &spline::through(&points, free.closed), free.closed)
+    }
+
+    /// The points of a curve, each once, and enough of them.
+    fn distinct<P, V>(&self, path: &str, free: &Free<P>) -> Result<Vec<V>, SweepError>
+    where
+        P: AsRef<[f64]> + Copy,
+        V: Vector + From<P>,
+    {
         let points_path = format!("{path}.points");
         let (fewest, kind) = if free.closed { (3, "a closed") } else { (2, "an open") };
         if free.points.len() < fewest {
@@ -212,7 +222,7 @@ impl Reader<'_> {
             );
             return Err(self.geometry(&points_path, message));
         }
-        self.path(path, &spline::through(&points, free.closed), free.closed)
+        Ok(points)
     }
 
     fn path<V: Vector>(
