@@ -4,7 +4,8 @@
 //! |----------------|---------------------------------------------------------------------|
 //! | [`spec`]       | the spec as JSON; here are its keys and its conventions             |
 //! | [`Sweep`]      | a spec that has been checked, and the grid it gives                 |
-//! | [`contour`]    | the curve that is swept; columns, creases                           |
+//! | [`contour`]    | the curve that is swept; creases                                    |
+//! | [`profile`]    | one contour, or several that go over into each other; columns       |
 //! | [`cut`]        | where a curve is cut into cells                                     |
 //! | [`trajectory`] | the curve it follows; stations, normals in closed form              |
 //! | [`law`]        | numbers that change along the trajectory                            |
@@ -35,6 +36,7 @@ pub mod frame;
 pub mod grid;
 pub mod law;
 pub mod modulation;
+pub mod profile;
 mod read;
 pub mod spec;
 mod sweep;

@@ -1,7 +1,7 @@
-//! How the contour changes on its way: given a relief, scaled along its axes, then turned about the
-//! trajectory.
+//! How the contour changes on its way: blended into another, given a relief, scaled along its axes,
+//! then turned about the trajectory.
 //!
-//! With `q(u, s)` the contour's point after relief and scale, on a frame that turns by `phi(s)` more than it
+//! With `q(u, s)` the contour's point after all that but the turn, on a frame that turns by `phi(s)` more than it
 //! must, and the trajectory's curvature `k` on that frame's `(w1, w2)`,
 //!
 //! ```text
@@ -16,16 +16,19 @@
 //! normal is the limit along the column: that of a cone, or `-T` or `T` on a cap whose scale ends
 //! vertically.
 
-use crate::contour::Column;
 use crate::cut::Stop;
 use crate::depth::{Depth, Raised, Relief};
 use crate::law::Law;
+use crate::profile::blend::{Mix, Moving};
+use crate::profile::{Blend, Column};
 use crate::trajectory::{Station, Trajectory};
 use glam::{DVec2, DVec3};
 
 /// The laws by which a contour changes; none of them leaves it as it is.
 #[derive(Debug, Clone, Default)]
 pub struct Modulation {
+    /// The places of the contours, where there are several.
+    pub(crate) blend: Option<Blend>,
     /// Factors of the contour's x and y, not negative.
     pub(crate) scale: Option<[Law; 2]>,
     /// Turn about the trajectory, in degrees as in the file.
@@ -38,6 +41,7 @@ pub struct Modulation {
 #[derive(Debug, Clone)]
 pub struct Section {
     station: Station,
+    mix: Option<Mix>,
     scale: DVec2,
     /// Derivative of the scale by length of the trajectory; by radian for a rotation.
     scale_s: DVec2,
@@ -81,8 +85,9 @@ impl Modulation {
             None => (DVec2::ONE, DVec2::ZERO),
         };
         let relief = self.depth.as_ref().map(|depth| depth.at(v));
-        let plain = self.scale.is_none() && relief.is_none();
-        Section { station, scale, scale_s, relief, extent, plain }
+        let mix = self.blend.as_ref().map(|blend| blend.at(v));
+        let plain = self.scale.is_none() && relief.is_none() && mix.is_none();
+        Section { station, mix, scale, scale_s, relief, extent, plain }
     }
 }
 
@@ -97,7 +102,7 @@ impl Section {
     #[must_use]
     pub fn normal(&self, column: &Column) -> DVec3 {
         if self.plain {
-            return self.station.normal(column.point, column.tangent);
+            return self.station.normal(column.first.point, column.first.tangent);
         }
         let Local { q, q_u, q_s, .. } = self.local(column);
         self.station.normal_of_moving(q, q_u, q_s)
@@ -111,12 +116,16 @@ impl Section {
     }
 
     fn local(&self, column: &Column) -> Local {
+        let moving = match &self.mix {
+            Some(mix) => mix.of(column),
+            None => Moving::still(column.first),
+        };
         let Raised { point, along, across, folds } = match &self.relief {
-            Some(relief) => relief.on(column),
+            Some(relief) => relief.on(column.u, &moving),
             None => Raised {
-                point: column.point,
-                along: column.tangent,
-                across: DVec2::ZERO,
+                point: moving.place.point,
+                along: moving.place.tangent,
+                across: moving.across,
                 folds: false,
             },
         };

@@ -22,6 +22,7 @@
 //! | `{"svg": "M0 0 C..."}`                          | one subpath, closed by `Z` or by its end; y is negated, as SVG's points down |
 //! | `{"free": {"closed": c, "points": [P, ...]}}`   | a C2 spline through points `[x, y]`          |
 //! | `{"polyline": {"closed": c, "points": [P, ...]}}` | straight from point to point; see [`contour`] |
+//! | `{"sections": [{"at": v, "contour": C}, ...], ...}` | contours that go over into each other |
 //!
 //! and a **trajectory** is one of
 //!

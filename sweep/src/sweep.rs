@@ -1,10 +1,10 @@
 //! A sweep that has been checked, and the grid it gives.
 
-use crate::contour::{Column, Contour};
 use crate::cut::{self, Stop};
 use crate::grid::file::MAX_COLS;
 use crate::grid::{GridMesh, Seam, UvLayout};
 use crate::modulation::Modulation;
+use crate::profile::{Column, Profile};
 use crate::trajectory::Trajectory;
 use crate::{SweepError, read};
 use files::json::Document;
@@ -21,7 +21,7 @@ pub(crate) const ON_AXIS: f64 = 1e-9;
 #[derive(Debug, Clone)]
 pub struct Sweep {
     pub(crate) name: String,
-    pub(crate) contour: Contour,
+    pub(crate) contour: Profile,
     pub(crate) trajectory: Trajectory,
     pub(crate) modulation: Modulation,
     pub(crate) rows: usize,
@@ -45,9 +45,9 @@ impl Sweep {
         &self.name
     }
 
-    /// The contour.
+    /// What is swept: one contour or several.
     #[must_use]
-    pub fn contour(&self) -> &Contour {
+    pub fn contour(&self) -> &Profile {
         &self.contour
     }
 
@@ -111,7 +111,7 @@ impl Sweep {
         }
         // What is given besides the cells' first points: corners twice, an open end.
         let more = self.contour.creases() + usize::from(!self.contour.closed());
-        let most = MAX_COLS.saturating_sub(more);
+        let most = (MAX_COLS / self.contour.contours()).saturating_sub(more);
         if self.cols > most {
             return Some(("cols", format!("found {}, expected at most {most}", self.cols)));
         }
@@ -206,7 +206,7 @@ impl Sweep {
     }
 
     fn columns(&self) -> Vec<Column> {
-        let stops = cut::evenly(&self.contour.breaks(), self.contour.closed(), self.cols);
+        let stops = cut::evenly(self.contour.breaks(), self.contour.closed(), self.cols);
         let mut columns = self.contour.columns(&stops);
         self.snap_to_axis(&mut columns);
         columns
@@ -216,10 +216,11 @@ impl Sweep {
     fn snap_to_axis(&self, columns: &mut [Column]) {
         if self.trajectory.is_rotation() {
             let on_axis = ON_AXIS * self.contour.x_range().1;
-            for column in columns {
-                if column.point.x <= on_axis {
-                    column.point.x = 0.0;
-                }
+            let places = columns
+                .iter_mut()
+                .flat_map(|column| std::iter::once(&mut column.first).chain(&mut column.others));
+            for place in places.filter(|place| place.point.x <= on_axis) {
+                place.point.x = 0.0;
             }
         }
     }

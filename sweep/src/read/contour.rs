@@ -8,18 +8,29 @@ use crate::{SweepError, spec};
 use glam::DVec2;
 
 impl Reader<'_> {
-    pub(super) fn contour(&self, contour: &spec::Contour) -> Result<Contour, SweepError> {
+    /// One contour; `path` is its place in the spec.
+    pub(super) fn contour(
+        &self,
+        path: &str,
+        contour: &spec::Contour,
+    ) -> Result<Contour, SweepError> {
         match contour {
             spec::Contour::Circle(radius) => {
-                self.positive("contour.circle", *radius)?;
+                self.positive(&format!("{path}.circle"), *radius)?;
                 Ok(Contour::circle(*radius))
             }
             spec::Contour::Bezier(bezier) => {
-                Ok(Contour::path(self.bezier("contour.bezier", bezier)?))
+                Ok(Contour::path(self.bezier(&format!("{path}.bezier"), bezier)?))
             }
-            spec::Contour::Svg(text) => self.svg(text),
-            spec::Contour::Free(free) => Ok(Contour::path(self.free("contour.free", free)?)),
-            spec::Contour::Polyline(line) => self.polyline("contour.polyline", line),
+            spec::Contour::Svg(text) => self.svg(&format!("{path}.svg"), text),
+            spec::Contour::Free(free) => {
+                Ok(Contour::path(self.free(&format!("{path}.free"), free)?))
+            }
+            spec::Contour::Polyline(line) => self.polyline(&format!("{path}.polyline"), line),
+            spec::Contour::Sections(_) => Err(self.fault(
+                &format!("{path}.sections"),
+                "found sections inside a section, expected one contour",
+            )),
         }
     }
 
@@ -32,8 +43,7 @@ impl Reader<'_> {
         Ok(Contour::path(self.path(path, &sides, line.closed)?))
     }
 
-    fn svg(&self, text: &str) -> Result<Contour, SweepError> {
-        let path = "contour.svg";
+    fn svg(&self, path: &str, text: &str) -> Result<Contour, SweepError> {
         let outline = svg::outline(text).map_err(|message| self.fault(path, message))?;
         let reckonable = |point: &DVec2| point.abs().max_element() <= LARGEST;
         if !outline.segments.iter().flat_map(|cubic| &cubic.0).all(reckonable) {

@@ -4,12 +4,13 @@ mod contour;
 mod depth;
 mod law;
 mod modulation;
+mod profile;
 mod trajectory;
 
 use crate::curve::vector::extent;
 use crate::curve::{Cubic, Path, Vector, spline};
+use crate::modulation::Modulation;
 use crate::spec::{Bezier, FORMAT, Free, Spec, VERSION};
-use crate::sweep::ON_AXIS;
 use crate::{Sweep, SweepError};
 use files::json::Document;
 use glam::DVec3;
@@ -39,28 +40,9 @@ pub fn read(document: &Document) -> Result<Sweep, SweepError> {
     let spec: Spec = document.parse()?;
     let reader = Reader { document };
     reader.header(&spec)?;
-    let mut contour = reader.contour(&spec.contour)?;
     let trajectory = reader.trajectory(&spec.trajectory, spec.frame.as_ref())?;
-    if trajectory.is_rotation() {
-        let (low, high) = contour.x_range();
-        if low < -ON_AXIS * high.max(-low) {
-            return Err(reader.geometry(
-                "contour",
-                format!(
-                    "found a contour that reaches x = {low:?}, expected x of at least 0, \
-                     the distance from the axis of the rotation"
-                ),
-            ));
-        }
-        if high <= 0.0 {
-            return Err(reader.geometry(
-                "contour",
-                "found a contour on the axis of the rotation, expected some x above 0",
-            ));
-        }
-        contour = contour.rotated(ON_AXIS * high);
-    }
-    let modulation = reader.modulation(&spec, &contour, &trajectory)?;
+    let (contour, blend) = reader.profile(&spec.contour, &trajectory)?;
+    let modulation = Modulation { blend, ..reader.modulation(&spec, &contour, &trajectory)? };
     let sweep = Sweep {
         name: spec.name,
         contour,

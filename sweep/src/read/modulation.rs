@@ -2,9 +2,9 @@
 
 use super::Reader;
 use crate::SweepError;
-use crate::contour::Contour;
 use crate::law::Law;
 use crate::modulation::Modulation;
+use crate::profile::Profile;
 use crate::spec::{self, Scale, Spec};
 use crate::sweep::ON_AXIS;
 use crate::trajectory::Trajectory;
@@ -16,7 +16,7 @@ impl Reader<'_> {
     pub(super) fn modulation(
         &self,
         spec: &Spec,
-        contour: &Contour,
+        contour: &Profile,
         trajectory: &Trajectory,
     ) -> Result<Modulation, SweepError> {
         if trajectory.is_rotation() && spec.scale.is_some() {
@@ -26,11 +26,11 @@ impl Reader<'_> {
         let twist = spec.twist.as_ref().map(|twist| self.twist(twist, trajectory)).transpose()?;
         let depth =
             spec.depth.as_ref().map(|depth| self.depth(depth, contour, trajectory)).transpose()?;
-        Ok(Modulation { scale, twist, depth })
+        Ok(Modulation { blend: None, scale, twist, depth })
     }
 
     /// Refuses what would move the pole that a contour makes on the axis of a rotation.
-    pub(super) fn off_axis(&self, path: &str, contour: &Contour) -> Result<(), SweepError> {
+    pub(super) fn off_axis(&self, path: &str, contour: &Profile) -> Result<(), SweepError> {
         let (low, high) = contour.x_range();
         if low > ON_AXIS * high {
             return Ok(());
