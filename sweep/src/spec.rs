@@ -91,11 +91,14 @@
 //! }
 //! ```
 //!
-//! `scale` is one law for both axes of the contour or two, for x and y; it is not negative, and where
-//! it is 0 the surface has a pole. `twist` then turns the contour about the trajectory, in degrees,
+//! `scale` is one law for both axes of the contour or two, for x and y. Where both are 0 the surface has
+//! a pole. Factors below 0 on both axes turn the contour by half, so that a scale may pass through 0: it
+//! has a pole there, at a row of its own, and the outside stays outside. A factor below 0 on one axis
+//! mirrors the contour, whose columns then run the other way round; only one axis must not pass 0 on its
+//! way, as the surface would turn inside out. `twist` then turns the contour about the trajectory, in degrees,
 //! right-handed about its direction. Along a closed trajectory a scale ends as it starts, and a
 //! twist ends a multiple of 360 degrees from there, since each column meets itself. About the axis
-//! of a rotation there is no twist; its scale stays above 0, and wants a contour off the axis.
+//! of a rotation there is no twist; its scale stays above 0 on x and apart from 0 on y, and wants a contour off the axis.
 //! A law whose derivative jumps, as linear keys do, gives the surface an edge with one normal.
 //!
 //! # Depth

@@ -202,7 +202,12 @@ impl Sweep {
     }
 
     fn row_stops(&self) -> Vec<Stop> {
-        cut::evenly(self.trajectory.breaks(), self.trajectory.closed(), self.rows)
+        let closed = self.trajectory.closed();
+        let mut breaks = self.trajectory.breaks().to_vec();
+        breaks.extend(self.modulation.breaks(closed));
+        breaks.sort_by(f64::total_cmp);
+        breaks.dedup();
+        cut::evenly(&breaks, closed, self.rows)
     }
 
     fn columns(&self) -> Vec<Column> {

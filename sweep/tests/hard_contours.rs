@@ -212,3 +212,90 @@ fn two_points_are_a_line_and_one_is_refused() {
         assert!(error.contains("contour.polyline.points") && error.contains(message), "{error}");
     }
 }
+
+/// The largest angle, as a chord, between a normal and the direction from the axis of a double cone.
+fn off_cone(sweep: &Sweep, radius: f64) -> f64 {
+    let grid = sweep.grid();
+    let row = |i: usize| i / grid.cols();
+    let off = |(i, normal): (usize, &glam::Vec3)| {
+        let v = grid.v[row(i)];
+        let half = if v == 0.5 { row(i) > 10 } else { v > 0.5 };
+        // Both cones open away from the tip in the middle.
+        let (sin, cos) = (TAU * grid.u[i % grid.cols()]).sin_cos();
+        let side = if half { -1.0 } else { 1.0 };
+        let outward = DVec3::new(cos * side, sin * side, side * 2.0 * radius).normalize();
+        (normal.as_dvec3() - outward).length()
+    };
+    grid.normals.iter().enumerate().map(off).fold(0.0, f64::max)
+}
+
+#[test]
+fn a_scale_through_zero_has_a_pole_inside_and_its_outside_stays_outside() {
+    for keys in [json!([[0, 1], [1, -1]]), json!([[0, 1], [0.5, 0], [1, -1]])] {
+        let scale = json!({"scale": {"keys": keys}});
+        let sweep = swept(&json!({"circle": 2}), &scale);
+        let grid = sweep.grid();
+        sound(&grid);
+        // The pole is a row given twice, each with the normals of its side.
+        let poles: Vec<usize> = (0..grid.rows()).filter(|&row| grid.v[row] == 0.5).collect();
+        assert_eq!(poles, [10, 11]);
+        for at in 10 * grid.cols()..12 * grid.cols() {
+            assert_eq!(grid.positions[at], DVec3::new(0.0, 0.0, 0.5));
+        }
+        let off = off_cone(&sweep, 2.0);
+        assert!(off < 1e-6, "{off:e}");
+        // Rows run counter-clockwise on both sides.
+        assert!(area(&row(&grid, 0)) > 12.0 && area(&row(&grid, grid.rows() - 1)) > 12.0);
+    }
+}
+
+#[test]
+fn a_scale_of_zero_at_both_ends_has_two_poles() {
+    let scale = json!({"scale": {"keys": [[0, 0], [0.5, 1], [1, 0]], "ease": "smooth"}});
+    let grid = swept(&polygon(&ring(5, 0.0)), &scale).grid();
+    sound(&grid);
+    for row_of_pole in [0, grid.rows() - 1] {
+        assert!(row(&grid, row_of_pole).iter().all(|p| *p == DVec2::ZERO));
+    }
+}
+
+#[test]
+fn a_negative_scale_on_both_axes_is_half_a_turn() {
+    let contour = free(&[[1.0, 0.0], [0.2, 0.7], [-0.8, 0.1], [0.0, -0.4]]);
+    let turned = swept(&contour, &json!({"twist": 180})).grid();
+    let negative = swept(&contour, &json!({"scale": -1})).grid();
+    assert!(apart(&turned, &negative) < 1e-15);
+    assert!(turned.normals.iter().zip(&negative.normals).all(|(a, b)| (*a - *b).length() < 1e-6));
+}
+
+#[test]
+fn a_negative_scale_on_one_axis_mirrors_the_contour_and_keeps_its_outside() {
+    let points = [[1.0, 0.1], [0.2, 0.7], [-0.8, 0.1], [0.0, -0.4]];
+    for (axis, scale) in [(0, json!([-1, 1])), (1, json!([1, -1]))] {
+        for draw in [free, polygon] {
+            let mirrored = swept(&draw(&points), &json!({"scale": scale})).grid();
+            let mut drawn = points;
+            drawn.iter_mut().for_each(|p| p[axis] = -p[axis]);
+            let drawn = grid(&draw(&drawn));
+            assert!(apart(&mirrored, &drawn) < 1e-12);
+            let off = |(a, b): (&glam::Vec3, &glam::Vec3)| (*a - *b).length();
+            assert!(
+                mirrored.normals.iter().zip(&drawn.normals).map(off).fold(0.0, f32::max) < 1e-6
+            );
+            assert!(area(&row(&mirrored, 0)) > 0.0);
+        }
+    }
+    // An open one has its outer side to the right of its direction, also as mirrored.
+    let bend = json!({"polyline": {"points": [[0, 0], [1, 0], [1, 2]]}});
+    let mirrored = swept(&bend, &json!({"scale": [1, -1]})).grid();
+    assert_eq!(row(&mirrored, 0)[0], DVec2::new(1.0, -2.0));
+    assert!((mirrored.normals[0].x - 1.0).abs() < 1e-6);
+}
+
+#[test]
+fn a_scale_that_turns_the_surface_inside_out_is_refused() {
+    let scale = json!({"scale": [{"keys": [[0, 1], [1, -1]]}, 1]});
+    let error = read(&json!({"circle": 1}), &scale).unwrap_err().to_string();
+    assert!(error.contains("only one passes 0 at 0.5"), "{error}");
+    assert!(error.contains("inside out"), "{error}");
+}

@@ -16,7 +16,8 @@ pub mod blend;
 pub use blend::Blend;
 
 use crate::contour::{Contour, Local2};
-use crate::cut::{self, Stop};
+use crate::cut::{self, Side, Stop};
+use glam::DVec2;
 
 /// Breaks of two contours that are this fraction of the length apart are one.
 const SAME: f64 = 1e-9;
@@ -25,7 +26,10 @@ const SAME: f64 = 1e-9;
 #[derive(Debug, Clone)]
 pub struct Profile {
     contours: Vec<Aligned>,
+    /// Where there are creases, rising.
     breaks: Vec<f64>,
+    /// Factors of both axes, 1 and -1, by which it is mirrored; it runs the other way round then.
+    mirror: Option<DVec2>,
 }
 
 /// A contour with the start that it has among others.
@@ -77,7 +81,7 @@ impl Profile {
             .map(|(contour, start)| {
                 let place = |own: f64| {
                     let u = if own < start { own - start + 1.0 } else { own - start };
-                    let at_start = start > 0.0 && (u < SAME || u > 1.0 - SAME);
+                    let at_start = start > 0.0 && !(SAME..=1.0 - SAME).contains(&u);
                     [if at_start { 0.0 } else { u }, own]
                 };
                 let mut creases: Vec<_> = contour.breaks().into_iter().map(place).collect();
@@ -95,7 +99,34 @@ impl Profile {
             let next = breaks.partition_point(|at| *at <= crease[0]);
             crease[0] = breaks[next.max(1) - 1];
         }
-        Self { contours, breaks }
+        Self { contours, breaks, mirror: None }
+    }
+
+    /// The profile mirrored by factors of 1 and -1, one each.
+    ///
+    /// It runs the other way round, from the same start when it is closed: its outside stays to the
+    /// right of its direction.
+    pub(crate) fn mirrored(self, factors: DVec2) -> Self {
+        Self { mirror: Some(factors), ..self }.reversed()
+    }
+
+    fn reversed(mut self) -> Self {
+        let closed = self.closed();
+        let other = |at: f64| if closed && at == 0.0 { 0.0 } else { 1.0 - at };
+        let turn = |places: &mut Vec<f64>| {
+            for at in places.iter_mut() {
+                *at = other(*at);
+            }
+            places.sort_by(f64::total_cmp);
+        };
+        turn(&mut self.breaks);
+        for one in &mut self.contours {
+            for crease in &mut one.creases {
+                crease[0] = other(crease[0]);
+            }
+            one.creases.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        }
+        self
     }
 
     /// The one contour, when there is no other.
@@ -146,7 +177,9 @@ impl Profile {
 
     /// The smallest and the largest `x` of all contours.
     pub(crate) fn x_range(&self) -> (f64, f64) {
-        let ranges = self.contours.iter().map(|one| one.contour.x_range());
+        let mirrored = self.mirror.is_some_and(|factors| factors.x < 0.0);
+        let turned = |(low, high): (f64, f64)| if mirrored { (-high, -low) } else { (low, high) };
+        let ranges = self.contours.iter().map(|one| turned(one.contour.x_range()));
         ranges.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (a, b)| {
             (low.min(a), high.max(b))
         })
@@ -168,20 +201,29 @@ impl Profile {
         let (first, others) = self.contours.split_first().expect("a profile has a contour");
         Column {
             u: stop.at,
-            first: first.at(stop),
-            others: others.iter().map(|one| one.at(stop)).collect(),
+            first: first.at(stop, self.mirror),
+            others: others.iter().map(|one| one.at(stop, self.mirror)).collect(),
         }
     }
 }
 
 impl Aligned {
-    fn at(&self, stop: Stop) -> Local2 {
+    fn at(&self, stop: Stop, mirror: Option<DVec2>) -> Local2 {
         let crease = self.creases.binary_search_by(|crease| crease[0].total_cmp(&stop.at));
-        let own = match crease {
-            Ok(index) => self.creases[index][1],
-            Err(_) => align::own(self.start, stop.at),
+        let crease = crease.ok().map(|index| self.creases[index][1]);
+        let Some(factors) = mirror else {
+            let own = crease.unwrap_or_else(|| align::own(self.start, stop.at));
+            return self.contour.at(Stop { at: own, ..stop });
         };
-        self.contour.at(Stop { at: own, ..stop })
+        let forward = if self.contour.closed() && stop.at == 0.0 { 0.0 } else { 1.0 - stop.at };
+        let own = crease.unwrap_or_else(|| align::own(self.start, forward));
+        let side = match stop.side {
+            Side::Before => Side::After,
+            Side::After => Side::Before,
+        };
+        let place = self.contour.at(Stop { at: own, side });
+        // A mirror turns the curve the other way, and so does the other direction.
+        Local2 { point: place.point * factors, tangent: -place.tangent * factors, ..place }
     }
 }
 
@@ -189,7 +231,6 @@ impl Aligned {
 mod tests {
     use super::*;
     use crate::curve::{Cubic, Path, spline};
-    use glam::DVec2;
 
     fn polygon(points: &[[f64; 2]]) -> Contour {
         let points: Vec<DVec2> = points.iter().copied().map(DVec2::from_array).collect();

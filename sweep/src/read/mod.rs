@@ -42,7 +42,12 @@ pub fn read(document: &Document) -> Result<Sweep, SweepError> {
     reader.header(&spec)?;
     let trajectory = reader.trajectory(&spec.trajectory, spec.frame.as_ref())?;
     let (contour, blend) = reader.profile(&spec.contour, &trajectory)?;
-    let modulation = Modulation { blend, ..reader.modulation(&spec, &contour, &trajectory)? };
+    let (modulation, mirror) = reader.modulation(&spec, &contour, &trajectory)?;
+    let modulation = Modulation { blend, ..modulation };
+    let contour = match mirror {
+        Some(factors) => contour.mirrored(factors),
+        None => contour,
+    };
     let sweep = Sweep {
         name: spec.name,
         contour,

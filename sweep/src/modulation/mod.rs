@@ -16,7 +16,12 @@
 //! normal is the limit along the column: that of a cone, or `-T` or `T` on a cap whose scale ends
 //! vertically.
 
-use crate::cut::Stop;
+mod pole;
+
+pub use pole::Pole;
+pub(crate) use pole::Signs;
+
+use crate::cut::{Side, Stop};
 use crate::depth::{Depth, Raised, Relief};
 use crate::law::Law;
 use crate::profile::blend::{Mix, Moving};
@@ -29,8 +34,10 @@ use glam::{DVec2, DVec3};
 pub struct Modulation {
     /// The places of the contours, where there are several.
     pub(crate) blend: Option<Blend>,
-    /// Factors of the contour's x and y, not negative.
+    /// Factors of the contour's x and y, of the same sign everywhere.
     pub(crate) scale: Option<[Law; 2]>,
+    /// Where both are 0.
+    pub(crate) poles: Vec<Pole>,
     /// Turn about the trajectory, in degrees as in the file.
     pub(crate) twist: Option<Law>,
     /// Relief on the contour, under the scale.
@@ -45,6 +52,8 @@ pub struct Section {
     scale: DVec2,
     /// Derivative of the scale by length of the trajectory; by radian for a rotation.
     scale_s: DVec2,
+    /// The signs of the scale; where it is 0 those that it has just beside.
+    signs: DVec2,
     relief: Option<Relief>,
     /// Length of the trajectory, by which derivatives by `v` become those by length.
     extent: f64,
@@ -64,30 +73,47 @@ struct Local {
 }
 
 impl Modulation {
+    /// Places inside the trajectory where a row is needed from both sides: the poles; at 0 too,
+    /// when it is closed.
+    pub(crate) fn breaks(&self, closed: bool) -> impl Iterator<Item = f64> {
+        let inside = move |at: &f64| *at < 1.0 && (closed || *at > 0.0);
+        self.poles.iter().map(|pole| pole.at).filter(inside)
+    }
+
     /// The section at a stop of the trajectory.
     #[must_use]
     pub fn section(&self, trajectory: &Trajectory, stop: Stop) -> Section {
-        let (station, v) = (trajectory.station_at(stop), stop.at);
+        let station = trajectory.station_at(stop);
+        // What leads up to the start of a closed trajectory is its end.
+        let stop = match stop {
+            Stop { at: 0.0, side: Side::Before } => Stop::before(1.0),
+            _ => stop,
+        };
+        let v = stop.at;
         let extent = trajectory.extent();
         let pace = 1.0 / extent;
         let station = match &self.twist {
             Some(law) => {
-                let (degrees, slope) = law.at(v);
+                let (degrees, slope) = law.on(stop);
                 station.turned(degrees / 360.0, slope.to_radians() * pace)
             }
             None => station,
         };
         let (scale, scale_s) = match &self.scale {
             Some([x, y]) => {
-                let ((a, a_v), (b, b_v)) = (x.at(v), y.at(v));
+                let ((a, a_v), (b, b_v)) = (x.on(stop), y.on(stop));
                 (DVec2::new(a, b), DVec2::new(a_v, b_v) * pace)
             }
             None => (DVec2::ONE, DVec2::ZERO),
         };
+        let (scale, signs) = match self.poles.iter().find(|pole| pole.at == v) {
+            Some(pole) => (DVec2::ZERO, pole.signs(stop)),
+            None => (scale, DVec2::ONE),
+        };
         let relief = self.depth.as_ref().map(|depth| depth.at(v));
         let mix = self.blend.as_ref().map(|blend| blend.at(v));
         let plain = self.scale.is_none() && relief.is_none() && mix.is_none();
-        Section { station, mix, scale, scale_s, relief, extent, plain }
+        Section { station, mix, scale, scale_s, signs, relief, extent, plain }
     }
 }
 
@@ -130,8 +156,10 @@ impl Section {
             },
         };
         // The proportion of the axes; where both are 0 it is that in which they leave it.
-        let axes = if self.scale == DVec2::ZERO { self.scale_s.abs() } else { self.scale };
-        let axes = if axes == DVec2::ZERO { DVec2::ONE } else { axes / axes.max_element() };
+        let leaving = self.signs * self.scale_s.abs();
+        let axes = if self.scale == DVec2::ZERO { leaving } else { self.scale };
+        let size = axes.abs().max_element();
+        let axes = if size == 0.0 { self.signs } else { axes / size };
         let q_s = self.scale_s * point + self.scale * (across / self.extent);
         Local { q: self.scale * point, q_u: axes * along, q_s, folds }
     }
