@@ -1,8 +1,8 @@
-//! The curve that is swept, and the columns it is cut into.
+//! The curve that is swept.
 
 use crate::curve::path::{Joint, Place};
 use crate::curve::{Cubic, Path, turn};
-use crate::cut::{self, Side, Stop};
+use crate::cut::{Side, Stop};
 use glam::DVec2;
 use kurbo::{CubicBez, ParamCurveArea, Point, Shape};
 use std::f64::consts::TAU;
@@ -16,17 +16,17 @@ const CREASE_DEG: f64 = 1.0;
 /// An area below this fraction of the squared length has no sign to trust (a figure of eight).
 const NO_AREA: f64 = 1e-9;
 
-/// A point of a contour, and the direction of the contour there.
+/// A contour at one place.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Column {
-    /// Arc length from the start, as a fraction of the whole.
-    pub u: f64,
+pub struct Local2 {
     /// The point.
     pub point: DVec2,
     /// The unit tangent; at a crease that of one side.
     pub tangent: DVec2,
     /// Turn of the tangent by length, above 0 to the left; 0 where it has no bound.
     pub curvature: f64,
+    /// How fast `u` grows by length: one over the contour's length.
+    pub pace: f64,
 }
 
 /// A contour, checked: it has a length, and a closed one runs counter-clockwise.
@@ -99,13 +99,6 @@ impl Contour {
         }
     }
 
-    /// The fewest cells along the contour: one to each smooth piece, and three around.
-    #[must_use]
-    pub fn fewest_cells(&self) -> usize {
-        let around = if self.closed() { 3 } else { 1 };
-        cut::pieces(&self.breaks()).max(around)
-    }
-
     /// The smallest and the largest `x`.
     pub(crate) fn x_range(&self) -> (f64, f64) {
         match &self.0 {
@@ -130,49 +123,37 @@ impl Contour {
         }
     }
 
-    /// The places at `stops`.
+    /// The contour at a stop: at a crease that of its side.
     #[must_use]
-    pub fn columns(&self, stops: &[Stop]) -> Vec<Column> {
+    pub fn at(&self, stop: Stop) -> Local2 {
         match &self.0 {
             Form::Circle { radius } => {
-                stops.iter().map(|stop| on_circle(*radius, stop.at)).collect()
+                let point = turn(stop.at);
+                Local2 {
+                    point: point * *radius,
+                    tangent: point.perp(),
+                    curvature: 1.0 / radius,
+                    pace: 1.0 / self.length(),
+                }
             }
-            Form::Path { path, creases } => stops
-                .iter()
-                .map(|&stop| on_path(path, stop.at, place(path, creases, stop)))
-                .collect(),
+            Form::Path { path, creases } => {
+                let place = place(path, creases, stop);
+                let tangent = path.tangent(place);
+                let curvature = tangent.perp_dot(path.curvature(place));
+                Local2 { point: path.point(place), tangent, curvature, pace: 1.0 / path.length() }
+            }
         }
     }
-
-    /// The place at `u`, a fraction of the length; at a crease that of the side after.
-    #[must_use]
-    pub fn at(&self, u: f64) -> Column {
-        match &self.0 {
-            Form::Circle { radius } => on_circle(*radius, u),
-            Form::Path { path, .. } => on_path(path, u, path.locate(u * path.length())),
-        }
-    }
-}
-
-fn on_circle(radius: f64, u: f64) -> Column {
-    let point = turn(u);
-    Column { u, point: point * radius, tangent: point.perp(), curvature: 1.0 / radius }
-}
-
-fn on_path(path: &Path<DVec2>, u: f64, place: Place) -> Column {
-    let tangent = path.tangent(place);
-    let curvature = tangent.perp_dot(path.curvature(place));
-    Column { u, point: path.point(place), tangent, curvature }
 }
 
 /// The place of a stop: at a crease that of its side.
 fn place(path: &Path<DVec2>, creases: &[Joint], stop: Stop) -> Place {
-    let crease = creases.iter().find(|joint| joint.s / path.length() == stop.at);
-    match (crease, stop) {
-        (Some(joint), Stop { side: Side::Before, .. }) => joint.before,
-        (Some(joint), Stop { side: Side::After, .. }) => joint.after,
-        (None, Stop { at, .. }) if at >= 1.0 => path.end(),
-        (None, Stop { at, .. }) => path.locate(at * path.length()),
+    let length = path.length();
+    match (creases.binary_search_by(|joint| (joint.s / length).total_cmp(&stop.at)), stop.side) {
+        (Ok(index), Side::Before) => creases[index].before,
+        (Ok(index), Side::After) => creases[index].after,
+        (Err(_), _) if stop.at >= 1.0 => path.end(),
+        (Err(_), _) => path.locate(stop.at * length),
     }
 }
 
@@ -199,6 +180,7 @@ fn kurbo_cubic(points: [DVec2; 4]) -> CubicBez {
 mod tests {
     use super::*;
     use crate::curve::svg;
+    use crate::cut;
     use std::f64::consts::PI;
 
     fn contour(text: &str) -> Contour {
@@ -206,12 +188,14 @@ mod tests {
         Contour::path(Path::new(&outline.segments, outline.closed).unwrap())
     }
 
-    fn cut(contour: &Contour, cells: usize) -> Vec<Column> {
-        contour.columns(&cut::evenly(&contour.breaks(), contour.closed(), cells))
+    /// The contour at the ends of its cells, each with its `u` to six digits.
+    fn cut(contour: &Contour, cells: usize) -> Vec<(f64, Local2)> {
+        let stops = cut::evenly(&contour.breaks(), contour.closed(), cells);
+        stops.iter().map(|&stop| ((stop.at * 1e6).round() / 1e6, contour.at(stop))).collect()
     }
 
-    fn us(columns: &[Column]) -> Vec<f64> {
-        columns.iter().map(|column| (column.u * 1e6).round() / 1e6).collect()
+    fn us(columns: &[(f64, Local2)]) -> Vec<f64> {
+        columns.iter().map(|column| column.0).collect()
     }
 
     #[test]
@@ -220,7 +204,8 @@ mod tests {
         assert_eq!(circle.length(), 4.0 * PI);
         let columns = cut(&circle, 4);
         let (point, tangent) = (DVec2::Y * 2.0, DVec2::NEG_X);
-        assert_eq!(columns[1], Column { u: 0.25, point, tangent, curvature: 0.5 });
+        let pace = 1.0 / (4.0 * PI);
+        assert_eq!(columns[1], (0.25, Local2 { point, tangent, curvature: 0.5, pace }));
         assert_eq!(us(&columns), [0.0, 0.25, 0.5, 0.75]);
     }
 
@@ -228,16 +213,16 @@ mod tests {
     fn corners_are_given_twice() {
         // A rectangle of 3 x 1, counter-clockwise; SVG's y points down.
         let rectangle = contour("M0 0H3V-1H0Z");
-        assert_eq!((rectangle.creases(), rectangle.fewest_cells()), (4, 4));
+        assert_eq!(rectangle.creases(), 4);
         let columns = cut(&rectangle, 8);
         assert_eq!(columns.len(), 12);
         assert_eq!(
             us(&columns),
             [0.0, 0.0, 0.125, 0.25, 0.375, 0.375, 0.5, 0.5, 0.625, 0.75, 0.875, 0.875]
         );
-        assert_eq!(columns[0].tangent, DVec2::NEG_Y, "the side that comes in");
-        assert_eq!(columns[1].tangent, DVec2::X, "the side that goes out");
-        assert_eq!(columns[0].point, columns[1].point);
+        assert_eq!(columns[0].1.tangent, DVec2::NEG_Y, "the side that comes in");
+        assert_eq!(columns[1].1.tangent, DVec2::X, "the side that goes out");
+        assert_eq!(columns[0].1.point, columns[1].1.point);
     }
 
     #[test]
@@ -245,18 +230,17 @@ mod tests {
         let bend = contour("M0 0H1V-1");
         let columns = cut(&bend, 4);
         assert_eq!(us(&columns), [0.0, 0.25, 0.5, 0.5, 0.75, 1.0]);
-        assert_eq!(columns[5].point, DVec2::ONE);
-        assert_eq!(bend.fewest_cells(), 2);
+        assert_eq!(columns[5].1.point, DVec2::ONE);
     }
 
     #[test]
     fn a_corner_elsewhere_than_at_the_start_leaves_the_start_smooth() {
         let drop = contour("M0 0C0 -1 1 -1 2 0C1 1 0 1 0 0Z");
-        assert_eq!((drop.creases(), drop.fewest_cells()), (1, 3));
+        assert_eq!(drop.creases(), 1);
         let columns = cut(&drop, 10);
         assert_eq!(columns.len(), 11);
-        assert_eq!(columns[0].u, 0.0);
-        assert!(columns[1].u > 0.0);
+        assert_eq!(columns[0].0, 0.0);
+        assert!(columns[1].0 > 0.0);
     }
 
     #[test]
@@ -264,11 +248,11 @@ mod tests {
         let (clockwise, counter) = (contour("M0 0V-1H1V0Z"), contour("M0 0H1V-1H0Z"));
         let (a, b) = (cut(&clockwise, 8), cut(&counter, 8));
         for (a, b) in a.iter().zip(&b) {
-            assert!((a.point - b.point).length() < 1e-15);
-            assert!((a.tangent - b.tangent).length() < 1e-15);
+            assert!((a.1.point - b.1.point).length() < 1e-15);
+            assert!((a.1.tangent - b.1.tangent).length() < 1e-15);
         }
         let open = contour("M0 0V-1H1");
-        assert_eq!(cut(&open, 2)[0].tangent, DVec2::Y, "an open one is kept");
+        assert_eq!(cut(&open, 2)[0].1.tangent, DVec2::Y, "an open one is kept");
     }
 
     #[test]

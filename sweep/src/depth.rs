@@ -10,9 +10,10 @@
 //! `n` its outer normal. The relief is the contour's: what scales and twists the contour scales and
 //! twists it too.
 
-use crate::contour::Column;
+use crate::contour::Local2;
 use crate::curve::turn;
 use crate::law::Law;
+use crate::profile::blend::Moving;
 use glam::DVec2;
 use std::f64::consts::TAU;
 
@@ -23,8 +24,6 @@ pub struct Depth {
     pub(crate) mode: Mode,
     /// The waves that add up to `delta`.
     pub(crate) terms: Vec<Term>,
-    /// One over the length of the contour.
-    pub(crate) pace: f64,
 }
 
 /// What `delta` does to the contour.
@@ -56,7 +55,6 @@ pub struct Term {
 pub struct Relief {
     mode: Mode,
     waves: Vec<Wave>,
-    pace: f64,
 }
 
 /// A term at one place of the trajectory.
@@ -107,36 +105,38 @@ impl Depth {
             }
         };
         let waves = self.terms.iter().map(wave).collect();
-        Relief { mode: self.mode, waves, pace: self.pace }
+        Relief { mode: self.mode, waves }
     }
 }
 
 impl Relief {
-    /// The contour's point with the relief on it.
-    pub(crate) fn on(&self, column: &Column) -> Raised {
+    /// The contour's point at `u` with the relief on it.
+    pub(crate) fn on(&self, u: f64, moving: &Moving) -> Raised {
+        let Moving { place, across, turning } = *moving;
+        let Local2 { point, tangent, curvature, pace } = place;
         let (mut delta, mut delta_u, mut delta_v) = (0.0, 0.0, 0.0);
         for wave in &self.waves {
-            let angle = turn(wave.u * column.u + wave.phase);
+            let angle = turn(wave.u * u + wave.phase);
             delta += wave.height * angle.y;
-            delta_u += wave.height * angle.x * (TAU * wave.u * self.pace);
+            delta_u += wave.height * angle.x * (TAU * wave.u);
             delta_v += wave.height_v * angle.y + wave.height * angle.x * wave.phase_v;
         }
-        let Column { point, tangent, curvature, .. } = *column;
         match self.mode {
             Mode::Factor => Raised {
                 point: point * (1.0 + delta),
-                along: tangent * (1.0 + delta) + point * delta_u,
-                across: point * delta_v,
+                along: tangent * (1.0 + delta) + point * (delta_u * pace),
+                across: point * delta_v + across * (1.0 + delta),
                 folds: false,
             },
             Mode::Offset => {
                 // Outward of a counter-clockwise contour, whose curvature is above 0 at a bulge.
+                // It turns with the tangent.
                 let normal = -tangent.perp();
                 let stretch = 1.0 + delta * curvature;
                 Raised {
                     point: point + normal * delta,
-                    along: tangent * stretch + normal * delta_u,
-                    across: normal * delta_v,
+                    along: tangent * stretch + normal * (delta_u * pace),
+                    across: normal * delta_v + across + tangent * (delta * turning),
                     folds: stretch < 0.0,
                 }
             }

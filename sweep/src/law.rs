@@ -17,7 +17,9 @@
 //! [`STEEPEST`].
 
 use crate::curve::Cubic;
+use crate::cut::{Side, Stop};
 use glam::DVec2;
+use kurbo::common::solve_cubic;
 use kurbo::{CubicBez, Point, Shape};
 
 /// Derivatives are kept within this: beyond it a surface is level to all of its 16 digits, and far
@@ -63,11 +65,20 @@ impl Law {
     /// The value and its derivative by `at`, which lies in `[0, 1]`.
     #[must_use]
     pub fn at(&self, at: f64) -> (f64, f64) {
+        self.on(Stop::after(at))
+    }
+
+    /// The value and its derivative at a stop: where the derivative jumps, that of its side.
+    #[must_use]
+    pub fn on(&self, stop: Stop) -> (f64, f64) {
+        let Stop { at, side } = stop;
+        let passed = |end: f64| if side == Side::Before { end < at } else { end <= at };
+        let is_end = |end: f64| side == Side::After && is_end(at, end);
         match &self.0 {
             Form::Constant(value) => (*value, 0.0),
             Form::Keys { keys, smooth } => {
-                let next = keys.partition_point(|key| key[0] <= at);
-                let next = if is_end(at, keys[keys.len() - 1][0]) { next - 1 } else { next };
+                let next = keys.partition_point(|key| passed(key[0]));
+                let next = if is_end(keys[keys.len() - 1][0]) { next - 1 } else { next };
                 if next == 0 || next == keys.len() {
                     return (keys[next.min(keys.len() - 1)][1], 0.0);
                 }
@@ -81,8 +92,8 @@ impl Law {
             Form::Bezier(segments) => {
                 let last = segments[segments.len() - 1].0[3];
                 let first = segments[0].0[0];
-                let next = segments.partition_point(|segment| segment.0[3].x <= at);
-                let next = if is_end(at, last.x) { next - 1 } else { next };
+                let next = segments.partition_point(|segment| passed(segment.0[3].x));
+                let next = if is_end(last.x) { next - 1 } else { next };
                 if at < first.x || next == segments.len() {
                     return (if at < first.x { first.y } else { last.y }, 0.0);
                 }
@@ -112,6 +123,36 @@ impl Law {
                 })
                 .fold(none, wider),
         }
+    }
+
+    /// The law with the other sign.
+    pub(crate) fn negated(self) -> Self {
+        Self(match self.0 {
+            Form::Constant(value) => Form::Constant(-value),
+            Form::Keys { mut keys, smooth } => {
+                keys.iter_mut().for_each(|key| key[1] = -key[1]);
+                Form::Keys { keys, smooth }
+            }
+            Form::Bezier(segments) => Form::Bezier(
+                segments.iter().map(|one| Cubic(one.0.map(|p| DVec2::new(p.x, -p.y)))).collect(),
+            ),
+        })
+    }
+
+    /// Where the value is or passes 0: single places, and the ends of a stretch of zeros. Rising.
+    pub(crate) fn zeros(&self) -> Vec<f64> {
+        let mut found: Vec<f64> = match &self.0 {
+            Form::Constant(_) => Vec::new(),
+            Form::Keys { keys, smooth } => {
+                let on_key = keys.iter().filter(|key| key[1] == 0.0).map(|key| key[0]);
+                let crossed = keys.windows(2).filter(|pair| pair[0][1] * pair[1][1] < 0.0);
+                on_key.chain(crossed.map(|pair| crossing(pair[0], pair[1], *smooth))).collect()
+            }
+            Form::Bezier(segments) => segments.iter().flat_map(zeros_of).collect(),
+        };
+        found.retain(|at| (0.0..=1.0).contains(at));
+        found.sort_by(f64::total_cmp);
+        found
     }
 
     /// The values at the start and at the end of the trajectory.
@@ -161,6 +202,32 @@ fn parameter(segment: &Cubic<DVec2>, at: f64) -> f64 {
         t = next;
     }
     t
+}
+
+/// Where the way between two keys of different signs passes 0.
+fn crossing([from, a]: [f64; 2], [to, b]: [f64; 2], smooth: bool) -> f64 {
+    let part = a / (a - b);
+    if !smooth {
+        return from + (to - from) * part;
+    }
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..60 {
+        let x: f64 = 0.5 * (low + high);
+        if x * x * (3.0 - 2.0 * x) < part { low = x } else { high = x }
+    }
+    from + (to - from) * high
+}
+
+/// Where a segment is 0.
+fn zeros_of(segment: &Cubic<DVec2>) -> Vec<f64> {
+    let [a, b, c, d] = segment.0.map(|p| p.y);
+    let ends = segment.0.into_iter().step_by(3).filter(|p| p.y == 0.0).map(|p| p.x);
+    solve_cubic(a, 3.0 * (b - a), 3.0 * (a - 2.0 * b + c), d - a + 3.0 * (b - c))
+        .into_iter()
+        .filter(|t| (0.0..=1.0).contains(t))
+        .map(|t| segment.point(t).x)
+        .chain(ends)
+        .collect()
 }
 
 #[cfg(test)]
@@ -215,6 +282,20 @@ mod tests {
             assert_eq!((law.ends(), law.range()), ([2.0, 3.0], (-1.0, 3.0)));
         }
         assert_eq!(Law::keys(vec![[0.5, 7.0]], true).at(0.2), (7.0, 0.0));
+    }
+
+    #[test]
+    fn zeros_are_found_and_each_side_has_its_slope() {
+        let keys =
+            Law::keys(vec![[0.0, 2.0], [0.5, -2.0], [0.6, 0.0], [0.7, 0.0], [1.0, 3.0]], false);
+        assert_eq!(keys.zeros(), [0.25, 0.6, 0.7]);
+        assert_eq!(keys.on(Stop::before(0.7)), (0.0, 0.0));
+        assert!((keys.on(Stop::after(0.7)).1 - 10.0).abs() < 1e-12);
+        assert_eq!(keys.clone().negated().zeros(), keys.zeros());
+        assert_eq!(Law::keys(vec![[0.0, 1.0], [1.0, -1.0]], true).zeros(), [0.5]);
+        let line = Law::bezier(vec![cubic([[0.0, -1.0], [0.25, 0.0], [0.5, 1.0], [1.0, 2.0]])]);
+        let zero = line.zeros();
+        assert!(zero.len() == 1 && line.at(zero[0]).0.abs() < 1e-15, "{zero:?}");
     }
 
     #[test]

@@ -5,7 +5,8 @@
 //! | [`spec`]       | the spec as JSON; here are its keys and its conventions             |
 //! | [`Object`]     | what a spec is of: one sweep or several                             |
 //! | [`Sweep`]      | a spec that has been checked, and the grid it gives                 |
-//! | [`contour`]    | the curve that is swept; columns, creases                           |
+//! | [`contour`]    | the curve that is swept; creases                                    |
+//! | [`profile`]    | one contour, or several that go over into each other; columns       |
 //! | [`cut`]        | where a curve is cut into cells                                     |
 //! | [`trajectory`] | the curve it follows; stations, normals in closed form              |
 //! | [`law`]        | numbers that change along the trajectory                            |
@@ -43,6 +44,7 @@ pub mod grid;
 pub mod law;
 pub mod modulation;
 mod object;
+pub mod profile;
 mod read;
 pub mod spec;
 mod sweep;

@@ -21,6 +21,8 @@
 //! | `{"bezier": {"closed": c, "segments": [S, ...]}}` | cubics; `S` is four points `[x, y]`        |
 //! | `{"svg": "M0 0 C..."}`                          | one subpath, closed by `Z` or by its end; y is negated, as SVG's points down |
 //! | `{"free": {"closed": c, "points": [P, ...]}}`   | a C2 spline through points `[x, y]`          |
+//! | `{"polyline": {"closed": c, "points": [P, ...]}}` | straight from point to point; see [`contour`] |
+//! | `{"sections": [{"at": v, "contour": C}, ...], ...}` | contours that go over into each other |
 //!
 //! and a **trajectory** is one of
 //!
@@ -90,11 +92,14 @@
 //! }
 //! ```
 //!
-//! `scale` is one law for both axes of the contour or two, for x and y; it is not negative, and where
-//! it is 0 the surface has a pole. `twist` then turns the contour about the trajectory, in degrees,
+//! `scale` is one law for both axes of the contour or two, for x and y. Where both are 0 the surface has
+//! a pole. Factors below 0 on both axes turn the contour by half, so that a scale may pass through 0: it
+//! has a pole there, at a row of its own, and the outside stays outside. A factor below 0 on one axis
+//! mirrors the contour, whose columns then run the other way round; only one axis must not pass 0 on its
+//! way, as the surface would turn inside out. `twist` then turns the contour about the trajectory, in degrees,
 //! right-handed about its direction. Along a closed trajectory a scale ends as it starts, and a
 //! twist ends a multiple of 360 degrees from there, since each column meets itself. About the axis
-//! of a rotation there is no twist; its scale stays above 0, and wants a contour off the axis.
+//! of a rotation there is no twist; its scale stays above 0 on x and apart from 0 on y, and wants a contour off the axis.
 //! A law whose derivative jumps, as linear keys do, gives the surface an edge with one normal.
 //!
 //! # Depth
@@ -128,6 +133,7 @@
 
 mod areas;
 mod caps;
+pub mod contour;
 mod deform;
 mod depth;
 mod frame;
@@ -138,6 +144,7 @@ mod seam;
 
 pub use areas::Area;
 pub use caps::{Cap, Caps};
+pub use contour::Contour;
 pub use deform::{AxisTwist, Bend, Deform, Taper};
 pub use depth::{Depth, DepthMode, DepthTerm};
 pub use frame::{Frame, Frenet};
@@ -203,20 +210,6 @@ pub struct Spec {
     /// By how much the whole is moved in the end.
     #[serde(default)]
     pub position: [f64; 3],
-}
-
-/// A curve in the plane.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case", try_from = "ContourKeys")]
-pub enum Contour {
-    /// A circle about the origin, by its radius.
-    Circle(f64),
-    /// Cubic Bezier segments.
-    Bezier(Bezier<[f64; 2]>),
-    /// The `d` attribute of an SVG path.
-    Svg(String),
-    /// Points that a spline goes through.
-    Free(Free<[f64; 2]>),
 }
 
 /// A curve in space, or a rotation.
@@ -304,36 +297,7 @@ pub struct Mesh {
     pub cols: usize,
 }
 
-/// The keys of a contour as they are read, so that none and two of them get a sentence.
-#[derive(Deserialize)]
-#[serde(
-    deny_unknown_fields,
-    expecting = "an object with one of the keys circle, bezier, svg, free"
-)]
-struct ContourKeys {
-    circle: Option<f64>,
-    bezier: Option<Bezier<[f64; 2]>>,
-    svg: Option<String>,
-    free: Option<Free<[f64; 2]>>,
-}
-
-impl TryFrom<ContourKeys> for Contour {
-    type Error = String;
-
-    fn try_from(keys: ContourKeys) -> Result<Self, String> {
-        only(
-            "curve",
-            [
-                ("circle", keys.circle.map(Self::Circle)),
-                ("bezier", keys.bezier.map(Self::Bezier)),
-                ("svg", keys.svg.map(Self::Svg)),
-                ("free", keys.free.map(Self::Free)),
-            ],
-        )
-    }
-}
-
-/// The keys of a trajectory as they are read.
+/// The keys of a trajectory as they are read, so that none and two of them get a sentence.
 #[derive(Deserialize)]
 #[serde(
     deny_unknown_fields,
@@ -393,9 +357,10 @@ mod tests {
     use files::json::Document;
 
     /// The pages that show specs, and how many each shows.
-    const PAGES: [(&str, usize); 6] = [
+    const PAGES: [(&str, usize); 7] = [
         (include_str!("spec.rs"), 4),
         (include_str!("spec/caps.rs"), 1),
+        (include_str!("spec/contour.rs"), 2),
         (include_str!("spec/deform.rs"), 1),
         (include_str!("spec/frame.rs"), 3),
         (include_str!("spec/parts.rs"), 1),

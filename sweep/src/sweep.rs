@@ -2,12 +2,12 @@
 
 use crate::cap::Cap;
 use crate::closing::Closing;
-use crate::contour::{Column, Contour};
 use crate::cut::{self, Stop};
 use crate::deform::{Deform, Moved};
 use crate::grid::file::MAX_COLS;
 use crate::grid::{Area, GridMesh, Seam, UvLayout};
 use crate::modulation::{Modulation, Section};
+use crate::profile::{Column, Profile};
 use crate::trajectory::Trajectory;
 use crate::{Object, SweepError};
 use files::json::Document;
@@ -24,7 +24,7 @@ pub(crate) const ON_AXIS: f64 = 1e-9;
 #[derive(Debug, Clone)]
 pub struct Sweep {
     pub(crate) name: String,
-    pub(crate) contour: Contour,
+    pub(crate) contour: Profile,
     pub(crate) trajectory: Trajectory,
     pub(crate) modulation: Modulation,
     /// What closes the start and the end.
@@ -62,9 +62,9 @@ impl Sweep {
         &self.name
     }
 
-    /// The contour.
+    /// What is swept: one contour or several.
     #[must_use]
-    pub fn contour(&self) -> &Contour {
+    pub fn contour(&self) -> &Profile {
         &self.contour
     }
 
@@ -140,7 +140,7 @@ impl Sweep {
         }
         // What is given besides the cells' first points: corners twice, an open end.
         let more = self.contour.creases() + usize::from(!self.contour.closed());
-        let most = MAX_COLS.saturating_sub(more);
+        let most = (MAX_COLS / self.contour.contours()).saturating_sub(more);
         if self.cols > most {
             return Some(("cols", format!("found {}, expected at most {most}", self.cols)));
         }
@@ -292,7 +292,13 @@ impl Sweep {
         let first = self.caps[0].map(|_| start);
         let last = self.caps[1].map(|_| end);
         let edge = self.closing.filter(|closing| closing.edge).map(|_| 0.0);
-        edge.into_iter().chain(first).chain(inner).chain(last).collect()
+        let folds = self.modulation.breaks(self.trajectory.closed());
+        let folds = folds.map(|at| start + (end - start) * at);
+        let mut breaks: Vec<f64> =
+            edge.into_iter().chain(first).chain(inner).chain(folds).chain(last).collect();
+        breaks.sort_by(f64::total_cmp);
+        breaks.dedup();
+        breaks
     }
 
     fn row_stops(&self) -> Vec<Stop> {
@@ -303,9 +309,9 @@ impl Sweep {
         let (breaks, closed) = (self.contour.breaks(), self.contour.closed());
         match self.closing {
             Some(closing) => {
-                cut::between(&breaks, closed, self.cols, &closing.anchors(&breaks, closed))
+                cut::between(breaks, closed, self.cols, &closing.anchors(breaks, closed))
             }
-            None => cut::evenly(&breaks, closed, self.cols),
+            None => cut::evenly(breaks, closed, self.cols),
         }
     }
 
@@ -320,7 +326,7 @@ impl Sweep {
         let closing = self
             .closing
             .as_ref()
-            .and_then(|closing| closing.seam(stops, &self.contour.breaks(), self.contour.closed()));
+            .and_then(|closing| closing.seam(stops, self.contour.breaks(), self.contour.closed()));
         closing.unwrap_or((plain, 0))
     }
 
@@ -328,7 +334,7 @@ impl Sweep {
     pub(crate) fn columns_meet(&self) -> bool {
         let (breaks, closed) = (self.contour.breaks(), self.contour.closed());
         let stops = self.col_stops();
-        self.closing.is_none_or(|closing| closing.seam(&stops, &breaks, closed).is_some())
+        self.closing.is_none_or(|closing| closing.seam(&stops, breaks, closed).is_some())
     }
 
     fn columns(&self) -> Vec<Column> {
@@ -341,10 +347,11 @@ impl Sweep {
     fn snap_to_axis(&self, columns: &mut [Column]) {
         if self.trajectory.is_rotation() {
             let on_axis = ON_AXIS * self.contour.x_range().1;
-            for column in columns {
-                if column.point.x <= on_axis {
-                    column.point.x = 0.0;
-                }
+            let places = columns
+                .iter_mut()
+                .flat_map(|column| std::iter::once(&mut column.first).chain(&mut column.others));
+            for place in places.filter(|place| place.point.x <= on_axis) {
+                place.point.x = 0.0;
             }
         }
     }

@@ -76,7 +76,37 @@ fn contour() -> impl Strategy<Value = Value> {
         (0.2..0.6).prop_map(|r| json!({"circle": r})),
         (0.1..0.4).prop_map(|y| json!({"bezier": {"segments":
             [[[0.4, -0.2], [0.3, y], [-0.2, 0.5], [-0.4, y]]]}})),
+        (prop::array::uniform3((0.3..0.5, 0.3..0.5, 0.45..0.65)), any::<bool>())
+            .prop_map(|(rings, smooth)| sections(rings.map(oval), smooth)),
+        (prop::array::uniform3(0.1..0.4), any::<bool>()).prop_map(
+            |(y, smooth): ([f64; 3], bool)| {
+                sections(
+                    y.map(|y| {
+                        json!({"bezier": {"segments":
+                [[[0.4, -y], [0.3, 0.6 * y], [-0.2, 0.5], [-0.4, y]]]}})
+                    }),
+                    smooth,
+                )
+            }
+        ),
     ]
+}
+
+/// A ring of four cubics whose joints lie at quarters of its length.
+fn oval((a, b, handle): (f64, f64, f64)) -> Value {
+    let (x, y) = (a * handle, b * handle);
+    json!({"bezier": {"closed": true, "segments": [
+        [[a, 0], [a, y], [x, b], [0, b]], [[0, b], [-x, b], [-a, y], [-a, 0]],
+        [[-a, 0], [-a, -y], [-x, -b], [0, -b]], [[0, -b], [x, -b], [a, -y], [a, 0]],
+    ]}})
+}
+
+/// Three contours, the last of which is the first where a trajectory may be closed.
+fn sections([a, b, c]: [Value; 3], smooth: bool) -> Value {
+    let blend = if smooth { "smooth" } else { "linear" };
+    json!({"blend": blend, "sections": [
+        {"at": 0.2, "contour": a}, {"at": 0.5, "contour": b}, {"at": 0.8, "contour": c},
+    ]})
 }
 
 /// Trajectories, and whether they are closed.
@@ -184,6 +214,28 @@ fn normals_of_a_modulated_rotation_agree_with_differences() {
         let worst = worst_normal(&swept(&contour, &json!({"rotation": {}}), &laws), &JOINTS);
         println!("{worst:.1e}");
         assert!(worst < 1e-8, "{worst:e}");
+    }
+}
+
+#[test]
+fn normals_of_a_rotation_of_sections_agree_with_differences() {
+    let ring = |x: f64, a: f64| {
+        let points = [[a, -0.4], [1.3 * a, 0.1], [0.6, 0.4], [0.4 * a, 0.9]];
+        let points = points.map(|p| [p[0] + x, p[1]]);
+        json!({"bezier": {"segments": [points]}})
+    };
+    let contours = [ring(0.5, 1.0), ring(0.8, 0.4), ring(0.2, 0.7)];
+    for (smooth, mode) in [(true, "factor"), (false, "offset")] {
+        let laws = json!({
+            "scale": {"keys": [[0, 1], [0.5, 2], [1, 1]], "ease": "smooth"},
+            "depth": {"mode": mode, "terms": [{"amp": 0.04, "u": 3.5, "v": 5}]},
+        });
+        let contour = sections(contours.clone(), smooth);
+        for laws in [laws, json!({})] {
+            let worst = worst_normal(&swept(&contour, &json!({"rotation": {}}), &laws), &JOINTS);
+            println!("{worst:.1e}");
+            assert!(worst < 1e-8, "{worst:e}");
+        }
     }
 }
 

@@ -3,9 +3,9 @@
 use super::Reader;
 use crate::SweepError;
 use crate::cap::{Cap, Form, center_of};
-use crate::contour::Contour;
 use crate::cut::{self, Stop};
 use crate::modulation::Modulation;
+use crate::profile::Profile;
 use crate::spec::{Cap as Written, Caps};
 use crate::trajectory::Trajectory;
 use glam::DVec2;
@@ -20,7 +20,7 @@ impl Reader<'_> {
     pub(super) fn caps(
         &self,
         caps: Option<Caps>,
-        contour: &Contour,
+        contour: &Profile,
         trajectory: &Trajectory,
         modulation: &Modulation,
     ) -> Result<[Option<Cap>; 2], SweepError> {
@@ -39,7 +39,7 @@ impl Reader<'_> {
                 format!("found {found}, expected an open trajectory and a closed contour");
             return Err(self.geometry("caps", message));
         }
-        let stops = cut::evenly(&contour.breaks(), true, LOOKED_AT);
+        let stops = cut::evenly(contour.breaks(), true, LOOKED_AT);
         let columns = contour.columns(&stops);
         let cap = |key: &str, cap: Option<Written>, stop: Stop| {
             let section = modulation.section(trajectory, stop);

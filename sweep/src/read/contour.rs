@@ -2,27 +2,48 @@
 
 use super::{LARGEST, Reader};
 use crate::contour::Contour;
-use crate::curve::svg;
+use crate::curve::{Cubic, svg};
+use crate::spec::Free;
 use crate::{SweepError, spec};
 use glam::DVec2;
 
 impl Reader<'_> {
-    pub(super) fn contour(&self, contour: &spec::Contour) -> Result<Contour, SweepError> {
+    /// One contour; `path` is its place in the spec.
+    pub(super) fn contour(
+        &self,
+        path: &str,
+        contour: &spec::Contour,
+    ) -> Result<Contour, SweepError> {
         match contour {
             spec::Contour::Circle(radius) => {
-                self.positive("contour.circle", *radius)?;
+                self.positive(&format!("{path}.circle"), *radius)?;
                 Ok(Contour::circle(*radius))
             }
             spec::Contour::Bezier(bezier) => {
-                Ok(Contour::path(self.bezier("contour.bezier", bezier)?))
+                Ok(Contour::path(self.bezier(&format!("{path}.bezier"), bezier)?))
             }
-            spec::Contour::Svg(text) => self.svg(text),
-            spec::Contour::Free(free) => Ok(Contour::path(self.free("contour.free", free)?)),
+            spec::Contour::Svg(text) => self.svg(&format!("{path}.svg"), text),
+            spec::Contour::Free(free) => {
+                Ok(Contour::path(self.free(&format!("{path}.free"), free)?))
+            }
+            spec::Contour::Polyline(line) => self.polyline(&format!("{path}.polyline"), line),
+            spec::Contour::Sections(_) => Err(self.fault(
+                &format!("{path}.sections"),
+                "found sections inside a section, expected one contour",
+            )),
         }
     }
 
-    fn svg(&self, text: &str) -> Result<Contour, SweepError> {
-        let path = "contour.svg";
+    /// Straight lines from point to point.
+    fn polyline(&self, path: &str, line: &Free<[f64; 2]>) -> Result<Contour, SweepError> {
+        let points: Vec<DVec2> = self.distinct(path, line)?;
+        let ends = points.iter().zip(points.iter().cycle().skip(1));
+        let count = if line.closed { points.len() } else { points.len() - 1 };
+        let sides: Vec<_> = ends.take(count).map(|(&a, &b)| Cubic::line(a, b)).collect();
+        Ok(Contour::path(self.path(path, &sides, line.closed)?))
+    }
+
+    fn svg(&self, path: &str, text: &str) -> Result<Contour, SweepError> {
         let outline = svg::outline(text).map_err(|message| self.fault(path, message))?;
         let reckonable = |point: &DVec2| point.abs().max_element() <= LARGEST;
         if !outline.segments.iter().flat_map(|cubic| &cubic.0).all(reckonable) {
@@ -64,6 +85,16 @@ mod tests {
                 4,
             ),
             (
+                "{\"polyline\": {\"points\": [[1, 1]]}}",
+                "2:36: contour.polyline.points: found 1, expected at least 2 points for an open curve",
+                3,
+            ),
+            (
+                "{\"polyline\": {\"closed\": true, \"points\": [[0, 0], [1, 0], [1, 0], [0, 0]]}}",
+                "2:52: contour.polyline.points: found 2 that differ, expected at least 3",
+                4,
+            ),
+            (
                 "{\"svg\": \"M0 0 L1\"}",
                 "2:20: contour.svg: found the end at character 8, expected a number",
                 3,
@@ -81,7 +112,11 @@ mod tests {
             ),
             ("{\"squircle\": 1}", "contour.squircle: unknown key `squircle`", 3),
             ("{\"circle\": 1, \"svg\": \"\"}", "contour: found both `circle` and `svg`", 3),
-            ("{}", "contour: found no curve, expected one of circle, bezier, svg, free", 3),
+            (
+                "{}",
+                "contour: found no curve, expected one of circle, bezier, svg, free, polyline",
+                3,
+            ),
             ("{\"free\": {\"points\": [[0, 0, 0], [1, 0]]}}", "contour.free.points[0]", 3),
             ("{\"free\": {\"closd\": true, \"points\": []}}", "did you mean `closed`?", 3),
         ] {

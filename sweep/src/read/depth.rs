@@ -2,8 +2,8 @@
 
 use super::Reader;
 use crate::SweepError;
-use crate::contour::Contour;
 use crate::depth::{Depth, Mode, Term};
+use crate::profile::Profile;
 use crate::spec::{self, DepthMode, DepthTerm};
 use crate::trajectory::Trajectory;
 
@@ -14,7 +14,7 @@ impl Reader<'_> {
     pub(super) fn depth(
         &self,
         depth: &spec::Depth,
-        contour: &Contour,
+        contour: &Profile,
         trajectory: &Trajectory,
     ) -> Result<Depth, SweepError> {
         if depth.terms.is_empty() {
@@ -38,7 +38,7 @@ impl Reader<'_> {
             .enumerate()
             .map(|(i, term)| self.term(&format!("depth.terms[{i}]"), term, contour, trajectory))
             .collect();
-        let depth = Depth { mode, terms: terms?, pace: 1.0 / contour.length() };
+        let depth = Depth { mode, terms: terms? };
         let most = depth.most();
         if mode == Mode::Factor && most >= 1.0 {
             let message = format!(
@@ -65,7 +65,7 @@ impl Reader<'_> {
         &self,
         path: &str,
         term: &DepthTerm,
-        contour: &Contour,
+        contour: &Profile,
         trajectory: &Trajectory,
     ) -> Result<Term, SweepError> {
         self.number(&format!("{path}.amp"), term.amp)?;

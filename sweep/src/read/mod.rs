@@ -1,24 +1,25 @@
-//! From a spec to a [`Sweep`]: every value is looked at before any work is done.
+//! From a spec to an [`Object`](crate::Object): every value is looked at before any work is done.
 
 mod areas;
 mod caps;
 mod contour;
+mod curve;
 mod deform;
 mod depth;
 mod law;
 mod modulation;
+mod object;
+mod profile;
 mod seam;
 mod trajectory;
 
-use crate::curve::vector::extent;
-use crate::curve::{Cubic, Path, Vector, spline};
-use crate::spec::{Bezier, FORMAT, Free, Parts, Spec, VERSION};
-use crate::sweep::ON_AXIS;
-use crate::{Object, Sweep, SweepError};
+pub use object::read;
+
+use crate::modulation::Modulation;
+use crate::spec::Spec;
+use crate::{Sweep, SweepError};
 use files::json::Document;
 use glam::DVec3;
-use serde::Deserialize;
-use serde::de::IgnoredAny;
 use std::ops::RangeInclusive;
 
 /// Coordinates beyond this have squares of squares that a double cannot hold.
@@ -30,56 +31,6 @@ const SMALLEST: f64 = 1e-60;
 /// Repeats of a picture, whose coordinates become f32 in a mesh.
 const REPEATS: RangeInclusive<f64> = 1e-30..=1e30;
 
-/// Segments meet when their ends are this fraction of the curve apart.
-///
-/// Wider than rounding by far, so that six decimals copied from an editor do, and far narrower than
-/// what is seen.
-const MEETS: f64 = 1e-6;
-
-/// Free points closer than this fraction of the curve are one point given twice.
-const COINCIDENT: f64 = 1e-12;
-
-/// Reads and checks a spec of one sweep or of several.
-pub fn read(document: &Document<'_>) -> Result<Object, SweepError> {
-    document.expect(FORMAT, VERSION.into())?;
-    if document.parse::<Probe>().is_ok_and(|probe| probe.parts.is_some()) {
-        return read_parts(document, document.parse()?);
-    }
-    let spec: Spec = document.parse()?;
-    let reader = Reader { document, prefix: String::new() };
-    for (key, missing) in [("format", spec.format.is_none()), ("version", spec.version.is_none())] {
-        if missing {
-            return Err(reader.fault("", format!("missing key `{key}`")));
-        }
-    }
-    let name = spec.name.clone();
-    Ok(Object { name, parts: vec![reader.sweep(spec)?] })
-}
-
-/// Whether a text has parts, whatever else it has.
-#[derive(Deserialize)]
-struct Probe {
-    parts: Option<IgnoredAny>,
-}
-
-fn read_parts(document: &Document<'_>, object: Parts) -> Result<Object, SweepError> {
-    let whole = Reader { document, prefix: String::new() };
-    whole.name(&object.name)?;
-    if object.parts.is_empty() {
-        return Err(whole.fault("parts", "found no parts, expected at least one"));
-    }
-    let mut parts: Vec<Sweep> = Vec::with_capacity(object.parts.len());
-    for (i, spec) in object.parts.into_iter().enumerate() {
-        let reader = Reader { document, prefix: format!("parts[{i}].") };
-        if parts.iter().any(|part| part.name == spec.name) {
-            let message = format!("found {:?} twice, expected a name for each part", spec.name);
-            return Err(reader.fault("name", message));
-        }
-        parts.push(reader.sweep(spec)?);
-    }
-    Ok(Object { name: object.name, parts })
-}
-
 /// The checks, with the document that their complaints are placed in.
 struct Reader<'a> {
     document: &'a Document<'a>,
@@ -90,28 +41,14 @@ struct Reader<'a> {
 impl Reader<'_> {
     fn sweep(&self, spec: Spec) -> Result<Sweep, SweepError> {
         self.header(&spec)?;
-        let mut contour = self.contour(&spec.contour)?;
         let trajectory = self.trajectory(&spec.trajectory, spec.frame.as_ref())?;
-        if trajectory.is_rotation() {
-            let (low, high) = contour.x_range();
-            if low < -ON_AXIS * high.max(-low) {
-                return Err(self.geometry(
-                    "contour",
-                    format!(
-                        "found a contour that reaches x = {low:?}, expected x of at least 0, \
-                     the distance from the axis of the rotation"
-                    ),
-                ));
-            }
-            if high <= 0.0 {
-                return Err(self.geometry(
-                    "contour",
-                    "found a contour on the axis of the rotation, expected some x above 0",
-                ));
-            }
-            contour = contour.rotated(ON_AXIS * high);
-        }
-        let modulation = self.modulation(&spec, &contour, &trajectory)?;
+        let (contour, blend) = self.profile(&spec.contour, &trajectory)?;
+        let (modulation, mirror) = self.modulation(&spec, &contour, &trajectory)?;
+        let modulation = Modulation { blend, ..modulation };
+        let contour = match mirror {
+            Some(factors) => contour.mirrored(factors),
+            None => contour,
+        };
         let caps = self.caps(spec.caps, &contour, &trajectory, &modulation)?;
         let mut sweep = Sweep {
             name: spec.name,
@@ -201,96 +138,6 @@ impl Reader<'_> {
             .iter()
             .enumerate()
             .try_for_each(|(i, point)| self.point(&format!("{path}[{i}]"), point.as_ref()))
-    }
-
-    /// Segments that meet end to end; the small gaps between them are closed.
-    fn bezier<P, V>(&self, path: &str, bezier: &Bezier<P>) -> Result<Path<V>, SweepError>
-    where
-        P: AsRef<[f64]> + Copy,
-        V: Vector + From<P>,
-    {
-        let segments_path = format!("{path}.segments");
-        if bezier.segments.is_empty() {
-            return Err(self.fault(&segments_path, "found no segments, expected at least one"));
-        }
-        for (i, segment) in bezier.segments.iter().enumerate() {
-            self.points(&format!("{segments_path}[{i}]"), segment)?;
-        }
-        let mut cubics: Vec<Cubic<V>> =
-            bezier.segments.iter().map(|segment| Cubic(segment.map(V::from))).collect();
-        let widest = MEETS * extent(cubics.iter().flat_map(|cubic| cubic.0));
-        let count = cubics.len();
-        for i in 0..if bezier.closed { count } else { count - 1 } {
-            let next = (i + 1) % count;
-            let (end, start) = (cubics[i].0[3], cubics[next].0[0]);
-            if (end - start).length() > widest {
-                let (end, start) = (bezier.segments[i][3], bezier.segments[next][0]);
-                let (end, start) = (end.as_ref(), start.as_ref());
-                return Err(if next == 0 {
-                    self.fault(
-                        &format!("{segments_path}[{i}][3]"),
-                        format!("found {end:?}, expected {start:?}, where a closed curve starts"),
-                    )
-                } else {
-                    self.fault(
-                        &format!("{segments_path}[{next}][0]"),
-                        format!("found {start:?}, expected {end:?}, where the segment before ends"),
-                    )
-                });
-            }
-            cubics[i].0[3] = start;
-        }
-        self.path(path, &cubics, bezier.closed)
-    }
-
-    /// The spline through free points; points given twice count once.
-    fn free<P, V>(&self, path: &str, free: &Free<P>) -> Result<Path<V>, SweepError>
-    where
-        P: AsRef<[f64]> + Copy,
-        V: Vector + From<P>,
-    {
-        let points_path = format!("{path}.points");
-        let (fewest, kind) = if free.closed { (3, "a closed") } else { (2, "an open") };
-        if free.points.len() < fewest {
-            let found = free.points.len();
-            let message =
-                format!("found {found}, expected at least {fewest} points for {kind} curve");
-            return Err(self.fault(&points_path, message));
-        }
-        self.points(&points_path, &free.points)?;
-        let mut points: Vec<V> = free.points.iter().map(|&point| V::from(point)).collect();
-        let narrow = COINCIDENT * extent(points.iter().copied());
-        points.dedup_by(|later, earlier| (*later - *earlier).length() <= narrow);
-        if free.closed
-            && let [first, .., last] = points[..]
-            && (last - first).length() <= narrow
-        {
-            points.pop();
-        }
-        if points.len() < fewest {
-            let message = format!(
-                "found {} that differ, expected at least {fewest} points for {kind} curve",
-                points.len()
-            );
-            return Err(self.geometry(&points_path, message));
-        }
-        self.path(path, &spline::through(&points, free.closed), free.closed)
-    }
-
-    fn path<V: Vector>(
-        &self,
-        path: &str,
-        cubics: &[Cubic<V>],
-        closed: bool,
-    ) -> Result<Path<V>, SweepError> {
-        let size = extent(cubics.iter().flat_map(|cubic| cubic.0));
-        if size > 0.0 && size < SMALLEST {
-            let message = format!("found a size of {size:?}, expected at least {SMALLEST:?}");
-            return Err(self.geometry(path, message));
-        }
-        Path::new(cubics, closed).ok_or_else(|| {
-            self.geometry(path, "found points that all coincide, expected a curve of some length")
-        })
     }
 }
 

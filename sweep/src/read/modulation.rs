@@ -2,12 +2,13 @@
 
 use super::Reader;
 use crate::SweepError;
-use crate::contour::Contour;
 use crate::law::Law;
-use crate::modulation::Modulation;
+use crate::modulation::{Modulation, Signs};
+use crate::profile::Profile;
 use crate::spec::{self, Scale, SeamKind, Spec};
 use crate::sweep::ON_AXIS;
 use crate::trajectory::Trajectory;
+use glam::DVec2;
 
 /// Ends of a law that are this fraction of its size apart are the same.
 const SAME: f64 = 1e-9;
@@ -16,13 +17,32 @@ impl Reader<'_> {
     pub(super) fn modulation(
         &self,
         spec: &Spec,
-        contour: &Contour,
+        contour: &Profile,
         trajectory: &Trajectory,
-    ) -> Result<Modulation, SweepError> {
+    ) -> Result<(Modulation, Option<DVec2>), SweepError> {
         if trajectory.is_rotation() && spec.scale.is_some() {
             self.off_axis("scale", contour)?;
         }
         let scale = spec.scale.as_ref().map(|scale| self.scale(scale, trajectory)).transpose()?;
+        let mut poles = Vec::new();
+        let mut mirror = None;
+        let scale = match scale {
+            Some(laws) => {
+                let signs = Signs::of(&laws);
+                self.outside_out(&signs)?;
+                let [x, y] = laws;
+                let first = signs.first();
+                let laws = if first.x * first.y < 0.0 {
+                    mirror = Some(first);
+                    if first.x < 0.0 { [x.negated(), y] } else { [x, y.negated()] }
+                } else {
+                    [x, y]
+                };
+                poles = Signs::of(&laws).poles(trajectory.closed());
+                Some(laws)
+            }
+            None => None,
+        };
         let twist = spec
             .twist
             .as_ref()
@@ -30,11 +50,11 @@ impl Reader<'_> {
             .transpose()?;
         let depth =
             spec.depth.as_ref().map(|depth| self.depth(depth, contour, trajectory)).transpose()?;
-        Ok(Modulation { scale, twist, depth, turn: 0.0 })
+        Ok((Modulation { blend: None, scale, poles, twist, depth, turn: 0.0 }, mirror))
     }
 
     /// Refuses what would move the pole that a contour makes on the axis of a rotation.
-    pub(super) fn off_axis(&self, path: &str, contour: &Contour) -> Result<(), SweepError> {
+    pub(super) fn off_axis(&self, path: &str, contour: &Profile) -> Result<(), SweepError> {
         let (low, high) = contour.x_range();
         if low > ON_AXIS * high {
             return Ok(());
@@ -42,6 +62,18 @@ impl Reader<'_> {
         let message = "found a contour that touches the axis of the rotation, expected one that \
                        keeps off it, since all rows share the pole there";
         Err(self.geometry(path, message))
+    }
+
+    /// Refuses a scale that mirrors the contour in one part of the trajectory and not in another.
+    fn outside_out(&self, signs: &Signs) -> Result<(), SweepError> {
+        let Some(at) = signs.inside_out() else {
+            return Ok(());
+        };
+        let message = format!(
+            "found factors of x and y of which only one passes 0 at {at:?}, which would mirror the \
+             contour there and turn the surface inside out, expected both to pass 0 or none"
+        );
+        Err(self.geometry("scale", message))
     }
 
     fn scale(&self, scale: &Scale, trajectory: &Trajectory) -> Result<[Law; 2], SweepError> {
@@ -65,17 +97,23 @@ impl Reader<'_> {
     ) -> Result<Law, SweepError> {
         let law = self.law(path, law)?;
         let (low, high) = law.range();
-        if low < 0.0 {
-            let message = format!("found a scale that falls to {low:?}, expected at least 0");
-            return Err(self.fault(path, message));
+        if low == 0.0 && high == 0.0 {
+            return Err(self.fault(path, "found a scale of 0 everywhere, expected some other"));
         }
-        if high == 0.0 {
-            return Err(self.fault(path, "found a scale of 0 everywhere, expected some above 0"));
-        }
-        if trajectory.is_rotation() && low == 0.0 {
-            let message = "found a scale that falls to 0.0, expected one above 0 about the axis of a \
-                           rotation";
-            return Err(self.geometry(path, message));
+        if trajectory.is_rotation() {
+            let x = path != "scale[1]";
+            if x && low <= 0.0 {
+                let message = format!(
+                    "found a scale that falls to {low:?}, expected one above 0 about the axis of a \
+                     rotation"
+                );
+                return Err(self.geometry(path, message));
+            }
+            if low <= 0.0 && high >= 0.0 {
+                let message = "found a scale that reaches 0, expected one of one sign about the axis \
+                               of a rotation";
+                return Err(self.geometry(path, message));
+            }
         }
         self.ends_meet(path, &law, trajectory)?;
         Ok(law)
@@ -137,7 +175,11 @@ mod tests {
     #[test]
     fn laws_have_their_complaints() {
         for (keys, message, exit) in [
-            ("\"scale\": -1", "4:10: scale: found a scale that falls to -1.0", 3),
+            (
+                "\"scale\": [1, {\"keys\": [[0, 1], [0.5, -1], [1, 1]]}]",
+                "4:10: scale: found factors of x and y of which only one passes 0 at 0.25",
+                4,
+            ),
             ("\"scale\": 0", "4:10: scale: found a scale of 0 everywhere", 3),
             ("\"scale\": 1e61", "4:10: scale: found 1e61, expected a number of at most", 3),
             ("\"scale\": \"big\"", "4:10: scale: ", 3),
@@ -193,6 +235,11 @@ mod tests {
     fn a_rotation_is_not_twisted_and_its_scale_wants_a_contour_off_the_axis() {
         for (keys, contour, message) in [
             ("\"twist\": 3", "M1 0V-1", "twist: found a twist of a rotation"),
+            (
+                "\"scale\": -1",
+                "M1 0V-1",
+                "scale: found a scale that falls to -1.0, expected one above 0",
+            ),
             ("\"scale\": 2", "M0 0H1V-1", "scale: found a contour that touches the axis"),
             (
                 "\"scale\": {\"keys\": [[0, 1], [0.5, 0], [1, 1]]}",

@@ -1,7 +1,7 @@
-//! How the contour changes on its way: given a relief, scaled along its axes, then turned about the
-//! trajectory.
+//! How the contour changes on its way: blended into another, given a relief, scaled along its axes,
+//! then turned about the trajectory.
 //!
-//! With `q(u, s)` the contour's point after relief and scale, on a frame that turns by `phi(s)` more than it
+//! With `q(u, s)` the contour's point after all that but the turn, on a frame that turns by `phi(s)` more than it
 //! must, and the trajectory's curvature `k` on that frame's `(w1, w2)`,
 //!
 //! ```text
@@ -16,12 +16,18 @@
 //! normal is the limit along the column: that of a cone, or `-T` or `T` on a cap whose scale ends
 //! vertically.
 
+mod pole;
+
+pub use pole::Pole;
+pub(crate) use pole::Signs;
+
 use crate::cap::Gathered;
-use crate::contour::Column;
-use crate::cut::Stop;
+use crate::cut::{Side, Stop};
 use crate::depth::{Depth, Raised, Relief};
 use crate::frame::Frame;
 use crate::law::Law;
+use crate::profile::blend::{Mix, Moving};
+use crate::profile::{Blend, Column};
 use crate::trajectory::{Station, Trajectory};
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
@@ -29,8 +35,12 @@ use std::f64::consts::TAU;
 /// The laws by which a contour changes; none of them leaves it as it is.
 #[derive(Debug, Clone, Default)]
 pub struct Modulation {
-    /// Factors of the contour's x and y, not negative.
+    /// The places of the contours, where there are several.
+    pub(crate) blend: Option<Blend>,
+    /// Factors of the contour's x and y, of the same sign everywhere.
     pub(crate) scale: Option<[Law; 2]>,
+    /// Where both are 0.
+    pub(crate) poles: Vec<Pole>,
     /// Turn about the trajectory, in degrees as in the file.
     pub(crate) twist: Option<Law>,
     /// Relief on the contour, under the scale.
@@ -43,9 +53,12 @@ pub struct Modulation {
 #[derive(Debug, Clone)]
 pub struct Section {
     station: Station,
+    mix: Option<Mix>,
     scale: DVec2,
     /// Derivative of the scale by length of the trajectory; by radian for a rotation.
     scale_s: DVec2,
+    /// The signs of the scale; where it is 0 those that it has just beside.
+    signs: DVec2,
     relief: Option<Relief>,
     /// Length of the trajectory, by which derivatives by `v` become those by length.
     extent: f64,
@@ -67,13 +80,26 @@ struct Local {
 }
 
 impl Modulation {
+    /// Places inside the trajectory where a row is needed from both sides: the poles; at 0 too,
+    /// when it is closed.
+    pub(crate) fn breaks(&self, closed: bool) -> impl Iterator<Item = f64> {
+        let inside = move |at: &f64| *at < 1.0 && (closed || *at > 0.0);
+        self.poles.iter().map(|pole| pole.at).filter(inside)
+    }
+
     /// The section at a stop of the trajectory.
     #[must_use]
     pub fn section(&self, trajectory: &Trajectory, stop: Stop) -> Section {
-        let (station, v) = (trajectory.station_at(stop), stop.at);
+        let station = trajectory.station_at(stop);
+        // What leads up to the start of a closed trajectory is its end.
+        let stop = match stop {
+            Stop { at: 0.0, side: Side::Before } => Stop::before(1.0),
+            _ => stop,
+        };
+        let v = stop.at;
         let extent = trajectory.extent();
         let pace = 1.0 / extent;
-        let (degrees, slope) = self.twist.as_ref().map_or((0.0, 0.0), |law| law.at(v));
+        let (degrees, slope) = self.twist.as_ref().map_or((0.0, 0.0), |law| law.on(stop));
         let (turns, rate) = (degrees / 360.0 + self.turn * v, slope / 360.0 + self.turn);
         let station = if turns == 0.0 && rate == 0.0 {
             station
@@ -82,14 +108,19 @@ impl Modulation {
         };
         let (scale, scale_s) = match &self.scale {
             Some([x, y]) => {
-                let ((a, a_v), (b, b_v)) = (x.at(v), y.at(v));
+                let ((a, a_v), (b, b_v)) = (x.on(stop), y.on(stop));
                 (DVec2::new(a, b), DVec2::new(a_v, b_v) * pace)
             }
             None => (DVec2::ONE, DVec2::ZERO),
         };
+        let (scale, signs) = match self.poles.iter().find(|pole| pole.at == v) {
+            Some(pole) => (DVec2::ZERO, pole.signs(stop)),
+            None => (scale, DVec2::ONE),
+        };
         let relief = self.depth.as_ref().map(|depth| depth.at(v));
-        let plain = self.scale.is_none() && relief.is_none();
-        Section { station, scale, scale_s, relief, extent, gathered: None, plain }
+        let mix = self.blend.as_ref().map(|blend| blend.at(v));
+        let plain = self.scale.is_none() && relief.is_none() && mix.is_none();
+        Section { station, mix, scale, scale_s, signs, relief, extent, gathered: None, plain }
     }
 }
 
@@ -126,7 +157,7 @@ impl Section {
     #[must_use]
     pub fn normal(&self, column: &Column) -> DVec3 {
         if self.plain {
-            return self.station.normal(column.point, column.tangent);
+            return self.station.normal(column.first.point, column.first.tangent);
         }
         let Local { q, q_u, q_s, .. } = self.local(column);
         self.station.normal_of_moving(q, q_u, q_s)
@@ -140,18 +171,24 @@ impl Section {
     }
 
     fn local(&self, column: &Column) -> Local {
+        let moving = match &self.mix {
+            Some(mix) => mix.of(column),
+            None => Moving::still(column.first),
+        };
         let Raised { point, along, across, folds } = match &self.relief {
-            Some(relief) => relief.on(column),
+            Some(relief) => relief.on(column.u, &moving),
             None => Raised {
-                point: column.point,
-                along: column.tangent,
-                across: DVec2::ZERO,
+                point: moving.place.point,
+                along: moving.place.tangent,
+                across: moving.across,
                 folds: false,
             },
         };
         // The proportion of the axes; where both are 0 it is that in which they leave it.
-        let axes = if self.scale == DVec2::ZERO { self.scale_s.abs() } else { self.scale };
-        let axes = if axes == DVec2::ZERO { DVec2::ONE } else { axes / axes.max_element() };
+        let leaving = self.signs * self.scale_s.abs();
+        let axes = if self.scale == DVec2::ZERO { leaving } else { self.scale };
+        let size = axes.abs().max_element();
+        let axes = if size == 0.0 { self.signs } else { axes / size };
         let q_s = self.scale_s * point + self.scale * (across / self.extent);
         let local = Local { q: self.scale * point, q_u: axes * along, q_s, folds };
         match self.gathered {

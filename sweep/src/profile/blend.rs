@@ -1,0 +1,137 @@
+//! Between which contours a place of the trajectory lies, and what the profile is there.
+//!
+//! With the contours `A` and `B` before and after a place and the part `w(v)` of the way between
+//! them, the profile and its derivatives are
+//!
+//! ```text
+//!     q = A + w (B - A),   q_u = A_u + w (B_u - A_u),   q_uu likewise,   q_v = w' (B - A)
+//! ```
+//!
+//! Before the first and after the last contour there is no change. Along a closed trajectory the
+//! last one goes over into the first.
+
+use super::Column;
+use crate::contour::Local2;
+use glam::DVec2;
+
+/// Where the contours of a profile lie on the trajectory.
+#[derive(Debug, Clone)]
+pub struct Blend {
+    /// Fractions of the trajectory's length, strictly rising, one to each contour.
+    pub(crate) at: Vec<f64>,
+    /// Whether it comes to rest at each contour; otherwise it goes evenly.
+    pub(crate) smooth: bool,
+    /// Whether the last goes over into the first.
+    pub(crate) wraps: bool,
+}
+
+/// A place between two contours.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Mix {
+    from: usize,
+    to: usize,
+    /// The part of the way, and its derivative by `v`.
+    part: f64,
+    part_v: f64,
+}
+
+/// A contour at one place, as it changes along the trajectory.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Moving {
+    pub place: Local2,
+    /// Derivative of the point by `v`.
+    pub across: DVec2,
+    /// Derivative of the tangent's angle by `v`.
+    pub turning: f64,
+}
+
+impl Blend {
+    /// What lies at `v`.
+    pub(crate) fn at(&self, v: f64) -> Mix {
+        let last = self.at.len() - 1;
+        let held = |index| Mix { from: index, to: index, part: 0.0, part_v: 0.0 };
+        let next = self.at.partition_point(|&at| at <= v);
+        let (from, to, start, end) = match next {
+            0 if self.wraps => (last, 0, self.at[last] - 1.0, self.at[0]),
+            0 => return held(0),
+            _ if next <= last => (next - 1, next, self.at[next - 1], self.at[next]),
+            _ if self.wraps => (last, 0, self.at[last], self.at[0] + 1.0),
+            // At the end of the trajectory the side before is meant, as in laws.
+            _ if v >= 1.0 && self.at[last] == 1.0 && last > 0 => {
+                (last - 1, last, self.at[last - 1], 1.0)
+            }
+            _ => return held(last),
+        };
+        let x = (v - start) / (end - start);
+        let (part, slope) =
+            if self.smooth { (x * x * (3.0 - 2.0 * x), 6.0 * x * (1.0 - x)) } else { (x, 1.0) };
+        Mix { from, to, part, part_v: slope / (end - start) }
+    }
+}
+
+impl Mix {
+    /// The profile at a column.
+    pub(crate) fn of(&self, column: &Column) -> Moving {
+        let (a, b) = (column.on(self.from), column.on(self.to));
+        let between = |a: DVec2, b: DVec2| a + (b - a) * self.part;
+        // Derivatives by u.
+        let [a_u, b_u] = [a, b].map(|place| place.tangent / place.pace);
+        let bend =
+            |place: &Local2, velocity: DVec2| velocity.perp() * (place.curvature / place.pace);
+        let q_u = between(a_u, b_u);
+        let speed = q_u.length();
+        // Contours that run against each other have a place without a direction.
+        let pace = if speed > 0.0 { 1.0 / speed } else { 0.0 };
+        let tangent = q_u * pace;
+        let curvature = tangent.perp_dot(between(bend(a, a_u), bend(b, b_u))) * (pace * pace);
+        Moving {
+            place: Local2 { point: between(a.point, b.point), tangent, curvature, pace },
+            across: (b.point - a.point) * self.part_v,
+            turning: tangent.perp_dot(b_u - a_u) * (self.part_v * pace),
+        }
+    }
+}
+
+impl Moving {
+    /// A contour that does not change.
+    pub(crate) fn still(place: Local2) -> Self {
+        Self { place, across: DVec2::ZERO, turning: 0.0 }
+    }
+}
+
+impl Column {
+    /// The place on one of the contours.
+    fn on(&self, contour: usize) -> &Local2 {
+        if contour == 0 { &self.first } else { &self.others[contour - 1] }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn mix(blend: &Blend, v: f64) -> (usize, usize, f64) {
+        let mix = blend.at(v);
+        (mix.from, mix.to, mix.part)
+    }
+
+    #[test]
+    fn contours_are_held_outside_and_wrap_along_a_closed_trajectory() {
+        let at = vec![0.25, 0.5, 0.75];
+        let open = Blend { at: at.clone(), smooth: false, wraps: false };
+        assert_eq!([0.1, 0.25].map(|v| mix(&open, v)), [(0, 0, 0.0), (0, 1, 0.0)]);
+        assert_eq!([0.375, 0.9].map(|v| mix(&open, v)), [(0, 1, 0.5), (2, 2, 0.0)]);
+        let closed = Blend { at, smooth: false, wraps: true };
+        assert_eq!([0.0, 0.125].map(|v| mix(&closed, v)), [(2, 0, 0.5), (2, 0, 0.75)]);
+        assert_eq!([0.875, 1.0].map(|v| mix(&closed, v)), [(2, 0, 0.25), (2, 0, 0.5)]);
+    }
+
+    #[test]
+    fn the_end_is_met_from_before() {
+        let blend = Blend { at: vec![0.0, 1.0], smooth: false, wraps: false };
+        let end = blend.at(1.0);
+        assert_eq!((end.from, end.to, end.part, end.part_v), (0, 1, 1.0, 1.0));
+        let smooth = Blend { smooth: true, ..blend };
+        assert_eq!((smooth.at(1.0).part_v, smooth.at(0.5).part), (0.0, 0.5));
+    }
+}

@@ -1,0 +1,287 @@
+//! What is swept: one contour, or several with places on the trajectory and blends between them.
+//!
+//! Points of several contours belong together by length: the point of a blend at `u` lies between
+//! those at `u` of both contours, however many points each was drawn with. Closed contours are given
+//! starts that match first (see [`align`]). A crease of any contour is a break of all of them; the
+//! others have the same normal on both sides there.
+//!
+//! | module    | what                                                |
+//! |-----------|-----------------------------------------------------|
+//! | [`align`] | which point of a closed contour is its start        |
+//! | [`blend`] | between which contours a place lies, and the blend  |
+
+pub mod align;
+pub mod blend;
+
+pub use blend::Blend;
+
+use crate::contour::{Contour, Local2};
+use crate::cut::{self, Side, Stop};
+use glam::DVec2;
+
+/// Breaks of two contours that are this fraction of the length apart are one.
+const SAME: f64 = 1e-9;
+
+/// A contour, or several contours that are all closed or all open.
+#[derive(Debug, Clone)]
+pub struct Profile {
+    contours: Vec<Aligned>,
+    /// Where there are creases, rising.
+    breaks: Vec<f64>,
+    /// Factors of both axes, 1 and -1, by which it is mirrored; it runs the other way round then.
+    mirror: Option<DVec2>,
+}
+
+/// A contour with the start that it has among others.
+#[derive(Debug, Clone)]
+struct Aligned {
+    contour: Contour,
+    /// Where it starts, as a fraction of its own length; 0 for an open one.
+    start: f64,
+    /// Its creases: where they lie on the profile, rising, and where on the contour.
+    creases: Vec<[f64; 2]>,
+}
+
+/// A place along a profile: that of the same `u` on each of its contours.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Column {
+    /// Length from the start, as a fraction of the whole.
+    pub u: f64,
+    /// The place on the first contour.
+    pub first: Local2,
+    /// The places on the contours after it, of which there are most often none.
+    pub others: Box<[Local2]>,
+}
+
+impl Profile {
+    /// One contour.
+    pub(crate) fn single(contour: Contour) -> Self {
+        Self::of(vec![(contour, 0.0)])
+    }
+
+    /// Several contours, at least one; closed ones get starts that match when they are to be
+    /// aligned.
+    pub(crate) fn blended(contours: Vec<Contour>, aligned: bool) -> Self {
+        let mut placed: Vec<(Contour, f64)> = Vec::with_capacity(contours.len());
+        for contour in contours {
+            let start = match placed.last() {
+                Some((before, from)) if aligned && contour.closed() => {
+                    align::start(before, *from, &contour)
+                }
+                _ => 0.0,
+            };
+            placed.push((contour, start));
+        }
+        Self::of(placed)
+    }
+
+    fn of(placed: Vec<(Contour, f64)>) -> Self {
+        let mut contours: Vec<Aligned> = placed
+            .into_iter()
+            .map(|(contour, start)| {
+                let place = |own: f64| {
+                    let u = if own < start { own - start + 1.0 } else { own - start };
+                    let at_start = start > 0.0 && !(SAME..=1.0 - SAME).contains(&u);
+                    [if at_start { 0.0 } else { u }, own]
+                };
+                let mut creases: Vec<_> = contour.breaks().into_iter().map(place).collect();
+                creases.sort_by(|a, b| a[0].total_cmp(&b[0]));
+                Aligned { contour, start, creases }
+            })
+            .collect();
+        let mut breaks: Vec<f64> =
+            contours.iter().flat_map(|one| one.creases.iter().map(|crease| crease[0])).collect();
+        breaks.sort_by(f64::total_cmp);
+        if contours.len() > 1 {
+            breaks.dedup_by(|later, earlier| *later - *earlier <= SAME);
+        }
+        for crease in contours.iter_mut().flat_map(|one| &mut one.creases) {
+            let next = breaks.partition_point(|at| *at <= crease[0]);
+            crease[0] = breaks[next.max(1) - 1];
+        }
+        Self { contours, breaks, mirror: None }
+    }
+
+    /// The profile mirrored by factors of 1 and -1, one each.
+    ///
+    /// It runs the other way round, from the same start when it is closed: its outside stays to the
+    /// right of its direction.
+    pub(crate) fn mirrored(self, factors: DVec2) -> Self {
+        Self { mirror: Some(factors), ..self }.reversed()
+    }
+
+    fn reversed(mut self) -> Self {
+        let closed = self.closed();
+        let other = |at: f64| if closed && at == 0.0 { 0.0 } else { 1.0 - at };
+        let turn = |places: &mut Vec<f64>| {
+            for at in places.iter_mut() {
+                *at = other(*at);
+            }
+            places.sort_by(f64::total_cmp);
+        };
+        turn(&mut self.breaks);
+        for one in &mut self.contours {
+            for crease in &mut one.creases {
+                crease[0] = other(crease[0]);
+            }
+            one.creases.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        }
+        self
+    }
+
+    /// The one contour, when there is no other.
+    #[must_use]
+    pub fn as_contour(&self) -> Option<&Contour> {
+        match &self.contours[..] {
+            [only] => Some(&only.contour),
+            _ => None,
+        }
+    }
+
+    /// The number of contours.
+    #[must_use]
+    pub fn contours(&self) -> usize {
+        self.contours.len()
+    }
+
+    /// Whether the contours lead back to their starts.
+    #[must_use]
+    pub fn closed(&self) -> bool {
+        self.contours.iter().all(|one| one.contour.closed())
+    }
+
+    /// The length of the longest contour.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        self.contours.iter().map(|one| one.contour.length()).fold(0.0, f64::max)
+    }
+
+    /// The number of creases: those of all contours, each place once.
+    #[must_use]
+    pub fn creases(&self) -> usize {
+        self.breaks.len()
+    }
+
+    /// Where the creases lie, as fractions of the length.
+    #[must_use]
+    pub fn breaks(&self) -> &[f64] {
+        &self.breaks
+    }
+
+    /// The fewest cells along the profile: one to each smooth piece, and three around.
+    #[must_use]
+    pub fn fewest_cells(&self) -> usize {
+        let around = if self.closed() { 3 } else { 1 };
+        cut::pieces(&self.breaks).max(around)
+    }
+
+    /// The smallest and the largest `x` of all contours.
+    pub(crate) fn x_range(&self) -> (f64, f64) {
+        let mirrored = self.mirror.is_some_and(|factors| factors.x < 0.0);
+        let turned = |(low, high): (f64, f64)| if mirrored { (-high, -low) } else { (low, high) };
+        let ranges = self.contours.iter().map(|one| turned(one.contour.x_range()));
+        ranges.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (a, b)| {
+            (low.min(a), high.max(b))
+        })
+    }
+
+    /// The columns at `stops`, for rows anywhere on the trajectory.
+    #[must_use]
+    pub fn columns(&self, stops: &[Stop]) -> Vec<Column> {
+        stops.iter().map(|&stop| self.column(stop)).collect()
+    }
+
+    /// The column at `u`, a fraction of the length; at a crease that of the side after.
+    #[must_use]
+    pub fn at(&self, u: f64) -> Column {
+        self.column(Stop::after(u))
+    }
+
+    fn column(&self, stop: Stop) -> Column {
+        let (first, others) = self.contours.split_first().expect("a profile has a contour");
+        Column {
+            u: stop.at,
+            first: first.at(stop, self.mirror),
+            others: others.iter().map(|one| one.at(stop, self.mirror)).collect(),
+        }
+    }
+}
+
+impl Aligned {
+    fn at(&self, stop: Stop, mirror: Option<DVec2>) -> Local2 {
+        let crease = self.creases.binary_search_by(|crease| crease[0].total_cmp(&stop.at));
+        let crease = crease.ok().map(|index| self.creases[index][1]);
+        let Some(factors) = mirror else {
+            let own = crease.unwrap_or_else(|| align::own(self.start, stop.at));
+            return self.contour.at(Stop { at: own, ..stop });
+        };
+        let forward = if self.contour.closed() && stop.at == 0.0 { 0.0 } else { 1.0 - stop.at };
+        let own = crease.unwrap_or_else(|| align::own(self.start, forward));
+        let side = match stop.side {
+            Side::Before => Side::After,
+            Side::After => Side::Before,
+        };
+        let place = self.contour.at(Stop { at: own, side });
+        // A mirror turns the curve the other way, and so does the other direction.
+        Local2 { point: place.point * factors, tangent: -place.tangent * factors, ..place }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::curve::{Cubic, Path, spline};
+
+    fn polygon(points: &[[f64; 2]]) -> Contour {
+        let points: Vec<DVec2> = points.iter().copied().map(DVec2::from_array).collect();
+        let next = points.iter().cycle().skip(1);
+        let sides: Vec<_> = points.iter().zip(next).map(|(&a, &b)| Cubic::line(a, b)).collect();
+        Contour::path(Path::new(&sides, true).unwrap())
+    }
+
+    #[test]
+    fn creases_of_each_contour_are_breaks_of_all() {
+        let square = polygon(&[[1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.0, 0.0]]);
+        let triangle = polygon(&[[1.0, 0.0], [1.0, 3.0], [-3.0, 0.0]]);
+        let profile = Profile::blended(vec![square, triangle, Contour::circle(1.0)], false);
+        assert_eq!(profile.breaks(), [0.0, 0.25, 0.5, 2.0 / 3.0, 0.75]);
+        assert_eq!((profile.fewest_cells(), profile.creases()), (5, 5));
+        let stops = cut::evenly(profile.breaks(), true, 5);
+        let columns = profile.columns(&stops);
+        // At the triangle's own corner only the triangle turns.
+        let [before, after] = [&columns[6], &columns[7]];
+        assert_eq!((before.u, after.u), (2.0 / 3.0, 2.0 / 3.0));
+        assert_eq!(before.first, after.first);
+        assert_ne!(before.others[0].tangent, after.others[0].tangent);
+        assert_eq!(before.others[0].point, after.others[0].point);
+        assert_eq!(before.others[1], after.others[1]);
+    }
+
+    #[test]
+    fn a_shifted_start_moves_the_creases_with_it() {
+        let square = |first: usize| {
+            let mut corners = [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]];
+            corners.rotate_left(first);
+            polygon(&corners)
+        };
+        let profile = Profile::blended(vec![square(0), square(3)], true);
+        assert_eq!(profile.creases(), 4);
+        for stop in cut::evenly(profile.breaks(), true, 12) {
+            let column = profile.column(stop);
+            assert!((column.first.point - column.others[0].point).length() < 1e-15);
+            assert!((column.first.tangent - column.others[0].tangent).length() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn the_only_contour_keeps_its_places() {
+        let points = [[1.0, 0.0], [0.3, 1.0], [-1.0, 0.4], [0.0, -1.0]].map(DVec2::from_array);
+        let contour = Contour::path(Path::new(&spline::through(&points, true), true).unwrap());
+        let profile = Profile::single(contour.clone());
+        for u in [0.0, 0.1, 0.77, 1.0] {
+            let column = profile.at(u);
+            assert_eq!((column.u, column.first), (u, contour.at(Stop::after(u))));
+            assert!(column.others.is_empty());
+        }
+    }
+}

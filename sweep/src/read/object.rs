@@ -1,0 +1,96 @@
+//! A whole spec: of one sweep, or of several.
+
+use super::Reader;
+use crate::spec::{FORMAT, Parts, Spec, VERSION};
+use crate::{Object, Sweep, SweepError};
+use files::json::Document;
+use serde::Deserialize;
+use serde::de::IgnoredAny;
+
+/// Reads and checks a spec of one sweep or of several.
+pub fn read(document: &Document<'_>) -> Result<Object, SweepError> {
+    document.expect(FORMAT, VERSION.into())?;
+    if document.parse::<Probe>().is_ok_and(|probe| probe.parts.is_some()) {
+        return read_parts(document, document.parse()?);
+    }
+    let spec: Spec = document.parse()?;
+    let reader = Reader { document, prefix: String::new() };
+    for (key, missing) in [("format", spec.format.is_none()), ("version", spec.version.is_none())] {
+        if missing {
+            return Err(reader.fault("", format!("missing key `{key}`")));
+        }
+    }
+    let name = spec.name.clone();
+    Ok(Object { name, parts: vec![reader.sweep(spec)?] })
+}
+
+/// Whether a text has parts, whatever else it has.
+#[derive(Deserialize)]
+struct Probe {
+    parts: Option<IgnoredAny>,
+}
+
+fn read_parts(document: &Document<'_>, object: Parts) -> Result<Object, SweepError> {
+    let whole = Reader { document, prefix: String::new() };
+    whole.name(&object.name)?;
+    if object.parts.is_empty() {
+        return Err(whole.fault("parts", "found no parts, expected at least one"));
+    }
+    let mut parts: Vec<Sweep> = Vec::with_capacity(object.parts.len());
+    for (i, spec) in object.parts.into_iter().enumerate() {
+        let reader = Reader { document, prefix: format!("parts[{i}].") };
+        if parts.iter().any(|part| part.name == spec.name) {
+            let message = format!("found {:?} twice, expected a name for each part", spec.name);
+            return Err(reader.fault("name", message));
+        }
+        parts.push(reader.sweep(spec)?);
+    }
+    Ok(Object { name: object.name, parts })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use files::{Exit, Failure};
+
+    fn complaint(text: &str) -> (String, Exit) {
+        let error = read(&Document::new("a.json", text.as_bytes()).unwrap()).unwrap_err();
+        (error.to_string(), error.exit())
+    }
+
+    #[test]
+    fn what_is_wrong_in_a_part_has_its_whole_path() {
+        let object = |name: &str, contour: &str| {
+            format!(
+                r#"{{"format": "tb-sweep", "version": 1, "name": "mug", "parts": [
+{{"name": "a", "contour": {{"circle": 1}}, "trajectory": {{"line": [[0,0,0],[0,0,1]]}}, "mesh": {{"rows": 1, "cols": 3}}}},
+{{"name": "{name}", "contour": {contour}, "trajectory": {{"line": [[0,0,0],[0,0,1]]}}, "mesh": {{"rows": 1, "cols": 3}}}}]}}"#
+            )
+        };
+        let (message, exit) = complaint(&object("b", "{\"circle\": -1}"));
+        assert!(
+            message.starts_with("a.json:3:37: parts[1].contour.circle: found -1.0"),
+            "{message}"
+        );
+        assert_eq!(exit, Exit::Malformed);
+        let (message, _) = complaint(&object("b", "{\"circl\": 1}"));
+        assert!(
+            message.contains("parts[1].contour") && message.contains("did you mean"),
+            "{message}"
+        );
+        let (message, _) = complaint(&object("a", "{\"circle\": 1}"));
+        assert!(message.contains("parts[1].name: found \"a\" twice"), "{message}");
+    }
+
+    #[test]
+    fn an_object_has_parts_and_a_sweep_its_format() {
+        let (message, _) =
+            complaint(r#"{"format": "tb-sweep", "version": 1, "name": "a", "parts": []}"#);
+        assert!(message.contains("parts: found no parts"), "{message}");
+        let (message, _) = complaint(
+            r#"{"version": 1, "name": "a", "contour": {"circle": 1},
+                "trajectory": {"line": [[0,0,0],[0,0,1]]}, "mesh": {"rows": 1, "cols": 3}}"#,
+        );
+        assert!(message.contains("missing key `format`"), "{message}");
+    }
+}

@@ -1,0 +1,167 @@
+//! Contours as they are written: the curves that are swept.
+//!
+//! A **polyline** goes straight from point to point; where it turns by more than a degree it has a
+//! corner, and the surface a crease. Two points are a line; a closed one takes three. Points given
+//! twice count once:
+//!
+//! ```json
+//! {
+//!   "format": "tb-sweep", "version": 1, "name": "gutter",
+//!   "contour": { "polyline": { "points": [[1, 1], [0.8, 0], [-0.8, 0], [-1, 1]] } },
+//!   "trajectory": { "line": [[0, 0, 0], [0, 0, 4]] },
+//!   "mesh": { "rows": 8, "cols": 12 }
+//! }
+//! ```
+//!
+//! # Several contours
+//!
+//! **Sections** are contours with places `at` on the trajectory, as parts of its length; each goes over
+//! into the next, and before the first and after the last the shape is held. All are closed or all are
+//! open. `blend` is `linear` (the default), with an edge in the surface at each section, or `smooth`:
+//!
+//! ```json
+//! {
+//!   "format": "tb-sweep", "version": 1, "name": "funnel",
+//!   "contour": {
+//!     "sections": [
+//!       { "at": 0, "contour": { "circle": 0.5 } },
+//!       { "at": 0.7, "contour": { "polyline": { "closed": true, "points": [[1, 1], [-1, 1], [-1, -1], [1, -1]] } } }
+//!     ],
+//!     "blend": "smooth"
+//!   },
+//!   "trajectory": { "line": [[0, 0, 0], [0, 3, 0]] },
+//!   "mesh": { "rows": 40, "cols": 64 }
+//! }
+//! ```
+//!
+//! Points at the same part of the length belong together, however many points a contour was drawn
+//! with. The start of each closed contour is moved to where it matches the contour before it best (the
+//! sum of squared distances about the centroids is least; a corner goes to a corner if that is nearly as
+//! good); `"align": false` keeps the starts as drawn. A corner of one section is a crease along the whole
+//! surface. Along a closed trajectory the last section goes over into the first; one at 1 beside one
+//! at 0 has to be the same contour. About the axis of a rotation sections keep off the axis.
+
+use super::{Bezier, Ease, Free, only};
+use serde::{Deserialize, Serialize};
+
+/// A curve in the plane.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "ContourKeys", into = "ContourKeys")]
+pub enum Contour {
+    /// A circle about the origin, by its radius.
+    Circle(f64),
+    /// Cubic Bezier segments.
+    Bezier(Bezier<[f64; 2]>),
+    /// The `d` attribute of an SVG path.
+    Svg(String),
+    /// Points that a spline goes through.
+    Free(Free<[f64; 2]>),
+    /// Points with straight lines between them.
+    Polyline(Free<[f64; 2]>),
+    /// Contours that go over into each other.
+    Sections(Sections),
+}
+
+/// Contours with places on the trajectory.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sections {
+    /// At least two, `at` strictly rising.
+    pub sections: Vec<Section>,
+    /// The way from one to the next.
+    pub blend: Ease,
+    /// Whether the starts of closed contours are moved to match.
+    pub align: bool,
+}
+
+/// A contour and its place.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object with the keys at and contour")]
+pub struct Section {
+    /// A part of the trajectory's length, from 0 to 1.
+    pub at: f64,
+    /// What is swept there; no sections.
+    pub contour: Contour,
+}
+
+/// The keys of a contour as they are read, so that none and two of them get a sentence.
+#[derive(Default, Serialize, Deserialize)]
+#[serde(
+    deny_unknown_fields,
+    expecting = "an object with one of the keys circle, bezier, svg, free, polyline, sections"
+)]
+struct ContourKeys {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    circle: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    bezier: Option<Bezier<[f64; 2]>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    svg: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    free: Option<Free<[f64; 2]>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    polyline: Option<Free<[f64; 2]>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sections: Option<Vec<Section>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    blend: Option<Ease>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    align: Option<bool>,
+}
+
+impl TryFrom<ContourKeys> for Contour {
+    type Error = String;
+
+    fn try_from(keys: ContourKeys) -> Result<Self, String> {
+        for (key, given) in [("blend", keys.blend.is_some()), ("align", keys.align.is_some())] {
+            if given && keys.sections.is_none() {
+                return Err(format!("found `{key}` without `sections`, which it belongs to"));
+            }
+        }
+        let (blend, align) = (keys.blend.unwrap_or_default(), keys.align.unwrap_or(true));
+        let sections = |sections| Self::Sections(Sections { sections, blend, align });
+        only(
+            "curve",
+            [
+                ("circle", keys.circle.map(Self::Circle)),
+                ("bezier", keys.bezier.map(Self::Bezier)),
+                ("svg", keys.svg.map(Self::Svg)),
+                ("free", keys.free.map(Self::Free)),
+                ("polyline", keys.polyline.map(Self::Polyline)),
+                ("sections", keys.sections.map(sections)),
+            ],
+        )
+    }
+}
+
+impl From<Contour> for ContourKeys {
+    fn from(contour: Contour) -> Self {
+        let none = Self::default();
+        match contour {
+            Contour::Circle(radius) => Self { circle: Some(radius), ..none },
+            Contour::Bezier(bezier) => Self { bezier: Some(bezier), ..none },
+            Contour::Svg(text) => Self { svg: Some(text), ..none },
+            Contour::Free(free) => Self { free: Some(free), ..none },
+            Contour::Polyline(line) => Self { polyline: Some(line), ..none },
+            Contour::Sections(Sections { sections, blend, align }) => {
+                Self { sections: Some(sections), blend: Some(blend), align: Some(align), ..none }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Contour;
+
+    #[test]
+    fn contours_survive_writing_and_reading() {
+        for text in [
+            r#"{"circle":2.5}"#,
+            r#"{"polyline":{"closed":true,"points":[[0.0,0.0],[1.0,0.0],[1.0,1.0]]}}"#,
+            r#"{"sections":[{"at":0.0,"contour":{"circle":1.0}}],"blend":"smooth","align":false}"#,
+        ] {
+            let contour: Contour = serde_json::from_str(text).unwrap();
+            assert_eq!(serde_json::to_string(&contour).unwrap(), text);
+        }
+    }
+}
