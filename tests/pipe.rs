@@ -109,3 +109,36 @@ fn a_reader_that_stops_reading_ends_the_programs_quietly() {
         assert_eq!(words(&ran).trim(), "141", "{line}");
     }
 }
+
+#[test]
+fn an_object_with_two_pictures_is_the_same_through_pipes_and_in_memory() {
+    let folder = tempfile::tempdir().unwrap();
+    let examples = root().join("examples");
+    let spec = fs::read_to_string(examples.join("curves/vase.json")).unwrap();
+    let areas = "\"areas\": [{ \"rows\": [40, 100], \"cols\": [30, 90], \"texture\": 3, \"surface\": 1 }],\n  \"mesh\"";
+    fs::write(folder.path().join("vase.json"), spec.replace("\"mesh\"", areas)).unwrap();
+    let scene = fs::read_to_string(examples.join("scenes/vase.json")).unwrap();
+    let scene = scene.replace("\"2\": \"band\"", "\"2\": \"band\", \"3\": \"tiles\"");
+    let scene = scene.replace("../textures", "examples/textures");
+    fs::write(folder.path().join("scene.json"), scene).unwrap();
+    let job = r#"{ "format": "tb-job", "version": 1, "scene": "scene.json",
+        "meshes": { "vase": { "spec": "vase.json", "texture": 2 } } }"#;
+    fs::write(folder.path().join("job.json"), job).unwrap();
+
+    let line = "sweep vase.json | triangulate --texture 2 | tee a.obj | \
+                render scene.json --mesh vase=- --size 160x120 -o piped.png";
+    let piped = shell(line, folder.path());
+    assert!(piped.status.success() && piped.stderr.is_empty(), "{}", words(&piped));
+    let arguments = ["run", "job.json", "-o", "out", "--size", "160x120", "--keep"];
+    let ran = run("pipeline", &arguments, folder.path());
+    assert!(ran.status.success(), "{}", words(&ran));
+    let read = |name: &str| fs::read(folder.path().join(name)).unwrap();
+    assert_eq!(read("a.obj"), read("out/job-vase.obj"));
+    assert_eq!(read("piped.png"), read("out/job-tent.png"));
+    assert!(String::from_utf8(read("a.obj")).unwrap().contains("\nusemtl tex3_surf1\n"));
+    // The second picture is seen.
+    let plain = "sweep examples/curves/vase.json | triangulate --texture 2 | \
+                 render examples/scenes/vase.json --mesh vase=- --size 160x120 -o plain.png";
+    assert!(shell(plain, folder.path()).status.success());
+    assert_ne!(read("piped.png"), read("plain.png"));
+}

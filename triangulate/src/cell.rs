@@ -103,6 +103,7 @@ impl<S: Sink> Teller<S> {
         let cut = least_flat(&corners, diagonal::choose(&corners, &normals));
         let pole = SIDES.iter().position(|&[from, to]| corners[from] == corners[to]);
         let mut half_way = None;
+        let before = self.triangles.len();
         for triangle in cut.triangles() {
             let [a, b, c] = triangle.map(|corner| corners[corner]);
             if a == b || b == c || c == a {
@@ -132,6 +133,7 @@ impl<S: Sink> Teller<S> {
             self.triangles.push((owner, triangle));
             self.counts.triangles += 1;
         }
+        self.counts.quads += u64::from(self.triangles.len() - before == 2);
     }
 
     /// The picture coordinates of a corner, in the area of its cell.

@@ -23,6 +23,7 @@ use crate::triangulator::{Counts, Sink};
 use crate::{Material, Triangle};
 use std::collections::BTreeSet;
 use std::io::{self, Write};
+use sweep::grid::file::Header;
 
 /// The first line of an OBJ of ours. A file that starts with it ends with `# end V F`, or is cut.
 pub const FIRST_LINE: &str = "# topobook triangulate OBJ 1";
@@ -77,8 +78,9 @@ impl<W: Write> ObjWriter<W> {
 }
 
 impl<W: Write> Sink for ObjWriter<W> {
-    fn patch(&mut self, name: &str) {
-        self.text.extend_from_slice(format!("o {}\n", object_name(name)).as_bytes());
+    fn patch(&mut self, header: &Header) {
+        let name = object_name(&header.name);
+        self.text.extend_from_slice(format!("o {name}\n").as_bytes());
     }
 
     fn material(&mut self, material: Material) {

@@ -93,6 +93,7 @@ mod tests {
     use super::*;
     use crate::Triangle;
     use crate::triangulator::Sink;
+    use sweep::grid::file::Header;
 
     #[test]
     fn the_header_is_the_one_of_the_page_above() {
@@ -102,7 +103,7 @@ mod tests {
             normals: vec![[0.0, 0.0, 1.0]],
             ..TriMesh::default()
         };
-        mesh.patch("Väse");
+        mesh.patch(&Header { name: "Väse".into(), ..Header::default() });
         mesh.material(Material { texture: 2, surface: 5 });
         mesh.triangle(&Triangle { position: [0; 3], uv: [0; 3], normal: [0; 3] });
         let mut bytes = Vec::new();

@@ -10,6 +10,7 @@
 //!   "unused_vertices": 0,
 //!   "edges": 60,
 //!   "faces": 36,
+//!   "quads": 18,
 //!   "euler": 0,
 //!   "boundary_loops": 2,
 //!   "orientable": true,
@@ -18,20 +19,30 @@
 //!   "closed": false,
 //!   "edge_length": { "min": 0.5, "max": 0.875 },
 //!   "triangle_area": { "min": 0.125, "max": 0.25 },
+//!   "edge_ratio": 1.75,
+//!   "worst_aspect": 2.5,
+//!   "folds": { "worst": 0.25, "rows": 0, "fits": 1.25 },
+//!   "tolerance": {
+//!     "asked": 0.01, "reached": 0.008, "angle_asked_deg": 10.0, "angle_reached_deg": 7.5, "pixels": 0.5
+//!   },
 //!   "left_out": { "collapsed": 0, "slivers": 0 },
 //!   "displacement": 5e-8,
 //!   "box": { "low": [-1.0, -1.0, 0.0], "high": [1.0, 1.0, 2.0] },
 //!   "patches": [
 //!     {
 //!       "object": "tube", "vertices": 24, "edges": 60, "faces": 36, "euler": 0, "boundary_loops": 2,
-//!       "orientable": true, "manifold": true, "closed": false
+//!       "orientable": true, "manifold": true, "closed": false, "folds": null, "tolerance": null
 //!     }
 //!   ]
 //! }
 //! ```
 //!
 //! `vertices` to `closed` are those of [`Topology`]; `unused_vertices` are positions that are
-//! written and that no triangle uses. Lengths are in the grid's unit, measured in f64 between the
+//! written and that no triangle uses; `quads` are cells of the grid that became two triangles.
+//! `edge_ratio` is the longest edge over the shortest. The aspect of a triangle is its longest edge over
+//! the height on that edge: 1.155 for an equal-sided one, and `worst_aspect` the largest there is.
+//! `folds` and `tolerance` are what the grid says of itself ([`Fold`], [`Tolerance`]), of all patches
+//! together the worst; null where it says nothing. Lengths are in the grid's unit, measured in f64 between the
 //! points as written, in f32. `displacement` is the farthest that rounding to f32 moved a point.
 //! Extremes are null where there is nothing to measure. All but `patches` is of the mesh as a whole,
 //! named for its first patch; patches that touch are not joined there.
@@ -41,6 +52,7 @@ use crate::{Counts, Material, TriMesh};
 use glam::DVec3;
 use serde::Serialize;
 use std::io::{self, Write};
+use sweep::grid::{Fold, Tolerance};
 
 /// What a mesh is like.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -61,6 +73,8 @@ pub struct MeshReport {
     pub edges: usize,
     /// Triangles.
     pub faces: usize,
+    /// Cells that became two triangles.
+    pub quads: u64,
     /// Vertices - edges + faces.
     pub euler: i64,
     /// Rims.
@@ -77,6 +91,14 @@ pub struct MeshReport {
     pub edge_length: Option<Extremes>,
     /// Areas of triangles.
     pub triangle_area: Option<Extremes>,
+    /// The longest edge over the shortest.
+    pub edge_ratio: Option<f64>,
+    /// The largest of longest edge over height on it.
+    pub worst_aspect: Option<f64>,
+    /// Where the surface folds back on itself.
+    pub folds: Option<Fold>,
+    /// How near to the surface the mesh is.
+    pub tolerance: Option<Tolerance>,
     /// Triangles of the grid that are not in the mesh.
     pub left_out: LeftOut,
     /// The farthest that rounding to f32 moved a point.
@@ -100,7 +122,7 @@ pub struct MaterialReport {
 }
 
 /// What a patch is like.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PatchReport {
     /// Its name.
     pub object: String,
@@ -120,6 +142,10 @@ pub struct PatchReport {
     pub manifold: bool,
     /// Whether it has no rim.
     pub closed: bool,
+    /// Where it folds back on itself.
+    pub folds: Option<Fold>,
+    /// How near to the surface it is.
+    pub tolerance: Option<Tolerance>,
 }
 
 /// The smallest and the largest of something.
@@ -164,6 +190,13 @@ impl MeshReport {
             let [a, b, c] = corners.map(point);
             0.5 * (b - a).cross(c - a).length()
         };
+        let aspect = |corners: [u32; 3]| {
+            let [a, b, c] = corners;
+            let longest = length([a, b]).max(length([b, c])).max(length([c, a]));
+            longest * longest / (2.0 * area(corners))
+        };
+        let edge_length = Extremes::of(edges_of(&sides).map(|edge| length(edge[0].ends)));
+        let aspects = Extremes::of(mesh.triangles.iter().map(|t| aspect(t.position)));
         Self {
             format: "tb-mesh-report",
             version: 1,
@@ -173,14 +206,23 @@ impl MeshReport {
             unused_vertices: mesh.positions.len() - found.vertices,
             edges: found.edges,
             faces: found.faces,
+            quads: counts.quads,
             euler: found.euler(),
             boundary_loops: found.boundary_loops,
             orientable: found.orientable,
             oriented: found.oriented,
             manifold: found.manifold,
             closed: found.closed,
-            edge_length: Extremes::of(edges_of(&sides).map(|edge| length(edge[0].ends))),
+            edge_length,
             triangle_area: Extremes::of(mesh.triangles.iter().map(|t| area(t.position))),
+            edge_ratio: edge_length.map(|Extremes { min, max }| max / min),
+            worst_aspect: aspects.map(|aspects| aspects.max),
+            folds: mesh.patches.iter().filter_map(|patch| patch.fold).reduce(Fold::and),
+            tolerance: mesh
+                .patches
+                .iter()
+                .filter_map(|patch| patch.tolerance)
+                .reduce(Tolerance::and),
             left_out: LeftOut { collapsed: counts.collapsed, slivers: counts.slivers },
             displacement: counts.displacement,
             bounds: Bounds::of(&mesh.positions),
@@ -210,10 +252,10 @@ impl MaterialReport {
 }
 
 impl PatchReport {
-    fn of(patch: &TriMesh) -> Self {
-        let found = Topology::of(patch);
+    fn of(mesh: &TriMesh) -> Self {
+        let found = Topology::of(mesh);
         Self {
-            object: patch.name.clone(),
+            object: mesh.name.clone(),
             vertices: found.vertices,
             edges: found.edges,
             faces: found.faces,
@@ -222,6 +264,8 @@ impl PatchReport {
             orientable: found.orientable,
             manifold: found.manifold,
             closed: found.closed,
+            folds: mesh.patches.first().and_then(|patch| patch.fold),
+            tolerance: mesh.patches.first().and_then(|patch| patch.tolerance),
         }
     }
 }
@@ -263,14 +307,29 @@ mod tests {
     #[test]
     fn a_right_triangle_has_its_sides_and_its_area_and_the_keys_of_the_page_above() {
         let triangle = Triangle { position: [0, 1, 2], uv: [0; 3], normal: [0; 3] };
+        let fold = Fold { worst: -0.5, rows: 3, fits: Some(0.5) };
+        let all = Some(0.5);
+        let tolerance = Tolerance {
+            asked: all,
+            reached: all,
+            angle_asked_deg: all,
+            angle_reached_deg: all,
+            pixels: all,
+        };
         let mesh = TriMesh {
             name: "a \"b\"".into(),
-            patches: vec![Patch { name: "a".into(), first: 0 }],
+            patches: vec![Patch {
+                name: "a".into(),
+                fold: Some(fold),
+                tolerance: Some(tolerance),
+                ..Patch::default()
+            }],
             positions: vec![[1.0, 0.0, 0.0], [4.0, 0.0, 0.0], [1.0, 4.0, 0.0], [0.0, 0.0, -7.5]],
             triangles: vec![triangle],
             ..TriMesh::default()
         };
-        let counts = Counts { collapsed: 3, slivers: 2, displacement: 0.25, ..Counts::default() };
+        let counts =
+            Counts { quads: 7, collapsed: 3, slivers: 2, displacement: 0.25, ..Counts::default() };
         let mut text = Vec::new();
         MeshReport::of(&mesh, &counts).write(&mut text).unwrap();
         assert!(text.ends_with(b"}\n"));
@@ -278,6 +337,11 @@ mod tests {
         assert_eq!(json["object"], "a \"b\"");
         assert_eq!(json["edge_length"], serde_json::json!({ "min": 3.0, "max": 5.0 }));
         assert_eq!(json["triangle_area"], serde_json::json!({ "min": 6.0, "max": 6.0 }));
+        // Sides 3, 4 and 5: the height on the longest is 12 / 5.
+        let ratios = [&json["edge_ratio"], &json["worst_aspect"]].map(|x| x.as_f64().unwrap());
+        assert!((ratios[0] - 5.0 / 3.0).abs() < 1e-12 && (ratios[1] - 25.0 / 12.0).abs() < 1e-12);
+        assert_eq!((&json["quads"], &json["folds"]["worst"]), (&7.into(), &(-0.5).into()));
+        assert_eq!(json["patches"][0]["folds"]["rows"], 3);
         assert_eq!(json["left_out"], serde_json::json!({ "collapsed": 3, "slivers": 2 }));
         assert_eq!(json["box"]["low"], serde_json::json!([0.0, 0.0, -7.5]));
         assert_eq!(json["box"]["high"], serde_json::json!([4.0, 4.0, 0.0]));
@@ -286,6 +350,11 @@ mod tests {
         let page = include_str!("report.rs").lines().map_while(|line| line.strip_prefix("//!"));
         let page = page.skip_while(|line| *line != " ```json").skip(1);
         let page: String = page.take_while(|line| *line != " ```").collect();
+        // Of the patch, what it says of itself is left out on the page.
+        let mut json = json;
+        for key in ["folds", "tolerance"] {
+            json["patches"][0][key] = Value::Null;
+        }
         assert_eq!(keys(&json), keys(&serde_json::from_str(&page).unwrap()));
     }
 

@@ -5,6 +5,8 @@ use crate::obj::object_name;
 use crate::triangulator::Sink;
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
+use sweep::grid::file::Header;
+use sweep::grid::{Fold, Tolerance};
 
 /// A mesh of triangles; flat arrays that indices point into, as in OBJ, but from 0.
 ///
@@ -42,12 +44,16 @@ pub struct Triangle {
 }
 
 /// A patch of a mesh: the triangles from one number to that of the next patch.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Patch {
     /// Its name, one word.
     pub name: String,
     /// The number of its first triangle.
     pub first: usize,
+    /// Where it folds back on itself, if its grid says so.
+    pub fold: Option<Fold>,
+    /// How near to the surface it is, if its grid says so.
+    pub tolerance: Option<Tolerance>,
 }
 
 /// Triangles of one material: those from one number to that of the next run.
@@ -90,15 +96,16 @@ impl TriMesh {
     /// When there is no patch of this number, from 0.
     #[must_use]
     pub fn of_patch(&self, number: usize) -> Self {
-        let Patch { name, first } = self.patches[number].clone();
+        let patch = self.patches[number].clone();
+        let first = patch.first;
         let end = self.patches.get(number + 1).map_or(self.triangles.len(), |patch| patch.first);
         let within = |(material, triangles): (Material, Range<usize>)| {
             let (from, to) = (triangles.start.max(first), triangles.end.min(end));
             (from < to).then(|| Run { material, first: from - first })
         };
         Self {
-            name: name.clone(),
-            patches: vec![Patch { name, first: 0 }],
+            name: patch.name.clone(),
+            patches: vec![Patch { first: 0, ..patch }],
             runs: self.runs().filter_map(within).collect(),
             triangles: self.triangles[first..end].to_vec(),
             positions: self.positions.clone(),
@@ -119,12 +126,13 @@ impl TriMesh {
 }
 
 impl Sink for TriMesh {
-    fn patch(&mut self, name: &str) {
-        let name = object_name(name);
+    fn patch(&mut self, header: &Header) {
+        let name = object_name(&header.name);
         if self.patches.is_empty() {
             self.name.clone_from(&name);
         }
-        self.patches.push(Patch { name, first: self.triangles.len() });
+        let Header { fold, tolerance, .. } = *header;
+        self.patches.push(Patch { name, first: self.triangles.len(), fold, tolerance });
     }
 
     fn material(&mut self, material: Material) {
@@ -186,7 +194,7 @@ mod tests {
     fn a_patch_has_its_triangles_and_their_materials() {
         let mut mesh = TriMesh::default();
         for texture in 1..4 {
-            mesh.patch(&format!("a {texture}"));
+            mesh.patch(&Header { name: format!("a {texture}"), ..Header::default() });
             for texture in [0, texture] {
                 mesh.material(material(texture));
                 mesh.triangle(&Triangle { position: [texture; 3], uv: [0; 3], normal: [0; 3] });

@@ -13,8 +13,8 @@ use sweep::grid::{Row, Seam};
 /// Positions, picture coordinates and normals are numbered from 0 in the order they are told,
 /// each kind by itself; a triangle only names numbers told before it.
 pub trait Sink {
-    /// What is told from here on is a patch of this name.
-    fn patch(&mut self, name: &str);
+    /// What is told from here on is this patch.
+    fn patch(&mut self, header: &Header);
     /// Triangles told from here on are bound to this.
     fn material(&mut self, material: Material);
     /// The next position.
@@ -36,9 +36,9 @@ pub trait Sink {
 
 /// Two sinks that are told the same.
 impl<A: Sink, B: Sink> Sink for (A, B) {
-    fn patch(&mut self, name: &str) {
-        self.0.patch(name);
-        self.1.patch(name);
+    fn patch(&mut self, header: &Header) {
+        self.0.patch(header);
+        self.1.patch(header);
     }
 
     fn material(&mut self, material: Material) {
@@ -83,6 +83,8 @@ pub struct Counts {
     pub normals: u32,
     /// Triangles.
     pub triangles: u64,
+    /// Cells that became two triangles.
+    pub quads: u64,
     /// Triangles left out because two corners are one point, as at poles and creases.
     pub collapsed: u64,
     /// Triangles left out because their three corners lie on a line. The mesh has a slit there,
@@ -195,7 +197,7 @@ impl<S: Sink> Triangulator<S> {
             return Err(TriangulateError::Repeat { object, found });
         }
         let (picture, material) = (Picture::new(&header, options), options.material(&header));
-        sink.patch(&header.name);
+        sink.patch(&header);
         sink.material(material);
         Ok(Self {
             header,

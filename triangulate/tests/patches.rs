@@ -10,6 +10,7 @@ use std::path::Path;
 use std::process::{Command, Output};
 use sweep::GridMesh;
 use sweep::grid::file::{Encoding, GridReader, write_all};
+use sweep::grid::{Fold, Tolerance};
 use triangulate::{
     Material, MeshReport, Options, TriMesh, mesh, mesh_all, read_mesh, write_grids_obj, write_obj,
 };
@@ -115,12 +116,18 @@ fn an_obj_has_an_object_for_each_patch_and_indices_run_on() {
 
 #[test]
 fn a_report_has_the_whole_and_every_patch() {
-    let file = file_of(&patches());
+    let mut grids = patches();
+    let fold = |worst, rows| Some(Fold { worst, rows, fits: Some(0.5) });
+    (grids[0].fold, grids[2].fold) = (fold(-0.25, 4), fold(0.5, 0));
+    grids[1].tolerance = Some(Tolerance { asked: Some(0.1), ..Tolerance::default() });
+    let file = file_of(&grids);
     let mut reader = GridReader::open("a", file.as_slice()).unwrap();
     let (mesh, counts) = read_mesh(&mut reader, &Options::default()).unwrap();
     let report = MeshReport::of(&mesh, &counts);
     assert_eq!((report.euler, report.boundary_loops, report.closed), (2, 2, false));
     assert_eq!(report.faces as u64, counts.triangles);
+    assert_eq!((report.folds, report.tolerance), (fold(-0.25, 4), grids[1].tolerance));
+    assert_eq!(report.patches[2].folds, fold(0.5, 0));
     let of_patches = report.patches.iter().map(|p| (p.object.as_str(), p.euler, p.boundary_loops));
     assert!(of_patches.eq([("my_tube", 0, 2), ("ring", 0, 0), ("ball", 2, 0)]));
     assert_eq!(report.patches.iter().map(|patch| patch.vertices).sum::<usize>(), report.vertices);

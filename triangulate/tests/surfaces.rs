@@ -59,7 +59,7 @@ fn a_torus_is_closed_and_orientable_with_euler_number_0() {
     assert_eq!((found.vertices, found.edges, found.faces), (240, 720, 480));
     assert_eq!((found.euler, found.boundary_loops, found.unused_vertices), (0, 0, 0));
     assert!(found.closed && found.orientable && found.oriented && found.manifold);
-    assert_eq!((found.left_out.collapsed, found.left_out.slivers), (0, 0));
+    assert_eq!((found.left_out.collapsed, found.left_out.slivers, found.quads), (0, 0, 240));
     let bounds = found.bounds.unwrap();
     assert_eq!((bounds.low[0], bounds.high), (-4.0, [4.0, 4.0, 1.0]));
 }
@@ -70,6 +70,7 @@ fn a_sphere_with_poles_is_closed_and_orientable_with_euler_number_2() {
     let found = report(&sphere(rows, cols));
     assert_eq!((found.euler, found.boundary_loops), (2, 0));
     assert!(found.closed && found.orientable && found.oriented && found.manifold);
+    assert_eq!(found.quads as usize, rows * (cols - 3));
     // Half of each cell at a pole.
     assert_eq!(found.left_out.collapsed, 2 * rows as u64);
     // The shortest edges lie on the circles next to the poles, the longest are diagonals.
@@ -87,6 +88,10 @@ fn a_cylinder_has_two_rims() {
     assert!(!found.closed && found.orientable && found.oriented && found.manifold);
     let side = 2.0 * (PI / cols as f64).sin();
     let (length, area) = (found.edge_length.unwrap(), found.triangle_area.unwrap());
+    // The diagonal over the height on it, in a right triangle with the sides `side` and 1/2.
+    let aspect = side.hypot(0.5).powi(2) / (0.5 * side);
+    assert!((found.worst_aspect.unwrap() / aspect - 1.0).abs() < 1e-5);
+    assert!((found.edge_ratio.unwrap() / (side.hypot(0.5) / side) - 1.0).abs() < 1e-5);
     for (found, truth) in [
         (length.min, side),
         (length.max, side.hypot(0.5)),

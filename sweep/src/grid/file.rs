@@ -20,6 +20,8 @@
 //! | `patch`     | `[1, 1]` | which patch of its object the grid is: number, from 1, and how many; so a file cut between two is noticed |
 //! | `texture`, `surface` | none | ids of the patch                                     |
 //! | `areas`     | `[]`     | `{"area": A, "v": [from, to]}` each: an [`Area`](crate::grid::Area), and `v` at its ends |
+//! | `fold`      | none     | `{"worst": x, "rows": n, "fits": f}`: a [`Fold`](crate::grid::Fold) |
+//! | `tolerance` | none     | `{"asked": x, "reached": x, ...}`: a [`Tolerance`](crate::grid::Tolerance) |
 //! | `shift`     | 0        | by how many columns, as [`Seam`](crate::grid::Seam) has it    |
 //!
 //! A row is `[v, flags, positions, normals]`; the numbers are the shortest that read back to the

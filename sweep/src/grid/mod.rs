@@ -2,10 +2,12 @@
 
 pub mod area;
 pub mod file;
+mod quality;
 mod row;
 mod seam;
 
 pub use area::{Area, PlacedArea};
+pub use quality::{Fold, Tolerance};
 pub use row::Row;
 pub use seam::Seam;
 
@@ -46,6 +48,10 @@ pub struct GridMesh {
     pub surface: Option<u32>,
     /// Parts with pictures of their own; later ones lie on earlier ones.
     pub areas: Vec<Area>,
+    /// Where it folds back on itself, if that was looked for.
+    pub fold: Option<Fold>,
+    /// How near to the surface it is, if that was asked.
+    pub tolerance: Option<Tolerance>,
     /// How a picture lies on the surface.
     pub uv: UvLayout,
     /// `u` of each column, not decreasing, from 0; up to 1 when open, below 1 when closed.

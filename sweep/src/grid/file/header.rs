@@ -3,7 +3,7 @@
 use super::{Encoding, GridError, stranger};
 use crate::GridMesh;
 use crate::grid::row::{Fault, check_parameter};
-use crate::grid::{PlacedArea, Seam, UvLayout, area, seam};
+use crate::grid::{Fold, PlacedArea, Seam, Tolerance, UvLayout, area, seam};
 use files::JsonError;
 use files::json::Document;
 use serde::{Deserialize, Serialize};
@@ -55,6 +55,10 @@ pub struct Header {
     pub surface: Option<u32>,
     /// Parts with pictures of their own; later ones lie on earlier ones.
     pub areas: Vec<PlacedArea>,
+    /// Where it folds back on itself, if that was looked for.
+    pub fold: Option<Fold>,
+    /// How near to the surface it is, if that was asked.
+    pub tolerance: Option<Tolerance>,
     /// How a picture lies on the surface.
     pub uv: UvLayout,
     /// `u` of each column.
@@ -84,6 +88,10 @@ struct Line {
     surface: Option<u32>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     areas: Vec<PlacedArea>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    fold: Option<Fold>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    tolerance: Option<Tolerance>,
     uv: UvLayout,
     u: Vec<f64>,
 }
@@ -157,6 +165,8 @@ impl Header {
             texture: grid.texture,
             surface: grid.surface,
             areas: grid.placed_areas(),
+            fold: grid.fold,
+            tolerance: grid.tolerance,
             uv: grid.uv,
             u: grid.u.clone(),
         }
@@ -192,6 +202,8 @@ impl Header {
             texture: self.texture,
             surface: self.surface,
             areas: self.areas.clone(),
+            fold: self.fold,
+            tolerance: self.tolerance,
             uv: self.uv,
             u: self.u.clone(),
         };
@@ -219,6 +231,14 @@ impl Header {
             }
         }
         seam::check([self.seam_u, self.seam_v], self.shift, self.cols())?;
+        let finite = [
+            ("fold", self.fold.is_none_or(|fold| fold.is_finite())),
+            ("tolerance", self.tolerance.is_none_or(|tolerance| tolerance.is_finite())),
+        ];
+        if let Some((place, _)) = finite.into_iter().find(|(_, finite)| !finite) {
+            let message = "found a number that is not finite, expected finite numbers".into();
+            return Err(Fault { place: place.into(), message });
+        }
         for (i, found) in self.uv.repeat.iter().enumerate() {
             if !(found.is_finite() && *found > 0.0) {
                 let message = format!("found {found}, expected a positive number");
@@ -322,6 +342,8 @@ pub(super) fn read(
         texture,
         surface,
         areas,
+        fold,
+        tolerance,
         uv,
         u,
     } = document.parse().map_err(placed)?;
@@ -329,8 +351,21 @@ pub(super) fn read(
         let message = format!("found {cols}, expected {}, the number of values in u", u.len());
         return Err(placed(document.fault("cols", message)).into());
     }
-    let header =
-        Header { name, patch, rows, seam_u, seam_v, shift, texture, surface, areas, uv, u };
+    let header = Header {
+        name,
+        patch,
+        rows,
+        seam_u,
+        seam_v,
+        shift,
+        texture,
+        surface,
+        areas,
+        fold,
+        tolerance,
+        uv,
+        u,
+    };
     header.check().map_err(|fault| placed(document.fault(&fault.place, fault.message)))?;
     Ok((header, encoding, bytes))
 }

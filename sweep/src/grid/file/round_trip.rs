@@ -1,7 +1,7 @@
 //! Any grid, written and read back to the same bits.
 
 use super::*;
-use crate::grid::{Across, Area, Seam, UvLayout, area};
+use crate::grid::{Across, Area, Fold, Seam, Tolerance, UvLayout, area};
 use glam::{DVec3, Vec3};
 use proptest::prelude::*;
 
@@ -74,6 +74,10 @@ fn seams(cols: usize) -> impl Strategy<Value = (Seam, Seam, usize)> {
     })
 }
 
+fn maybe() -> impl Strategy<Value = Option<f64>> {
+    prop::option::of(nasty_f64())
+}
+
 /// The first cell along the contour, and all of them, where there are any.
 fn areas_on(u: &[f64], seam_u: Seam, [texture, surface]: [Option<u32>; 2]) -> Vec<Area> {
     let cells = area::edges(u, seam_u).len() - 1;
@@ -87,12 +91,22 @@ fn grids() -> impl Strategy<Value = GridMesh> {
         let points = rows * cols;
         (
             (".*", seams(cols), 1e-9..1e9, any::<[Option<u32>; 2]>()),
+            (
+                prop::option::of((nasty_f64(), 0_usize..9, maybe())),
+                prop::option::of([maybe(), maybe(), maybe()]),
+            ),
             (parameters(cols), parameters(rows)),
             prop::collection::vec(prop::array::uniform3(nasty_f64()), points),
             prop::collection::vec(prop::array::uniform3(nasty_f32()), points),
         )
             .prop_map(
-                |((name, (seam_u, seam_v, shift), repeat, ids), (u, v), positions, normals)| {
+                |(
+                    (name, (seam_u, seam_v, shift), repeat, ids),
+                    (fold, tolerance),
+                    (u, v),
+                    positions,
+                    normals,
+                )| {
                     GridMesh {
                         name,
                         seam_u,
@@ -100,6 +114,14 @@ fn grids() -> impl Strategy<Value = GridMesh> {
                         shift,
                         texture: ids[0],
                         surface: ids[1],
+                        fold: fold.map(|(worst, rows, fits)| Fold { worst, rows, fits }),
+                        tolerance: tolerance.map(|[asked, reached, pixels]| Tolerance {
+                            asked,
+                            reached,
+                            angle_reached_deg: pixels,
+                            angle_asked_deg: reached,
+                            pixels,
+                        }),
                         areas: areas_on(&u, seam_u, ids),
                         uv: UvLayout { across: Across::Contour, repeat: [repeat, 1.0] },
                         u,

@@ -1,7 +1,7 @@
 //! Grids written and read back, whole, cut, damaged and made up.
 
 use super::*;
-use crate::grid::{Across, Seam, UvLayout};
+use crate::grid::{Across, Fold, Seam, Tolerance, UvLayout};
 use files::{Exit, Failure};
 use glam::DVec3;
 use proptest::prelude::*;
@@ -258,12 +258,14 @@ fn a_hostile_header_takes_no_memory_and_no_stack() {
 #[test]
 fn a_grid_that_cannot_be_read_is_not_written() {
     type Harm = fn(&mut GridMesh);
-    let harms: [Harm; 5] = [
+    let harms: [Harm; 7] = [
         |g| g.positions[7].y = f64::NAN,
         |g| g.normals[7].y = f32::INFINITY,
         |g| g.v[1] = 2.0,
         |g| g.u[1] = 0.9,
         |g| g.positions.truncate(11),
+        |g| g.fold = Some(Fold { worst: f64::NAN, rows: 0, fits: None }),
+        |g| g.tolerance = Some(Tolerance { pixels: Some(f64::INFINITY), ..Tolerance::default() }),
     ];
     for harm in harms {
         let mut grid = small();

@@ -1,0 +1,101 @@
+//! How good a grid is, as far as the program that made it knows.
+
+use serde::{Deserialize, Serialize};
+
+/// Where a surface folds back on itself, since its trajectory bends more sharply than the contour is
+/// wide.
+///
+/// At a point at `q` on the contour the surface is stretched along the trajectory by `1 - k.q`, for
+/// the trajectory's curvature `k`; below 0 it runs backward.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Fold {
+    /// The smallest stretch of all points.
+    pub worst: f64,
+    /// Rows in which some of the surface runs backward.
+    pub rows: usize,
+    /// The largest factor of the contour with which nothing would.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fits: Option<f64>,
+}
+
+/// How near to the surface a grid was asked to be, and is. What was not asked for, or not
+/// measured, is not there.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Tolerance {
+    /// The distance between surface and mesh asked for, in the grid's unit.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub asked: Option<f64>,
+    /// The largest that was measured.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reached: Option<f64>,
+    /// The angle between normals of neighbouring points asked for, in degrees.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub angle_asked_deg: Option<f64>,
+    /// The largest that was measured.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub angle_reached_deg: Option<f64>,
+    /// The distance asked for on the picture of a camera, in pixels.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pixels: Option<f64>,
+}
+
+impl Fold {
+    /// That of two patches together.
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        Self {
+            worst: self.worst.min(other.worst),
+            rows: self.rows.saturating_add(other.rows),
+            fits: both(self.fits, other.fits, f64::min),
+        }
+    }
+
+    pub(super) fn is_finite(&self) -> bool {
+        [Some(self.worst), self.fits].iter().flatten().all(|x| x.is_finite())
+    }
+}
+
+impl Tolerance {
+    /// That of two patches together: the strictest that was asked, the worst that was reached.
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        Self {
+            asked: both(self.asked, other.asked, f64::min),
+            reached: both(self.reached, other.reached, f64::max),
+            angle_asked_deg: both(self.angle_asked_deg, other.angle_asked_deg, f64::min),
+            angle_reached_deg: both(self.angle_reached_deg, other.angle_reached_deg, f64::max),
+            pixels: both(self.pixels, other.pixels, f64::min),
+        }
+    }
+
+    pub(super) fn is_finite(&self) -> bool {
+        let Self { asked, reached, angle_asked_deg, angle_reached_deg, pixels } = self;
+        let all = [asked, reached, angle_asked_deg, angle_reached_deg, pixels];
+        all.into_iter().flatten().all(|x| x.is_finite())
+    }
+}
+
+/// The one there is, or `of` both.
+fn both(a: Option<f64>, b: Option<f64>, of: fn(f64, f64) -> f64) -> Option<f64> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(of(a, b)),
+        (one, other) => one.or(other),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_two_patches_the_worse_counts() {
+        let one = Fold { worst: -0.5, rows: 2, fits: None };
+        let other = Fold { worst: 0.25, rows: 1, fits: Some(0.75) };
+        assert_eq!(one.and(other), Fold { worst: -0.5, rows: 3, fits: Some(0.75) });
+        let one = Tolerance { asked: Some(1.0), reached: Some(0.5), ..Tolerance::default() };
+        let other = Tolerance { asked: Some(2.0), reached: Some(3.0), pixels: Some(0.5), ..one };
+        assert_eq!(one.and(other), Tolerance { asked: Some(1.0), ..other });
+    }
+}
