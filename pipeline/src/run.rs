@@ -134,7 +134,8 @@ impl Work<'_> {
     fn mesh(&self, mesh: &MeshJob) -> Result<render::shape::Mesh, PipelineError> {
         let started = Instant::now();
         let (name, bytes) = (mesh.spec.display().to_string(), self.source.read(&mesh.spec)?);
-        let grid = Sweep::read(&Document::new(&name, &bytes)?)?.grid();
+        let folder = mesh.spec.parent().unwrap_or(Path::new(""));
+        let grid = Sweep::read_in(&Document::new(&name, &bytes)?, folder, self.source)?.grid();
         if self.options.keep {
             self.write(&self.job.grid_file(mesh), |out| {
                 grid_file::write(&grid, grid_file::Encoding::Binary, out)

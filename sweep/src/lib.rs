@@ -10,6 +10,7 @@
 //! | [`trajectory`] | the curve it follows; stations, normals in closed form              |
 //! | [`law`]        | numbers that change along the trajectory                            |
 //! | [`depth`]      | relief on the contour, in waves                                     |
+//! | [`height`]     | heights from a picture                                              |
 //! | [`modulation`] | the contour scaled and twisted on its way                          |
 //! | [`frame`]      | rotation-minimizing frames                                          |
 //! | [`curve`]      | cubic Bezier paths by arc length, splines, SVG                      |
@@ -34,6 +35,7 @@ pub mod depth;
 pub mod error;
 pub mod frame;
 pub mod grid;
+pub mod height;
 pub mod law;
 pub mod modulation;
 pub mod profile;

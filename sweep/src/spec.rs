@@ -119,6 +119,14 @@
 //! }
 //! ```
 //!
+//! Heights may come from a grey picture, alone or besides `terms`:
+//! `"image": {"file": "relief.png", "amp": a, "repeat": [x, y], "zero": 0.5}` adds `a (grey - zero)`, where
+//! black is 0 and white is 1. The file is a PNG of 8 or 16 bits, named from the spec's folder; its numbers
+//! are heights, whatever its colour space, and transparency is not looked at. It lies on the surface as
+//! a texture does that `uv` lays `across` the same way, `repeat` times (once if left out), and is smooth
+//! between its texels. Along a closed curve it repeats, a whole number of times; along an open one
+//! it is mirrored at its edges.
+//!
 //! # Corners
 //!
 //! A contour may have corners; one of more than a degree is a crease, where the surface has two
@@ -131,7 +139,7 @@ mod helix;
 mod law;
 
 pub use contour::Contour;
-pub use depth::{Depth, DepthMode, DepthTerm};
+pub use depth::{Depth, DepthImage, DepthMode, DepthTerm};
 pub use helix::Helix;
 pub use law::{Ease, Law, Scale};
 

@@ -8,8 +8,10 @@ use crate::profile::{Column, Profile};
 use crate::trajectory::Trajectory;
 use crate::{SweepError, read};
 use files::json::Document;
+use files::{Disk, Source};
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
+use std::path::Path;
 
 /// Cells of one grid at most: 3.6 GB of points and normals, and twice that when it is one cell wide.
 pub const MOST_CELLS: usize = 100_000_000;
@@ -31,12 +33,24 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// Reads and checks a [`Spec`](crate::spec::Spec).
+    /// Reads and checks a [`Spec`](crate::spec::Spec); files that it names count from the working folder.
     ///
     /// # Errors
     /// When the text is not a spec, or its surface does not exist; the message has the place.
     pub fn read(document: &Document) -> Result<Self, SweepError> {
-        read::read(document)
+        Self::read_in(document, Path::new(""), &Disk)
+    }
+
+    /// Reads and checks a spec whose files are named from `folder` and lie in `source`.
+    ///
+    /// # Errors
+    /// As [`Sweep::read`], and when a file that it names cannot be read or is not what it should be.
+    pub fn read_in(
+        document: &Document,
+        folder: &Path,
+        source: &dyn Source,
+    ) -> Result<Self, SweepError> {
+        read::read(document, folder, source)
     }
 
     /// The object's name.

@@ -228,7 +228,8 @@ fn every_example_is_a_spec() {
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         let (name, bytes) = (path.display().to_string(), std::fs::read(&path).unwrap());
-        let sweep = Sweep::read(&Document::new(&name, &bytes).unwrap())
+        let document = Document::new(&name, &bytes).unwrap();
+        let sweep = Sweep::read_in(&document, path.parent().unwrap(), &files::Disk)
             .unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(sweep.folded_rows(), 0, "{name}");
         sound(&sweep.grid());

@@ -2,6 +2,7 @@
 
 mod contour;
 mod depth;
+mod height;
 mod law;
 mod modulation;
 mod profile;
@@ -12,6 +13,7 @@ use crate::curve::{Cubic, Path, Vector, spline};
 use crate::modulation::Modulation;
 use crate::spec::{Bezier, FORMAT, Free, Spec, VERSION};
 use crate::{Sweep, SweepError};
+use files::Source;
 use files::json::Document;
 use glam::DVec3;
 use std::ops::RangeInclusive;
@@ -35,10 +37,14 @@ const MEETS: f64 = 1e-6;
 const COINCIDENT: f64 = 1e-12;
 
 /// Reads and checks a spec.
-pub fn read(document: &Document) -> Result<Sweep, SweepError> {
+pub fn read(
+    document: &Document,
+    folder: &std::path::Path,
+    source: &dyn Source,
+) -> Result<Sweep, SweepError> {
     document.expect(FORMAT, VERSION.into())?;
     let spec: Spec = document.parse()?;
-    let reader = Reader { document };
+    let reader = Reader { document, folder, source };
     reader.header(&spec)?;
     let trajectory = reader.trajectory(&spec.trajectory, spec.frame.as_ref())?;
     let (contour, blend) = reader.profile(&spec.contour, &trajectory)?;
@@ -64,9 +70,11 @@ pub fn read(document: &Document) -> Result<Sweep, SweepError> {
     }
 }
 
-/// The checks, with the document that their complaints are placed in.
+/// The checks, with the document that their complaints are placed in, and where its files lie.
 struct Reader<'a> {
     document: &'a Document<'a>,
+    folder: &'a std::path::Path,
+    source: &'a dyn Source,
 }
 
 impl Reader<'_> {

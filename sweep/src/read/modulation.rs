@@ -44,8 +44,11 @@ impl Reader<'_> {
             None => None,
         };
         let twist = spec.twist.as_ref().map(|twist| self.twist(twist, trajectory)).transpose()?;
-        let depth =
-            spec.depth.as_ref().map(|depth| self.depth(depth, contour, trajectory)).transpose()?;
+        let depth = spec
+            .depth
+            .as_ref()
+            .map(|depth| self.depth(depth, spec.uv.across, contour, trajectory))
+            .transpose()?;
         Ok((Modulation { blend: None, scale, poles, twist, depth }, mirror))
     }
 
