@@ -3,7 +3,7 @@
 use crate::cut::{self, Stop};
 use crate::grid::file::MAX_COLS;
 use crate::grid::{GridMesh, Seam, UvLayout};
-use crate::modulation::Modulation;
+use crate::modulation::{Alias, Modulation};
 use crate::profile::{Column, Profile};
 use crate::trajectory::Trajectory;
 use crate::{SweepError, read};
@@ -213,6 +213,12 @@ impl Sweep {
                 columns.iter().any(|column| section.folds(column))
             })
             .count()
+    }
+
+    /// What the rows and columns are too few for.
+    #[must_use]
+    pub fn aliases(&self) -> Vec<Alias> {
+        self.modulation.aliases(self.rows, self.cols)
     }
 
     fn row_stops(&self) -> Vec<Stop> {
