@@ -12,7 +12,7 @@ use render::{Picture, Scene, Settings};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
-use sweep::Sweep;
+use sweep::Object;
 use sweep::grid::file as grid_file;
 use triangulate::TriangulateError;
 
@@ -134,7 +134,9 @@ impl Work<'_> {
     fn mesh(&self, mesh: &MeshJob) -> Result<render::shape::Mesh, PipelineError> {
         let started = Instant::now();
         let (name, bytes) = (mesh.spec.display().to_string(), self.source.read(&mesh.spec)?);
-        let grids = [Sweep::read(&Document::new(&name, &bytes)?)?.grid()];
+        let folder = mesh.spec.parent().unwrap_or(Path::new(""));
+        let document = Document::new(&name, &bytes)?;
+        let grids = Object::read_in(&document, folder, self.source)?.grids()?;
         if self.options.keep {
             self.write(&self.job.grid_file(mesh), |out| {
                 grid_file::write_all(&grids, grid_file::Encoding::Binary, out)

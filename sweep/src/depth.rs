@@ -1,4 +1,5 @@
-//! Depth modulation: a relief on the contour, in waves along both directions of the surface.
+//! Depth modulation: a relief on the contour, in waves along both directions of the surface and by a
+//! picture of heights.
 //!
 //! The thesis names depth modulation and does not say what it is; this is our reading. With
 //!
@@ -6,16 +7,18 @@
 //!     delta(u, v) = sum of amp * along(v) * sin(2 pi (m u + n v) + phase)
 //! ```
 //!
-//! a *factor* makes the contour `C` into `(1 + delta) C`, and an *offset* into `C + delta n`, with
+//! and the heights of the picture added to it, a *factor* makes the contour `C` into `(1 + delta) C`, and an *offset* into `C + delta n`, with
 //! `n` its outer normal. The relief is the contour's: what scales and twists the contour scales and
 //! twists it too.
 
 use crate::contour::Local2;
 use crate::curve::turn;
+use crate::height::HeightMap;
 use crate::law::Law;
 use crate::profile::blend::Moving;
 use glam::DVec2;
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 /// A relief on a contour, checked against it.
 #[derive(Debug, Clone)]
@@ -24,6 +27,8 @@ pub struct Depth {
     pub(crate) mode: Mode,
     /// The waves that add up to `delta`.
     pub(crate) terms: Vec<Term>,
+    /// Heights that are added to them.
+    pub(crate) heights: Option<Arc<HeightMap>>,
 }
 
 /// What `delta` does to the contour.
@@ -55,6 +60,8 @@ pub struct Term {
 pub struct Relief {
     mode: Mode,
     waves: Vec<Wave>,
+    heights: Option<Arc<HeightMap>>,
+    v: f64,
 }
 
 /// A term at one place of the trajectory.
@@ -88,7 +95,8 @@ impl Depth {
             let (low, high) = term.along.range();
             term.amp.abs() * low.abs().max(high.abs())
         };
-        self.terms.iter().map(most).sum()
+        let heights = self.heights.as_ref().map_or(0.0, |heights| heights.most());
+        self.terms.iter().map(most).sum::<f64>() + heights
     }
 
     /// The relief at `v`.
@@ -105,7 +113,7 @@ impl Depth {
             }
         };
         let waves = self.terms.iter().map(wave).collect();
-        Relief { mode: self.mode, waves }
+        Relief { mode: self.mode, waves, heights: self.heights.clone(), v }
     }
 }
 
@@ -120,6 +128,12 @@ impl Relief {
             delta += wave.height * angle.y;
             delta_u += wave.height * angle.x * (TAU * wave.u);
             delta_v += wave.height_v * angle.y + wave.height * angle.x * wave.phase_v;
+        }
+        if let Some(heights) = &self.heights {
+            let [height, by_u, by_v] = heights.at(u, self.v);
+            delta += height;
+            delta_u += by_u;
+            delta_v += by_v;
         }
         match self.mode {
             Mode::Factor => Raised {

@@ -12,6 +12,12 @@ pub enum SweepError {
     /// The spec is well formed, but its surface does not exist.
     #[error("{0}")]
     Geometry(JsonError),
+    /// A file that the spec names cannot be read.
+    #[error("{0}")]
+    Named(JsonError),
+    /// A file that the spec names holds more than is taken.
+    #[error("{0}")]
+    TooLarge(JsonError),
     /// The rows or columns asked for beside the spec cannot be made.
     #[error("{0}")]
     Resolution(String),
@@ -35,7 +41,8 @@ impl Failure for SweepError {
             Self::Malformed(_) => Exit::Malformed,
             Self::Geometry(_) => Exit::Geometry,
             Self::Resolution(_) => Exit::Use,
-            Self::Memory { .. } => Exit::Resource,
+            Self::Named(_) => Exit::ReadWrite,
+            Self::Memory { .. } | Self::TooLarge(_) => Exit::Resource,
         }
     }
 }

@@ -11,6 +11,7 @@
 //! | [`trajectory`] | the curve it follows; stations, normals in closed form              |
 //! | [`law`]        | numbers that change along the trajectory                            |
 //! | [`depth`]      | relief on the contour, in waves                                     |
+//! | [`height`]     | heights from a picture                                              |
 //! | [`modulation`] | the contour scaled and twisted on its way                          |
 //! | [`cap`]        | what closes the ends                                                |
 //! | [`closing`]    | how the surface comes back to its start                             |
@@ -41,6 +42,7 @@ pub mod depth;
 pub mod error;
 pub mod frame;
 pub mod grid;
+pub mod height;
 pub mod law;
 pub mod modulation;
 mod object;

@@ -4,7 +4,7 @@ use clap::{Parser, ValueEnum};
 use files::exit::{Exit, Failure, Report, say};
 use files::input;
 use files::json::Document;
-use files::{Output, exit};
+use files::{Disk, Output, exit};
 use std::io::{self, IsTerminal};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -111,7 +111,8 @@ fn work(arguments: &Arguments) -> Result<(), Report> {
     let start = Instant::now();
     let bytes = input::read(&arguments.spec)?;
     let name = input::name_of(&arguments.spec);
-    let object = Object::read(&Document::new(&name, &bytes)?)?
+    let folder = arguments.spec.parent().unwrap_or(Path::new(""));
+    let object = Object::read_in(&Document::new(&name, &bytes)?, folder, &Disk)?
         .with_resolution(arguments.rows, arguments.cols)?;
     let read = Instant::now();
     let mut output = Output::create(&arguments.output, !arguments.no_clobber)?;

@@ -1,7 +1,9 @@
 //! An object: one sweep, or several that belong together, as a cup and its handle do.
 
 use crate::{GridMesh, Sweep, SweepError, read};
+use files::Source;
 use files::json::Document;
+use std::path::Path;
 
 /// One sweep or several, checked.
 #[derive(Debug, Clone)]
@@ -13,10 +15,17 @@ pub struct Object {
 impl Object {
     /// Reads and checks a [`Spec`](crate::spec::Spec), or a spec of [`Parts`](crate::spec::Parts).
     ///
+    /// Files that it names count from `folder` and lie in `source`.
+    ///
     /// # Errors
-    /// When the text is not a spec, or a surface does not exist; the message has the place.
-    pub fn read(document: &Document<'_>) -> Result<Self, SweepError> {
-        read::read(document)
+    /// When the text is not a spec, a surface does not exist, or a file cannot be read or is not what
+    /// it should be; the message has the place.
+    pub fn read_in(
+        document: &Document<'_>,
+        folder: &Path,
+        source: &dyn Source,
+    ) -> Result<Self, SweepError> {
+        read::read(document, folder, source)
     }
 
     /// The object's name.

@@ -120,6 +120,14 @@
 //! }
 //! ```
 //!
+//! Heights may come from a grey picture, alone or besides `terms`:
+//! `"image": {"file": "relief.png", "amp": a, "repeat": [x, y], "zero": 0.5}` adds `a (grey - zero)`, where
+//! black is 0 and white is 1. The file is a PNG of 8 or 16 bits, named from the spec's folder; its numbers
+//! are heights, whatever its colour space, and transparency is not looked at. It lies on the surface as
+//! a texture does that `uv` lays `across` the same way, `repeat` times (once if left out), and is smooth
+//! between its texels. Along a closed curve it repeats, a whole number of times; along an open one
+//! it is mirrored at its edges.
+//!
 //! # Seam, caps, deformations, parts
 //!
 //! [`SeamKind`] closes one-sided surfaces; [`Caps`] close the ends; [`Deform`] bends, twists and tapers the finished surface; [`Parts`] are
@@ -146,7 +154,7 @@ pub use areas::Area;
 pub use caps::{Cap, Caps};
 pub use contour::Contour;
 pub use deform::{AxisTwist, Bend, Deform, Taper};
-pub use depth::{Depth, DepthMode, DepthTerm};
+pub use depth::{Depth, DepthImage, DepthMode, DepthTerm};
 pub use frame::{Frame, Frenet};
 pub use helix::Helix;
 pub use law::{Ease, Law, Scale};
@@ -378,7 +386,8 @@ mod tests {
             assert_eq!(snippets.len(), count);
             for snippet in snippets {
                 let document = Document::new("snippet", snippet.as_bytes()).unwrap();
-                let object = Object::read(&document).unwrap_or_else(|error| panic!("{error}"));
+                let object = Object::read_in(&document, std::path::Path::new(""), &files::Disk)
+                    .unwrap_or_else(|error| panic!("{error}"));
                 for grid in object.grids().unwrap() {
                     assert_eq!(grid.positions.len(), grid.rows() * grid.cols());
                 }

@@ -6,13 +6,15 @@ use crate::cut::{self, Stop};
 use crate::deform::{Deform, Moved};
 use crate::grid::file::MAX_COLS;
 use crate::grid::{Area, GridMesh, Seam, UvLayout};
-use crate::modulation::{Modulation, Section};
+use crate::modulation::{Alias, Modulation, Section};
 use crate::profile::{Column, Profile};
 use crate::trajectory::Trajectory;
 use crate::{Object, SweepError};
 use files::json::Document;
+use files::{Disk, Source};
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
+use std::path::Path;
 
 /// Cells of one grid at most: 3.6 GB of points and normals, and twice that when it is one cell wide.
 pub const MOST_CELLS: usize = 100_000_000;
@@ -41,12 +43,24 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// Reads and checks a spec of one sweep.
+    /// Reads and checks a spec of one sweep; files that it names count from the working folder.
     ///
     /// # Errors
-    /// As [`Object::read`], and when the object has several parts.
+    /// As [`Object::read_in`], and when the object has several parts.
     pub fn read(document: &Document<'_>) -> Result<Self, SweepError> {
-        let mut parts = Object::read(document)?.parts;
+        Self::read_in(document, Path::new(""), &Disk)
+    }
+
+    /// Reads and checks a spec of one sweep, whose files count from `folder` and lie in `source`.
+    ///
+    /// # Errors
+    /// As [`Sweep::read`].
+    pub fn read_in(
+        document: &Document<'_>,
+        folder: &Path,
+        source: &dyn Source,
+    ) -> Result<Self, SweepError> {
+        let mut parts = Object::read_in(document, folder, source)?.parts;
         match (parts.pop(), parts.len()) {
             (Some(sweep), 0) => Ok(sweep),
             (_, more) => {
@@ -244,6 +258,12 @@ impl Sweep {
                     .any(|column| section.folds(column) || self.place(&section, column).folds)
             })
             .count()
+    }
+
+    /// What the rows and columns are too few for.
+    #[must_use]
+    pub fn aliases(&self) -> Vec<Alias> {
+        self.modulation.aliases(self.rows, self.cols)
     }
 
     /// The contour at a stop of the rows, on the trajectory or on a cap.

@@ -299,3 +299,26 @@ fn a_scale_that_turns_the_surface_inside_out_is_refused() {
     assert!(error.contains("only one passes 0 at 0.5"), "{error}");
     assert!(error.contains("inside out"), "{error}");
 }
+
+#[test]
+fn a_thousand_lobes_and_a_hundred_turns_want_cells_enough() {
+    let laws = json!({
+        "depth": {"mode": "factor", "terms": [{"amp": 0.1, "u": 1000, "v": 3}]},
+        "twist": {"total": 36000},
+    });
+    let sweep = swept(&json!({"circle": 1}), &laws);
+    sound(&sweep.grid());
+    let keys = |sweep: &Sweep| sweep.aliases().into_iter().map(|a| a.key).collect::<Vec<_>>();
+    assert_eq!(keys(&sweep), ["depth.terms[0].u", "twist"]);
+    assert!(sweep.aliases()[1].message.contains("a turn of 1800 degrees"));
+    let fine = sweep.with_resolution(Some(400), Some(2000)).unwrap();
+    assert_eq!(keys(&fine), [""; 0]);
+    sound(&fine.grid());
+}
+
+#[test]
+fn a_relief_deeper_than_the_contour_is_refused() {
+    let deep = json!({"depth": {"mode": "factor", "terms": [{"amp": 1.5, "u": 3}]}});
+    let error = read(&json!({"circle": 1}), &deep).unwrap_err().to_string();
+    assert!(error.contains("depth.terms: found heights that add up to 1.5"), "{error}");
+}

@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use serde_json::{Value, json};
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 use sweep::grid::Seam;
-use sweep::{GridMesh, Sweep, SweepError};
+use sweep::{GridMesh, Object, Sweep, SweepError};
 
 fn read(contour: &Value, trajectory: &Value, extra: &Value) -> Result<Sweep, SweepError> {
     let mut spec = json!({
@@ -228,15 +228,18 @@ fn every_example_is_a_spec() {
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         let (name, bytes) = (path.display().to_string(), std::fs::read(&path).unwrap());
-        let sweep = Sweep::read(&Document::new(&name, &bytes).unwrap())
+        let document = Document::new(&name, &bytes).unwrap();
+        let object = Object::read_in(&document, path.parent().unwrap(), &files::Disk)
             .unwrap_or_else(|error| panic!("{error}"));
-        assert_eq!(sweep.folded_rows(), 0, "{name}");
-        sound(&sweep.grid());
-        if sweep.name() == "vase" {
-            assert_eq!(sweep.contour().creases(), 1, "only the inner edge of the foot");
-            let heights = || sweep.grid().positions.into_iter().map(|p| p.y);
-            assert_eq!(heights().fold(f64::INFINITY, f64::min), 0.0);
-            assert!((heights().fold(0.0, f64::max) - 2.0).abs() < 1e-3);
+        for sweep in object.parts() {
+            assert_eq!(sweep.folded_rows(), 0, "{name}");
+            sound(&sweep.grid());
+            if sweep.name() == "vase" {
+                assert_eq!(sweep.contour().creases(), 1, "only the inner edge of the foot");
+                let heights = || sweep.grid().positions.into_iter().map(|p| p.y);
+                assert_eq!(heights().fold(f64::INFINITY, f64::min), 0.0);
+                assert!((heights().fold(0.0, f64::max) - 2.0).abs() < 1e-3);
+            }
         }
         seen += 1;
     }

@@ -6,6 +6,7 @@
 //! | `vase-band.png`    | [`vase_band`]    | the painted bands of a blue and white vase        |
 //! | `floor-tiles.png`  | [`floor_tiles`]  | octagons of stone with small squares between them |
 //! | `granite.png`      | [`granite`]      | pink granite                                      |
+//! | `scales.png`       | [`scales`]       | heights: rows of scales, each over the one above  |
 //!
 //! [`canvas`] samples a colour per point into a picture; [`shape`] has the outlines, [`noise`] the
 //! irregularities and [`color`] the way between linear light and bytes. A picture depends on
@@ -20,6 +21,7 @@ mod color;
 mod floor_tiles;
 mod granite;
 mod noise;
+mod scales;
 mod shape;
 mod vase_band;
 
@@ -35,9 +37,10 @@ pub struct Texture {
 }
 
 /// All textures that this folder draws.
-pub const TEXTURES: [Texture; 4] = [
+pub const TEXTURES: [Texture; 5] = [
     Texture { file: "checkerboard.png", draw: checkerboard::draw },
     Texture { file: "vase-band.png", draw: vase_band::draw },
     Texture { file: "floor-tiles.png", draw: floor_tiles::draw },
     Texture { file: "granite.png", draw: granite::draw },
+    Texture { file: "scales.png", draw: scales::draw },
 ];

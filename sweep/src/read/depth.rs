@@ -3,9 +3,11 @@
 use super::Reader;
 use crate::SweepError;
 use crate::depth::{Depth, Mode, Term};
+use crate::grid::Across;
 use crate::profile::Profile;
 use crate::spec::{self, DepthMode, DepthTerm};
 use crate::trajectory::Trajectory;
+use std::sync::Arc;
 
 /// Waves along a curve at most; a mesh of as many cells as there may be shows fewer.
 const MOST_WAVES: f64 = 1e6;
@@ -14,11 +16,12 @@ impl Reader<'_> {
     pub(super) fn depth(
         &self,
         depth: &spec::Depth,
+        across: Across,
         contour: &Profile,
         trajectory: &Trajectory,
     ) -> Result<Depth, SweepError> {
-        if depth.terms.is_empty() {
-            return Err(self.fault("depth.terms", "found no terms, expected at least one"));
+        if depth.terms.is_empty() && depth.image.is_none() {
+            return Err(self.fault("depth", "found no terms, expected at least one, or an image"));
         }
         let mode = match depth.mode {
             DepthMode::Factor => Mode::Factor,
@@ -32,20 +35,26 @@ impl Reader<'_> {
             );
             return Err(self.geometry("depth.mode", message));
         }
-        let terms: Result<_, _> = depth
+        let terms: Result<Vec<Term>, _> = depth
             .terms
             .iter()
             .enumerate()
             .map(|(i, term)| self.term(&format!("depth.terms[{i}]"), term, contour, trajectory))
             .collect();
-        let depth = Depth { mode, terms: terms? };
+        let terms = terms?;
+        let heights = match &depth.image {
+            Some(image) => Some(Arc::new(self.heights(image, across, contour, trajectory)?)),
+            None => None,
+        };
+        let path = if terms.is_empty() { "depth.image.amp" } else { "depth.terms" };
+        let depth = Depth { mode, terms, heights };
         let most = depth.most();
         if mode == Mode::Factor && most >= 1.0 {
             let message = format!(
                 "found heights that add up to {most:?}, expected less than 1, so that the factor \
                  stays above 0"
             );
-            return Err(self.geometry("depth.terms", message));
+            return Err(self.geometry(path, message));
         }
         if trajectory.is_rotation() {
             self.off_axis("depth", contour)?;
@@ -55,7 +64,7 @@ impl Reader<'_> {
                     "found heights that add up to {most:?}, expected less than {low:?}, the \
                      distance from the axis of the rotation"
                 );
-                return Err(self.geometry("depth.terms", message));
+                return Err(self.geometry(path, message));
             }
         }
         Ok(depth)
@@ -102,7 +111,7 @@ mod tests {
     #[test]
     fn each_key_of_a_relief_has_its_complaint() {
         let malformed = [
-            ("\"terms\": []", "4:38: depth.terms: found no terms"),
+            ("\"terms\": []", "4:10: depth: found no terms"),
             ("\"terms\": [{}]", "depth.terms[0]"),
             ("\"terms\": [{\"amp\": 1e61}]", "4:47: depth.terms[0].amp: found 1e61"),
             ("\"terms\": [{\"amp\": 0.1, \"u\": 2.5}]", "4:57: depth.terms[0].u: found 2.5 waves"),
@@ -110,7 +119,7 @@ mod tests {
             ("\"terms\": [{\"amp\": 0.1, \"u\": 1e7}]", "depth.terms[0].u: found 10000000.0 waves"),
             ("\"terms\": [{\"amp\": 0.1, \"w\": 1}]", "unknown key `w`"),
             ("\"terms\": [{\"amp\": 0.1, \"along\": {\"keys\": []}}]", "along.keys: found no keys"),
-            ("\"terms\": [{\"amp\": 0.1}], \"image\": 1", "unknown key `image`"),
+            ("\"image\": {\"amp\": 0.1}", "4:38: depth.image: missing key `file`"),
         ];
         let geometry = [
             ("\"terms\": [{\"amp\": -0.6}, {\"amp\": 0.5}]", "heights that add up to 1.1"),

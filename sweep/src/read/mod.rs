@@ -6,6 +6,7 @@ mod contour;
 mod curve;
 mod deform;
 mod depth;
+mod height;
 mod law;
 mod modulation;
 mod object;
@@ -18,6 +19,7 @@ pub use object::read;
 use crate::modulation::Modulation;
 use crate::spec::Spec;
 use crate::{Sweep, SweepError};
+use files::Source;
 use files::json::Document;
 use glam::DVec3;
 use std::ops::RangeInclusive;
@@ -31,9 +33,11 @@ const SMALLEST: f64 = 1e-60;
 /// Repeats of a picture, whose coordinates become f32 in a mesh.
 const REPEATS: RangeInclusive<f64> = 1e-30..=1e30;
 
-/// The checks, with the document that their complaints are placed in.
+/// The checks, with the document that their complaints are placed in, and where its files lie.
 struct Reader<'a> {
     document: &'a Document<'a>,
+    folder: &'a std::path::Path,
+    source: &'a dyn Source,
     /// What all paths start with.
     prefix: String,
 }

@@ -48,8 +48,11 @@ impl Reader<'_> {
             .as_ref()
             .map(|twist| self.twist(twist, trajectory, spec.seam))
             .transpose()?;
-        let depth =
-            spec.depth.as_ref().map(|depth| self.depth(depth, contour, trajectory)).transpose()?;
+        let depth = spec
+            .depth
+            .as_ref()
+            .map(|depth| self.depth(depth, spec.uv.across, contour, trajectory))
+            .transpose()?;
         Ok((Modulation { blend: None, scale, poles, twist, depth, turn: 0.0 }, mirror))
     }
 

@@ -3,18 +3,24 @@
 use super::Reader;
 use crate::spec::{FORMAT, Parts, Spec, VERSION};
 use crate::{Object, Sweep, SweepError};
+use files::Source;
 use files::json::Document;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
+use std::path::Path;
 
 /// Reads and checks a spec of one sweep or of several.
-pub fn read(document: &Document<'_>) -> Result<Object, SweepError> {
+pub fn read(
+    document: &Document<'_>,
+    folder: &Path,
+    source: &dyn Source,
+) -> Result<Object, SweepError> {
     document.expect(FORMAT, VERSION.into())?;
+    let reader = Reader { document, folder, source, prefix: String::new() };
     if document.parse::<Probe>().is_ok_and(|probe| probe.parts.is_some()) {
-        return read_parts(document, document.parse()?);
+        return reader.parts(document.parse()?);
     }
     let spec: Spec = document.parse()?;
-    let reader = Reader { document, prefix: String::new() };
     for (key, missing) in [("format", spec.format.is_none()), ("version", spec.version.is_none())] {
         if missing {
             return Err(reader.fault("", format!("missing key `{key}`")));
@@ -30,22 +36,23 @@ struct Probe {
     parts: Option<IgnoredAny>,
 }
 
-fn read_parts(document: &Document<'_>, object: Parts) -> Result<Object, SweepError> {
-    let whole = Reader { document, prefix: String::new() };
-    whole.name(&object.name)?;
-    if object.parts.is_empty() {
-        return Err(whole.fault("parts", "found no parts, expected at least one"));
-    }
-    let mut parts: Vec<Sweep> = Vec::with_capacity(object.parts.len());
-    for (i, spec) in object.parts.into_iter().enumerate() {
-        let reader = Reader { document, prefix: format!("parts[{i}].") };
-        if parts.iter().any(|part| part.name == spec.name) {
-            let message = format!("found {:?} twice, expected a name for each part", spec.name);
-            return Err(reader.fault("name", message));
+impl Reader<'_> {
+    fn parts(&self, object: Parts) -> Result<Object, SweepError> {
+        self.name(&object.name)?;
+        if object.parts.is_empty() {
+            return Err(self.fault("parts", "found no parts, expected at least one"));
         }
-        parts.push(reader.sweep(spec)?);
+        let mut parts: Vec<Sweep> = Vec::with_capacity(object.parts.len());
+        for (i, spec) in object.parts.into_iter().enumerate() {
+            let reader = Reader { prefix: format!("parts[{i}]."), ..*self };
+            if parts.iter().any(|part| part.name == spec.name) {
+                let message = format!("found {:?} twice, expected a name for each part", spec.name);
+                return Err(reader.fault("name", message));
+            }
+            parts.push(reader.sweep(spec)?);
+        }
+        Ok(Object { name: object.name, parts })
     }
-    Ok(Object { name: object.name, parts })
 }
 
 #[cfg(test)]
@@ -54,7 +61,8 @@ mod tests {
     use files::{Exit, Failure};
 
     fn complaint(text: &str) -> (String, Exit) {
-        let error = read(&Document::new("a.json", text.as_bytes()).unwrap()).unwrap_err();
+        let document = Document::new("a.json", text.as_bytes()).unwrap();
+        let error = read(&document, Path::new(""), &files::Disk).unwrap_err();
         (error.to_string(), error.exit())
     }
 

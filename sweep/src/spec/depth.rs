@@ -5,12 +5,35 @@ use serde::{Deserialize, Serialize};
 
 /// A relief on the contour.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "an object with the keys mode and terms")]
+#[serde(deny_unknown_fields, expecting = "an object with the key mode, and terms or image")]
 pub struct Depth {
     /// What the sum of the terms does to the contour.
     pub mode: DepthMode,
-    /// Waves; at least one.
+    /// Waves.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub terms: Vec<DepthTerm>,
+    /// Heights from a picture.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub image: Option<DepthImage>,
+}
+
+/// Heights from a picture.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(
+    deny_unknown_fields,
+    expecting = "an object with the keys file and amp, and any of repeat, zero"
+)]
+pub struct DepthImage {
+    /// A grey PNG file, from the spec's folder.
+    pub file: String,
+    /// Height of white above black: a part of the contour for a factor, a length for an offset.
+    pub amp: f64,
+    /// How often the picture repeats, across and up; whole numbers along closed curves.
+    #[serde(default = "once")]
+    pub repeat: [f64; 2],
+    /// The grey that leaves the contour as it is: 0 is black, 1 is white.
+    #[serde(default = "half")]
+    pub zero: f64,
 }
 
 /// What a relief does to the contour.
@@ -44,6 +67,14 @@ pub struct DepthTerm {
     /// Factor of the height along the trajectory.
     #[serde(default = "one")]
     pub along: Law,
+}
+
+fn once() -> [f64; 2] {
+    [1.0, 1.0]
+}
+
+fn half() -> f64 {
+    0.5
 }
 
 fn one() -> Law {

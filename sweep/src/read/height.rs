@@ -1,0 +1,89 @@
+//! The picture of heights that a spec names.
+
+use super::Reader;
+use crate::SweepError;
+use crate::grid::Across;
+use crate::height::{Axis, HeightMap};
+use crate::profile::Profile;
+use crate::spec::DepthImage;
+use crate::trajectory::Trajectory;
+use image::{ImageFormat, ImageReader};
+use std::io::Cursor;
+
+/// Texels of a picture at most, each of which takes 8 bytes.
+const MOST_TEXELS: u64 = 1 << 24;
+
+/// Repeats at most, so that a texel is still a place that a double tells from the next.
+const MOST_REPEATS: f64 = 1e6;
+
+impl Reader<'_> {
+    /// The heights on a surface.
+    pub(super) fn heights(
+        &self,
+        image: &DepthImage,
+        across: Across,
+        contour: &Profile,
+        trajectory: &Trajectory,
+    ) -> Result<HeightMap, SweepError> {
+        self.number("depth.image.amp", image.amp)?;
+        self.number("depth.image.zero", image.zero)?;
+        let curves = [(contour.closed(), "contour"), (trajectory.closed(), "trajectory")];
+        let curves = match across {
+            Across::Contour => curves,
+            Across::Trajectory => [curves[1], curves[0]],
+        };
+        for (i, (&repeat, (closed, curve))) in image.repeat.iter().zip(curves).enumerate() {
+            let path = format!("depth.image.repeat[{i}]");
+            self.positive(&path, repeat)?;
+            if repeat > MOST_REPEATS {
+                let message = format!("found {repeat:?}, expected at most {MOST_REPEATS:?}");
+                return Err(self.fault(&path, message));
+            }
+            if closed && repeat.fract() != 0.0 {
+                let message = format!(
+                    "found {repeat:?} repeats, expected a whole number, since the {curve} is closed"
+                );
+                return Err(self.fault(&path, message));
+            }
+        }
+        let (size, mut values) = self.greys(&image.file)?;
+        for value in &mut values {
+            *value -= image.zero;
+        }
+        let axis =
+            |i: usize| Axis { texels: size[i], repeat: image.repeat[i], closed: curves[i].0 };
+        Ok(HeightMap::new(values, [axis(0), axis(1)], across, image.amp))
+    }
+
+    /// The texels of a grey picture, from 0 to 1, by rows from the top.
+    fn greys(&self, file: &str) -> Result<([usize; 2], Vec<f64>), SweepError> {
+        let place = "depth.image.file";
+        let path = self.folder.join(file);
+        let name = path.display();
+        let bytes = self
+            .source
+            .read(&path)
+            .map_err(|error| SweepError::Named(self.document.fault(place, error.to_string())))?;
+        let reader = || ImageReader::with_format(Cursor::new(&bytes), ImageFormat::Png);
+        let broken = |error: image::ImageError| {
+            self.fault(place, format!("found no picture in {name} ({error}), expected a PNG file"))
+        };
+        let (width, height) = reader().into_dimensions().map_err(broken)?;
+        if u64::from(width) * u64::from(height) > MOST_TEXELS {
+            let message = format!(
+                "found {width} x {height} texels in {name}, expected at most {MOST_TEXELS}"
+            );
+            return Err(SweepError::TooLarge(self.document.fault(place, message)));
+        }
+        let picture = reader().decode().map_err(broken)?.into_rgb16();
+        if let Some((x, y, _)) =
+            picture.enumerate_pixels().find(|(.., p)| p.0[0] != p.0[1] || p.0[1] != p.0[2])
+        {
+            let message =
+                format!("found a colour at texel ({x}, {y}) of {name}, expected a grey picture");
+            return Err(self.fault(place, message));
+        }
+        let values = picture.pixels().map(|p| f64::from(p.0[0]) / f64::from(u16::MAX)).collect();
+        Ok(([width as usize, height as usize], values))
+    }
+}
