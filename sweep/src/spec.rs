@@ -31,6 +31,7 @@
 //! | `{"helix": {"radius": r, "rise": h, "turns": n, ...}}` | a helix that rises by h in each turn |
 //! | `{"bezier": {"closed": c, "segments": [S, ...]}}` | cubics; `S` is four points `[x, y, z]`     |
 //! | `{"free": {"closed": c, "points": [P, ...]}}`   | a C2 spline through points `[x, y, z]`       |
+//! | `{"flat": {"curve": C, "z": LAW}}`             | a curve drawn flat like a contour, with a height; see [`Flat`] |
 //! | `{"rotation": {"angle_deg": d, ...}}`             | contour x is the distance from an axis, y the height on it |
 //!
 //! `mesh` counts cells, which become quads: rows along the trajectory, cols along the contour. Going
@@ -122,11 +123,13 @@
 //! of at least 0; where it is 0 the surface has a pole. Points given twice count once.
 
 mod depth;
+mod flat;
 mod frame;
 mod helix;
 mod law;
 
 pub use depth::{Depth, DepthMode, DepthTerm};
+pub use flat::Flat;
 pub use frame::{Frame, Frenet};
 pub use helix::Helix;
 pub use law::{Ease, Law, Scale};
@@ -204,6 +207,8 @@ pub enum Trajectory {
     Bezier(Bezier<[f64; 3]>),
     /// Points that a spline goes through.
     Free(Free<[f64; 3]>),
+    /// A curve drawn flat, with a height.
+    Flat(Flat),
     /// A turn of the contour about an axis in its plane.
     Rotation(Rotation),
 }
@@ -308,7 +313,7 @@ impl TryFrom<ContourKeys> for Contour {
 #[derive(Deserialize)]
 #[serde(
     deny_unknown_fields,
-    expecting = "an object with one of the keys line, circle, helix, bezier, free, rotation"
+    expecting = "an object with one of the keys line, circle, helix, bezier, free, flat, rotation"
 )]
 struct TrajectoryKeys {
     line: Option<[[f64; 3]; 2]>,
@@ -316,6 +321,7 @@ struct TrajectoryKeys {
     helix: Option<Helix>,
     bezier: Option<Bezier<[f64; 3]>>,
     free: Option<Free<[f64; 3]>>,
+    flat: Option<Flat>,
     rotation: Option<Rotation>,
 }
 
@@ -331,6 +337,7 @@ impl TryFrom<TrajectoryKeys> for Trajectory {
                 ("helix", keys.helix.map(Self::Helix)),
                 ("bezier", keys.bezier.map(Self::Bezier)),
                 ("free", keys.free.map(Self::Free)),
+                ("flat", keys.flat.map(Self::Flat)),
                 ("rotation", keys.rotation.map(Self::Rotation)),
             ],
         )
@@ -365,7 +372,11 @@ mod tests {
 
     #[test]
     fn the_snippets_are_specs() {
-        for (page, count) in [(include_str!("spec.rs"), 4), (include_str!("spec/frame.rs"), 3)] {
+        for (page, count) in [
+            (include_str!("spec.rs"), 4),
+            (include_str!("spec/flat.rs"), 1),
+            (include_str!("spec/frame.rs"), 3),
+        ] {
             let page: String = page
                 .lines()
                 .map_while(|line| line.strip_prefix("//!"))

@@ -120,6 +120,16 @@ impl<V: Vector> Path<V> {
         Place { segment: index, t }
     }
 
+    /// The place at the parameter `t` of a segment.
+    pub(super) fn place(&self, segment: usize, t: f64) -> Place {
+        Place { segment, t }
+    }
+
+    /// The arc lengths between which the path is smooth.
+    pub(super) fn knots(&self) -> Vec<f64> {
+        self.starts().chain([self.length]).collect()
+    }
+
     /// The length of the path before a place.
     pub fn length_to(&self, place: Place) -> f64 {
         let segment = &self.segments[place.segment];
@@ -179,7 +189,7 @@ impl Curve3 for Path<DVec3> {
     }
 
     fn knots(&self) -> Vec<f64> {
-        self.starts().chain([self.length]).collect()
+        self.knots()
     }
 
     fn at(&self, s: f64) -> Local3 {

@@ -2,7 +2,7 @@
 
 use super::{LARGEST, Reader};
 use crate::contour::Contour;
-use crate::curve::svg;
+use crate::curve::{Path, svg};
 use crate::{SweepError, spec};
 use glam::DVec2;
 
@@ -16,20 +16,20 @@ impl Reader<'_> {
             spec::Contour::Bezier(bezier) => {
                 Ok(Contour::path(self.bezier("contour.bezier", bezier)?))
             }
-            spec::Contour::Svg(text) => self.svg(text),
+            spec::Contour::Svg(text) => Ok(Contour::path(self.outline("contour.svg", text)?)),
             spec::Contour::Free(free) => Ok(Contour::path(self.free("contour.free", free)?)),
         }
     }
 
-    fn svg(&self, text: &str) -> Result<Contour, SweepError> {
-        let path = "contour.svg";
+    /// An SVG path as it is drawn.
+    pub(super) fn outline(&self, path: &str, text: &str) -> Result<Path<DVec2>, SweepError> {
         let outline = svg::outline(text).map_err(|message| self.fault(path, message))?;
         let reckonable = |point: &DVec2| point.abs().max_element() <= LARGEST;
         if !outline.segments.iter().flat_map(|cubic| &cubic.0).all(reckonable) {
             let message = format!("found a coordinate beyond {LARGEST:?}, expected smaller ones");
             return Err(self.fault(path, message));
         }
-        Ok(Contour::path(self.path(path, &outline.segments, outline.closed)?))
+        self.path(path, &outline.segments, outline.closed)
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod contour;
 mod depth;
+mod flat;
 mod law;
 mod modulation;
 mod trajectory;

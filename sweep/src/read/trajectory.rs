@@ -8,7 +8,7 @@ use crate::{SweepError, spec};
 use glam::DVec3;
 
 /// A trajectory may turn at a joint by this many degrees, as handles rounded to a few decimals do.
-const SMOOTH_DEG: f64 = 1.0;
+pub(super) const SMOOTH_DEG: f64 = 1.0;
 
 /// Turns of a helix at most: digits enough are left for the place within one.
 const MOST_TURNS: f64 = 1e6;
@@ -85,7 +85,7 @@ impl Reader<'_> {
             spec::Trajectory::Helix(helix) => self.helix(&format!("{path}.helix"), helix, start),
             spec::Trajectory::Rotation(_) => {
                 let message = "found a rotation, which is no curve, expected one of line, circle, \
-                               helix, bezier, free";
+                               helix, bezier, free, flat";
                 Err(self.geometry(path, message))
             }
             spec::Trajectory::Bezier(bezier) => {
@@ -100,6 +100,7 @@ impl Reader<'_> {
                 self.smooth(&curve, |_| path.clone())?;
                 Ok(Course::Path(curve))
             }
+            spec::Trajectory::Flat(flat) => self.flat(&format!("{path}.flat"), flat),
         }
     }
 
