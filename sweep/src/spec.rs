@@ -31,6 +31,7 @@
 //! | `{"helix": {"radius": r, "rise": h, "turns": n, ...}}` | a helix that rises by h in each turn |
 //! | `{"bezier": {"closed": c, "segments": [S, ...]}}` | cubics; `S` is four points `[x, y, z]`     |
 //! | `{"free": {"closed": c, "points": [P, ...]}}`   | a C2 spline through points `[x, y, z]`       |
+//! | `{"polyline": {"closed": c, "points": [P, ...], "corners": K}}` | straight lines through points `[x, y, z]` |
 //! | `{"flat": {"curve": C, "z": LAW}}`             | a curve drawn flat like a contour, with a height; see [`Flat`] |
 //! | `{"rotation": {"angle_deg": d, ...}}`             | contour x is the distance from an axis, y the height on it |
 //!
@@ -119,20 +120,25 @@
 //! # Corners
 //!
 //! A contour may have corners; one of more than a degree is a crease, where the surface has two
-//! normals. A trajectory may not: it would need a mitre, and is refused. A rotation wants contour x
+//! normals. A trajectory may not, unless it says by `corners` whether they are rounded or mitred; see
+//! [`Corners`]. A rotation wants contour x
 //! of at least 0; where it is 0 the surface has a pole. Points given twice count once.
 
+mod corners;
 mod depth;
 mod flat;
 mod frame;
 mod helix;
 mod law;
+mod turn;
 
+pub use corners::{Bezier3, Corners, Polyline3};
 pub use depth::{Depth, DepthMode, DepthTerm};
 pub use flat::Flat;
 pub use frame::{Frame, Frenet};
 pub use helix::Helix;
 pub use law::{Ease, Law, Scale};
+pub use turn::{Circle, Rotation};
 
 use crate::grid::UvLayout;
 use serde::{Deserialize, Serialize};
@@ -204,7 +210,9 @@ pub enum Trajectory {
     /// A helix.
     Helix(Helix),
     /// Cubic Bezier segments.
-    Bezier(Bezier<[f64; 3]>),
+    Bezier(Bezier3),
+    /// Points that straight lines join.
+    Polyline(Polyline3),
     /// Points that a spline goes through.
     Free(Free<[f64; 3]>),
     /// A curve drawn flat, with a height.
@@ -233,41 +241,6 @@ pub struct Free<P> {
     pub closed: bool,
     /// At least two points, three when closed.
     pub points: Vec<P>,
-}
-
-/// A circle in space.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(
-    deny_unknown_fields,
-    expecting = "an object with the key radius, and any of center, axis, angle_deg"
-)]
-pub struct Circle {
-    /// The distance of the contour's origin from the centre; positive.
-    pub radius: f64,
-    /// The centre.
-    #[serde(default)]
-    pub center: [f64; 3],
-    /// The direction of the contour's y, of any length.
-    #[serde(default = "up")]
-    pub axis: [f64; 3],
-    /// Above 0, up to 360, which is closed.
-    #[serde(default = "full_turn")]
-    pub angle_deg: f64,
-}
-
-/// A turn of the contour about an axis in its plane.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "an object with any of the keys angle_deg, origin, axis")]
-pub struct Rotation {
-    /// Above 0, up to 360, which is closed.
-    #[serde(default = "full_turn")]
-    pub angle_deg: f64,
-    /// Where the contour's origin lies.
-    #[serde(default)]
-    pub origin: [f64; 3],
-    /// The direction of the contour's y, of any length.
-    #[serde(default = "up")]
-    pub axis: [f64; 3],
 }
 
 /// How finely a surface is cut.
@@ -313,13 +286,14 @@ impl TryFrom<ContourKeys> for Contour {
 #[derive(Deserialize)]
 #[serde(
     deny_unknown_fields,
-    expecting = "an object with one of the keys line, circle, helix, bezier, free, flat, rotation"
+    expecting = "an object with one of the keys line, circle, helix, bezier, polyline, free, flat, rotation"
 )]
 struct TrajectoryKeys {
     line: Option<[[f64; 3]; 2]>,
     circle: Option<Circle>,
     helix: Option<Helix>,
-    bezier: Option<Bezier<[f64; 3]>>,
+    bezier: Option<Bezier3>,
+    polyline: Option<Polyline3>,
     free: Option<Free<[f64; 3]>>,
     flat: Option<Flat>,
     rotation: Option<Rotation>,
@@ -336,6 +310,7 @@ impl TryFrom<TrajectoryKeys> for Trajectory {
                 ("circle", keys.circle.map(Self::Circle)),
                 ("helix", keys.helix.map(Self::Helix)),
                 ("bezier", keys.bezier.map(Self::Bezier)),
+                ("polyline", keys.polyline.map(Self::Polyline)),
                 ("free", keys.free.map(Self::Free)),
                 ("flat", keys.flat.map(Self::Flat)),
                 ("rotation", keys.rotation.map(Self::Rotation)),
@@ -361,10 +336,6 @@ fn up() -> [f64; 3] {
     [0.0, 1.0, 0.0]
 }
 
-fn full_turn() -> f64 {
-    360.0
-}
-
 #[cfg(test)]
 mod tests {
     use crate::Sweep;
@@ -374,6 +345,7 @@ mod tests {
     fn the_snippets_are_specs() {
         for (page, count) in [
             (include_str!("spec.rs"), 4),
+            (include_str!("spec/corners.rs"), 2),
             (include_str!("spec/flat.rs"), 1),
             (include_str!("spec/frame.rs"), 3),
         ] {

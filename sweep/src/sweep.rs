@@ -91,7 +91,11 @@ impl Sweep {
         let around = "to go around";
         let fewest = self.trajectory.fewest_cells();
         if self.rows < fewest {
-            let why = if fewest > 1 { around } else { "along the trajectory" };
+            let why = match self.trajectory.breaks().len() {
+                0 if fewest > 1 => around,
+                0 => "along the trajectory",
+                _ => "along a trajectory with corners: one for each piece between them",
+            };
             return Some((
                 "rows",
                 format!("found {}, expected at least {fewest} {why}", self.rows),

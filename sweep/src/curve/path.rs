@@ -120,6 +120,23 @@ impl<V: Vector> Path<V> {
         Place { segment: index, t }
     }
 
+    /// The segment of a place.
+    pub fn cubic(&self, place: Place) -> &Cubic<V> {
+        &self.segments[place.segment].cubic
+    }
+
+    /// The cubics from one arc length to another.
+    pub fn part(&self, from: f64, to: f64) -> Vec<Cubic<V>> {
+        let (first, last) = (self.locate(from), self.locate_before(to));
+        (first.segment..=last.segment)
+            .map(|segment| {
+                let start = if segment == first.segment { first.t } else { 0.0 };
+                let end = if segment == last.segment { last.t } else { 1.0 };
+                self.segments[segment].cubic.part(start, end)
+            })
+            .collect()
+    }
+
     /// The place at the parameter `t` of a segment.
     pub(super) fn place(&self, segment: usize, t: f64) -> Place {
         Place { segment, t }

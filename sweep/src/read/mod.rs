@@ -1,6 +1,7 @@
 //! From a spec to a [`Sweep`]: every value is looked at before any work is done.
 
 mod contour;
+mod corners;
 mod depth;
 mod flat;
 mod law;
@@ -182,8 +183,18 @@ impl Reader<'_> {
         self.path(path, &cubics, bezier.closed)
     }
 
-    /// The spline through free points; points given twice count once.
+    /// The spline through free points.
     fn free<P, V>(&self, path: &str, free: &Free<P>) -> Result<Path<V>, SweepError>
+    where
+        P: AsRef<[f64]> + Copy,
+        V: Vector + From<P>,
+    {
+        let points: Vec<V> = self.free_points(path, free)?;
+        self.path(path, &spline::through(&points, free.closed), free.closed)
+    }
+
+    /// Points, of which those given twice count once.
+    fn free_points<P, V>(&self, path: &str, free: &Free<P>) -> Result<Vec<V>, SweepError>
     where
         P: AsRef<[f64]> + Copy,
         V: Vector + From<P>,
@@ -213,7 +224,7 @@ impl Reader<'_> {
             );
             return Err(self.geometry(&points_path, message));
         }
-        self.path(path, &spline::through(&points, free.closed), free.closed)
+        Ok(points)
     }
 
     fn path<V: Vector>(

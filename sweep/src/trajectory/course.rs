@@ -8,6 +8,9 @@ use std::f64::consts::TAU;
 /// Knots of a helix at most; beyond, they are more than an eighth of a turn apart.
 const MOST_KNOTS: f64 = 65536.0;
 
+/// A joint of a trajectory that turns further than this, in degrees, is a corner.
+pub const CORNER_DEG: f64 = 1.0;
+
 /// A curve in space by arc length.
 #[derive(Debug, Clone)]
 pub enum Course {
@@ -36,6 +39,19 @@ pub enum Course {
 }
 
 impl Course {
+    /// The arc lengths of the corners, which are mitred; 0 for the start of a closed curve.
+    #[must_use]
+    pub fn corners(&self) -> Vec<f64> {
+        match self {
+            Self::Path(path) => path
+                .joints()
+                .filter(|joint| joint.angle.to_degrees() > CORNER_DEG)
+                .map(|joint| joint.s)
+                .collect(),
+            _ => Vec::new(),
+        }
+    }
+
     /// The rotation-minimizing frame at `v`, a fraction of the length, and the curvature there on its
     /// `(w1, w2)`, where both are known in closed form.
     pub(super) fn own_frame(&self, v: f64) -> Option<(Frame, DVec2)> {
