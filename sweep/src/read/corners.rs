@@ -13,6 +13,9 @@ use glam::DVec3;
 /// Legs of a hairpin this much nearer to each other than they are long lie on each other.
 const ON_EACH_OTHER: f64 = 1e-9;
 
+/// Lengths along a trajectory are known to this part of the whole.
+const ROUNDING: f64 = 1e-12;
+
 /// A control point this far off the line, as a part of the segment, leaves it straight.
 const STRAIGHT: f64 = 1e-9;
 
@@ -108,6 +111,7 @@ impl Reader<'_> {
         place: impl Fn(usize) -> String,
     ) -> Result<Course, SweepError> {
         let length = curve.length();
+        let rounding = ROUNDING * length;
         let mut ends: Vec<f64> = corners.iter().map(|joint| joint.s).collect();
         if ends.first() != Some(&0.0) {
             ends.insert(0, 0.0);
@@ -120,7 +124,7 @@ impl Reader<'_> {
         let mut cubics = Vec::new();
         for leg in ends.windows(2) {
             let (from, to) = (leg[0], leg[1]);
-            if (is_corner(from) || is_corner(to)) && cut > 0.5 * (to - from) {
+            if (is_corner(from) || is_corner(to)) && cut > 0.5 * (to - from) + rounding {
                 let message = format!(
                     "found {cut:?}, expected at most {:?}, half of the way between the corners or \
                      ends at {from:?} and {to:?} of the length {length:?}",
@@ -130,7 +134,10 @@ impl Reader<'_> {
             }
             let first = if is_corner(from) { from + cut } else { from };
             let last = if is_corner(to) { to - cut } else { to };
-            cubics.extend(curve.part(first, last));
+            // Two cuts may leave nothing between them.
+            if last - first > rounding {
+                cubics.extend(curve.part(first, last));
+            }
             if let Some(joint) =
                 corners.iter().find(|joint| is_corner(to) && joint.s == to % length)
             {
