@@ -106,6 +106,36 @@ impl Law {
         }
     }
 
+    /// The graph as cubics of points `(at, value)` from `at` 0 to 1, ends that are held included.
+    #[must_use]
+    pub(crate) fn graph(&self) -> Vec<Cubic<DVec2>> {
+        let mut graph = match &self.0 {
+            Form::Constant(value) => vec![level(0.0, 1.0, *value)],
+            Form::Keys { keys, smooth } => keys
+                .windows(2)
+                .map(|pair| {
+                    let [a, b] = [pair[0], pair[1]].map(DVec2::from_array);
+                    let mut cubic = Cubic::line(a, b);
+                    if *smooth {
+                        (cubic.0[1].y, cubic.0[2].y) = (a.y, b.y);
+                    }
+                    cubic
+                })
+                .collect(),
+            Form::Bezier(segments) => segments.clone(),
+        };
+        let ends = self.ends();
+        let first = graph.first().map_or(1.0, |cubic| cubic.0[0].x);
+        if first > 0.0 {
+            graph.insert(0, level(0.0, first, ends[0]));
+        }
+        let last = graph.last().map_or(0.0, |cubic| cubic.0[3].x);
+        if last < 1.0 {
+            graph.push(level(last, 1.0, ends[1]));
+        }
+        graph
+    }
+
     /// The least and the greatest value.
     #[must_use]
     pub fn range(&self) -> (f64, f64) {
@@ -162,6 +192,11 @@ impl Law {
     }
 }
 
+/// A piece of a graph that keeps its value.
+fn level(from: f64, to: f64, value: f64) -> Cubic<DVec2> {
+    Cubic::line(DVec2::new(from, value), DVec2::new(to, value))
+}
+
 /// Whether a place is the end of the trajectory and of the law, where only one side is left.
 fn is_end(at: f64, last: f64) -> bool {
     at == last && last == 1.0
@@ -180,7 +215,7 @@ pub(crate) fn is_graph(segment: &Cubic<DVec2>) -> bool {
 }
 
 /// The parameter at which a segment reaches `at`, by Newton's method kept between its bounds.
-fn parameter(segment: &Cubic<DVec2>, at: f64) -> f64 {
+pub(crate) fn parameter(segment: &Cubic<DVec2>, at: f64) -> f64 {
     let [from, .., to] = segment.0.map(|p| p.x);
     let (mut low, mut high) = (0.0, 1.0);
     let mut t = (at - from) / (to - from);
@@ -268,6 +303,24 @@ mod tests {
                     / (12.0 * h);
                 let error = (slope - law.at(at).1).abs();
                 assert!(error < 1e-9 * (1.0 + slope.abs()), "{law:?} at {at}: {error:e}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_graph_has_the_values_of_its_law() {
+        for law in laws() {
+            let graph = law.graph();
+            assert_eq!((graph[0].0[0].x, graph[graph.len() - 1].0[3].x), (0.0, 1.0));
+            assert!(graph.windows(2).all(|pair| pair[0].0[3] == pair[1].0[0]));
+            for i in 0..100 {
+                let at = f64::from(i) / 100.0;
+                let next = graph.partition_point(|cubic| cubic.0[3].x <= at);
+                let value = graph[next].point(parameter(&graph[next], at)).y;
+                assert!(
+                    (value - law.at(at).0).abs() < 1e-13 * (1.0 + value.abs()),
+                    "{law:?} at {at}"
+                );
             }
         }
     }

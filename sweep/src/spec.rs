@@ -33,6 +33,8 @@
 //! | `{"helix": {"radius": r, "rise": h, "turns": n, ...}}` | a helix that rises by h in each turn |
 //! | `{"bezier": {"closed": c, "segments": [S, ...]}}` | cubics; `S` is four points `[x, y, z]`     |
 //! | `{"free": {"closed": c, "points": [P, ...]}}`   | a C2 spline through points `[x, y, z]`       |
+//! | `{"polyline": {"closed": c, "points": [P, ...], "corners": K}}` | straight lines through points `[x, y, z]` |
+//! | `{"flat": {"curve": C, "z": LAW}}`             | a curve drawn flat like a contour, with a height; see [`Flat`] |
 //! | `{"rotation": {"angle_deg": d, ...}}`             | contour x is the distance from an axis, y the height on it |
 //!
 //! `mesh` counts cells, which become quads: rows along the trajectory, cols along the contour. Going
@@ -136,30 +138,37 @@
 //! # Corners
 //!
 //! A contour may have corners; one of more than a degree is a crease, where the surface has two
-//! normals. A trajectory may not: it would need a mitre, and is refused. A rotation wants contour x
+//! normals. A trajectory may not, unless it says by `corners` whether they are rounded or mitred; see
+//! [`Corners`]. A rotation wants contour x
 //! of at least 0; where it is 0 the surface has a pole. Points given twice count once.
 
 mod areas;
 mod caps;
 pub mod contour;
+mod corners;
 mod deform;
 mod depth;
+mod flat;
 mod frame;
 mod helix;
 mod law;
 mod parts;
 mod seam;
+mod turn;
 
 pub use areas::Area;
 pub use caps::{Cap, Caps};
 pub use contour::Contour;
+pub use corners::{Bezier3, Corners, Polyline3};
 pub use deform::{AxisTwist, Bend, Deform, Taper};
 pub use depth::{Depth, DepthImage, DepthMode, DepthTerm};
+pub use flat::Flat;
 pub use frame::{Frame, Frenet};
 pub use helix::Helix;
 pub use law::{Ease, Law, Scale};
 pub use parts::Parts;
 pub use seam::SeamKind;
+pub use turn::{Circle, Rotation};
 
 use crate::grid::UvLayout;
 use serde::{Deserialize, Serialize};
@@ -231,9 +240,13 @@ pub enum Trajectory {
     /// A helix.
     Helix(Helix),
     /// Cubic Bezier segments.
-    Bezier(Bezier<[f64; 3]>),
+    Bezier(Bezier3),
+    /// Points that straight lines join.
+    Polyline(Polyline3),
     /// Points that a spline goes through.
     Free(Free<[f64; 3]>),
+    /// A curve drawn flat, with a height.
+    Flat(Flat),
     /// A turn of the contour about an axis in its plane.
     Rotation(Rotation),
 }
@@ -260,41 +273,6 @@ pub struct Free<P> {
     pub points: Vec<P>,
 }
 
-/// A circle in space.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(
-    deny_unknown_fields,
-    expecting = "an object with the key radius, and any of center, axis, angle_deg"
-)]
-pub struct Circle {
-    /// The distance of the contour's origin from the centre; positive.
-    pub radius: f64,
-    /// The centre.
-    #[serde(default)]
-    pub center: [f64; 3],
-    /// The direction of the contour's y, of any length.
-    #[serde(default = "up")]
-    pub axis: [f64; 3],
-    /// Above 0, up to 360, which is closed.
-    #[serde(default = "full_turn")]
-    pub angle_deg: f64,
-}
-
-/// A turn of the contour about an axis in its plane.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "an object with any of the keys angle_deg, origin, axis")]
-pub struct Rotation {
-    /// Above 0, up to 360, which is closed.
-    #[serde(default = "full_turn")]
-    pub angle_deg: f64,
-    /// Where the contour's origin lies.
-    #[serde(default)]
-    pub origin: [f64; 3],
-    /// The direction of the contour's y, of any length.
-    #[serde(default = "up")]
-    pub axis: [f64; 3],
-}
-
 /// How finely a surface is cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "an object with the keys rows and cols")]
@@ -309,14 +287,16 @@ pub struct Mesh {
 #[derive(Deserialize)]
 #[serde(
     deny_unknown_fields,
-    expecting = "an object with one of the keys line, circle, helix, bezier, free, rotation"
+    expecting = "an object with one of the keys line, circle, helix, bezier, polyline, free, flat, rotation"
 )]
 struct TrajectoryKeys {
     line: Option<[[f64; 3]; 2]>,
     circle: Option<Circle>,
     helix: Option<Helix>,
-    bezier: Option<Bezier<[f64; 3]>>,
+    bezier: Option<Bezier3>,
+    polyline: Option<Polyline3>,
     free: Option<Free<[f64; 3]>>,
+    flat: Option<Flat>,
     rotation: Option<Rotation>,
 }
 
@@ -331,7 +311,9 @@ impl TryFrom<TrajectoryKeys> for Trajectory {
                 ("circle", keys.circle.map(Self::Circle)),
                 ("helix", keys.helix.map(Self::Helix)),
                 ("bezier", keys.bezier.map(Self::Bezier)),
+                ("polyline", keys.polyline.map(Self::Polyline)),
                 ("free", keys.free.map(Self::Free)),
+                ("flat", keys.flat.map(Self::Flat)),
                 ("rotation", keys.rotation.map(Self::Rotation)),
             ],
         )
@@ -355,21 +337,19 @@ fn up() -> [f64; 3] {
     [0.0, 1.0, 0.0]
 }
 
-fn full_turn() -> f64 {
-    360.0
-}
-
 #[cfg(test)]
 mod tests {
     use crate::Object;
     use files::json::Document;
 
     /// The pages that show specs, and how many each shows.
-    const PAGES: [(&str, usize); 7] = [
+    const PAGES: [(&str, usize); 9] = [
         (include_str!("spec.rs"), 4),
         (include_str!("spec/caps.rs"), 1),
         (include_str!("spec/contour.rs"), 2),
+        (include_str!("spec/corners.rs"), 2),
         (include_str!("spec/deform.rs"), 1),
+        (include_str!("spec/flat.rs"), 1),
         (include_str!("spec/frame.rs"), 3),
         (include_str!("spec/parts.rs"), 1),
         (include_str!("spec/seam.rs"), 1),

@@ -110,7 +110,7 @@ fn sections([a, b, c]: [Value; 3], smooth: bool) -> Value {
 }
 
 /// Trajectories, and whether they are closed.
-fn trajectories() -> [(Value, bool); 8] {
+fn trajectories() -> [(Value, bool); 9] {
     let bent = json!([[[0, 0, 0], [2, 0.4, 0.3], [1.9, 1.1, 0.2], [0.2, 0.9, 0.8]]]);
     // Their symmetries put the joints of both splines at quarters of their lengths.
     let points = json!([[-1.5, 0, -1], [0, 0.8, 0], [1.5, 0, 1]]);
@@ -127,6 +127,11 @@ fn trajectories() -> [(Value, bool); 8] {
         (json!({"bezier": {"segments": bent}}), false),
         (json!({"free": {"points": points}}), false),
         (json!({"free": {"closed": true, "points": ring}}), true),
+        (
+            json!({"flat": {"curve": {"bezier": {"segments": [[[0, 0], [1, 0.3], [2, 0.2], [1.9, 1.5]]]}},
+                            "z": {"bezier": [[[0, 0], [0.3, 1], [0.6, -0.4], [1, 0.3]]]}}}),
+            false,
+        ),
     ]
 }
 

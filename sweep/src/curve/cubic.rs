@@ -107,6 +107,28 @@ impl<V: Vector> Cubic<V> {
         Self([p3, p2, p1, p0])
     }
 
+    /// The part from one parameter to another.
+    pub fn part(&self, from: f64, to: f64) -> Self {
+        if (from, to) == (0.0, 1.0) {
+            return *self;
+        }
+        let width = (to - from) / 3.0;
+        let (start, end) = (self.point(from), self.point(to));
+        let (leaving, reaching) = (self.velocity(from), self.velocity(to));
+        Self([start, start + leaving * width, end - reaching * width, end])
+    }
+
+    /// Whether the inner control points lie on the line between the ends, up to a part of its length.
+    pub fn is_straight(&self, part: f64) -> bool {
+        let [p0, p1, p2, p3] = self.0;
+        let chord = p3 - p0;
+        let length = chord.length();
+        [p1 - p0, p2 - p0].into_iter().all(|d| {
+            let along = d.dot(chord) / (length * length);
+            (0.0..=1.0).contains(&along) && (d - chord * along).length() <= part * length
+        })
+    }
+
     /// The parts before and after each inner point where the speed is zero.
     ///
     /// The parts meet there with handles of no length, so that each has its own tangent.
@@ -197,6 +219,17 @@ mod tests {
             let third = bending / curve.velocity(t).length();
             assert!((third - curve.third(t)).length() < 1e-8);
         }
+    }
+
+    #[test]
+    fn a_part_runs_along_the_whole() {
+        let part = arch().part(0.3, 0.8);
+        for i in 0..=10 {
+            let t = f64::from(i) / 10.0;
+            assert!((part.point(t) - arch().point(0.3 + 0.5 * t)).length() < 1e-15 * 8.0);
+        }
+        assert!(!arch().is_straight(1e-9));
+        assert!(Cubic::line(DVec3::ONE, DVec3::X * 9.0).part(0.1, 0.4).is_straight(1e-15));
     }
 
     #[test]

@@ -5,6 +5,7 @@
 //! | [`cubic`]      | one segment: point, derivatives, tangents, cusps                  |
 //! | [`path`]       | segments joined, located by arc length; corners                   |
 //! | [`arc_length`] | the length of a segment and its inverse                           |
+//! | [`flat`]       | a curve drawn flat, with a height by a law                        |
 //! | [`helix`]      | a helix and its frames, in closed form                            |
 //! | [`spline`]     | a C2 curve through free points                                    |
 //! | [`svg`]        | the path of an SVG file                                           |
@@ -14,6 +15,7 @@
 
 pub mod arc_length;
 pub mod cubic;
+pub mod flat;
 pub mod helix;
 pub mod path;
 mod quadrature;
@@ -22,6 +24,7 @@ pub mod svg;
 pub mod vector;
 
 pub use cubic::Cubic;
+pub use flat::Flat;
 pub use helix::Helix;
 pub use path::Path;
 pub use vector::Vector;

@@ -120,6 +120,33 @@ impl<V: Vector> Path<V> {
         Place { segment: index, t }
     }
 
+    /// The segment of a place.
+    pub fn cubic(&self, place: Place) -> &Cubic<V> {
+        &self.segments[place.segment].cubic
+    }
+
+    /// The cubics from one arc length to another.
+    pub fn part(&self, from: f64, to: f64) -> Vec<Cubic<V>> {
+        let (first, last) = (self.locate(from), self.locate_before(to));
+        (first.segment..=last.segment)
+            .map(|segment| {
+                let start = if segment == first.segment { first.t } else { 0.0 };
+                let end = if segment == last.segment { last.t } else { 1.0 };
+                self.segments[segment].cubic.part(start, end)
+            })
+            .collect()
+    }
+
+    /// The place at the parameter `t` of a segment.
+    pub(super) fn place(&self, segment: usize, t: f64) -> Place {
+        Place { segment, t }
+    }
+
+    /// The arc lengths between which the path is smooth.
+    pub(super) fn knots(&self) -> Vec<f64> {
+        self.starts().chain([self.length]).collect()
+    }
+
     /// The length of the path before a place.
     pub fn length_to(&self, place: Place) -> f64 {
         let segment = &self.segments[place.segment];
@@ -179,7 +206,7 @@ impl Curve3 for Path<DVec3> {
     }
 
     fn knots(&self) -> Vec<f64> {
-        self.starts().chain([self.length]).collect()
+        self.knots()
     }
 
     fn at(&self, s: f64) -> Local3 {

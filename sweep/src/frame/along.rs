@@ -11,6 +11,7 @@ use super::Frame;
 use crate::curve::vector::angle_between;
 use crate::curve::{Curve3, Local3};
 use crate::cut::Side;
+use std::f64::consts::{PI, TAU};
 
 /// Steps from knot to knot, before any is halved.
 const STEPS: usize = 8;
@@ -52,11 +53,7 @@ impl Frames {
         let spin = match nodes.last() {
             Some((length, last)) if curve.closed() => {
                 // The last step leads back onto the very first point and tangent.
-                let angle = first.angle_to(last.carried_to(&curve.at(0.0)).normal);
-                // Half a turn has no sign of its own. About the tangent it has the same angle run
-                // through either way, so the same choice gives the same surface.
-                let half = angle < HALF_TURN - std::f64::consts::PI;
-                -(if half { angle + std::f64::consts::TAU } else { angle }) / length
+                -closing(first.angle_to(last.carried_to(&curve.at(0.0)).normal)) / length
             }
             _ => 0.0,
         };
@@ -78,6 +75,14 @@ impl Frames {
         let (_, node) = &self.nodes[after.max(1) - 1];
         node.carried_to(place).turned(self.spin * s)
     }
+}
+
+/// The angle by which a frame has come back turned, from which half a turn backward is taken out.
+///
+/// Half a turn has no sign of its own. About the tangent the angle is the same whichever way the curve
+/// is run through, and so is the surface, if the choice is.
+fn closing(angle: f64) -> f64 {
+    if angle < HALF_TURN - PI { angle + TAU } else { angle }
 }
 
 /// The nodes of a curve by arc length, each with its frame.
@@ -168,7 +173,7 @@ mod tests {
 
     impl Curve3 for Helix {
         fn length(&self) -> f64 {
-            std::f64::consts::TAU * self.turns * self.speed()
+            TAU * self.turns * self.speed()
         }
 
         fn closed(&self) -> bool {
@@ -244,7 +249,7 @@ mod tests {
 
     /// The frames after each eighth of a trefoil, carried over `steps` steps of even parameter.
     fn trefoil_frames(steps: usize) -> Vec<Frame> {
-        let place = |i: usize| trefoil(std::f64::consts::TAU * i as f64 / steps as f64);
+        let place = |i: usize| trefoil(TAU * i as f64 / steps as f64);
         let mut frame = Frame::seed(&place(0));
         let mut eighths = Vec::new();
         for i in 1..=steps {
@@ -282,7 +287,7 @@ mod tests {
     impl Trefoil {
         fn new() -> Self {
             let cells = 4096;
-            let t = |i: f64| std::f64::consts::TAU * i / f64::from(cells);
+            let t = |i: f64| TAU * i / f64::from(cells);
             let speed = |t: f64| {
                 let ((s1, c1), (s2, c2)) = (t.sin_cos(), (2.0 * t).sin_cos());
                 let c3 = (3.0 * t).cos();
@@ -317,7 +322,7 @@ mod tests {
             let cell = self.lengths.partition_point(|&from| from <= s).clamp(1, cells) - 1;
             let (from, to) = (self.lengths[cell], self.lengths[cell + 1]);
             let part = (s - from) / (to - from);
-            trefoil(std::f64::consts::TAU * (cell as f64 + part) / cells as f64)
+            trefoil(TAU * (cell as f64 + part) / cells as f64)
         }
     }
 
@@ -328,13 +333,22 @@ mod tests {
         let truth = trefoil_frames(1 << 14);
         for (i, true_frame) in truth.iter().enumerate() {
             let s = curve.lengths[512 * (i + 1)];
-            let place = trefoil(std::f64::consts::TAU * (i + 1) as f64 / 8.0);
+            let place = trefoil(TAU * (i + 1) as f64 / 8.0);
             let frame = frames.at(s, &place, Side::Before).turned(-frames.spin() * s);
             let error = frame.angle_to(true_frame.normal);
             assert!(error.abs() < 1e-12, "{i}: {error:e}, {} nodes", frames.nodes.len());
         }
         let holonomy = -(frames.spin() * curve.length()).to_degrees();
         assert!((holonomy.abs() - 127.485).abs() < 1e-3, "{holonomy}");
+    }
+
+    #[test]
+    fn half_a_turn_has_one_sign_whatever_rounding_says() {
+        for off in [0.0, 1e-15, 1e-12, 5e-10] {
+            assert!((closing(off - PI) - (PI + off)).abs() < 1e-15 * 4.0);
+            assert_eq!(closing(PI - off), PI - off);
+        }
+        assert_eq!(closing(1e-8 - PI), 1e-8 - PI);
     }
 
     fn three_d_loop() -> Path<DVec3> {

@@ -2,8 +2,7 @@
 
 use super::{LARGEST, Reader};
 use crate::contour::Contour;
-use crate::curve::{Cubic, svg};
-use crate::spec::Free;
+use crate::curve::{Path, svg};
 use crate::{SweepError, spec};
 use glam::DVec2;
 
@@ -22,11 +21,15 @@ impl Reader<'_> {
             spec::Contour::Bezier(bezier) => {
                 Ok(Contour::path(self.bezier(&format!("{path}.bezier"), bezier)?))
             }
-            spec::Contour::Svg(text) => self.svg(&format!("{path}.svg"), text),
+            spec::Contour::Svg(text) => {
+                Ok(Contour::path(self.outline(&format!("{path}.svg"), text)?))
+            }
             spec::Contour::Free(free) => {
                 Ok(Contour::path(self.free(&format!("{path}.free"), free)?))
             }
-            spec::Contour::Polyline(line) => self.polyline(&format!("{path}.polyline"), line),
+            spec::Contour::Polyline(line) => {
+                Ok(Contour::path(self.polyline(&format!("{path}.polyline"), line)?))
+            }
             spec::Contour::Sections(_) => Err(self.fault(
                 &format!("{path}.sections"),
                 "found sections inside a section, expected one contour",
@@ -34,23 +37,15 @@ impl Reader<'_> {
         }
     }
 
-    /// Straight lines from point to point.
-    fn polyline(&self, path: &str, line: &Free<[f64; 2]>) -> Result<Contour, SweepError> {
-        let points: Vec<DVec2> = self.distinct(path, line)?;
-        let ends = points.iter().zip(points.iter().cycle().skip(1));
-        let count = if line.closed { points.len() } else { points.len() - 1 };
-        let sides: Vec<_> = ends.take(count).map(|(&a, &b)| Cubic::line(a, b)).collect();
-        Ok(Contour::path(self.path(path, &sides, line.closed)?))
-    }
-
-    fn svg(&self, path: &str, text: &str) -> Result<Contour, SweepError> {
+    /// An SVG path as it is drawn.
+    pub(super) fn outline(&self, path: &str, text: &str) -> Result<Path<DVec2>, SweepError> {
         let outline = svg::outline(text).map_err(|message| self.fault(path, message))?;
         let reckonable = |point: &DVec2| point.abs().max_element() <= LARGEST;
         if !outline.segments.iter().flat_map(|cubic| &cubic.0).all(reckonable) {
             let message = format!("found a coordinate beyond {LARGEST:?}, expected smaller ones");
             return Err(self.fault(path, message));
         }
-        Ok(Contour::path(self.path(path, &outline.segments, outline.closed)?))
+        self.path(path, &outline.segments, outline.closed)
     }
 }
 

@@ -66,6 +66,19 @@ impl Reader<'_> {
         self.path(path, &spline::through(&points, free.closed), free.closed)
     }
 
+    /// Straight lines from point to point.
+    pub(super) fn polyline<P, V>(&self, path: &str, line: &Free<P>) -> Result<Path<V>, SweepError>
+    where
+        P: AsRef<[f64]> + Copy,
+        V: Vector + From<P>,
+    {
+        let points: Vec<V> = self.distinct(path, line)?;
+        let ends = points.iter().zip(points.iter().cycle().skip(1));
+        let count = if line.closed { points.len() } else { points.len() - 1 };
+        let sides: Vec<_> = ends.take(count).map(|(&a, &b)| Cubic::line(a, b)).collect();
+        self.path(path, &sides, line.closed)
+    }
+
     /// The points of a curve, each once, and enough of them.
     pub(super) fn distinct<P, V>(&self, path: &str, free: &Free<P>) -> Result<Vec<V>, SweepError>
     where

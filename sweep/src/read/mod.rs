@@ -3,9 +3,11 @@
 mod areas;
 mod caps;
 mod contour;
+mod corners;
 mod curve;
 mod deform;
 mod depth;
+mod flat;
 mod height;
 mod law;
 mod modulation;

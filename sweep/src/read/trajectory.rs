@@ -1,6 +1,7 @@
 //! The trajectory of a spec, and the frame it starts with.
 
 use super::Reader;
+use super::corners::described;
 use crate::curve::{Curve3, Helix, Local3, Path};
 use crate::frame::{Directed, Frame, Lack};
 use crate::trajectory::{Course, Trajectory};
@@ -8,7 +9,10 @@ use crate::{SweepError, spec};
 use glam::DVec3;
 
 /// A trajectory may turn at a joint by this many degrees, as handles rounded to a few decimals do.
-const SMOOTH_DEG: f64 = 1.0;
+pub(super) const SMOOTH_DEG: f64 = crate::trajectory::CORNER_DEG;
+
+/// A frame that a mitre does not reflect to within this angle, in radians, would tear the surface.
+const MIRRORED: f64 = 1e-9;
 
 /// Turns of a helix at most: digits enough are left for the place within one.
 const MOST_TURNS: f64 = 1e6;
@@ -85,21 +89,18 @@ impl Reader<'_> {
             spec::Trajectory::Helix(helix) => self.helix(&format!("{path}.helix"), helix, start),
             spec::Trajectory::Rotation(_) => {
                 let message = "found a rotation, which is no curve, expected one of line, circle, \
-                               helix, bezier, free";
+                               helix, bezier, polyline, free, flat";
                 Err(self.geometry(path, message))
             }
-            spec::Trajectory::Bezier(bezier) => {
-                let path = format!("{path}.bezier");
-                let curve = self.bezier(&path, bezier)?;
-                self.smooth(&curve, |segment| format!("{path}.segments[{segment}]"))?;
-                Ok(Course::Path(curve))
-            }
+            spec::Trajectory::Bezier(bezier) => self.bezier3(&format!("{path}.bezier"), bezier),
+            spec::Trajectory::Polyline(line) => self.polyline3(&format!("{path}.polyline"), line),
             spec::Trajectory::Free(free) => {
                 let path = format!("{path}.free");
                 let curve = self.free(&path, free)?;
-                self.smooth(&curve, |_| path.clone())?;
+                self.smooth(&curve, &path)?;
                 Ok(Course::Path(curve))
             }
+            spec::Trajectory::Flat(flat) => self.flat(&format!("{path}.flat"), flat),
         }
     }
 
@@ -154,6 +155,11 @@ impl Reader<'_> {
             spec::Frame::Guide(guide) => {
                 let path = "frame.guide";
                 let guide = self.course(path, guide, None)?;
+                if !guide.corners().is_empty() {
+                    let message = "found a guide with corners, expected one that bends smoothly; use \
+                                   `round`";
+                    return Err(self.geometry(path, message));
+                }
                 if course.closed() && !guide.closed() {
                     let message = "found an open guide, expected a closed one, since the trajectory \
                                    is closed";
@@ -165,7 +171,15 @@ impl Reader<'_> {
                 ("frame.frenet", Directed::Frenet, "the trajectory does not bend")
             }
         };
-        match directed.lack(&course) {
+        let mitred = course.corners().into_iter().map(|s| (s, directed.jump(&course, s)));
+        let turned = mitred.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|worst| worst.1 > MIRRORED);
+        let lack = directed.lack(&course);
+        if turned.is_some() && !matches!(lack, Some(Lack::Along(_))) {
+            let message = "found a mitre that the frame does not pass straight, expected one \
+                           without `up` or `guide`, or corners that are rounded";
+            return Err(self.geometry(path, message));
+        }
+        match lack {
             None => Ok(Trajectory::directed(course, directed)),
             Some(Lack::Along(at)) => {
                 let message = format!(
@@ -224,25 +238,13 @@ impl Reader<'_> {
     }
 
     /// Refuses corners and cusps.
-    fn smooth(
-        &self,
-        curve: &Path<DVec3>,
-        place: impl Fn(usize) -> String,
-    ) -> Result<(), SweepError> {
+    fn smooth(&self, curve: &Path<DVec3>, path: &str) -> Result<(), SweepError> {
         let Some(joint) = curve.joints().find(|joint| joint.angle.to_degrees() > SMOOTH_DEG) else {
             return Ok(());
         };
-        let [before, after] = joint.sources;
-        let degrees = joint.angle.to_degrees();
-        let found = if before == after && joint.s > 0.0 {
-            format!("a cusp of {degrees:.1} degrees inside segment {after}")
-        } else {
-            format!("a corner of {degrees:.1} degrees where segment {before} meets segment {after}")
-        };
-        Err(self.geometry(
-            &place(after),
-            format!("found {found}, expected a trajectory that bends smoothly"),
-        ))
+        let message =
+            format!("found {}, expected a trajectory that bends smoothly", described(&joint));
+        Err(self.geometry(path, message))
     }
 }
 

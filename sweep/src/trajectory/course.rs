@@ -1,12 +1,15 @@
 //! The curves that a trajectory or a guide can be.
 
-use crate::curve::{Curve3, Helix, Local3, Path, turn};
+use crate::curve::{Curve3, Flat, Helix, Local3, Path, turn};
 use crate::frame::Frame;
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 
 /// Knots of a helix at most; beyond, they are more than an eighth of a turn apart.
 const MOST_KNOTS: f64 = 65536.0;
+
+/// A joint of a trajectory that turns further than this, in degrees, is a corner.
+pub const CORNER_DEG: f64 = 1.0;
 
 /// A curve in space by arc length.
 #[derive(Debug, Clone)]
@@ -31,9 +34,24 @@ pub enum Course {
     Helix(Helix),
     /// Cubics.
     Path(Path<DVec3>),
+    /// A curve drawn flat, with a height.
+    Flat(Flat),
 }
 
 impl Course {
+    /// The arc lengths of the corners, which are mitred; 0 for the start of a closed curve.
+    #[must_use]
+    pub fn corners(&self) -> Vec<f64> {
+        match self {
+            Self::Path(path) => path
+                .joints()
+                .filter(|joint| joint.angle.to_degrees() > CORNER_DEG)
+                .map(|joint| joint.s)
+                .collect(),
+            _ => Vec::new(),
+        }
+    }
+
     /// The rotation-minimizing frame at `v`, a fraction of the length, and the curvature there on its
     /// `(w1, w2)`, where both are known in closed form.
     pub(super) fn own_frame(&self, v: f64) -> Option<(Frame, DVec2)> {
@@ -50,7 +68,7 @@ impl Course {
                 Some((frame, -DVec2::X / *radius))
             }
             Self::Helix(helix) => Some(helix.at(v)),
-            Self::Path(_) => None,
+            Self::Path(_) | Self::Flat(_) => None,
         }
     }
 }
@@ -62,6 +80,7 @@ impl Curve3 for Course {
             Self::Circle { radius, fraction, .. } => TAU * fraction * radius,
             Self::Helix(helix) => helix.length(),
             Self::Path(path) => path.length(),
+            Self::Flat(flat) => flat.length(),
         }
     }
 
@@ -70,6 +89,7 @@ impl Curve3 for Course {
             Self::Line { .. } | Self::Helix(_) => false,
             Self::Circle { fraction, .. } => *fraction == 1.0,
             Self::Path(path) => path.closed(),
+            Self::Flat(flat) => flat.closed(),
         }
     }
 
@@ -78,7 +98,8 @@ impl Curve3 for Course {
             Self::Line { .. } => 1.0,
             Self::Circle { fraction, .. } => (8.0 * fraction).ceil(),
             Self::Helix(helix) => (8.0 * helix.turns.abs()).ceil().min(MOST_KNOTS),
-            Self::Path(path) => return path.knots(),
+            Self::Path(path) => return Curve3::knots(path),
+            Self::Flat(flat) => return flat.knots(),
         };
         (0..=pieces as usize).map(|i| self.length() * (i as f64 / pieces)).collect()
     }
@@ -102,12 +123,14 @@ impl Curve3 for Course {
             }
             Self::Helix(helix) => helix.place((s / self.length()).clamp(0.0, 1.0)),
             Self::Path(path) => path.at(s),
+            Self::Flat(flat) => flat.at(s),
         }
     }
 
     fn before(&self, s: f64) -> Local3 {
         match self {
             Self::Path(path) => path.before(s),
+            Self::Flat(flat) => flat.before(s),
             _ => self.at(s),
         }
     }

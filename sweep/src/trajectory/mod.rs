@@ -1,15 +1,17 @@
 //! The curve that a contour follows, and the stations on it.
 
 mod course;
+mod mitre;
 mod station;
 
-pub use course::Course;
+pub use course::{CORNER_DEG, Course};
 pub use station::Station;
 
 use crate::curve::{Curve3, turn};
-use crate::cut::{Side, Stop};
+use crate::cut::{self, Side, Stop};
 use crate::frame::{Directed, Frame, Frames};
 use glam::DVec2;
+use mitre::Mitres;
 use std::f64::consts::TAU;
 
 /// A trajectory, checked: it has a length (or is a rotation) and a frame everywhere.
@@ -19,7 +21,7 @@ pub struct Trajectory(Form);
 #[derive(Debug, Clone)]
 enum Form {
     Rotation { start: Frame, fraction: f64 },
-    Along { course: Course, framing: Framing },
+    Along { course: Course, framing: Framing, mitres: Mitres },
 }
 
 /// How the frames along a curve are found.
@@ -49,12 +51,24 @@ impl Trajectory {
         } else {
             Framing::Carried(Frames::new(&course, first))
         };
-        Self(Form::Along { course, framing })
+        Self::along(course, framing)
     }
 
     /// A curve with frames that a direction fixes, which must not lack one anywhere.
     pub(crate) fn directed(course: Course, directed: Directed<Course>) -> Self {
-        Self(Form::Along { course, framing: Framing::Directed(directed) })
+        Self::along(course, Framing::Directed(directed))
+    }
+
+    /// A curve with its frames; what corners it has are mitred.
+    fn along(course: Course, framing: Framing) -> Self {
+        let corners = course.corners();
+        let mitres = if corners.is_empty() {
+            Mitres::default()
+        } else {
+            let frame = |s, side| placed(&course, &framing, s, side).0.frame;
+            Mitres::new(&corners, &course.knots(), frame)
+        };
+        Self(Form::Along { course, framing, mitres })
     }
 
     /// Whether the contour is turned about an axis that its x is measured from.
@@ -93,23 +107,27 @@ impl Trajectory {
     /// a fraction of a full turn.
     pub(crate) fn closing_turn(&self) -> f64 {
         match &self.0 {
-            Form::Along { course, framing: Framing::Carried(frames) } => {
+            Form::Along { course, framing: Framing::Carried(frames), .. } => {
                 frames.spin() * course.length() / TAU
             }
             _ => 0.0,
         }
     }
 
-    /// The fewest cells along the trajectory: three around.
+    /// The fewest cells along the trajectory: one to each piece between corners, and three around.
     #[must_use]
     pub fn fewest_cells(&self) -> usize {
-        if self.closed() { 3 } else { 1 }
+        let around = if self.closed() { 3 } else { 1 };
+        cut::pieces(self.breaks()).max(around)
     }
 
     /// Where the corners lie, as fractions of the length.
     #[must_use]
     pub fn breaks(&self) -> &[f64] {
-        &[]
+        match &self.0 {
+            Form::Rotation { .. } => &[],
+            Form::Along { mitres, .. } => mitres.breaks(),
+        }
     }
 
     /// The station at `v`, a fraction of the length; at a corner that of the side after.
@@ -131,33 +149,40 @@ impl Trajectory {
                 };
                 Station { forward: 0.0, bend: DVec2::X, on_axis: true, ..Station::along(frame) }
             }
-            Form::Along { course, framing } => station(course, framing, stop),
+            Form::Along { course, framing, mitres } => station(course, framing, mitres, stop),
         }
     }
 }
 
-fn station(course: &Course, framing: &Framing, stop: Stop) -> Station {
-    let v = stop.at;
-    if let (Framing::Own, Some((frame, curvature))) = (framing, course.own_frame(v)) {
+fn station(course: &Course, framing: &Framing, mitres: &Mitres, stop: Stop) -> Station {
+    if let (Framing::Own, Some((frame, curvature))) = (framing, course.own_frame(stop.at)) {
         return Station { bend: -curvature, ..Station::along(frame) };
     }
-    let length = course.length();
-    let s = v * length;
-    let place = match stop.side {
+    let corner = mitres.arc_length(stop);
+    let s = corner.unwrap_or(stop.at * course.length());
+    let (upright, spin) = placed(course, framing, s, stop.side);
+    let (shear, shear_s) = mitres.at(s, stop.side);
+    let bend = upright.bend + shear_s + shear.perp() * spin;
+    Station { bend, shear, ..upright }
+}
+
+/// The station at arc length `s`, without mitres, and its spin.
+fn placed(course: &Course, framing: &Framing, s: f64, side: Side) -> (Station, f64) {
+    let place = match side {
         Side::Before => course.before(s),
         Side::After => course.at(s),
     };
     let (frame, spin) = match framing {
-        Framing::Carried(frames) => (frames.at(s, &place, stop.side), frames.spin()),
+        Framing::Carried(frames) => (frames.at(s, &place, side), frames.spin()),
         Framing::Directed(directed) => directed
-            .at(s, length, &place, stop.side)
-            // The reader has looked for places without a frame; any will do at the one it missed.
+            .at(s, course.length(), &place, side)
+            // The reader has looked for places without a frame; any will do at one it missed.
             .unwrap_or_else(|| (Frame::seed(&place), 0.0)),
         Framing::Own => (Frame::seed(&place), 0.0),
     };
     let curvature =
         DVec2::new(place.curvature.dot(frame.normal), place.curvature.dot(frame.binormal));
-    Station { bend: -curvature, spin, ..Station::along(frame) }
+    (Station { bend: -curvature, spin, ..Station::along(frame) }, spin)
 }
 
 #[cfg(test)]

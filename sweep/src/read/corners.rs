@@ -1,0 +1,185 @@
+//! The corners of a spec's trajectory: refused, rounded or mitred.
+
+use super::Reader;
+use super::trajectory::SMOOTH_DEG;
+use crate::curve::path::Joint;
+use crate::curve::vector::angle_between;
+use crate::curve::{Cubic, Curve3, Path};
+use crate::spec::{Bezier, Bezier3, Corners, Polyline3};
+use crate::trajectory::Course;
+use crate::{SweepError, spec};
+use glam::DVec3;
+
+/// Legs of a hairpin this much nearer to each other than they are long lie on each other.
+const ON_EACH_OTHER: f64 = 1e-9;
+
+/// Lengths along a trajectory are known to this part of the whole.
+const ROUNDING: f64 = 1e-12;
+
+/// A control point this far off the line, as a part of the segment, leaves it straight.
+const STRAIGHT: f64 = 1e-9;
+
+impl Reader<'_> {
+    pub(super) fn bezier3(&self, path: &str, bezier: &Bezier3) -> Result<Course, SweepError> {
+        let curve = Bezier { closed: bezier.closed, segments: bezier.segments.clone() };
+        let curve = self.bezier(path, &curve)?;
+        let place = |segment| format!("{path}.segments[{segment}]");
+        self.cornered(path, curve, bezier.corners, place)
+    }
+
+    pub(super) fn polyline3(&self, path: &str, line: &Polyline3) -> Result<Course, SweepError> {
+        let free = spec::Free { closed: line.closed, points: line.points.clone() };
+        let curve = self.polyline(path, &free)?;
+        let place = |segment| format!("{path}.points[{segment}]");
+        self.cornered(path, curve, line.corners, place)
+    }
+
+    fn cornered(
+        &self,
+        path: &str,
+        curve: Path<DVec3>,
+        corners: Option<Corners>,
+        place: impl Fn(usize) -> String,
+    ) -> Result<Course, SweepError> {
+        let path = format!("{path}.corners");
+        let found: Vec<Joint> = corners_of(&curve).collect();
+        match corners {
+            Some(Corners::Round(cut)) => {
+                self.positive(&format!("{path}.round"), cut)?;
+                self.rounded(&path, curve, &found, cut, place)
+            }
+            Some(Corners::Mitre(limit)) => {
+                if limit < 1.0 {
+                    let message = format!("found {limit:?}, expected a limit of at least 1");
+                    return Err(self.fault(&format!("{path}.mitre"), message));
+                }
+                for joint in &found {
+                    self.mitre(&curve, joint, limit, &place)?;
+                }
+                Ok(Course::Path(curve))
+            }
+            None => match found.first() {
+                None => Ok(Course::Path(curve)),
+                Some(joint) => {
+                    let message = format!(
+                        "found {}, expected a trajectory that bends smoothly, or `corners`: \
+                         {{\"round\": length}} or {{\"mitre\": limit}}",
+                        described(joint)
+                    );
+                    Err(self.geometry(&place(joint.sources[1]), message))
+                }
+            },
+        }
+    }
+
+    /// Refuses a corner that has no mitre.
+    fn mitre(
+        &self,
+        curve: &Path<DVec3>,
+        joint: &Joint,
+        limit: f64,
+        place: impl Fn(usize) -> String,
+    ) -> Result<(), SweepError> {
+        let straight =
+            [joint.before, joint.after].iter().all(|&at| curve.cubic(at).is_straight(STRAIGHT));
+        // Rounded up, so that it can be given as it is told.
+        let needed = (1e3 / (0.5 * joint.angle).cos().max(0.0)).ceil() / 1e3;
+        let expected = if !straight {
+            "straight segments on both sides for a mitre; use `round`".to_owned()
+        } else if needed > 1e6 {
+            "none that sharp; use `round`".to_owned()
+        } else if 1.0 / (0.5 * joint.angle).cos() > limit {
+            format!("a mitre of at most {limit:?}, where this needs {needed:?}; or use `round`")
+        } else {
+            return Ok(());
+        };
+        let message = format!("found {}, expected {expected}", described(joint));
+        Err(self.geometry(&place(joint.sources[1]), message))
+    }
+
+    /// The curve with its corners cut off and bridged.
+    fn rounded(
+        &self,
+        path: &str,
+        curve: Path<DVec3>,
+        corners: &[Joint],
+        cut: f64,
+        place: impl Fn(usize) -> String,
+    ) -> Result<Course, SweepError> {
+        let length = curve.length();
+        let rounding = ROUNDING * length;
+        let mut ends: Vec<f64> = corners.iter().map(|joint| joint.s).collect();
+        if ends.first() != Some(&0.0) {
+            ends.insert(0, 0.0);
+        }
+        ends.push(length);
+        let is_corner = |s: f64| {
+            let s = if s == length && curve.closed() { 0.0 } else { s };
+            corners.iter().any(|joint| joint.s == s)
+        };
+        let mut cubics = Vec::new();
+        for leg in ends.windows(2) {
+            let (from, to) = (leg[0], leg[1]);
+            if (is_corner(from) || is_corner(to)) && cut > 0.5 * (to - from) + rounding {
+                let message = format!(
+                    "found {cut:?}, expected at most {:?}, half of the way between the corners or \
+                     ends at {from:?} and {to:?} of the length {length:?}",
+                    0.5 * (to - from)
+                );
+                return Err(self.geometry(&format!("{path}.round"), message));
+            }
+            let first = if is_corner(from) { from + cut } else { from };
+            let last = if is_corner(to) { to - cut } else { to };
+            // Two cuts may leave nothing between them.
+            if last - first > rounding {
+                cubics.extend(curve.part(first, last));
+            }
+            if let Some(joint) =
+                corners.iter().find(|joint| is_corner(to) && joint.s == to % length)
+            {
+                let (a, b) = (curve.at(last), curve.at(to % length + cut));
+                let chord = (b.position - a.position).length();
+                if chord <= ON_EACH_OTHER * cut {
+                    let message = format!(
+                        "found {} whose legs lie on each other, expected some way between them to \
+                         round it",
+                        described(joint)
+                    );
+                    return Err(self.geometry(&place(joint.sources[1]), message));
+                }
+                // The handles of an arc.
+                let turn = angle_between(a.tangent, b.tangent);
+                let handle = chord / (3.0 * (0.25 * turn).cos().powi(2));
+                let (p, q) = (a.position, b.position);
+                cubics.push(Cubic([p, p + a.tangent * handle, q - b.tangent * handle, q]));
+            }
+        }
+        let curve = self.path(path, &cubics, curve.closed())?;
+        let left = corners_of(&curve).next();
+        match left {
+            None => Ok(Course::Path(curve)),
+            Some(joint) => {
+                let message = format!(
+                    "found {:.1} degrees left of a corner that is rounded, expected a shorter or a \
+                     longer cut",
+                    joint.angle.to_degrees()
+                );
+                Err(self.geometry(&format!("{path}.round"), message))
+            }
+        }
+    }
+}
+
+fn corners_of(curve: &Path<DVec3>) -> impl Iterator<Item = Joint> {
+    curve.joints().filter(|joint| joint.angle.to_degrees() > SMOOTH_DEG)
+}
+
+/// A corner or a cusp in words.
+pub(super) fn described(joint: &Joint) -> String {
+    let ([before, after], degrees) = (joint.sources, joint.angle.to_degrees());
+    if before == after && joint.s > 0.0 {
+        format!("a cusp of {degrees:.1} degrees inside segment {after}")
+    } else {
+        format!("a corner of {degrees:.1} degrees where segment {before} meets segment {after}")
+    }
+}

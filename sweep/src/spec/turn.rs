@@ -1,0 +1,42 @@
+//! Turns about an axis as they are written: a circle, a rotation.
+
+use serde::{Deserialize, Serialize};
+
+/// A circle in space.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(
+    deny_unknown_fields,
+    expecting = "an object with the key radius, and any of center, axis, angle_deg"
+)]
+pub struct Circle {
+    /// The distance of the contour's origin from the centre; positive.
+    pub radius: f64,
+    /// The centre.
+    #[serde(default)]
+    pub center: [f64; 3],
+    /// The direction of the contour's y, of any length.
+    #[serde(default = "super::up")]
+    pub axis: [f64; 3],
+    /// Above 0, up to 360, which is closed.
+    #[serde(default = "full_turn")]
+    pub angle_deg: f64,
+}
+
+/// A turn of the contour about an axis in its plane.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object with any of the keys angle_deg, origin, axis")]
+pub struct Rotation {
+    /// Above 0, up to 360, which is closed.
+    #[serde(default = "full_turn")]
+    pub angle_deg: f64,
+    /// Where the contour's origin lies.
+    #[serde(default)]
+    pub origin: [f64; 3],
+    /// The direction of the contour's y, of any length.
+    #[serde(default = "super::up")]
+    pub axis: [f64; 3],
+}
+
+fn full_turn() -> f64 {
+    360.0
+}
