@@ -114,6 +114,30 @@ impl Law {
         }
     }
 
+    /// Cells that see all that the law does: eight to a segment.
+    pub(crate) fn detail(&self) -> f64 {
+        match &self.0 {
+            Form::Constant(_) => 0.0,
+            Form::Keys { keys, .. } => 8.0 * keys.len() as f64,
+            Form::Bezier(segments) => 8.0 * segments.len() as f64,
+        }
+    }
+
+    /// Places inside the trajectory where the derivative may jump.
+    pub(crate) fn kinks(&self) -> Vec<f64> {
+        let inside = |at: &f64| *at > 0.0 && *at < 1.0;
+        match &self.0 {
+            Form::Constant(_) | Form::Keys { smooth: true, .. } => Vec::new(),
+            Form::Keys { keys, .. } => keys.iter().map(|key| key[0]).filter(inside).collect(),
+            Form::Bezier(segments) => {
+                let joints = segments.iter().flat_map(|segment| [segment.0[0].x, segment.0[3].x]);
+                let mut joints: Vec<f64> = joints.filter(inside).collect();
+                joints.dedup();
+                joints
+            }
+        }
+    }
+
     /// The values at the start and at the end of the trajectory.
     #[must_use]
     pub fn ends(&self) -> [f64; 2] {

@@ -12,6 +12,7 @@
 //! | [`modulation`] | the contour scaled and twisted on its way                          |
 //! | [`frame`]      | rotation-minimizing frames                                          |
 //! | [`curve`]      | cubic Bezier paths by arc length, splines, SVG                      |
+//! | [`resolution`] | cells in rows x cols, or to a tolerance                              |
 //! | [`grid`]       | the grid and its file                                               |
 //!
 //! ```
@@ -36,6 +37,7 @@ pub mod grid;
 pub mod law;
 pub mod modulation;
 mod read;
+pub mod resolution;
 pub mod spec;
 mod sweep;
 pub mod trajectory;

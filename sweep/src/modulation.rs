@@ -86,6 +86,33 @@ impl Modulation {
     }
 }
 
+impl Modulation {
+    /// Cells that see all that the laws and waves do, along the trajectory and along the contour.
+    pub(crate) fn detail(&self) -> [f64; 2] {
+        let mut along: f64 = self.laws().map(Law::detail).sum();
+        if let Some(twist) = &self.twist {
+            let (low, high) = twist.range();
+            along += 16.0 * (high - low) / 360.0;
+        }
+        let mut around = 0.0_f64;
+        for term in self.depth.iter().flat_map(|depth| &depth.terms) {
+            along += 8.0 * term.v.abs();
+            around += 8.0 * term.u.abs();
+        }
+        [along, around]
+    }
+
+    /// Places inside the trajectory where the surface may have an edge.
+    pub(crate) fn kinks(&self) -> Vec<f64> {
+        self.laws().flat_map(Law::kinks).collect()
+    }
+
+    fn laws(&self) -> impl Iterator<Item = &Law> {
+        let terms = self.depth.iter().flat_map(|depth| &depth.terms);
+        self.scale.iter().flatten().chain(&self.twist).chain(terms.map(|term| &term.along))
+    }
+}
+
 impl Section {
     /// The point of the surface.
     #[must_use]

@@ -35,7 +35,7 @@
 //!
 //! `mesh` counts cells, which become quads: rows along the trajectory, cols along the contour. Going
 //! around takes three, a contour at least one for each piece between corners, and all together are
-//! at most 100 million. The vessel of a potter is a rotation:
+//! at most 100 million. It can ask for a tolerance in their place, as [`mesh`] says. The vessel of a potter is a rotation:
 //!
 //! ```json
 //! {
@@ -123,10 +123,12 @@
 mod depth;
 mod helix;
 mod law;
+pub mod mesh;
 
 pub use depth::{Depth, DepthMode, DepthTerm};
 pub use helix::Helix;
 pub use law::{Ease, Law, Scale};
+pub use mesh::{Camera, Mesh};
 
 use crate::grid::UvLayout;
 use serde::{Deserialize, Serialize};
@@ -270,16 +272,6 @@ pub struct FrameStart {
     pub start: [f64; 3],
 }
 
-/// How finely a surface is cut.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "an object with the keys rows and cols")]
-pub struct Mesh {
-    /// Cells along the trajectory.
-    pub rows: usize,
-    /// Cells along the contour; the cells without width at creases come on top.
-    pub cols: usize,
-}
-
 /// The keys of a contour as they are read, so that none and two of them get a sentence.
 #[derive(Deserialize)]
 #[serde(
@@ -370,15 +362,15 @@ mod tests {
 
     #[test]
     fn the_snippets_above_are_specs() {
-        let page = include_str!("spec.rs");
-        let page: String = page
-            .lines()
-            .map_while(|line| line.strip_prefix("//!"))
+        let pages = [include_str!("spec.rs"), include_str!("spec/mesh.rs")];
+        let page: String = pages
+            .iter()
+            .flat_map(|page| page.lines().map_while(|line| line.strip_prefix("//!")))
             .map(|line| format!("{line}\n"))
             .collect();
         let snippets: Vec<&str> =
             page.split("```json").skip(1).filter_map(|rest| rest.split("```").next()).collect();
-        assert_eq!(snippets.len(), 4);
+        assert_eq!(snippets.len(), 5);
         for snippet in snippets {
             let document = Document::new("snippet", snippet.as_bytes()).unwrap();
             let sweep = Sweep::read(&document).unwrap_or_else(|error| panic!("{error}"));

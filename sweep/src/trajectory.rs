@@ -98,6 +98,16 @@ impl Trajectory {
         if self.closed() { 3 } else { 1 }
     }
 
+    /// Cells that see all that the trajectory does: eight to a segment or a quarter turn.
+    pub(crate) fn detail(&self) -> f64 {
+        match &self.0 {
+            Form::Line { .. } => 1.0,
+            Form::Turn { fraction, .. } => 32.0 * fraction,
+            Form::Helix(helix) => 32.0 * helix.turns.abs(),
+            Form::Path(frames) => 8.0 * frames.curve().cubics().count() as f64,
+        }
+    }
+
     /// Where the corners lie, as fractions of the length.
     #[must_use]
     pub fn breaks(&self) -> &[f64] {

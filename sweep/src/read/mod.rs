@@ -3,12 +3,13 @@
 mod contour;
 mod depth;
 mod law;
+mod mesh;
 mod modulation;
 mod trajectory;
 
 use crate::curve::vector::extent;
 use crate::curve::{Cubic, Path, Vector, spline};
-use crate::spec::{Bezier, FORMAT, Free, Spec, VERSION};
+use crate::spec::{Bezier, FORMAT, Free, Mesh, Spec, VERSION};
 use crate::sweep::ON_AXIS;
 use crate::{Sweep, SweepError};
 use files::json::Document;
@@ -33,8 +34,8 @@ const MEETS: f64 = 1e-6;
 /// Free points closer than this fraction of the curve are one point given twice.
 const COINCIDENT: f64 = 1e-12;
 
-/// Reads and checks a spec.
-pub fn read(document: &Document) -> Result<Sweep, SweepError> {
+/// Reads and checks a spec, with the keys of `rather` in place of those of its `mesh`.
+pub fn read(document: &Document, rather: &Mesh) -> Result<Sweep, SweepError> {
     document.expect(FORMAT, VERSION.into())?;
     let spec: Spec = document.parse()?;
     let reader = Reader { document };
@@ -66,14 +67,14 @@ pub fn read(document: &Document) -> Result<Sweep, SweepError> {
         contour,
         modulation,
         trajectory,
-        rows: spec.mesh.rows,
-        cols: spec.mesh.cols,
+        resolution: reader.resolution(&spec.mesh, rather)?,
+        fitted: None,
         uv: spec.uv,
         position: DVec3::from_array(spec.position),
     };
     match sweep.resolution_fault() {
-        Some((key, message)) => Err(reader.fault(&format!("mesh.{key}"), message)),
-        None => Ok(sweep),
+        Some(fault) => Err(reader.of_mesh(rather, fault)),
+        None => Ok(sweep.fitted()),
     }
 }
 
