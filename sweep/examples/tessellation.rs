@@ -142,10 +142,11 @@ fn uniform(
     while step > 1.004 {
         let more = (best as f64 * step).ceil() as usize;
         let less = ((best as f64 / step).floor() as usize).max(fewest);
-        let least = [best, less, more].into_iter().try_fold((f64::INFINITY, best), |least, rows| {
-            let quads = cols_for(rows)?;
-            Ok::<_, Box<dyn Error>>(if quads < least.0 { (quads, rows) } else { least })
-        })?;
+        let least =
+            [best, less, more].into_iter().try_fold((f64::INFINITY, best), |least, rows| {
+                let quads = cols_for(rows)?;
+                Ok::<_, Box<dyn Error>>(if quads < least.0 { (quads, rows) } else { least })
+            })?;
         if least.1 == best {
             step = step.sqrt();
         }
@@ -209,13 +210,21 @@ fn svg(lines: &[Line]) -> Result<String, Box<dyn Error>> {
     for (at, (shape, ..)) in SHAPES.iter().enumerate() {
         let x = 80.0 + 150.0 * at as f64;
         let color = COLORS[at];
-        writeln!(out, "<line x1=\"{x}\" y1=\"538\" x2=\"{}\" y2=\"538\" stroke=\"{color}\" stroke-width=\"2.5\"/>", x + 26.0)?;
+        writeln!(
+            out,
+            "<line x1=\"{x}\" y1=\"538\" x2=\"{}\" y2=\"538\" stroke=\"{color}\" stroke-width=\"2.5\"/>",
+            x + 26.0
+        )?;
         writeln!(out, "<text x=\"{}\" y=\"543\">{shape}</text>", x + 32.0)?;
     }
     let keys = [("adaptive", ""), ("uniform", " stroke-dasharray=\"5 4\"")];
     for (at, (name, dashes)) in keys.iter().enumerate() {
         let x = 830.0 + 105.0 * at as f64;
-        writeln!(out, "<line x1=\"{x}\" y1=\"538\" x2=\"{}\" y2=\"538\" stroke=\"black\" stroke-width=\"2\"{dashes}/>", x + 30.0)?;
+        writeln!(
+            out,
+            "<line x1=\"{x}\" y1=\"538\" x2=\"{}\" y2=\"538\" stroke=\"black\" stroke-width=\"2\"{dashes}/>",
+            x + 30.0
+        )?;
         writeln!(out, "<text x=\"{}\" y=\"543\">{name}</text>", x + 36.0)?;
     }
     out += "</svg>\n";
@@ -237,29 +246,63 @@ fn panel(
         let x = left + width * part(line.reached.tol, errors);
         (x, top + height * (1.0 - part(value(line), [low, high])))
     };
-    writeln!(out, "<text x=\"{}\" y=\"34\" font-size=\"16\" text-anchor=\"middle\">{title}</text>", left + 0.5 * width)?;
-    writeln!(out, "<rect x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\" fill=\"none\" stroke=\"#888\"/>")?;
+    writeln!(
+        out,
+        "<text x=\"{}\" y=\"34\" font-size=\"16\" text-anchor=\"middle\">{title}</text>",
+        left + 0.5 * width
+    )?;
+    writeln!(
+        out,
+        "<rect x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\" fill=\"none\" stroke=\"#888\"/>"
+    )?;
     let mut mark = low;
     while mark <= high * 1.01 {
         let y = top + height * (1.0 - part(mark, [low, high]));
-        writeln!(out, "<line x1=\"{left}\" y1=\"{y:.1}\" x2=\"{}\" y2=\"{y:.1}\" stroke=\"#ddd\"/>", left + width)?;
+        writeln!(
+            out,
+            "<line x1=\"{left}\" y1=\"{y:.1}\" x2=\"{}\" y2=\"{y:.1}\" stroke=\"#ddd\"/>",
+            left + width
+        )?;
         let power = mark.log10().round();
-        writeln!(out, "<text x=\"{}\" y=\"{:.1}\" text-anchor=\"end\">10<tspan dy=\"-5\" font-size=\"10\">{power}</tspan></text>", left - 8.0, y + 5.0)?;
+        writeln!(
+            out,
+            "<text x=\"{}\" y=\"{:.1}\" text-anchor=\"end\">10<tspan dy=\"-5\" font-size=\"10\">{power}</tspan></text>",
+            left - 8.0,
+            y + 5.0
+        )?;
         mark *= 10.0;
     }
     for mark in [2e-4, 1e-3, 1e-2, 2e-2] {
         let x = left + width * part(mark, errors);
-        writeln!(out, "<line x1=\"{x:.1}\" y1=\"{top}\" x2=\"{x:.1}\" y2=\"{}\" stroke=\"#ddd\"/>", top + height)?;
-        writeln!(out, "<text x=\"{x:.1}\" y=\"{}\" text-anchor=\"middle\">{mark}</text>", top + height + 18.0)?;
+        writeln!(
+            out,
+            "<line x1=\"{x:.1}\" y1=\"{top}\" x2=\"{x:.1}\" y2=\"{}\" stroke=\"#ddd\"/>",
+            top + height
+        )?;
+        writeln!(
+            out,
+            "<text x=\"{x:.1}\" y=\"{}\" text-anchor=\"middle\">{mark}</text>",
+            top + height + 18.0
+        )?;
     }
-    writeln!(out, "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">largest distance to the surface</text>", left + 0.5 * width, top + height + 38.0)?;
+    writeln!(
+        out,
+        "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">largest distance to the surface</text>",
+        left + 0.5 * width,
+        top + height + 38.0
+    )?;
     for (color, (shape, ..)) in COLORS.iter().zip(SHAPES) {
         for adaptive in [true, false] {
             let of = |line: &&Line| line.shape == shape && line.adaptive == adaptive;
             let places: Vec<(f64, f64)> = lines.iter().filter(of).map(place).collect();
-            let points: Vec<String> = places.iter().map(|(x, y)| format!("{x:.1},{y:.1}")).collect();
+            let points: Vec<String> =
+                places.iter().map(|(x, y)| format!("{x:.1},{y:.1}")).collect();
             let dashes = if adaptive { "" } else { " stroke-dasharray=\"5 4\"" };
-            writeln!(out, "<polyline points=\"{}\" fill=\"none\" stroke=\"{color}\" stroke-width=\"2\"{dashes}/>", points.join(" "))?;
+            writeln!(
+                out,
+                "<polyline points=\"{}\" fill=\"none\" stroke=\"{color}\" stroke-width=\"2\"{dashes}/>",
+                points.join(" ")
+            )?;
             for (x, y) in places {
                 writeln!(out, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3\" fill=\"{color}\"/>")?;
             }

@@ -11,7 +11,6 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 use sweep::grid::file::{self, Encoding};
-use sweep::resolution::{Distance, Resolution};
 use sweep::spec::Mesh;
 use sweep::{GridMesh, Sweep};
 use thiserror::Error;
@@ -174,29 +173,8 @@ fn note(sweep: &Sweep) {
             sweep.name()
         ));
     }
-    let missed = sweep.reached().filter(|reached| !reached.kept);
-    if let (Some(reached), Resolution::Tolerance(asked)) = (missed, sweep.resolution()) {
-        let distance = match (&asked.distance, reached.pixels) {
-            (Some(Distance::Everywhere(tol)), _) => {
-                Some(format!("{:.3e} from the surface, not {tol:.3e}", reached.tol))
-            }
-            (Some(Distance::Pixels(pixels, _)), Some(most)) => {
-                Some(format!("{most:.3} pixels from the surface, not {pixels:?}"))
-            }
-            _ => None,
-        };
-        let angle = asked.angle.map(|angle| {
-            format!("{:.2} degrees from its normals, not {:.2}", reached.angle_deg, angle.to_degrees())
-        });
-        let off: Vec<String> = [distance, angle].into_iter().flatten().collect();
-        say(format_args!(
-            "sweep: note: {}: the tolerance is not kept: with {} of at most {} quads the triangles \
-             are up to {}",
-            sweep.name(),
-            reached.quads,
-            asked.max_quads,
-            off.join(", and ")
-        ));
+    if let Some(missed) = sweep.missed() {
+        say(format_args!("sweep: note: {}: {missed}", sweep.name()));
     }
 }
 

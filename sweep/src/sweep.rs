@@ -74,9 +74,7 @@ impl Sweep {
     pub fn rows(&self) -> usize {
         match (&self.resolution, &self.fitted) {
             (Resolution::Cells { rows, .. }, _) => *rows,
-            (_, Some(cells)) => {
-                cut::cells(&cells.rows, self.trajectory.closed())
-            }
+            (_, Some(cells)) => cut::cells(&cells.rows, self.trajectory.closed()),
             (_, None) => self.trajectory.fewest_cells(),
         }
     }
@@ -95,6 +93,17 @@ impl Sweep {
     #[must_use]
     pub fn reached(&self) -> Option<Reached> {
         self.fitted.as_ref().map(|cells| cells.reached)
+    }
+
+    /// By how much a tolerance is missed, in words; nothing where it is kept or none was asked for.
+    #[must_use]
+    pub fn missed(&self) -> Option<String> {
+        match &self.resolution {
+            Resolution::Tolerance(asked) => {
+                self.reached().and_then(|reached| asked.missed(&reached))
+            }
+            Resolution::Cells { .. } => None,
+        }
     }
 
     /// The resolution asked for.
@@ -211,10 +220,7 @@ impl Sweep {
         let fewest = self.trajectory.fewest_cells();
         if rows < fewest {
             let why = if fewest > 1 { around } else { "along the trajectory" };
-            return Some((
-                "rows",
-                format!("found {rows}, expected at least {fewest} {why}"),
-            ));
+            return Some(("rows", format!("found {rows}, expected at least {fewest} {why}")));
         }
         let fewest = self.contour.fewest_cells();
         if cols < fewest {
@@ -223,10 +229,7 @@ impl Sweep {
                 0 => "along the contour".to_owned(),
                 _ => "along a contour with corners: one for each piece between them".to_owned(),
             };
-            return Some((
-                "cols",
-                format!("found {cols}, expected at least {fewest} {why}"),
-            ));
+            return Some(("cols", format!("found {cols}, expected at least {fewest} {why}")));
         }
         let most = self.most_cols();
         if cols > most {
@@ -272,12 +275,11 @@ impl Sweep {
             .zip(normals.par_chunks_mut(columns.len()))
             .zip(&rows);
         stations.for_each(|((points, normals), &stop)| {
-            let mut places = points.iter_mut().zip(normals);
-            self.station(stop, &columns, &mut |at, across| {
-                if let Some((point, normal)) = places.next() {
-                    (*point, *normal) = (at, across.as_vec3());
-                }
-            });
+            let section = self.modulation.section(&self.trajectory, stop);
+            for ((column, point), normal) in columns.iter().zip(points).zip(normals) {
+                *point = section.point(column) + self.position;
+                *normal = section.normal(column).as_vec3();
+            }
         });
         let seam = |closed| if closed { Seam::Closed } else { Seam::Open };
         Ok(GridMesh {
@@ -353,10 +355,14 @@ impl Surface for Sweep {
         columns
     }
 
-    fn station(&self, stop: Stop, columns: &[Column], tell: &mut dyn FnMut(DVec3, DVec3)) {
+    fn station(&self, stop: Stop, columns: &[Column]) -> Vec<(DVec3, DVec3)> {
         let section = self.modulation.section(&self.trajectory, stop);
-        for column in columns {
-            tell(section.point(column) + self.position, section.normal(column));
-        }
+        let place = |column| (section.point(column) + self.position, section.normal(column));
+        columns.iter().map(place).collect()
+    }
+
+    fn points(&self, stop: Stop, columns: &[Column]) -> Vec<DVec3> {
+        let section = self.modulation.section(&self.trajectory, stop);
+        columns.iter().map(|column| section.point(column) + self.position).collect()
     }
 }

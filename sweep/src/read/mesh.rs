@@ -25,7 +25,7 @@ impl Reader<'_> {
             "angle_deg" => rather.angle_deg.is_some(),
             "pixels" => rather.pixels.is_some(),
             "max_quads" => rather.max_quads.is_some(),
-            _ => false,
+            _ => key.starts_with("camera") && rather.camera.is_some(),
         };
         if asked {
             return SweepError::Resolution(format!("{key}: {message}"));
@@ -87,7 +87,8 @@ fn tolerance_of(mesh: &Mesh) -> Result<Tolerance, Fault> {
         (None, None, None) => None,
     };
     if distance.is_none() && mesh.angle_deg.is_none() {
-        let message = "found no resolution, expected rows and cols, or any of tol, angle_deg, pixels";
+        let message =
+            "found no resolution, expected rows and cols, or any of tol, angle_deg, pixels";
         return Err(("", message.into()));
     }
     let max_quads = mesh.max_quads.unwrap_or(MAX_QUADS);
@@ -119,4 +120,37 @@ fn view(camera: &Camera) -> Result<View, Fault> {
         let message = "found an eye at its target or an up along the view, expected a direction";
         ("camera", message.into())
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::read::tests::complaint;
+    use files::Exit;
+
+    #[test]
+    fn what_a_resolution_lacks_has_its_place() {
+        let camera = "\"camera\": {\"eye\": [0, 0, 1], \"target\": [0, 0, 0], \"fov_deg\": 40, \
+                      \"size\": [9, 9]}";
+        let pixels = |camera: &str| format!("\"pixels\": 1, {camera}");
+        for (mesh, message) in [
+            ("\"rows\": 9".into(), "a.json:4:9: mesh.cols: found none beside rows"),
+            ("\"cols\": 9".into(), "a.json:4:9: mesh.rows: found none beside cols"),
+            ("\"max_quads\": 9".into(), "mesh: found no resolution, expected rows and cols"),
+            ("\"rows\": 9, \"tol\": 1".into(), "mesh.tol: found it beside a number of rows"),
+            ("\"tol\": -1".into(), "mesh.tol: found -1.0, expected a number above 0"),
+            ("\"angle_deg\": 90".into(), "mesh.angle_deg: found 90.0, expected a number"),
+            ("\"tol\": 1, \"pixels\": 1".into(), "mesh.pixels: found it beside tol"),
+            ("\"pixels\": 1".into(), "mesh.pixels: found no camera beside it"),
+            (format!("\"tol\": 1, {camera}"), "mesh.camera: found it without pixels"),
+            (pixels(&camera.replace("40", "180")), "mesh.camera.fov_deg: found 180.0"),
+            (pixels(&camera.replace("0, 0, 1", "0, 0, 0")), "mesh.camera: found an eye at its"),
+            (pixels(&camera.replace("9, 9", "9, 0")), "mesh.camera.size: found 9 x 0"),
+            ("\"tol\": 1, \"max_quads\": 8".into(), "mesh.max_quads: found 8, expected at least 9"),
+            ("\"tol\": 1, \"max_quads\": 0".into(), "mesh.max_quads: found 0, expected 1 to"),
+        ] {
+            let (text, exit) = complaint("\"rows\": 9, \"cols\": 8", &mesh);
+            assert!(text.contains(message), "{text}");
+            assert_eq!(exit, Exit::Malformed);
+        }
+    }
 }

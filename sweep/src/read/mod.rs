@@ -234,7 +234,7 @@ impl Reader<'_> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
     use files::{Exit, Failure};
 
@@ -244,7 +244,7 @@ mod tests {
 "mesh": {"rows": 9, "cols": 8}}"#;
 
     /// The complaint about the ring with one part of its text replaced.
-    pub(super) fn complaint(part: &str, replacement: &str) -> (String, Exit) {
+    pub(crate) fn complaint(part: &str, replacement: &str) -> (String, Exit) {
         let text = RING.replace(part, replacement);
         assert_ne!(text, RING, "{part} is not in the spec");
         let document = Document::new("a.json", text.as_bytes()).unwrap();

@@ -22,11 +22,15 @@ use super::measure::{Field, Load};
 const MOST_BLOCKS: usize = 1 << 15;
 
 /// Steps of descent. After 60 the number of cells is within a percent of where it ends.
-const STEPS: usize = 90;
+const STEPS: usize = 60;
 
 /// A cell as large as a whole direction has this load at least: it keeps flat surfaces finite, and
 /// is far too little to be a cell more.
 const LEAST_LOAD: f64 = 1e-4;
+
+/// Costs that differ by less than this part are alike, and the earlier counts: rounding, and so the
+/// unit of length, may not decide.
+pub const ALIKE: f64 = 1e-9;
 
 /// How densely a direction is to be cut.
 #[derive(Debug, Clone, PartialEq)]
@@ -155,7 +159,7 @@ impl Problem {
             let (sharpness, pace) = (8 << (4 * step / STEPS), 0.5 * (1.0 - 0.8 * part));
             self.descend(&mut sizes, sharpness, pace, even);
             let cost = self.cost(&sizes);
-            if cost < least {
+            if cost < least * (1.0 - ALIKE) {
                 (least, best) = (cost, sizes.clone());
             }
         }
@@ -187,7 +191,8 @@ impl Problem {
             guess.worst = self.worst(&guess);
             (self.cost(&guess), guess)
         });
-        let better = measured.reduce(|best, other| if other.0 < best.0 { other } else { best });
+        let better = measured
+            .reduce(|best, other| if other.0 < best.0 * (1.0 - ALIKE) { other } else { best });
         better.map_or_else(|| Sizes { x, y, worst: 1.0 }, |(_, guess)| guess)
     }
 
@@ -218,8 +223,7 @@ impl Problem {
         let (mut pressure, scale) = (0.0, 1.0 / sizes.worst);
         for ((needs, &y), &ry) in self.needs.chunks(cols).zip(&sizes.y).zip(&root_y) {
             let mut on_row = 0.0;
-            for (((need, &x), &rx), on_x) in
-                needs.iter().zip(&sizes.x).zip(&root_x).zip(&mut on_x)
+            for (((need, &x), &rx), on_x) in needs.iter().zip(&sizes.x).zip(&root_x).zip(&mut on_x)
             {
                 let (load, share) = need.load(x, y, rx * ry);
                 let press = (load * scale).powi(sharpness);

@@ -23,7 +23,10 @@ pub trait Surface: Sync {
     fn columns(&self, stops: &[Stop]) -> Vec<Column>;
 
     /// Points and unit normals at one stop of the trajectory.
-    fn station(&self, stop: Stop, columns: &[Column], tell: &mut dyn FnMut(DVec3, DVec3));
+    fn station(&self, stop: Stop, columns: &[Column]) -> Vec<(DVec3, DVec3)>;
+
+    /// The points alone.
+    fn points(&self, stop: Stop, columns: &[Column]) -> Vec<DVec3>;
 }
 
 /// What a cell's size does to its load.
@@ -90,9 +93,6 @@ struct Columns {
     cells: Vec<usize>,
 }
 
-/// Points and normals of one station.
-type Row = Vec<(DVec3, DVec3)>;
-
 /// Measures the surface cut at `rows` and `cols`; `kinks` are places of the trajectory with two
 /// normals, of which a station has that of the side after.
 pub fn measure(
@@ -113,8 +113,10 @@ pub fn measure(
         within: [1.0 / 3.0, 0.5, 2.0 / 3.0].map(|part| surface.columns(&inside(part))),
         cells,
     };
-    let strips: Vec<Strip> =
-        v.par_iter().map(|span| strip(surface, tolerance, &columns, *span, kinks, closed_u)).collect();
+    let strips: Vec<Strip> = v
+        .par_iter()
+        .map(|span| strip(surface, tolerance, &columns, *span, kinks, closed_u))
+        .collect();
     joined(u, v, strips, closed_v)
 }
 
@@ -143,42 +145,40 @@ fn strip(
     kinks: &[f64],
     closed_u: bool,
 ) -> Strip {
-    let row = |stop: Stop, columns: &[Column]| {
-        let mut row = Row::with_capacity(columns.len());
-        surface.station(stop, columns, &mut |point, normal| row.push((point, normal)));
-        row
-    };
+    let row = |stop: Stop| surface.station(stop, &columns.stops);
+    let points = |stop: Stop, columns: &[Column]| surface.points(stop, columns);
     let within = |part: f64| Stop::after(from + (to - from) * part);
     let [third, middle, two_thirds] = &columns.within;
     let (below, above) = (Stop::after(from), Stop::before(to));
-    let (lower, mut upper) = (row(below, &columns.stops), row(above, &columns.stops));
+    let (lower, mut upper) = (row(below), row(above));
     if kinks.contains(&to) {
         // The point is the row's own, the normal that of this side.
-        let near = row(Stop::before(to - 1e-9 * (to - from)), &columns.stops);
+        let near = row(Stop::before(to - 1e-9 * (to - from)));
         upper.iter_mut().zip(near).for_each(|(here, near)| here.1 = near.1);
     }
-    let (lower_middle, upper_middle) = (row(below, middle), row(above, middle));
-    let (left, centre) = (row(within(0.5), &columns.stops), row(within(0.5), middle));
-    let low = [third, two_thirds].map(|columns| row(within(1.0 / 3.0), columns));
-    let high = [third, two_thirds].map(|columns| row(within(2.0 / 3.0), columns));
+    let (lower_middle, upper_middle) = (points(below, middle), points(above, middle));
+    let (left, centre) = (points(within(0.5), &columns.stops), points(within(0.5), middle));
+    let low = [third, two_thirds].map(|columns| points(within(1.0 / 3.0), columns));
+    let high = [third, two_thirds].map(|columns| points(within(2.0 / 3.0), columns));
 
     let count = columns.cells.len();
     let per_turn_sq = tolerance.per_turn_sq();
     let mut cells: Vec<([Off; 4], Off, f64, [f64; 2])> = Vec::with_capacity(count);
     for (cell, &at) in columns.cells.iter().enumerate() {
         let corners = [lower[at], lower[at + 1], upper[at + 1], upper[at]];
-        let (points, normals) = (corners.map(|c| c.0), corners.map(|c| c.1));
-        let pair = Pair::choose(&points, &normals);
-        let facets = pair.corners.map(|corners| Facet::new(corners.map(|corner| points[corner])));
+        let (places, normals) = (corners.map(|c| c.0), corners.map(|c| c.1));
+        let pair = Pair::choose(&places, &normals);
+        let facets = pair.corners.map(|corners| Facet::new(corners.map(|corner| places[corner])));
         // What is allowed in the cell is that of its centre.
-        let per_distance = tolerance.per_distance(centre[cell].0);
+        let per_distance = tolerance.per_distance(centre[cell]);
         let off = |point: DVec3| {
             let distance = facets[0].distance_sq(point).min(facets[1].distance_sq(point)).sqrt();
             Off { distance, part: distance * per_distance }
         };
-        let sides = [lower_middle[cell], left[at + 1], upper_middle[cell], left[at]].map(|p| off(p.0));
-        let centroids = if pair.ac { [low[1][cell], high[0][cell]] } else { [low[0][cell], high[1][cell]] };
-        let inner = centroids.iter().fold(off(centre[cell].0), |most, p| most.most(off(p.0)));
+        let sides = [lower_middle[cell], left[at + 1], upper_middle[cell], left[at]].map(off);
+        let centroids =
+            if pair.ac { [low[1][cell], high[0][cell]] } else { [low[0][cell], high[1][cell]] };
+        let inner = centroids.into_iter().fold(off(centre[cell]), |most, p| most.most(off(p)));
         let turn_sq = facets.iter().zip(pair.corners).filter_map(|(facet, corners)| {
             let normal = facet.normal?;
             Some(corners.map(|corner| (normals[corner] - normal).length_squared()))

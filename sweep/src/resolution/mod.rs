@@ -82,6 +82,33 @@ pub struct Reached {
 }
 
 impl Tolerance {
+    /// By how much it is missed, in words; nothing where it is kept.
+    #[must_use]
+    pub fn missed(&self, reached: &Reached) -> Option<String> {
+        if reached.kept {
+            return None;
+        }
+        let distance = match (&self.distance, reached.pixels) {
+            (Some(Distance::Everywhere(tol)), _) => {
+                Some(format!("{:.3e} from the surface, not {tol:?}", reached.tol))
+            }
+            (Some(Distance::Pixels(pixels, _)), Some(most)) => {
+                Some(format!("{most:.3} pixels from the surface, not {pixels:?}"))
+            }
+            _ => None,
+        };
+        let angle = self.angle.map(|angle| {
+            let asked = angle.to_degrees();
+            format!("{:.3} degrees from its normals, not {asked:.3}", reached.angle_deg)
+        });
+        let off: Vec<String> = distance.into_iter().chain(angle).collect();
+        let (quads, most, off) = (reached.quads, self.max_quads, off.join(" and "));
+        Some(format!(
+            "the tolerance is not kept: with {quads} of at most {most} quads the triangles are up to \
+             {off}"
+        ))
+    }
+
     /// One over the distance that is allowed at a point; 0 where none is too large.
     pub(crate) fn per_distance(&self, point: DVec3) -> f64 {
         match &self.distance {

@@ -9,9 +9,10 @@ use crate::cut::Stop;
 /// Cells of the first cut at most: it only has to see every wave.
 const MOST_AT_FIRST: usize = 1 << 20;
 
-/// Cells of a sketch: while densities are looked for, cuts of more cells are made coarser. What
-/// they ask for differs little from what finer ones do, and costs less.
-const SKETCH: f64 = 2e4;
+/// Cells of a sketch, from which densities are found, at least and at most. What coarse cells ask
+/// for is rough and jumps from one sketch to the next; what fine ones ask for differs little from
+/// these, and costs more.
+const SKETCH: (f64, f64) = (3e3, 2e4);
 
 /// Cuts by ever better densities. Mostly the third is as good as the second.
 const SKETCHES: usize = 6;
@@ -20,10 +21,19 @@ const SKETCHES: usize = 6;
 const BETTER: f64 = 0.01;
 
 /// Cuts on the way to one that keeps the tolerance.
-const TRIALS: usize = 12;
+const TRIALS: usize = 20;
 
 /// How much finer than expected a trial is after one that failed.
 const SAFETY: f64 = 1.003;
+
+/// A load from which on a trial that fails asks for other densities, not for more of everything.
+const UNEVEN: f64 = 1.1;
+
+/// Trials that may.
+const RESHAPED: usize = 3;
+
+/// By how much finer all cells are made at least when some fail.
+const LEAST_STEP: f64 = 1.01;
 
 /// Cells that thinning out may measure, besides a number of times those there are.
 const TRIMMED: usize = 150_000;
@@ -128,14 +138,13 @@ impl Search<'_> {
         let mut best: Option<(f64, Plan)> = None;
         for _ in 0..SKETCHES {
             let quads = self.quads(&plan) as f64;
-            let coarser = (SKETCH.min(self.tolerance.max_quads as f64) / quads).sqrt().min(1.0);
-            plan.factors = [coarser; 2];
+            plan.factors = [(quads.clamp(SKETCH.0, SKETCH.1) / quads).sqrt(); 2];
             let tried = self.tried(plan.clone(), rounds);
             // Cells for a load of 1, of which more would be needed in proportion to the load.
             let figure = tried.field.quads() as f64 * tried.worst;
             plan.densities = self.fewest(&tried.field);
             let known = best.as_ref().map_or(f64::INFINITY, |(figure, _)| *figure);
-            if figure < known {
+            if figure < known * (1.0 - demand::ALIKE) {
                 let needed = tried.plan.factors.map(|factor| factor * tried.worst.sqrt());
                 best = Some((figure, Plan { factors: needed, ..tried.plan }));
             }
@@ -149,10 +158,13 @@ impl Search<'_> {
     /// The coarsest cut by some densities that keeps the tolerance; else the best one tried.
     fn kept(&self, mut plan: Plan, rounds: &mut usize) -> Tried {
         let mut best: Option<Tried> = None;
-        for _ in 0..TRIALS {
+        for trial in 0..TRIALS {
             let fits = self.fit(&mut plan);
             let tried = self.tried(plan.clone(), rounds);
             let (worst, kept) = (tried.worst, tried.worst <= 1.0);
+            // Where only some cells fail, as at the vertical end of a cap, those are made finer.
+            let uneven =
+                (worst > UNEVEN && fits && trial < RESHAPED).then(|| self.fewest(&tried.field));
             let better = best.as_ref().is_none_or(|best| match (kept, best.worst <= 1.0) {
                 (true, true) => tried.field.quads() < best.field.quads(),
                 (false, false) => tried.worst < best.worst,
@@ -166,9 +178,21 @@ impl Search<'_> {
             if enough {
                 break;
             }
-            let by = worst.sqrt() * if kept { 1.0 } else { SAFETY };
+            if let Some(densities) = uneven {
+                plan = Plan { densities, factors: [SAFETY; 2] };
+                continue;
+            }
+            let mut by = worst.sqrt();
+            if let Some(best) = best.as_ref().filter(|_| !kept && trial == RESHAPED) {
+                // Densities have had their chance: the best of them, and more of everything.
+                plan = best.plan.clone();
+                by = best.worst.sqrt();
+            }
+            let by = if kept { by } else { by.max(LEAST_STEP) * SAFETY };
             let next = plan.factors.map(|factor| factor * by.clamp(0.5, 4.0));
-            let same = |next: [f64; 2]| self.counts(&plan) == self.counts(&Plan { factors: next, ..plan.clone() });
+            let same = |next: [f64; 2]| {
+                self.counts(&plan) == self.counts(&Plan { factors: next, ..plan.clone() })
+            };
             if same(next) {
                 if kept {
                     break;

@@ -44,6 +44,8 @@ impl Pair {
 #[derive(Debug, Clone, Copy)]
 pub struct Facet {
     corners: [DVec3; 3],
+    /// From each side, in the order of the corners that it starts at, into the triangle.
+    inward: [DVec3; 3],
     /// The unit normal; nothing where the triangle has no area.
     pub normal: Option<DVec3>,
 }
@@ -56,24 +58,26 @@ impl Facet {
         let long_sq = p.length_squared().max(q.length_squared());
         // Below this rounding alone decides the direction.
         let has_area = across.length_squared() > (1e-12 * long_sq).powi(2);
-        Self { corners, normal: has_area.then(|| across.normalize()) }
+        let inward = [b - a, c - b, a - c].map(|side| across.cross(side));
+        Self { corners, inward, normal: has_area.then(|| across.normalize()) }
     }
 
     /// The squared distance of a point.
     pub fn distance_sq(&self, point: DVec3) -> f64 {
         let [a, b, c] = self.corners;
-        if let Some(normal) = self.normal {
-            let inside = |from: DVec3, to: DVec3| {
-                (to - from).cross(point - from).dot(normal) >= 0.0
-            };
-            if inside(a, b) && inside(b, c) && inside(c, a) {
-                return (point - a).dot(normal).powi(2);
-            }
+        if let Some(normal) = self.normal
+            && [a, b, c]
+                .iter()
+                .zip(&self.inward)
+                .all(|(&from, way)| (point - from).dot(*way) >= 0.0)
+        {
+            return (point - a).dot(normal).powi(2);
         }
         let edge = |from: DVec3, to: DVec3| {
             let (along, off) = (to - from, point - from);
             let length_sq = along.length_squared();
-            let t = if length_sq > 0.0 { (off.dot(along) / length_sq).clamp(0.0, 1.0) } else { 0.0 };
+            let t =
+                if length_sq > 0.0 { (off.dot(along) / length_sq).clamp(0.0, 1.0) } else { 0.0 };
             (off - along * t).length_squared()
         };
         edge(a, b).min(edge(b, c)).min(edge(c, a))

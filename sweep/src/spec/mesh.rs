@@ -87,7 +87,7 @@ pub struct Camera {
 
 impl Mesh {
     /// This with every key of another in its place; rows and columns, and a tolerance, each take the
-    /// place of the other.
+    /// place of the other. A camera is taken only where pixels are asked for and there is none.
     #[must_use]
     pub fn or_rather(&self, other: &Self) -> Self {
         let counted = other.rows.is_some() || other.cols.is_some();
@@ -96,13 +96,19 @@ impl Mesh {
         let old = |kept: bool| if kept { self.clone() } else { Self::default() };
         let (cells, bounds) = (old(!tolerance), old(!counted));
         let distance = old(!counted && !near);
+        let pixels = other.pixels.or(distance.pixels);
+        let camera = match pixels {
+            Some(_) => bounds.camera.or(other.camera),
+            None if other.tol.is_some() => None,
+            None => bounds.camera,
+        };
         Self {
             rows: other.rows.or(cells.rows),
             cols: other.cols.or(cells.cols),
             tol: other.tol.or(distance.tol),
             angle_deg: other.angle_deg.or(bounds.angle_deg),
-            pixels: other.pixels.or(distance.pixels),
-            camera: other.camera.or(bounds.camera),
+            pixels,
+            camera,
             max_quads: other.max_quads.or(bounds.max_quads),
         }
     }
