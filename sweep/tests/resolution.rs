@@ -94,7 +94,6 @@ fn strewn(sweep: &Sweep, places: u32) -> f64 {
 fn kept(spec: &Value) -> (Sweep, Reached) {
     let sweep = read(spec).unwrap_or_else(|error| panic!("{error}"));
     let reached = sweep.reached().unwrap();
-    println!("{} x {}: {reached:?}", sweep.rows(), sweep.cols());
     assert!(reached.kept, "{reached:?}");
     assert_eq!(sweep.missed(), None);
     assert_eq!(reached.quads, sweep.rows() * sweep.cols());

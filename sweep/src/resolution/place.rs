@@ -178,6 +178,13 @@ mod tests {
     }
 
     #[test]
+    fn even_stops_take_no_heed_of_the_density() {
+        let steep = Density { places: vec![0.0, 0.5, 1.0], cells: vec![3.0, 1.0] };
+        let even = Direction { even: true, ..direction(&[0.5], &[0.25]) };
+        assert_eq!(even.place(&steep, 2.0), cut::evenly(&[0.5], false, 8));
+    }
+
+    #[test]
     fn stops_follow_the_density_and_lie_on_kinks() {
         let steep = Density { places: vec![0.0, 0.5, 1.0], cells: vec![3.0, 1.0] };
         let plain = direction(&[], &[]);
