@@ -1,13 +1,13 @@
 //! How finely a surface is cut: in rows x cols, or as its shape asks for.
 //!
 //! Where a *tolerance* is asked for, the grid stays a product of rows and columns, so that no
-//! T-junction can occur; what is chosen is where the stops lie. [`search`] does it:
+//! T-junction can occur; what is chosen is where the stops lie. `search` does it:
 //!
-//! 1. [`measure`] cuts the surface and finds, in every cell, how far the triangles are from the true
+//! 1. `measure` cuts the surface and finds, in every cell, how far the triangles are from the true
 //!    surface and what the cell's width and height contribute to that.
-//! 2. [`demand`] finds the widths of columns and heights of rows that keep the tolerance with the
+//! 2. `demand` finds the widths of columns and heights of rows that keep the tolerance with the
 //!    fewest cells: the product of two integrals is least under a bound on every cell, which is a
-//!    convex problem in the logarithms. [`place`] puts the stops accordingly.
+//!    convex problem in the logarithms. `place` puts the stops accordingly.
 //! 3. What comes out is measured again, and so on until it is kept, and then thinned out until a
 //!    column or a row less would break it.
 //!

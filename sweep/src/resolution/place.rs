@@ -12,7 +12,7 @@ const WHOLE: f64 = 1e-6;
 /// One direction of a surface, in which stops are to be placed.
 #[derive(Debug, Clone)]
 pub struct Direction {
-    /// Breaks, as in [`cut`].
+    /// Breaks, as in `cut`.
     pub breaks: Vec<f64>,
     /// Places where the surface has an edge with one normal: a stop lies there.
     pub kinks: Vec<f64>,
@@ -20,7 +20,7 @@ pub struct Direction {
     pub closed: bool,
     /// The fewest cells.
     pub fewest: usize,
-    /// Whether all stops are even, as [`cut::evenly`] places them, and kinks have none.
+    /// Whether all stops are even, as `cut::evenly` places them, and kinks have none.
     pub even: bool,
 }
 
