@@ -142,3 +142,27 @@ fn an_object_with_two_pictures_is_the_same_through_pipes_and_in_memory() {
     assert!(shell(plain, folder.path()).status.success());
     assert_ne!(read("piped.png"), read("plain.png"));
 }
+
+#[test]
+fn pixels_without_a_camera_are_those_of_the_scene() {
+    let folder = tempfile::tempdir().unwrap();
+    let vase = fs::read_to_string(root().join("examples/curves/vase.json")).unwrap();
+    let with = |mesh: &str| vase.replace("{ \"rows\": 120, \"cols\": 160 }", mesh);
+    fs::write(folder.path().join("bare.json"), with("{ \"pixels\": 0.5 }")).unwrap();
+    let camera = "{ \"eye\": [0.9, 1.75, 4.6], \"target\": [0, 0.93, 0], \"fov_deg\": 36, \
+                  \"size\": [64, 48] }";
+    let seen = with(&format!("{{ \"pixels\": 0.5, \"camera\": {camera} }}"));
+    fs::write(folder.path().join("seen.json"), seen).unwrap();
+    let job = "{ \"format\": \"tb-job\", \"version\": 1, \"scene\": \"examples/scenes/vase.json\", \
+                \"meshes\": { \"vase\": { \"spec\": \"bare.json\", \"texture\": 2 } } }";
+    fs::write(folder.path().join("job.json"), job).unwrap();
+
+    let refused = shell("sweep bare.json -o bare.grid", folder.path());
+    assert_eq!(refused.status.code(), Some(3));
+    assert!(words(&refused).contains("`pipeline run`"), "{}", words(&refused));
+    let line = "pipeline run job.json --size 64x48 --keep -o out && sweep seen.json -o seen.grid";
+    let ran = shell(line, folder.path());
+    assert!(ran.status.success(), "{}", words(&ran));
+    let bytes = |name: &str| fs::read(folder.path().join(name)).unwrap();
+    assert_eq!(bytes("out/job-vase.grid"), bytes("seen.grid"));
+}

@@ -177,9 +177,12 @@ impl<'a> Talk<'a> {
     fn hear(&self, event: &Event<'_>) {
         match event {
             Event::Progress { mode, done, total } => self.progress(mode, *done, *total),
-            Event::Mesh { name, triangles, time } => {
+            Event::Mesh { name, triangles, time, missed } => {
                 let seconds = time.as_secs_f64();
                 self.say(&format!("{}: {name}, {triangles} triangles, {seconds:.2} s", self.job));
+                if let Some(missed) = missed {
+                    self.say(&format!("{}: note: {name}: {missed}", self.job));
+                }
             }
             Event::Picture { mode, stats } => {
                 self.clear();

@@ -6,6 +6,7 @@ use files::json::Document;
 use files::{Output, Source};
 use render::color::Encoding;
 use render::film::encode::{self, Format};
+use render::scene::file::CameraFile;
 use render::scene::{MeshSource, SceneError, read};
 use render::stats::Stats;
 use render::{Picture, Scene, Settings};
@@ -14,6 +15,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use sweep::Object;
 use sweep::grid::file as grid_file;
+use sweep::spec::{self, Camera};
 use triangulate::TriangulateError;
 
 /// White between the pictures of a strip, in pixels.
@@ -43,6 +45,8 @@ pub enum Event<'a> {
         triangles: usize,
         /// How long it took.
         time: Duration,
+        /// By how much its tolerance is missed, in words.
+        missed: Option<String>,
     },
     /// Some of a mode's picture is done.
     Progress {
@@ -110,7 +114,7 @@ impl Work<'_> {
             .map_err(|error| self.of_meshes(error))?;
         let mut meshes = MeshSource::new();
         for mesh in &self.job.meshes {
-            meshes.insert(mesh.name.clone(), self.mesh(mesh)?);
+            meshes.insert(mesh.name.clone(), self.mesh(mesh, &file.camera)?);
         }
         let folder = path.parent().unwrap_or(Path::new(""));
         read::resolve(&document, &file, folder, self.source, meshes)
@@ -131,12 +135,22 @@ impl Work<'_> {
         }
     }
 
-    fn mesh(&self, mesh: &MeshJob) -> Result<render::shape::Mesh, PipelineError> {
+    fn mesh(
+        &self,
+        mesh: &MeshJob,
+        camera: &CameraFile,
+    ) -> Result<render::shape::Mesh, PipelineError> {
         let started = Instant::now();
         let (name, bytes) = (mesh.spec.display().to_string(), self.source.read(&mesh.spec)?);
         let folder = mesh.spec.parent().unwrap_or(Path::new(""));
+        // A scene does not move its meshes: what its camera sees of them, the spec's would.
+        let CameraFile { eye, target, up, fov_deg } = *camera;
+        let size = [self.options.size.0, self.options.size.1];
+        let camera = Some(Camera { eye, target, up, fov_deg, size });
+        let seen = spec::Mesh { camera, ..spec::Mesh::default() };
         let document = Document::new(&name, &bytes)?;
-        let grids = Object::read_in(&document, folder, self.source)?.grids()?;
+        let object = Object::read(&document, folder, self.source, &seen)?;
+        let grids = object.grids()?;
         if self.options.keep {
             self.write(&self.job.grid_file(mesh), |out| {
                 grid_file::write_all(&grids, grid_file::Encoding::Binary, out)
@@ -155,6 +169,7 @@ impl Work<'_> {
             name: &mesh.name,
             triangles: triangles.triangles.len(),
             time: started.elapsed(),
+            missed: object.missed(),
         });
         Ok(triangles)
     }

@@ -123,6 +123,14 @@ impl Contour {
         }
     }
 
+    /// Cells that see all that the contour does: eight to a segment.
+    pub(crate) fn detail(&self) -> f64 {
+        match &self.0 {
+            Form::Circle { .. } => 32.0,
+            Form::Path { path, .. } => 8.0 * path.cubics().count() as f64,
+        }
+    }
+
     /// The contour at a stop: at a crease that of its side.
     #[must_use]
     pub fn at(&self, stop: Stop) -> Local2 {

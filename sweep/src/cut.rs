@@ -124,6 +124,13 @@ pub fn at(breaks: &[f64], closed: bool, inner: &[Vec<f64>]) -> Vec<Stop> {
     stops
 }
 
+/// The number of cells of some length in a cut.
+#[must_use]
+pub fn cells(stops: &[Stop], closed: bool) -> usize {
+    let within = stops.windows(2).filter(|pair| pair[1].at > pair[0].at).count();
+    within + usize::from(closed)
+}
+
 /// Divides `cells` among pieces that end at `ends`, of which the last is 1: how many cells there are
 /// up to each end.
 ///

@@ -54,6 +54,15 @@ impl HeightMap {
         Self { coefficients: values, x, y, across, amp }
     }
 
+    /// Cells that see all of the picture, along `u` and along `v`: two to a texel.
+    pub(crate) fn detail(&self) -> [f64; 2] {
+        let [s, t] = [2.0 * self.x.rate(), 2.0 * self.y.rate()];
+        match self.across {
+            Across::Contour => [s, t],
+            Across::Trajectory => [t, s],
+        }
+    }
+
     /// A bound of the size of the heights: splines stay within their coefficients.
     pub(crate) fn most(&self) -> f64 {
         self.amp.abs() * self.coefficients.iter().fold(0.0, |most: f64, c| most.max(c.abs()))

@@ -16,18 +16,18 @@
 //! before. A Bezier may be vertical, as at the end of a round cap; its derivative is then
 //! [`STEEPEST`].
 
+mod graph;
+
+pub(crate) use graph::{is_graph, parameter};
+
 use crate::curve::Cubic;
 use crate::cut::{Side, Stop};
 use glam::DVec2;
-use kurbo::common::solve_cubic;
 use kurbo::{CubicBez, Point, Shape};
 
 /// Derivatives are kept within this: beyond it a surface is level to all of its 16 digits, and far
 /// larger ones would overflow when they are squared.
 pub const STEEPEST: f64 = 1e30;
-
-/// Steps toward a place on a Bezier at most; halving alone would need 53 of them.
-const MOST_STEPS: usize = 80;
 
 /// A function of the fraction of the trajectory's length, checked.
 #[derive(Debug, Clone)]
@@ -178,11 +178,35 @@ impl Law {
                 let crossed = keys.windows(2).filter(|pair| pair[0][1] * pair[1][1] < 0.0);
                 on_key.chain(crossed.map(|pair| crossing(pair[0], pair[1], *smooth))).collect()
             }
-            Form::Bezier(segments) => segments.iter().flat_map(zeros_of).collect(),
+            Form::Bezier(segments) => segments.iter().flat_map(graph::zeros_of).collect(),
         };
         found.retain(|at| (0.0..=1.0).contains(at));
         found.sort_by(f64::total_cmp);
         found
+    }
+
+    /// Cells that see all that the law does: eight to a segment.
+    pub(crate) fn detail(&self) -> f64 {
+        match &self.0 {
+            Form::Constant(_) => 0.0,
+            Form::Keys { keys, .. } => 8.0 * keys.len() as f64,
+            Form::Bezier(segments) => 8.0 * segments.len() as f64,
+        }
+    }
+
+    /// Places inside the trajectory where the derivative may jump.
+    pub(crate) fn kinks(&self) -> Vec<f64> {
+        let inside = |at: &f64| *at > 0.0 && *at < 1.0;
+        match &self.0 {
+            Form::Constant(_) | Form::Keys { smooth: true, .. } => Vec::new(),
+            Form::Keys { keys, .. } => keys.iter().map(|key| key[0]).filter(inside).collect(),
+            Form::Bezier(segments) => {
+                let joints = segments.iter().flat_map(|segment| [segment.0[0].x, segment.0[3].x]);
+                let mut joints: Vec<f64> = joints.filter(inside).collect();
+                joints.dedup();
+                joints
+            }
+        }
     }
 
     /// The values at the start and at the end of the trajectory.
@@ -206,39 +230,6 @@ fn bounded(slope: f64) -> f64 {
     if slope.is_nan() { 0.0 } else { slope.clamp(-STEEPEST, STEEPEST) }
 }
 
-/// Whether `at` nowhere falls along a segment, and rises from its start to its end.
-pub(crate) fn is_graph(segment: &Cubic<DVec2>) -> bool {
-    let [p0, p1, p2, p3] = segment.0.map(|p| p.x);
-    let (a, b, c) = (p1 - p0, p2 - p1, p3 - p2);
-    // The speed is 3 (a s^2 + 2 b s t + c t^2) with s = 1 - t.
-    p3 > p0 && a >= 0.0 && c >= 0.0 && (b >= 0.0 || b * b <= a * c)
-}
-
-/// The parameter at which a segment reaches `at`, by Newton's method kept between its bounds.
-pub(crate) fn parameter(segment: &Cubic<DVec2>, at: f64) -> f64 {
-    let [from, .., to] = segment.0.map(|p| p.x);
-    let (mut low, mut high) = (0.0, 1.0);
-    let mut t = (at - from) / (to - from);
-    for _ in 0..MOST_STEPS {
-        let off = segment.point(t).x - at;
-        if off == 0.0 {
-            break;
-        }
-        if off > 0.0 {
-            high = t;
-        } else {
-            low = t;
-        }
-        let step = t - off / segment.velocity(t).x;
-        let next = if step > low && step < high { step } else { 0.5 * (low + high) };
-        if next == t {
-            break;
-        }
-        t = next;
-    }
-    t
-}
-
 /// Where the way between two keys of different signs passes 0.
 fn crossing([from, a]: [f64; 2], [to, b]: [f64; 2], smooth: bool) -> f64 {
     let part = a / (a - b);
@@ -251,18 +242,6 @@ fn crossing([from, a]: [f64; 2], [to, b]: [f64; 2], smooth: bool) -> f64 {
         if x * x * (3.0 - 2.0 * x) < part { low = x } else { high = x }
     }
     from + (to - from) * high
-}
-
-/// Where a segment is 0.
-fn zeros_of(segment: &Cubic<DVec2>) -> Vec<f64> {
-    let [a, b, c, d] = segment.0.map(|p| p.y);
-    let ends = segment.0.into_iter().step_by(3).filter(|p| p.y == 0.0).map(|p| p.x);
-    solve_cubic(a, 3.0 * (b - a), 3.0 * (a - 2.0 * b + c), d - a + 3.0 * (b - c))
-        .into_iter()
-        .filter(|t| (0.0..=1.0).contains(t))
-        .map(|t| segment.point(t).x)
-        .chain(ends)
-        .collect()
 }
 
 #[cfg(test)]

@@ -13,11 +13,13 @@
 //! | [`depth`]      | relief on the contour, in waves                                     |
 //! | [`height`]     | heights from a picture                                              |
 //! | [`modulation`] | the contour scaled and twisted on its way                          |
+//! | [`Shape`]      | the whole surface, before it is cut into cells                      |
 //! | [`cap`]        | what closes the ends                                                |
 //! | [`closing`]    | how the surface comes back to its start                             |
 //! | [`deform`]     | taper, twist and bend of the finished surface                       |
 //! | [`frame`]      | rotation-minimizing frames, and those that a direction fixes        |
 //! | [`curve`]      | cubic Bezier paths by arc length, splines, SVG                      |
+//! | [`resolution`] | cells in rows x cols, or to a tolerance                              |
 //! | [`grid`]       | the grid and its file                                               |
 //!
 //! ```
@@ -48,6 +50,8 @@ pub mod modulation;
 mod object;
 pub mod profile;
 mod read;
+pub mod resolution;
+pub mod shape;
 pub mod spec;
 mod sweep;
 pub mod trajectory;
@@ -55,4 +59,5 @@ pub mod trajectory;
 pub use error::SweepError;
 pub use grid::GridMesh;
 pub use object::Object;
+pub use shape::Shape;
 pub use sweep::{MOST_CELLS, Sweep};

@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 use sweep::grid::file::{self, Encoding};
+use sweep::spec::Mesh;
 use sweep::{GridMesh, Object, Sweep};
 use thiserror::Error;
 
@@ -38,6 +39,22 @@ struct Arguments {
     #[arg(long, value_name = "N")]
     cols: Option<usize>,
 
+    /// The largest distance between triangles and surface, in place of the spec's resolution
+    #[arg(long, value_name = "LENGTH", conflicts_with_all = ["rows", "cols", "pixels"])]
+    tol: Option<f64>,
+
+    /// The largest angle between triangles and surface, in degrees
+    #[arg(long, value_name = "DEGREES", conflicts_with_all = ["rows", "cols"])]
+    angle: Option<f64>,
+
+    /// The largest distance in pixels of the spec's camera
+    #[arg(long, value_name = "N", conflicts_with_all = ["rows", "cols"])]
+    pixels: Option<f64>,
+
+    /// Cells at most where a tolerance is asked for [default: 2000000]
+    #[arg(long, value_name = "N", conflicts_with_all = ["rows", "cols"])]
+    max_quads: Option<usize>,
+
     /// Threads to use, up to 1024; all cores by default
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
@@ -59,6 +76,7 @@ const EXAMPLES: &str = "\
 Examples:
   sweep examples/curves/vase.json -o vase.grid
   sweep examples/curves/trefoil.json --rows 1000 --cols 64 --stats -o trefoil.grid
+  sweep examples/curves/vase.json --tol 1e-3 --angle 5 --stats -o vase.grid
   sweep --format json < examples/curves/cup-handle.json | head -3
   sweep examples/curves/vase.json | triangulate --texture 2 > vase.obj";
 
@@ -92,6 +110,21 @@ fn main() -> ExitCode {
     exit::run("sweep", || work(&arguments))
 }
 
+impl Arguments {
+    /// The keys of `mesh` that stand in place of the spec's.
+    fn mesh(&self) -> Mesh {
+        Mesh {
+            rows: self.rows,
+            cols: self.cols,
+            tol: self.tol,
+            angle_deg: self.angle,
+            pixels: self.pixels,
+            camera: None,
+            max_quads: self.max_quads,
+        }
+    }
+}
+
 fn work(arguments: &Arguments) -> Result<(), Report> {
     let encoding = match arguments.format {
         Format::Bin => Encoding::Binary,
@@ -112,15 +145,13 @@ fn work(arguments: &Arguments) -> Result<(), Report> {
     let bytes = input::read(&arguments.spec)?;
     let name = input::name_of(&arguments.spec);
     let folder = arguments.spec.parent().unwrap_or(Path::new(""));
-    let object = Object::read_in(&Document::new(&name, &bytes)?, folder, &Disk)?
-        .with_resolution(arguments.rows, arguments.cols)?;
+    let document = Document::new(&name, &bytes)?;
+    let object = Object::read(&document, folder, &Disk, &arguments.mesh())?;
     let read = Instant::now();
     let mut output = Output::create(&arguments.output, !arguments.no_clobber)?;
     let grids = object.grids()?;
     let swept = Instant::now();
-    for grid in &grids {
-        file::write(grid, encoding, &mut output).map_err(|source| output.failed(source))?;
-    }
+    file::write_all(&grids, encoding, &mut output).map_err(|source| output.failed(source))?;
     output.commit()?;
     let written = Instant::now();
 
@@ -149,12 +180,23 @@ fn note(sweep: &Sweep) {
             sweep.name()
         ));
     }
+    if let Some(missed) = sweep.missed() {
+        say(format_args!("sweep: note: {}: {missed}", sweep.name()));
+    }
 }
 
 fn stats(sweep: &Sweep, grid: &GridMesh) {
     say(format_args!("object      {}", sweep.name()));
     say(format_args!("cells       {} x {} (rows x cols)", sweep.rows(), sweep.cols()));
     say(format_args!("points      {} x {}, {}", grid.rows(), grid.cols(), grid.positions.len()));
+    if let Some(reached) = sweep.reached() {
+        say(format_args!("distance    {:.4e} to the surface", reached.tol));
+        if let Some(pixels) = reached.pixels {
+            say(format_args!("pixels      {pixels:.4} to the surface"));
+        }
+        say(format_args!("angle       {:.3} degrees to the normals", reached.angle_deg));
+        say(format_args!("quads       {}, after {} rounds", reached.quads, reached.rounds));
+    }
     say(format_args!("creases     {}", sweep.contour().creases()));
     say(format_args!("contour     {} long", sweep.contour().length()));
     if sweep.trajectory().is_rotation() {

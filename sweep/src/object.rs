@@ -1,5 +1,6 @@
 //! An object: one sweep, or several that belong together, as a cup and its handle do.
 
+use crate::spec::Mesh;
 use crate::{GridMesh, Sweep, SweepError, read};
 use files::Source;
 use files::json::Document;
@@ -15,17 +16,19 @@ pub struct Object {
 impl Object {
     /// Reads and checks a [`Spec`](crate::spec::Spec), or a spec of [`Parts`](crate::spec::Parts).
     ///
-    /// Files that it names count from `folder` and lie in `source`.
+    /// Files that it names count from `folder` and lie in `source`. Each key of `rather` stands in place
+    /// of that of every `mesh`.
     ///
     /// # Errors
     /// When the text is not a spec, a surface does not exist, or a file cannot be read or is not what
     /// it should be; the message has the place.
-    pub fn read_in(
+    pub fn read(
         document: &Document<'_>,
         folder: &Path,
         source: &dyn Source,
+        rather: &Mesh,
     ) -> Result<Self, SweepError> {
-        read::read(document, folder, source)
+        read::read(document, folder, source, rather)
     }
 
     /// The object's name.
@@ -40,18 +43,15 @@ impl Object {
         &self.parts
     }
 
-    /// The same object with other numbers of cells in every part; `None` keeps a number.
-    ///
-    /// # Errors
-    /// As [`Sweep::with_resolution`].
-    pub fn with_resolution(
-        self,
-        rows: Option<usize>,
-        cols: Option<usize>,
-    ) -> Result<Self, SweepError> {
-        let parts: Result<_, _> =
-            self.parts.into_iter().map(|part| part.with_resolution(rows, cols)).collect();
-        Ok(Self { parts: parts?, ..self })
+    /// By how much the tolerances of its parts are missed, in words; nothing where they are kept.
+    #[must_use]
+    pub fn missed(&self) -> Option<String> {
+        let of = |part: &Sweep| {
+            let missed = part.missed()?;
+            Some(if self.parts.len() == 1 { missed } else { format!("{}: {missed}", part.name()) })
+        };
+        let missed: Vec<String> = self.parts.iter().filter_map(of).collect();
+        (!missed.is_empty()).then(|| missed.join("; "))
     }
 
     /// The grids of its parts, in their order.

@@ -39,7 +39,8 @@
 //!
 //! `mesh` counts cells, which become quads: rows along the trajectory, cols along the contour. Going
 //! around takes three, a contour at least one for each piece between corners, and all together are
-//! at most 100 million. The vessel of a potter is a rotation:
+//! at most 100 million. It can ask for a tolerance in their place, as [`mesh`] says. The vessel of a
+//! potter is a rotation:
 //!
 //! ```json
 //! {
@@ -152,8 +153,10 @@ mod flat;
 mod frame;
 mod helix;
 mod law;
+pub mod mesh;
 mod parts;
 mod seam;
+mod trajectory;
 mod turn;
 
 pub use areas::Area;
@@ -166,8 +169,10 @@ pub use flat::Flat;
 pub use frame::{Frame, Frenet};
 pub use helix::Helix;
 pub use law::{Ease, Law, Scale};
+pub use mesh::{Camera, Mesh};
 pub use parts::Parts;
 pub use seam::SeamKind;
+pub use trajectory::Trajectory;
 pub use turn::{Circle, Rotation};
 
 use crate::grid::UvLayout;
@@ -224,31 +229,15 @@ pub struct Spec {
     /// Parts with pictures of their own.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub areas: Vec<Area>,
+    /// The texture id of its triangles, which a scene binds to a picture; 0 is none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub texture: Option<u32>,
+    /// The surface id of its triangles, which a scene binds to a material.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub surface: Option<u32>,
     /// By how much the whole is moved in the end.
     #[serde(default)]
     pub position: [f64; 3],
-}
-
-/// A curve in space, or a rotation.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case", try_from = "TrajectoryKeys")]
-pub enum Trajectory {
-    /// A straight line by its ends.
-    Line([[f64; 3]; 2]),
-    /// A circle or an arc of one.
-    Circle(Circle),
-    /// A helix.
-    Helix(Helix),
-    /// Cubic Bezier segments.
-    Bezier(Bezier3),
-    /// Points that straight lines join.
-    Polyline(Polyline3),
-    /// Points that a spline goes through.
-    Free(Free<[f64; 3]>),
-    /// A curve drawn flat, with a height.
-    Flat(Flat),
-    /// A turn of the contour about an axis in its plane.
-    Rotation(Rotation),
 }
 
 /// Cubic Bezier segments, each of which starts where the one before it ends.
@@ -273,53 +262,6 @@ pub struct Free<P> {
     pub points: Vec<P>,
 }
 
-/// How finely a surface is cut.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "an object with the keys rows and cols")]
-pub struct Mesh {
-    /// Cells along the trajectory.
-    pub rows: usize,
-    /// Cells along the contour; the cells without width at creases come on top.
-    pub cols: usize,
-}
-
-/// The keys of a trajectory as they are read, so that none and two of them get a sentence.
-#[derive(Deserialize)]
-#[serde(
-    deny_unknown_fields,
-    expecting = "an object with one of the keys line, circle, helix, bezier, polyline, free, flat, rotation"
-)]
-struct TrajectoryKeys {
-    line: Option<[[f64; 3]; 2]>,
-    circle: Option<Circle>,
-    helix: Option<Helix>,
-    bezier: Option<Bezier3>,
-    polyline: Option<Polyline3>,
-    free: Option<Free<[f64; 3]>>,
-    flat: Option<Flat>,
-    rotation: Option<Rotation>,
-}
-
-impl TryFrom<TrajectoryKeys> for Trajectory {
-    type Error = String;
-
-    fn try_from(keys: TrajectoryKeys) -> Result<Self, String> {
-        only(
-            "curve",
-            [
-                ("line", keys.line.map(Self::Line)),
-                ("circle", keys.circle.map(Self::Circle)),
-                ("helix", keys.helix.map(Self::Helix)),
-                ("bezier", keys.bezier.map(Self::Bezier)),
-                ("polyline", keys.polyline.map(Self::Polyline)),
-                ("free", keys.free.map(Self::Free)),
-                ("flat", keys.flat.map(Self::Flat)),
-                ("rotation", keys.rotation.map(Self::Rotation)),
-            ],
-        )
-    }
-}
-
 /// The one value of a kind that is there.
 fn only<T, const N: usize>(kind: &str, keys: [(&str, Option<T>); N]) -> Result<T, String> {
     let names = keys.each_ref().map(|key| key.0).join(", ");
@@ -339,11 +281,14 @@ fn up() -> [f64; 3] {
 
 #[cfg(test)]
 mod tests {
+    use super::Mesh;
     use crate::Object;
+    use files::Disk;
     use files::json::Document;
+    use std::path::Path;
 
     /// The pages that show specs, and how many each shows.
-    const PAGES: [(&str, usize); 9] = [
+    const PAGES: [(&str, usize); 10] = [
         (include_str!("spec.rs"), 4),
         (include_str!("spec/caps.rs"), 1),
         (include_str!("spec/contour.rs"), 2),
@@ -351,6 +296,7 @@ mod tests {
         (include_str!("spec/deform.rs"), 1),
         (include_str!("spec/flat.rs"), 1),
         (include_str!("spec/frame.rs"), 3),
+        (include_str!("spec/mesh.rs"), 1),
         (include_str!("spec/parts.rs"), 1),
         (include_str!("spec/seam.rs"), 1),
     ];
@@ -366,7 +312,7 @@ mod tests {
             assert_eq!(snippets.len(), count);
             for snippet in snippets {
                 let document = Document::new("snippet", snippet.as_bytes()).unwrap();
-                let object = Object::read_in(&document, std::path::Path::new(""), &files::Disk)
+                let object = Object::read(&document, Path::new(""), &Disk, &Mesh::default())
                     .unwrap_or_else(|error| panic!("{error}"));
                 for grid in object.grids().unwrap() {
                     assert_eq!(grid.positions.len(), grid.rows() * grid.cols());

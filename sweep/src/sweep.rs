@@ -1,13 +1,14 @@
 //! A sweep that has been checked, and the grid it gives.
 
-use crate::cap::Cap;
-use crate::closing::Closing;
 use crate::cut::{self, Stop};
-use crate::deform::{Deform, Moved};
 use crate::grid::file::MAX_COLS;
-use crate::grid::{Area, GridMesh, Seam, UvLayout};
-use crate::modulation::{Alias, Modulation, Section};
+use crate::grid::{self, Area, GridMesh, Seam, UvLayout};
+use crate::modulation::Alias;
 use crate::profile::{Column, Profile};
+use crate::resolution::place::Direction;
+use crate::resolution::{Cells, Distance, Reached, Resolution, Search, Surface, Tolerance};
+use crate::shape::Shape;
+use crate::spec::Mesh;
 use crate::trajectory::Trajectory;
 use crate::{Object, SweepError};
 use files::json::Document;
@@ -19,39 +20,31 @@ use std::path::Path;
 /// Cells of one grid at most: 3.6 GB of points and normals, and twice that when it is one cell wide.
 pub const MOST_CELLS: usize = 100_000_000;
 
-/// Distances from the axis of a rotation below this fraction of the largest are on it.
-pub(crate) const ON_AXIS: f64 = 1e-9;
-
-/// A contour, a trajectory and a resolution that fit each other.
+/// A surface and a resolution.
 #[derive(Debug, Clone)]
 pub struct Sweep {
     pub(crate) name: String,
-    pub(crate) contour: Profile,
-    pub(crate) trajectory: Trajectory,
-    pub(crate) modulation: Modulation,
-    /// What closes the start and the end.
-    pub(crate) caps: [Option<Cap>; 2],
-    /// How it comes back to its start, where columns do not meet themselves.
-    pub(crate) closing: Option<Closing>,
-    /// What happens to the surface in the end, one after another.
-    pub(crate) deforms: Vec<Deform>,
-    pub(crate) rows: usize,
-    pub(crate) cols: usize,
+    pub(crate) shape: Shape,
+    pub(crate) resolution: Resolution,
+    /// What a tolerance comes to.
+    pub(crate) fitted: Option<Cells>,
     pub(crate) uv: UvLayout,
     pub(crate) areas: Vec<Area>,
-    pub(crate) position: DVec3,
+    pub(crate) texture: Option<u32>,
+    pub(crate) surface: Option<u32>,
 }
 
 impl Sweep {
     /// Reads and checks a spec of one sweep; files that it names count from the working folder.
     ///
     /// # Errors
-    /// As [`Object::read_in`], and when the object has several parts.
+    /// As [`Object::read`], and when the object has several parts.
     pub fn read(document: &Document<'_>) -> Result<Self, SweepError> {
-        Self::read_in(document, Path::new(""), &Disk)
+        Self::read_in(document, Path::new(""), &Disk, &Mesh::default())
     }
 
-    /// Reads and checks a spec of one sweep, whose files count from `folder` and lie in `source`.
+    /// The same for files that count from `folder` and lie in `source`, and with each key of `rather`
+    /// in place of that of the spec's `mesh`.
     ///
     /// # Errors
     /// As [`Sweep::read`].
@@ -59,8 +52,9 @@ impl Sweep {
         document: &Document<'_>,
         folder: &Path,
         source: &dyn Source,
+        rather: &Mesh,
     ) -> Result<Self, SweepError> {
-        let mut parts = Object::read_in(document, folder, source)?.parts;
+        let mut parts = Object::read(document, folder, source, rather)?.parts;
         match (parts.pop(), parts.len()) {
             (Some(sweep), 0) => Ok(sweep),
             (_, more) => {
@@ -79,25 +73,70 @@ impl Sweep {
     /// What is swept: one contour or several.
     #[must_use]
     pub fn contour(&self) -> &Profile {
-        &self.contour
+        &self.shape.contour
     }
 
     /// The trajectory.
     #[must_use]
     pub fn trajectory(&self) -> &Trajectory {
-        &self.trajectory
+        &self.shape.trajectory
     }
 
-    /// Cells along the trajectory.
+    /// The surface, before it is cut into cells.
+    #[must_use]
+    pub fn shape(&self) -> &Shape {
+        &self.shape
+    }
+
+    /// The surface at any place: the point and the unit normal, as in [`Shape::at`].
+    #[must_use]
+    pub fn at(&self, u: f64, v: f64) -> (DVec3, DVec3) {
+        self.shape.at(u, v)
+    }
+
+    /// Cells along the trajectory and its caps, those of no height at corners not counted.
     #[must_use]
     pub fn rows(&self) -> usize {
-        self.rows
+        match (&self.resolution, &self.fitted) {
+            (Resolution::Cells { rows, .. }, _) => *rows,
+            (_, Some(cells)) => cut::cells(&cells.rows, self.shape.closed()),
+            (_, None) => self.shape.fewest_rows(),
+        }
     }
 
     /// Cells along the contour, those of no width at creases not counted.
     #[must_use]
     pub fn cols(&self) -> usize {
-        self.cols
+        cut::cells(&self.col_stops(), self.contour().closed())
+    }
+
+    /// How well a tolerance is kept; nothing where rows and columns were asked for.
+    #[must_use]
+    pub fn reached(&self) -> Option<Reached> {
+        self.fitted.as_ref().map(|cells| cells.reached)
+    }
+
+    /// By how much a tolerance is missed, in words; nothing where it is kept or none was asked for.
+    #[must_use]
+    pub fn missed(&self) -> Option<String> {
+        match &self.resolution {
+            Resolution::Tolerance(asked) => {
+                self.reached().and_then(|reached| asked.missed(&reached))
+            }
+            Resolution::Cells { .. } => None,
+        }
+    }
+
+    /// The resolution asked for.
+    #[must_use]
+    pub fn resolution(&self) -> &Resolution {
+        &self.resolution
+    }
+
+    /// What the rows and columns are too few for.
+    #[must_use]
+    pub fn aliases(&self) -> Vec<Alias> {
+        self.shape.modulation.aliases(self.rows(), self.cols())
     }
 
     /// The same sweep with other numbers of cells; `None` keeps a number.
@@ -109,58 +148,119 @@ impl Sweep {
         rows: Option<usize>,
         cols: Option<usize>,
     ) -> Result<Self, SweepError> {
-        let sweep =
-            Self { rows: rows.unwrap_or(self.rows), cols: cols.unwrap_or(self.cols), ..self };
-        match sweep.resolution_fault() {
-            Some((key, message)) => Err(SweepError::Resolution(format!("{key}: {message}"))),
-            None => {
-                match sweep.areas.iter().find_map(|area| area.fault([sweep.rows, sweep.cols])) {
-                    Some((key, message)) => {
-                        Err(SweepError::Resolution(format!("areas, {key}: {message}")))
-                    }
-                    None => Ok(sweep),
-                }
-            }
+        let rows = rows.unwrap_or_else(|| self.rows());
+        let cols = cols.unwrap_or_else(|| self.cols());
+        self.resolved(Resolution::Cells { rows, cols })
+    }
+
+    /// The same sweep with as many cells as keep a tolerance.
+    ///
+    /// # Errors
+    /// When `max_quads` is too few for the contour and the trajectory.
+    pub fn with_tolerance(self, tolerance: Tolerance) -> Result<Self, SweepError> {
+        self.resolved(Resolution::Tolerance(tolerance))
+    }
+
+    fn resolved(self, resolution: Resolution) -> Result<Self, SweepError> {
+        let sweep = Self { resolution, fitted: None, ..self };
+        if let Some((key, message)) = sweep.resolution_fault() {
+            return Err(SweepError::Resolution(format!("{key}: {message}")));
         }
+        let sweep = sweep.fitted();
+        let cells = [sweep.rows(), sweep.cols()];
+        match sweep.areas.iter().find_map(|area| area.fault(cells)) {
+            Some((key, message)) => Err(SweepError::Resolution(format!("areas, {key}: {message}"))),
+            None => Ok(sweep),
+        }
+    }
+
+    /// This with the cells that its tolerance asks for.
+    pub(crate) fn fitted(self) -> Self {
+        let Resolution::Tolerance(tolerance) = &self.resolution else { return self };
+        let cells = self.search(tolerance).run();
+        Self { fitted: Some(cells), ..self }
+    }
+
+    /// How near the triangles of [`Sweep::grid`] come to the surface; `tolerance` says in which unit.
+    #[must_use]
+    pub fn measure(&self, tolerance: &Tolerance) -> Reached {
+        self.search(tolerance).measured([&self.row_stops(), &self.col_stops()])
+    }
+
+    fn search<'a>(&'a self, tolerance: &'a Tolerance) -> Search<'a> {
+        let (shape, contour) = (&self.shape, self.contour());
+        Search {
+            surface: shape,
+            tolerance,
+            directions: [
+                Direction {
+                    breaks: shape.row_breaks(),
+                    kinks: shape.kinks(),
+                    closed: shape.closed(),
+                    meets: shape.closing.is_none(),
+                    fewest: shape.fewest_rows(),
+                    even: None,
+                },
+                Direction {
+                    breaks: contour.breaks().to_vec(),
+                    kinks: Vec::new(),
+                    closed: contour.closed(),
+                    meets: true,
+                    fewest: contour.fewest_cells(),
+                    even: shape.closing.is_some().then(|| shape.anchors()),
+                },
+            ],
+            detail: shape.detail(),
+            most_cols: self.most_cols(),
+        }
+    }
+
+    /// The most cells along the contour that a row of the grid has place for.
+    fn most_cols(&self) -> usize {
+        // What is given besides the cells' first points: corners twice, an open end.
+        let more = self.contour().creases() + usize::from(!self.contour().closed());
+        MAX_COLS.saturating_sub(more)
     }
 
     /// What is wrong with the numbers of cells: the key and a sentence.
     pub(crate) fn resolution_fault(&self) -> Option<(&'static str, String)> {
+        let [fewest_rows, fewest_cols] = [self.shape.fewest_rows(), self.contour().fewest_cells()];
+        let (rows, cols) = match &self.resolution {
+            Resolution::Cells { rows, cols } => (*rows, *cols),
+            Resolution::Tolerance(tolerance) => {
+                let fewest = fewest_rows * fewest_cols;
+                return (tolerance.max_quads < fewest).then(|| {
+                    let message = format!(
+                        "found {}, expected at least {fewest}, the fewest cells of these curves",
+                        tolerance.max_quads
+                    );
+                    ("max_quads", message)
+                });
+            }
+        };
         let around = "to go around";
-        let pieces = cut::pieces(&self.row_breaks());
-        let fewest = if self.closed() { 3 } else { 1 }.max(pieces);
-        if self.rows < fewest {
-            let why = match fewest {
-                1 => "along the trajectory",
-                _ if fewest == pieces => "one for each piece between corners and for each cap",
-                _ => around,
+        if rows < fewest_rows {
+            let why = match self.shape.row_breaks().len() {
+                0 if fewest_rows > 1 => around,
+                0 => "along the trajectory",
+                _ => "one for each piece between corners and for each cap",
             };
-            return Some((
-                "rows",
-                format!("found {}, expected at least {fewest} {why}", self.rows),
-            ));
+            return Some(("rows", format!("found {rows}, expected at least {fewest_rows} {why}")));
         }
-        let fewest = self.contour.fewest_cells();
-        if self.cols < fewest {
-            let why = match self.contour.creases() {
-                0 if self.contour.closed() => around.to_owned(),
-                0 => "along the contour".to_owned(),
-                _ => "along a contour with corners: one for each piece between them".to_owned(),
+        if cols < fewest_cols {
+            let why = match self.contour().creases() {
+                0 if self.contour().closed() => around,
+                0 => "along the contour",
+                _ => "along a contour with corners: one for each piece between them",
             };
-            return Some((
-                "cols",
-                format!("found {}, expected at least {fewest} {why}", self.cols),
-            ));
+            return Some(("cols", format!("found {cols}, expected at least {fewest_cols} {why}")));
         }
-        // What is given besides the cells' first points: corners twice, an open end.
-        let more = self.contour.creases() + usize::from(!self.contour.closed());
-        let most = (MAX_COLS / self.contour.contours()).saturating_sub(more);
-        if self.cols > most {
-            return Some(("cols", format!("found {}, expected at most {most}", self.cols)));
+        let most = self.most_cols();
+        if cols > most {
+            return Some(("cols", format!("found {cols}, expected at most {most}")));
         }
-        let cells = self.rows.checked_mul(self.cols).filter(|&cells| cells <= MOST_CELLS);
+        let cells = rows.checked_mul(cols).filter(|&cells| cells <= MOST_CELLS);
         cells.is_none().then(|| {
-            let (rows, cols) = (self.rows, self.cols);
             ("rows", format!("found {rows} x {cols} cells, expected at most {MOST_CELLS}"))
         })
     }
@@ -168,7 +268,7 @@ impl Sweep {
     /// The surface's points and normals.
     ///
     /// Rows and columns lie at equal lengths of the trajectory and of each smooth piece of the
-    /// contour. The grid is the same for any number of threads.
+    /// contour, or where a tolerance asks for them. The grid is the same for any number of threads.
     ///
     /// # Panics
     /// When there is no memory for it; see [`Sweep::try_grid`].
@@ -182,8 +282,9 @@ impl Sweep {
     /// # Errors
     /// When there is no memory for it.
     pub fn try_grid(&self) -> Result<GridMesh, SweepError> {
-        let columns = self.columns();
-        let rows = self.row_stops();
+        let (rows, cols) = (self.row_stops(), self.col_stops());
+        let columns = self.shape.columns(&cols);
+        let seam = self.shape.seam(&cols).unwrap_or_default();
         let count = rows.len() * columns.len();
         let (mut positions, mut normals) = (Vec::new(), Vec::new());
         let reserved = positions.try_reserve_exact(count).and(normals.try_reserve_exact(count));
@@ -194,36 +295,24 @@ impl Sweep {
         })?;
         positions.resize(count, DVec3::ZERO);
         normals.resize(count, Vec3::ZERO);
-        let stops = self.col_stops();
-        let (seam_v, shift) = self.seam(&stops);
         let stations = positions
             .par_chunks_mut(columns.len())
             .zip(normals.par_chunks_mut(columns.len()))
             .zip(&rows);
         stations.for_each(|((points, normals), &stop)| {
-            let section = self.section(stop);
-            for ((column, point), normal) in columns.iter().zip(points).zip(&mut *normals) {
-                let place = self.place(&section, column);
-                (*point, *normal) = (place.point, place.normal.as_vec3());
-            }
-            if self.closing.is_some() && stop == Stop::before(0.0) {
-                // The end has come to the points of the start, with normals of its own.
-                let end = self.section(Stop::before(1.0));
-                let side = if seam_v == Seam::Mirror { -1.0 } else { 1.0 };
-                for (col, column) in columns.iter().enumerate() {
-                    let led = seam_v.leads_to(col, shift, columns.len());
-                    normals[led] = (self.place(&end, column).normal * side).as_vec3();
-                }
-            }
+            self.row(stop, &columns, seam, points, normals);
         });
-        let seam = |closed| if closed { Seam::Closed } else { Seam::Open };
+        let (seam_v, shift) = seam;
         Ok(GridMesh {
             name: self.name.clone(),
-            seam_u: seam(self.contour.closed()),
+            seam_u: if self.contour().closed() { Seam::Closed } else { Seam::Open },
             seam_v,
             shift,
+            texture: self.texture,
+            surface: self.surface,
             uv: self.uv,
             areas: self.areas.clone(),
+            tolerance: self.tolerance(),
             u: columns.iter().map(|column| column.u).collect(),
             v: rows.iter().map(|stop| stop.at).collect(),
             positions,
@@ -232,147 +321,78 @@ impl Sweep {
         })
     }
 
-    /// The surface at any place: the point and the unit normal, both as in the grid.
-    ///
-    /// `u` and `v` are fractions of the contour's and the trajectory's length. At a crease the
-    /// normal is that of the side after.
-    #[must_use]
-    pub fn at(&self, u: f64, v: f64) -> (DVec3, DVec3) {
-        let mut column = self.contour.at(u);
-        self.snap_to_axis(std::slice::from_mut(&mut column));
-        let place = self.place(&self.section(Stop::after(v)), &column);
-        (place.point, place.normal)
+    /// Fills in one row.
+    fn row(
+        &self,
+        stop: Stop,
+        columns: &[Column],
+        (seam, shift): (Seam, usize),
+        points: &mut [DVec3],
+        normals: &mut [Vec3],
+    ) {
+        let section = self.shape.section(stop);
+        for ((column, point), normal) in columns.iter().zip(points).zip(&mut *normals) {
+            let place = self.shape.place(&section, column);
+            (*point, *normal) = (place.point, place.normal.as_vec3());
+        }
+        if self.shape.closing.is_some() && stop == Stop::before(0.0) {
+            // The end has come to the points of the start, with normals of its own.
+            let end = self.shape.section(Stop::before(1.0));
+            let side = if seam == Seam::Mirror { -1.0 } else { 1.0 };
+            for (col, column) in columns.iter().enumerate() {
+                let led = seam.leads_to(col, shift, columns.len());
+                normals[led] = (self.shape.place(&end, column).normal * side).as_vec3();
+            }
+        }
+    }
+
+    /// What the grid says of a tolerance.
+    fn tolerance(&self) -> Option<grid::Tolerance> {
+        let (Resolution::Tolerance(asked), Some(reached)) = (&self.resolution, self.reached())
+        else {
+            return None;
+        };
+        Some(grid::Tolerance {
+            asked: match asked.distance {
+                Some(Distance::Everywhere(tol)) => Some(tol),
+                _ => None,
+            },
+            reached: Some(reached.tol),
+            angle_asked_deg: asked.angle.map(f64::to_degrees),
+            angle_reached_deg: Some(reached.angle_deg),
+            pixels: match asked.distance {
+                Some(Distance::Pixels(pixels, _)) => Some(pixels),
+                _ => None,
+            },
+        })
     }
 
     /// The number of rows in which some of the surface folds back on itself, since the trajectory
     /// bends more sharply than the contour is wide. Normals are turned over there.
     #[must_use]
     pub fn folded_rows(&self) -> usize {
-        let columns = self.columns();
+        let columns = self.shape.columns(&self.col_stops());
         self.row_stops()
             .par_iter()
             .filter(|&&stop| {
-                let section = self.section(stop);
-                columns
-                    .iter()
-                    .any(|column| section.folds(column) || self.place(&section, column).folds)
+                let section = self.shape.section(stop);
+                columns.iter().any(|column| self.shape.folds(&section, column))
             })
             .count()
     }
 
-    /// What the rows and columns are too few for.
-    #[must_use]
-    pub fn aliases(&self) -> Vec<Alias> {
-        self.modulation.aliases(self.rows, self.cols)
-    }
-
-    /// The contour at a stop of the rows, on the trajectory or on a cap.
-    pub(crate) fn section(&self, stop: Stop) -> Section {
-        let [start, end] = self.body();
-        let on_trajectory = |at| self.modulation.section(&self.trajectory, Stop { at, ..stop });
-        match self.caps {
-            [None, None] => on_trajectory(stop.at),
-            [Some(cap), _] if stop.at < start || stop == Stop::before(start) => {
-                on_trajectory(0.0).gathered(cap.at(1.0 - stop.at / start), -1.0)
-            }
-            [_, Some(cap)] if stop.at > end || stop == Stop::after(end) => {
-                on_trajectory(1.0).gathered(cap.at((stop.at - end) / (1.0 - end)), 1.0)
-            }
-            _ => on_trajectory(((stop.at - start) / (end - start)).clamp(0.0, 1.0)),
+    pub(crate) fn row_stops(&self) -> Vec<Stop> {
+        match &self.fitted {
+            Some(cells) => cells.rows.clone(),
+            None => cut::evenly(&self.shape.row_breaks(), self.shape.closed(), self.rows()),
         }
     }
 
-    /// A point of a section in its place in space, with its unit normal.
-    fn place(&self, section: &Section, column: &Column) -> Moved {
-        let (point, normal) = (section.point(column), section.normal(column));
-        let mut moved = Moved { point, normal, folds: false };
-        for deform in &self.deforms {
-            let next = deform.apply(moved.point, moved.normal);
-            moved = Moved {
-                normal: next.normal.try_normalize().unwrap_or(moved.normal),
-                folds: next.folds || moved.folds,
-                ..next
-            };
-        }
-        Moved { point: moved.point + self.position, ..moved }
-    }
-
-    /// Which part of `v` is on the trajectory: before and after it are the caps.
-    fn body(&self) -> [f64; 2] {
-        let [start, end] = self.caps.map(|cap| cap.map_or(0.0, |cap| cap.length()));
-        let whole = start + self.trajectory.length() + end;
-        [start / whole, if end == 0.0 { 1.0 } else { 1.0 - end / whole }]
-    }
-
-    /// Where the surface may have an edge along the contour: at caps, and at corners of the
-    /// trajectory.
-    fn row_breaks(&self) -> Vec<f64> {
-        let [start, end] = self.body();
-        let inner = self.trajectory.breaks().iter().map(|at| start + (end - start) * at);
-        let first = self.caps[0].map(|_| start);
-        let last = self.caps[1].map(|_| end);
-        let edge = self.closing.filter(|closing| closing.edge).map(|_| 0.0);
-        let folds = self.modulation.breaks(self.trajectory.closed());
-        let folds = folds.map(|at| start + (end - start) * at);
-        let mut breaks: Vec<f64> =
-            edge.into_iter().chain(first).chain(inner).chain(folds).chain(last).collect();
-        breaks.sort_by(f64::total_cmp);
-        breaks.dedup();
-        breaks
-    }
-
-    fn row_stops(&self) -> Vec<Stop> {
-        cut::evenly(&self.row_breaks(), self.closed(), self.rows)
-    }
-
-    fn col_stops(&self) -> Vec<Stop> {
-        let (breaks, closed) = (self.contour.breaks(), self.contour.closed());
-        match self.closing {
-            Some(closing) => {
-                cut::between(breaks, closed, self.cols, &closing.anchors(breaks, closed))
-            }
-            None => cut::evenly(breaks, closed, self.cols),
-        }
-    }
-
-    /// Whether the rows lead back to the first.
-    fn closed(&self) -> bool {
-        self.trajectory.closed() || self.closing.is_some()
-    }
-
-    /// The seam of the rows, and its shift, with columns at these stops.
-    fn seam(&self, stops: &[Stop]) -> (Seam, usize) {
-        let plain = if self.closed() { Seam::Closed } else { Seam::Open };
-        let closing = self
-            .closing
-            .as_ref()
-            .and_then(|closing| closing.seam(stops, self.contour.breaks(), self.contour.closed()));
-        closing.unwrap_or((plain, 0))
-    }
-
-    /// Whether the columns of the end meet those of the start.
-    pub(crate) fn columns_meet(&self) -> bool {
-        let (breaks, closed) = (self.contour.breaks(), self.contour.closed());
-        let stops = self.col_stops();
-        self.closing.is_none_or(|closing| closing.seam(&stops, breaks, closed).is_some())
-    }
-
-    fn columns(&self) -> Vec<Column> {
-        let mut columns = self.contour.columns(&self.col_stops());
-        self.snap_to_axis(&mut columns);
-        columns
-    }
-
-    /// Puts points of a rotation that all but touch its axis on it.
-    fn snap_to_axis(&self, columns: &mut [Column]) {
-        if self.trajectory.is_rotation() {
-            let on_axis = ON_AXIS * self.contour.x_range().1;
-            let places = columns
-                .iter_mut()
-                .flat_map(|column| std::iter::once(&mut column.first).chain(&mut column.others));
-            for place in places.filter(|place| place.point.x <= on_axis) {
-                place.point.x = 0.0;
-            }
+    pub(crate) fn col_stops(&self) -> Vec<Stop> {
+        match (&self.fitted, &self.resolution) {
+            (Some(cells), _) => cells.cols.clone(),
+            (None, Resolution::Cells { cols, .. }) => self.shape.even_columns(*cols),
+            (None, Resolution::Tolerance(_)) => self.shape.even_columns(0),
         }
     }
 }

@@ -75,6 +75,47 @@ fn rows_and_cols_take_the_place_of_the_specs() {
 }
 
 #[test]
+fn a_tolerance_takes_the_place_of_rows_and_cols() {
+    let run = sweep(&["--tol", "1e-3", "--stats", "--format", "json"], PIPE);
+    let (code, message) = ending(&run);
+    assert_eq!(code, Some(0));
+    assert!(message.contains("cells       1 x 71"), "{message}");
+    assert!(message.contains("quads       71, after "), "{message}");
+    let (code, message) = ending(&sweep(
+        &["--tol", "1e-3", "--angle", "9", "--max-quads", "20", "--format", "json"],
+        PIPE,
+    ));
+    assert_eq!(code, Some(0), "{message}");
+    assert!(
+        message.starts_with(
+            "sweep: note: pipe: the tolerance is not kept: with 20 of at most 20 quads"
+        ),
+        "{message}"
+    );
+    let fine = PIPE.replace("\"rows\": 2, \"cols\": 4", "\"tol\": 0.1, \"max_quads\": 900");
+    assert_eq!(ending(&sweep(&["--format", "json"], &fine)).0, Some(0));
+    assert_eq!(
+        ending(&sweep(&["--rows", "2", "--cols", "5", "--format", "json"], &fine)).0,
+        Some(0)
+    );
+    for (arguments, expected) in [
+        (&["--rows", "2"][..], "sweep: cols: found none beside rows, expected both\n"),
+        (&["--tol", "0"], "sweep: tol: found 0.0, expected a number above 0 and below 1e60\n"),
+        (&["--max-quads", "2"], "sweep: max_quads: found 2, expected at least 3, the fewest"),
+        (
+            &["--pixels", "1"],
+            "sweep: pixels: found no camera beside it, expected one in mesh.camera",
+        ),
+    ] {
+        let (code, message) = ending(&sweep(arguments, &fine));
+        assert_eq!(code, Some(2), "{message}");
+        assert!(message.starts_with(expected), "{message}");
+    }
+    let (code, message) = ending(&sweep(&["--tol", "1", "--rows", "3"], PIPE));
+    assert_eq!(code, Some(2), "{message}");
+}
+
+#[test]
 fn any_number_of_threads_gives_the_same_bytes() {
     let vase = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples/curves/vase.json");
     let one = sweep(&[vase, "--threads", "1"], "");

@@ -8,6 +8,7 @@ use proptest::prelude::*;
 use serde_json::{Value, json};
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 use sweep::grid::Seam;
+use sweep::spec::Mesh;
 use sweep::{GridMesh, Object, Sweep, SweepError};
 
 fn read(contour: &Value, trajectory: &Value, extra: &Value) -> Result<Sweep, SweepError> {
@@ -229,8 +230,9 @@ fn every_example_is_a_spec() {
         let path = entry.unwrap().path();
         let (name, bytes) = (path.display().to_string(), std::fs::read(&path).unwrap());
         let document = Document::new(&name, &bytes).unwrap();
-        let object = Object::read_in(&document, path.parent().unwrap(), &files::Disk)
-            .unwrap_or_else(|error| panic!("{error}"));
+        let object =
+            Object::read(&document, path.parent().unwrap(), &files::Disk, &Mesh::default())
+                .unwrap_or_else(|error| panic!("{error}"));
         for sweep in object.parts() {
             assert_eq!(sweep.folded_rows(), 0, "{name}");
             sound(&sweep.grid());

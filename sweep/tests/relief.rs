@@ -17,7 +17,12 @@ fn read(folder: &Path, image: &Value, mode: &str) -> Result<Sweep, SweepError> {
         "depth": {"mode": mode, "image": image},
     });
     let text = spec.to_string();
-    Sweep::read_in(&Document::new("test", text.as_bytes()).unwrap(), folder, &Disk)
+    Sweep::read_in(
+        &Document::new("test", text.as_bytes()).unwrap(),
+        folder,
+        &Disk,
+        &sweep::spec::Mesh::default(),
+    )
 }
 
 /// Hills of 16 bits, twelve texels across and nine up.

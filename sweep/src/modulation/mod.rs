@@ -126,6 +126,42 @@ impl Modulation {
     }
 }
 
+impl Modulation {
+    /// Cells that see all that the laws and waves do, along the trajectory and along the contour.
+    pub(crate) fn detail(&self) -> [f64; 2] {
+        let mut along: f64 = self.laws().map(Law::detail).sum();
+        if let Some(twist) = &self.twist {
+            let (low, high) = twist.range();
+            along += 16.0 * (high - low) / 360.0;
+        }
+        along += 16.0 * self.turn.abs();
+        along += self.blend.as_ref().map_or(0.0, |blend| 8.0 * blend.at.len() as f64);
+        let mut around = 0.0_f64;
+        for term in self.depth.iter().flat_map(|depth| &depth.terms) {
+            along += 8.0 * term.v.abs();
+            around += 8.0 * term.u.abs();
+        }
+        if let Some(heights) = self.depth.as_ref().and_then(|depth| depth.heights.as_ref()) {
+            let [u, v] = heights.detail();
+            along += v;
+            around += u;
+        }
+        [along, around]
+    }
+
+    /// Places inside the trajectory where the surface may have an edge.
+    pub(crate) fn kinks(&self) -> Vec<f64> {
+        let blends = self.blend.iter().flat_map(|blend| &blend.at);
+        let inside = blends.copied().filter(|&at| at > 0.0 && at < 1.0);
+        self.laws().flat_map(Law::kinks).chain(inside).collect()
+    }
+
+    fn laws(&self) -> impl Iterator<Item = &Law> {
+        let terms = self.depth.iter().flat_map(|depth| &depth.terms);
+        self.scale.iter().flatten().chain(&self.twist).chain(terms.map(|term| &term.along))
+    }
+}
+
 impl Section {
     /// The section of a cap: gathered from this one, beyond the trajectory's end (`outward` of 1)
     /// or before its start (-1).

@@ -156,6 +156,11 @@ impl Profile {
         self.contours.iter().map(|one| one.contour.length()).fold(0.0, f64::max)
     }
 
+    /// Cells that see all that its contours do.
+    pub(crate) fn detail(&self) -> f64 {
+        self.contours.iter().map(|one| one.contour.detail()).fold(0.0, f64::max)
+    }
+
     /// The number of creases: those of all contours, each place once.
     #[must_use]
     pub fn creases(&self) -> usize {

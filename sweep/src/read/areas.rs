@@ -7,7 +7,7 @@ use crate::{Sweep, SweepError};
 impl Reader<'_> {
     pub(super) fn areas(&self, areas: &[Area], sweep: &Sweep) -> Result<(), SweepError> {
         for (i, area) in areas.iter().enumerate() {
-            if let Some((key, message)) = area.fault([sweep.rows, sweep.cols]) {
+            if let Some((key, message)) = area.fault([sweep.rows(), sweep.cols()]) {
                 return Err(self.fault(&format!("areas[{i}].{key}"), message));
             }
         }

@@ -60,7 +60,7 @@ mod tests {
     #[test]
     fn a_flat_trajectory_has_its_complaints() {
         for (keys, message, exit) in [
-            ("\"curve\": {\"circle\": 1}, \"z\": 0", "trajectory.flat.curve: found a circle", 3),
+            ("\"curve\": {\"circle\": 1}, \"z\": 0", "trajectory.flat.curve: found no path", 3),
             ("\"curve\": {\"svg\": \"M0 0\"}, \"z\": 0", "trajectory.flat.curve.svg: found", 4),
             ("\"curve\": {\"svg\": \"M0 0H1\"}", "flat", 3),
             (

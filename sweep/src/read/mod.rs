@@ -10,6 +10,7 @@ mod depth;
 mod flat;
 mod height;
 mod law;
+mod mesh;
 mod modulation;
 mod object;
 mod profile;
@@ -19,7 +20,8 @@ mod trajectory;
 pub use object::read;
 
 use crate::modulation::Modulation;
-use crate::spec::Spec;
+use crate::shape::Shape;
+use crate::spec::{Mesh, Spec};
 use crate::{Sweep, SweepError};
 use files::Source;
 use files::json::Document;
@@ -40,6 +42,8 @@ struct Reader<'a> {
     document: &'a Document<'a>,
     folder: &'a std::path::Path,
     source: &'a dyn Source,
+    /// Keys in place of those of every `mesh`.
+    rather: &'a Mesh,
     /// What all paths start with.
     prefix: String,
 }
@@ -56,27 +60,34 @@ impl Reader<'_> {
             None => contour,
         };
         let caps = self.caps(spec.caps, &contour, &trajectory, &modulation)?;
-        let mut sweep = Sweep {
-            name: spec.name,
+        let shape = Shape {
             contour,
-            modulation,
             trajectory,
+            modulation,
             caps,
             closing: None,
             deforms: self.deforms(&spec.deform)?,
-            rows: spec.mesh.rows,
-            cols: spec.mesh.cols,
-            uv: spec.uv,
-            areas: spec.areas,
             position: DVec3::from_array(spec.position),
         };
-        if let Some(kind) = spec.seam {
-            self.close(&mut sweep, kind)?;
+        let shape = match spec.seam {
+            Some(kind) => self.closed(shape, kind)?,
+            None => shape,
+        };
+        let sweep = Sweep {
+            name: spec.name,
+            shape,
+            resolution: self.resolution(&spec.mesh, self.rather)?,
+            fitted: None,
+            uv: spec.uv,
+            areas: spec.areas,
+            texture: spec.texture,
+            surface: spec.surface,
+        };
+        if let Some(fault) = sweep.resolution_fault() {
+            return Err(self.of_mesh(self.rather, fault));
         }
-        match sweep.resolution_fault() {
-            Some((key, message)) => Err(self.fault(&format!("mesh.{key}"), message)),
-            None => self.areas(&sweep.areas, &sweep).map(|()| sweep),
-        }
+        let sweep = sweep.fitted();
+        self.areas(&sweep.areas, &sweep).map(|()| sweep)
     }
 
     fn fault(&self, path: &str, message: impl Into<String>) -> SweepError {

@@ -5,8 +5,8 @@ use crate::SweepError;
 use crate::law::Law;
 use crate::modulation::{Modulation, Signs};
 use crate::profile::Profile;
+use crate::shape::ON_AXIS;
 use crate::spec::{self, Scale, SeamKind, Spec};
-use crate::sweep::ON_AXIS;
 use crate::trajectory::Trajectory;
 use glam::DVec2;
 

@@ -1,7 +1,7 @@
 //! A whole spec: of one sweep, or of several.
 
 use super::Reader;
-use crate::spec::{FORMAT, Parts, Spec, VERSION};
+use crate::spec::{FORMAT, Mesh, Parts, Spec, VERSION};
 use crate::{Object, Sweep, SweepError};
 use files::Source;
 use files::json::Document;
@@ -14,9 +14,10 @@ pub fn read(
     document: &Document<'_>,
     folder: &Path,
     source: &dyn Source,
+    rather: &Mesh,
 ) -> Result<Object, SweepError> {
     document.expect(FORMAT, VERSION.into())?;
-    let reader = Reader { document, folder, source, prefix: String::new() };
+    let reader = Reader { document, folder, source, rather, prefix: String::new() };
     if document.parse::<Probe>().is_ok_and(|probe| probe.parts.is_some()) {
         return reader.parts(document.parse()?);
     }
@@ -62,7 +63,7 @@ mod tests {
 
     fn complaint(text: &str) -> (String, Exit) {
         let document = Document::new("a.json", text.as_bytes()).unwrap();
-        let error = read(&document, Path::new(""), &files::Disk).unwrap_err();
+        let error = read(&document, Path::new(""), &files::Disk, &Mesh::default()).unwrap_err();
         (error.to_string(), error.exit())
     }
 

@@ -4,9 +4,9 @@ use super::Reader;
 use crate::SweepError;
 use crate::contour::Contour;
 use crate::profile::{Blend, Profile};
+use crate::shape::ON_AXIS;
 use crate::spec::contour::Sections;
 use crate::spec::{self, Ease};
-use crate::sweep::ON_AXIS;
 use crate::trajectory::Trajectory;
 
 /// Sections at most: each column of the grid knows its place on all of them.

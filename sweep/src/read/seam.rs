@@ -1,11 +1,12 @@
 //! How the surface of a spec comes back to its start.
 
 use super::Reader;
+use crate::SweepError;
 use crate::closing::{Closing, Ends, SAMPLES};
 use crate::cut::Stop;
 use crate::modulation::Section;
+use crate::shape::Shape;
 use crate::spec::SeamKind;
-use crate::{Sweep, SweepError};
 
 /// Ends of a trajectory that are this part of the section's size apart are one point.
 const MEETS: f64 = 1e-6;
@@ -14,18 +15,18 @@ const MEETS: f64 = 1e-6;
 const ALIKE: f64 = 1e-3;
 
 impl Reader<'_> {
-    /// Closes a sweep that is open at its ends, or whose contour does not come back to itself.
-    pub(super) fn close(&self, sweep: &mut Sweep, kind: SeamKind) -> Result<(), SweepError> {
+    /// Closes a shape that is open at its ends, or whose contour does not come back to itself.
+    pub(super) fn closed(&self, mut shape: Shape, kind: SeamKind) -> Result<Shape, SweepError> {
         let refusal = |message: String| self.geometry("seam", message);
         let refused = |message: String| Err(refusal(message));
         let mirrored = kind == SeamKind::Mirror;
-        let closed = sweep.contour.closed();
-        if sweep.trajectory.is_rotation() {
+        let closed = shape.contour.closed();
+        if shape.trajectory.is_rotation() {
             return refused(
                 "found a seam of a rotation, expected none, since each column meets itself".into(),
             );
         }
-        if sweep.caps.iter().any(Option::is_some) {
+        if shape.caps.iter().any(Option::is_some) {
             return refused("found a seam and caps, expected one of them".into());
         }
         if !closed && !mirrored {
@@ -33,7 +34,7 @@ impl Reader<'_> {
                 "found the shift of an open contour, expected `mirror` or a closed contour".into(),
             );
         }
-        if sweep.trajectory.breaks().first() == Some(&0.0) {
+        if shape.trajectory.breaks().first() == Some(&0.0) {
             return refused(
                 "found a corner where the trajectory closes, expected it to start elsewhere".into(),
             );
@@ -41,9 +42,9 @@ impl Reader<'_> {
         let stops: Vec<Stop> = (0..SAMPLES + usize::from(!closed))
             .map(|i| Stop::after(i as f64 / SAMPLES as f64))
             .collect();
-        let columns = sweep.contour.columns(&stops);
+        let columns = shape.contour.columns(&stops);
         let [first, last] = [Stop::after(0.0), Stop::before(1.0)]
-            .map(|stop| sweep.modulation.section(&sweep.trajectory, stop));
+            .map(|stop| shape.modulation.section(&shape.trajectory, stop));
         let [from, to] = [&first, &last].map(Section::frame);
         let size = columns.iter().map(|column| first.place(column).length()).fold(0.0, f64::max);
         let gap = from.origin.distance(to.origin);
@@ -69,9 +70,9 @@ impl Reader<'_> {
                 .collect::<Vec<_>>(),
             closed,
             against: agree < 0.0,
-            turned: sweep.trajectory.closing_turn(),
+            turned: shape.trajectory.closing_turn(),
         };
-        let free = sweep.modulation.twist.is_none();
+        let free = shape.modulation.twist.is_none();
         let closing = ends.close(mirrored, free).map_err(|missed| {
             let how = match (mirrored, free) {
                 (true, true) => "turned and mirrored",
@@ -84,12 +85,12 @@ impl Reader<'_> {
                  {how}, expected one that meets itself"
             ))
         })?;
-        sweep.modulation.turn = closing.turn;
-        sweep.closing = Some(closing);
-        let edge = Self::has_edge(sweep, closing, &stops);
-        sweep.closing = Some(Closing { edge, ..closing });
-        if sweep.columns_meet() {
-            return Ok(());
+        shape.modulation.turn = closing.turn;
+        shape.closing = Some(closing);
+        let edge = Self::has_edge(&shape, closing, &stops);
+        shape.closing = Some(Closing { edge, ..closing });
+        if shape.seam(&shape.even_columns(shape.contour.fewest_cells())).is_some() {
+            return Ok(shape);
         }
         refused(
             "found corners of the contour that do not meet corners, expected a contour that is cut \
@@ -99,12 +100,12 @@ impl Reader<'_> {
     }
 
     /// Whether the surface turns by more than rounding where it closes.
-    fn has_edge(sweep: &Sweep, closing: Closing, stops: &[Stop]) -> bool {
+    fn has_edge(shape: &Shape, closing: Closing, stops: &[Stop]) -> bool {
         let side = if closing.mirrored { -1.0 } else { 1.0 };
         stops.iter().step_by(7).any(|&stop| {
-            let led = closing.leads_to(sweep.contour.closed(), stop);
-            let (_, before) = sweep.at(stop.at, 1.0);
-            let (_, after) = sweep.at(led.at, 0.0);
+            let led = closing.leads_to(shape.contour.closed(), stop);
+            let (_, before) = shape.at(stop.at, 1.0);
+            let (_, after) = shape.at(led.at, 0.0);
             before.distance(after * side) > ALIKE
         })
     }

@@ -52,6 +52,17 @@ impl Course {
         }
     }
 
+    /// Cells that see all that the curve does: eight to a segment or a quarter turn.
+    pub(super) fn detail(&self) -> f64 {
+        match self {
+            Self::Line { .. } => 1.0,
+            Self::Circle { fraction, .. } => 32.0 * fraction,
+            Self::Helix(helix) => 32.0 * helix.turns.abs(),
+            Self::Path(path) => 8.0 * path.cubics().count() as f64,
+            Self::Flat(flat) => 8.0 * flat.knots().len() as f64,
+        }
+    }
+
     /// The rotation-minimizing frame at `v`, a fraction of the length, and the curvature there on its
     /// `(w1, w2)`, where both are known in closed form.
     pub(super) fn own_frame(&self, v: f64) -> Option<(Frame, DVec2)> {

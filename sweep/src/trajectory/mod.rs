@@ -121,6 +121,14 @@ impl Trajectory {
         cut::pieces(self.breaks()).max(around)
     }
 
+    /// Cells that see all that the trajectory does: eight to a segment or a quarter turn.
+    pub(crate) fn detail(&self) -> f64 {
+        match &self.0 {
+            Form::Rotation { fraction, .. } => 32.0 * fraction,
+            Form::Along { course, .. } => course.detail(),
+        }
+    }
+
     /// Where the corners lie, as fractions of the length.
     #[must_use]
     pub fn breaks(&self) -> &[f64] {

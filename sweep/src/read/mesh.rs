@@ -1,0 +1,156 @@
+//! The resolution of a spec.
+
+use super::Reader;
+use crate::SweepError;
+use crate::resolution::{Distance, Resolution, Tolerance, View};
+use crate::spec::mesh::{Camera, MAX_QUADS, Mesh};
+use crate::sweep::MOST_CELLS;
+use glam::DVec3;
+
+/// Why there is no such resolution: the key and a sentence.
+type Fault = (&'static str, String);
+
+impl Reader<'_> {
+    /// The resolution that a spec's `mesh` asks for, with the keys of `rather` in place of its own.
+    pub(super) fn resolution(&self, mesh: &Mesh, rather: &Mesh) -> Result<Resolution, SweepError> {
+        resolution(&mesh.or_rather(rather)).map_err(|fault| self.of_mesh(rather, fault))
+    }
+
+    /// A complaint about a key of `mesh`, or about what was asked in its place.
+    pub(super) fn of_mesh(&self, rather: &Mesh, (key, message): Fault) -> SweepError {
+        let asked = match key {
+            "rows" => rather.rows.is_some() || rather.cols.is_some(),
+            "cols" => rather.cols.is_some() || rather.rows.is_some(),
+            "tol" => rather.tol.is_some(),
+            "angle_deg" => rather.angle_deg.is_some(),
+            "pixels" => rather.pixels.is_some(),
+            "max_quads" => rather.max_quads.is_some(),
+            _ => key.starts_with("camera") && rather.camera.is_some(),
+        };
+        if asked {
+            return SweepError::Resolution(format!("{key}: {message}"));
+        }
+        let path = if key.is_empty() { "mesh".into() } else { format!("mesh.{key}") };
+        self.fault(&path, message)
+    }
+}
+
+fn resolution(mesh: &Mesh) -> Result<Resolution, Fault> {
+    let counted = mesh.rows.is_some() || mesh.cols.is_some();
+    let tolerance = [
+        ("tol", mesh.tol.is_some()),
+        ("angle_deg", mesh.angle_deg.is_some()),
+        ("pixels", mesh.pixels.is_some()),
+        ("max_quads", mesh.max_quads.is_some()),
+        ("camera", mesh.camera.is_some()),
+    ];
+    let first = tolerance.into_iter().find_map(|(key, given)| given.then_some(key));
+    match (counted, first) {
+        (true, Some(key)) => {
+            let message = "found it beside a number of rows or cols, expected one or the other";
+            Err((key, message.into()))
+        }
+        (true, None) => match (mesh.rows, mesh.cols) {
+            (Some(rows), Some(cols)) => Ok(Resolution::Cells { rows, cols }),
+            (Some(_), None) => Err(("cols", "found none beside rows, expected both".into())),
+            _ => Err(("rows", "found none beside cols, expected both".into())),
+        },
+        (false, _) => tolerance_of(mesh).map(Resolution::Tolerance),
+    }
+}
+
+fn tolerance_of(mesh: &Mesh) -> Result<Tolerance, Fault> {
+    for (key, number, most) in
+        [("tol", mesh.tol, 1e60), ("angle_deg", mesh.angle_deg, 90.0), ("pixels", mesh.pixels, 1e6)]
+    {
+        if let Some(number) = number
+            && !(number >= 1e-60 && number < most)
+        {
+            let message = format!("found {number:?}, expected a number above 0 and below {most:?}");
+            return Err((key, message));
+        }
+    }
+    let distance = match (mesh.tol, mesh.pixels, &mesh.camera) {
+        (Some(_), Some(_), _) => {
+            return Err(("pixels", "found it beside tol, expected one or the other".into()));
+        }
+        (_, Some(pixels), Some(camera)) => Some(Distance::Pixels(pixels, view(camera)?)),
+        (_, Some(_), None) => {
+            let message = "found no camera beside it, expected one in mesh.camera, or to be made by \
+                           `pipeline run`, which takes the scene's";
+            return Err(("pixels", message.into()));
+        }
+        (Some(tol), None, None) => Some(Distance::Everywhere(tol)),
+        (_, None, Some(_)) => {
+            return Err(("camera", "found it without pixels, expected pixels beside it".into()));
+        }
+        (None, None, None) => None,
+    };
+    if distance.is_none() && mesh.angle_deg.is_none() {
+        let message =
+            "found no resolution, expected rows and cols, or any of tol, angle_deg, pixels";
+        return Err(("", message.into()));
+    }
+    let max_quads = mesh.max_quads.unwrap_or(MAX_QUADS);
+    if !(1..=MOST_CELLS).contains(&max_quads) {
+        let message = format!("found {max_quads}, expected 1 to {MOST_CELLS}");
+        return Err(("max_quads", message));
+    }
+    Ok(Tolerance { distance, angle: mesh.angle_deg.map(f64::to_radians), max_quads })
+}
+
+fn view(camera: &Camera) -> Result<View, Fault> {
+    if !(camera.fov_deg > 0.0 && camera.fov_deg < 180.0) {
+        let message = format!("found {:?}, expected an angle between 0 and 180", camera.fov_deg);
+        return Err(("camera.fov_deg", message));
+    }
+    for (key, point) in
+        [("camera.eye", camera.eye), ("camera.target", camera.target), ("camera.up", camera.up)]
+    {
+        if let Some(number) = point.iter().find(|number| number.abs() > 1e60) {
+            return Err((key, format!("found {number:?}, expected coordinates of at most 1e60")));
+        }
+    }
+    if camera.size.contains(&0) {
+        let [width, height] = camera.size;
+        return Err(("camera.size", format!("found {width} x {height}, expected pixels")));
+    }
+    let [eye, target, up] = [camera.eye, camera.target, camera.up].map(DVec3::from_array);
+    View::new(eye, target, up, camera.fov_deg.to_radians(), camera.size).ok_or_else(|| {
+        let message = "found an eye at its target or an up along the view, expected a direction";
+        ("camera", message.into())
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::read::tests::complaint;
+    use files::Exit;
+
+    #[test]
+    fn what_a_resolution_lacks_has_its_place() {
+        let camera = "\"camera\": {\"eye\": [0, 0, 1], \"target\": [0, 0, 0], \"fov_deg\": 40, \
+                      \"size\": [9, 9]}";
+        let pixels = |camera: &str| format!("\"pixels\": 1, {camera}");
+        for (mesh, message) in [
+            ("\"rows\": 9".into(), "a.json:4:9: mesh.cols: found none beside rows"),
+            ("\"cols\": 9".into(), "a.json:4:9: mesh.rows: found none beside cols"),
+            ("\"max_quads\": 9".into(), "mesh: found no resolution, expected rows and cols"),
+            ("\"rows\": 9, \"tol\": 1".into(), "mesh.tol: found it beside a number of rows"),
+            ("\"tol\": -1".into(), "mesh.tol: found -1.0, expected a number above 0"),
+            ("\"angle_deg\": 90".into(), "mesh.angle_deg: found 90.0, expected a number"),
+            ("\"tol\": 1, \"pixels\": 1".into(), "mesh.pixels: found it beside tol"),
+            ("\"pixels\": 1".into(), "mesh.pixels: found no camera beside it"),
+            (format!("\"tol\": 1, {camera}"), "mesh.camera: found it without pixels"),
+            (pixels(&camera.replace("40", "180")), "mesh.camera.fov_deg: found 180.0"),
+            (pixels(&camera.replace("0, 0, 1", "0, 0, 0")), "mesh.camera: found an eye at its"),
+            (pixels(&camera.replace("9, 9", "9, 0")), "mesh.camera.size: found 9 x 0"),
+            ("\"tol\": 1, \"max_quads\": 8".into(), "mesh.max_quads: found 8, expected at least 9"),
+            ("\"tol\": 1, \"max_quads\": 0".into(), "mesh.max_quads: found 0, expected 1 to"),
+        ] {
+            let (text, exit) = complaint("\"rows\": 9, \"cols\": 8", &mesh);
+            assert!(text.contains(message), "{text}");
+            assert_eq!(exit, Exit::Malformed);
+        }
+    }
+}

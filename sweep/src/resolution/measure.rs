@@ -1,0 +1,255 @@
+//! How far the triangles of a cut surface are from the surface.
+//!
+//! A cell is looked at where triangles are farthest from a surface of the second order: in the
+//! middle of its sides and of itself, and in the middle of its two triangles. What counts is the
+//! distance of the true point there to the triangles, so that a surface may slide along them. An
+//! edge between two cells is as near as the nearer cell's triangles are. The angle is that between a
+//! triangle and the true normals at its corners, which is where a surface of the second order turns
+//! away furthest.
+//!
+//! All errors are *loads*: relative to what is allowed, and of the second order in the size of the
+//! cell; so an angle, which is of the first, is squared. A load of 1 is just allowed.
+
+use super::Tolerance;
+use super::triangle::{Facet, Pair};
+use crate::cut::Stop;
+use crate::profile::Column;
+use glam::DVec3;
+use rayon::prelude::*;
+
+/// What is cut and measured.
+pub trait Surface: Sync {
+    /// Columns at stops of the contour.
+    fn columns(&self, stops: &[Stop]) -> Vec<Column>;
+
+    /// Points and unit normals at one stop of the trajectory.
+    fn station(&self, stop: Stop, columns: &[Column]) -> Vec<(DVec3, DVec3)>;
+
+    /// The points alone.
+    fn points(&self, stop: Stop, columns: &[Column]) -> Vec<DVec3>;
+}
+
+/// What a cell's size does to its load.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Load {
+    /// That of its sides along the contour.
+    pub u: f64,
+    /// That of its sides along the trajectory.
+    pub v: f64,
+    /// That of the whole cell, not less than either.
+    pub total: f64,
+}
+
+/// Loads of all cells.
+#[derive(Debug, Clone)]
+pub struct Field {
+    /// Where the columns of cells begin and end, as fractions; cells without width are left out.
+    pub u: Vec<[f64; 2]>,
+    /// Where the rows of cells begin and end.
+    pub v: Vec<[f64; 2]>,
+    /// `v.len()` rows of `u.len()`.
+    pub loads: Vec<Load>,
+    /// The largest distance in the unit of length.
+    pub distance: f64,
+    /// The largest distance as a part of what is allowed.
+    pub part: f64,
+    /// The largest angle in radians.
+    pub angle: f64,
+}
+
+/// One row of cells.
+struct Strip {
+    loads: Vec<Load>,
+    /// Load of each cell's lower and upper side, as its own triangles have it.
+    sides: Vec<[Off; 2]>,
+    distance: Off,
+    turn_sq: f64,
+}
+
+/// A distance, and as a part of what is allowed.
+#[derive(Debug, Clone, Copy, Default)]
+struct Off {
+    distance: f64,
+    part: f64,
+}
+
+impl Off {
+    fn least(self, other: Self) -> Self {
+        Self { distance: self.distance.min(other.distance), part: self.part.min(other.part) }
+    }
+
+    fn most(self, other: Self) -> Self {
+        Self { distance: self.distance.max(other.distance), part: self.part.max(other.part) }
+    }
+}
+
+/// The columns of one kind of place in all cells, by their order.
+struct Columns {
+    /// At the stops, the end of a closed contour included.
+    stops: Vec<Column>,
+    /// Between the stops, in cells that have a width: a third, the middle, two thirds.
+    within: [Vec<Column>; 3],
+    /// The stop before each cell.
+    cells: Vec<usize>,
+}
+
+/// Measures the surface cut at `rows` and `cols`; `kinks` are places of the trajectory with two
+/// normals, of which a station has that of the side after. `meets` says whether the end of the
+/// trajectory meets its start column by column.
+pub fn measure(
+    surface: &dyn Surface,
+    tolerance: &Tolerance,
+    [rows, cols]: [&[Stop]; 2],
+    [closed_v, closed_u]: [bool; 2],
+    kinks: &[f64],
+    meets: bool,
+) -> Field {
+    let (rows, cols) = (opened(rows, closed_v), opened(cols, closed_u));
+    let (u, cells) = spans(&cols);
+    let (v, _) = spans(&rows);
+    let inside = |part: f64| -> Vec<Stop> {
+        u.iter().map(|[from, to]| Stop::after(from + (to - from) * part)).collect()
+    };
+    let columns = Columns {
+        stops: surface.columns(&cols),
+        within: [1.0 / 3.0, 0.5, 2.0 / 3.0].map(|part| surface.columns(&inside(part))),
+        cells,
+    };
+    let strips: Vec<Strip> = v
+        .par_iter()
+        .map(|span| strip(surface, tolerance, &columns, *span, kinks, closed_u))
+        .collect();
+    joined(u, v, strips, closed_v && meets)
+}
+
+/// A cut with the end of a closed curve, which is its start once more.
+fn opened(stops: &[Stop], closed: bool) -> Vec<Stop> {
+    let mut stops = stops.to_vec();
+    if closed {
+        stops.push(Stop::before(1.0));
+    }
+    stops
+}
+
+/// The cells of some width, and the stop before each.
+fn spans(stops: &[Stop]) -> (Vec<[f64; 2]>, Vec<usize>) {
+    let wide = |at: &usize| stops[at + 1].at > stops[*at].at;
+    let cells: Vec<usize> = (0..stops.len() - 1).filter(wide).collect();
+    (cells.iter().map(|&at| [stops[at].at, stops[at + 1].at]).collect(), cells)
+}
+
+/// Measures the cells between two rows.
+fn strip(
+    surface: &dyn Surface,
+    tolerance: &Tolerance,
+    columns: &Columns,
+    [from, to]: [f64; 2],
+    kinks: &[f64],
+    closed_u: bool,
+) -> Strip {
+    let row = |stop: Stop| surface.station(stop, &columns.stops);
+    let points = |stop: Stop, columns: &[Column]| surface.points(stop, columns);
+    let within = |part: f64| Stop::after(from + (to - from) * part);
+    let [third, middle, two_thirds] = &columns.within;
+    let (below, above) = (Stop::after(from), Stop::before(to));
+    let (lower, mut upper) = (row(below), row(above));
+    if kinks.contains(&to) {
+        // The point is the row's own, the normal that of this side.
+        let near = row(Stop::before(to - 1e-9 * (to - from)));
+        upper.iter_mut().zip(near).for_each(|(here, near)| here.1 = near.1);
+    }
+    let (lower_middle, upper_middle) = (points(below, middle), points(above, middle));
+    let (left, centre) = (points(within(0.5), &columns.stops), points(within(0.5), middle));
+    let low = [third, two_thirds].map(|columns| points(within(1.0 / 3.0), columns));
+    let high = [third, two_thirds].map(|columns| points(within(2.0 / 3.0), columns));
+
+    let count = columns.cells.len();
+    let per_turn_sq = tolerance.per_turn_sq();
+    let mut cells: Vec<([Off; 4], Off, f64, [f64; 2])> = Vec::with_capacity(count);
+    for (cell, &at) in columns.cells.iter().enumerate() {
+        let corners = [lower[at], lower[at + 1], upper[at + 1], upper[at]];
+        let (places, normals) = (corners.map(|c| c.0), corners.map(|c| c.1));
+        let pair = Pair::choose(&places, &normals);
+        let facets = pair.corners.map(|corners| Facet::new(corners.map(|corner| places[corner])));
+        // What is allowed in the cell is that of its centre.
+        let per_distance = tolerance.per_distance(centre[cell]);
+        let off = |point: DVec3| {
+            let distance = facets[0].distance_sq(point).min(facets[1].distance_sq(point)).sqrt();
+            Off { distance, part: distance * per_distance }
+        };
+        let sides = [lower_middle[cell], left[at + 1], upper_middle[cell], left[at]].map(off);
+        let centroids =
+            if pair.ac { [low[1][cell], high[0][cell]] } else { [low[0][cell], high[1][cell]] };
+        let inner = centroids.into_iter().fold(off(centre[cell]), |most, p| most.most(off(p)));
+        let turn_sq = facets.iter().zip(pair.corners).filter_map(|(facet, corners)| {
+            let normal = facet.normal?;
+            Some(corners.map(|corner| (normals[corner] - normal).length_squared()))
+        });
+        let turn_sq = turn_sq.flatten().fold(0.0, f64::max);
+        // Half of what a side turns is how far a facet along it is off at its ends.
+        let turn = |a: usize, b: usize| 0.25 * (normals[a] - normals[b]).length_squared();
+        let turns = [turn(0, 1).max(turn(3, 2)), turn(0, 3).max(turn(1, 2))];
+        cells.push((sides, inner, turn_sq, turns));
+    }
+
+    let (mut loads, mut sides) = (Vec::with_capacity(count), Vec::with_capacity(count));
+    let (mut distance, mut most_turn_sq) = (Off::default(), 0.0_f64);
+    for (cell, (own, inner, turn_sq, turns)) in cells.iter().enumerate() {
+        // The sides to the left and right are shared with the cells there.
+        let before = match cell {
+            0 if closed_u => Some(count - 1),
+            0 => None,
+            _ => Some(cell - 1),
+        };
+        let after = if cell + 1 < count { Some(cell + 1) } else { closed_u.then_some(0) };
+        let right = after.map_or(own[1], |next| own[1].least(cells[next].0[3]));
+        let left = before.map_or(own[3], |next| own[3].least(cells[next].0[1]));
+        let across = left.most(right);
+        let most = across.most(*inner);
+        distance = distance.most(most);
+        most_turn_sq = most_turn_sq.max(*turn_sq);
+        loads.push(Load {
+            u: turns[0] * per_turn_sq,
+            v: across.part.max(turns[1] * per_turn_sq),
+            total: most.part.max(turn_sq * per_turn_sq),
+        });
+        sides.push([own[0], own[2]]);
+    }
+    Strip { loads, sides, distance, turn_sq: most_turn_sq }
+}
+
+/// All rows of cells; the sides between two of them are shared.
+fn joined(u: Vec<[f64; 2]>, v: Vec<[f64; 2]>, strips: Vec<Strip>, closed_v: bool) -> Field {
+    let count = strips.len();
+    let mut loads = Vec::with_capacity(u.len() * v.len());
+    let (mut distance, mut turn_sq) = (Off::default(), 0.0_f64);
+    for (at, strip) in strips.iter().enumerate() {
+        let before = if at > 0 { Some(at - 1) } else { closed_v.then_some(count - 1) };
+        let after = if at + 1 < count { Some(at + 1) } else { closed_v.then_some(0) };
+        let other = |strip: Option<usize>, cell: usize, side: usize, own: Off| {
+            strip.map_or(own, |strip| own.least(strips[strip].sides[cell][side]))
+        };
+        for (cell, (load, own)) in strip.loads.iter().zip(&strip.sides).enumerate() {
+            let along = other(before, cell, 1, own[0]).most(other(after, cell, 0, own[1]));
+            distance = distance.most(along);
+            let u = load.u.max(along.part);
+            loads.push(Load { u, v: load.v, total: load.total.max(u).max(load.v) });
+        }
+        distance = distance.most(strip.distance);
+        turn_sq = turn_sq.max(strip.turn_sq);
+    }
+    let angle = 2.0 * (0.5 * turn_sq.sqrt()).min(1.0).asin();
+    Field { u, v, loads, distance: distance.distance, part: distance.part, angle }
+}
+
+impl Field {
+    /// The largest load of a cell.
+    pub fn worst(&self) -> f64 {
+        self.loads.iter().fold(0.0, |most, load| load.total.max(most))
+    }
+
+    /// Cells of some width.
+    pub fn quads(&self) -> usize {
+        self.loads.len()
+    }
+}

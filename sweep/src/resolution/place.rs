@@ -1,0 +1,217 @@
+//! Where stops lie, given how densely.
+
+use super::demand::Density;
+use crate::cut::{self, Stop};
+
+/// A density that varies by less than this factor within a piece is even.
+const EVEN: f64 = 1.02;
+
+/// By how much a number of cells may be above a whole one and still be it.
+const WHOLE: f64 = 1e-6;
+
+/// One direction of a surface, in which stops are to be placed.
+#[derive(Debug, Clone)]
+pub struct Direction {
+    /// Breaks, as in `cut`.
+    pub breaks: Vec<f64>,
+    /// Places where the surface has an edge with one normal: a stop lies there.
+    pub kinks: Vec<f64>,
+    /// Whether it is closed.
+    pub closed: bool,
+    /// The fewest cells.
+    pub fewest: usize,
+    /// Whether its end meets its start place by place, where it is closed.
+    pub meets: bool,
+    /// Where stops must lie besides breaks, if all are to be even between them, as `cut::between` places
+    /// them. Kinks have none then.
+    pub even: Option<Vec<f64>>,
+}
+
+impl Direction {
+    /// Where the pieces end, the last at 1.
+    fn ends(&self) -> Vec<f64> {
+        let inner =
+            self.breaks.iter().chain(if self.even.is_some() { &[] } else { &self.kinks[..] });
+        let mut ends: Vec<f64> = inner.copied().filter(|&at| at > 0.0 && at < 1.0).collect();
+        ends.push(1.0);
+        ends.sort_by(f64::total_cmp);
+        ends.dedup();
+        ends
+    }
+
+    /// Evenly cut, with about so many cells.
+    pub fn evenly(&self, cells: usize) -> Vec<Stop> {
+        let flat = Density { places: vec![0.0, 1.0], cells: vec![cells as f64] };
+        self.place(&flat, 1.0)
+    }
+
+    /// The number of cells for a density times a factor.
+    pub fn count(&self, density: &Density, factor: f64) -> usize {
+        self.counts(density, factor).iter().sum()
+    }
+
+    /// The largest factor below this one that gives fewer cells; nothing when there is none.
+    pub fn fewer(&self, density: &Density, factor: f64) -> Option<f64> {
+        let (shares, counts) = (self.shares(density), self.counts(density, factor));
+        if counts.iter().sum::<usize>() <= self.fewest.max(counts.len()) {
+            return None;
+        }
+        let smaller = shares.iter().zip(&counts).filter(|(_, count)| **count > 1);
+        let smaller = smaller.map(|(share, count)| (count - 1) as f64 / share);
+        // A factor from before the fewest were asked for may be below all of these.
+        smaller.filter(|&smaller| smaller < factor).reduce(f64::max)
+    }
+
+    /// The stops for a density times a factor.
+    pub fn place(&self, density: &Density, factor: f64) -> Vec<Stop> {
+        let counts = self.counts(density, factor);
+        if let Some(anchors) = &self.even {
+            return cut::between(&self.breaks, self.closed, counts.iter().sum(), anchors);
+        }
+        let mut inner: Vec<Vec<f64>> = vec![Vec::new()];
+        let mut from = 0.0;
+        for (to, count) in self.ends().into_iter().zip(counts) {
+            if let Some(places) = inner.last_mut() {
+                places.extend(between(density, [from, to], count));
+                if to < 1.0 && !self.breaks.contains(&to) {
+                    places.push(to);
+                }
+            }
+            if self.breaks.contains(&to) {
+                inner.push(Vec::new());
+            }
+            from = to;
+        }
+        cut::at(&self.breaks, self.closed, &inner)
+    }
+
+    /// Cells of each piece, not whole.
+    fn shares(&self, density: &Density) -> Vec<f64> {
+        let mut from = 0.0;
+        let share = |to: f64| {
+            let share = cells_to(density, to) - cells_to(density, from);
+            from = to;
+            share
+        };
+        let ends = if self.even.is_some() { vec![1.0] } else { self.ends() };
+        ends.into_iter().map(share).collect()
+    }
+
+    fn counts(&self, density: &Density, factor: f64) -> Vec<usize> {
+        let shares = self.shares(density);
+        let mut factor = factor;
+        loop {
+            let whole = |share: &f64| ((share * factor * (1.0 - WHOLE)).ceil() as usize).max(1);
+            let counts: Vec<usize> = shares.iter().map(whole).collect();
+            if counts.iter().sum::<usize>() >= self.fewest {
+                return counts;
+            }
+            factor = factor.max(1e-3) * 1.1;
+        }
+    }
+}
+
+/// The cells from the start to a place.
+fn cells_to(density: &Density, at: f64) -> f64 {
+    let mut before = 0.0;
+    for (span, cells) in density.places.windows(2).zip(&density.cells) {
+        if at < span[1] {
+            return before + cells * ((at - span[0]) / (span[1] - span[0])).max(0.0);
+        }
+        before += cells;
+    }
+    before
+}
+
+/// The places that divide a piece into `count` cells of an equal share of the density.
+fn between(density: &Density, [from, to]: [f64; 2], count: usize) -> Vec<f64> {
+    let part = |cell: usize| cell as f64 / count as f64;
+    let spans = density.places.windows(2).zip(&density.cells);
+    // What the piece has of each span, with the cells up to there.
+    let (mut before, mut pieces) = (0.0, Vec::new());
+    let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
+    for (span, cells) in spans {
+        let (start, end) = (span[0].max(from), span[1].min(to));
+        if end > start {
+            let rate = cells / (span[1] - span[0]);
+            (least, most) = (least.min(rate), most.max(rate));
+            let within = rate * (end - start);
+            pieces.push((start, end, before, within));
+            before += within;
+        }
+    }
+    if most <= EVEN * least {
+        return (1..count).map(|cell| from + (to - from) * part(cell)).collect();
+    }
+    let mut piece = 0;
+    let place = |cell: usize| {
+        let wanted = before * part(cell);
+        while piece + 1 < pieces.len() && pieces[piece].2 + pieces[piece].3 < wanted {
+            piece += 1;
+        }
+        let (start, end, done, within) = pieces[piece];
+        start + (end - start) * ((wanted - done) / within).clamp(0.0, 1.0)
+    };
+    let mut places: Vec<f64> = (1..count).map(place).collect();
+    // Rounding may not put two stops at one place.
+    places.retain(|&at| at > from && at < to);
+    places.dedup();
+    places
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn direction(breaks: &[f64], kinks: &[f64]) -> Direction {
+        let (breaks, kinks) = (breaks.to_vec(), kinks.to_vec());
+        Direction { breaks, kinks, closed: false, meets: true, fewest: 1, even: None }
+    }
+
+    fn places(stops: &[Stop]) -> Vec<f64> {
+        stops.iter().map(|stop| stop.at).collect()
+    }
+
+    #[test]
+    fn a_density_that_does_not_vary_is_cut_evenly() {
+        let flat = Density { places: vec![0.0, 0.3, 1.0], cells: vec![1.2, 2.8] };
+        for breaks in [vec![], vec![0.5]] {
+            let placed = direction(&breaks, &[]).place(&flat, 2.0);
+            assert_eq!(placed, cut::evenly(&breaks, false, 8));
+        }
+    }
+
+    #[test]
+    fn even_stops_take_no_heed_of_the_density() {
+        let steep = Density { places: vec![0.0, 0.5, 1.0], cells: vec![3.0, 1.0] };
+        let even = Direction { even: Some(vec![0.0]), ..direction(&[0.5], &[0.25]) };
+        assert_eq!(even.place(&steep, 2.0), cut::evenly(&[0.5], false, 8));
+    }
+
+    #[test]
+    fn stops_follow_the_density_and_lie_on_kinks() {
+        let steep = Density { places: vec![0.0, 0.5, 1.0], cells: vec![3.0, 1.0] };
+        let plain = direction(&[], &[]);
+        let third = 0.5 / 3.0;
+        assert_eq!(places(&plain.place(&steep, 1.0)), [0.0, third, 2.0 * third, 0.5, 1.0]);
+        let kinked = direction(&[0.5], &[0.25]);
+        assert_eq!(places(&kinked.place(&steep, 0.5)), [0.0, 0.25, 0.5, 0.5, 1.0]);
+    }
+
+    #[test]
+    fn the_next_smaller_factor_drops_a_cell_of_a_piece() {
+        let steep = Density { places: vec![0.0, 0.5, 1.0], cells: vec![3.0, 1.0] };
+        let cut = direction(&[0.5], &[]);
+        let mut factor = 2.0;
+        let mut counts = vec![cut.count(&steep, factor)];
+        while let Some(smaller) = cut.fewer(&steep, factor) {
+            factor = smaller;
+            counts.push(cut.count(&steep, factor));
+        }
+        // At a factor of 1 both pieces lose one.
+        assert_eq!(counts, [8, 7, 6, 4, 3, 2]);
+        let around = Direction { fewest: 3, closed: true, ..direction(&[], &[]) };
+        assert_eq!(around.count(&steep, 0.1), 3);
+        assert_eq!(around.fewer(&steep, 0.1), None);
+    }
+}

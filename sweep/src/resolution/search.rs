@@ -1,0 +1,295 @@
+//! The fewest cells that keep a tolerance.
+
+use super::demand::{self, Density};
+use super::measure::{Field, Surface, measure};
+use super::place::Direction;
+use super::{Distance, Reached, Tolerance};
+use crate::cut::Stop;
+
+/// Cells of the first cut at most: it only has to see every wave.
+const MOST_AT_FIRST: usize = 1 << 20;
+
+/// Cells of a sketch, from which densities are found, at least and at most. What coarse cells ask
+/// for is rough and jumps from one sketch to the next; what fine ones ask for differs little from
+/// these, and costs more.
+const SKETCH: (f64, f64) = (3e3, 2e4);
+
+/// Cuts by ever better densities. Mostly the third is as good as the second.
+const SKETCHES: usize = 6;
+
+/// A density better by less than this part is as good.
+const BETTER: f64 = 0.01;
+
+/// Cuts on the way to one that keeps the tolerance.
+const TRIALS: usize = 20;
+
+/// How much finer than expected a trial is after one that failed.
+const SAFETY: f64 = 1.003;
+
+/// A load from which on a trial that fails asks for other densities, not for more of everything.
+const UNEVEN: f64 = 1.1;
+
+/// Trials that may.
+const RESHAPED: usize = 3;
+
+/// By how much finer all cells are made at least when some fail.
+const LEAST_STEP: f64 = 1.01;
+
+/// Cells that thinning out may measure, besides a number of times those there are.
+const TRIMMED: usize = 150_000;
+
+/// How many times the cells there are.
+const TRIMMED_TIMES: usize = 2;
+
+/// A surface that is to be cut.
+#[expect(missing_debug_implementations, reason = "a surface has none")]
+pub struct Search<'a> {
+    /// The surface.
+    pub surface: &'a dyn Surface,
+    /// What is to be kept.
+    pub tolerance: &'a Tolerance,
+    /// Along the trajectory and along the contour.
+    pub directions: [Direction; 2],
+    /// Cells that see all that the curves, laws and waves do, along each.
+    pub detail: [usize; 2],
+    /// Cells along the contour at most.
+    pub most_cols: usize,
+}
+
+/// The cells of a surface.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cells {
+    /// Stops along the trajectory.
+    pub rows: Vec<Stop>,
+    /// Stops along the contour.
+    pub cols: Vec<Stop>,
+    /// How good they are.
+    pub reached: Reached,
+}
+
+/// Densities along trajectory and contour, and factors of them.
+#[derive(Debug, Clone)]
+struct Plan {
+    densities: [Density; 2],
+    factors: [f64; 2],
+}
+
+/// A plan that has been tried.
+struct Tried {
+    plan: Plan,
+    stops: [Vec<Stop>; 2],
+    field: Field,
+    worst: f64,
+}
+
+impl Search<'_> {
+    /// Cuts the surface. Where the tolerance cannot be kept the result is the best that was found
+    /// within the cells allowed.
+    #[must_use]
+    pub fn run(&self) -> Cells {
+        let mut rounds = 1;
+        let sketch = self.sketch(&mut rounds);
+        let mut best = self.kept(sketch, &mut rounds);
+        if best.worst <= 1.0 {
+            // At its full size the surface may ask for a little less than in a sketch.
+            let densities = self.fewest(&best.field);
+            let factors = [1.0; 2];
+            let again = self.kept(Plan { densities, factors }, &mut rounds);
+            if again.worst <= 1.0 && again.field.quads() < best.field.quads() {
+                best = again;
+            }
+            best = self.thinned(best, &mut rounds);
+        }
+        let Tried { stops: [rows, cols], field, .. } = best;
+        let reached = self.reached(&field, rounds);
+        Cells { rows, cols, reached }
+    }
+
+    /// How near the triangles of a cut are to the surface.
+    #[must_use]
+    pub fn measured(&self, [rows, cols]: [&[Stop]; 2]) -> Reached {
+        self.reached(&self.measure([rows, cols]), 1)
+    }
+
+    fn reached(&self, field: &Field, rounds: usize) -> Reached {
+        let pixels = match self.tolerance.distance {
+            Some(Distance::Pixels(pixels, _)) => Some(pixels * field.part),
+            _ => None,
+        };
+        Reached {
+            tol: field.distance,
+            pixels,
+            angle_deg: field.angle.to_degrees(),
+            quads: field.quads(),
+            rounds,
+            kept: field.worst() <= 1.0,
+        }
+    }
+
+    /// Densities for the surface, from cuts of moderate size.
+    fn sketch(&self, rounds: &mut usize) -> Plan {
+        let [mut rows, mut cols] = self.detail;
+        while rows.saturating_mul(cols) > MOST_AT_FIRST {
+            *(if rows > cols { &mut rows } else { &mut cols }) /= 2;
+        }
+        let [along, around] = &self.directions;
+        let field = self.measure([&along.evenly(rows), &around.evenly(cols)]);
+        let mut plan = Plan { densities: self.fewest(&field), factors: [1.0; 2] };
+        let mut best: Option<(f64, Plan)> = None;
+        for _ in 0..SKETCHES {
+            let quads = self.quads(&plan) as f64;
+            plan.factors = [(quads.clamp(SKETCH.0, SKETCH.1) / quads).sqrt(); 2];
+            let tried = self.tried(plan.clone(), rounds);
+            // Cells for a load of 1, of which more would be needed in proportion to the load.
+            let figure = tried.field.quads() as f64 * tried.worst;
+            plan.densities = self.fewest(&tried.field);
+            let known = best.as_ref().map_or(f64::INFINITY, |(figure, _)| *figure);
+            if figure < known * (1.0 - demand::ALIKE) {
+                let needed = tried.plan.factors.map(|factor| factor * tried.worst.sqrt());
+                best = Some((figure, Plan { factors: needed, ..tried.plan }));
+            }
+            if figure > known * (1.0 - BETTER) {
+                break;
+            }
+        }
+        best.map_or(plan, |(_, plan)| plan)
+    }
+
+    /// The coarsest cut by some densities that keeps the tolerance; else the best one tried.
+    fn kept(&self, mut plan: Plan, rounds: &mut usize) -> Tried {
+        let mut best: Option<Tried> = None;
+        for trial in 0..TRIALS {
+            let fits = self.fit(&mut plan);
+            let tried = self.tried(plan.clone(), rounds);
+            let (worst, kept) = (tried.worst, tried.worst <= 1.0);
+            // Where only some cells fail, as at the vertical end of a cap, those are made finer.
+            let uneven =
+                (worst > UNEVEN && fits && trial < RESHAPED).then(|| self.fewest(&tried.field));
+            let better = best.as_ref().is_none_or(|best| match (kept, best.worst <= 1.0) {
+                (true, true) => tried.field.quads() < best.field.quads(),
+                (false, false) => tried.worst < best.worst,
+                (kept, _) => kept,
+            });
+            let before = best.as_ref().is_some_and(|best| best.worst <= 1.0);
+            if better {
+                best = Some(tried);
+            }
+            let enough = if kept { worst > 0.97 || !better } else { !fits || before };
+            if enough {
+                break;
+            }
+            if let Some(densities) = uneven {
+                plan = Plan { densities, factors: [SAFETY; 2] };
+                continue;
+            }
+            let mut by = worst.sqrt();
+            if let Some(best) = best.as_ref().filter(|_| !kept && trial == RESHAPED) {
+                // Densities have had their chance: the best of them, and more of everything.
+                plan = best.plan.clone();
+                by = best.worst.sqrt();
+            }
+            let by = if kept { by } else { by.max(LEAST_STEP) * SAFETY };
+            let next = plan.factors.map(|factor| factor * by.clamp(0.5, 4.0));
+            let same = |next: [f64; 2]| {
+                self.counts(&plan) == self.counts(&Plan { factors: next, ..plan.clone() })
+            };
+            if same(next) {
+                if kept {
+                    break;
+                }
+                plan.factors = next.map(|factor| factor * 1.05);
+                continue;
+            }
+            plan.factors = next;
+        }
+        match best {
+            Some(best) => best,
+            None => self.tried(plan, rounds),
+        }
+    }
+
+    /// The same with columns and rows taken out as long as the tolerance is kept.
+    fn thinned(&self, mut best: Tried, rounds: &mut usize) -> Tried {
+        let mut left = TRIMMED + TRIMMED_TIMES * best.field.quads();
+        let mut steps = [0.06; 2];
+        let mut stuck = [false; 2];
+        while !(stuck[0] && stuck[1]) {
+            for at in 0..2 {
+                if stuck[at] || best.field.quads() > left {
+                    stuck[at] = true;
+                    continue;
+                }
+                let (density, factor) = (&best.plan.densities[at], best.plan.factors[at]);
+                let Some(fewer) = self.directions[at].fewer(density, factor) else {
+                    stuck[at] = true;
+                    continue;
+                };
+                let single = factor * (1.0 - steps[at]) >= fewer;
+                let mut plan = best.plan.clone();
+                plan.factors[at] = fewer.min(factor * (1.0 - steps[at]));
+                let tried = self.tried(plan, rounds);
+                left = left.saturating_sub(tried.field.quads());
+                if tried.worst <= 1.0 {
+                    best = tried;
+                } else if single {
+                    stuck[at] = true;
+                } else {
+                    steps[at] *= 0.4;
+                }
+            }
+        }
+        best
+    }
+
+    /// Makes a plan coarser until it has no more cells than are allowed; whether it had.
+    fn fit(&self, plan: &mut Plan) -> bool {
+        let most = self.tolerance.max_quads;
+        let too_many = |plan: &Plan| {
+            let [rows, cols] = self.counts(plan);
+            rows.saturating_mul(cols) > most || cols > self.most_cols
+        };
+        if !too_many(plan) {
+            return true;
+        }
+        while too_many(plan) {
+            let [rows, cols] = self.counts(plan);
+            let over = (most as f64 / (rows as f64 * cols as f64)).min(1.0).sqrt();
+            // Along the contour the limit of a row counts too.
+            let over_cols = over.min(self.most_cols as f64 / cols as f64);
+            plan.factors[0] *= over.min(0.9995);
+            plan.factors[1] *= over_cols.min(0.9995);
+            if plan.factors.iter().all(|factor| *factor < 1e-12) {
+                break;
+            }
+        }
+        false
+    }
+
+    fn counts(&self, plan: &Plan) -> [usize; 2] {
+        [0, 1].map(|at| self.directions[at].count(&plan.densities[at], plan.factors[at]))
+    }
+
+    fn quads(&self, plan: &Plan) -> usize {
+        let [rows, cols] = self.counts(plan);
+        rows.saturating_mul(cols)
+    }
+
+    fn fewest(&self, field: &Field) -> [Density; 2] {
+        demand::fewest(field, self.directions[1].even.is_some())
+    }
+
+    fn tried(&self, plan: Plan, rounds: &mut usize) -> Tried {
+        *rounds += 1;
+        let stops =
+            [0, 1].map(|at| self.directions[at].place(&plan.densities[at], plan.factors[at]));
+        let field = self.measure([&stops[0], &stops[1]]);
+        let worst = field.worst();
+        Tried { plan, stops, field, worst }
+    }
+
+    fn measure(&self, stops: [&[Stop]; 2]) -> Field {
+        let [along, around] = &self.directions;
+        let closed = [along.closed, around.closed];
+        measure(self.surface, self.tolerance, stops, closed, &along.kinks, along.meets)
+    }
+}

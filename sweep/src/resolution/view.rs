@@ -1,0 +1,97 @@
+//! How large a pixel is where a camera looks.
+
+use glam::DVec3;
+
+/// Pixels that one pixel may grow to out of the picture: what is not seen itself may be seen in a
+/// mirror or cast a shadow, where sixteen pixels are coarse and still a shape.
+const UNSEEN: f64 = 16.0;
+
+/// By how much more than the picture's half counts as seen, for cells that reach into it.
+const MARGIN: f64 = 1.1;
+
+/// Nothing counts as nearer to the eye than this part of the distance to the target: a surface
+/// through the eye would need pixels of no size.
+const NEAREST: f64 = 1e-3;
+
+/// A pinhole camera and the height of its picture, as in a scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct View {
+    eye: DVec3,
+    /// Unit axes of the view: to the right, up, and forward.
+    right: DVec3,
+    up: DVec3,
+    forward: DVec3,
+    /// Half the picture's width and height at distance 1.
+    half: [f64; 2],
+    /// A pixel's side at distance 1.
+    pixel: f64,
+    nearest: f64,
+}
+
+impl View {
+    /// A camera at `eye` that looks at `target`, with `field_of_view` in radians between the lower
+    /// and the upper edge of a picture of `size` pixels. Nothing when the eye is at the target or
+    /// `up` points along the view.
+    #[must_use]
+    pub fn new(
+        eye: DVec3,
+        target: DVec3,
+        up: DVec3,
+        field_of_view: f64,
+        size: [u32; 2],
+    ) -> Option<Self> {
+        let forward = (target - eye).try_normalize()?;
+        let across = forward.cross(up.try_normalize()?);
+        // An up vector this near the view leaves no digits for the direction across.
+        if across.length() < 1e-9 {
+            return None;
+        }
+        let right = across.normalize();
+        let [width, height] = size.map(f64::from);
+        let half_height = (0.5 * field_of_view).tan();
+        Some(Self {
+            eye,
+            right,
+            up: right.cross(forward),
+            forward,
+            half: [half_height * width / height, half_height],
+            pixel: 2.0 * half_height / height,
+            nearest: NEAREST * (target - eye).length(),
+        })
+    }
+
+    /// The side of a pixel at a point, in the unit of length; sixteen times as much behind the eye
+    /// and out of the picture.
+    #[must_use]
+    pub fn pixel_at(&self, point: DVec3) -> f64 {
+        let to = point - self.eye;
+        let depth = to.dot(self.forward);
+        let within = |axis: DVec3, half: f64| to.dot(axis).abs() <= MARGIN * half * depth;
+        if depth > 0.0 && within(self.right, self.half[0]) && within(self.up, self.half[1]) {
+            self.pixel * depth.max(self.nearest)
+        } else {
+            UNSEEN * self.pixel * to.length().max(self.nearest)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pixels_grow_with_depth_and_are_coarse_where_nothing_is_seen() {
+        let eye = DVec3::new(0.0, 0.0, 5.0);
+        let view = |up| View::new(eye, DVec3::ZERO, up, 90f64.to_radians(), [200, 100]);
+        let view = view(DVec3::Y).unwrap();
+        let near = |a: f64, b: f64| (a - b).abs() < 1e-14 * b;
+        assert!(near(view.pixel_at(DVec3::ZERO), 0.1));
+        assert!(near(view.pixel_at(DVec3::new(9.9, 4.9, 0.0)), 0.1), "depth, not distance");
+        assert!(near(view.pixel_at(DVec3::Z * -5.0), 0.2));
+        assert!(near(view.pixel_at(DVec3::Z * 10.0), 1.6), "behind the eye");
+        assert!(view.pixel_at(DVec3::Y * 6.0) > 1.6, "above the picture");
+        assert!(view.pixel_at(eye) > 0.0);
+        assert_eq!(View::new(eye, eye, DVec3::Y, 1.0, [1, 1]), None);
+        assert_eq!(View::new(eye, DVec3::ZERO, DVec3::Z, 1.0, [1, 1]), None);
+    }
+}

@@ -1,0 +1,200 @@
+//! What is swept, before it is cut into cells: a surface with a point and a normal at every place.
+
+use crate::cap::Cap;
+use crate::closing::Closing;
+use crate::cut::{self, Stop};
+use crate::deform::{Deform, Moved};
+use crate::grid::Seam;
+use crate::modulation::{Modulation, Section};
+use crate::profile::{Column, Profile};
+use crate::resolution::Surface;
+use crate::trajectory::Trajectory;
+use glam::DVec3;
+
+/// Distances from the axis of a rotation below this fraction of the largest are on it.
+pub(crate) const ON_AXIS: f64 = 1e-9;
+
+/// A contour and a trajectory that fit each other, and all that happens to them.
+#[derive(Debug, Clone)]
+pub struct Shape {
+    pub(crate) contour: Profile,
+    pub(crate) trajectory: Trajectory,
+    pub(crate) modulation: Modulation,
+    /// What closes the start and the end.
+    pub(crate) caps: [Option<Cap>; 2],
+    /// How it comes back to its start, where columns do not meet themselves.
+    pub(crate) closing: Option<Closing>,
+    /// What happens to the surface in the end, one after another.
+    pub(crate) deforms: Vec<Deform>,
+    /// By how much it is moved after that.
+    pub(crate) position: DVec3,
+}
+
+impl Shape {
+    /// The surface at any place: the point, the unit normal, and whether it folds back there.
+    ///
+    /// `u` and `v` are fractions of the contour's length, and of the length of the trajectory and its
+    /// caps. At a crease the normal is that of the side after.
+    #[must_use]
+    pub fn at(&self, u: f64, v: f64) -> (DVec3, DVec3) {
+        let mut column = self.contour.at(u);
+        self.snap_to_axis(std::slice::from_mut(&mut column));
+        let place = self.place(&self.section(Stop::after(v)), &column);
+        (place.point, place.normal)
+    }
+
+    /// Whether the rows lead back to the first.
+    #[must_use]
+    pub fn closed(&self) -> bool {
+        self.trajectory.closed() || self.closing.is_some()
+    }
+
+    /// The contour at a stop of the rows, on the trajectory or on a cap.
+    pub(crate) fn section(&self, stop: Stop) -> Section {
+        let [start, end] = self.body();
+        let on_trajectory = |at| self.modulation.section(&self.trajectory, Stop { at, ..stop });
+        match self.caps {
+            [None, None] => on_trajectory(stop.at),
+            [Some(cap), _] if stop.at < start || stop == Stop::before(start) => {
+                on_trajectory(0.0).gathered(cap.at(1.0 - stop.at / start), -1.0)
+            }
+            [_, Some(cap)] if stop.at > end || stop == Stop::after(end) => {
+                on_trajectory(1.0).gathered(cap.at((stop.at - end) / (1.0 - end)), 1.0)
+            }
+            _ => on_trajectory(((stop.at - start) / (end - start)).clamp(0.0, 1.0)),
+        }
+    }
+
+    /// A point of a section in its place in space, with its unit normal.
+    pub(crate) fn place(&self, section: &Section, column: &Column) -> Moved {
+        let (point, normal) = (section.point(column), section.normal(column));
+        let mut moved = Moved { point, normal, folds: false };
+        for deform in &self.deforms {
+            let next = deform.apply(moved.point, moved.normal);
+            moved = Moved {
+                normal: next.normal.try_normalize().unwrap_or(moved.normal),
+                folds: next.folds || moved.folds,
+                ..next
+            };
+        }
+        Moved { point: moved.point + self.position, ..moved }
+    }
+
+    /// Whether a section folds back on itself at a column, or does so where it comes to.
+    pub(crate) fn folds(&self, section: &Section, column: &Column) -> bool {
+        section.folds(column) || (!self.deforms.is_empty() && self.place(section, column).folds)
+    }
+
+    /// Where the surface may have an edge along the contour: at caps, at corners of the trajectory, at
+    /// poles inside it, and where it closes.
+    pub(crate) fn row_breaks(&self) -> Vec<f64> {
+        let edge = self.closing.filter(|closing| closing.edge).map(|_| 0.0);
+        let [start, end] = self.body();
+        let caps = [self.caps[0].map(|_| start), self.caps[1].map(|_| end)];
+        let corners = self.trajectory.breaks().iter().copied();
+        let poles = self.modulation.breaks(self.trajectory.closed());
+        let inner = corners.chain(poles).map(|at| self.row_of(at));
+        let mut breaks: Vec<f64> =
+            edge.into_iter().chain(caps.into_iter().flatten()).chain(inner).collect();
+        breaks.sort_by(f64::total_cmp);
+        breaks.dedup();
+        breaks
+    }
+
+    /// Where the surface may have an edge along the contour that has one normal.
+    pub(crate) fn kinks(&self) -> Vec<f64> {
+        self.modulation.kinks().into_iter().map(|at| self.row_of(at)).collect()
+    }
+
+    /// The fewest cells along the trajectory and its caps: one to each piece, and three around.
+    pub(crate) fn fewest_rows(&self) -> usize {
+        let around = if self.closed() { 3 } else { 1 };
+        cut::pieces(&self.row_breaks()).max(around)
+    }
+
+    /// The stops of about so many columns of equal width on each smooth piece.
+    pub(crate) fn even_columns(&self, cells: usize) -> Vec<Stop> {
+        let (breaks, closed) = (self.contour.breaks(), self.contour.closed());
+        match self.closing {
+            Some(_) => cut::between(breaks, closed, cells, &self.anchors()),
+            None => cut::evenly(breaks, closed, cells),
+        }
+    }
+
+    /// Where columns must lie so that they lead to one another where the surface closes.
+    pub(crate) fn anchors(&self) -> Vec<f64> {
+        let anchors =
+            |closing: &Closing| closing.anchors(self.contour.breaks(), self.contour.closed());
+        self.closing.as_ref().map(anchors).unwrap_or_default()
+    }
+
+    /// The seam of the rows and its shift, with columns at these stops; `None` if they do not meet.
+    pub(crate) fn seam(&self, stops: &[Stop]) -> Option<(Seam, usize)> {
+        match &self.closing {
+            Some(closing) => closing.seam(stops, self.contour.breaks(), self.contour.closed()),
+            None if self.closed() => Some((Seam::Closed, 0)),
+            None => Some((Seam::Open, 0)),
+        }
+    }
+
+    /// Cells that see all that the surface does, along the trajectory and the contour.
+    pub(crate) fn detail(&self) -> [usize; 2] {
+        let [along, around] = self.modulation.detail();
+        let caps = 16.0 * self.caps.iter().flatten().count() as f64;
+        let deforms = 16.0 * self.deforms.len() as f64;
+        let cells = |curve: f64, laws: f64| (curve + laws).clamp(8.0, 1e7) as usize;
+        let along = along + caps + deforms;
+        [cells(self.trajectory.detail(), along), cells(self.contour.detail(), around)]
+    }
+
+    /// Which part of `v` is on the trajectory: before and after it are the caps.
+    fn body(&self) -> [f64; 2] {
+        let [start, end] = self.caps.map(|cap| cap.map_or(0.0, |cap| cap.length()));
+        let whole = start + self.trajectory.length() + end;
+        [
+            if start == 0.0 { 0.0 } else { start / whole },
+            if end == 0.0 { 1.0 } else { 1.0 - end / whole },
+        ]
+    }
+
+    /// The `v` of a fraction of the trajectory's length.
+    fn row_of(&self, at: f64) -> f64 {
+        let [start, end] = self.body();
+        start + (end - start) * at
+    }
+
+    /// Puts points of a rotation that all but touch its axis on it.
+    fn snap_to_axis(&self, columns: &mut [Column]) {
+        if self.trajectory.is_rotation() {
+            let on_axis = ON_AXIS * self.contour.x_range().1;
+            let places = columns
+                .iter_mut()
+                .flat_map(|column| std::iter::once(&mut column.first).chain(&mut column.others));
+            for place in places.filter(|place| place.point.x <= on_axis) {
+                place.point.x = 0.0;
+            }
+        }
+    }
+}
+
+impl Surface for Shape {
+    fn columns(&self, stops: &[Stop]) -> Vec<Column> {
+        let mut columns = self.contour.columns(stops);
+        self.snap_to_axis(&mut columns);
+        columns
+    }
+
+    fn station(&self, stop: Stop, columns: &[Column]) -> Vec<(DVec3, DVec3)> {
+        let section = self.section(stop);
+        let place = |column| {
+            let place = self.place(&section, column);
+            (place.point, place.normal)
+        };
+        columns.iter().map(place).collect()
+    }
+
+    fn points(&self, stop: Stop, columns: &[Column]) -> Vec<DVec3> {
+        let section = self.section(stop);
+        columns.iter().map(|column| self.place(&section, column).point).collect()
+    }
+}
