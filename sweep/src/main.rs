@@ -10,9 +10,9 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
-use sweep::grid::file::{self, Encoding};
+use sweep::grid::file::Encoding;
 use sweep::spec::Mesh;
-use sweep::{GridMesh, Object, Sweep};
+use sweep::{Object, Sweep};
 use thiserror::Error;
 
 /// Sweep a contour along a trajectory: a JSON spec in, a grid of points and normals out.
@@ -149,20 +149,15 @@ fn work(arguments: &Arguments) -> Result<(), Report> {
     let object = Object::read(&document, folder, &Disk, &arguments.mesh())?;
     let read = Instant::now();
     let mut output = Output::create(&arguments.output, !arguments.no_clobber)?;
-    let grids = object.grids()?;
-    let swept = Instant::now();
-    file::write_all(&grids, encoding, &mut output).map_err(|source| output.failed(source))?;
+    let spent = object.write(encoding, &mut output).map_err(|source| output.failed(source))?;
     output.commit()?;
-    let written = Instant::now();
 
     if !arguments.quiet {
         object.parts().iter().for_each(note);
     }
     if arguments.stats {
-        let stages = [("read", read - start), ("sweep", swept - read), ("write", written - swept)];
-        for (sweep, grid) in object.parts().iter().zip(&grids) {
-            stats(sweep, grid);
-        }
+        object.parts().iter().for_each(stats);
+        let stages = [("read", read - start), ("sweep", spent.sweeping), ("write", spent.writing)];
         for (stage, time) in stages {
             say(format_args!("{stage:<11} {:.2} ms", 1e3 * time.as_secs_f64()));
         }
@@ -185,10 +180,11 @@ fn note(sweep: &Sweep) {
     }
 }
 
-fn stats(sweep: &Sweep, grid: &GridMesh) {
+fn stats(sweep: &Sweep) {
     say(format_args!("object      {}", sweep.name()));
     say(format_args!("cells       {} x {} (rows x cols)", sweep.rows(), sweep.cols()));
-    say(format_args!("points      {} x {}, {}", grid.rows(), grid.cols(), grid.positions.len()));
+    let [rows, cols] = sweep.points();
+    say(format_args!("points      {rows} x {cols}, {}", rows * cols));
     if let Some(reached) = sweep.reached() {
         say(format_args!("distance    {:.4e} to the surface", reached.tol));
         if let Some(pixels) = reached.pixels {

@@ -1,9 +1,12 @@
 //! An object: one sweep, or several that belong together, as a cup and its handle do.
 
+use crate::grid::file::{Encoding, Patch};
+use crate::rows::{Rows, Spent};
 use crate::spec::Mesh;
 use crate::{GridMesh, Sweep, SweepError, read};
 use files::Source;
 use files::json::Document;
+use std::io::{self, Write};
 use std::path::Path;
 
 /// One sweep or several, checked.
@@ -60,5 +63,20 @@ impl Object {
     /// When there is no memory for them.
     pub fn grids(&self) -> Result<Vec<GridMesh>, SweepError> {
         self.parts.iter().map(Sweep::try_grid).collect()
+    }
+
+    /// Writes the grids of its parts, in the memory of a few rows of each.
+    ///
+    /// # Errors
+    /// When `out` fails.
+    pub fn write(&self, encoding: Encoding, out: &mut impl Write) -> io::Result<Spent> {
+        let mut spent = Spent::default();
+        for (index, part) in self.parts.iter().enumerate() {
+            let patch = Patch { number: index + 1, of: self.parts.len() };
+            let Spent { sweeping, writing } = Rows::of(part).write(patch, encoding, out)?;
+            spent.sweeping += sweeping;
+            spent.writing += writing;
+        }
+        Ok(spent)
     }
 }

@@ -2,18 +2,19 @@
 
 use crate::cut::{self, Stop};
 use crate::grid::file::MAX_COLS;
-use crate::grid::{self, Area, GridMesh, Seam, UvLayout};
+use crate::grid::{self, Area, GridMesh, UvLayout};
 use crate::modulation::Alias;
-use crate::profile::{Column, Profile};
+use crate::profile::Profile;
 use crate::resolution::place::Direction;
 use crate::resolution::{Cells, Distance, Reached, Resolution, Search, Surface, Tolerance};
+use crate::rows::Rows;
 use crate::shape::Shape;
 use crate::spec::Mesh;
 use crate::trajectory::Trajectory;
 use crate::{Object, SweepError};
 use files::json::Document;
 use files::{Disk, Source};
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 use rayon::prelude::*;
 use std::path::Path;
 
@@ -108,6 +109,12 @@ impl Sweep {
     #[must_use]
     pub fn cols(&self) -> usize {
         cut::cells(&self.col_stops(), self.contour().closed())
+    }
+
+    /// Rows and columns of points in the grid.
+    #[must_use]
+    pub fn points(&self) -> [usize; 2] {
+        [self.row_stops().len(), self.col_stops().len()]
     }
 
     /// How well a tolerance is kept; nothing where rows and columns were asked for.
@@ -282,72 +289,11 @@ impl Sweep {
     /// # Errors
     /// When there is no memory for it.
     pub fn try_grid(&self) -> Result<GridMesh, SweepError> {
-        let (rows, cols) = (self.row_stops(), self.col_stops());
-        let columns = self.shape.columns(&cols);
-        let seam = self.shape.seam(&cols).unwrap_or_default();
-        let count = rows.len() * columns.len();
-        let (mut positions, mut normals) = (Vec::new(), Vec::new());
-        let reserved = positions.try_reserve_exact(count).and(normals.try_reserve_exact(count));
-        reserved.map_err(|_| SweepError::Memory {
-            name: self.name.clone(),
-            points: count,
-            bytes: count * (size_of::<DVec3>() + size_of::<Vec3>()),
-        })?;
-        positions.resize(count, DVec3::ZERO);
-        normals.resize(count, Vec3::ZERO);
-        let stations = positions
-            .par_chunks_mut(columns.len())
-            .zip(normals.par_chunks_mut(columns.len()))
-            .zip(&rows);
-        stations.for_each(|((points, normals), &stop)| {
-            self.row(stop, &columns, seam, points, normals);
-        });
-        let (seam_v, shift) = seam;
-        Ok(GridMesh {
-            name: self.name.clone(),
-            seam_u: if self.contour().closed() { Seam::Closed } else { Seam::Open },
-            seam_v,
-            shift,
-            texture: self.texture,
-            surface: self.surface,
-            uv: self.uv,
-            areas: self.areas.clone(),
-            tolerance: self.tolerance(),
-            u: columns.iter().map(|column| column.u).collect(),
-            v: rows.iter().map(|stop| stop.at).collect(),
-            positions,
-            normals,
-            ..GridMesh::default()
-        })
-    }
-
-    /// Fills in one row.
-    fn row(
-        &self,
-        stop: Stop,
-        columns: &[Column],
-        (seam, shift): (Seam, usize),
-        points: &mut [DVec3],
-        normals: &mut [Vec3],
-    ) {
-        let section = self.shape.section(stop);
-        for ((column, point), normal) in columns.iter().zip(points).zip(&mut *normals) {
-            let place = self.shape.place(&section, column);
-            (*point, *normal) = (place.point, place.normal.as_vec3());
-        }
-        if self.shape.closing.is_some() && stop == Stop::before(0.0) {
-            // The end has come to the points of the start, with normals of its own.
-            let end = self.shape.section(Stop::before(1.0));
-            let side = if seam == Seam::Mirror { -1.0 } else { 1.0 };
-            for (col, column) in columns.iter().enumerate() {
-                let led = seam.leads_to(col, shift, columns.len());
-                normals[led] = (self.shape.place(&end, column).normal * side).as_vec3();
-            }
-        }
+        Rows::of(self).grid()
     }
 
     /// What the grid says of a tolerance.
-    fn tolerance(&self) -> Option<grid::Tolerance> {
+    pub(crate) fn tolerance(&self) -> Option<grid::Tolerance> {
         let (Resolution::Tolerance(asked), Some(reached)) = (&self.resolution, self.reached())
         else {
             return None;

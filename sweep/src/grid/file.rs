@@ -49,11 +49,13 @@ mod header;
 mod reader;
 mod stranger;
 mod text;
+mod writer;
 
 pub use error::GridError;
 pub(crate) use header::MAX_COLS;
 pub use header::{Header, Patch};
 pub use reader::{GridReader, read, read_all};
+pub use writer::Writer;
 
 use crate::GridMesh;
 use std::io::{self, Write};
@@ -99,8 +101,6 @@ fn write_patch(
     encoding: Encoding,
     out: &mut impl Write,
 ) -> io::Result<()> {
-    let header = Header { patch, ..Header::of(grid) };
-    header.check().map_err(|fault| refused(&fault.to_string()))?;
     if let Some((number, key, message)) = grid.area_fault() {
         return Err(refused(&format!("areas[{number}].{key}: {message}")));
     }
@@ -112,26 +112,11 @@ fn write_patch(
             grid.normals.len()
         )));
     }
-
-    let mut sum = Summed { out, crc: crc32fast::Hasher::new() };
-    let mut bytes = header.line(encoding)?;
-    sum.write(&bytes)?;
-    let mut before = None;
+    let mut writer = Writer::new(&Header { patch, ..Header::of(grid) }, encoding, out)?;
     for row in grid.row_views() {
-        row.check(grid.seam_v, before).map_err(|fault| refused(&fault.to_string()))?;
-        before = Some(row.v);
-        bytes.clear();
-        match encoding {
-            Encoding::Binary => binary::encode(&row, &mut bytes),
-            Encoding::Json => text::encode(&row, &mut bytes)?,
-        }
-        sum.write(&bytes)?;
+        writer.row(&row)?;
     }
-    let footer = Footer { rows: grid.rows() as u64, crc32: sum.crc.clone().finalize() };
-    match encoding {
-        Encoding::Binary => sum.out.write_all(&binary::encode_footer(footer)),
-        Encoding::Json => sum.out.write_all(&text::encode_footer(footer)?),
-    }
+    writer.finish()
 }
 
 /// What stands behind the rows.
@@ -141,19 +126,6 @@ struct Footer {
     rows: u64,
     /// Of every byte before the footer.
     crc32: u32,
-}
-
-/// A writer and the checksum of what went through it.
-struct Summed<'a, W> {
-    out: &'a mut W,
-    crc: crc32fast::Hasher,
-}
-
-impl<W: Write> Summed<'_, W> {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
-        self.crc.update(bytes);
-        self.out.write_all(bytes)
-    }
 }
 
 fn refused(fault: &str) -> io::Error {

@@ -1,0 +1,146 @@
+//! The rows of a sweep: all at once as a grid, or block by block into a file.
+
+use crate::cut::Stop;
+use crate::grid::file::{Encoding, Header, Patch, Writer};
+use crate::grid::{GridMesh, Row, Seam};
+use crate::profile::Column;
+use crate::resolution::Surface;
+use crate::{Sweep, SweepError};
+use glam::{DVec3, Vec3};
+use rayon::prelude::*;
+use std::io::{self, Write};
+use std::ops::Range;
+use std::time::{Duration, Instant};
+
+/// Points that are found together when a grid is written: some megabytes, and enough work for many
+/// threads.
+const BLOCK: usize = 1 << 16;
+
+/// A sweep cut into rows and columns.
+pub struct Rows<'a> {
+    sweep: &'a Sweep,
+    stops: Vec<Stop>,
+    columns: Vec<Column>,
+    /// How the last row leads on to the first.
+    seam: (Seam, usize),
+}
+
+/// Where the time of writing went.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Spent {
+    /// Finding points and normals.
+    pub sweeping: Duration,
+    /// Making bytes of them and passing those on.
+    pub writing: Duration,
+}
+
+impl<'a> Rows<'a> {
+    /// The rows and columns that a sweep asks for.
+    pub fn of(sweep: &'a Sweep) -> Self {
+        let cols = sweep.col_stops();
+        Self {
+            sweep,
+            stops: sweep.row_stops(),
+            columns: sweep.shape.columns(&cols),
+            seam: sweep.shape.seam(&cols).unwrap_or_default(),
+        }
+    }
+
+    /// The whole grid.
+    pub fn grid(&self) -> Result<GridMesh, SweepError> {
+        let mut grid = self.blank();
+        let count = self.stops.len() * self.columns.len();
+        let (positions, normals) = (&mut grid.positions, &mut grid.normals);
+        let reserved = positions.try_reserve_exact(count).and(normals.try_reserve_exact(count));
+        reserved.map_err(|_| SweepError::Memory {
+            name: self.sweep.name.clone(),
+            points: count,
+            bytes: count * (size_of::<DVec3>() + size_of::<Vec3>()),
+        })?;
+        positions.resize(count, DVec3::ZERO);
+        normals.resize(count, Vec3::ZERO);
+        self.fill(0..self.stops.len(), positions, normals);
+        Ok(grid)
+    }
+
+    /// Writes the grid in the memory of one block of rows.
+    pub fn write(
+        &self,
+        patch: Patch,
+        encoding: Encoding,
+        out: &mut impl Write,
+    ) -> io::Result<Spent> {
+        let header = Header { patch, rows: self.stops.len(), ..Header::of(&self.blank()) };
+        let mut writer = Writer::new(&header, encoding, out)?;
+        let cols = self.columns.len();
+        let height = (BLOCK / cols).max(1);
+        let (mut spent, mut from) = (Spent::default(), Instant::now());
+        let mut lap = |total: &mut Duration| {
+            let now = Instant::now();
+            *total += now - std::mem::replace(&mut from, now);
+        };
+        let (mut positions, mut normals) = (Vec::new(), Vec::new());
+        for start in (0..self.stops.len()).step_by(height) {
+            let rows = start..(start + height).min(self.stops.len());
+            positions.resize(rows.len() * cols, DVec3::ZERO);
+            normals.resize(rows.len() * cols, Vec3::ZERO);
+            self.fill(rows.clone(), &mut positions, &mut normals);
+            lap(&mut spent.sweeping);
+            let points = positions.chunks(cols).zip(normals.chunks(cols));
+            for (stop, (positions, normals)) in self.stops[rows].iter().zip(points) {
+                writer.row(&Row { v: stop.at, positions, normals })?;
+            }
+            lap(&mut spent.writing);
+        }
+        writer.finish()?;
+        Ok(spent)
+    }
+
+    /// The grid without its points.
+    fn blank(&self) -> GridMesh {
+        let (sweep, (seam_v, shift)) = (self.sweep, self.seam);
+        GridMesh {
+            name: sweep.name.clone(),
+            seam_u: if sweep.contour().closed() { Seam::Closed } else { Seam::Open },
+            seam_v,
+            shift,
+            texture: sweep.texture,
+            surface: sweep.surface,
+            uv: sweep.uv,
+            areas: sweep.areas.clone(),
+            tolerance: sweep.tolerance(),
+            u: self.columns.iter().map(|column| column.u).collect(),
+            v: self.stops.iter().map(|stop| stop.at).collect(),
+            ..GridMesh::default()
+        }
+    }
+
+    /// Finds the points and normals of some rows, on all threads.
+    fn fill(&self, rows: Range<usize>, positions: &mut [DVec3], normals: &mut [Vec3]) {
+        let cols = self.columns.len();
+        positions
+            .par_chunks_mut(cols)
+            .zip(normals.par_chunks_mut(cols))
+            .zip(&self.stops[rows])
+            .for_each(|((points, normals), &stop)| self.row(stop, points, normals));
+    }
+
+    fn row(&self, stop: Stop, points: &mut [DVec3], normals: &mut [Vec3]) {
+        let shape = &self.sweep.shape;
+        let section = shape.section(stop);
+        for ((column, point), normal) in self.columns.iter().zip(points).zip(&mut *normals) {
+            let place = shape.place(&section, column);
+            (*point, *normal) = (place.point, place.normal.as_vec3());
+        }
+        if shape.closing.is_some() && stop == Stop::before(0.0) {
+            // The end has come to the points of the start, with normals of its own.
+            let end = shape.section(Stop::before(1.0));
+            let (seam, shift) = self.seam;
+            let side = if seam == Seam::Mirror { -1.0 } else { 1.0 };
+            for (col, column) in self.columns.iter().enumerate() {
+                let led = seam.leads_to(col, shift, self.columns.len());
+                normals[led] = (shape.place(&end, column).normal * side).as_vec3();
+            }
+        }
+    }
+}
