@@ -131,6 +131,18 @@ impl Contour {
         }
     }
 
+    /// The contour's own parameter at a stop, from 0 to 1.
+    pub(crate) fn parameter(&self, stop: Stop) -> f64 {
+        match &self.0 {
+            Form::Circle { .. } => stop.at,
+            Form::Path { path, creases } => match stop {
+                // What leads up to the start of a closed contour is its end.
+                Stop { at: 0.0, .. } => 0.0,
+                _ => path.parameter(place(path, creases, stop)),
+            },
+        }
+    }
+
     /// The contour at a stop: at a crease that of its side.
     #[must_use]
     pub fn at(&self, stop: Stop) -> Local2 {

@@ -2,7 +2,7 @@
 
 use crate::cut::Stop;
 use crate::grid::file::{Encoding, Header, Patch, Writer};
-use crate::grid::{GridMesh, Row, Seam};
+use crate::grid::{By, GridMesh, Row, Seam};
 use crate::profile::Column;
 use crate::resolution::Surface;
 use crate::{Sweep, SweepError};
@@ -21,6 +21,9 @@ pub struct Rows<'a> {
     sweep: &'a Sweep,
     stops: Vec<Stop>,
     columns: Vec<Column>,
+    /// What the grid counts columns and rows by.
+    u: Vec<f64>,
+    v: Vec<f64>,
     /// How the last row leads on to the first.
     seam: (Seam, usize),
 }
@@ -37,12 +40,21 @@ pub struct Spent {
 impl<'a> Rows<'a> {
     /// The rows and columns that a sweep asks for.
     pub fn of(sweep: &'a Sweep) -> Self {
-        let cols = sweep.col_stops();
+        let (rows, cols) = (sweep.row_stops(), sweep.col_stops());
+        let (by, shape) = (sweep.uv.by, &sweep.shape);
         Self {
             sweep,
-            stops: sweep.row_stops(),
-            columns: sweep.shape.columns(&cols),
-            seam: sweep.shape.seam(&cols).unwrap_or_default(),
+            u: match by {
+                By::Length => cols.iter().map(|stop| stop.at).collect(),
+                By::Parameter => cols.iter().map(|&stop| shape.contour.parameter(stop)).collect(),
+            },
+            v: match by {
+                By::Length => rows.iter().map(|stop| stop.at).collect(),
+                By::Parameter => rows.iter().map(|stop| shape.parameter_of(stop.at)).collect(),
+            },
+            stops: rows,
+            columns: shape.columns(&cols),
+            seam: shape.seam(&cols).unwrap_or_default(),
         }
     }
 
@@ -87,8 +99,8 @@ impl<'a> Rows<'a> {
             self.fill(rows.clone(), &mut positions, &mut normals);
             lap(&mut spent.sweeping);
             let points = positions.chunks(cols).zip(normals.chunks(cols));
-            for (stop, (positions, normals)) in self.stops[rows].iter().zip(points) {
-                writer.row(&Row { v: stop.at, positions, normals })?;
+            for (&v, (positions, normals)) in self.v[rows].iter().zip(points) {
+                writer.row(&Row { v, positions, normals })?;
             }
             lap(&mut spent.writing);
         }
@@ -109,8 +121,8 @@ impl<'a> Rows<'a> {
             uv: sweep.uv,
             areas: sweep.areas.clone(),
             tolerance: sweep.tolerance(),
-            u: self.columns.iter().map(|column| column.u).collect(),
-            v: self.stops.iter().map(|stop| stop.at).collect(),
+            u: self.u.clone(),
+            v: self.v.clone(),
             ..GridMesh::default()
         }
     }

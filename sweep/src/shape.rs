@@ -147,6 +147,15 @@ impl Shape {
         [cells(self.trajectory.detail(), along), cells(self.contour.detail(), around)]
     }
 
+    /// Where a row lies by the trajectory's own parameter; on a cap as it is.
+    pub(crate) fn parameter_of(&self, v: f64) -> f64 {
+        let [start, end] = self.body();
+        if v < start || v > end {
+            return v;
+        }
+        self.row_of(self.trajectory.parameter(((v - start) / (end - start)).clamp(0.0, 1.0)))
+    }
+
     /// Which part of `v` is on the trajectory: before and after it are the caps.
     fn body(&self) -> [f64; 2] {
         let [start, end] = self.caps.map(|cap| cap.map_or(0.0, |cap| cap.length()));

@@ -52,6 +52,9 @@
 //! }
 //! ```
 //!
+//! A picture lies on the surface by length; with `"by": "parameter"` in `uv`, by the curves' own
+//! parameters.
+//!
 //! # Which side is outside, and where the contour lies
 //!
 //! Axes are right-handed and y points up. A contour's (x, y) lies on the directions (w1, w2) of a

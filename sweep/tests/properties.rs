@@ -223,6 +223,29 @@ fn points_given_twice_count_once() {
 }
 
 #[test]
+fn pictures_may_be_laid_by_the_curves_own_parameters() {
+    let text = |by: &str| {
+        format!(
+            r#"{{"format": "tb-sweep", "version": 1, "name": "test",
+            "contour": {{"bezier": {{"segments": [[[0,0],[0.1,0],[0.2,0],[0.3,0]], [[0.3,0],[0.5,0],[0.7,0],[0.9,0]]]}}}},
+            "trajectory": {{"free": {{"points": [[0,0,0],[0,0,1],[0,0,4]]}}}},
+            "uv": {{"by": "{by}"}}, "mesh": {{"rows": 8, "cols": 6}}}}"#
+        )
+    };
+    let grid = |by| {
+        let text = text(by);
+        Sweep::read(&Document::new("test", text.as_bytes()).unwrap()).unwrap().grid()
+    };
+    let (even, own) = (grid("length"), grid("parameter"));
+    assert_eq!((&even.positions, &even.normals), (&own.positions, &own.normals));
+    assert!((even.u[2] - 1.0 / 3.0).abs() < 1e-15 && (own.u[2] - 0.5).abs() < 1e-14);
+    assert_eq!((own.u[0], own.u[6], own.v[0], own.v[8]), (0.0, 1.0, 0.0, 1.0));
+    // A quarter of the length is half of the points.
+    assert!((even.v[2] - 0.25).abs() < 1e-15 && (own.v[2] - 0.5).abs() < 1e-12);
+    sound(&own);
+}
+
+#[test]
 fn every_example_is_a_spec() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples/curves");
     let mut seen = 0;

@@ -21,7 +21,8 @@ mod tests {
 
     #[test]
     fn across_the_trajectory_the_picture_is_turned_and_not_mirrored() {
-        let layout = UvLayout { across: Across::Trajectory, repeat: [3.0, 2.0] };
+        let layout =
+            UvLayout { across: Across::Trajectory, repeat: [3.0, 2.0], ..UvLayout::default() };
         assert_eq!(coordinates(&layout, 0.0, 0.0), [3.0, 0.0]);
         assert_eq!(coordinates(&layout, 1.0, 1.0), [0.0, 2.0]);
         // Turned counter-clockwise: u x v and s x t have the same sign.

@@ -74,7 +74,7 @@ fn a_picture_is_fitted_to_its_area() {
     // Points and normals are shared over the rim of the area, picture coordinates are not.
     assert_eq!((mesh.positions.len(), mesh.normals.len()), (5 * 7, 1));
     assert_eq!(mesh.uvs.len(), 5 * 7 - 2 + 3 * 4);
-    let uv = UvLayout { across: Across::Trajectory, repeat: [3.0, 2.0] };
+    let uv = UvLayout { across: Across::Trajectory, repeat: [3.0, 2.0], ..UvLayout::default() };
     check(&GridMesh { areas, uv, texture: Some(9), ..sheet(4, 6) });
 }
 

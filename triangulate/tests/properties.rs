@@ -127,7 +127,8 @@ fn any_grid() -> impl Strategy<Value = GridMesh> {
                 let mut grid =
                     grid_of([shape.0, shape.1], [seam_v, seam_u], |_, _| (DVec3::X, DVec3::X));
                 let across_what = if turned { Across::Trajectory } else { Across::Contour };
-                grid.uv = UvLayout { across: across_what, repeat: [across, up] };
+                grid.uv =
+                    UvLayout { across: across_what, repeat: [across, up], ..UvLayout::default() };
                 grid.positions = positions.into_iter().map(DVec3::from_array).collect();
                 grid.normals = normals.into_iter().map(Vec3::from_array).collect();
                 grid

@@ -154,7 +154,7 @@ fn a_cylinder_has_two_rims_and_its_picture_goes_once_around() {
 #[test]
 fn a_turned_and_repeated_picture_stays_whole_at_the_seams() {
     let mut grid = torus(16, 8);
-    grid.uv = UvLayout { across: Across::Trajectory, repeat: [3.0, 2.0] };
+    grid.uv = UvLayout { across: Across::Trajectory, repeat: [3.0, 2.0], ..UvLayout::default() };
     let mesh = made(&grid);
     for triangle in &mesh.triangles {
         let [a, b, c] = triangle.uv.map(|i| mesh.uvs[i as usize].map(f64::from));

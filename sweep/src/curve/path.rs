@@ -147,6 +147,11 @@ impl<V: Vector> Path<V> {
         self.starts().chain([self.length]).collect()
     }
 
+    /// The parameter of a place from 0 to 1, in which every segment has an equal share.
+    pub fn parameter(&self, place: Place) -> f64 {
+        (place.segment as f64 + place.t) / self.segments.len() as f64
+    }
+
     /// The length of the path before a place.
     pub fn length_to(&self, place: Place) -> f64 {
         let segment = &self.segments[place.segment];

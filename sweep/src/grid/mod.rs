@@ -77,6 +77,27 @@ pub struct UvLayout {
     pub across: Across,
     /// How often the picture repeats, across and up; positive.
     pub repeat: [f64; 2],
+    /// What `u` and `v` of the grid count.
+    #[serde(skip_serializing_if = "By::is_length")]
+    pub by: By,
+}
+
+/// What `u` and `v` of a grid count.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum By {
+    /// Fractions of length: a picture lies evenly.
+    #[default]
+    Length,
+    /// The curves' own parameters: each segment of a Bezier, and each piece between free points, has an
+    /// equal share of the picture.
+    Parameter,
+}
+
+impl By {
+    fn is_length(&self) -> bool {
+        *self == Self::Length
+    }
 }
 
 /// A direction of the grid.
@@ -91,7 +112,7 @@ pub enum Across {
 
 impl Default for UvLayout {
     fn default() -> Self {
-        Self { across: Across::Contour, repeat: [1.0, 1.0] }
+        Self { across: Across::Contour, repeat: [1.0, 1.0], by: By::Length }
     }
 }
 

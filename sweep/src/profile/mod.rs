@@ -202,6 +202,16 @@ impl Profile {
         self.column(Stop::after(u))
     }
 
+    /// The first contour's own parameter at a stop, from 0 to 1.
+    pub(crate) fn parameter(&self, stop: Stop) -> f64 {
+        let Some(one) = self.contours.first() else { return stop.at };
+        match (self.mirror, stop.at) {
+            (None, _) => one.contour.parameter(stop),
+            (Some(_), 0.0) => 0.0,
+            (Some(_), at) => 1.0 - one.contour.parameter(Stop::before(1.0 - at)),
+        }
+    }
+
     fn column(&self, stop: Stop) -> Column {
         let (first, others) = self.contours.split_first().expect("a profile has a contour");
         Column {

@@ -52,6 +52,15 @@ impl Course {
         }
     }
 
+    /// The curve's own parameter at a fraction of its length, from 0 to 1.
+    pub(super) fn parameter(&self, v: f64) -> f64 {
+        match self {
+            Self::Path(path) if v >= 1.0 => path.parameter(path.end()),
+            Self::Path(path) => path.parameter(path.locate(v * path.length())),
+            _ => v,
+        }
+    }
+
     /// Cells that see all that the curve does: eight to a segment or a quarter turn.
     pub(super) fn detail(&self) -> f64 {
         match self {

@@ -121,6 +121,14 @@ impl Trajectory {
         cut::pieces(self.breaks()).max(around)
     }
 
+    /// The curve's own parameter at a fraction of its length, from 0 to 1.
+    pub(crate) fn parameter(&self, v: f64) -> f64 {
+        match &self.0 {
+            Form::Rotation { .. } => v,
+            Form::Along { course, .. } => course.parameter(v),
+        }
+    }
+
     /// Cells that see all that the trajectory does: eight to a segment or a quarter turn.
     pub(crate) fn detail(&self) -> f64 {
         match &self.0 {

@@ -123,7 +123,11 @@ fn grids() -> impl Strategy<Value = GridMesh> {
                             pixels,
                         }),
                         areas: areas_on(&u, seam_u, ids),
-                        uv: UvLayout { across: Across::Contour, repeat: [repeat, 1.0] },
+                        uv: UvLayout {
+                            across: Across::Contour,
+                            repeat: [repeat, 1.0],
+                            ..UvLayout::default()
+                        },
                         u,
                         v,
                         positions: positions.into_iter().map(DVec3::from_array).collect(),

@@ -15,7 +15,7 @@ pub(super) fn small() -> GridMesh {
         name: "a \"small\" grid\n".into(),
         seam_u: Seam::Closed,
         seam_v: Seam::Open,
-        uv: UvLayout { across: Across::Trajectory, repeat: [2.0, 0.1] },
+        uv: UvLayout { across: Across::Trajectory, repeat: [2.0, 0.1], ..UvLayout::default() },
         u: vec![0.0, 0.25, 0.25, 0.7],
         v: vec![0.0, 1.0 / 3.0, 1.0],
         positions: (0..12).map(point).collect(),
