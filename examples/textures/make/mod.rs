@@ -6,6 +6,10 @@
 //! | `vase-band.png`    | [`vase_band`]    | the painted bands of a blue and white vase        |
 //! | `floor-tiles.png`  | [`floor_tiles`]  | octagons of stone with small squares between them |
 //! | `granite.png`      | [`granite`]      | pink granite                                      |
+//! | `drawing-board.png` | [`drawing_board`] | pale paper ruled in squares                      |
+//! | `net.png`          | [`net`]          | light grey checks between dark lines              |
+//! | `ribbon.png`       | [`ribbon`]       | slanting stripes of light grey                    |
+//! | `graticule.png`    | [`graticule`]    | parallels and meridians of a globe                |
 //!
 //! [`canvas`] samples a colour per point into a picture; [`shape`] has the outlines, [`noise`] the
 //! irregularities and [`color`] the way between linear light and bytes. A picture depends on
@@ -17,9 +21,13 @@
 mod canvas;
 mod checkerboard;
 mod color;
+mod drawing_board;
 mod floor_tiles;
 mod granite;
+mod graticule;
+mod net;
 mod noise;
+mod ribbon;
 mod shape;
 mod vase_band;
 
@@ -35,9 +43,13 @@ pub struct Texture {
 }
 
 /// All textures that this folder draws.
-pub const TEXTURES: [Texture; 4] = [
+pub const TEXTURES: [Texture; 8] = [
     Texture { file: "checkerboard.png", draw: checkerboard::draw },
     Texture { file: "vase-band.png", draw: vase_band::draw },
     Texture { file: "floor-tiles.png", draw: floor_tiles::draw },
     Texture { file: "granite.png", draw: granite::draw },
+    Texture { file: "drawing-board.png", draw: drawing_board::draw },
+    Texture { file: "net.png", draw: net::draw },
+    Texture { file: "ribbon.png", draw: ribbon::draw },
+    Texture { file: "graticule.png", draw: graticule::draw },
 ];
