@@ -59,7 +59,11 @@ fn color_at(p: DVec2, inks: &Inks) -> Color {
         l if l > 87.0 => inks.bold,
         _ if to_meridian(90.0) < 0.5 => inks.bold,
         l if l > 79.8 => {
-            if l < 80.2 || to_meridian(30.0) < 0.28 { inks.line } else { inks.seas[0] }
+            if l < 80.2 || to_meridian(30.0) < 0.28 {
+                inks.line
+            } else {
+                inks.seas[0]
+            }
         }
         l if to_multiple(l, 30.0) < 0.4 || to_meridian(30.0) < 0.4 => inks.bold,
         l if to_multiple(l, 10.0) < 0.24 || to_meridian(10.0) < 0.24 => inks.line,
