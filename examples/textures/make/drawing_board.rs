@@ -31,3 +31,17 @@ fn color_at(p: DVec2, paper: Color, fine: Color, bold: Color) -> Color {
         paper
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_squares_repeat_both_ways() {
+        let side = f64::from(SIZE);
+        let [paper, fine, bold] = [1.0, 2.0, 3.0].map(Color::splat);
+        let at = |texel| color_at(texel, paper, fine, bold);
+        canvas::assert_repeats(SIZE, DVec2::new(side, 0.0), at);
+        canvas::assert_repeats(SIZE, DVec2::new(0.0, side), at);
+    }
+}

@@ -94,4 +94,11 @@ mod tests {
             assert!((cosine(degrees) - degrees.to_radians().cos()).abs() < 2e-3, "{degrees}");
         }
     }
+
+    #[test]
+    fn the_seas_close_around_the_globe() {
+        let inks = Inks::new();
+        let at = |texel: DVec2| color_at(DVec2::new(texel.x, texel.y / 2.0 - 90.0), &inks);
+        canvas::assert_repeats(360, DVec2::new(360.0, 0.0), at);
+    }
 }

@@ -29,3 +29,17 @@ fn color_at(p: DVec2, light: Color, dim: Color, line: Color) -> Color {
     let check = cell.floor();
     if (check.x + check.y).rem_euclid(2.0) < 1.0 { light } else { dim }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_net_repeats_both_ways() {
+        let side = f64::from(SIZE);
+        let [light, dim, line] = [1.0, 2.0, 3.0].map(Color::splat);
+        let at = |texel| color_at(texel, light, dim, line);
+        canvas::assert_repeats(SIZE, DVec2::new(side, 0.0), at);
+        canvas::assert_repeats(SIZE, DVec2::new(0.0, side), at);
+    }
+}

@@ -24,3 +24,17 @@ fn color_at(p: DVec2, light: Color, dim: Color, line: Color) -> Color {
         _ => dim,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_stripes_repeat_both_ways() {
+        let side = f64::from(SIZE);
+        let [light, dim, line] = [1.0, 2.0, 3.0].map(Color::splat);
+        let at = |texel: DVec2| color_at(texel / side, light, dim, line);
+        canvas::assert_repeats(SIZE, DVec2::new(side, 0.0), at);
+        canvas::assert_repeats(SIZE, DVec2::new(0.0, side), at);
+    }
+}
