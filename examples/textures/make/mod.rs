@@ -7,6 +7,10 @@
 //! | `floor-tiles.png`  | [`floor_tiles`]  | octagons of stone with small squares between them |
 //! | `granite.png`      | [`granite`]      | pink granite                                      |
 //! | `scales.png`       | [`scales`]       | heights: rows of scales, each over the one above  |
+//! | `drawing-board.png` | [`drawing_board`] | pale paper ruled in squares                      |
+//! | `net.png`          | [`net`]          | light grey checks between dark lines              |
+//! | `ribbon.png`       | [`ribbon`]       | slanting stripes of light grey                    |
+//! | `graticule.png`    | [`graticule`]    | parallels and meridians of a globe                |
 //!
 //! [`canvas`] samples a colour per point into a picture; [`shape`] has the outlines, [`noise`] the
 //! irregularities and [`color`] the way between linear light and bytes. A picture depends on
@@ -18,9 +22,13 @@
 mod canvas;
 mod checkerboard;
 mod color;
+mod drawing_board;
 mod floor_tiles;
 mod granite;
+mod graticule;
+mod net;
 mod noise;
+mod ribbon;
 mod scales;
 mod shape;
 mod vase_band;
@@ -37,10 +45,14 @@ pub struct Texture {
 }
 
 /// All textures that this folder draws.
-pub const TEXTURES: [Texture; 5] = [
+pub const TEXTURES: [Texture; 9] = [
     Texture { file: "checkerboard.png", draw: checkerboard::draw },
     Texture { file: "vase-band.png", draw: vase_band::draw },
     Texture { file: "floor-tiles.png", draw: floor_tiles::draw },
     Texture { file: "granite.png", draw: granite::draw },
     Texture { file: "scales.png", draw: scales::draw },
+    Texture { file: "drawing-board.png", draw: drawing_board::draw },
+    Texture { file: "net.png", draw: net::draw },
+    Texture { file: "ribbon.png", draw: ribbon::draw },
+    Texture { file: "graticule.png", draw: graticule::draw },
 ];
