@@ -18,6 +18,8 @@
 //! | [`frame`]      | rotation-minimizing frames, and those that a direction fixes        |
 //! | [`curve`]      | cubic Bezier paths by arc length, splines, SVG                      |
 //! | [`grid`]       | the grid and its file                                               |
+//! | [`check`]      | what is wrong or suspicious, in words                               |
+//! | [`preview`]    | contour, trajectory, laws and surface drawn on one page             |
 //!
 //! ```
 //! use files::json::Document;
@@ -32,6 +34,7 @@
 //! ```
 
 pub mod cap;
+pub mod check;
 pub mod closing;
 pub mod contour;
 pub mod curve;
@@ -44,6 +47,7 @@ pub mod grid;
 pub mod law;
 pub mod modulation;
 mod object;
+pub mod preview;
 pub mod profile;
 mod read;
 pub mod spec;

@@ -355,4 +355,17 @@ impl Sweep {
             }
         }
     }
+
+    /// The columns and the rows of the grid.
+    pub(crate) fn lines(&self) -> (Vec<Column>, Vec<Stop>) {
+        (self.columns(), self.row_stops())
+    }
+
+    /// Where on the trajectory a stop of the rows lies; `None` on a cap.
+    pub(crate) fn along(&self, stop: Stop) -> Option<f64> {
+        let [start, end] = self.body();
+        let before = stop.at < start || self.caps[0].is_some() && stop == Stop::before(start);
+        let after = stop.at > end || self.caps[1].is_some() && stop == Stop::after(end);
+        (!before && !after).then(|| ((stop.at - start) / (end - start)).clamp(0.0, 1.0))
+    }
 }

@@ -199,4 +199,9 @@ impl Section {
             }
         }
     }
+
+    /// How far the point moves along the tangent by length of the trajectory: see [`Station::stretch`].
+    pub(crate) fn stretch(&self, column: &Column) -> f64 {
+        self.station.stretch(self.local(column).q)
+    }
 }
