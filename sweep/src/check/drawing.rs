@@ -30,11 +30,11 @@ pub fn findings(spec: &Spec, sweep: &Sweep) -> Vec<Finding> {
     for (path, contour) in contours(&spec.contour) {
         match contour {
             Contour::Bezier(bezier) => {
-                joints::<_, DVec2>(&format!("{path}.bezier"), bezier, &mut found)
+                joints::<_, DVec2>(&format!("{path}.bezier"), bezier, &mut found);
             }
             Contour::Free(free) => doubled::<_, DVec2>(&format!("{path}.free"), free, &mut found),
             Contour::Polyline(line) => {
-                doubled::<_, DVec2>(&format!("{path}.polyline"), line, &mut found)
+                doubled::<_, DVec2>(&format!("{path}.polyline"), line, &mut found);
             }
             Contour::Circle(_) | Contour::Svg(_) | Contour::Sections(_) => {}
         }

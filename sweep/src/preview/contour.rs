@@ -66,8 +66,7 @@ fn one(page: &mut Page, area: Area, sweep: &Sweep, named: bool) {
         inner.center() + DVec2::new(from_middle.x, -from_middle.y)
     };
     axes(page, inner, flat(DVec2::ZERO), sweep.trajectory.is_rotation());
-    for one in 0..shown {
-        let color = SHADES[one];
+    for (one, color) in SHADES.into_iter().enumerate().take(shown) {
         let points: Vec<DVec2> =
             (0..columns.len()).map(|col| flat(point(col, one).point)).collect();
         if contour.closed() && one == 0 {
@@ -75,14 +74,11 @@ fn one(page: &mut Page, area: Area, sweep: &Sweep, named: bool) {
         } else {
             page.line(&points, contour.closed(), Pen::new(color, 1.8));
         }
-        let own = contour.as_contour().map_or(contour.creases(), |contour| contour.creases());
-        if own > 0 {
-            for at in contour.breaks() {
-                let col = stops.partition_point(|stop| stop.at < *at);
-                let p = points[col.min(points.len() - 1)];
-                let diamond = [DVec2::X, DVec2::Y, -DVec2::X, -DVec2::Y].map(|d| p + d * 3.6);
-                page.polygon(&diamond, ink::PANEL, Pen::new(ink::CREASE, 1.1));
-            }
+        for at in contour.breaks() {
+            let col = stops.partition_point(|stop| stop.at < *at);
+            let p = points[col.min(points.len() - 1)];
+            let diamond = [DVec2::X, DVec2::Y, -DVec2::X, -DVec2::Y].map(|d| p + d * 3.6);
+            page.polygon(&diamond, ink::PANEL, Pen::new(ink::CREASE, 1.1));
         }
         for u in if one == 0 { &[0.12, 0.62][..] } else { &[0.12][..] } {
             let place = contour.at(smooth(contour.breaks(), *u));

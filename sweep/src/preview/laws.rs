@@ -12,10 +12,10 @@ const PLACES: usize = 160;
 /// Graphs that are drawn.
 const MOST: usize = 3;
 
-/// A graph: its name, and the curves on it with their colours.
-struct Graph<'a> {
+/// A graph: its name, and the curves on it by their values at all places, with their colours.
+struct Graph {
     name: String,
-    curves: Vec<(Box<dyn Fn(f64) -> f64 + 'a>, &'static str)>,
+    curves: Vec<(Vec<f64>, &'static str)>,
 }
 
 /// Whether there is anything to draw.
@@ -36,52 +36,42 @@ pub fn draw(page: &mut Page, area: Area, parts: &[Sweep]) {
     }
 }
 
-fn graphs(parts: &[Sweep]) -> Vec<Graph<'_>> {
+fn graphs(parts: &[Sweep]) -> Vec<Graph> {
+    let of = |law: &Law| places().map(|v| law.at(v).0).collect::<Vec<f64>>();
     let mut graphs = Vec::new();
     for sweep in parts {
-        let name = |what: &str| {
-            if parts.len() > 1 { format!("{} {what}", sweep.name()) } else { what.into() }
-        };
-        let of = |law: &'_ Law| {
-            let law = law.clone();
-            move |v: f64| law.at(v).0
+        let mut add = |what: &str, curves| {
+            let several = parts.len() > 1;
+            let name = if several { format!("{} {what}", sweep.name()) } else { what.into() };
+            graphs.push(Graph { name, curves });
         };
         if let Some([x, y]) = &sweep.modulation.scale {
-            let alike = (0..=PLACES).map(at).all(|v| x.at(v).0 == y.at(v).0);
-            let mut graph = Graph { name: name("scale"), curves: Vec::new() };
-            graph.curves.push((Box::new(of(x)), if alike { ink::CURVE } else { ink::W1 }));
-            if !alike {
-                graph.name = name("scale x, y");
-                graph.curves.push((Box::new(of(y)), ink::W2));
+            let [x, y] = [of(x), of(y)];
+            if x == y {
+                add("scale", vec![(x, ink::CURVE)]);
+            } else {
+                add("scale x, y", vec![(x, ink::W1), (y, ink::W2)]);
             }
-            graphs.push(graph);
         }
         if let Some(twist) = &sweep.modulation.twist {
-            let curves: Vec<(Box<dyn Fn(f64) -> f64>, _)> = vec![(Box::new(of(twist)), ink::CURVE)];
-            graphs.push(Graph { name: name("twist, degrees"), curves });
+            add("twist, degrees", vec![(of(twist), ink::CURVE)]);
         }
         if let Some(depth) = &sweep.modulation.depth {
             let height = |v: f64| -> f64 {
                 depth.terms.iter().map(|term| (term.amp * term.along.at(v).0).abs()).sum()
             };
-            let curves: Vec<(Box<dyn Fn(f64) -> f64>, _)> = vec![(Box::new(height), ink::CURVE)];
-            graphs.push(Graph { name: name("depth"), curves });
+            add("depth", vec![(places().map(height).collect(), ink::CURVE)]);
         }
     }
     graphs
 }
 
-fn at(i: usize) -> f64 {
-    i as f64 / PLACES as f64
+fn places() -> impl Iterator<Item = f64> {
+    (0..=PLACES).map(|i| i as f64 / PLACES as f64)
 }
 
-fn one(page: &mut Page, area: Area, graph: &Graph<'_>) {
-    let values: Vec<Vec<f64>> = graph
-        .curves
-        .iter()
-        .map(|(curve, _)| (0..=PLACES).map(|i| curve(at(i))).collect())
-        .collect();
-    let all = || values.iter().flatten().copied();
+fn one(page: &mut Page, area: Area, graph: &Graph) {
+    let all = || graph.curves.iter().flat_map(|(values, _)| values).copied();
     // The line of 0 is the floor of what is near it.
     let (low, high) = (all().fold(0.0, f64::min), all().fold(0.0, f64::max));
     let (low, high) = if high > low { (low, high) } else { (low - 1.0, high + 1.0) };
@@ -97,9 +87,8 @@ fn one(page: &mut Page, area: Area, graph: &Graph<'_>) {
         page.line(&ends, false, Pen::new(ink::FAINT, 0.8).dashed("2 3"));
     }
     page.line(&[flat(0.0, 0.0), flat(1.0, 0.0)], false, Pen::new(ink::MUTED, 0.9));
-    for (values, (_, color)) in values.iter().zip(&graph.curves) {
-        let points: Vec<DVec2> =
-            values.iter().enumerate().map(|(i, &value)| flat(at(i), value)).collect();
+    for (values, color) in &graph.curves {
+        let points: Vec<DVec2> = places().zip(values).map(|(v, &value)| flat(v, value)).collect();
         page.line(&points, false, Pen::new(color, 1.8));
     }
     let range =

@@ -103,6 +103,15 @@ impl Page {
         self.0
     }
 
+    /// What follows is filled with this opacity.
+    pub fn open_group(&mut self, opacity: f64) {
+        self.put(&format!("<g fill-opacity=\"{opacity}\">\n"));
+    }
+
+    pub fn close_group(&mut self) {
+        self.put("</g>\n");
+    }
+
     fn put(&mut self, text: &str) {
         self.0.push_str(text);
     }

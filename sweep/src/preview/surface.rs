@@ -57,6 +57,8 @@ pub fn draw(page: &mut Page, area: Area, parts: &[Sweep], grids: &[GridMesh]) {
         .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)));
     let size = (high - low).to_array().map(short).join(" x ");
     page.panel(area, "Surface", &format!("{size} (x, y, z)"));
+    // Of a surface with one side one wants to see where it passes through itself.
+    page.open_group(if seen.mirrored { 0.8 } else { 1.0 });
     for (_, item) in &items {
         match item {
             Item::Cell { corners, kind, light } => {
@@ -66,6 +68,7 @@ pub fn draw(page: &mut Page, area: Area, parts: &[Sweep], grids: &[GridMesh]) {
             Item::Edge(ends, line) => page.line(ends, false, pen(*line)),
         }
     }
+    page.close_group();
     let corner = DVec2::new(area.x + 44.0, area.y + area.height - 56.0);
     view.axes(page, corner, 26.0);
     legend(page, area, &seen);
@@ -108,14 +111,14 @@ fn pairs(places: &[f64], joins: bool, step: usize, bends: &[f64]) -> Vec<([usize
         }
         let last = at - 1;
         let steps = (last - from).div_ceil(step).max(1);
-        let mut chosen: Vec<usize> = (0..=steps)
-            .map(|i| {
-                let part = i as f64 / steps as f64;
-                let aim = sums[from] + (sums[last] - sums[from]) * part;
-                from + sums[from..=last].partition_point(|&sum| sum < aim)
-            })
-            .map(|i| i.min(last))
-            .collect();
+        let place = |i: usize| {
+            let aim = sums[from] + (sums[last] - sums[from]) * (i as f64 / steps as f64);
+            from + sums[from..=last].partition_point(|&sum| sum < aim).min(last - from)
+        };
+        let mut chosen: Vec<usize> = match step {
+            1 => (from..=last).collect(),
+            _ => (0..=steps).map(place).collect(),
+        };
         chosen.dedup();
         let crease = |i: usize| i == from && from > 0;
         pairs.extend(chosen.windows(2).map(|pair| ([pair[0], pair[1]], crease(pair[0]))));
