@@ -97,7 +97,7 @@ impl Survey {
             let count = is.iter().filter(|&&folded| folded).count();
             let rows = if count == 1 { "row" } else { "rows" };
             let message = format!(
-                "the surface folds back on itself in {count} {rows} ({}), where {why}",
+                "the surface folds back on itself in {count} {rows}, where {why} ({})",
                 ranges(&self.rows, is)
             );
             (count > 0).then(|| Finding::new(Severity::Wrong, path, message))

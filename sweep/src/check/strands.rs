@@ -156,11 +156,55 @@ fn crosses(a: &[DVec3; 3], b: &[DVec3; 3]) -> bool {
 fn pierces(from: DVec3, to: DVec3, [a, b, c]: &[DVec3; 3]) -> bool {
     let normal = (*b - *a).cross(*c - *a);
     let (before, after) = (normal.dot(from - *a), normal.dot(to - *a));
-    if before * after >= 0.0 {
+    if before == 0.0 || after == 0.0 || (before > 0.0) == (after > 0.0) {
         return false;
     }
     let along = to - from;
     let side = |p: DVec3, q: DVec3| along.dot((p - from).cross(q - from));
     let sides = [side(*a, *b), side(*b, *c), side(*c, *a)];
     sides.iter().all(|&side| side > 0.0) || sides.iter().all(|&side| side < 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_boxes_find_the_pairs_that_trying_all_finds() {
+        let part = |i: usize, golden: f64| (i as f64 * golden).fract();
+        // Triangles of very different sizes, one in ten with the whole for its bounds.
+        let triangles: Vec<Triangle> = (0..400_usize)
+            .map(|i| {
+                let at = DVec3::new(part(i, 0.618_034), part(i, 0.754_877), part(i, 0.569_84));
+                let size = if i % 10 == 0 { 1.0 } else { 0.15 };
+                let corner = |k: usize| {
+                    let j = 7 * i + k;
+                    let off = DVec3::new(part(j, 0.819_17), part(j, 0.671_04), part(j, 0.549_7));
+                    at + (off - 0.5) * size
+                };
+                let ids = [0, 1, 2].map(|k| (3 * i + k) as u32);
+                Triangle { corners: [corner(1), corner(2), corner(4)], ids, cell: [0, 0] }
+            })
+            .collect();
+        let mut all = Vec::new();
+        for i in 0..triangles.len() {
+            for j in i + 1..triangles.len() {
+                if crosses(&triangles[i].corners, &triangles[j].corners) {
+                    all.push([i, j]);
+                }
+            }
+        }
+        assert!(all.len() > 100, "{}", all.len());
+        assert_eq!(pairs(&triangles), all);
+    }
+
+    #[test]
+    fn an_edge_pierces_a_triangle_at_its_inside() {
+        let triangle = [DVec3::ZERO, DVec3::X, DVec3::Y].map(|p| p * 1e-60);
+        let stroke = |x: f64, y: f64| {
+            let [from, to] = [-1.0, 1.0].map(|z| DVec3::new(x, y, z) * 1e-60);
+            pierces(from, to, &triangle)
+        };
+        assert!(stroke(0.3, 0.3) && !stroke(0.6, 0.6) && !stroke(-0.1, 0.3));
+    }
 }
