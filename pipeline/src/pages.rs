@@ -20,8 +20,7 @@ macro_rules! examples {
 /// The files built in.
 pub const FILES: Embedded = Embedded(examples![
     "curves/bent-tower.json",
-    "curves/cup-handle.json",
-    "curves/cup-wall.json",
+    "curves/cup.json",
     "curves/figure-eight.json",
     "curves/figure-eight-klein.json",
     "curves/fluted-vase.json",
@@ -33,6 +32,7 @@ pub const FILES: Embedded = Embedded(examples![
     "curves/klein-bottle.json",
     "curves/moebius-band.json",
     "curves/pawn.json",
+    "curves/relief-vase.json",
     "curves/saucer.json",
     "curves/sections.json",
     "curves/spring.json",
@@ -54,6 +54,7 @@ pub const FILES: Embedded = Embedded(examples![
     "pages/klein-bottle.json",
     "pages/moebius-band.json",
     "pages/pawn.json",
+    "pages/relief-vase.json",
     "pages/sections.json",
     "pages/spring.json",
     "pages/threefold-torus.json",
@@ -73,6 +74,7 @@ pub const FILES: Embedded = Embedded(examples![
     "scenes/klein-bottle.json",
     "scenes/moebius-band.json",
     "scenes/pawn.json",
+    "scenes/relief-vase.json",
     "scenes/sections.json",
     "scenes/spring.json",
     "scenes/threefold-torus.json",
@@ -88,6 +90,7 @@ pub const FILES: Embedded = Embedded(examples![
     "textures/graticule.png",
     "textures/net.png",
     "textures/ribbon.png",
+    "textures/scales.png",
     "textures/vase-band.png",
 ]);
 

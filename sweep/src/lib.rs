@@ -21,6 +21,8 @@
 //! | [`curve`]      | cubic Bezier paths by arc length, splines, SVG                      |
 //! | [`resolution`] | cells in rows x cols, or to a tolerance                              |
 //! | [`grid`]       | the grid and its file                                               |
+//! | [`check`]      | what is wrong or suspicious, in words                               |
+//! | [`preview`]    | contour, trajectory, laws and surface drawn on one page             |
 //!
 //! ```
 //! use files::json::Document;
@@ -35,6 +37,7 @@
 //! ```
 
 pub mod cap;
+pub mod check;
 pub mod closing;
 pub mod contour;
 pub mod curve;
@@ -48,6 +51,7 @@ pub mod height;
 pub mod law;
 pub mod modulation;
 mod object;
+pub mod preview;
 pub mod profile;
 mod read;
 pub mod resolution;

@@ -10,9 +10,11 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
+use sweep::check::fold::Survey;
+use sweep::check::{self, Finding, Severity};
 use sweep::grid::file::Encoding;
 use sweep::spec::Mesh;
-use sweep::{Object, Sweep};
+use sweep::{GridMesh, Object, Spent, Sweep, preview};
 use thiserror::Error;
 
 /// Sweep a contour along a trajectory: a JSON spec in, a grid of points and normals out.
@@ -23,9 +25,21 @@ struct Arguments {
     #[arg(default_value = "-", value_name = "SPEC")]
     spec: PathBuf,
 
-    /// The grid file; - is standard output
-    #[arg(short, long, default_value = "-", value_name = "FILE")]
-    output: PathBuf,
+    /// The grid file; - is standard output, and the default without --check and --preview
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+
+    /// Say what is wrong or suspicious on standard output; ends with 4 if something is wrong
+    #[arg(long)]
+    check: bool,
+
+    /// Check also where parts of a surface meet far from each other
+    #[arg(long)]
+    check_self: bool,
+
+    /// Draw contour, trajectory, frames, laws and surface: an SVG file
+    #[arg(long, value_name = "FILE")]
+    preview: Option<PathBuf>,
 
     /// How the rows of the grid are written
     #[arg(long, value_enum, default_value_t = Format::Bin)]
@@ -78,7 +92,9 @@ Examples:
   sweep examples/curves/trefoil.json --rows 1000 --cols 64 --stats -o trefoil.grid
   sweep examples/curves/vase.json --tol 1e-3 --angle 5 --stats -o vase.grid
   sweep --format json < examples/curves/cup-handle.json | head -3
-  sweep examples/curves/vase.json | triangulate --texture 2 > vase.obj";
+  sweep examples/curves/vase.json | triangulate --texture 2 > vase.obj
+  sweep --check examples/curves/klein-bottle.json
+  sweep --preview trefoil.svg examples/curves/trefoil.json";
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum Format {
@@ -94,12 +110,17 @@ enum UseError {
     Terminal,
     #[error("cannot start {threads} threads: {source}")]
     Threads { threads: u16, source: rayon::ThreadPoolBuildError },
+    #[error("found two things for standard output, expected one: name files with -o and --preview")]
+    Crowded,
+    #[error("{name}: the check found {count} wrong")]
+    Wrong { name: String, count: NonZeroUsize },
 }
 
 impl Failure for UseError {
     fn exit(&self) -> Exit {
         match self {
-            Self::Terminal => Exit::Use,
+            Self::Terminal | Self::Crowded => Exit::Use,
+            Self::Wrong { .. } => Exit::Geometry,
             Self::Threads { .. } => Exit::Resource,
         }
     }
@@ -130,7 +151,17 @@ fn work(arguments: &Arguments) -> Result<(), Report> {
         Format::Bin => Encoding::Binary,
         Format::Json => Encoding::Json,
     };
-    let to_stdout = arguments.output == Path::new("-");
+    let checks = arguments.check || arguments.check_self;
+    let stdout = Path::new("-");
+    let output = match &arguments.output {
+        None if checks || arguments.preview.is_some() => None,
+        given => Some(given.as_deref().unwrap_or(stdout)),
+    };
+    let to_stdout = output == Some(stdout);
+    let drawn_to_stdout = arguments.preview.as_deref() == Some(stdout);
+    if [to_stdout, drawn_to_stdout, checks].into_iter().filter(|&uses| uses).count() > 1 {
+        return Err(UseError::Crowded.into());
+    }
     if to_stdout && encoding == Encoding::Binary && io::stdout().is_terminal() {
         return Err(UseError::Terminal.into());
     }
@@ -148,11 +179,24 @@ fn work(arguments: &Arguments) -> Result<(), Report> {
     let document = Document::new(&name, &bytes)?;
     let object = Object::read(&document, folder, &Disk, &arguments.mesh())?;
     let read = Instant::now();
-    let mut output = Output::create(&arguments.output, !arguments.no_clobber)?;
-    let spent = object.write(encoding, &mut output).map_err(|source| output.failed(source))?;
-    output.commit()?;
-
-    if !arguments.quiet {
+    let create = |path| Output::create(path, !arguments.no_clobber);
+    let preview = arguments.preview.as_deref().map(create).transpose()?;
+    let mut spent = Spent::default();
+    if let Some(mut file) = output.map(create).transpose()? {
+        spent = object.write(encoding, &mut file).map_err(|source| file.failed(source))?;
+        file.commit()?;
+    }
+    // The grids as a whole only where they are looked at.
+    let grids = if checks || preview.is_some() { object.grids()? } else { Vec::new() };
+    let findings = if grids.is_empty() {
+        Vec::new()
+    } else {
+        check::check(&document, &object, &grids, arguments.check_self)?
+    };
+    if let Some(file) = preview {
+        file.commit_all(preview::svg(&object, &grids, &findings).as_bytes())?;
+    }
+    if !arguments.quiet && !checks {
         object.parts().iter().for_each(note);
     }
     if arguments.stats {
@@ -162,18 +206,33 @@ fn work(arguments: &Arguments) -> Result<(), Report> {
             say(format_args!("{stage:<11} {:.2} ms", 1e3 * time.as_secs_f64()));
         }
     }
-    Ok(())
+    if checks { tell(&name, &object, &grids, &findings) } else { Ok(()) }
+}
+
+/// Says each part in a line and what was found in one each.
+fn tell(
+    name: &str,
+    object: &Object,
+    grids: &[GridMesh],
+    findings: &[Finding],
+) -> Result<(), Report> {
+    let parts = object.parts().iter().zip(grids).map(|(part, grid)| check::summary(part, grid));
+    let lines = parts.chain(findings.iter().map(Finding::to_string));
+    let text: String = lines.map(|line| format!("{line}\n")).collect();
+    Output::create(Path::new("-"), true)?.commit_all(text.as_bytes())?;
+    let wrong = findings.iter().filter(|finding| finding.severity == Severity::Wrong).count();
+    match NonZeroUsize::new(wrong) {
+        Some(count) => Err(UseError::Wrong { name: name.into(), count }.into()),
+        None => Ok(()),
+    }
 }
 
 /// Says what is legal and most often not meant.
 fn note(sweep: &Sweep) {
-    if let Some(folded) = NonZeroUsize::new(sweep.folded_rows()) {
-        say(format_args!(
-            "sweep: note: {}: the surface folds back on itself in {folded} rows, where the \
-             trajectory (or, under a relief, the contour) bends more sharply than the contour (or \
-             the relief) is wide",
-            sweep.name()
-        ));
+    for finding in Survey::of(sweep).findings() {
+        if finding.severity == Severity::Wrong {
+            say(format_args!("sweep: note: {}: {}", sweep.name(), finding.message));
+        }
     }
     if let Some(missed) = sweep.missed() {
         say(format_args!("sweep: note: {}: {missed}", sweep.name()));

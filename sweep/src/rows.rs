@@ -1,5 +1,6 @@
 //! The rows of a sweep: all at once as a grid, or block by block into a file.
 
+use crate::check::fold::Survey;
 use crate::cut::Stop;
 use crate::grid::file::{Encoding, Header, Patch, Writer};
 use crate::grid::{By, GridMesh, Row, Seam};
@@ -121,6 +122,7 @@ impl<'a> Rows<'a> {
             uv: sweep.uv,
             areas: sweep.areas.clone(),
             tolerance: sweep.tolerance(),
+            fold: Survey::of(sweep).fold(),
             u: self.u.clone(),
             v: self.v.clone(),
             ..GridMesh::default()

@@ -52,16 +52,20 @@ impl Shape {
     /// The contour at a stop of the rows, on the trajectory or on a cap.
     pub(crate) fn section(&self, stop: Stop) -> Section {
         let [start, end] = self.body();
-        let on_trajectory = |at| self.modulation.section(&self.trajectory, Stop { at, ..stop });
+        let on_trajectory = |stop| self.modulation.section(&self.trajectory, stop);
         match self.caps {
-            [None, None] => on_trajectory(stop.at),
+            [None, None] => on_trajectory(stop),
             [Some(cap), _] if stop.at < start || stop == Stop::before(start) => {
-                on_trajectory(0.0).gathered(cap.at(1.0 - stop.at / start), -1.0)
+                on_trajectory(Stop::after(0.0)).gathered(cap.at(1.0 - stop.at / start), -1.0)
             }
             [_, Some(cap)] if stop.at > end || stop == Stop::after(end) => {
-                on_trajectory(1.0).gathered(cap.at((stop.at - end) / (1.0 - end)), 1.0)
+                let t = (stop.at - end) / (1.0 - end);
+                on_trajectory(Stop::before(1.0)).gathered(cap.at(t), 1.0)
             }
-            _ => on_trajectory(((stop.at - start) / (end - start)).clamp(0.0, 1.0)),
+            _ => {
+                let at = ((stop.at - start) / (end - start)).clamp(0.0, 1.0);
+                on_trajectory(Stop { at, ..stop })
+            }
         }
     }
 
@@ -154,6 +158,14 @@ impl Shape {
             return v;
         }
         self.row_of(self.trajectory.parameter(((v - start) / (end - start)).clamp(0.0, 1.0)))
+    }
+
+    /// Where on the trajectory a stop of the rows lies; `None` on a cap.
+    pub(crate) fn along(&self, stop: Stop) -> Option<f64> {
+        let [start, end] = self.body();
+        let before = stop.at < start || self.caps[0].is_some() && stop == Stop::before(start);
+        let after = stop.at > end || self.caps[1].is_some() && stop == Stop::after(end);
+        (!before && !after).then(|| ((stop.at - start) / (end - start)).clamp(0.0, 1.0))
     }
 
     /// Which part of `v` is on the trajectory: before and after it are the caps.

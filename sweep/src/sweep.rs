@@ -4,7 +4,7 @@ use crate::cut::{self, Stop};
 use crate::grid::file::MAX_COLS;
 use crate::grid::{self, Area, GridMesh, UvLayout};
 use crate::modulation::Alias;
-use crate::profile::Profile;
+use crate::profile::{Column, Profile};
 use crate::resolution::place::Direction;
 use crate::resolution::{Cells, Distance, Reached, Resolution, Search, Surface, Tolerance};
 use crate::rows::Rows;
@@ -340,5 +340,10 @@ impl Sweep {
             (None, Resolution::Cells { cols, .. }) => self.shape.even_columns(*cols),
             (None, Resolution::Tolerance(_)) => self.shape.even_columns(0),
         }
+    }
+
+    /// The columns and the rows of the grid.
+    pub(crate) fn lines(&self) -> (Vec<Column>, Vec<Stop>) {
+        (self.shape.columns(&self.col_stops()), self.row_stops())
     }
 }

@@ -204,6 +204,9 @@ impl Section {
     /// Whether the surface folds back on itself here.
     #[must_use]
     pub fn folds(&self, column: &Column) -> bool {
+        if self.plain {
+            return self.stretch(column) < 0.0;
+        }
         let local = self.local(column);
         local.folds || self.station.stretch(local.q) < 0.0
     }
@@ -236,5 +239,10 @@ impl Section {
                 Local { q: center + arm * part, q_s: arm * part_t, ..local }
             }
         }
+    }
+
+    /// How far the point moves along the tangent by length of the trajectory: see [`Station::stretch`].
+    pub(crate) fn stretch(&self, column: &Column) -> f64 {
+        self.station.stretch(if self.plain { column.first.point } else { self.local(column).q })
     }
 }

@@ -74,7 +74,6 @@ fn helix_error(steps: usize) -> f64 {
 #[test]
 fn frames_on_a_helix_have_order_four() {
     let errors = [64, 128, 256].map(helix_error);
-    println!("helix of two turns, 64, 128, 256 steps: {errors:?}");
     for pair in errors.windows(2) {
         let order = (pair[0] / pair[1]).log2();
         assert!((order - 4.0).abs() < 0.1, "order {order}");
@@ -95,7 +94,6 @@ fn frames_between_nodes_are_as_good_as_those_on_them() {
         let handed = frame.normal.cross(frame.binormal) - frame.tangent;
         assert!(handed.length() < 1e-14);
     }
-    println!("helix of two turns, {} nodes: {worst:.2e}", frames.nodes.len());
     assert!(worst < 2e-13, "{worst:e}");
 }
 
@@ -144,7 +142,6 @@ fn trefoil_error(steps: usize) -> f64 {
 #[test]
 fn frames_on_a_trefoil_have_order_four() {
     let errors = [256, 512, 1024].map(trefoil_error);
-    println!("trefoil, 256, 512, 1024 steps: {errors:?}");
     assert!(errors[0] < 1e-8, "{errors:?}");
     for pair in errors.windows(2) {
         let order = (pair[0] / pair[1]).log2();

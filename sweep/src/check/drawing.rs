@@ -1,0 +1,257 @@
+//! Curves as they were drawn: what was dropped, closed or turned round, and what they nearly are.
+
+use super::{Finding, Severity, short};
+use crate::Sweep;
+use crate::curve::vector::extent;
+use crate::curve::{Cubic, Path, Vector, spline, svg};
+use crate::cut::Stop;
+use crate::spec::{Bezier, Contour, Free, Spec, Trajectory};
+use glam::{DVec2, DVec3};
+
+/// Ends of an open curve within this part of its size were most likely to meet.
+const NEARLY: f64 = 1e-3;
+
+/// Points within this part of a curve's size are one, as the reader has it.
+const COINCIDENT: f64 = 1e-12;
+
+/// A contour runs clockwise with an area below this part of its squared length...
+const NO_AREA: f64 = 1e-9;
+
+/// ... and with less than this of either sign it is a line there and back to the eye.
+const THIN: f64 = 1e-6;
+
+/// Straight pieces of a whole contour when its crossings are looked for.
+const PIECES: usize = 1536;
+
+/// What is to be said of a sweep's curves.
+#[must_use]
+pub fn findings(spec: &Spec, sweep: &Sweep) -> Vec<Finding> {
+    let mut found = Vec::new();
+    for (path, contour) in contours(&spec.contour) {
+        match contour {
+            Contour::Bezier(bezier) => {
+                joints::<_, DVec2>(&format!("{path}.bezier"), bezier, &mut found);
+            }
+            Contour::Free(free) => doubled::<_, DVec2>(&format!("{path}.free"), free, &mut found),
+            Contour::Polyline(line) => {
+                doubled::<_, DVec2>(&format!("{path}.polyline"), line, &mut found);
+            }
+            Contour::Circle(_) | Contour::Svg(_) | Contour::Sections(_) => {}
+        }
+        if let Some((cubics, closed)) = cubics(contour) {
+            shape(&path, &cubics, closed, &mut found);
+        }
+    }
+    match &spec.trajectory {
+        Trajectory::Bezier(bezier) => {
+            let curve = Bezier { closed: bezier.closed, segments: bezier.segments.clone() };
+            joints::<_, DVec3>("trajectory.bezier", &curve, &mut found);
+        }
+        Trajectory::Polyline(line) => {
+            let points = Free { closed: line.closed, points: line.points.clone() };
+            doubled::<_, DVec3>("trajectory.polyline", &points, &mut found);
+        }
+        Trajectory::Free(free) => doubled::<_, DVec3>("trajectory.free", free, &mut found),
+        _ => {}
+    }
+    found.extend(nearly_closed(sweep));
+    found
+}
+
+/// The contours of a spec that are swept, and their paths.
+fn contours(contour: &Contour) -> Vec<(String, &Contour)> {
+    match contour {
+        Contour::Sections(sections) => {
+            let path = |i: usize| format!("contour.sections[{i}].contour");
+            sections.sections.iter().enumerate().map(|(i, s)| (path(i), &s.contour)).collect()
+        }
+        _ => vec![("contour".into(), contour)],
+    }
+}
+
+/// A contour as it was drawn; `None` for a circle, about which there is nothing to say.
+fn cubics(contour: &Contour) -> Option<(Vec<Cubic<DVec2>>, bool)> {
+    match contour {
+        Contour::Bezier(bezier) => {
+            let cubic = |points: &[[f64; 2]; 4]| Cubic(points.map(DVec2::from_array));
+            Some((bezier.segments.iter().map(cubic).collect(), bezier.closed))
+        }
+        Contour::Svg(text) => {
+            let outline = svg::outline(text).ok()?;
+            Some((outline.segments, outline.closed))
+        }
+        Contour::Free(free) => Some((spline::through(&distinct(free), free.closed), free.closed)),
+        Contour::Polyline(line) => {
+            let points: Vec<DVec2> = distinct(line);
+            let next = points.iter().skip(1).chain(line.closed.then(|| &points[0]));
+            let sides = points.iter().zip(next).map(|(&a, &b)| Cubic::line(a, b));
+            Some((sides.collect(), line.closed))
+        }
+        Contour::Circle(_) | Contour::Sections(_) => None,
+    }
+}
+
+/// The points of a curve, each once.
+fn distinct<P: Copy, V: Vector + From<P>>(free: &Free<P>) -> Vec<V> {
+    let mut points: Vec<V> = free.points.iter().map(|&point| V::from(point)).collect();
+    let narrow = COINCIDENT * extent(points.iter().copied());
+    points.dedup_by(|later, earlier| (*later - *earlier).length() <= narrow);
+    if let (true, [first, .., last]) = (free.closed, &points[..])
+        && (*last - *first).length() <= narrow
+    {
+        points.pop();
+    }
+    points
+}
+
+fn doubled<P: Copy, V: Vector + From<P>>(path: &str, free: &Free<P>, found: &mut Vec<Finding>) {
+    let dropped = free.points.len() - distinct::<P, V>(free).len();
+    if dropped > 0 {
+        let points = if dropped == 1 { "point" } else { "points" };
+        let message = format!("found {dropped} {points} given twice, which count once");
+        found.push(Finding::new(Severity::Remark, &format!("{path}.points"), message));
+    }
+}
+
+/// Gaps between segments that were closed, and segments of no size.
+fn joints<P, V: Vector + From<P>>(path: &str, bezier: &Bezier<P>, found: &mut Vec<Finding>)
+where
+    P: Copy,
+{
+    let cubics: Vec<Cubic<V>> = bezier.segments.iter().map(|s| Cubic(s.map(V::from))).collect();
+    let size = extent(cubics.iter().flat_map(|cubic| cubic.0));
+    let next = cubics.iter().skip(1).chain(bezier.closed.then(|| &cubics[0]));
+    let gaps = cubics.iter().zip(next).map(|(a, b)| (b.0[0] - a.0[3]).length());
+    let widest = gaps.fold(0.0, f64::max);
+    let path = format!("{path}.segments");
+    if widest > 0.0 {
+        let message = format!("closed gaps between segments, the widest of {}", short(widest));
+        found.push(Finding::new(Severity::Remark, &path, message));
+    }
+    let empty = cubics.iter().filter(|cubic| cubic.size() <= COINCIDENT * size).count();
+    if empty > 0 {
+        let segments = if empty == 1 { "segment" } else { "segments" };
+        let message = format!("dropped {empty} {segments} whose points all coincide");
+        found.push(Finding::new(Severity::Remark, &path, message));
+    }
+}
+
+/// The direction, the area and the crossings of a contour.
+fn shape(path: &str, cubics: &[Cubic<DVec2>], closed: bool, found: &mut Vec<Finding>) {
+    let Some(curve) = Path::new(cubics, closed) else { return };
+    let count = cubics.len().max(1);
+    let pieces = (PIECES / count).clamp(2, 64);
+    let straight = |cubic: &Cubic<DVec2>| cubic.0[1] == cubic.0[0].lerp(cubic.0[3], 1.0 / 3.0);
+    let mut points: Vec<DVec2> = Vec::with_capacity(count * pieces + 1);
+    for cubic in curve.cubics() {
+        let pieces = if straight(cubic) { 1 } else { pieces };
+        points.extend((0..pieces).map(|i| cubic.point(i as f64 / pieces as f64)));
+    }
+    points.push(curve.point(curve.end()));
+    let (crossings, first) = crossings(&points, closed);
+    if let Some(at) = first {
+        let times = if crossings == 1 { "once".into() } else { format!("{crossings} times") };
+        let message = format!(
+            "the contour crosses itself {times}, first at ({}, {}): the surface crosses itself there",
+            short(at.x),
+            short(at.y)
+        );
+        found.push(Finding::new(Severity::Hint, path, message));
+    }
+    if !closed {
+        return;
+    }
+    let origin = points[0];
+    let area: f64 = 0.5
+        * points.windows(2).map(|pair| (pair[0] - origin).perp_dot(pair[1] - origin)).sum::<f64>();
+    let whole = curve.length().powi(2);
+    if crossings == 0 && area.abs() < THIN * whole {
+        let message = format!(
+            "the contour encloses hardly anything, an area of {}: its two sides lie on each other; \
+             an open contour has one side",
+            short(area.abs())
+        );
+        found.push(Finding::new(Severity::Hint, path, message));
+    } else if area < -NO_AREA * whole {
+        let message = "the contour runs clockwise and was turned round, so that its outside is out";
+        found.push(Finding::new(Severity::Remark, path, message));
+    }
+}
+
+/// How often a chain of straight pieces crosses itself, and where first; touching is no crossing.
+fn crossings(points: &[DVec2], closed: bool) -> (usize, Option<DVec2>) {
+    let pieces: Vec<[DVec2; 2]> = points.windows(2).map(|pair| [pair[0], pair[1]]).collect();
+    let (mut count, mut first) = (0, None);
+    for (i, &[a, b]) in pieces.iter().enumerate() {
+        let (low, high) = (a.min(b), a.max(b));
+        for (j, &[c, d]) in pieces.iter().enumerate().skip(i + 2) {
+            if closed && i == 0 && j + 1 == pieces.len() {
+                continue;
+            }
+            if c.min(d).cmpgt(high).any() || c.max(d).cmplt(low).any() {
+                continue;
+            }
+            let of = |p: DVec2, q: DVec2, r: DVec2| (q - p).perp_dot(r - p);
+            let (at_c, at_d) = (of(a, b, c), of(a, b, d));
+            // A piece that starts on another one crosses it there, if the one before came from
+            // the other side; each such place is met by one of the two pieces alone.
+            let passes = |x: f64, y: f64| (x < 0.0 && y >= 0.0) || (x >= 0.0 && y < 0.0);
+            if passes(at_c, at_d) && passes(of(c, d, a), of(c, d, b)) {
+                count += 1;
+                first.get_or_insert(c.lerp(d, at_c / (at_c - at_d)));
+            }
+        }
+    }
+    (count, first)
+}
+
+/// Open curves whose ends all but meet.
+fn nearly_closed(sweep: &Sweep) -> Vec<Finding> {
+    let close = |path: &str, gap: f64, size: f64| {
+        let message = format!(
+            "the ends are {} apart, {} of the size, and the curve is open: is it to be closed?",
+            short(gap),
+            short(gap / size)
+        );
+        (size > 0.0 && gap < NEARLY * size).then(|| Finding::new(Severity::Hint, path, message))
+    };
+    let mut found = Vec::new();
+    if !sweep.shape.contour.closed() {
+        let ends = sweep.shape.contour.columns(&[Stop::after(0.0), Stop::before(1.0)]);
+        let gap = ends[0].first.point.distance(ends[1].first.point);
+        found.extend(close("contour", gap, sweep.shape.contour.length()));
+    }
+    if !sweep.shape.trajectory.closed()
+        && !sweep.shape.trajectory.is_rotation()
+        && sweep.shape.closing.is_none()
+    {
+        let [from, to] = [0.0, 1.0].map(|v| sweep.shape.trajectory.station(v).frame.origin);
+        found.extend(close("trajectory", from.distance(to), sweep.shape.trajectory.length()));
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn crossings_are_counted_once() {
+        let p = DVec2::new;
+        let bow = [p(0.0, 0.0), p(2.0, 2.0), p(2.0, 0.0), p(0.0, 2.0), p(0.0, 0.0)];
+        assert_eq!(crossings(&bow, true), (1, Some(p(1.0, 1.0))));
+        // The same with a point where it crosses.
+        let cut = [
+            p(0.0, 0.0),
+            p(1.0, 1.0),
+            p(2.0, 2.0),
+            p(2.0, 0.0),
+            p(1.0, 1.0),
+            p(0.0, 2.0),
+            p(0.0, 0.0),
+        ];
+        assert_eq!(crossings(&cut, true).0, 1);
+        let square = [p(0.0, 0.0), p(1.0, 0.0), p(1.0, 1.0), p(0.0, 1.0), p(0.0, 0.0)];
+        assert_eq!(crossings(&square, true), (0, None));
+    }
+}

@@ -1,0 +1,222 @@
+//! What is wrong or suspicious about a spec and its surface, in words for people.
+//!
+//! | module         | looks at                                                           |
+//! |----------------|--------------------------------------------------------------------|
+//! | [`fold`]       | where the surface folds back on itself                             |
+//! | [`neighbors`]  | rows that cross the next one                                       |
+//! | [`resolution`] | counts that were raised, and cells too coarse for what they show   |
+//! | [`drawing`]    | curves as they were drawn: doubled points, crossings, near misses  |
+//! | [`rounding`]   | what the f32 numbers of a mesh lose                                |
+//! | [`strands`]    | parts of the surface that meet far from each other                 |
+//!
+//! A finding says a number that one can act on, and where in the spec.
+
+pub mod drawing;
+pub mod fold;
+pub mod neighbors;
+pub mod resolution;
+pub mod rounding;
+pub mod strands;
+
+use crate::cut::Stop;
+use crate::grid::{GridMesh, Seam};
+use crate::spec::{Parts, Spec};
+use crate::{Object, Sweep, SweepError};
+use files::json::Document;
+use std::fmt::{self, Display};
+
+/// How much a finding weighs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Severity {
+    /// Good to know, and often meant.
+    Remark,
+    /// Most often not meant.
+    Hint,
+    /// The surface is not what a spec can have meant.
+    Wrong,
+}
+
+/// One thing found.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Finding {
+    /// How much it weighs.
+    pub severity: Severity,
+    /// The place in the spec, as a JSON path.
+    pub path: String,
+    /// What it is, with a number to act on.
+    pub message: String,
+}
+
+impl Finding {
+    pub(crate) fn new(severity: Severity, path: &str, message: impl Into<String>) -> Self {
+        Self { severity, path: path.into(), message: message.into() }
+    }
+}
+
+impl Display for Severity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Remark => "remark",
+            Self::Hint => "hint",
+            Self::Wrong => "wrong",
+        })
+    }
+}
+
+impl Display for Finding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}: {}", self.severity, self.path, self.message)
+    }
+}
+
+/// Everything that can be said of an object, by parts and from the worst to the least.
+///
+/// `document` is what the object was read from, and `grids` are its own; with `strands` also parts
+/// of a surface that meet far from each other are looked for, which takes longest.
+///
+/// # Errors
+/// When the document is not the object's.
+pub fn check(
+    document: &Document<'_>,
+    object: &Object,
+    grids: &[GridMesh],
+    strands: bool,
+) -> Result<Vec<Finding>, SweepError> {
+    let specs = match document.parse::<Parts>() {
+        Ok(whole) => whole.parts,
+        Err(_) => vec![document.parse::<Spec>()?],
+    };
+    let several = object.parts().len() > 1;
+    let mut all = Vec::new();
+    for (i, ((sweep, grid), spec)) in object.parts().iter().zip(grids).zip(&specs).enumerate() {
+        let mut found = drawing::findings(spec, sweep);
+        found.extend(of_sweep(sweep, grid));
+        if strands {
+            found.extend(strands::findings(grid));
+        }
+        found.sort_by_key(|finding| std::cmp::Reverse(finding.severity));
+        if several {
+            found
+                .iter_mut()
+                .for_each(|finding| finding.path = format!("parts[{i}].{}", finding.path));
+        }
+        all.extend(found);
+    }
+    Ok(all)
+}
+
+/// What a sweep and its grid show without the spec that they come from.
+#[must_use]
+pub fn of_sweep(sweep: &Sweep, grid: &GridMesh) -> Vec<Finding> {
+    let survey = fold::Survey::of(sweep);
+    let mut found = survey.findings();
+    found.extend(neighbors::findings(sweep, grid, &survey));
+    found.extend(resolution::findings(sweep));
+    found.extend(rounding::findings(grid));
+    found.extend(over_the_seam(sweep));
+    found
+}
+
+/// A sweep in one line: its cells, how it closes, and how near it is to folding.
+#[must_use]
+pub fn summary(sweep: &Sweep, grid: &GridMesh) -> String {
+    let around = match (grid.seam_u.joins(), grid.seam_v) {
+        (false, Seam::Open) => "open",
+        (true, Seam::Open) => "a tube with two ends",
+        (false, Seam::Closed) => "closed along the trajectory",
+        (true, Seam::Closed) => "closed in both directions",
+        (_, Seam::Mirror) => "closed with its other side out",
+    };
+    let [made_rows, made_cols] = grid.cells();
+    let survey = fold::Survey::of(sweep);
+    let folds = match (survey.folded_rows(), survey.worst()) {
+        (0, Some(worst)) if worst < 1.0 => format!("no folds (least stretch {})", short(worst)),
+        (0, _) => "no folds".into(),
+        (1, _) => "folds in 1 row".into(),
+        (rows, _) => format!("folds in {rows} rows"),
+    };
+    format!("{}: {made_rows} x {made_cols} cells (rows x cols), {around}, {folds}", sweep.name())
+}
+
+/// A mirrored seam takes a picture to its mirror image.
+fn over_the_seam(sweep: &Sweep) -> Option<Finding> {
+    let closing = sweep.shape.closing.filter(|closing| closing.mirrored)?;
+    let middle = 0.5 * closing.offset.0 as f64 / closing.offset.1 as f64;
+    Some(Finding::new(
+        Severity::Remark,
+        "seam",
+        format!(
+            "a picture joins over the mirrored seam only if it is symmetric about u = {}",
+            short(middle)
+        ),
+    ))
+}
+
+/// A number in four digits.
+pub(crate) fn short(x: f64) -> String {
+    let size = x.abs();
+    if size != 0.0 && !(1e-4..1e6).contains(&size) {
+        return format!("{x:.2e}");
+    }
+    let digits = if size < 1.0 { 4 } else { 3 - (size.log10().floor() as usize).min(3) };
+    let text = format!("{x:.digits$}");
+    match text.split_once('.') {
+        Some((whole, part)) => {
+            let part = part.trim_end_matches('0');
+            let dot = if part.is_empty() { "" } else { "." };
+            format!("{whole}{dot}{part}")
+        }
+        None => text,
+    }
+}
+
+/// Rows in words: ranges of those for which `is` is true, with their `v`.
+fn ranges(rows: &[Stop], is: &[bool]) -> String {
+    const MOST: usize = 4;
+    let mut ranges: Vec<[usize; 2]> = Vec::new();
+    for row in (0..rows.len()).filter(|&row| is[row]) {
+        match ranges.last_mut() {
+            Some(last) if last[1] + 1 == row => last[1] = row,
+            _ => ranges.push([row, row]),
+        }
+    }
+    let words = ranges.iter().take(MOST).map(|&[from, to]| {
+        let v = |row: usize| short(rows[row].at);
+        if from == to {
+            format!("row {from} at v {}", v(from))
+        } else {
+            format!("rows {from} to {to}, v {} to {}", v(from), v(to))
+        }
+    });
+    let more = ranges.len().saturating_sub(MOST);
+    let more = (more > 0).then(|| format!("{more} ranges more"));
+    words.chain(more).collect::<Vec<_>>().join("; ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_keep_the_digits_that_say_something() {
+        for (x, text) in [
+            (0.0, "0"),
+            (0.999, "0.999"),
+            (-0.25, "-0.25"),
+            (12.3456, "12.35"),
+            (1234.5, "1234"),
+            (360.0, "360"),
+            (1e-7, "1.00e-7"),
+            (2.5e9, "2.50e9"),
+        ] {
+            assert_eq!(short(x), text);
+        }
+    }
+
+    #[test]
+    fn rows_are_told_in_ranges() {
+        let rows: Vec<Stop> = (0..5).map(|i| Stop::after(f64::from(i) / 4.0)).collect();
+        let is = [true, false, true, true, false];
+        assert_eq!(ranges(&rows, &is), "row 0 at v 0; rows 2 to 3, v 0.5 to 0.75");
+    }
+}

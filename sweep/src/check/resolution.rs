@@ -1,0 +1,166 @@
+//! Counts that were raised, and cells too coarse for what they show.
+
+use super::{Finding, Severity, short};
+use crate::Sweep;
+use crate::curve::vector::angle_between;
+use crate::cut::{self, Stop};
+use crate::profile::Column;
+use crate::resolution::Resolution;
+
+/// Degrees that a surface may turn or twist from one row or column to the next; beyond, what is seen
+/// is the cells and not the surface.
+const COARSE_DEG: f64 = 60.0;
+
+/// Degrees that are equal: those of even steps differ by rounding.
+const ROUNDING: f64 = 1e-6;
+
+/// Cells that a wave of a relief needs at least.
+const CELLS_A_WAVE: f64 = 4.0;
+
+/// What the numbers of cells leave to be said.
+#[must_use]
+pub fn findings(sweep: &Sweep) -> Vec<Finding> {
+    let (columns, rows) = sweep.lines();
+    let closed_v = sweep.shape.closed();
+    let made = [cut::cells(&rows, closed_v), sweep.cols()];
+    let mut found = Vec::new();
+    if let Resolution::Cells { rows, cols } = *sweep.resolution() {
+        found.extend(counts(sweep, "rows", rows, made[0]));
+        found.extend(counts(sweep, "cols", cols, made[1]));
+    }
+    found.extend(twist(sweep, &rows, closed_v));
+    found.extend(bends(sweep, &rows, closed_v));
+    found.extend(turns(sweep, &columns));
+    found.extend(waves(sweep));
+    found
+}
+
+/// Numbers of cells that are not those asked for.
+fn counts(sweep: &Sweep, key: &str, asked: usize, made: usize) -> Option<Finding> {
+    let why = match (key, &sweep.shape.closing) {
+        ("cols", Some(closing)) if closing.mirrored => {
+            "that meet themselves over the mirrored seam"
+        }
+        ("cols", Some(_)) => "that meet themselves over the shifted seam",
+        ("cols", None) => "for the pieces between creases",
+        _ => "for corners, poles and caps",
+    };
+    let message = format!("found {asked}, made {made} {why}");
+    (asked != made).then(|| Finding::new(Severity::Remark, &format!("mesh.{key}"), message))
+}
+
+/// Pairs of places that follow each other; in a closed direction the last and the end too.
+fn steps(places: &[f64], closed: bool) -> Vec<[f64; 2]> {
+    let end = closed.then_some(1.0);
+    let next = places.iter().copied().skip(1).chain(end);
+    places.iter().copied().zip(next).filter(|(a, b)| a < b).map(|(a, b)| [a, b]).collect()
+}
+
+/// How many cells would bring an angle down to what is smooth.
+fn enough(cells: usize, angle_deg: f64) -> usize {
+    (cells as f64 * angle_deg / COARSE_DEG - ROUNDING).ceil() as usize
+}
+
+/// The first step with the largest angle, if that is too large.
+fn coarsest(angles: impl Iterator<Item = (f64, f64)>) -> Option<(f64, f64)> {
+    let larger = |largest: (f64, f64), next: (f64, f64)| {
+        if next.0 > largest.0 + ROUNDING { next } else { largest }
+    };
+    let largest = angles.fold((0.0, 0.0), larger);
+    (largest.0 > COARSE_DEG + ROUNDING).then_some(largest)
+}
+
+fn row_steps(sweep: &Sweep, rows: &[Stop], closed: bool) -> Vec<[f64; 2]> {
+    let places: Vec<f64> =
+        rows.iter().filter(|stop| sweep.shape.along(**stop).is_some()).map(|s| s.at).collect();
+    steps(&places, closed)
+}
+
+fn twist(sweep: &Sweep, rows: &[Stop], closed: bool) -> Option<Finding> {
+    let law = sweep.shape.modulation.twist.as_ref();
+    let degrees = |stop: Stop| {
+        let at = sweep.shape.along(stop).unwrap_or(0.0);
+        law.map_or(0.0, |law| law.at(at).0) + 360.0 * sweep.shape.modulation.turn * at
+    };
+    let angles = row_steps(sweep, rows, closed)
+        .into_iter()
+        .map(|[a, b]| ((degrees(Stop::before(b)) - degrees(Stop::after(a))).abs(), a));
+    let (angle, v) = coarsest(angles)?;
+    let message = format!(
+        "the twist turns the contour by {} degrees from one row to the next at v {}: {} rows would \
+         bring it down to {COARSE_DEG}",
+        short(angle),
+        short(v),
+        enough(sweep.rows(), angle)
+    );
+    Some(Finding::new(Severity::Hint, if law.is_some() { "twist" } else { "mesh.rows" }, message))
+}
+
+fn bends(sweep: &Sweep, rows: &[Stop], closed: bool) -> Option<Finding> {
+    let direction = |stop: Stop| sweep.shape.section(stop).frame().tangent;
+    let angles = row_steps(sweep, rows, closed).into_iter().map(|[a, b]| {
+        // By way of the middle, which a turn of more than half cannot hide from.
+        let middle = direction(Stop::after(0.5 * (a + b)));
+        let [from, to] = [direction(Stop::after(a)), direction(Stop::before(b))];
+        ((angle_between(from, middle) + angle_between(middle, to)).to_degrees(), a)
+    });
+    let (angle, v) = coarsest(angles)?;
+    let message = format!(
+        "the trajectory turns by {} degrees from one row to the next at v {}: {} rows would bring \
+         it down to {COARSE_DEG}",
+        short(angle),
+        short(v),
+        enough(sweep.rows(), angle)
+    );
+    Some(Finding::new(Severity::Hint, "mesh.rows", message))
+}
+
+fn turns(sweep: &Sweep, columns: &[Column]) -> Option<Finding> {
+    let places = |column: &Column| -> Vec<_> {
+        std::iter::once(column.first.tangent)
+            .chain(column.others.iter().map(|o| o.tangent))
+            .collect()
+    };
+    let us: Vec<f64> = columns.iter().map(|column| column.u).collect();
+    let angles = steps(&us, sweep.shape.contour.closed()).into_iter().map(|[a, b]| {
+        let stops = [Stop::after(a), Stop::after(0.5 * (a + b)), Stop::before(b)];
+        let looked = sweep.shape.contour.columns(&stops);
+        let [from, middle, to] = [0, 1, 2].map(|i| places(&looked[i]));
+        let turn = |i: usize| angle_between(from[i], middle[i]) + angle_between(middle[i], to[i]);
+        ((0..from.len()).map(turn).fold(0.0, f64::max).to_degrees(), a)
+    });
+    let (angle, u) = coarsest(angles)?;
+    let message = format!(
+        "the contour turns by {} degrees from one column to the next at u {}: {} cols would bring \
+         it down to {COARSE_DEG}",
+        short(angle),
+        short(u),
+        enough(sweep.cols(), angle)
+    );
+    Some(Finding::new(Severity::Hint, "mesh.cols", message))
+}
+
+fn waves(sweep: &Sweep) -> Vec<Finding> {
+    let terms =
+        sweep.shape.modulation.depth.iter().flat_map(|depth| depth.terms.iter().enumerate());
+    let mut found = Vec::new();
+    for (i, term) in terms {
+        for (key, count, made, what) in
+            [("u", term.u, sweep.cols(), "cols"), ("v", term.v, sweep.rows(), "rows")]
+        {
+            let each = made as f64 / count.abs();
+            if each < CELLS_A_WAVE {
+                let message = format!(
+                    "{} waves on {made} {what} are {} cells to a wave: {} {what} would give each \
+                     {CELLS_A_WAVE}",
+                    short(count.abs()),
+                    short(each),
+                    (CELLS_A_WAVE * count.abs()).ceil()
+                );
+                let path = format!("depth.terms[{i}].{key}");
+                found.push(Finding::new(Severity::Hint, &path, message));
+            }
+        }
+    }
+    found
+}

@@ -1,0 +1,290 @@
+//! A page of SVG: shapes and words, by pixel coordinates with y down.
+
+use glam::{DVec2, DVec3};
+use std::fmt::Write;
+
+/// Width of the page.
+pub const WIDTH: f64 = 1200.0;
+
+/// Height of the page.
+pub const HEIGHT: f64 = 900.0;
+
+/// Colours of the page.
+pub mod ink {
+    pub const PAPER: &str = "#f7f5f0";
+    pub const PANEL: &str = "#ffffff";
+    pub const RIM: &str = "#e3ded3";
+    pub const TEXT: &str = "#2c3238";
+    pub const MUTED: &str = "#7d848a";
+    pub const FAINT: &str = "#d9d6ce";
+    pub const CURVE: &str = "#2f5d86";
+    pub const W1: &str = "#c8553d";
+    pub const W2: &str = "#4f9a6b";
+    pub const START: &str = "#2e8b6f";
+    pub const END: &str = "#8b3a62";
+    pub const SEAM: &str = "#d9962b";
+    pub const CREASE: &str = "#1f3a56";
+    pub const FOLD: &str = "#d0342c";
+    pub const FONT: &str = "Helvetica, Arial, 'DejaVu Sans', sans-serif";
+}
+
+/// A rectangle of the page.
+#[derive(Debug, Clone, Copy)]
+pub struct Area {
+    pub x: f64,
+    pub y: f64,
+    pub width: f64,
+    pub height: f64,
+}
+
+impl Area {
+    pub fn new(x: f64, y: f64, width: f64, height: f64) -> Self {
+        Self { x, y, width, height }
+    }
+
+    /// The rectangle with margins to the left and right, above, and below taken off.
+    pub fn inside(self, side: f64, above: f64, below: f64) -> Self {
+        let (width, height) = (self.width - 2.0 * side, self.height - above - below);
+        Self::new(self.x + side, self.y + above, width, height)
+    }
+
+    pub fn center(self) -> DVec2 {
+        DVec2::new(self.x + 0.5 * self.width, self.y + 0.5 * self.height)
+    }
+}
+
+/// How a line is drawn.
+#[derive(Debug, Clone, Copy)]
+pub struct Pen<'a> {
+    pub color: &'a str,
+    pub width: f64,
+    /// Lengths of dashes and of gaps; empty for a whole line.
+    pub dashes: &'a str,
+}
+
+impl<'a> Pen<'a> {
+    pub fn new(color: &'a str, width: f64) -> Self {
+        Self { color, width, dashes: "" }
+    }
+
+    pub fn dashed(self, dashes: &'a str) -> Self {
+        Self { dashes, ..self }
+    }
+}
+
+/// Which end of a word is at its place.
+#[derive(Debug, Clone, Copy)]
+pub enum Anchor {
+    Start,
+    Middle,
+    End,
+}
+
+/// The page as it is written.
+#[derive(Debug)]
+pub struct Page(String);
+
+impl Page {
+    pub fn new() -> Self {
+        let mut page = Self(String::with_capacity(1 << 16));
+        page.put(&format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{HEIGHT}\" \
+             viewBox=\"0 0 {WIDTH} {HEIGHT}\" font-family=\"{}\" stroke-linejoin=\"round\" \
+             stroke-linecap=\"round\">\n\
+             <rect width=\"{WIDTH}\" height=\"{HEIGHT}\" fill=\"{}\"/>\n",
+            ink::FONT,
+            ink::PAPER
+        ));
+        page
+    }
+
+    pub fn finish(mut self) -> String {
+        self.put("</svg>\n");
+        self.0
+    }
+
+    /// What follows is filled with this opacity.
+    pub fn open_group(&mut self, opacity: f64) {
+        self.put(&format!("<g fill-opacity=\"{opacity}\">\n"));
+    }
+
+    pub fn close_group(&mut self) {
+        self.put("</g>\n");
+    }
+
+    fn put(&mut self, text: &str) {
+        self.0.push_str(text);
+    }
+
+    /// A panel with its heading.
+    pub fn panel(&mut self, area: Area, heading: &str, note: &str) {
+        let Area { x, y, width, height } = area;
+        self.put(&format!(
+            "<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" rx=\"8\" fill=\"{}\" \
+             stroke=\"{}\"/>\n",
+            ink::PANEL,
+            ink::RIM
+        ));
+        let at = DVec2::new(x + 14.0, y + 23.0);
+        self.text(at, 13.0, ink::TEXT, Anchor::Start, heading);
+        self.text(DVec2::new(x + width - 14.0, at.y), 11.0, ink::MUTED, Anchor::End, note);
+    }
+
+    pub fn text(&mut self, at: DVec2, size: f64, color: &str, anchor: Anchor, text: &str) {
+        if text.is_empty() {
+            return;
+        }
+        let anchor = match anchor {
+            Anchor::Start => "",
+            Anchor::Middle => " text-anchor=\"middle\"",
+            Anchor::End => " text-anchor=\"end\"",
+        };
+        let (x, y) = (Digits(at.x), Digits(at.y));
+        let text = escaped(text);
+        let _ = writeln!(
+            self.0,
+            "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\" fill=\"{color}\"{anchor}>{text}</text>"
+        );
+    }
+
+    /// Straight lines from point to point.
+    pub fn line(&mut self, points: &[DVec2], closed: bool, pen: Pen<'_>) {
+        self.put("<path d=\"");
+        self.points(points, closed);
+        self.put("\" fill=\"none\"");
+        self.pen(pen);
+    }
+
+    /// A filled polygon; a width of 0 leaves its edges out.
+    pub fn polygon(&mut self, points: &[DVec2], fill: &str, pen: Pen<'_>) {
+        self.put("<path d=\"");
+        self.points(points, true);
+        let _ = write!(self.0, "\" fill=\"{fill}\"");
+        self.pen(pen);
+    }
+
+    pub fn dot(&mut self, at: DVec2, radius: f64, fill: &str, pen: Pen<'_>) {
+        let (x, y) = (Digits(at.x), Digits(at.y));
+        let _ = write!(self.0, "<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\" fill=\"{fill}\"");
+        self.pen(pen);
+    }
+
+    /// The head of an arrow that ends at a point.
+    pub fn arrow(&mut self, tip: DVec2, direction: DVec2, size: f64, color: &str) {
+        let along = direction.normalize_or(DVec2::X) * size;
+        let (back, side) = (tip - along, along.perp() * 0.42);
+        self.polygon(&[tip, back + side, back - side], color, Pen::new(color, 0.0));
+    }
+
+    fn pen(&mut self, pen: Pen<'_>) {
+        if pen.width > 0.0 {
+            let _ = write!(self.0, " stroke=\"{}\" stroke-width=\"{}\"", pen.color, pen.width);
+        }
+        if !pen.dashes.is_empty() {
+            let _ = write!(self.0, " stroke-dasharray=\"{}\"", pen.dashes);
+        }
+        self.put("/>\n");
+    }
+
+    fn points(&mut self, points: &[DVec2], closed: bool) {
+        for (i, point) in points.iter().enumerate() {
+            let command = if i == 0 { 'M' } else { 'L' };
+            let _ = write!(self.0, "{command}{} {}", Digits(point.x), Digits(point.y));
+        }
+        if closed {
+            self.put("Z");
+        }
+    }
+}
+
+/// A coordinate to a tenth of a pixel.
+struct Digits(f64);
+
+impl std::fmt::Display for Digits {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let tenths = (self.0 * 10.0).round() / 10.0;
+        write!(f, "{}", if tenths.is_finite() { tenths + 0.0 } else { 0.0 })
+    }
+}
+
+fn escaped(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            // XML knows no control characters, and not these two.
+            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => out.push('\u{fffd}'),
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+/// A view of space along a direction, without perspective, fitted into a rectangle.
+#[derive(Debug, Clone, Copy)]
+pub struct View {
+    right: DVec3,
+    up: DVec3,
+    toward: DVec3,
+    scale: f64,
+    middle: DVec2,
+    center: DVec2,
+    /// What coordinates are divided by first, so that none is too large to reckon with.
+    unit: f64,
+}
+
+impl View {
+    /// The view from the front, a little from the right and from above, that shows all points.
+    pub fn of(points: &[DVec3], area: Area) -> Self {
+        let toward = DVec3::new(0.42, 0.44, 0.79).normalize();
+        let right = DVec3::Y.cross(toward).normalize();
+        let up = toward.cross(right);
+        let largest = points.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
+        let unit = if largest > 0.0 { largest } else { 1.0 };
+        let flat = |p: &DVec3| DVec2::new((*p / unit).dot(right), -(*p / unit).dot(up));
+        let (low, high) = bounds(points.iter().map(flat));
+        let size = (high - low).max(DVec2::splat(1e-12));
+        let scale = (area.width / size.x).min(area.height / size.y);
+        Self { right, up, toward, scale, middle: 0.5 * (low + high), center: area.center(), unit }
+    }
+
+    /// Where a point is on the page.
+    pub fn page(&self, p: DVec3) -> DVec2 {
+        let p = p / self.unit;
+        let flat = DVec2::new(p.dot(self.right), -p.dot(self.up));
+        self.center + (flat - self.middle) * self.scale
+    }
+
+    /// How near a point is to the reader, in pixels.
+    pub fn depth(&self, p: DVec3) -> f64 {
+        (p / self.unit).dot(self.toward) * self.scale
+    }
+
+    /// A direction as the reader sees it: to the right, up, and toward the reader.
+    pub fn seen(&self, direction: DVec3) -> DVec3 {
+        DVec3::new(direction.dot(self.right), direction.dot(self.up), direction.dot(self.toward))
+    }
+
+    /// The three axes, with their letters.
+    pub fn axes(&self, page: &mut Page, at: DVec2, length: f64) {
+        for (axis, name) in [(DVec3::X, "x"), (DVec3::Y, "y"), (DVec3::Z, "z")] {
+            let seen = self.seen(axis);
+            let direction = DVec2::new(seen.x, -seen.y);
+            let tip = at + direction * length;
+            page.line(&[at, tip], false, Pen::new(ink::MUTED, 1.2));
+            page.arrow(tip, direction, 6.0, ink::MUTED);
+            let word = at + direction * (length + 9.0) + DVec2::Y * 3.5;
+            page.text(word, 11.0, ink::MUTED, Anchor::Middle, name);
+        }
+    }
+}
+
+/// The box around points; that of the origin for none.
+pub fn bounds(points: impl Iterator<Item = DVec2>) -> (DVec2, DVec2) {
+    let none = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+    let (low, high) = points.fold(none, |(low, high), p| (low.min(p), high.max(p)));
+    if low.x <= high.x { (low, high) } else { (DVec2::ZERO, DVec2::ZERO) }
+}
