@@ -159,7 +159,15 @@ fn note(arguments: &Arguments, grid: &str, counts: &Counts) {
         ));
     }
     let format = arguments.format();
-    if *moved > MOVED {
+    if counts.tolerance_used > 1.0 {
+        say(format_args!(
+            "triangulate: note: {grid}: rounding to the seven digits of {} moved points by up to {:.1e}, \
+             {:.1} times the tolerance that the grid was made to",
+            format.name(),
+            counts.displacement,
+            counts.tolerance_used
+        ));
+    } else if *moved > MOVED {
         say(format_args!(
             "triangulate: note: {grid}: the seven digits of {} {} moved points by up to {moved:.0e} \
              of the object's size; it would keep its shape nearer to the origin",

@@ -96,6 +96,9 @@ pub struct Counts {
     pub moved: f64,
     /// How far it moved a point, at most, in the grid's unit.
     pub displacement: f64,
+    /// How far it moved a point, as a part of the distance from the surface that was asked of the grid:
+    /// above 1 it took away what was kept. 0 where none was asked.
+    pub tolerance_used: f64,
 }
 
 /// What rounding does to an object.
@@ -250,9 +253,13 @@ impl<S: Sink> Triangulator<S> {
             self.teller.sink.row_done().map_err(TriangulateError::Write)?;
         }
         let before = self.teller.counts;
+        let displacement = self.rounding.displacement_sq.sqrt();
+        let asked = self.header.tolerance.and_then(|tolerance| tolerance.asked);
+        let used = asked.map_or(0.0, |asked| displacement / asked);
         let counts = Counts {
             moved: before.moved.max(self.rounding.fraction()),
-            displacement: before.displacement.max(self.rounding.displacement_sq.sqrt()),
+            displacement: before.displacement.max(displacement),
+            tolerance_used: before.tolerance_used.max(used),
             ..before
         };
         Ok((self.teller.sink, counts))

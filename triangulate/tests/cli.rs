@@ -2,14 +2,15 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+use files::json::Document;
 use glam::{DVec3, Vec3};
 use std::fs;
 use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
-use sweep::GridMesh;
 use sweep::grid::file::{Encoding, write};
 use sweep::grid::{Seam, UvLayout};
+use sweep::{GridMesh, Sweep};
 
 /// A bent sheet.
 fn sheet(rows: usize, cols: usize) -> Vec<u8> {
@@ -329,4 +330,25 @@ fn a_report_goes_where_nothing_else_goes() {
     let run = triangulate(&["-o", "a.obj", "--report", "-"], cut, folder.path());
     assert_eq!((run.status.code(), run.stdout.len()), (Some(3), 0));
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0, "nothing is left");
+}
+
+#[test]
+fn rounding_beyond_the_tolerance_of_the_grid_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let spec = |x: f64| {
+        format!(
+            r#"{{"format": "tb-sweep", "version": 1, "name": "tube", "contour": {{"circle": 1}},
+            "trajectory": {{"line": [[0, 0, 0], [0, 0, 4]]}}, "position": [{x}, 0, 0],
+            "mesh": {{"tol": 1e-5}}}}"#
+        )
+    };
+    // Doubles hold a tolerance there that seven digits do not; at 100 they move a point by 4e-6.
+    for (x, told) in [(100.0, false), (1000.0, true)] {
+        let text = spec(x);
+        let sweep = Sweep::read(&Document::new("a", text.as_bytes()).unwrap()).unwrap();
+        let mut bytes = Vec::new();
+        write(&sweep.grid(), Encoding::Binary, &mut bytes).unwrap();
+        let words = said(&triangulate(&["-o", "a.obj"], &bytes, folder.path()));
+        assert_eq!(words.contains("times the tolerance"), told, "{words}");
+    }
 }
