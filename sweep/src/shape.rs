@@ -51,6 +51,9 @@ impl Shape {
 
     /// The contour at a stop of the rows, on the trajectory or on a cap.
     pub(crate) fn section(&self, stop: Stop) -> Section {
+        // What leads up to the start is the end, unless columns lead on to others there.
+        let start = self.closing.is_some() && stop == Stop::before(0.0);
+        let stop = if start { Stop::after(0.0) } else { stop };
         let [start, end] = self.body();
         let on_trajectory = |at| self.modulation.section(&self.trajectory, Stop { at, ..stop });
         match self.caps {
