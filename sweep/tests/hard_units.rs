@@ -100,9 +100,9 @@ fn features() -> Vec<Value> {
     };
     let sections = |blend: &str| {
         json!({"blend": blend, "sections": [{"at": 0, "contour": blob()}, {"at": 0.6, "contour": {"circle": 0.3}},
-            {"at": 1, "contour": house()}]})
+            {"at": 0.9, "contour": house()}]})
     };
-    let half = json!({"bezier": {"segments": [[[0, -1], [0.8, -1.1], [1.3, 0.9], [0, 1.2]]]}});
+    let half = json!({"bezier": {"segments": [[[0.1, -1], [0.8, -1.1], [1.3, 0.9], [0.3, 1.2]]]}});
     let flat = json!({"flat": {"curve": {"bezier": {"segments": [[[0, 0], [1, 0.3], [2, 0.2], [1.9, 1.5]]]}},
         "z": {"bezier": [[[0, 0], [0.3, 1], [0.6, -0.4], [1, 0.3]]]}}});
     let deforms = json!([
