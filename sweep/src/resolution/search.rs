@@ -142,7 +142,8 @@ impl Search<'_> {
             let tried = self.tried(plan.clone(), rounds);
             // Cells for a load of 1, of which more would be needed in proportion to the load.
             let figure = tried.field.quads() as f64 * tried.worst;
-            plan.densities = self.fewest(&tried.field);
+            // Of full size, so that the next sketch is drawn to its own scale.
+            plan = Plan { densities: self.fewest(&tried.field), factors: [1.0; 2] };
             let known = best.as_ref().map_or(f64::INFINITY, |(figure, _)| *figure);
             if figure < known * (1.0 - demand::ALIKE) {
                 let needed = tried.plan.factors.map(|factor| factor * tried.worst.sqrt());
