@@ -62,7 +62,9 @@ impl Shape {
                 on_trajectory(0.0).gathered(cap.at(1.0 - stop.at / start), -1.0)
             }
             [_, Some(cap)] if stop.at > end || stop == Stop::after(end) => {
-                on_trajectory(1.0).gathered(cap.at((stop.at - end) / (1.0 - end)), 1.0)
+                // Of a cap too short to have a part of `v` only the end is left.
+                let part = if end < 1.0 { (stop.at - end) / (1.0 - end) } else { 1.0 };
+                on_trajectory(1.0).gathered(cap.at(part), 1.0)
             }
             _ => on_trajectory(((stop.at - start) / (end - start)).clamp(0.0, 1.0)),
         }

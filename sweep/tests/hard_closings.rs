@@ -32,8 +32,12 @@ fn example(name: &str) -> Value {
 fn gap(sweep: &Sweep) -> f64 {
     let grid = sweep.grid();
     assert_ne!(grid.seam_v, Seam::Open);
-    let (low, high) = grid.positions.iter().fold((DVec3::MAX, DVec3::MIN), |(low, high), &p| (low.min(p), high.max(p)));
-    let size = (high - low).length() + grid.positions.iter().map(|p| p.length()).fold(0.0, f64::max);
+    let (low, high) = grid
+        .positions
+        .iter()
+        .fold((DVec3::MAX, DVec3::MIN), |(low, high), &p| (low.min(p), high.max(p)));
+    let size =
+        (high - low).length() + grid.positions.iter().map(|p| p.length()).fold(0.0, f64::max);
     let off = (0..grid.cols()).map(|col| {
         let led = grid.seam_v.leads_to(col, grid.shift, grid.cols());
         // A crease is a column given twice, at one point.
@@ -88,9 +92,6 @@ fn seams() -> Vec<Value> {
         "corners": {"round": 0.7}}});
     let flat = json!({"flat": {"curve": {"svg": "M0 0C2 -3 5 -3 5 0S2 3 0 0S-5 -3 -5 0S-2 3 0 0Z"},
         "z": {"keys": [[0, 0.5], [0.5, -0.5], [1, 0.5]], "ease": "smooth"}}});
-    // Open, with both ends at one point, along the same direction.
-    let loop_of_one = json!({"bezier": {"segments": [
-        [[0, 0, 0], [2, 0, 0.3], [3, 2, 0.5], [1, 3, 0.2]], [[1, 3, 0.2], [-1, 4, -0.1], [-2, 0, -0.3], [0, 0, 0]]]}});
     for trajectory in [&ring, &bezier, &circle, &mitred, &rounded, &flat, &knot(40, 2.0, 5.0)] {
         for contour in [&round, &square] {
             all.push(json!({"contour": contour, "trajectory": trajectory}));
@@ -101,13 +102,14 @@ fn seams() -> Vec<Value> {
         all.push(json!({"contour": clover(), "trajectory": trajectory, "seam": "shift"}));
         all.push(json!({"contour": eight(), "trajectory": trajectory, "seam": "mirror"}));
         all.push(json!({"contour": strip, "trajectory": trajectory, "seam": "mirror"}));
-        all.push(json!({"contour": round, "trajectory": trajectory, "seam": "mirror"}));
     }
-    all.push(json!({"contour": square, "trajectory": circle, "seam": "shift", "twist": {"total": 450}}));
+    all.push(
+        json!({"contour": square, "trajectory": circle, "seam": "shift", "twist": {"total": 450}}),
+    );
     all.push(json!({"contour": clover(), "trajectory": circle, "seam": "shift", "twist": {"total": 120}}));
-    all.push(json!({"contour": round, "trajectory": {"bezier": {"segments": [[[0, 0, 0], [3, 0, 0], [0, 3, 0], [0, 0, 0]]]}}}));
-    all.push(json!({"contour": round, "trajectory": loop_of_one}));
-    for name in ["klein-bottle", "figure-eight-klein", "moebius-band", "trefoil", "figure-eight", "vase"] {
+    for name in
+        ["klein-bottle", "figure-eight-klein", "moebius-band", "trefoil", "figure-eight", "vase"]
+    {
         all.push(example(name));
     }
     all
@@ -117,24 +119,11 @@ fn seams() -> Vec<Value> {
 fn closed_shifted_and_mirrored_surfaces_meet_within_four_ulp_of_their_size() {
     let mut worst = 0.0_f64;
     for spec in seams() {
-        match read(&spec) {
-            Ok(sweep) if sweep.grid().seam_v != Seam::Open => {
-                let gap = gap(&sweep);
-                if gap > 4.0 {
-                    let grid = sweep.grid();
-                    for col in 0..grid.cols() {
-                        let led = grid.seam_v.leads_to(col, grid.shift, grid.cols());
-                        println!("{col} {led} {} {:?} {:?}", grid.u[col], sweep.at(grid.u[col], 1.0).0, grid.positions[led]);
-                    }
-                    println!("{gap:.2} {:?} {spec}", sweep.shape());
-                }
-                worst = worst.max(gap);
-            }
-            Ok(_) => println!("open {spec}"),
-            Err(error) => println!("refused {error} {spec}"),
-        }
+        let gap = gap(&swept(&spec));
+        assert!(gap <= 4.0, "{gap:.2} {spec}");
+        worst = worst.max(gap);
     }
-    assert!(worst <= 4.0, "{worst:.2}");
+    println!("the worst gap is {worst:.2} eps x (size + |position|)");
 }
 
 /// A path along edges of cubes whose frame comes back turned by exactly half a turn: a quarter turn about an
@@ -154,13 +143,16 @@ fn half_turned(off: f64) -> Vec<[f64; 3]> {
 }
 
 #[test]
-fn half_a_turn_of_holonomy_is_undone_the_same_way_whatever_rounding_says_and_whichever_way_it_runs() {
+fn half_a_turn_of_holonomy_is_undone_the_same_way_whatever_rounding_says_and_whichever_way_it_runs()
+{
     let frames = |points: &[[f64; 3]]| {
         let sweep = swept(&json!({
             "contour": {"circle": 0.1}, "frame": {"start": [0.1, 0.7, 0.2]},
             "trajectory": {"polyline": {"closed": true, "points": points, "corners": {"round": 0.4}}},
         }));
-        (0..=200).map(|i| sweep.trajectory().station(f64::from(i) / 200.0).frame).collect::<Vec<_>>()
+        (0..=200)
+            .map(|i| sweep.trajectory().station(f64::from(i) / 200.0).frame)
+            .collect::<Vec<_>>()
     };
     let along = frames(&half_turned(0.0));
     // There is a half turn to undo: carried back, the last frame is the first one's opposite.
@@ -193,8 +185,7 @@ fn an_odd_number_of_columns_of_a_klein_bottle_is_made_even() {
 #[test]
 fn a_klein_bottle_of_an_asymmetric_contour_is_refused_with_its_mismatch() {
     let mut spec = example("klein-bottle");
-    spec["contour"] =
-        json!({"free": {"closed": true, "points": [[1, 0], [0.3, 0.9], [-0.8, 0.2], [-0.1, -0.5]]}});
+    spec["contour"] = json!({"free": {"closed": true, "points": [[1, 0], [0.3, 0.9], [-0.8, 0.2], [-0.1, -0.5]]}});
     let error = read(&spec).unwrap_err().to_string();
     assert!(error.contains("seam: found a contour that misses itself by"), "{error}");
     assert!(error.contains("of its size when it comes back turned and mirrored"), "{error}");
@@ -224,7 +215,8 @@ fn nearly_closed_trajectories_are_closed_below_a_millionth_of_their_size_and_ref
         let half = [[0.0, 0.0, 0.0], [0.0, 2.0, 1.0], [3.0, 2.0, 0.0], [3.0, 0.0, 0.0]];
         let back = [[3.0, 0.0, 0.0], [3.0, -2.0, 0.0], [0.0, -2.0, -1.0], [off, 0.0, 0.0]];
         let ring = json!({"contour": {"circle": 0.1}, "trajectory": {"bezier": {"closed": true, "segments": [half, back]}}});
-        for (spec, complaint) in [(klein, "from its start"), (ring, "where a closed curve starts")] {
+        for (spec, complaint) in [(klein, "from its start"), (ring, "where a closed curve starts")]
+        {
             match read(&spec) {
                 Ok(sweep) => {
                     assert!(off < 1e-5, "{off:e}");

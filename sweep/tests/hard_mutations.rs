@@ -41,7 +41,8 @@ fn seeds() -> Vec<Value> {
         .iter()
         .map(|path| serde_json::from_slice(&std::fs::read(path).unwrap()).unwrap())
         .collect();
-    let head = json!({"format": "tb-sweep", "version": 1, "name": "seed", "mesh": {"rows": 9, "cols": 9}});
+    let head =
+        json!({"format": "tb-sweep", "version": 1, "name": "seed", "mesh": {"rows": 9, "cols": 9}});
     let more = [
         json!({"contour": {"sections": [{"at": 0, "contour": {"circle": 0.5}},
                 {"at": 0.7, "contour": {"polyline": {"closed": true, "points": [[1, 1], [-1, 1], [-1, -1], [1, -1]]}}}], "blend": "smooth"},
@@ -106,8 +107,32 @@ fn nth(value: &mut Value, n: usize) -> &mut Value {
 }
 
 const NUMBERS: [f64; 26] = [
-    0.0, -0.0, 1.0, -1.0, 0.5, 1e-3, 1e-9, -1e-9, 1e-16, 1e-70, 5e-324, 1e9, -1e9, 1e30, 1e59, 1e61, 1e155,
-    1.7e308, -1.7e308, 2.0, 3.0, 180.0, 360.0, 1e-30, 0.999_999_999, 1_000_000.0,
+    0.0,
+    -0.0,
+    1.0,
+    -1.0,
+    0.5,
+    1e-3,
+    1e-9,
+    -1e-9,
+    1e-16,
+    1e-70,
+    5e-324,
+    1e9,
+    -1e9,
+    1e30,
+    1e59,
+    1e61,
+    1e155,
+    1.7e308,
+    -1.7e308,
+    2.0,
+    3.0,
+    180.0,
+    360.0,
+    1e-30,
+    0.999_999_999,
+    1_000_000.0,
 ];
 
 fn mutate(spec: &mut Value, dice: &mut Dice, seeds: &[Value]) {
@@ -158,13 +183,22 @@ fn mutate(spec: &mut Value, dice: &mut Dice, seeds: &[Value]) {
                 }
             }
         }
-        _ => *place = dice.one(&[other, Value::Null, json!("NaN"), json!("M0 0C1 1 1e300 0 0 0Z"), json!(true), json!([])]),
+        _ => {
+            *place = dice.one(&[
+                other,
+                Value::Null,
+                json!("NaN"),
+                json!("M0 0C1 1 1e300 0 0 0Z"),
+                json!(true),
+                json!([]),
+            ])
+        }
     }
 }
 
 /// Every `mesh` with few cells.
 fn bounded(spec: &mut Value) {
-    let mut of = |part: &mut Value| {
+    let of = |part: &mut Value| {
         let Some(Value::Object(mesh)) = part.get_mut("mesh") else { return };
         for (key, most) in [("rows", 40.0), ("cols", 40.0), ("max_quads", 3000.0)] {
             if let Some(number) = mesh.get_mut(key)
@@ -173,7 +207,8 @@ fn bounded(spec: &mut Value) {
                 *number = json!(most as u32);
             }
         }
-        if mesh.contains_key("tol") || mesh.contains_key("angle_deg") || mesh.contains_key("pixels") {
+        if mesh.contains_key("tol") || mesh.contains_key("angle_deg") || mesh.contains_key("pixels")
+        {
             mesh.entry("max_quads").or_insert(json!(3000));
         }
     };
@@ -217,7 +252,12 @@ fn judged(text: &str) -> bool {
                     rest.split(':').take(2).all(|number| number.parse::<u32>().is_ok())
                 });
             assert!(placed, "{message}\n{text}");
-            assert!(!message.contains('\n') && message.contains("found") || message.contains("expected") || message.contains("key"), "{message}\n{text}");
+            assert!(
+                !message.contains('\n') && message.contains("found")
+                    || message.contains("expected")
+                    || message.contains("key"),
+                "{message}\n{text}"
+            );
             false
         }
     }
@@ -226,7 +266,7 @@ fn judged(text: &str) -> bool {
 #[test]
 fn thousands_of_mutated_specs_give_a_surface_or_a_sentence_in_time() {
     let seeds = seeds();
-    let cases = std::env::var("MUTATIONS").map_or(3000, |text| text.parse().unwrap());
+    let cases = 3000;
     let (mut made, mut slowest) = (0, (Duration::ZERO, String::new()));
     for case in 0..cases {
         let mut dice = Dice(case);
@@ -246,18 +286,15 @@ fn thousands_of_mutated_specs_give_a_surface_or_a_sentence_in_time() {
                 _ => text.replacen("0.", "1e400", 1),
             };
         }
-        let start = Instant::now(); std::fs::write("/tmp/hard_case.json", &text).unwrap();
+        let start = Instant::now();
         made += usize::from(judged(&text));
         let took = start.elapsed();
-        if took > Duration::from_secs(1) {
-            println!("{case}: {took:?}\n{text}");
-        }
         if took > slowest.0 {
             slowest = (took, text);
         }
     }
     println!("{made} of {cases} are surfaces; the slowest took {:?}\n{}", slowest.0, slowest.1);
-    assert!(made * 10 > usize::try_from(cases).unwrap(), "mutations are mild enough to be swept at times");
+    assert!(made > 300, "mutations are mild enough to be swept at times: {made}");
     // Generous, for a machine that does other work and a build that is not optimized.
-    assert!(slowest.0 < Duration::from_secs(20), "{:?}: {}", slowest.0, slowest.1);
+    assert!(slowest.0 < Duration::from_secs(4), "{:?}: {}", slowest.0, slowest.1);
 }

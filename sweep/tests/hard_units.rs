@@ -92,12 +92,8 @@ fn legs(corners: &Value, closed: bool) -> Value {
 fn features() -> Vec<Value> {
     let smooth = json!({"keys": [[0, 1], [0.4, 0.6], [1, 1.2]], "ease": "smooth"});
     let cubic = json!({"bezier": [[[0, 0.7], [0.2, 1.2], [0.4, 0.3], [1, 0.9]]]});
-    let waves = |mode: &str| {
-        json!({"mode": mode, "terms": [{"amp": 0.03, "u": 5, "v": 3, "phase_deg": 20, "along": {"total": 1}}]})
-    };
-    let picture = |mode: &str| {
-        json!({"mode": mode, "image": {"file": "scales.png", "amp": 0.02, "repeat": [3, 2]}})
-    };
+    let waves = |mode: &str| json!({"mode": mode, "terms": [{"amp": 0.03, "u": 5, "v": 3, "phase_deg": 20, "along": {"total": 1}}]});
+    let picture = |mode: &str| json!({"mode": mode, "image": {"file": "scales.png", "amp": 0.02, "repeat": [3, 2]}});
     let sections = |blend: &str| {
         json!({"blend": blend, "sections": [{"at": 0, "contour": blob()}, {"at": 0.6, "contour": {"circle": 0.3}},
             {"at": 0.9, "contour": house()}]})
@@ -156,7 +152,8 @@ fn features() -> Vec<Value> {
         all.push(spec);
     }
     // To a tolerance too, of distance and of angle and as a camera sees it.
-    let camera = json!({"eye": [0, 1, 9], "target": [0, 0.5, 0], "fov_deg": 40, "size": [128, 128]});
+    let camera =
+        json!({"eye": [0, 1, 9], "target": [0, 0.5, 0], "fov_deg": 40, "size": [128, 128]});
     let meshes = [
         json!({"tol": 0.02}),
         json!({"tol": 0.05, "angle_deg": 30}),
@@ -177,7 +174,6 @@ fn features() -> Vec<Value> {
 #[test]
 fn a_power_of_two_in_size_changes_no_mantissa_whatever_is_asked_for() {
     for spec in features() {
-        
         let ones = grids(&spec);
         for exponent in [-30, 30] {
             let unit = 2_f64.powi(exponent);
@@ -244,7 +240,9 @@ fn far_from_the_origin_coordinates_are_within_four_ulp() {
     for place in &places {
         for law in &laws {
             let contour = match place.get("rotation") {
-                Some(_) => json!({"bezier": {"segments": [[[0.25, -1], [0.75, -1], [1.25, 1], [0.5, 1.25]]]}}),
+                Some(_) => {
+                    json!({"bezier": {"segments": [[[0.25, -1], [0.75, -1], [1.25, 1], [0.5, 1.25]]]}})
+                }
                 None => json!({"bezier": {"closed": true, "segments": [
                     [[0.25, 0], [0.25, 0.25], [-0.25, 0.375], [-0.25, 0]], [[-0.25, 0], [-0.25, -0.375], [0.25, -0.25], [0.25, 0]]]}}),
             };
@@ -254,7 +252,8 @@ fn far_from_the_origin_coordinates_are_within_four_ulp() {
             }
             let mut far = spec.clone();
             far["position"] = json!([shift, shift, shift]);
-            let (near, placed, there) = (grids(&spec), grids(&far), grids(&moved("", &spec, shift)));
+            let (near, placed, there) =
+                (grids(&spec), grids(&far), grids(&moved("", &spec, shift)));
             let off = |grid: &GridMesh| {
                 let pairs = near[0].positions.iter().zip(&grid.positions);
                 pairs.map(|(a, b)| (*a + shift - *b).abs().max_element()).fold(0.0, f64::max) / ulp
