@@ -170,15 +170,15 @@ fn contours() -> impl Strategy<Value = Value> {
     };
     prop_oneof![
         (0.1..0.3).prop_map(|r| json!({"circle": r})),
-        (0.1..0.25, 0.1..0.25, any::<bool>()).prop_map(move |(a, b, reversed)| blob(drawn(
+        (0.1..0.25, 0.1..0.25, any::<bool>()).prop_map(move |(a, b, reversed): (f64, f64, bool)| blob(drawn(
             reversed,
             [[a, 0.0], [0.0, b], [-b, 0.02], [0.01, -a]]
         ))),
-        (0.1..0.25, 0.1..0.25, any::<bool>()).prop_map(move |(a, b, reversed)| {
+        (0.1..0.25, 0.1..0.25, any::<bool>()).prop_map(move |(a, b, reversed): (f64, f64, bool)| {
             let points = drawn(reversed, [[a, -b], [a, b], [-a, b], [-b, -a]]);
             json!({"polyline": {"closed": true, "points": points}})
         }),
-        (0.1..0.25, 0.1..0.25).prop_map(|(a, b)| json!({"sections": [
+        (0.1..0.25, 0.1..0.25).prop_map(|(a, b): (f64, f64)| json!({"sections": [
             {"at": 0.1, "contour": {"circle": a}}, {"at": 0.6, "contour": {"polyline": {"closed": true,
                 "points": [[b, -b], [b, b], [-b, b], [-b, -b]]}}}], "blend": "smooth"})),
     ]
@@ -294,7 +294,7 @@ proptest! {
                     continue;
                 }
                 let least = normals.map(|n| n.dot(across.normalize())).into_iter().fold(1.0, f64::min);
-                prop_assert!(least > 0.0, "{least} at {a}: {}", &spec);
+                prop_assert!(least > 0.0, "{least} at {a} {b} {c}, {} {normals:?}: {}", across.length(), &spec);
             }
         }
     }

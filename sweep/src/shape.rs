@@ -55,16 +55,17 @@ impl Shape {
         let start = self.closing.is_some() && stop == Stop::before(0.0);
         let stop = if start { Stop::after(0.0) } else { stop };
         let [start, end] = self.body();
-        let on_trajectory = |at| self.modulation.section(&self.trajectory, Stop { at, ..stop });
+        let at_stop = |stop| self.modulation.section(&self.trajectory, stop);
+        let on_trajectory = |at| at_stop(Stop { at, ..stop });
         match self.caps {
             [None, None] => on_trajectory(stop.at),
             [Some(cap), _] if stop.at < start || stop == Stop::before(start) => {
-                on_trajectory(0.0).gathered(cap.at(1.0 - stop.at / start), -1.0)
+                at_stop(Stop::after(0.0)).gathered(cap.at(1.0 - stop.at / start), -1.0)
             }
             [_, Some(cap)] if stop.at > end || stop == Stop::after(end) => {
                 // Of a cap too short to have a part of `v` only the end is left.
                 let part = if end < 1.0 { (stop.at - end) / (1.0 - end) } else { 1.0 };
-                on_trajectory(1.0).gathered(cap.at(part), 1.0)
+                at_stop(Stop::before(1.0)).gathered(cap.at(part), 1.0)
             }
             _ => on_trajectory(((stop.at - start) / (end - start)).clamp(0.0, 1.0)),
         }
