@@ -160,8 +160,8 @@ fn features() -> Vec<Value> {
         json!({"pixels": 1, "camera": camera}),
         json!({"tol": 1e-6, "max_quads": 700}),
     ];
-    for i in 0..all.len() {
-        let mesh = &meshes[i % meshes.len()];
+    for i in (0..all.len()).step_by(4) {
+        let mesh = &meshes[i / 4 % meshes.len()];
         if all[i].get("parts").is_none() {
             let mut spec = all[i].clone();
             spec["mesh"] = mesh.clone();
