@@ -51,6 +51,9 @@ impl Shape {
 
     /// The contour at a stop of the rows, on the trajectory or on a cap.
     pub(crate) fn section(&self, stop: Stop) -> Section {
+        // What leads up to the start is the end, unless columns lead on to others there.
+        let first = self.closing.is_some() && stop == Stop::before(0.0);
+        let stop = if first { Stop::after(0.0) } else { stop };
         let [start, end] = self.body();
         let on_trajectory = |stop| self.modulation.section(&self.trajectory, stop);
         match self.caps {
@@ -59,13 +62,11 @@ impl Shape {
                 on_trajectory(Stop::after(0.0)).gathered(cap.at(1.0 - stop.at / start), -1.0)
             }
             [_, Some(cap)] if stop.at > end || stop == Stop::after(end) => {
-                let t = (stop.at - end) / (1.0 - end);
+                // Of a cap too short to have a part of `v` only the end is left.
+                let t = if end < 1.0 { (stop.at - end) / (1.0 - end) } else { 1.0 };
                 on_trajectory(Stop::before(1.0)).gathered(cap.at(t), 1.0)
             }
-            _ => {
-                let at = ((stop.at - start) / (end - start)).clamp(0.0, 1.0);
-                on_trajectory(Stop { at, ..stop })
-            }
+            _ => on_trajectory(Stop { at: self.on_body(stop.at), ..stop }),
         }
     }
 
@@ -157,7 +158,7 @@ impl Shape {
         if v < start || v > end {
             return v;
         }
-        self.row_of(self.trajectory.parameter(((v - start) / (end - start)).clamp(0.0, 1.0)))
+        self.row_of(self.trajectory.parameter(self.on_body(v)))
     }
 
     /// Where on the trajectory a stop of the rows lies; `None` on a cap.
@@ -165,7 +166,17 @@ impl Shape {
         let [start, end] = self.body();
         let before = stop.at < start || self.caps[0].is_some() && stop == Stop::before(start);
         let after = stop.at > end || self.caps[1].is_some() && stop == Stop::after(end);
-        (!before && !after).then(|| ((stop.at - start) / (end - start)).clamp(0.0, 1.0))
+        (!before && !after).then(|| self.on_body(stop.at))
+    }
+
+    /// The fraction of the trajectory's length at a `v` that is on it.
+    fn on_body(&self, v: f64) -> f64 {
+        let [start, end] = self.body();
+        // Back from where `row_of` has put a break, to the last bit.
+        let same = |at: &f64| self.row_of(*at) == v;
+        let corner = self.trajectory.breaks().iter().copied().find(same);
+        let known = corner.or_else(|| self.modulation.breaks(self.trajectory.closed()).find(same));
+        known.unwrap_or_else(|| ((v - start) / (end - start)).clamp(0.0, 1.0))
     }
 
     /// Which part of `v` is on the trajectory: before and after it are the caps.

@@ -118,14 +118,17 @@ impl<V: Vector> Cubic<V> {
         Self([start, start + leaving * width, end - reaching * width, end])
     }
 
-    /// Whether the inner control points lie on the line between the ends, up to a part of its length.
+    /// Whether the inner control points lie on the line between the ends, up to a part of its length
+    /// and what coordinates far from the origin are rounded by.
     pub fn is_straight(&self, part: f64) -> bool {
         let [p0, p1, p2, p3] = self.0;
         let chord = p3 - p0;
         let length = chord.length();
+        let rounding = 4.0 * f64::EPSILON * p0.length().max(p3.length());
         [p1 - p0, p2 - p0].into_iter().all(|d| {
             let along = d.dot(chord) / (length * length);
-            (0.0..=1.0).contains(&along) && (d - chord * along).length() <= part * length
+            let off = (d - chord * along).length();
+            (0.0..=1.0).contains(&along) && off <= part * length + rounding
         })
     }
 

@@ -99,6 +99,8 @@ impl Direction {
 
     fn counts(&self, density: &Density, factor: f64) -> Vec<usize> {
         let shares = self.shares(density);
+        // With this there is half a cell in all.
+        let least = 0.5 / shares.iter().sum::<f64>();
         let mut factor = factor;
         loop {
             let whole = |share: &f64| ((share * factor * (1.0 - WHOLE)).ceil() as usize).max(1);
@@ -106,7 +108,7 @@ impl Direction {
             if counts.iter().sum::<usize>() >= self.fewest {
                 return counts;
             }
-            factor = factor.max(1e-3) * 1.1;
+            factor = factor.max(least) * 1.1;
         }
     }
 }

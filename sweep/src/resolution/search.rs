@@ -139,10 +139,13 @@ impl Search<'_> {
         for _ in 0..SKETCHES {
             let quads = self.quads(&plan) as f64;
             plan.factors = [(quads.clamp(SKETCH.0, SKETCH.1) / quads).sqrt(); 2];
+            // One direction may have its fewest cells already.
+            self.fit(&mut plan, SKETCH.1 as usize);
             let tried = self.tried(plan.clone(), rounds);
             // Cells for a load of 1, of which more would be needed in proportion to the load.
             let figure = tried.field.quads() as f64 * tried.worst;
-            plan.densities = self.fewest(&tried.field);
+            // Of full size, so that the next sketch is drawn to its own scale.
+            plan = Plan { densities: self.fewest(&tried.field), factors: [1.0; 2] };
             let known = best.as_ref().map_or(f64::INFINITY, |(figure, _)| *figure);
             if figure < known * (1.0 - demand::ALIKE) {
                 let needed = tried.plan.factors.map(|factor| factor * tried.worst.sqrt());
@@ -159,7 +162,7 @@ impl Search<'_> {
     fn kept(&self, mut plan: Plan, rounds: &mut usize) -> Tried {
         let mut best: Option<Tried> = None;
         for trial in 0..TRIALS {
-            let fits = self.fit(&mut plan);
+            let fits = self.fit(&mut plan, self.tolerance.max_quads);
             let tried = self.tried(plan.clone(), rounds);
             let (worst, kept) = (tried.worst, tried.worst <= 1.0);
             // Where only some cells fail, as at the vertical end of a cap, those are made finer.
@@ -241,16 +244,18 @@ impl Search<'_> {
         best
     }
 
-    /// Makes a plan coarser until it has no more cells than are allowed; whether it had.
-    fn fit(&self, plan: &mut Plan) -> bool {
-        let most = self.tolerance.max_quads;
-        let too_many = |plan: &Plan| {
+    /// Makes a plan coarser until it has no more cells than `most`, or one for each piece; whether it
+    /// had no more before.
+    fn fit(&self, plan: &mut Plan, most: usize) -> bool {
+        let over = |plan: &Plan, most: usize| {
             let [rows, cols] = self.counts(plan);
             rows.saturating_mul(cols) > most || cols > self.most_cols
         };
-        if !too_many(plan) {
+        if !over(plan, most) {
             return true;
         }
+        let most = most.max(self.quads(&Plan { factors: [0.0; 2], ..plan.clone() }));
+        let too_many = |plan: &Plan| over(plan, most);
         while too_many(plan) {
             let [rows, cols] = self.counts(plan);
             let over = (most as f64 / (rows as f64 * cols as f64)).min(1.0).sqrt();
@@ -258,7 +263,7 @@ impl Search<'_> {
             let over_cols = over.min(self.most_cols as f64 / cols as f64);
             plan.factors[0] *= over.min(0.9995);
             plan.factors[1] *= over_cols.min(0.9995);
-            if plan.factors.iter().all(|factor| *factor < 1e-12) {
+            if plan.factors.iter().all(|factor| *factor < f64::MIN_POSITIVE) {
                 break;
             }
         }
