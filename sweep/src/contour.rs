@@ -35,8 +35,15 @@ pub struct Contour(Form);
 
 #[derive(Debug, Clone)]
 enum Form {
-    Circle { radius: f64 },
-    Path { path: Path<DVec2>, creases: Vec<Joint> },
+    Circle {
+        radius: f64,
+    },
+    /// `reached` is how far fitted points are from it at most.
+    Path {
+        path: Path<DVec2>,
+        creases: Vec<Joint>,
+        reached: Option<f64>,
+    },
 }
 
 impl Contour {
@@ -49,27 +56,32 @@ impl Contour {
     ///
     /// A closed path that encloses as much to its left as to its right keeps its direction.
     pub(crate) fn path(path: Path<DVec2>) -> Self {
+        Self::fitted(path, None)
+    }
+
+    /// A path that was fitted to points, none of which is further from it than `reached`.
+    pub(crate) fn fitted(path: Path<DVec2>, reached: Option<f64>) -> Self {
         let path = if path.closed() { counter_clockwise(path) } else { path };
-        Self::of(path)
+        Self::of(path, reached)
     }
 
     /// The contour as a rotation about the y axis takes it: an open one from the axis to the axis
     /// closes there, and is turned round like a closed one when it runs clockwise.
     pub(crate) fn rotated(self, on_axis: f64) -> Self {
         match self.0 {
-            Form::Path { path, .. }
+            Form::Path { path, reached, .. }
                 if [path.start(), path.end()].iter().all(|&end| path.point(end).x <= on_axis) =>
             {
                 // The way back along the axis adds nothing to an area about the start.
-                Self::of(counter_clockwise(path))
+                Self::of(counter_clockwise(path), reached)
             }
             form => Self(form),
         }
     }
 
-    fn of(path: Path<DVec2>) -> Self {
+    fn of(path: Path<DVec2>, reached: Option<f64>) -> Self {
         let creases = path.joints().filter(|joint| joint.angle.to_degrees() > CREASE_DEG).collect();
-        Self(Form::Path { path, creases })
+        Self(Form::Path { path, creases, reached })
     }
 
     /// Whether the contour leads back to its start.
@@ -99,6 +111,17 @@ impl Contour {
         }
     }
 
+    /// The number of segments that were fitted to points, and the largest distance of a point from them.
+    #[must_use]
+    pub fn fit(&self) -> Option<(usize, f64)> {
+        match &self.0 {
+            Form::Circle { .. } => None,
+            Form::Path { path, reached, .. } => {
+                reached.map(|reached| (path.cubics().count(), reached))
+            }
+        }
+    }
+
     /// The smallest and the largest `x`.
     pub(crate) fn x_range(&self) -> (f64, f64) {
         match &self.0 {
@@ -117,7 +140,7 @@ impl Contour {
     pub fn breaks(&self) -> Vec<f64> {
         match &self.0 {
             Form::Circle { .. } => Vec::new(),
-            Form::Path { path, creases } => {
+            Form::Path { path, creases, .. } => {
                 creases.iter().map(|joint| joint.s / path.length()).collect()
             }
         }
@@ -135,7 +158,7 @@ impl Contour {
     pub(crate) fn parameter(&self, stop: Stop) -> f64 {
         match &self.0 {
             Form::Circle { .. } => stop.at,
-            Form::Path { path, creases } => match stop {
+            Form::Path { path, creases, .. } => match stop {
                 // What leads up to the start of a closed contour is its end.
                 Stop { at: 0.0, .. } => 0.0,
                 _ => path.parameter(place(path, creases, stop)),
@@ -156,7 +179,7 @@ impl Contour {
                     pace: 1.0 / self.length(),
                 }
             }
-            Form::Path { path, creases } => {
+            Form::Path { path, creases, .. } => {
                 let place = place(path, creases, stop);
                 let tangent = path.tangent(place);
                 let curvature = tangent.perp_dot(path.curvature(place));

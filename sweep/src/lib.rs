@@ -3,6 +3,7 @@
 //! | module         | what                                                                |
 //! |----------------|---------------------------------------------------------------------|
 //! | [`spec`]       | the spec as JSON; here are its keys and its conventions             |
+//! | [`schema`]     | the same as JSON Schema                                             |
 //! | [`Object`]     | what a spec is of: one sweep or several                             |
 //! | [`Sweep`]      | a spec that has been checked, and the grid it gives                 |
 //! | [`contour`]    | the curve that is swept; creases                                    |
@@ -56,6 +57,7 @@ pub mod profile;
 mod read;
 pub mod resolution;
 mod rows;
+pub mod schema;
 pub mod shape;
 pub mod spec;
 mod sweep;

@@ -5,7 +5,7 @@ use files::exit::{Exit, Failure, Report, say};
 use files::input;
 use files::json::Document;
 use files::{Disk, Output, exit};
-use std::io::{self, IsTerminal};
+use std::io::{self, IsTerminal, Write};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -14,7 +14,7 @@ use sweep::check::fold::Survey;
 use sweep::check::{self, Finding, Severity};
 use sweep::grid::file::Encoding;
 use sweep::spec::Mesh;
-use sweep::{GridMesh, Object, Spent, Sweep, preview};
+use sweep::{GridMesh, Object, Spent, Sweep, preview, schema};
 use thiserror::Error;
 
 /// Sweep a contour along a trajectory: a JSON spec in, a grid of points and normals out.
@@ -73,6 +73,10 @@ struct Arguments {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
 
+    /// Print the JSON Schema of specs and do nothing else
+    #[arg(long, exclusive = true)]
+    emit_schema: bool,
+
     /// Print no notes
     #[arg(short, long)]
     quiet: bool,
@@ -91,6 +95,7 @@ Examples:
   sweep examples/curves/vase.json -o vase.grid
   sweep examples/curves/trefoil.json --rows 1000 --cols 64 --stats -o trefoil.grid
   sweep examples/curves/vase.json --tol 1e-3 --angle 5 --stats -o vase.grid
+  sweep --emit-schema > tb-sweep.schema.json
   sweep --format json < examples/curves/cup-handle.json | head -3
   sweep examples/curves/vase.json | triangulate --texture 2 > vase.obj
   sweep --check examples/curves/klein-bottle.json
@@ -147,6 +152,9 @@ impl Arguments {
 }
 
 fn work(arguments: &Arguments) -> Result<(), Report> {
+    if arguments.emit_schema {
+        return emit_schema();
+    }
     let encoding = match arguments.format {
         Format::Bin => Encoding::Binary,
         Format::Json => Encoding::Json,
@@ -227,6 +235,13 @@ fn tell(
     }
 }
 
+/// Prints the schema of specs.
+fn emit_schema() -> Result<(), Report> {
+    let mut output = Output::create(Path::new("-"), true)?;
+    writeln!(output, "{:#}", schema::of_spec()).map_err(|source| output.failed(source))?;
+    Ok(output.commit()?)
+}
+
 /// Says what is legal and most often not meant.
 fn note(sweep: &Sweep) {
     for finding in Survey::of(sweep).findings() {
@@ -254,6 +269,9 @@ fn stats(sweep: &Sweep) {
     }
     say(format_args!("creases     {}", sweep.contour().creases()));
     say(format_args!("contour     {} long", sweep.contour().length()));
+    for (segments, reached) in sweep.contour().fits() {
+        say(format_args!("fit         {segments} segments, {reached:.4e} from the points"));
+    }
     if sweep.trajectory().is_rotation() {
         say("trajectory  a rotation");
     } else {

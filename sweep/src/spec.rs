@@ -20,7 +20,7 @@
 //! | `{"circle": r}`                                 | a circle about the origin                    |
 //! | `{"bezier": {"closed": c, "segments": [S, ...]}}` | cubics; `S` is four points `[x, y]`        |
 //! | `{"svg": "M0 0 C..."}`                          | one subpath, closed by `Z` or by its end; y is negated, as SVG's points down |
-//! | `{"free": {"closed": c, "points": [P, ...]}}`   | a C2 spline through points `[x, y]`          |
+//! | `{"free": {"closed": c, "points": [P, ...]}}`   | a C2 spline through points `[x, y]`, or a curve near them; see [`contour`] |
 //! | `{"polyline": {"closed": c, "points": [P, ...]}}` | straight from point to point; see [`contour`] |
 //! | `{"sections": [{"at": v, "contour": C}, ...], ...}` | contours that go over into each other |
 //!
@@ -164,7 +164,7 @@ mod turn;
 
 pub use areas::Area;
 pub use caps::{Cap, Caps};
-pub use contour::Contour;
+pub use contour::{Contour, FreeContour};
 pub use corners::{Bezier3, Corners, Polyline3};
 pub use deform::{AxisTwist, Bend, Deform, Taper};
 pub use depth::{Depth, DepthImage, DepthMode, DepthTerm};
@@ -179,6 +179,8 @@ pub use trajectory::Trajectory;
 pub use turn::{Circle, Rotation};
 
 use crate::grid::UvLayout;
+use crate::schema;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The value of `format`.
@@ -188,16 +190,22 @@ pub const FORMAT: &str = "tb-sweep";
 pub const VERSION: u32 = 1;
 
 /// A spec as it is written.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object, a sweep's spec")]
 pub struct Spec {
+    /// Where an editor finds the schema of this file; passed over.
+    #[serde(rename = "$schema", default, skip_serializing_if = "Option::is_none")]
+    pub schema: Option<String>,
     /// `tb-sweep`; may be left out in a part of an object.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("const" = FORMAT))]
     pub format: Option<String>,
     /// 1; may be left out in a part of an object.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("const" = VERSION))]
     pub version: Option<u32>,
     /// The object's name; one word.
+    #[schemars(transform = schema::word)]
     pub name: String,
     /// What is swept.
     pub contour: Contour,
@@ -206,10 +214,10 @@ pub struct Spec {
     /// How the contour's axes lie along the trajectory.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frame: Option<Frame>,
-    /// Factors of the contour along the trajectory.
+    /// Factors of the contour along the trajectory; 1 if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scale: Option<Scale>,
-    /// Turn of the contour about the trajectory, in degrees.
+    /// Turn of the contour about the trajectory, in degrees, right-handed; 0 if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub twist: Option<Law>,
     /// Relief on the contour.
@@ -234,34 +242,40 @@ pub struct Spec {
     pub areas: Vec<Area>,
     /// The texture id of its triangles, which a scene binds to a picture; 0 is none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = schema::id)]
     pub texture: Option<u32>,
     /// The surface id of its triangles, which a scene binds to a material.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = schema::id)]
     pub surface: Option<u32>,
-    /// By how much the whole is moved in the end.
+    /// By how much the whole is moved in the end, `[x, y, z]` in the unit of length.
     #[serde(default)]
     pub position: [f64; 3],
 }
 
 /// Cubic Bezier segments, each of which starts where the one before it ends.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object with the key segments, and closed if it is")]
+#[schemars(inline)]
 pub struct Bezier<P> {
     /// Whether the last segment ends at the start of the first, and continues there.
     #[serde(default)]
     pub closed: bool,
-    /// Four control points each.
+    /// Four control points each, at least one segment; a segment starts where the one before ends.
+    #[schemars(transform = schema::at_least(1))]
     pub segments: Vec<[P; 4]>,
 }
 
 /// Points that a C2 spline goes through.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object with the key points, and closed if it is")]
+#[schemars(inline, transform = schema::loop_of_three)]
 pub struct Free<P> {
     /// Whether the last point leads on to the first, which is not given again.
     #[serde(default)]
     pub closed: bool,
     /// At least two points, three when closed.
+    #[schemars(transform = schema::at_least(2))]
     pub points: Vec<P>,
 }
 
@@ -294,7 +308,7 @@ mod tests {
     const PAGES: [(&str, usize); 10] = [
         (include_str!("spec.rs"), 4),
         (include_str!("spec/caps.rs"), 1),
-        (include_str!("spec/contour.rs"), 2),
+        (include_str!("spec/contour.rs"), 3),
         (include_str!("spec/corners.rs"), 2),
         (include_str!("spec/deform.rs"), 1),
         (include_str!("spec/flat.rs"), 1),

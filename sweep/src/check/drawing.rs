@@ -3,9 +3,9 @@
 use super::{Finding, Severity, short};
 use crate::Sweep;
 use crate::curve::vector::extent;
-use crate::curve::{Cubic, Path, Vector, spline, svg};
+use crate::curve::{Cubic, Path, Vector, fit, spline, svg};
 use crate::cut::Stop;
-use crate::spec::{Bezier, Contour, Free, Spec, Trajectory};
+use crate::spec::{Bezier, Contour, Free, FreeContour, Spec, Trajectory};
 use glam::{DVec2, DVec3};
 
 /// Ends of an open curve within this part of its size were most likely to meet.
@@ -32,7 +32,9 @@ pub fn findings(spec: &Spec, sweep: &Sweep) -> Vec<Finding> {
             Contour::Bezier(bezier) => {
                 joints::<_, DVec2>(&format!("{path}.bezier"), bezier, &mut found);
             }
-            Contour::Free(free) => doubled::<_, DVec2>(&format!("{path}.free"), free, &mut found),
+            Contour::Free(free) => {
+                doubled::<_, DVec2>(&format!("{path}.free"), &points_of(free), &mut found);
+            }
             Contour::Polyline(line) => {
                 doubled::<_, DVec2>(&format!("{path}.polyline"), line, &mut found);
             }
@@ -80,7 +82,13 @@ fn cubics(contour: &Contour) -> Option<(Vec<Cubic<DVec2>>, bool)> {
             let outline = svg::outline(text).ok()?;
             Some((outline.segments, outline.closed))
         }
-        Contour::Free(free) => Some((spline::through(&distinct(free), free.closed), free.closed)),
+        Contour::Free(free) => {
+            let points: Vec<DVec2> = distinct(&points_of(free));
+            Some(match free.fit {
+                Some(fit) => (fit::within(&points, free.closed, fit).cubics, free.closed),
+                None => (spline::through(&points, free.closed), free.closed),
+            })
+        }
         Contour::Polyline(line) => {
             let points: Vec<DVec2> = distinct(line);
             let next = points.iter().skip(1).chain(line.closed.then(|| &points[0]));
@@ -89,6 +97,10 @@ fn cubics(contour: &Contour) -> Option<(Vec<Cubic<DVec2>>, bool)> {
         }
         Contour::Circle(_) | Contour::Sections(_) => None,
     }
+}
+
+fn points_of(free: &FreeContour) -> Free<[f64; 2]> {
+    Free { closed: free.closed, points: free.points.clone() }
 }
 
 /// The points of a curve, each once.

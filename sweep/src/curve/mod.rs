@@ -5,6 +5,7 @@
 //! | [`cubic`]      | one segment: point, derivatives, tangents, cusps                  |
 //! | [`path`]       | segments joined, located by arc length; corners                   |
 //! | [`arc_length`] | the length of a segment and its inverse                           |
+//! | [`fit`]        | few cubics near many points                                       |
 //! | [`flat`]       | a curve drawn flat, with a height by a law                        |
 //! | [`helix`]      | a helix and its frames, in closed form                            |
 //! | [`spline`]     | a C2 curve through free points                                    |
@@ -15,6 +16,7 @@
 
 pub mod arc_length;
 pub mod cubic;
+pub mod fit;
 pub mod flat;
 pub mod helix;
 pub mod path;

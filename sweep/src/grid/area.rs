@@ -1,6 +1,8 @@
 //! Areas of a grid that carry pictures of their own (thesis 3.2).
 
 use super::{GridMesh, Seam};
+use crate::{MOST_CELLS, schema};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A rectangle of cells with a picture of its own, which is fitted to it: picture coordinates run
@@ -11,24 +13,29 @@ use serde::{Deserialize, Serialize};
 /// cell of no width, between the two columns of a crease, has no number. `[2, 5]` are cells 2, 3
 /// and 4. The cell that leads back to the start is the last one. Of areas that overlap the last one
 /// is seen.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(
     deny_unknown_fields,
     expecting = "an object with the keys rows and cols, and any of texture, surface, repeat"
 )]
 pub struct Area {
     /// The first cell along the trajectory, and the one behind the last.
+    #[schemars(transform = schema::range(0..=MOST_CELLS))]
     pub rows: [usize; 2],
     /// The first cell along the contour, and the one behind the last.
+    #[schemars(transform = schema::range(0..=MOST_CELLS))]
     pub cols: [usize; 2],
     /// The texture id; left out, that of the patch.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = schema::id)]
     pub texture: Option<u32>,
     /// The surface id; left out, that of the patch.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = schema::id)]
     pub surface: Option<u32>,
     /// How often the picture repeats, across and up; positive.
     #[serde(default = "once")]
+    #[schemars(transform = schema::above(0.0, MOST_REPEATS))]
     pub repeat: [f64; 2],
 }
 

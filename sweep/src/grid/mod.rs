@@ -12,6 +12,7 @@ pub use row::Row;
 pub use seam::Seam;
 
 use glam::{DVec3, Vec3};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A swept surface as a grid of points, row-major by station: an object, or a patch of one that is
@@ -70,12 +71,13 @@ pub struct GridMesh {
 /// Across the contour, the picture's coordinates are `(s, t) = (u, v)`. Across the trajectory it is
 /// turned a quarter, `(s, t) = (1 - v, u)`, so that it stands upright on a vessel; seen from
 /// outside, neither is mirrored.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct UvLayout {
     /// The grid direction that runs across the picture.
     pub across: Across,
-    /// How often the picture repeats, across and up; positive.
+    /// How often the picture repeats, across and up; above 0.
+    #[schemars(transform = crate::schema::range(crate::schema::REPEATS))]
     pub repeat: [f64; 2],
     /// What `u` and `v` of the grid count.
     #[serde(skip_serializing_if = "By::is_length")]
@@ -83,7 +85,7 @@ pub struct UvLayout {
 }
 
 /// What `u` and `v` of a grid count.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum By {
     /// Fractions of length: a picture lies evenly.
@@ -101,7 +103,7 @@ impl By {
 }
 
 /// A direction of the grid.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Across {
     /// Along the contour, `u`.

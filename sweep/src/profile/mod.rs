@@ -138,6 +138,11 @@ impl Profile {
         }
     }
 
+    /// The segments and the largest distance of each contour that was fitted to points.
+    pub fn fits(&self) -> impl Iterator<Item = (usize, f64)> {
+        self.contours.iter().filter_map(|one| one.contour.fit())
+    }
+
     /// The number of contours.
     #[must_use]
     pub fn contours(&self) -> usize {

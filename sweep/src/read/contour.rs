@@ -25,7 +25,8 @@ impl Reader<'_> {
                 Ok(Contour::path(self.outline(&format!("{path}.svg"), text)?))
             }
             spec::Contour::Free(free) => {
-                Ok(Contour::path(self.free(&format!("{path}.free"), free)?))
+                let (curve, reached) = self.near(&format!("{path}.free"), free)?;
+                Ok(Contour::fitted(curve, reached))
             }
             spec::Contour::Polyline(line) => {
                 Ok(Contour::path(self.polyline(&format!("{path}.polyline"), line)?))

@@ -3,8 +3,9 @@
 use super::{Reader, SMALLEST};
 use crate::SweepError;
 use crate::curve::vector::extent;
-use crate::curve::{Cubic, Path, Vector, spline};
-use crate::spec::{Bezier, Free};
+use crate::curve::{Cubic, Path, Vector, fit, spline};
+use crate::spec::{Bezier, Free, FreeContour};
+use glam::DVec2;
 
 /// Segments meet when their ends are this fraction of the curve apart.
 ///
@@ -64,6 +65,23 @@ impl Reader<'_> {
     {
         let points = self.distinct(path, free)?;
         self.path(path, &spline::through(&points, free.closed), free.closed)
+    }
+
+    /// The spline through free points of a plane, or a curve as near to them as asked, and how near
+    /// that is.
+    pub(super) fn near(
+        &self,
+        path: &str,
+        given: &FreeContour,
+    ) -> Result<(Path<DVec2>, Option<f64>), SweepError> {
+        let free = Free { closed: given.closed, points: given.points.clone() };
+        let Some(tolerance) = given.fit else {
+            return Ok((self.free(path, &free)?, None));
+        };
+        self.positive(&format!("{path}.fit"), tolerance)?;
+        let points: Vec<DVec2> = self.distinct(path, &free)?;
+        let fit = fit::within(&points, free.closed, tolerance);
+        Ok((self.path(path, &fit.cubics, free.closed)?, Some(fit.reached)))
     }
 
     /// Straight lines from point to point.

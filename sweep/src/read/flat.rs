@@ -15,7 +15,7 @@ impl Reader<'_> {
         let curve = format!("{path}.curve");
         let plane: Path<DVec2> = match &flat.curve {
             spec::Contour::Bezier(bezier) => self.bezier(&format!("{curve}.bezier"), bezier)?,
-            spec::Contour::Free(free) => self.free(&format!("{curve}.free"), free)?,
+            spec::Contour::Free(free) => self.near(&format!("{curve}.free"), free)?.0,
             spec::Contour::Svg(text) => self.outline(&format!("{curve}.svg"), text)?,
             spec::Contour::Polyline(line) => self.polyline(&format!("{curve}.polyline"), line)?,
             spec::Contour::Circle(_) | spec::Contour::Sections(_) => {

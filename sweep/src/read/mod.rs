@@ -29,13 +29,13 @@ use glam::DVec3;
 use std::ops::RangeInclusive;
 
 /// Coordinates beyond this have squares of squares that a double cannot hold.
-const LARGEST: f64 = 1e60;
+pub(crate) const LARGEST: f64 = 1e60;
 
 /// Curves smaller than this have squares of squares that vanish.
-const SMALLEST: f64 = 1e-60;
+pub(crate) const SMALLEST: f64 = 1e-60;
 
 /// Repeats of a picture, whose coordinates become f32 in a mesh.
-const REPEATS: RangeInclusive<f64> = 1e-30..=1e30;
+pub(crate) const REPEATS: RangeInclusive<f64> = 1e-30..=1e30;
 
 /// The checks, with the document that their complaints are placed in, and where its files lie.
 struct Reader<'a> {

@@ -18,10 +18,12 @@
 //! A cap gathers its section to one place in it that sees all of it, so a section that has none (a
 //! figure of eight, a U) is refused.
 
+use crate::schema;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// What closes the ends of a sweep.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default, expecting = "an object with any of the keys start, end")]
 pub struct Caps {
     /// At the start of the trajectory.
@@ -31,7 +33,7 @@ pub struct Caps {
 }
 
 /// What closes one end.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Cap {
     /// The plane of the section.
@@ -39,8 +41,8 @@ pub enum Cap {
     /// A dome as high as the section's points are from its centre in the mean: on a circle, half a
     /// sphere.
     Round,
-    /// A dome of this height.
-    Dome(f64),
-    /// A cone of this height, to a pole.
-    Pole(f64),
+    /// A dome of this height, in the unit of length; above 0.
+    Dome(#[schemars(transform = schema::positive)] f64),
+    /// A cone of this height, to a pole; above 0.
+    Pole(#[schemars(transform = schema::positive)] f64),
 }

@@ -13,6 +13,24 @@
 //! }
 //! ```
 //!
+//! # Points that are measured or drawn by hand
+//!
+//! **Free** points with a `fit` are not gone through: few cubics pass within that distance of all of
+//! them. Where the points turn by 30 degrees more than they do around, the curve has a corner; all else
+//! is smooth, the start of a closed curve too. A turn is measured over 8 `fit` to both sides at least,
+//! so noise of half a `fit` makes no corner, and a smaller bend may be one.
+//!
+//! ```json
+//! {
+//!   "format": "tb-sweep", "version": 1, "name": "moulding",
+//!   "contour": { "free": { "fit": 0.02, "points": [
+//!     [0.00, 0.00], [0.10, 0.01], [0.21, 0.00], [0.30, 0.00], [0.40, 0.01], [0.40, 0.10], [0.39, 0.21], [0.40, 0.30],
+//!     [0.41, 0.40], [0.43, 0.50], [0.48, 0.59], [0.56, 0.66], [0.65, 0.70], [0.75, 0.71], [0.85, 0.70], [0.95, 0.71]] } },
+//!   "trajectory": { "line": [[0, 0, 0], [0, 0, 4]] },
+//!   "mesh": { "rows": 8, "cols": 40 }
+//! }
+//! ```
+//!
 //! # Several contours
 //!
 //! **Sections** are contours with places `at` on the trajectory, as parts of its length; each goes over
@@ -42,10 +60,12 @@
 //! at 0 has to be the same contour. About the axis of a rotation sections keep off the axis.
 
 use super::{Bezier, Ease, Free, only};
+use crate::schema;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A curve in the plane.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "ContourKeys", into = "ContourKeys")]
 pub enum Contour {
     /// A circle about the origin, by its radius.
@@ -54,12 +74,30 @@ pub enum Contour {
     Bezier(Bezier<[f64; 2]>),
     /// The `d` attribute of an SVG path.
     Svg(String),
-    /// Points that a spline goes through.
-    Free(Free<[f64; 2]>),
+    /// Points that a spline goes through, or that a curve is fitted to.
+    Free(FreeContour),
     /// Points with straight lines between them.
     Polyline(Free<[f64; 2]>),
     /// Contours that go over into each other.
     Sections(Sections),
+}
+
+/// Points in the plane that a C2 spline goes through, or that few cubics are fitted to.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "an object with the key points, and any of closed, fit")]
+#[schemars(transform = schema::loop_of_three)]
+pub struct FreeContour {
+    /// Whether the last point leads on to the first, which is not given again.
+    #[serde(default)]
+    pub closed: bool,
+    /// At least two points, three when closed.
+    #[schemars(transform = schema::at_least(2))]
+    pub points: Vec<[f64; 2]>,
+    /// How far a point may be from the curve, in the unit of length, above 0; left out, the curve goes
+    /// through all points.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = schema::positive)]
+    pub fit: Option<f64>,
 }
 
 /// Contours with places on the trajectory.
@@ -74,36 +112,49 @@ pub struct Sections {
 }
 
 /// A contour and its place.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object with the keys at and contour")]
 pub struct Section {
     /// A part of the trajectory's length, from 0 to 1.
+    #[schemars(transform = schema::range(0.0..=1.0))]
     pub at: f64,
     /// What is swept there; no sections.
+    #[schemars(transform = schema::without(&["sections"]))]
     pub contour: Contour,
 }
 
 /// The keys of a contour as they are read, so that none and two of them get a sentence.
-#[derive(Default, Serialize, Deserialize)]
+#[derive(Default, Serialize, Deserialize, JsonSchema)]
 #[serde(
     deny_unknown_fields,
     expecting = "an object with one of the keys circle, bezier, svg, free, polyline, sections"
 )]
+#[schemars(extend("dependentRequired" = {"blend": ["sections"], "align": ["sections"]}), transform = schema::one_of)]
 struct ContourKeys {
+    /// A circle about the origin, by its radius; above 0.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = schema::positive)]
     circle: Option<f64>,
+    /// Cubic Bezier segments.
     #[serde(skip_serializing_if = "Option::is_none")]
     bezier: Option<Bezier<[f64; 2]>>,
+    /// The `d` attribute of an SVG path with one subpath; its y points down.
     #[serde(skip_serializing_if = "Option::is_none")]
     svg: Option<String>,
+    /// Points `[x, y]` that a spline goes through, or that a curve is fitted to.
     #[serde(skip_serializing_if = "Option::is_none")]
-    free: Option<Free<[f64; 2]>>,
+    free: Option<FreeContour>,
+    /// Points `[x, y]` with straight lines between them.
     #[serde(skip_serializing_if = "Option::is_none")]
     polyline: Option<Free<[f64; 2]>>,
+    /// Contours that go over into each other, from 2 to 1000, `at` rising.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = schema::at_least(2))]
     sections: Option<Vec<Section>>,
+    /// The way from one section to the next; `linear` if left out.
     #[serde(skip_serializing_if = "Option::is_none")]
     blend: Option<Ease>,
+    /// Whether the starts of closed sections are moved to match; true if left out.
     #[serde(skip_serializing_if = "Option::is_none")]
     align: Option<bool>,
 }

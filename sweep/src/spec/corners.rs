@@ -31,10 +31,12 @@
 //! ```
 
 use super::only;
+use crate::schema;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Cubic Bezier segments in space, each of which starts where the one before it ends.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(
     deny_unknown_fields,
     expecting = "an object with the key segments, closed if it is, and corners if it has any"
@@ -44,6 +46,7 @@ pub struct Bezier3 {
     #[serde(default)]
     pub closed: bool,
     /// Four control points each.
+    #[schemars(transform = schema::at_least(1))]
     pub segments: Vec<[[f64; 3]; 4]>,
     /// What becomes of corners.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -51,16 +54,18 @@ pub struct Bezier3 {
 }
 
 /// Points in space that straight lines join.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(
     deny_unknown_fields,
     expecting = "an object with the key points, closed if it is, and corners if it has any"
 )]
+#[schemars(transform = schema::loop_of_three)]
 pub struct Polyline3 {
     /// Whether the last point leads on to the first, which is not given again.
     #[serde(default)]
     pub closed: bool,
     /// At least two points, three when closed.
+    #[schemars(transform = schema::at_least(2))]
     pub points: Vec<[f64; 3]>,
     /// What becomes of corners.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -68,7 +73,7 @@ pub struct Polyline3 {
 }
 
 /// What becomes of the corners of a trajectory.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", try_from = "CornersKeys")]
 pub enum Corners {
     /// They are cut off at this length before and after, and bridged.
@@ -77,10 +82,15 @@ pub enum Corners {
     Mitre(f64),
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object with one of the keys round, mitre")]
+#[schemars(transform = schema::one_of)]
 struct CornersKeys {
+    /// They are cut off at this length before and after, above 0, and bridged.
+    #[schemars(transform = schema::positive)]
     round: Option<f64>,
+    /// They are mitred, up to this limit, at least 1.
+    #[schemars(transform = schema::range(1.0..=f64::MAX))]
     mitre: Option<f64>,
 }
 

@@ -28,10 +28,12 @@
 //! ```
 
 use super::{Law, only, up};
+use crate::schema;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A deformation of the space that a surface lies in.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", try_from = "DeformKeys")]
 pub enum Deform {
     /// Draws everything toward an axis, or away from it.
@@ -43,7 +45,7 @@ pub enum Deform {
 }
 
 /// A piece of an axis, along which a deformation takes place.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(
     deny_unknown_fields,
     expecting = "an object with the keys from, to and factor, and any of axis, origin"
@@ -64,7 +66,7 @@ pub struct Taper {
 }
 
 /// A turn about an axis that changes along it.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(
     deny_unknown_fields,
     expecting = "an object with the keys from, to and degrees, and any of axis, origin"
@@ -80,12 +82,12 @@ pub struct AxisTwist {
     pub from: f64,
     /// Where it ends; above `from`.
     pub to: f64,
-    /// The turn, right-handed about the axis, from `from` to `to`.
+    /// The turn in degrees, right-handed about the axis, from `from` to `to`.
     pub degrees: Law,
 }
 
 /// A piece of an axis that becomes an arc of a circle.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(
     deny_unknown_fields,
     expecting = "an object with the keys from, to, degrees and toward, and any of axis, origin"
@@ -101,18 +103,23 @@ pub struct Bend {
     pub from: f64,
     /// Where it ends; above `from`.
     pub to: f64,
-    /// By how much the axis is turned after it.
+    /// By how much the axis is turned after it, in degrees, at most 3600 either way.
+    #[schemars(transform = schema::range(-3600.0..=3600.0))]
     pub degrees: f64,
     /// A direction across the axis, which it bends toward.
     pub toward: [f64; 3],
 }
 
 /// The keys of a deformation as they are read.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object with one of the keys taper, twist, bend")]
+#[schemars(transform = schema::one_of)]
 struct DeformKeys {
+    /// Multiplies distances from an axis.
     taper: Option<Taper>,
+    /// Turns everything about an axis.
     twist: Option<AxisTwist>,
+    /// Makes an axis an arc, and takes everything with it.
     bend: Option<Bend>,
 }
 

@@ -1,11 +1,14 @@
 //! Depth modulation as it is written.
 
 use super::Law;
+use crate::schema::{self, SMALLEST};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A relief on the contour.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object with the key mode, and terms or image")]
+#[schemars(transform = schema::terms_or_image)]
 pub struct Depth {
     /// What the sum of the terms does to the contour.
     pub mode: DepthMode,
@@ -18,7 +21,7 @@ pub struct Depth {
 }
 
 /// Heights from a picture.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(
     deny_unknown_fields,
     expecting = "an object with the keys file and amp, and any of repeat, zero"
@@ -28,8 +31,9 @@ pub struct DepthImage {
     pub file: String,
     /// Height of white above black: a part of the contour for a factor, a length for an offset.
     pub amp: f64,
-    /// How often the picture repeats, across and up; whole numbers along closed curves.
+    /// How often the picture repeats, across and up, above 0 and at most a million; whole numbers along closed curves.
     #[serde(default = "once")]
+    #[schemars(transform = schema::range(SMALLEST..=1e6))]
     pub repeat: [f64; 2],
     /// The grey that leaves the contour as it is: 0 is black, 1 is white.
     #[serde(default = "half")]
@@ -37,7 +41,7 @@ pub struct DepthImage {
 }
 
 /// What a relief does to the contour.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum DepthMode {
     /// Multiplies it by one more than the relief.
@@ -47,7 +51,7 @@ pub enum DepthMode {
 }
 
 /// One wave of a relief.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(
     deny_unknown_fields,
     expecting = "an object with the key amp, and any of u, v, phase_deg, along"
@@ -57,11 +61,13 @@ pub struct DepthTerm {
     pub amp: f64,
     /// Waves along the contour; a whole number on a closed one.
     #[serde(default)]
+    #[schemars(transform = schema::range(-1e6..=1e6))]
     pub u: f64,
     /// Waves along the trajectory; a whole number on a closed one.
     #[serde(default)]
+    #[schemars(transform = schema::range(-1e6..=1e6))]
     pub v: f64,
-    /// Where the sine begins.
+    /// Where the sine begins, in degrees.
     #[serde(default)]
     pub phase_deg: f64,
     /// Factor of the height along the trajectory.

@@ -17,13 +17,16 @@
 //! ```
 
 use super::{Contour, Law};
+use crate::schema;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A curve in the plane with a height.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object with the keys curve and z")]
 pub struct Flat {
     /// Gives x and y; any contour but a circle, of which an SVG path can draw one.
+    #[schemars(transform = schema::without(&["circle", "sections"]))]
     pub curve: Contour,
     /// Gives z, by the fraction of the curve's length.
     pub z: Law,

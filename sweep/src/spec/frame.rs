@@ -50,10 +50,12 @@
 //! ```
 
 use super::{Trajectory, only};
+use crate::schema;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// What the frames along a trajectory are fixed by.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", try_from = "FrameKeys")]
 pub enum Frame {
     /// What the contour's x points at in the beginning, as near as the trajectory lets it.
@@ -67,16 +69,22 @@ pub enum Frame {
 }
 
 /// Frenet's frame, about which there is nothing to say.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an empty object, {}")]
 pub struct Frenet {}
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object with one of the keys start, up, frenet, guide")]
+#[schemars(transform = schema::one_of)]
 struct FrameKeys {
+    /// What the contour's x points at in the beginning, a direction `[x, y, z]`.
     start: Option<[f64; 3]>,
+    /// What the contour's y points at everywhere, a direction `[x, y, z]`.
     up: Option<[f64; 3]>,
+    /// The contour's x points to the centre of curvature.
     frenet: Option<Frenet>,
+    /// The contour's x points to this curve; no rotation.
+    #[schemars(transform = schema::without(&["rotation"]))]
     guide: Option<Box<Trajectory>>,
 }
 

@@ -1,9 +1,12 @@
 //! Laws as they are written: a number, or an object with one key.
 
 use super::only;
+use crate::schema;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Error, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
+use std::borrow::Cow;
 use std::fmt;
 
 /// A number that may change along the trajectory, by the fraction of its length.
@@ -32,7 +35,7 @@ pub enum Law {
 }
 
 /// The way between two keys.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Ease {
     /// Straight.
@@ -53,12 +56,19 @@ pub enum Scale {
 }
 
 /// The keys of a law as they are read.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("dependentRequired" = {"ease": ["keys"]}), transform = schema::one_of)]
 struct LawKeys {
+    /// Keys `[at, value]`, `at` strictly rising within 0 and 1.
+    #[schemars(transform = schema::graph)]
     keys: Option<Vec<[f64; 2]>>,
+    /// The way between two keys; `linear` if left out.
     ease: Option<Ease>,
+    /// Cubics of points `[at, value]`, along which `at` does not fall.
+    #[schemars(transform = schema::graph)]
     bezier: Option<Vec<[[f64; 2]; 4]>>,
+    /// From 0 at the start evenly to this at the end.
     total: Option<f64>,
 }
 
@@ -78,6 +88,33 @@ impl TryFrom<LawKeys> for Law {
                 ("total", given.total.map(|total| Self::Total { total })),
             ],
         )
+    }
+}
+
+impl JsonSchema for Law {
+    fn schema_name() -> Cow<'static, str> {
+        "Law".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "description": "A number that may change along the trajectory, by the fraction of its length.",
+            "anyOf": [{ "type": "number" }, generator.subschema_for::<LawKeys>()],
+        })
+    }
+}
+
+impl JsonSchema for Scale {
+    fn schema_name() -> Cow<'static, str> {
+        "Scale".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let law = generator.subschema_for::<Law>();
+        json_schema!({
+            "description": "One law for both axes of the contour, or one for each.",
+            "anyOf": [law, { "type": "array", "items": law, "minItems": 2, "maxItems": 2 }],
+        })
     }
 }
 

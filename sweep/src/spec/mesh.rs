@@ -30,43 +30,52 @@
 //! sides and of its triangles, and hold there. When `max_quads` or the surface (a cusp, a fold) do not
 //! let the tolerance be kept, the closest is made and a note says how close that is.
 
+use crate::{MOST_CELLS, schema};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Cells at most where a spec does not say.
 pub const MAX_QUADS: usize = 2_000_000;
 
 /// How finely a surface is cut.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(
     deny_unknown_fields,
     expecting = "an object with the keys rows and cols, or with any of tol, angle_deg, pixels"
 )]
+#[schemars(transform = schema::cells_or_tolerance)]
 pub struct Mesh {
     /// Cells along the trajectory.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = schema::range(1..=MOST_CELLS))]
     pub rows: Option<usize>,
     /// Cells along the contour; the cells without width at creases come on top.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = schema::range(1..=MOST_CELLS))]
     pub cols: Option<usize>,
-    /// The largest distance between triangles and surface.
+    /// The largest distance between triangles and surface, in the unit of length; above 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = schema::below(1e60))]
     pub tol: Option<f64>,
-    /// The largest angle between triangles and surface.
+    /// The largest angle between triangles and surface, in degrees above 0 and below 90.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = schema::below(90.0))]
     pub angle_deg: Option<f64>,
-    /// The largest distance in pixels.
+    /// The largest distance in pixels of the camera's picture; above 0. Not beside `tol`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = schema::below(1e6))]
     pub pixels: Option<f64>,
     /// Whose pixels.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub camera: Option<Camera>,
-    /// Cells at most.
+    /// Cells at most; 2,000,000 if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = schema::range(1..=MOST_CELLS))]
     pub max_quads: Option<usize>,
 }
 
 /// A camera and the size of its picture.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(
     deny_unknown_fields,
     expecting = "an object with the keys eye, target, fov_deg, size, and up if it is not y"
@@ -79,9 +88,11 @@ pub struct Camera {
     /// What is up in the picture, as near as it can be.
     #[serde(default = "super::up")]
     pub up: [f64; 3],
-    /// The angle between the lower and the upper edge of the picture.
+    /// The angle between the lower and the upper edge of the picture, in degrees above 0 and below 180.
+    #[schemars(extend("exclusiveMinimum" = 0.0, "exclusiveMaximum" = 180.0))]
     pub fov_deg: f64,
     /// Pixels across and down.
+    #[schemars(transform = schema::range(1..=u32::MAX))]
     pub size: [u32; 2],
 }
 

@@ -23,19 +23,28 @@
 //! }
 //! ```
 
-use super::Spec;
+use super::{FORMAT, Spec, VERSION};
+use crate::schema;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Several sweeps that are one object.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object, a spec of parts")]
 pub struct Parts {
+    /// Where an editor finds the schema of this file; passed over.
+    #[serde(rename = "$schema", default, skip_serializing_if = "Option::is_none")]
+    pub schema: Option<String>,
     /// `tb-sweep`.
+    #[schemars(extend("const" = FORMAT))]
     pub format: String,
     /// 1.
+    #[schemars(extend("const" = VERSION))]
     pub version: u32,
     /// The object's name; one word.
+    #[schemars(transform = schema::word)]
     pub name: String,
-    /// At least one.
+    /// At least one sweep, each with a name of its own.
+    #[schemars(transform = schema::at_least(1))]
     pub parts: Vec<Spec>,
 }

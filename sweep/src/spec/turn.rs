@@ -1,15 +1,18 @@
 //! Turns about an axis as they are written: a circle, a rotation.
 
+use crate::schema;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A circle in space.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(
     deny_unknown_fields,
     expecting = "an object with the key radius, and any of center, axis, angle_deg"
 )]
 pub struct Circle {
     /// The distance of the contour's origin from the centre; positive.
+    #[schemars(transform = schema::positive)]
     pub radius: f64,
     /// The centre.
     #[serde(default)]
@@ -17,17 +20,19 @@ pub struct Circle {
     /// The direction of the contour's y, of any length.
     #[serde(default = "super::up")]
     pub axis: [f64; 3],
-    /// Above 0, up to 360, which is closed.
+    /// Degrees above 0, up to 360, which is closed.
     #[serde(default = "full_turn")]
+    #[schemars(transform = schema::above(0.0, 360.0))]
     pub angle_deg: f64,
 }
 
 /// A turn of the contour about an axis in its plane.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object with any of the keys angle_deg, origin, axis")]
 pub struct Rotation {
-    /// Above 0, up to 360, which is closed.
+    /// Degrees above 0, up to 360, which is closed.
     #[serde(default = "full_turn")]
+    #[schemars(transform = schema::above(0.0, 360.0))]
     pub angle_deg: f64,
     /// Where the contour's origin lies.
     #[serde(default)]

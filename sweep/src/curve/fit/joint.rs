@@ -1,0 +1,154 @@
+//! Where two pieces meet: a place and the directions there.
+
+use super::Run;
+use glam::{DMat3, DVec2, DVec3};
+
+/// So few points to a side say nothing of noise.
+const FEW: usize = 4;
+
+/// What is off by this part of the tolerance does not matter.
+const SMALL: f64 = 0.05;
+
+/// An end of a piece.
+#[derive(Debug, Clone, Copy)]
+pub struct Joint {
+    /// Where it is.
+    pub place: DVec2,
+    /// The unit direction in which the piece before comes in.
+    pub before: DVec2,
+    /// The unit direction in which the piece after goes out; the same unless this is a corner.
+    pub after: DVec2,
+}
+
+impl Run<'_> {
+    /// The joint at point `i`.
+    pub(super) fn joint(&self, i: usize) -> Joint {
+        let [before, after] = self.around(i);
+        let end = before == 0 || after == 0;
+        if end || self.corners.contains(&i) {
+            let place = self.point(i);
+            let side = |steps: [usize; 2]| self.parabola(i, steps, true).1;
+            let leaving = if after > 0 { side([0, after]) } else { side([before, 0]) };
+            let reaching = if before > 0 { side([before, 0]) } else { leaving };
+            return Joint { place, before: reaching, after: leaving };
+        }
+        let (place, direction) = self.parabola(i, [before, after], false);
+        Joint { place, before: direction, after: direction }
+    }
+
+    /// How many points there are before and after point `i`, up to corners and ends; in a loop
+    /// without corners a third of all.
+    fn around(&self, i: usize) -> [usize; 2] {
+        let count = self.points.len();
+        let most = count / 3;
+        let next = self.corners.partition_point(|&corner| corner <= i);
+        let previous = self.corners.partition_point(|&corner| corner < i);
+        if !self.closed {
+            let before = previous.checked_sub(1).map_or(0, |at| self.corners[at]);
+            let after = self.corners.get(next).copied().unwrap_or(count - 1);
+            return [i - before, after - i];
+        }
+        match self.corners[..] {
+            [] => [most.max(1); 2],
+            [first, .., last] | [first @ last] => {
+                let before = previous
+                    .checked_sub(1)
+                    .map_or_else(|| i + count - last, |at| i - self.corners[at]);
+                let after = self.corners.get(next).map_or(first + count - i, |&corner| corner - i);
+                [before.min(most.max(1)), after.min(most.max(1))]
+            }
+        }
+    }
+
+    /// The place and the direction at point `i` of the parabola through the points around it, at most
+    /// so many before and after: the widest of those, twice as wide each, that is a good one.
+    ///
+    /// It is within half the tolerance of all its points, and among noise: a wider one is not off by
+    /// much more. Beyond that it would be the parabola that misses the curve.
+    fn parabola(&self, i: usize, most: [usize; 2], fixed: bool) -> (DVec2, DVec2) {
+        let mut best: Option<(f64, DVec2, DVec2)> = None;
+        let mut steps = 1;
+        loop {
+            // The side of an end takes two points, so that it can bend.
+            let reach = if most.contains(&0) { steps + 1 } else { steps };
+            let [before, after] = most.map(|most| most.min(reach));
+            let found = self.through(i, [before, after], fixed);
+            match found {
+                Some(next) if best.is_none_or(|last| self.is_good(steps, last.0, next.0)) => {
+                    best = found;
+                }
+                _ => break,
+            }
+            if [before, after] == most {
+                break;
+            }
+            steps *= 2;
+        }
+        best.map(|(_, place, direction)| (place, direction)).unwrap_or_else(|| {
+            let count = self.points.len();
+            let from = self.point(i + count - most[0].min(1));
+            let to = self.point(i + most[1].min(1));
+            let ahead = if to == from { self.point(i + 1) - self.point(i) } else { to - from };
+            (self.point(i), ahead.normalize_or(DVec2::X))
+        })
+    }
+
+    /// Whether a parabola that is `next` off is to be preferred to a narrower one that is `last` off.
+    fn is_good(&self, steps: usize, last: f64, next: f64) -> bool {
+        let noise = steps <= FEW || next <= SMALL * self.tolerance || next <= 2.0 * last;
+        next <= 0.5 * self.tolerance && noise
+    }
+
+    /// The largest distance from its points, and place and direction at point `i`, of the parabola by
+    /// chord length that is nearest to them in the least-squares sense. A fixed one goes through the
+    /// point itself.
+    fn through(
+        &self,
+        i: usize,
+        [before, after]: [usize; 2],
+        fixed: bool,
+    ) -> Option<(f64, DVec2, DVec2)> {
+        if before + after < 2 {
+            return None;
+        }
+        let count = self.points.len();
+        let origin = self.point(i);
+        let offsets: Vec<DVec2> =
+            (0..=before + after).map(|k| self.point(i + count + k - before) - origin).collect();
+        let mut lengths = vec![0.0];
+        for ends in offsets.windows(2) {
+            let length = lengths.last().copied().unwrap_or(0.0);
+            lengths.push(length + ends[0].distance(ends[1]));
+        }
+        let (middle, whole) = (lengths[before], lengths[before + after]);
+        let places: Vec<f64> = lengths.iter().map(|length| (length - middle) / whole).collect();
+        let (mut sums, mut x, mut y) = ([0.0; 5], DVec3::ZERO, DVec3::ZERO);
+        for (s, offset) in places.iter().zip(&offsets) {
+            let powers = DVec3::new(1.0, *s, s * s);
+            x += powers * offset.x;
+            y += powers * offset.y;
+            let mut power = 1.0;
+            for sum in &mut sums {
+                *sum += power;
+                power *= s;
+            }
+        }
+        let [s0, s1, s2, s3, s4] = sums;
+        let [x, y] = if fixed {
+            let det = s2 * s4 - s3 * s3;
+            [x, y]
+                .map(|v| DVec3::new(0.0, (v.y * s4 - v.z * s3) / det, (v.z * s2 - v.y * s3) / det))
+        } else {
+            let inverse = DMat3::from_cols_array(&[s0, s1, s2, s1, s2, s3, s2, s3, s4]).inverse();
+            [inverse * x, inverse * y]
+        };
+        let [c0, c1, c2] = [0, 1, 2].map(|k| DVec2::new(x[k], y[k]));
+        let direction = c1.try_normalize()?;
+        let error = places
+            .iter()
+            .zip(&offsets)
+            .map(|(&s, &offset)| (c0 + c1 * s + c2 * (s * s)).distance(offset))
+            .fold(0.0, f64::max);
+        (error.is_finite() && c0.is_finite()).then_some((error, origin + c0, direction))
+    }
+}

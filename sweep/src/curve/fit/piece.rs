@@ -1,0 +1,117 @@
+//! One cubic near a run of points.
+
+use super::joint::Joint;
+use crate::curve::cubic::Cubic;
+use glam::DVec2;
+
+/// Rounds of moving parameters to where the cubic is nearest, at most.
+const ROUNDS: usize = 12;
+
+/// Parameters are moved where the error is below this many tolerances, as more is not won by it.
+const IN_REACH: f64 = 1024.0;
+
+/// Handles are from this part of the chord ...
+const SHORTEST: f64 = 0.01;
+
+/// ... to this part of the way along the points.
+const LONGEST: f64 = 1.0;
+
+/// A cubic, and how near it is to its points.
+pub struct Piece {
+    pub cubic: Cubic<DVec2>,
+    /// The largest distance of a point from it.
+    pub error: f64,
+}
+
+impl Piece {
+    /// The cubic from one joint to another that is nearest to the points between.
+    pub fn through(points: &[DVec2], [start, end]: [Joint; 2], tolerance: f64) -> Self {
+        let mut at = chord_lengths(points);
+        let way: f64 = points.windows(2).map(|ends| ends[0].distance(ends[1])).sum();
+        let ends = [start.place, end.place];
+        let directions = [start.after, -end.before];
+        let weights = vec![None; points.len()];
+        let first = least_squares(points, &at, &weights, ends, directions, way);
+        let mut best = Self::measured(first, points, &at);
+        let mut cubic = best.cubic;
+        for _ in 0..ROUNDS {
+            if best.error <= tolerance || best.error > IN_REACH * tolerance {
+                break;
+            }
+            for (t, &point) in at.iter_mut().zip(points) {
+                *t = nearer(&cubic, *t, point);
+            }
+            let moved = Self::measured(cubic, points, &at);
+            if moved.error < best.error {
+                best = moved;
+            }
+            let normals: Vec<_> = at.iter().map(|&t| Some(cubic.tangent(t).perp())).collect();
+            cubic = least_squares(points, &at, &normals, ends, directions, way);
+        }
+        best
+    }
+
+    fn measured(cubic: Cubic<DVec2>, points: &[DVec2], at: &[f64]) -> Self {
+        let off = at.iter().zip(points).map(|(&t, point)| cubic.point(t).distance(*point));
+        Self { cubic, error: off.fold(0.0, f64::max) }
+    }
+}
+
+/// The parameters of points by the way along them, from 0 to 1.
+fn chord_lengths(points: &[DVec2]) -> Vec<f64> {
+    let mut at = vec![0.0];
+    let mut way = 0.0;
+    for ends in points.windows(2) {
+        way += ends[0].distance(ends[1]);
+        at.push(way);
+    }
+    at.iter().map(|length| length / way).collect()
+}
+
+/// The cubic whose handles have given directions and the lengths with the least sum of squared
+/// distances; a third of the chord where those would be none.
+///
+/// Where there is a normal only the distance along it counts, so that points slide along the curve: a
+/// Gauss-Newton step for the true distances, where plain ones take hundreds of rounds.
+fn least_squares(
+    points: &[DVec2],
+    at: &[f64],
+    normals: &[Option<DVec2>],
+    [start, end]: [DVec2; 2],
+    [leaving, reaching]: [DVec2; 2],
+    way: f64,
+) -> Cubic<DVec2> {
+    // The equations for the two lengths: [aa ab; ab bb] (a, b) = (ra, rb).
+    let (mut aa, mut ab, mut bb, mut ra, mut rb) = (0.0, 0.0, 0.0, 0.0, 0.0);
+    for ((&t, &point), normal) in at.iter().zip(points).zip(normals) {
+        let s = 1.0 - t;
+        let (a, b) = (leaving * (3.0 * s * s * t), reaching * (3.0 * s * t * t));
+        let rest =
+            (point - start) * (s * s * (s + 3.0 * t)) + (point - end) * (t * t * (t + 3.0 * s));
+        let [a, b, rest] = match normal {
+            Some(n) => [a, b, rest].map(|v| *n * v.dot(*n)),
+            None => [a, b, rest],
+        };
+        aa += a.dot(a);
+        ab += a.dot(b);
+        bb += b.dot(b);
+        ra += a.dot(rest);
+        rb += b.dot(rest);
+    }
+    let chord = start.distance(end);
+    let det = aa * bb - ab * ab;
+    let lengths = [(ra * bb - rb * ab) / det, (rb * aa - ra * ab) / det];
+    let fits = |&length: &f64| length >= SHORTEST * chord && length <= LONGEST * way;
+    let third = chord / 3.0;
+    let [a, b] = if lengths.iter().all(fits) { lengths } else { [third; 2] };
+    Cubic([start, start + leaving * a, end + reaching * b, end])
+}
+
+/// One step of Newton's toward the parameter where the cubic is nearest to a point.
+fn nearer(cubic: &Cubic<DVec2>, t: f64, point: DVec2) -> f64 {
+    let off = cubic.point(t) - point;
+    let (velocity, acceleration) = (cubic.velocity(t), cubic.acceleration(t));
+    let slope = velocity.dot(velocity) + off.dot(acceleration);
+    let step = off.dot(velocity) / slope;
+    if slope > 0.0 && step.is_finite() { (t - step).clamp(0.0, 1.0) } else { t }
+}
