@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 use sweep::check::fold::Survey;
+use sweep::check::resolution::aliases;
 use sweep::check::{self, Finding, Severity};
 use sweep::grid::file::Encoding;
 use sweep::spec::Mesh;
@@ -244,10 +245,10 @@ fn emit_schema() -> Result<(), Report> {
 
 /// Says what is legal and most often not meant.
 fn note(sweep: &Sweep) {
-    for finding in Survey::of(sweep).findings() {
-        if finding.severity == Severity::Wrong {
-            say(format_args!("sweep: note: {}: {}", sweep.name(), finding.message));
-        }
+    let folds = Survey::of(sweep).findings().into_iter();
+    let folds = folds.filter(|finding| finding.severity == Severity::Wrong);
+    for finding in folds.chain(aliases(sweep)) {
+        say(format_args!("sweep: note: {}: {}", sweep.name(), finding.message));
     }
     if let Some(missed) = sweep.missed() {
         say(format_args!("sweep: note: {}: {missed}", sweep.name()));

@@ -3,7 +3,6 @@
 use crate::cut::{self, Stop};
 use crate::grid::file::MAX_COLS;
 use crate::grid::{self, Area, GridMesh, UvLayout};
-use crate::modulation::Alias;
 use crate::profile::{Column, Profile};
 use crate::resolution::place::Direction;
 use crate::resolution::{Cells, Distance, Reached, Resolution, Search, Surface, Tolerance};
@@ -138,12 +137,6 @@ impl Sweep {
     #[must_use]
     pub fn resolution(&self) -> &Resolution {
         &self.resolution
-    }
-
-    /// What the rows and columns are too few for.
-    #[must_use]
-    pub fn aliases(&self) -> Vec<Alias> {
-        self.shape.modulation.aliases(self.rows(), self.cols())
     }
 
     /// The same sweep with other numbers of cells; `None` keeps a number.

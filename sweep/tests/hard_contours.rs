@@ -6,6 +6,7 @@ use files::json::Document;
 use glam::{DVec2, DVec3};
 use serde_json::{Value, json};
 use std::f64::consts::{PI, TAU};
+use sweep::check::resolution::aliases;
 use sweep::{GridMesh, Sweep, SweepError};
 
 fn read(contour: &Value, extra: &Value) -> Result<Sweep, SweepError> {
@@ -308,11 +309,12 @@ fn a_thousand_lobes_and_a_hundred_turns_want_cells_enough() {
     });
     let sweep = swept(&json!({"circle": 1}), &laws);
     sound(&sweep.grid());
-    let keys = |sweep: &Sweep| sweep.aliases().into_iter().map(|a| a.key).collect::<Vec<_>>();
-    assert_eq!(keys(&sweep), ["depth.terms[0].u", "twist"]);
-    assert!(sweep.aliases()[1].message.contains("a turn of 1800 degrees"));
-    let fine = sweep.with_resolution(Some(400), Some(2000)).unwrap();
-    assert_eq!(keys(&fine), [""; 0]);
+    let paths = |sweep: &Sweep| aliases(sweep).into_iter().map(|a| a.path).collect::<Vec<_>>();
+    assert_eq!(paths(&sweep), ["depth.terms[0].u", "twist"]);
+    let twist = &aliases(&sweep)[1].message;
+    assert!(twist.contains("by 1800 degrees") && twist.contains("600 rows would"), "{twist}");
+    let fine = sweep.with_resolution(Some(600), Some(4000)).unwrap();
+    assert_eq!(paths(&fine), [""; 0]);
     sound(&fine.grid());
 }
 

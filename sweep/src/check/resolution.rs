@@ -28,10 +28,17 @@ pub fn findings(sweep: &Sweep) -> Vec<Finding> {
         found.extend(counts(sweep, "rows", rows, made[0]));
         found.extend(counts(sweep, "cols", cols, made[1]));
     }
-    found.extend(twist(sweep, &rows, closed_v));
+    found.extend(aliases(sweep));
     found.extend(bends(sweep, &rows, closed_v));
     found.extend(turns(sweep, &columns));
-    found.extend(waves(sweep));
+    found
+}
+
+/// Twists and waves that fall between the rows and columns, so that another surface is seen.
+#[must_use]
+pub fn aliases(sweep: &Sweep) -> Vec<Finding> {
+    let mut found = waves(sweep);
+    found.extend(twist(sweep, &sweep.row_stops(), sweep.shape.closed()));
     found
 }
 

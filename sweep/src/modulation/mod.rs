@@ -16,10 +16,8 @@
 //! normal is the limit along the column: that of a cone, or `-T` or `T` on a cap whose scale ends
 //! vertically.
 
-mod alias;
 mod pole;
 
-pub use alias::Alias;
 pub use pole::Pole;
 pub(crate) use pole::Signs;
 
