@@ -23,6 +23,7 @@ use crate::grid::{GridMesh, Seam};
 use crate::spec::{Parts, Spec};
 use crate::{Object, Sweep, SweepError};
 use files::json::Document;
+use glam::DVec3;
 use std::fmt::{self, Display};
 
 /// How much a finding weighs.
@@ -122,7 +123,11 @@ pub fn of_sweep(sweep: &Sweep, grid: &GridMesh) -> Vec<Finding> {
 pub fn summary(sweep: &Sweep, grid: &GridMesh) -> String {
     let around = match (grid.seam_u.joins(), grid.seam_v) {
         (false, Seam::Open) => "open",
-        (true, Seam::Open) => "a tube with two ends",
+        (true, Seam::Open) => match poles(grid) {
+            0 => "a tube with two ends",
+            1 => "a tube with one end",
+            _ => "closed at both ends",
+        },
         (false, Seam::Closed) => "closed along the trajectory",
         (true, Seam::Closed) => "closed in both directions",
         (_, Seam::Mirror) => "closed with its other side out",
@@ -136,6 +141,14 @@ pub fn summary(sweep: &Sweep, grid: &GridMesh) -> String {
         (rows, _) => format!("folds in {rows} rows"),
     };
     format!("{}: {made_rows} x {made_cols} cells (rows x cols), {around}, {folds}", sweep.name())
+}
+
+/// How many of the first and the last row are one point.
+fn poles(grid: &GridMesh) -> usize {
+    let cols = grid.cols();
+    let ends = [grid.positions.chunks(cols).next(), grid.positions.chunks(cols).next_back()];
+    let point = |row: &&[DVec3]| row.iter().all(|p| *p == row[0]);
+    ends.iter().flatten().filter(|row| point(row)).count()
 }
 
 /// A mirrored seam takes a picture to its mirror image.
