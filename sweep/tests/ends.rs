@@ -83,6 +83,28 @@ fn caps_stand_on_what_laws_have_made_of_the_contour() {
 }
 
 #[test]
+fn the_rim_of_a_cap_is_the_last_section_to_the_last_bit() {
+    // A side cut in its middle comes to a corner near 0, where every bit is left of what is added.
+    let half = 0.137_106_272_763_016_76;
+    let sweep = swept(&json!({
+        "contour": {"polyline": {"closed": true, "points":
+            [[0.14, -half], [0.14, half], [-0.14, half], [-half, -0.14]]}},
+        "trajectory": {"circle": {"angle_deg": 250, "radius": 1.5}}, "scale": -0.8,
+        "caps": {"start": "flat", "end": {"dome": 0.1}},
+    }));
+    let grid = sweep.grid();
+    let cols = grid.u.len();
+    let rims = (1..grid.v.len()).filter(|&row| grid.v[row] == grid.v[row - 1]);
+    let mut seen = 0;
+    for row in rims {
+        let [before, after] = [row - 1, row].map(|row| &grid.positions[row * cols..][..cols]);
+        assert_eq!(before, after);
+        seen += 1;
+    }
+    assert_eq!(seen, 2);
+}
+
+#[test]
 fn caps_are_refused_where_they_would_not_close_anything() {
     for (keys, message) in [
         (json!({"trajectory": {"circle": {"radius": 2}}}), "caps: found a closed trajectory"),

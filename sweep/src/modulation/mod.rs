@@ -233,8 +233,9 @@ impl Section {
         match self.gathered {
             None => local,
             Some(Gathered { center, part, part_t, .. }) => {
-                let arm = local.q - center;
-                Local { q: center + arm * part, q_s: arm * part_t, ..local }
+                // Where all is left, on the rim, it is the section's own point to the last bit.
+                let q = center.lerp(local.q, part);
+                Local { q, q_s: (local.q - center) * part_t, ..local }
             }
         }
     }
