@@ -264,7 +264,7 @@ mod tests {
     use crate::scene::{Camera, Material, Object, PointLight, Surface};
     use crate::shape::{Quad, Sphere};
     use crate::texture::{Texture, Wrap};
-    use glam::DVec3;
+    use glam::{DAffine3, DVec3};
 
     /// A glass sphere on a textured floor.
     fn scene() -> Scene {
@@ -291,8 +291,11 @@ mod tests {
         };
         let floor = Quad::new(DVec3::ZERO, DVec3::Z, DVec3::X, DVec2::ONE, false).unwrap();
         let ball = Sphere { center: DVec3::new(0.0, 1.2, 0.0), radius: 1.0 };
-        let object =
-            |shape, material, texture| Object { shape, parts: vec![Surface { material, texture }] };
+        let object = |shape, material, texture| Object {
+            shape,
+            parts: vec![Surface { material, texture }],
+            to_own_space: DAffine3::IDENTITY,
+        };
         let eye = DVec3::new(0.3, 1.5, 5.0);
         Scene {
             camera: Camera::new(eye, DVec3::Y, DVec3::Y, 0.7).unwrap(),

@@ -54,13 +54,21 @@
 //! textures, `materials` binds surface ids to materials; `material` and `texture` stand for all that
 //! are not bound. In an OBJ of another tool both maps are keyed by the name that `usemtl` gives.
 
-use crate::texture::{Values, Wrap};
+mod color;
+mod light;
+mod material;
+mod object;
+mod texture;
+
+pub use color::ColorFile;
+pub use light::{LightFile, PointLightFile};
+pub use material::MaterialFile;
+pub use object::{MeshFile, ObjectFile, PlaneFile, RectangleFile, SphereFile};
+pub use texture::TextureFile;
+
 use files::names::each_name_once;
 use serde::Deserialize;
-use serde::de::{self, Deserializer, SeqAccess, Visitor};
 use std::collections::BTreeMap;
-use std::fmt;
-use std::path::PathBuf;
 
 /// A scene as its file says it; nothing is checked but its types.
 #[derive(Debug, Clone, Deserialize)]
@@ -100,179 +108,6 @@ pub struct CameraFile {
     pub fov_deg: f64,
 }
 
-/// One of `lights`.
-#[derive(Debug, Clone, Deserialize)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-#[expect(missing_docs, reason = "see SceneFile")]
-pub enum LightFile {
-    Point(PointLightFile),
-}
-
-/// A point light.
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
-#[expect(missing_docs, reason = "see SceneFile")]
-pub struct PointLightFile {
-    pub position: [f64; 3],
-    #[serde(default = "white")]
-    pub color: ColorFile,
-}
-
-/// One of `textures`.
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
-#[expect(missing_docs, reason = "see SceneFile")]
-pub struct TextureFile {
-    pub image: PathBuf,
-    #[serde(default)]
-    pub wrap: Wrap,
-    #[serde(default)]
-    pub values: Values,
-}
-
-/// One of `materials`.
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-#[expect(missing_docs, reason = "see SceneFile")]
-pub struct MaterialFile {
-    pub color: ColorFile,
-    pub ambient: f64,
-    pub diffuse: f64,
-    pub specular: f64,
-    pub shininess: f64,
-    pub reflectivity: f64,
-    pub transparency: f64,
-    pub index_of_refraction: f64,
-    pub fresnel: bool,
-}
-
-impl Default for MaterialFile {
-    fn default() -> Self {
-        Self {
-            color: white(),
-            ambient: 1.0,
-            diffuse: 0.9,
-            specular: 0.0,
-            shininess: 50.0,
-            reflectivity: 0.0,
-            transparency: 0.0,
-            index_of_refraction: 1.5,
-            fresnel: false,
-        }
-    }
-}
-
-/// One of `objects`.
-#[derive(Debug, Clone, Deserialize)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-#[expect(missing_docs, reason = "see SceneFile")]
-pub enum ObjectFile {
-    Sphere(SphereFile),
-    Rectangle(RectangleFile),
-    Plane(PlaneFile),
-    Mesh(MeshFile),
-}
-
-/// A sphere.
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
-#[expect(missing_docs, reason = "see SceneFile")]
-pub struct SphereFile {
-    pub center: [f64; 3],
-    pub radius: f64,
-    pub material: String,
-    pub texture: Option<String>,
-}
-
-/// A parallelogram.
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
-#[expect(missing_docs, reason = "see SceneFile")]
-pub struct RectangleFile {
-    pub corner: [f64; 3],
-    pub edge_u: [f64; 3],
-    pub edge_v: [f64; 3],
-    pub material: String,
-    pub texture: Option<String>,
-    #[serde(default = "once")]
-    pub repeat: [f64; 2],
-}
-
-/// A plane; its texture fills the parallelogram at `point` and goes on from there.
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
-#[expect(missing_docs, reason = "see SceneFile")]
-pub struct PlaneFile {
-    pub point: [f64; 3],
-    pub edge_u: [f64; 3],
-    pub edge_v: [f64; 3],
-    pub material: String,
-    pub texture: Option<String>,
-}
-
-/// A mesh.
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
-#[expect(missing_docs, reason = "see SceneFile")]
-pub struct MeshFile {
-    pub name: String,
-    pub file: Option<PathBuf>,
-    pub material: Option<String>,
-    pub texture: Option<String>,
-    #[serde(default, deserialize_with = "each_name_once")]
-    pub materials: BTreeMap<String, String>,
-    #[serde(default, deserialize_with = "each_name_once")]
-    pub textures: BTreeMap<String, String>,
-}
-
-/// A linear colour: one number for grey, or three.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct ColorFile(pub [f64; 3]);
-
-impl<'de> Deserialize<'de> for ColorFile {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(ColorVisitor)
-    }
-}
-
-struct ColorVisitor;
-
-impl<'de> Visitor<'de> for ColorVisitor {
-    type Value = ColorFile;
-
-    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("a colour: one number for grey or [red, green, blue]")
-    }
-
-    fn visit_f64<E: de::Error>(self, grey: f64) -> Result<ColorFile, E> {
-        Ok(ColorFile([grey; 3]))
-    }
-
-    fn visit_u64<E: de::Error>(self, grey: u64) -> Result<ColorFile, E> {
-        self.visit_f64(grey as f64)
-    }
-
-    fn visit_i64<E: de::Error>(self, grey: i64) -> Result<ColorFile, E> {
-        self.visit_f64(grey as f64)
-    }
-
-    fn visit_seq<A: SeqAccess<'de>>(self, mut channels: A) -> Result<ColorFile, A::Error> {
-        let mut color = [0.0; 3];
-        for (k, channel) in color.iter_mut().enumerate() {
-            *channel =
-                channels.next_element()?.ok_or_else(|| de::Error::invalid_length(k, &self))?;
-        }
-        match channels.next_element::<f64>()? {
-            None => Ok(ColorFile(color)),
-            Some(_) => Err(de::Error::invalid_length(4, &self)),
-        }
-    }
-}
-
-fn white() -> ColorFile {
-    ColorFile([1.0; 3])
-}
-
 fn dim() -> ColorFile {
     ColorFile([0.1; 3])
 }
@@ -287,10 +122,6 @@ fn one_ten_thousandth() -> f64 {
 
 fn y_axis() -> [f64; 3] {
     [0.0, 1.0, 0.0]
-}
-
-fn once() -> [f64; 2] {
-    [1.0; 2]
 }
 
 #[cfg(test)]

@@ -15,6 +15,7 @@ pub use read::{MeshSource, SceneError};
 use crate::color::Color;
 use crate::shape::Shape;
 use crate::texture::Texture;
+use glam::DAffine3;
 
 /// Everything a picture is made from.
 #[derive(Debug, Clone)]
@@ -46,6 +47,9 @@ pub struct Object {
     pub shape: Shape,
     /// Its surfaces: one, or for a mesh one for each name that `usemtl` gave.
     pub parts: Vec<Surface>,
+    /// From the scene's space to the one that the object was described in: what is solid in the
+    /// object, such as marble, is looked up there and moves with it.
+    pub to_own_space: DAffine3,
 }
 
 /// What a surface looks like; indices into the scene's lists.

@@ -1,22 +1,20 @@
 //! From a scene file to a [`Scene`]: names become indices, pictures and meshes are read, and every
 //! number is checked against its range.
 
+mod lights;
+mod materials;
 mod objects;
+mod textures;
 
-use super::file::{
-    ColorFile, LightFile, MaterialFile, MeshFile, ObjectFile, SceneFile, TextureFile,
-};
+use super::file::{ColorFile, MeshFile, ObjectFile, SceneFile};
 use super::obj::ObjError;
-use super::{Camera, Material, PointLight, Scene};
+use super::{Camera, Scene};
 use crate::color::Color;
 use crate::shape::Mesh;
 use crate::shape::mesh::MeshError;
-use crate::texture::Texture;
 use files::json::{Document, nearest};
 use files::{Exit, Failure, FileError, JsonError, Source};
-use image::ImageReader;
 use std::collections::BTreeMap;
-use std::io::Cursor;
 use std::path::Path;
 use thiserror::Error;
 
@@ -211,71 +209,6 @@ impl Reader<'_> {
             None => self.fault(
                 "camera",
                 "found an eye at its target, or an up along the view; expected three directions apart",
-            ),
-        }
-    }
-
-    fn lights(&self) -> Result<Vec<PointLight>, SceneError> {
-        let lights = self.file.lights.iter().enumerate().map(|(k, light)| {
-            let LightFile::Point(light) = light;
-            let color = self.color(&format!("lights[{k}].point.color"), light.color)?;
-            Ok(PointLight { position: light.position.into(), color })
-        });
-        lights.collect()
-    }
-
-    fn materials(&self) -> Result<Vec<Material>, SceneError> {
-        self.file.materials.iter().map(|(name, material)| self.material(name, material)).collect()
-    }
-
-    fn material(&self, name: &str, material: &MaterialFile) -> Result<Material, SceneError> {
-        let at = |key: &str| format!("materials.{name}.{key}");
-        let share = |key: &str, value: f64| self.within(&at(key), value, 0.0, 1.0);
-        Ok(Material {
-            color: self.color(&at("color"), material.color)?,
-            ambient: share("ambient", material.ambient)?,
-            diffuse: share("diffuse", material.diffuse)?,
-            specular: share("specular", material.specular)?,
-            shininess: self.within(&at("shininess"), material.shininess, 1.0, 1e6)?,
-            reflectivity: share("reflectivity", material.reflectivity)?,
-            transparency: share("transparency", material.transparency)?,
-            index_of_refraction: self.within(
-                &at("index_of_refraction"),
-                material.index_of_refraction,
-                0.1,
-                10.0,
-            )?,
-            fresnel: material.fresnel,
-        })
-    }
-
-    fn textures(&self) -> Result<Vec<Texture>, SceneError> {
-        self.file.textures.iter().map(|(name, texture)| self.texture(name, texture)).collect()
-    }
-
-    fn texture(&self, name: &str, texture: &TextureFile) -> Result<Texture, SceneError> {
-        let place = format!("textures.{name}.image");
-        let path = self.folder.join(&texture.image);
-        let bytes = self.named_file(&place, &path)?;
-        let decoded = ImageReader::new(Cursor::new(bytes))
-            .with_guessed_format()
-            .map_err(image::ImageError::IoError)
-            .and_then(ImageReader::decode);
-        let picture = match decoded {
-            Ok(picture) => picture,
-            Err(error) => {
-                let message = format!(
-                    "found no picture in {} ({error}), expected a PNG or JPEG file",
-                    path.display()
-                );
-                return self.fault(&place, message);
-            }
-        };
-        match Texture::from_picture(&picture, texture.values, texture.wrap) {
-            Some(texture) => Ok(texture),
-            None => self.fault(
-                &place,
-                format!("found floating point values in {}, expected 8 or 16 bits", path.display()),
             ),
         }
     }

@@ -5,7 +5,7 @@ use crate::scene::file::{MeshFile, ObjectFile};
 use crate::scene::{Object, Surface, obj};
 use crate::shape::{Mesh, Quad, Shape, Sphere};
 use files::json::nearest;
-use glam::{DVec2, DVec3};
+use glam::{DAffine3, DVec2, DVec3};
 use std::collections::BTreeMap;
 
 impl Reader<'_> {
@@ -76,7 +76,8 @@ impl Reader<'_> {
             Some(name) => Some(self.texture_index(&format!("{at}.texture"), name)?),
             None => None,
         };
-        Ok(Object { shape, parts: vec![Surface { material, texture }] })
+        let parts = vec![Surface { material, texture }];
+        Ok(Object { shape, parts, to_own_space: DAffine3::IDENTITY })
     }
 
     fn quad(
@@ -125,7 +126,8 @@ impl Reader<'_> {
         let bindings = self.mesh_bindings(place, file)?;
         let parts: Result<_, _> =
             mesh.surfaces.iter().map(|name| self.bind(&at, file, &bindings, name)).collect();
-        Ok(Object { parts: parts?, shape: Shape::Mesh(mesh) })
+        let shape = Shape::Mesh(mesh);
+        Ok(Object { shape, parts: parts?, to_own_space: DAffine3::IDENTITY })
     }
 
     /// Finds the materials and textures that a mesh names.

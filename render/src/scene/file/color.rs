@@ -1,0 +1,54 @@
+//! A colour of a scene file.
+
+use serde::Deserialize;
+use serde::de::{self, Deserializer, SeqAccess, Visitor};
+use std::fmt;
+
+/// A linear colour: one number for grey, or three.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct ColorFile(pub [f64; 3]);
+
+impl<'de> Deserialize<'de> for ColorFile {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(ColorVisitor)
+    }
+}
+
+struct ColorVisitor;
+
+impl<'de> Visitor<'de> for ColorVisitor {
+    type Value = ColorFile;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a colour: one number for grey or [red, green, blue]")
+    }
+
+    fn visit_f64<E: de::Error>(self, grey: f64) -> Result<ColorFile, E> {
+        Ok(ColorFile([grey; 3]))
+    }
+
+    fn visit_u64<E: de::Error>(self, grey: u64) -> Result<ColorFile, E> {
+        self.visit_f64(grey as f64)
+    }
+
+    fn visit_i64<E: de::Error>(self, grey: i64) -> Result<ColorFile, E> {
+        self.visit_f64(grey as f64)
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut channels: A) -> Result<ColorFile, A::Error> {
+        let mut color = [0.0; 3];
+        for (k, channel) in color.iter_mut().enumerate() {
+            *channel =
+                channels.next_element()?.ok_or_else(|| de::Error::invalid_length(k, &self))?;
+        }
+        match channels.next_element::<f64>()? {
+            None => Ok(ColorFile(color)),
+            Some(_) => Err(de::Error::invalid_length(4, &self)),
+        }
+    }
+}
+
+/// The default of most colours.
+pub(super) fn white() -> ColorFile {
+    ColorFile([1.0; 3])
+}
