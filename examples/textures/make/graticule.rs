@@ -3,6 +3,7 @@
 //! right from -180 to 180 degrees, latitude up from -90 to 90.
 
 use super::canvas;
+use super::coast::cosine;
 use super::color::{Color, srgb};
 use glam::DVec2;
 use image::RgbImage;
@@ -76,24 +77,9 @@ fn to_multiple(x: f64, pitch: f64) -> f64 {
     (x - (x / pitch).round() * pitch).abs()
 }
 
-/// The cosine of an angle of up to 90 degrees, to two thousandths: Bhaskara's fraction, which every
-/// machine computes alike.
-fn cosine(degrees: f64) -> f64 {
-    let square = degrees * degrees;
-    (32_400.0 - 4.0 * square) / (32_400.0 + square)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn bhaskara_was_right_to_two_thousandths() {
-        for degrees in 0..=90 {
-            let degrees = f64::from(degrees);
-            assert!((cosine(degrees) - degrees.to_radians().cos()).abs() < 2e-3, "{degrees}");
-        }
-    }
 
     #[test]
     fn the_seas_close_around_the_globe() {

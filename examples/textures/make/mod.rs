@@ -11,6 +11,9 @@
 //! | `net.png`          | [`net`]          | light grey checks between dark lines              |
 //! | `ribbon.png`       | [`ribbon`]       | slanting stripes of light grey                    |
 //! | `graticule.png`    | [`graticule`]    | parallels and meridians of a globe                |
+//! | `world-chart.png`  | [`world_chart`]  | an old chart of the world                         |
+//! | `sea.png`          | [`sea`]          | the sea from above                                |
+//! | `lettering.png`    | [`lettering`]    | a sheet of fine lettering                         |
 //!
 //! [`canvas`] samples a colour per point into a picture; [`shape`] has the outlines, [`noise`] the
 //! irregularities and [`color`] the way between linear light and bytes. A picture depends on
@@ -19,19 +22,24 @@
 //!
 //! Both the example `make-textures` and the test `textures` include this folder by path.
 
+mod alphabet;
 mod canvas;
 mod checkerboard;
+mod coast;
 mod color;
 mod drawing_board;
 mod floor_tiles;
 mod granite;
 mod graticule;
+mod lettering;
 mod net;
 mod noise;
 mod ribbon;
 mod scales;
+mod sea;
 mod shape;
 mod vase_band;
+mod world_chart;
 
 use image::RgbImage;
 
@@ -45,7 +53,7 @@ pub struct Texture {
 }
 
 /// All textures that this folder draws.
-pub const TEXTURES: [Texture; 9] = [
+pub const TEXTURES: [Texture; 12] = [
     Texture { file: "checkerboard.png", draw: checkerboard::draw },
     Texture { file: "vase-band.png", draw: vase_band::draw },
     Texture { file: "floor-tiles.png", draw: floor_tiles::draw },
@@ -55,4 +63,7 @@ pub const TEXTURES: [Texture; 9] = [
     Texture { file: "net.png", draw: net::draw },
     Texture { file: "ribbon.png", draw: ribbon::draw },
     Texture { file: "graticule.png", draw: graticule::draw },
+    Texture { file: "world-chart.png", draw: world_chart::draw },
+    Texture { file: "sea.png", draw: sea::draw },
+    Texture { file: "lettering.png", draw: lettering::draw },
 ];
