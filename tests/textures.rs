@@ -1,10 +1,7 @@
 //! The committed textures are what the program draws, and what the scenes expect of them.
 
-#[path = "../examples/textures/make/mod.rs"]
-mod make;
-
 use image::{Rgb, RgbImage};
-use make::TEXTURES;
+use pipeline::textures::TEXTURES;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::PathBuf;
@@ -28,7 +25,7 @@ fn every_texture_is_what_the_program_draws() {
         let kept = committed(texture.file);
         assert_eq!(drawn.dimensions(), kept.dimensions(), "{}", texture.file);
         let differing = drawn.pixels().zip(kept.pixels()).filter(|(d, k)| d != k).count();
-        let remedy = "cargo run --release --example make-textures -- examples/textures";
+        let remedy = "cargo run --release -p pipeline -- textures -o examples/textures";
         assert_eq!(differing, 0, "texels of {} differ; to make it anew: {remedy}", texture.file);
     }
 }

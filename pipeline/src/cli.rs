@@ -5,6 +5,7 @@ use clap::{Args, Parser, Subcommand};
 use files::exit::say;
 use files::{Disk, Exit, Failure, FileError, Output, Report, Source};
 use pipeline::run::{Event, Options};
+use pipeline::textures::{TEXTURES, Texture};
 use pipeline::{Job, PipelineError, pages, run as run_job};
 use render::progress::Progress;
 use std::collections::BTreeMap;
@@ -19,6 +20,7 @@ Examples:
   pipeline run glass-sphere vase -o out
   pipeline run all -o out --size 1024x1024 --keep
   pipeline run my-job.json -o out --stats
+  pipeline textures -o textures
 
 Exit codes: 2 bad use, 3 malformed input, 4 impossible geometry, 5 cannot read or write,
 6 too large, 70 a bug, 141 closed pipe.";
@@ -37,6 +39,18 @@ enum Command {
     List,
     /// Make the pictures of pages or of jobs of your own
     Run(RunArguments),
+    /// Draw the textures of the examples again
+    Textures(TexturesArguments),
+}
+
+#[derive(Debug, Args)]
+struct TexturesArguments {
+    /// The folder for the pictures; made if it is missing
+    #[arg(short, long, value_name = "DIR", default_value = "textures")]
+    output: PathBuf,
+    /// Refuse to replace existing files
+    #[arg(long)]
+    no_clobber: bool,
 }
 
 #[derive(Debug, Args)]
@@ -86,6 +100,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
     match &arguments.command {
         Command::List => list(),
         Command::Run(arguments) => run_all(arguments),
+        Command::Textures(arguments) => textures(arguments),
     }
 }
 
@@ -97,13 +112,29 @@ fn list() -> Result<(), Report> {
     Ok(Output::create(Path::new("-"), true)?.commit_all(text.as_bytes())?)
 }
 
+fn textures(arguments: &TexturesArguments) -> Result<(), Report> {
+    make_folder(&arguments.output)?;
+    let clobber = !arguments.no_clobber;
+    let path = |texture: &Texture| arguments.output.join(texture.file);
+    for texture in &TEXTURES {
+        Output::check(&path(texture), clobber)?;
+    }
+    for texture in &TEXTURES {
+        Output::create(&path(texture), clobber)?.commit_all(&texture.png()?)?;
+        say(path(texture).display());
+    }
+    Ok(())
+}
+
+fn make_folder(folder: &Path) -> Result<(), FileError> {
+    let named = |source| FileError::Write { name: folder.display().to_string(), source };
+    std::fs::create_dir_all(folder).map_err(named)
+}
+
 fn run_all(arguments: &RunArguments) -> Result<(), Report> {
     // Every job is read before the first is done, so that a slip in a name costs no waiting.
     let jobs = jobs(arguments)?;
-    std::fs::create_dir_all(&arguments.output).map_err(|source| FileError::Write {
-        name: arguments.output.display().to_string(),
-        source,
-    })?;
+    make_folder(&arguments.output)?;
     for (job, _) in &jobs {
         for file in job.files(arguments.keep) {
             Output::check(&arguments.output.join(file), !arguments.no_clobber)?;

@@ -10,6 +10,7 @@ pub mod job;
 pub mod mesh;
 pub mod pages;
 pub mod run;
+pub mod textures;
 
 pub use error::PipelineError;
 pub use job::Job;

@@ -20,7 +20,7 @@
 //! nothing but this code: there is no clock, no entropy, and no arithmetic beyond `+ − × ÷ √` and
 //! rounding, which every machine does alike.
 //!
-//! Both the example `make-textures` and the test `textures` include this folder by path.
+//! `pipeline textures` writes them, with the same bytes as long as the PNG encoder stays the same.
 
 mod alphabet;
 mod canvas;
@@ -41,7 +41,9 @@ mod shape;
 mod vase_band;
 mod world_chart;
 
-use image::RgbImage;
+use crate::PipelineError;
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use image::{ExtendedColorType, ImageEncoder, RgbImage};
 
 /// A texture of the example scenes.
 #[derive(Debug, Clone, Copy)]
@@ -50,6 +52,31 @@ pub struct Texture {
     pub file: &'static str,
     /// Draws it.
     pub draw: fn() -> RgbImage,
+}
+
+impl Texture {
+    /// The picture as PNG, by whichever row filter makes the smallest file.
+    ///
+    /// # Errors
+    /// When the encoder does not take the picture.
+    pub fn png(&self) -> Result<Vec<u8>, PipelineError> {
+        let picture = (self.draw)();
+        let encode = |filter| {
+            let mut bytes = Vec::new();
+            PngEncoder::new_with_quality(&mut bytes, CompressionType::Best, filter)
+                .write_image(&picture, picture.width(), picture.height(), ExtendedColorType::Rgb8)
+                .map_err(|source| PipelineError::Encode { name: self.file.into(), source })?;
+            Ok::<_, PipelineError>(bytes)
+        };
+        let mut smallest = encode(FilterType::NoFilter)?;
+        for filter in [FilterType::Sub, FilterType::Up, FilterType::Paeth, FilterType::Adaptive] {
+            let bytes = encode(filter)?;
+            if bytes.len() < smallest.len() {
+                smallest = bytes;
+            }
+        }
+        Ok(smallest)
+    }
 }
 
 /// All textures that this folder draws.
