@@ -151,7 +151,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
         FilterName::Box => Filter::Box,
         FilterName::Tent => Filter::Tent,
     };
-    let settings = Settings { width, height, samples: arguments.samples, filter };
+    let settings = Settings::new(width, height, filter).with_samples(arguments.samples);
     let progress = Progress::new("render", arguments.quiet);
     let threads = arguments.threads.unwrap_or(0);
     let pool = rayon::ThreadPoolBuilder::new()

@@ -27,5 +27,5 @@ pub mod stats;
 pub mod texture;
 pub mod trace;
 
-pub use film::{Picture, Settings, render};
+pub use film::{Picture, Sampling, Settings, render};
 pub use scene::Scene;

@@ -58,7 +58,7 @@ mod tests {
 
     fn small() -> Picture {
         let pixels = vec![[0.0, 0.5, 1.0], [-0.25, 7.5, 1e-6]];
-        Picture { width: 2, height: 1, pixels }
+        Picture { pixels, ..Picture::black(2, 1) }
     }
 
     #[test]

@@ -22,6 +22,13 @@ impl RowWindow {
         &mut self.rows[2]
     }
 
+    /// Clears the first two rows, puts the third in the place of the first and gives the two freed
+    /// ones to be filled: what the thesis asks for when nine rays are sent for each pixel.
+    pub fn advance_by_two(&mut self) -> &mut [Vec<IntersectionTree>] {
+        self.rows.rotate_left(2);
+        &mut self.rows[1..]
+    }
+
     /// The tree in column `x` of the middle row with its eight neighbours around it, row by row;
     /// `x` is neither the first nor the last column.
     #[must_use]
