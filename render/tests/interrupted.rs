@@ -1,7 +1,6 @@
 //! Ctrl-C in the middle of a picture.
 
 #![cfg(unix)]
-#![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 mod bench;
 

@@ -68,10 +68,10 @@ fn layers_hold_what_is_hit_first() {
     ];
     assert_eq!(names, known);
     let mut seen = [0; 3];
-    for k in 0..SIDE * SIDE {
-        let of = |name: &str| channels[name][k];
+    for (row, column) in (0..SIDE).flat_map(|row| (0..SIDE).map(move |column| (row, column))) {
+        let of = |name: &str| channels[name][row * SIDE + column];
         // Where the ray through the pixel's middle meets the wall.
-        let [x, y] = [k % SIDE, k / SIDE].map(|n| (2.0 * n as f32 + 1.0) / SIDE as f32 - 1.0);
+        let [x, y] = [column, row].map(|n| (2.0 * n as f32 + 1.0) / SIDE as f32 - 1.0);
         let y = -y;
         let normal = [of("normal.X"), of("normal.Y"), of("normal.Z")];
         let size = [of("footprint.W"), of("footprint.H")];

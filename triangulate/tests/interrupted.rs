@@ -1,7 +1,6 @@
 //! Ctrl-C while a file is being written.
 
 #![cfg(unix)]
-#![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use std::fs;
 use std::os::unix::process::ExitStatusExt;

@@ -3,6 +3,11 @@
 use super::tree::IntersectionTree;
 
 /// The last three rows that were traced.
+///
+/// Trees keep their arrays when the window moves on, so that after its first rows a tile allocates
+/// nothing. One array for the nodes of a whole row was tried: it halves the allocations of a small
+/// picture (1467 to 751 in all), needs the same memory at its peak (22 MB of heap where trees have
+/// 186 nodes on the average) and takes 2.6 % more instructions, since nodes are copied into it.
 #[derive(Debug)]
 pub struct RowWindow {
     /// The oldest row first.
