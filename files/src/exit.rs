@@ -1,5 +1,6 @@
 //! How a program ends: its exit code, and the one line it prints when it fails.
 
+use crate::stop;
 use std::error::Error;
 use std::fmt::Display;
 use std::io::{self, Write};
@@ -57,9 +58,12 @@ impl<E: Failure + 'static> From<E> for Report {
 
 /// Does a program's work, prints its error if there is one, and gives its exit code.
 ///
+/// A signal that ends it leaves no temporary files ([`crate::stop`]).
+///
 /// A panic is a bug of ours: it ends with [`Exit::Bug`] and a request to report it.
 #[must_use]
 pub fn run(program: &str, work: impl FnOnce() -> Result<(), Report>) -> ExitCode {
+    stop::clean_up_when_stopped();
     let exit = match panic::catch_unwind(AssertUnwindSafe(work)) {
         Ok(Ok(())) => return ExitCode::SUCCESS,
         Ok(Err(report)) => {

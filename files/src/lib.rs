@@ -6,6 +6,7 @@
 //! | [`input`]  | bytes from a file, from standard input, or from pages built in           |
 //! | [`names`]  | JSON objects of names that a user chose, each once                       |
 //! | [`output`] | a file that is replaced only when it is whole, or standard output        |
+//! | [`stop`]   | no temporary file stays when a program is interrupted                   |
 //! | [`exit`]   | the exit codes, and the one place that prints an error                   |
 //!
 //! It knows nothing of curves, meshes or pictures, and the libraries above it never print.
@@ -15,6 +16,7 @@ pub mod input;
 pub mod json;
 pub mod names;
 pub mod output;
+pub mod stop;
 mod words;
 
 pub use exit::{Exit, Failure, Report};

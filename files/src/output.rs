@@ -6,6 +6,7 @@
 //! named pipe), are written directly.
 
 use crate::FileError;
+use crate::stop::Entry;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -25,7 +26,13 @@ pub struct Output {
 enum Sink {
     Stdout(BufWriter<io::Stdout>),
     Device(BufWriter<File>),
-    Replace { temporary: BufWriter<NamedTempFile>, target: PathBuf, clobber: bool },
+    /// The entry comes last, so that it outlives the temporary.
+    Replace {
+        temporary: BufWriter<NamedTempFile>,
+        target: PathBuf,
+        clobber: bool,
+        entry: Entry,
+    },
 }
 
 impl Output {
@@ -43,9 +50,9 @@ impl Output {
                 Sink::Device(BufWriter::with_capacity(BUFFER, device))
             }
             Target::File { path, replaced } => {
-                let temporary = create_beside(&path, replaced.as_ref()).map_err(failed)?;
+                let (temporary, entry) = create_beside(&path, replaced.as_ref()).map_err(failed)?;
                 let temporary = BufWriter::with_capacity(BUFFER, temporary);
-                Sink::Replace { temporary, target: path, clobber }
+                Sink::Replace { temporary, target: path, clobber, entry }
             }
         };
         Ok(Self { name, sink })
@@ -75,7 +82,7 @@ impl Output {
         match self.sink {
             Sink::Stdout(mut stdout) => stdout.flush().map_err(|source| write_error(name, source)),
             Sink::Device(mut device) => device.flush().map_err(|source| write_error(name, source)),
-            Sink::Replace { temporary, target, clobber } => {
+            Sink::Replace { temporary, target, clobber, entry: _entry } => {
                 let temporary = match temporary.into_inner() {
                     Ok(file) => file,
                     Err(failed) => return Err(write_error(name, failed.into_error())),
@@ -167,7 +174,10 @@ impl Write for Output {
 
 /// A temporary file beside `target` with the permissions of the file it will replace, or those the
 /// system gives a new one.
-fn create_beside(target: &Path, replaced: Option<&fs::Metadata>) -> io::Result<NamedTempFile> {
+fn create_beside(
+    target: &Path,
+    replaced: Option<&fs::Metadata>,
+) -> io::Result<(NamedTempFile, Entry)> {
     let folder = match target.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
@@ -181,14 +191,17 @@ fn create_beside(target: &Path, replaced: Option<&fs::Metadata>) -> io::Result<N
         use std::os::unix::fs::PermissionsExt;
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
-    let temporary = builder.tempfile_in(folder).map_err(|error| match error.kind() {
-        io::ErrorKind::Other => error,
-        kind => kind.into(),
-    })?;
+    let make = || {
+        builder.tempfile_in(folder).map_err(|error| match error.kind() {
+            io::ErrorKind::Other => error,
+            kind => kind.into(),
+        })
+    };
+    let (temporary, entry) = Entry::of(make, NamedTempFile::path)?;
     if let Some(metadata) = replaced {
         temporary.as_file().set_permissions(metadata.permissions())?;
     }
-    Ok(temporary)
+    Ok((temporary, entry))
 }
 
 fn write_error(name: String, source: io::Error) -> FileError {

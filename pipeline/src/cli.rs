@@ -23,7 +23,7 @@ Examples:
   pipeline textures -o textures
 
 Exit codes: 2 bad use, 3 malformed input, 4 impossible geometry, 5 cannot read or write,
-6 too large, 70 a bug, 141 closed pipe.";
+6 too large, 70 a bug, 130 interrupted, 141 closed pipe.";
 
 /// From curves to pictures: sweep, triangulate and render in one process.
 #[derive(Debug, Parser)]

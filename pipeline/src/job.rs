@@ -8,7 +8,10 @@
 //!   "scene": "../scenes/vase.json",
 //!   "modes": [
 //!     { "name": "point", "filter": "point" },
-//!     { "name": "prefiltered", "filter": "tent", "samples": 1 }
+//!     { "name": "prefiltered", "filter": "tent", "samples": 1 },
+//!     { "name": "jittered", "filter": "tent", "samples": 4,
+//!       "pattern": "jitter", "seed": 7, "pixel_filter": "tent" },
+//!     { "name": "nine", "filter": "tent", "supersample": "image" }
 //!   ]
 //! }
 //! ```
@@ -16,11 +19,16 @@
 //! `meshes` says which spec makes each mesh that the scene names, and the texture and surface ids
 //! that its triangles carry (those of the spec, or 0, when left out). The scene is rendered once in each mode; without
 //! `modes`, once with the tent filter. Paths count from the job file's folder.
+//!
+//! Of a mode, `filter` must be there; the rest is what the flags of `render` are: `samples` (1 to 256,
+//! by default 1), `pattern` (`regular` or `jitter`, with a `seed`), `pixel_filter` (`box` or `tent`), or
+//! in their place `supersample` (`image` or `rays`).
 
 use files::json::Document;
 use files::names::each_name_once;
 use files::{JsonError, Source};
-use render::film::MOST_SAMPLES;
+use render::Sampling;
+use render::film::{MOST_SAMPLES, Nine, Pattern, PixelFilter};
 use render::filter::Filter;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -56,16 +64,14 @@ pub struct MeshJob {
 }
 
 /// A way to render a scene.
-#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Mode {
     /// What its picture is called, after the job.
     pub name: String,
     /// How textures are averaged.
     pub filter: Filter,
-    /// Rays along each side of a pixel.
-    #[serde(default = "one")]
-    pub samples: u32,
+    /// How a pixel is made of rays.
+    pub sampling: Sampling,
 }
 
 #[derive(Debug, Deserialize)]
@@ -81,7 +87,31 @@ struct JobFile {
     meshes: BTreeMap<String, MeshFile>,
     scene: PathBuf,
     #[serde(default)]
-    modes: Option<Vec<Mode>>,
+    modes: Option<Vec<ModeFile>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ModeFile {
+    name: String,
+    filter: Filter,
+    #[serde(default)]
+    samples: Option<u32>,
+    #[serde(default)]
+    pattern: Option<PatternName>,
+    #[serde(default)]
+    seed: Option<u64>,
+    #[serde(default)]
+    pixel_filter: Option<PixelFilter>,
+    #[serde(default)]
+    supersample: Option<Nine>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum PatternName {
+    Regular,
+    Jitter,
 }
 
 #[derive(Debug, Deserialize)]
@@ -92,10 +122,6 @@ struct MeshFile {
     texture: Option<u32>,
     #[serde(default)]
     surface: Option<u32>,
-}
-
-fn one() -> u32 {
-    1
 }
 
 impl Job {
@@ -163,9 +189,10 @@ impl Job {
     }
 }
 
-fn modes(document: &Document<'_>, modes: Option<Vec<Mode>>) -> Result<Vec<Mode>, JsonError> {
+fn modes(document: &Document<'_>, modes: Option<Vec<ModeFile>>) -> Result<Vec<Mode>, JsonError> {
     let Some(modes) = modes else {
-        return Ok(vec![Mode { name: "tent".into(), filter: Filter::Tent, samples: 1 }]);
+        let sampling = Sampling::regular(1);
+        return Ok(vec![Mode { name: "tent".into(), filter: Filter::Tent, sampling }]);
     };
     if modes.is_empty() {
         return Err(document.fault("modes", "found no modes, expected at least one"));
@@ -178,13 +205,48 @@ fn modes(document: &Document<'_>, modes: Option<Vec<Mode>>) -> Result<Vec<Mode>,
             let message = format!("found {:?} twice, expected a name for each mode", mode.name);
             return Err(document.fault(&name_path, message));
         }
-        if !(1..=MOST_SAMPLES).contains(&mode.samples) {
-            let message = format!("found {}, expected 1 to {MOST_SAMPLES}", mode.samples);
-            return Err(document.fault(&format!("modes[{k}].samples"), message));
-        }
-        checked.push(mode);
+        let sampling = sampling(document, &format!("modes[{k}]"), &mode)?;
+        checked.push(Mode { name: mode.name, filter: mode.filter, sampling });
     }
     Ok(checked)
+}
+
+/// How a pixel is made of rays, in the mode at `path`.
+fn sampling(document: &Document<'_>, path: &str, mode: &ModeFile) -> Result<Sampling, JsonError> {
+    let fault = |key: &str, message: String| Err(document.fault(&format!("{path}.{key}"), message));
+    if let Some(nine) = mode.supersample {
+        let others = [
+            ("samples", mode.samples.is_some()),
+            ("pattern", mode.pattern.is_some()),
+            ("seed", mode.seed.is_some()),
+            ("pixel_filter", mode.pixel_filter.is_some()),
+        ];
+        return match others.iter().find(|(_, there)| *there) {
+            Some((key, _)) => {
+                fault(key, format!("found {key} beside supersample, expected one of them"))
+            }
+            None => Ok(Sampling::Nine(nine)),
+        };
+    }
+    let samples = mode.samples.unwrap_or(1);
+    if !(1..=MOST_SAMPLES).contains(&samples) {
+        return fault("samples", format!("found {samples}, expected 1 to {MOST_SAMPLES}"));
+    }
+    let pattern = match (mode.pattern, mode.seed) {
+        (Some(PatternName::Jitter), seed) => Pattern::Jitter { seed: seed.unwrap_or(0) },
+        (_, None) => Pattern::Regular,
+        (_, Some(_)) => {
+            return fault(
+                "seed",
+                "found a seed, expected it beside \"pattern\": \"jitter\"".into(),
+            );
+        }
+    };
+    let pixel_filter = mode.pixel_filter.unwrap_or_default();
+    if pixel_filter == PixelFilter::Tent && samples < 2 {
+        return fault("pixel_filter", "found tent, expected it beside samples of 2 or more".into());
+    }
+    Ok(Sampling::Grid { samples, pattern, pixel_filter })
 }
 
 /// Names become parts of file names.
@@ -218,6 +280,11 @@ mod tests {
         assert_eq!(job.meshes[0].options, Options { texture: Some(2), surface: Some(0) });
         assert_eq!(job.scene, Path::new("jobs/../scenes/vase.json"));
         assert_eq!(job.modes[0].filter, Filter::Point);
+        let pattern = Pattern::Jitter { seed: 7 };
+        let jittered = Sampling::Grid { samples: 4, pattern, pixel_filter: PixelFilter::Tent };
+        let nine = Sampling::Nine(Nine::Image);
+        let samplings: Vec<Sampling> = job.modes.iter().map(|mode| mode.sampling).collect();
+        assert_eq!(samplings, [Sampling::regular(1), Sampling::regular(1), jittered, nine]);
     }
 
     #[test]
@@ -254,6 +321,17 @@ mod tests {
         ] {
             let complaint = job(&rest);
             assert!(complaint.starts_with("a.json:1:"), "{complaint}");
+            assert!(complaint.contains(expected), "{complaint}");
+        }
+        for (mode, expected) in [
+            (r#""seed": 1"#, "modes[0].seed: found a seed, expected it beside"),
+            (r#""pixel_filter": "tent""#, "modes[0].pixel_filter: found tent, expected"),
+            (r#""supersample": "rays", "samples": 1"#, "modes[0].samples: found samples beside"),
+            (r#""supersample": "ray""#, "did you mean `rays`?"),
+            (r#""pattern": "jiter""#, "did you mean `jitter`?"),
+        ] {
+            let mode = format!(r#"{{"name": "a", "filter": "box", {mode}}}"#);
+            let complaint = job(&format!("{scene}, \"modes\": [{mode}]"));
             assert!(complaint.contains(expected), "{complaint}");
         }
         let other = parse("{\"format\": \"tb-scene\", \"version\": 1, \"scene\": \"\"}");

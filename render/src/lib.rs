@@ -10,13 +10,14 @@
 //! finds hits. [`trace`] turns a place on the film into an intersection tree. [`footprint`] looks at
 //! a node of it and at its neighbours and says which piece of texture the pixel sees. [`filter`]
 //! averages a texture over that piece. [`shade`] turns trees into colours, and [`film`] makes the
-//! picture of them. [`film::render`] does it all.
+//! picture of them. [`film::render`] does it all, and [`inspect`] prints what one pixel is made of.
 
 pub mod accel;
 pub mod color;
 pub mod film;
 pub mod filter;
 pub mod footprint;
+pub mod inspect;
 pub mod optics;
 pub mod progress;
 pub mod ray;
@@ -27,5 +28,5 @@ pub mod stats;
 pub mod texture;
 pub mod trace;
 
-pub use film::{Picture, Settings, render};
+pub use film::{Picture, Sampling, Settings, render};
 pub use scene::Scene;

@@ -34,7 +34,7 @@ fn mean(picture: &Picture, columns: std::ops::Range<u32>, rows: std::ops::Range<
 }
 
 fn check(scene: &Scene, samples: u32, filter: Filter, truth: f64) {
-    let settings = Settings { width: SIDE, height: SIDE, samples, filter };
+    let settings = Settings::new(SIDE, SIDE, filter).with_samples(samples);
     let (picture, _) = render::render(scene, &settings, &|_, _| {});
     let quarter = SIDE / 4;
     let blocks: Vec<f64> =

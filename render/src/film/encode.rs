@@ -1,7 +1,12 @@
 //! A picture as the bytes of a file.
+//!
+//! An EXR with layers holds them in one part, as channels whose names have the layer before the
+//! dot: `R`, `G`, `B`, `normal.X`, `depth.Z` and so on ([`super::Layer`]), all 32-bit floats.
 
 use super::Picture;
 use crate::color::Encoding;
+use exr::prelude::{AnyChannel, AnyChannels, FlatSamples, Image, SmallVec, WritableImage as _};
+use image::error::EncodingError;
 use image::{ImageError, ImageFormat, Rgb, Rgb32FImage, RgbImage};
 use std::io::Cursor;
 use std::path::Path;
@@ -44,6 +49,7 @@ pub fn encode(
             RgbImage::from_fn(picture.width, picture.height, |x, y| Rgb(at(x, y).map(byte)))
                 .write_to(&mut bytes, ImageFormat::Png)?;
         }
+        Format::Exr if !picture.channels.is_empty() => write_layers(picture, &mut bytes)?,
         Format::Exr => {
             Rgb32FImage::from_fn(picture.width, picture.height, |x, y| Rgb(at(x, y)))
                 .write_to(&mut bytes, ImageFormat::OpenExr)?;
@@ -52,13 +58,69 @@ pub fn encode(
     Ok(bytes.into_inner())
 }
 
+/// Writes an EXR with all channels of the picture.
+fn write_layers(picture: &Picture, bytes: &mut Cursor<Vec<u8>>) -> Result<(), ImageError> {
+    let light = |k: usize| FlatSamples::F32(picture.pixels.iter().map(|pixel| pixel[k]).collect());
+    let mut channels: SmallVec<[AnyChannel<FlatSamples>; 4]> = ["R", "G", "B"]
+        .into_iter()
+        .enumerate()
+        .map(|(k, name)| AnyChannel::new(name, light(k)))
+        .collect();
+    for channel in &picture.channels {
+        channels.push(AnyChannel::new(channel.name, FlatSamples::F32(channel.values.clone())));
+    }
+    let size = (picture.width as usize, picture.height as usize);
+    Image::from_channels(size, AnyChannels::sort(channels)).write().to_buffered(bytes).map_err(
+        |error| ImageError::Encoding(EncodingError::new(ImageFormat::OpenExr.into(), error)),
+    )
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::film::picture::Channel;
+
+    #[test]
+    fn exr_keeps_every_layer() {
+        let names = ["uv.V", "depth.Z", "object.id"];
+        let values = [vec![0.25, -1e-30], vec![f32::INFINITY, 3.5], vec![-1.0, 16_777_216.0]];
+        let channels = names.into_iter().zip(values);
+        let channels = channels.map(|(name, values)| Channel { name, values }).collect();
+        let picture = Picture { channels, ..small() };
+        let bytes = encode(&picture, Format::Exr, Encoding::Srgb).unwrap();
+        let colors = image::load_from_memory(&bytes).unwrap().to_rgb32f();
+        let pixels: Vec<[f32; 3]> = colors.pixels().map(|pixel| pixel.0).collect();
+        assert_eq!(pixels, picture.pixels, "readers that know no layers see the colour");
+        for (name, values) in read_channels(&bytes) {
+            let Some(channel) = picture.channels.iter().find(|channel| channel.name == name) else {
+                assert!(["R", "G", "B"].contains(&name.as_str()), "{name}");
+                continue;
+            };
+            assert_eq!(values, channel.values, "{name}");
+        }
+    }
+
+    /// The channels of an EXR by name.
+    fn read_channels(bytes: &[u8]) -> Vec<(String, Vec<f32>)> {
+        use exr::prelude::{ReadChannels, ReadLayers, read};
+        let image = read()
+            .no_deep_data()
+            .largest_resolution_level()
+            .all_channels()
+            .first_valid_layer()
+            .all_attributes()
+            .from_buffered(Cursor::new(bytes))
+            .unwrap();
+        let channels = image.layer_data.channel_data.list;
+        let named = |channel: &AnyChannel<FlatSamples>| {
+            (channel.name.to_string(), channel.sample_data.values_as_f32().collect())
+        };
+        channels.iter().map(named).collect()
+    }
 
     fn small() -> Picture {
         let pixels = vec![[0.0, 0.5, 1.0], [-0.25, 7.5, 1e-6]];
-        Picture { width: 2, height: 1, pixels }
+        Picture { pixels, ..Picture::black(2, 1) }
     }
 
     #[test]

@@ -1,25 +1,33 @@
 //! Makes the picture: tiles of rows of trees, shaded and averaged into pixels.
 //!
 //! A tile traces its samples row by row. With a filter that looks at areas it keeps three rows and
-//! shades the middle one, and traces one sample more on each side than it shades (a halo): so each
-//! tile has all it needs, and the picture does not depend on how it is cut or on who works on it.
+//! shades the middle one, and traces one sample more on each side than it shades (a halo); where
+//! pixels share samples it shades those of its neighbours too. So each tile has all it needs, and
+//! the picture does not depend on how it is cut or on who works on it.
 
+pub mod crop;
 pub mod encode;
+mod exposure;
+pub mod layer;
+pub mod pattern;
 pub mod picture;
+pub mod sampling;
 
+pub use crop::Crop;
+pub use exposure::Witness;
+pub use layer::Layer;
+pub use pattern::Pattern;
 pub use picture::Picture;
+pub use sampling::{MOST_SAMPLES, Nine, PixelFilter, Sampling};
 
 use crate::accel::Accel;
-use crate::color::Color;
 use crate::filter::{Filter, FilteredTexture};
-use crate::footprint::neighbours::Neighbourhood;
 use crate::scene::Scene;
-use crate::shade::{ShadeCounts, Shader};
+use crate::shade::Shader;
 use crate::shape::Shape;
 use crate::stats::Stats;
-use crate::trace::rows::RowWindow;
-use crate::trace::tree::IntersectionTree;
-use crate::trace::{RayCounts, Tracer};
+use crate::trace::Tracer;
+use exposure::{Exposure, Film};
 use glam::DVec2;
 use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
@@ -31,25 +39,45 @@ use std::time::Instant;
 /// larger, and the last tiles leave cores idle.
 const TILE_SAMPLES: u32 = 64;
 
+/// Pixels along the side of a tile at least, where pixels share samples: fewer, and the samples
+/// that are traced again for the next tile are a larger part of the work (a half of it at 4).
+const LEAST_SHARING: u32 = 4;
+
 /// What is asked of a picture.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Settings {
     /// Pixels across, at least 1.
     pub width: u32,
     /// Pixels down, at least 1.
     pub height: u32,
-    /// Rays along each side of a pixel, at least 1: `samples * samples` rays in each pixel, on a
-    /// regular grid, with equal weights.
-    pub samples: u32,
+    /// How a pixel is made of rays.
+    pub sampling: Sampling,
     /// How textures are averaged.
     pub filter: Filter,
+    /// The part to be rendered, within the picture; nothing for all of it. Its pixels are those of
+    /// the whole picture to the last bit.
+    pub crop: Option<Crop>,
+    /// What is kept besides the colour, in this order.
+    pub layers: Vec<Layer>,
+}
+
+impl Settings {
+    /// One ray in the middle of each pixel.
+    #[must_use]
+    pub fn new(width: u32, height: u32, filter: Filter) -> Self {
+        let sampling = Sampling::regular(1);
+        Self { width, height, sampling, filter, crop: None, layers: Vec::new() }
+    }
+
+    /// The same with `samples * samples` rays in each pixel, evenly spread and of equal weight.
+    #[must_use]
+    pub fn with_samples(self, samples: u32) -> Self {
+        Self { sampling: Sampling::regular(samples), ..self }
+    }
 }
 
 /// Pixels of one picture at most: 3 GB of them.
 const MOST_PIXELS: u64 = 1 << 28;
-
-/// Rays along each side of a pixel at most: more would show in no 16-bit file.
-pub const MOST_SAMPLES: u32 = 256;
 
 /// Reads a size in pixels, such as `640x480`.
 ///
@@ -85,39 +113,67 @@ fn render_in_tiles(
     tile_samples: u32,
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> (Picture, Stats) {
+    with_exposure(scene, settings, |exposure, stats| {
+        let started = Instant::now();
+        let sampling = settings.sampling;
+        let least = if sampling.shares() { LEAST_SHARING } else { 1 };
+        let crop = Crop::of(settings);
+        let tiles = crop.tiles((tile_samples / sampling.per_pixel()).max(least));
+        let film = Mutex::new(Film::new(crop, &settings.layers, stats));
+        tiles.par_iter().for_each(|tile| {
+            let exposed = exposure.expose(tile, &mut ());
+            let done = film.lock().unwrap_or_else(PoisonError::into_inner).take(tile, &exposed);
+            progress(done, tiles.len());
+        });
+        let Film { mut picture, mut stats, .. } =
+            film.into_inner().unwrap_or_else(PoisonError::into_inner);
+        stats.not_finite = picture.remove_not_finite();
+        stats.picture_time = started.elapsed();
+        (picture, stats)
+    })
+}
+
+/// Renders one pixel of a scene, and tells `witness` of all that it is made of. `looks` is told
+/// beforehand whether neighbours are looked at.
+///
+/// It is exposed as a tile of its own, by the code that exposes all others: its colour is that of
+/// the picture to the last bit. The pixel lies in the picture.
+pub fn expose_pixel<W: Witness>(
+    scene: &Scene,
+    settings: &Settings,
+    (x, y): (u32, u32),
+    witness: impl FnOnce(bool) -> W,
+) -> (Picture, W) {
+    with_exposure(scene, settings, |exposure, stats| {
+        let tile = Crop { x, y, width: 1, height: 1 };
+        let mut film = Film::new(tile, &settings.layers, stats);
+        let mut witness = witness(exposure.halo);
+        film.take(&tile, &exposure.expose(&tile, &mut witness));
+        film.picture.remove_not_finite();
+        (film.picture, witness)
+    })
+}
+
+/// Gets all ready that tiles share, and the times that it took.
+fn with_exposure<T>(
+    scene: &Scene,
+    settings: &Settings,
+    work: impl FnOnce(&Exposure<'_>, Stats) -> T,
+) -> T {
     let started = Instant::now();
     let accel = Accel::build(scene.objects.iter().map(|object| &object.shape).collect());
     let accel_time = started.elapsed();
-
     let started = Instant::now();
     let shader = ready_shader(scene, &accel, settings.filter);
     let table_time = started.elapsed();
-
-    let started = Instant::now();
+    let (tables, table_bytes) = (shader.tables(), shader.table_bytes());
     let exposure = Exposure {
         tracer: Tracer { scene, accel: &accel },
         halo: settings.filter.wants_area() && shader.textures.iter().any(Option::is_some),
         shader,
-        settings: *settings,
+        settings,
     };
-    let tiles = exposure.tiles(tile_samples);
-    let film = Mutex::new(Film {
-        picture: Picture::black(settings.width, settings.height),
-        stats: Stats { accel_time, table_time, ..Stats::default() },
-        done: 0,
-    });
-    tiles.par_iter().for_each(|tile| {
-        let exposed = exposure.expose(tile);
-        let done = film.lock().unwrap_or_else(PoisonError::into_inner).take(tile, &exposed);
-        progress(done, tiles.len());
-    });
-    let Film { mut picture, mut stats, .. } =
-        film.into_inner().unwrap_or_else(PoisonError::into_inner);
-    stats.tables = exposure.shader.tables();
-    stats.table_bytes = exposure.shader.table_bytes();
-    stats.not_finite = picture.remove_not_finite();
-    stats.picture_time = started.elapsed();
-    (picture, stats)
+    work(&exposure, Stats { accel_time, table_time, tables, table_bytes, ..Stats::default() })
 }
 
 /// Prepares the textures that surfaces show, and no others.
@@ -152,116 +208,11 @@ fn ready_shader<'a>(scene: &'a Scene, accel: &'a Accel<'a>, filter: Filter) -> S
     Shader { scene, accel, textures, seams }
 }
 
-/// All that the tiles share.
-struct Exposure<'a> {
-    tracer: Tracer<'a>,
-    shader: Shader<'a>,
-    settings: Settings,
-    /// Whether neighbours are looked at.
-    halo: bool,
-}
-
-/// A rectangle of pixels.
-struct Tile {
-    x: u32,
-    y: u32,
-    width: u32,
-    height: u32,
-}
-
-/// What came of a tile.
-struct Exposed {
-    /// Row by row.
-    pixels: Vec<Color>,
-    rays: RayCounts,
-    shading: ShadeCounts,
-}
-
-/// Where tiles come together, in any order: they do not overlap, and counts are whole numbers.
-struct Film {
-    picture: Picture,
-    stats: Stats,
-    /// Tiles that are there.
-    done: usize,
-}
-
-impl Film {
-    /// Puts a tile in its place and says how many there are now.
-    fn take(&mut self, tile: &Tile, exposed: &Exposed) -> usize {
-        self.picture.place(tile.x, tile.y, tile.width, &exposed.pixels);
-        self.stats.add(&exposed.rays, &exposed.shading);
-        self.done += 1;
-        self.done
-    }
-}
-
-impl Exposure<'_> {
-    fn tiles(&self, tile_samples: u32) -> Vec<Tile> {
-        let Settings { width, height, samples, .. } = self.settings;
-        let side = (tile_samples / samples).max(1);
-        let columns = (0..width).step_by(side as usize);
-        let rows = (0..height).step_by(side as usize);
-        rows.flat_map(|y| columns.clone().map(move |x| (x, y)))
-            .map(|(x, y)| Tile { x, y, width: side.min(width - x), height: side.min(height - y) })
-            .collect()
-    }
-
-    fn expose(&self, tile: &Tile) -> Exposed {
-        let samples = i64::from(self.settings.samples);
-        let mut exposed = Exposed {
-            pixels: vec![Color::ZERO; (tile.width * tile.height) as usize],
-            rays: RayCounts::default(),
-            shading: ShadeCounts::default(),
-        };
-        // Sample coordinates: `samples` to a pixel, over the whole picture.
-        let columns = i64::from(tile.x) * samples..i64::from(tile.x + tile.width) * samples;
-        let rows = i64::from(tile.y) * samples..i64::from(tile.y + tile.height) * samples;
-        let mut add = |x: i64, y: i64, color: Color| {
-            let (column, row) = ((x - columns.start) / samples, (y - rows.start) / samples);
-            exposed.pixels[row as usize * tile.width as usize + column as usize] += color;
-        };
-        if self.halo {
-            let mut window = RowWindow::new((columns.end - columns.start) as usize + 2);
-            for y in rows.start - 1..=rows.end {
-                for (tree, x) in window.advance().iter_mut().zip(columns.start - 1..) {
-                    self.trace(x, y, tree, &mut exposed.rays);
-                }
-                // The first two rows only fill the window.
-                if y > rows.start {
-                    for (k, x) in columns.clone().enumerate() {
-                        let around = Neighbourhood::of(window.around(k + 1));
-                        add(x, y - 1, self.shader.shade(&around, &mut exposed.shading));
-                    }
-                }
-            }
-        } else {
-            let mut tree = IntersectionTree::default();
-            for y in rows.clone() {
-                for x in columns.clone() {
-                    self.trace(x, y, &mut tree, &mut exposed.rays);
-                    let around = Neighbourhood::alone(&tree);
-                    add(x, y, self.shader.shade(&around, &mut exposed.shading));
-                }
-            }
-        }
-        let weight = 1.0 / (samples * samples) as f64;
-        exposed.pixels.iter_mut().for_each(|pixel| *pixel *= weight);
-        exposed
-    }
-
-    /// Traces the ray through the middle of a sample.
-    fn trace(&self, x: i64, y: i64, tree: &mut IntersectionTree, rays: &mut RayCounts) {
-        let Settings { width, height, samples, .. } = self.settings;
-        let place = (DVec2::new(x as f64, y as f64) + 0.5) / f64::from(samples);
-        let size = DVec2::new(f64::from(width), f64::from(height));
-        self.tracer.trace(&self.tracer.scene.camera.ray(place, size), tree, rays);
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Camera, Material, Object, PointLight, Surface};
+    use crate::color::Color;
+    use crate::scene::{Camera, Material, Names, Object, PointLight, Surface};
     use crate::shape::{Quad, Sphere};
     use crate::texture::{Texture, Wrap};
     use glam::{DAffine3, DVec3};
@@ -310,25 +261,81 @@ mod tests {
             ],
             max_depth: 8,
             min_weight: 0.0,
+            names: Names::default(),
         }
     }
 
     #[test]
     fn the_picture_does_not_depend_on_how_it_is_cut_into_tiles() {
         let scene = scene();
-        for (filter, samples) in [(Filter::Tent, 1), (Filter::Box, 2), (Filter::Point, 2)] {
-            let settings = Settings { width: 37, height: 29, samples, filter };
+        for settings in every_way() {
             let cut = |side| render_in_tiles(&scene, &settings, side, &|_, _| {}).0;
             let whole = cut(1000);
-            for side in [1, 6, 16, 64] {
-                assert!(cut(side) == whole, "{filter:?} in tiles of {side} samples");
+            for side in [1, 10, 64] {
+                assert!(cut(side) == whole, "{settings:?} in tiles of {side} samples");
             }
         }
     }
 
     #[test]
+    fn a_crop_is_that_part_of_the_whole() {
+        let scene = scene();
+        for settings in every_way() {
+            let (whole, _) = render(&scene, &settings, &|_, _| {});
+            for crop in [
+                Crop { x: 0, y: 0, width: 1, height: 1 },
+                Crop { x: 11, y: 7, width: 13, height: 9 },
+                Crop { x: 36, y: 0, width: 1, height: 29 },
+                Crop::whole(37, 29),
+            ] {
+                let settings = Settings { crop: Some(crop), ..settings.clone() };
+                let (part, _) = render(&scene, &settings, &|_, _| {});
+                assert!(part == cut_out(&whole, crop), "{settings:?}");
+            }
+        }
+    }
+
+    /// A part of a picture, with its layers.
+    fn cut_out(whole: &Picture, crop: Crop) -> Picture {
+        let mut part = Picture::black(crop.width, crop.height);
+        let places =
+            || crop.rows().flat_map(|y| crop.columns().map(move |x| (y * 37 + x) as usize));
+        part.pixels = places().map(|k| whole.pixels[k]).collect();
+        part.channels = whole.channels.clone();
+        for channel in &mut part.channels {
+            channel.values = places().map(|k| channel.values[k]).collect();
+        }
+        part
+    }
+
+    /// Settings of every kind.
+    fn every_way() -> Vec<Settings> {
+        let grid =
+            |samples, pattern, pixel_filter| Sampling::Grid { samples, pattern, pixel_filter };
+        let jitter = Pattern::Jitter { seed: 5 };
+        [
+            (Filter::Tent, Sampling::regular(1)),
+            (Filter::Box, Sampling::regular(2)),
+            (Filter::Point, Sampling::regular(2)),
+            (Filter::Tent, grid(3, Pattern::Regular, PixelFilter::Tent)),
+            (Filter::Point, grid(2, Pattern::Regular, PixelFilter::Tent)),
+            (Filter::Box, grid(2, jitter, PixelFilter::Tent)),
+            (Filter::Tent, grid(1, jitter, PixelFilter::Box)),
+            (Filter::Tent, Sampling::Nine(Nine::Image)),
+            (Filter::Tent, Sampling::Nine(Nine::Rays)),
+            (Filter::Bilinear, Sampling::Nine(Nine::Rays)),
+        ]
+        .map(|(filter, sampling)| Settings {
+            sampling,
+            layers: Layer::ALL.into(),
+            ..Settings::new(37, 29, filter)
+        })
+        .into()
+    }
+
+    #[test]
     fn rays_that_count_for_little_are_left_out() {
-        let settings = Settings { width: 16, height: 16, samples: 1, filter: Filter::Point };
+        let settings = Settings::new(16, 16, Filter::Point);
         let mut scene = scene();
         let (all, cost) = render(&scene, &settings, &|_, _| {});
         scene.min_weight = 1e-3;

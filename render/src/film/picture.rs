@@ -1,5 +1,6 @@
 //! A finished picture in linear light.
 
+use super::Layer;
 use crate::color::Color;
 
 /// Linear RGB, row by row from the top.
@@ -11,13 +12,33 @@ pub struct Picture {
     pub height: u32,
     /// The pixels, in the `f32` that a file of linear values holds.
     pub pixels: Vec<[f32; 3]>,
+    /// What is known of them besides their colour: the channels of the layers that were asked for.
+    pub channels: Vec<Channel>,
+}
+
+/// A number for each pixel.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Channel {
+    /// What it is called in a file, such as `normal.X`.
+    pub name: &'static str,
+    /// The numbers, row by row from the top.
+    pub values: Vec<f32>,
 }
 
 impl Picture {
     /// A black picture.
     #[must_use]
     pub fn black(width: u32, height: u32) -> Self {
-        Self { width, height, pixels: vec![[0.0; 3]; width as usize * height as usize] }
+        Self::with_layers(width, height, &[])
+    }
+
+    /// A black picture with layers of zeros.
+    #[must_use]
+    pub fn with_layers(width: u32, height: u32, layers: &[Layer]) -> Self {
+        let count = width as usize * height as usize;
+        let names = layers.iter().flat_map(|layer| layer.channels());
+        let channels = names.map(|name| Channel { name, values: vec![0.0; count] }).collect();
+        Self { width, height, pixels: vec![[0.0; 3]; count], channels }
     }
 
     /// Puts a rectangle of pixels, `columns` wide, with its upper left corner at `(x, y)`.
@@ -26,6 +47,18 @@ impl Picture {
             let start = (y as usize + row) * self.width as usize + x as usize;
             for (pixel, color) in self.pixels[start..].iter_mut().zip(colors) {
                 *pixel = color.to_array().map(|light| light as f32);
+            }
+        }
+    }
+
+    /// Puts the values of all channels for a rectangle of pixels, as [`Picture::place`] does.
+    pub fn place_layers(&mut self, x: u32, y: u32, columns: u32, pixels: &[Vec<f32>]) {
+        for (row, pixels) in pixels.chunks_exact(columns as usize).enumerate() {
+            let start = (y as usize + row) * self.width as usize + x as usize;
+            for (place, values) in (start..).zip(pixels) {
+                for (channel, &value) in self.channels.iter_mut().zip(values) {
+                    channel.values[place] = value;
+                }
             }
         }
     }

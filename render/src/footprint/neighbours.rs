@@ -13,8 +13,10 @@ use crate::shape::SeamPeriod;
 use crate::trace::tree::{Branch, IntersectionTree, Node};
 use glam::DVec2;
 
-/// How many trees are looked at: the middle one has index 4.
-const ALL: usize = 9;
+/// How many trees are looked at.
+pub const ALL: usize = 9;
+
+/// The index of the middle one.
 const MIDDLE: usize = 4;
 
 /// Nine trees walked in step: for each, the branch of it that corresponds to the middle one's.
@@ -22,13 +24,23 @@ const MIDDLE: usize = 4;
 pub struct Neighbourhood<'a> {
     trees: [&'a IntersectionTree; ALL],
     branches: [Branch; ALL],
+    /// The index of the tree that is shaded: the middle one, unless [`Neighbourhood::seen_by`]
+    /// chose another.
+    middle: usize,
 }
 
 impl<'a> Neighbourhood<'a> {
     /// The roots of nine trees, row by row.
     #[must_use]
     pub fn of(trees: [&'a IntersectionTree; ALL]) -> Self {
-        Self { trees, branches: trees.map(|tree| tree.root) }
+        Self { trees, branches: trees.map(|tree| tree.root), middle: MIDDLE }
+    }
+
+    /// The same nine trees, of which that with index `shaded` takes the place of the middle one:
+    /// nine rays that see their texture through one box, which all of them span.
+    #[must_use]
+    pub fn seen_by(self, shaded: usize) -> Self {
+        Self { middle: shaded, ..self }
     }
 
     /// A tree without neighbours: every node sees a point.
@@ -36,19 +48,19 @@ impl<'a> Neighbourhood<'a> {
     pub fn alone(tree: &'a IntersectionTree) -> Self {
         let mut branches = [Branch::Cut; ALL];
         branches[MIDDLE] = tree.root;
-        Self { trees: [tree; ALL], branches }
+        Self { trees: [tree; ALL], branches, middle: MIDDLE }
     }
 
     /// What the middle tree's branch came to.
     #[must_use]
     pub fn middle(&self) -> Branch {
-        self.branches[MIDDLE]
+        self.branches[self.middle]
     }
 
     /// The middle tree's node, if its branch came to one.
     #[must_use]
     pub fn node(&self) -> Option<&'a Node> {
-        self.trees[MIDDLE].node(self.middle())
+        self.trees[self.middle].node(self.middle())
     }
 
     /// One step along all trees; neighbours that are on another path are left behind.
@@ -62,7 +74,20 @@ impl<'a> Neighbourhood<'a> {
                 *branch = child(node);
             }
         }
-        Self { trees: self.trees, branches }
+        Self { branches, ..*self }
+    }
+
+    /// The node of the tree with index `k`, if it came to the same textured area as this one.
+    fn agreeing(&self, k: usize, node: &Node) -> Option<&'a Node> {
+        self.trees[k].node(self.branches[k]).filter(|other| other.area() == node.area())
+    }
+
+    /// The first tree, by its index, that makes the middle node see a point, and what it came to
+    /// by the same path: [`Branch::Cut`] if it is on another one.
+    #[must_use]
+    pub fn stranger(&self, node: &Node) -> Option<(usize, Branch, Option<&'a Node>)> {
+        let k = (0..ALL).find(|&k| self.agreeing(k, node).is_none())?;
+        Some((k, self.branches[k], self.trees[k].node(self.branches[k])))
     }
 
     /// What the middle node sees of its texture; `seam` is the period of its shape's coordinates.
@@ -70,12 +95,7 @@ impl<'a> Neighbourhood<'a> {
     pub fn footprint(&self, node: &Node, seam: SeamPeriod) -> Footprint {
         let (mut low, mut high) = (node.uv, node.uv);
         for k in 0..ALL {
-            let Some(other) = self.trees[k].node(self.branches[k]) else {
-                return Footprint::Point(node.uv);
-            };
-            if other.area() != node.area() {
-                return Footprint::Point(node.uv);
-            }
+            let Some(other) = self.agreeing(k, node) else { return Footprint::Point(node.uv) };
             let uv = node.uv + unwrapped(other.uv - node.uv, seam);
             low = low.min(uv);
             high = high.max(uv);

@@ -4,12 +4,14 @@ pub mod camera;
 pub mod file;
 pub mod light;
 pub mod material;
+pub mod names;
 pub mod obj;
 pub mod read;
 
 pub use camera::Camera;
 pub use light::PointLight;
 pub use material::Material;
+pub use names::Names;
 pub use read::{MeshSource, SceneError};
 
 use crate::color::Color;
@@ -38,6 +40,8 @@ pub struct Scene {
     pub max_depth: u32,
     /// A ray that counts for less than this in its pixel is not followed.
     pub min_weight: f64,
+    /// What the scene file calls its things.
+    pub names: Names,
 }
 
 /// A shape and what its surfaces look like.

@@ -8,7 +8,7 @@ mod textures;
 
 use super::file::{ColorFile, MeshFile, ObjectFile, SceneFile};
 use super::obj::ObjError;
-use super::{Camera, Scene};
+use super::{Camera, Names, Scene};
 use crate::color::Color;
 use crate::shape::Mesh;
 use crate::shape::mesh::MeshError;
@@ -151,6 +151,7 @@ pub fn resolve(
         objects,
         max_depth: file.max_depth,
         min_weight: file.min_weight,
+        names: Names::of(file),
     })
 }
 

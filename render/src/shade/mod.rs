@@ -4,6 +4,7 @@
 //! with its weight; so the deepest nodes come first and their colours are handed up. The thesis's
 //! figure weighs refraction with the reflectivity; here it is weighed with the transparency.
 
+pub mod observer;
 mod shadow;
 
 use crate::accel::Accel;
@@ -15,6 +16,7 @@ use crate::optics;
 use crate::scene::{Material, Scene};
 use crate::shape::{SeamPeriod, Shape};
 use crate::trace::tree::{Branch, Node};
+use observer::{Local, Observer, Seen, Textured, Way};
 use shadow::transmission;
 
 /// Shades the trees of one scene.
@@ -56,35 +58,47 @@ impl Shader<'_> {
         self.textures.iter().flatten().map(|texture| texture.table_bytes() as u64).sum()
     }
 
-    /// The colour that comes along the middle branch.
+    /// The colour that comes along the middle branch; `observer` is told of all that follow.
     #[must_use]
-    pub fn shade(&self, around: &Neighbourhood<'_>, counts: &mut ShadeCounts) -> Color {
-        let node = match (around.middle(), around.node()) {
-            (Branch::Background, _) => return self.scene.background,
-            (_, None) => return Color::ZERO,
-            (_, Some(node)) => node,
+    pub fn shade<O: Observer>(
+        &self,
+        around: &Neighbourhood<'_>,
+        counts: &mut ShadeCounts,
+        observer: &mut O,
+    ) -> Color {
+        let (local, color) = match (around.middle(), around.node()) {
+            (Branch::Background, _) => (None, self.scene.background),
+            (_, None) => (None, Color::ZERO),
+            (_, Some(node)) => {
+                let local = self.local(node, around, counts);
+                let mut color = local.color;
+                if node.reflect_weight > 0.0 {
+                    observer.follow(Way::Reflected);
+                    let reflected = around.step(|node| node.reflected);
+                    color += node.reflect_weight * self.shade(&reflected, counts, observer);
+                }
+                if node.refract_weight > 0.0 {
+                    observer.follow(Way::Refracted);
+                    let refracted = around.step(|node| node.refracted);
+                    color += node.refract_weight * self.shade(&refracted, counts, observer);
+                }
+                (Some(local), color)
+            }
         };
-        let mut color = self.local(node, around, counts);
-        if node.reflect_weight > 0.0 {
-            let reflected = around.step(|node| node.reflected);
-            color += node.reflect_weight * self.shade(&reflected, counts);
-        }
-        if node.refract_weight > 0.0 {
-            let refracted = around.step(|node| node.refracted);
-            color += node.refract_weight * self.shade(&refracted, counts);
-        }
+        observer.leave(&Seen { around, local, color });
         color
     }
 
     /// The colour of the surface itself under ambient light and the lights that reach it.
-    fn local(&self, node: &Node, around: &Neighbourhood<'_>, counts: &mut ShadeCounts) -> Color {
+    fn local(&self, node: &Node, around: &Neighbourhood<'_>, counts: &mut ShadeCounts) -> Local {
         let surface = self.scene.objects[node.piece.object as usize].parts[node.part as usize];
         let material = &self.scene.materials[surface.material];
         let Lighting { diffuse, highlight } = self.lighting(node, material, counts);
         let mut color = highlight;
+        let mut textured = None;
         if material.shows_color() {
             let texture = surface.texture.and_then(|index| self.textures[index].as_ref());
-            let textured = texture.map_or(Color::ONE, |texture| {
+            textured = texture.map(|texture| {
                 let footprint = around.footprint(node, self.seams[node.piece.object as usize]);
                 counts.texels += texture.reads();
                 match footprint {
@@ -92,14 +106,16 @@ impl Shader<'_> {
                     Footprint::Rectangle { .. } => counts.areas += 1,
                 }
                 let object = &self.scene.objects[node.piece.object as usize];
-                match object.shape {
+                let average = match object.shape {
                     Shape::Sphere(_) => texture.average(&texture.between_poles(footprint)),
                     Shape::Quad(_) | Shape::Mesh(_) => texture.average(&footprint),
-                }
+                };
+                Textured { footprint, average }
             });
-            color += material.color * textured * (material.ambient * self.scene.ambient + diffuse);
+            let texture = textured.map_or(Color::ONE, |textured| textured.average);
+            color += material.color * texture * (material.ambient * self.scene.ambient + diffuse);
         }
-        color
+        Local { textured, color }
     }
 
     /// What the lights bring to a node.

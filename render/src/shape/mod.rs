@@ -23,6 +23,17 @@ pub enum Shape {
 }
 
 impl Shape {
+    /// What a scene file calls a shape of this kind.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Sphere(_) => "sphere",
+            Self::Quad(quad) if quad.bounds().is_some() => "rectangle",
+            Self::Quad(_) => "plane",
+            Self::Mesh(_) => "mesh",
+        }
+    }
+
     /// The largest coordinate, without its sign, that its points are computed from.
     #[must_use]
     pub fn extent(&self) -> f64 {

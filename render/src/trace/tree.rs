@@ -8,6 +8,7 @@ use glam::{DVec2, DVec3};
 /// Where many half transparent surfaces stand behind each other, each hit sends two rays and the
 /// number of hits doubles with the depth. Larger, and such a scene ends for want of memory, since
 /// each thread holds two hundred trees; this many hold every ray of a depth of 12, the default.
+/// Rays are followed depth first, so what a full tree lacks is what the first surfaces let through.
 pub const MOST_NODES: usize = (1 << 13) - 1;
 
 /// All hits of one ray from the eye and of the rays that follow from it.

@@ -48,7 +48,7 @@ pub fn picture(scene: &Scene, side: u32, filter: Filter) -> Picture {
 
 /// Its picture, `side` by `side` pixels with `samples` by `samples` rays in each.
 pub fn supersampled(scene: &Scene, side: u32, samples: u32, filter: Filter) -> Picture {
-    let settings = Settings { width: side, height: side, samples, filter };
+    let settings = Settings::new(side, side, filter).with_samples(samples);
     let (picture, stats) = render::render(scene, &settings, &|_, _| {});
     assert_eq!(stats.not_finite, 0);
     picture

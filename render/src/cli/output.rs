@@ -1,0 +1,97 @@
+//! What is written: the picture's file.
+
+use super::{EncodeError, UseError};
+use clap::{Args, ValueEnum};
+use files::{FileError, Output, Report, input};
+use render::Picture;
+use render::color::Encoding;
+use render::film::Layer;
+use render::film::encode::{self, Format};
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+
+#[derive(Debug, Args)]
+pub struct OutputArguments {
+    /// The picture: a .png or .exr file, or - for standard output
+    #[arg(short, long, value_name = "FILE", required_unless_present = "pixel")]
+    output: Option<PathBuf>,
+    /// The kind of file, if the extension does not tell
+    #[arg(long)]
+    format: Option<FormatName>,
+    /// How a PNG, and the codes of --pixel, are encoded: srgb, or a gamma from 0.1 to 10
+    #[arg(long, value_name = "srgb|G", default_value = "srgb", value_parser = gamma_argument)]
+    pub gamma: Encoding,
+    /// What an EXR holds besides the colour, of what the middle ray of each pixel hits first:
+    /// some of normal, depth, uv, object, footprint, with commas between them
+    #[arg(long, value_name = "LIST", value_delimiter = ',', requires = "output")]
+    layers: Vec<Layer>,
+    /// Refuse to replace an existing file
+    #[arg(long)]
+    no_clobber: bool,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum FormatName {
+    Png,
+    Exr,
+}
+
+/// A file that can be written.
+#[derive(Debug)]
+pub struct Target<'a> {
+    path: &'a Path,
+    format: Format,
+}
+
+impl OutputArguments {
+    /// Where the picture goes, if it goes anywhere; finds out beforehand whether it can.
+    pub fn target(&self, prints: bool) -> Result<Option<Target<'_>>, Report> {
+        let Some(path) = &self.output else { return Ok(None) };
+        let to_stdout = input::is_stdin(path);
+        if to_stdout && prints {
+            return Err(UseError::PixelAndPicture.into());
+        }
+        if to_stdout && std::io::stdout().is_terminal() {
+            return Err(UseError::BinaryToTerminal.into());
+        }
+        let format = match (self.format, Format::of(path)) {
+            (Some(FormatName::Png), _) => Format::Png,
+            (Some(FormatName::Exr), _) => Format::Exr,
+            (None, Some(format)) => format,
+            (None, None) => return Err(UseError::UnknownFormat(path.display().to_string()).into()),
+        };
+        if format == Format::Png && !self.layers.is_empty() {
+            return Err(UseError::LayersInPng(path.display().to_string()).into());
+        }
+        Output::check(path, !self.no_clobber)?;
+        Ok(Some(Target { path, format }))
+    }
+
+    /// The layers, each once, in the order of the list that the help gives.
+    pub fn layers(&self) -> Vec<Layer> {
+        let mut layers = self.layers.clone();
+        layers.sort_unstable();
+        layers.dedup();
+        layers
+    }
+
+    pub fn write(&self, target: &Target<'_>, picture: &Picture) -> Result<(), Report> {
+        let bytes = encode::encode(picture, target.format, self.gamma).map_err(EncodeError)?;
+        Ok(Output::create(target.path, !self.no_clobber)?.commit_all(&bytes)?)
+    }
+}
+
+/// Prints text on standard output.
+pub fn print(text: &str) -> Result<(), FileError> {
+    Output::create(Path::new("-"), true)?.commit_all(text.as_bytes())
+}
+
+fn gamma_argument(text: &str) -> Result<Encoding, String> {
+    if text.eq_ignore_ascii_case("srgb") {
+        return Ok(Encoding::Srgb);
+    }
+    match text.parse() {
+        Ok(gamma) if (0.1..=10.0).contains(&gamma) => Ok(Encoding::Gamma(gamma)),
+        _ => Err("expected srgb, or a number from 0.1 to 10".into()),
+    }
+}

@@ -1,0 +1,100 @@
+//! How large the picture is, which part of it is made, and of which rays.
+
+use super::UseError;
+use clap::{Args, ValueEnum};
+use render::Sampling;
+use render::film::{Crop, MOST_SAMPLES, Nine, Pattern, PixelFilter, crop};
+
+#[derive(Debug, Args)]
+pub struct SamplingArguments {
+    /// Pixels across and down, 1 to 65536 each
+    #[arg(long, value_name = "WxH", default_value = "512x512", value_parser = render::film::size)]
+    pub size: (u32, u32),
+    /// Make only this part of the picture: its upper left pixel, from 0, and its size
+    #[arg(long, value_name = "X,Y,WxH", value_parser = Crop::parse)]
+    pub crop: Option<Crop>,
+    /// Rays along each side of a pixel: N times N in each, N from 1 to 256
+    #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_SAMPLES)))]
+    samples: u32,
+    /// Where in its part of the pixel each ray goes
+    #[arg(long, value_name = "PATTERN", default_value = "regular")]
+    pattern: PatternName,
+    /// Which jitter: a whole number from 0 to 2^64 - 1 [default: 0]
+    #[arg(long, value_name = "S")]
+    seed: Option<u64>,
+    /// What the rays of a pixel count for
+    #[arg(long, value_name = "SHAPE", default_value = "box")]
+    pixel_filter: PixelFilterName,
+    /// In place of --samples: twice the size, of which each pixel takes its middle with weight 1/4,
+    /// its sides with 1/8 and its corners with 1/16. Textures are averaged for each ray (image), or
+    /// for the nine rays of a pixel together (rays)
+    #[arg(long, value_name = "HOW", num_args = 0..=1, require_equals = true,
+        default_missing_value = "image", conflicts_with_all = ["samples", "pattern", "seed", "pixel_filter"])]
+    supersample: Option<NineName>,
+    /// Print what this pixel is made of: the tree of reflections and refractions of the ray in its
+    /// middle, and its colour. Column and row count from 0, in the whole picture
+    #[arg(long, value_name = "X,Y", value_parser = crop::pixel)]
+    pub pixel: Option<(u32, u32)>,
+    /// With --pixel: the trees of all rays that count in the pixel
+    #[arg(long, requires = "pixel")]
+    pub all_samples: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum PatternName {
+    /// In the middle
+    Regular,
+    /// Anywhere, by a hash of the ray's number and --seed
+    Jitter,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum PixelFilterName {
+    /// Those in the pixel, equally
+    Box,
+    /// By a tent that reaches to the middles of the neighbouring pixels; N is at least 2 for it
+    Tent,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum NineName {
+    Image,
+    Rays,
+}
+
+impl SamplingArguments {
+    /// Checks that the crop and the pixel lie in the picture.
+    pub fn check(&self) -> Result<(), UseError> {
+        let (width, height) = self.size;
+        match (self.crop, self.pixel) {
+            (Some(crop), _) if !crop.fits(width, height) => {
+                let Crop { x, y, width: across, height: down } = crop;
+                Err(UseError::CropOutside(format!("{x},{y},{across}x{down}"), width, height))
+            }
+            (_, Some((x, y))) if x >= width || y >= height => {
+                Err(UseError::PixelOutside(x, y, width, height))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// How a pixel is made of rays.
+    pub fn sampling(&self) -> Result<Sampling, UseError> {
+        match self.supersample {
+            Some(NineName::Image) => return Ok(Sampling::Nine(Nine::Image)),
+            Some(NineName::Rays) => return Ok(Sampling::Nine(Nine::Rays)),
+            None => {}
+        }
+        let pattern = match (self.pattern, self.seed) {
+            (PatternName::Jitter, seed) => Pattern::Jitter { seed: seed.unwrap_or(0) },
+            (PatternName::Regular, None) => Pattern::Regular,
+            (PatternName::Regular, Some(_)) => return Err(UseError::SeedOfNothing),
+        };
+        let pixel_filter = match self.pixel_filter {
+            PixelFilterName::Box => PixelFilter::Box,
+            PixelFilterName::Tent if self.samples < 2 => return Err(UseError::TentOfOne),
+            PixelFilterName::Tent => PixelFilter::Tent,
+        };
+        Ok(Sampling::Grid { samples: self.samples, pattern, pixel_filter })
+    }
+}

@@ -1,0 +1,49 @@
+//! Threads, and what is said about the work.
+
+use super::UseError;
+use clap::builder::TypedValueParser;
+use clap::{Args, ValueEnum};
+use files::exit::say;
+use render::stats::Stats;
+
+#[derive(Debug, Args)]
+pub struct WorkArguments {
+    /// Worker threads, 1 to 1024 [default: one for each core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024).map(usize::from))]
+    threads: Option<usize>,
+    /// Print counts of rays, hits and texels and the time of each stage on standard error
+    #[arg(long, value_name = "AS", num_args = 0..=1, require_equals = true, default_missing_value = "text")]
+    stats: Option<StatsForm>,
+    /// No progress bar
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum StatsForm {
+    /// A table
+    Text,
+    /// One JSON object
+    Json,
+}
+
+impl WorkArguments {
+    pub fn pool(&self) -> Result<rayon::ThreadPool, UseError> {
+        let threads = self.threads.unwrap_or(0);
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.map_err(|error| UseError::Threads(threads, error))
+    }
+
+    /// Says what `--stats` asks for.
+    pub fn print_stats(&self, stats: &Stats) {
+        if stats.not_finite > 0 {
+            let count = stats.not_finite;
+            say(format_args!("render: {count} pixels came out not finite and are black"));
+        }
+        match self.stats {
+            Some(StatsForm::Text) => say(stats.to_string().trim_end()),
+            Some(StatsForm::Json) => say(serde_json::to_string(stats).unwrap_or_default()),
+            None => {}
+        }
+    }
+}

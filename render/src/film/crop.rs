@@ -1,0 +1,123 @@
+//! A part of a picture.
+
+use super::{Settings, size};
+use std::ops::Range;
+
+/// A rectangle of a picture's pixels; its places are those of the whole.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Crop {
+    /// The leftmost column.
+    pub x: u32,
+    /// The uppermost row.
+    pub y: u32,
+    /// Pixels across, at least 1.
+    pub width: u32,
+    /// Pixels down, at least 1.
+    pub height: u32,
+}
+
+impl Crop {
+    /// Reads a rectangle such as `100,50,64x48`: its upper left pixel and its size.
+    ///
+    /// # Errors
+    /// When the text has another form, or the rectangle could lie in no picture.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        let form = "expected X,Y,WxH in pixels, such as 100,50,64x48";
+        let (corner, extent) = text.rsplit_once(',').ok_or(form)?;
+        let (x, y) = pixel(corner).map_err(|_| form)?;
+        let (width, height) = size(extent).map_err(|_| form)?;
+        Ok(Self { x, y, width, height })
+    }
+
+    /// All of a picture.
+    #[must_use]
+    pub fn whole(width: u32, height: u32) -> Self {
+        Self { x: 0, y: 0, width, height }
+    }
+
+    /// Whether it lies in a picture of this size.
+    #[must_use]
+    pub fn fits(&self, width: u32, height: u32) -> bool {
+        let ends = |start: u32, extent: u32, whole: u32| {
+            extent > 0 && u64::from(start) + u64::from(extent) <= u64::from(whole)
+        };
+        ends(self.x, self.width, width) && ends(self.y, self.height, height)
+    }
+
+    /// What is to be rendered.
+    #[must_use]
+    pub fn of(settings: &Settings) -> Self {
+        settings.crop.unwrap_or(Self::whole(settings.width, settings.height))
+    }
+
+    /// Its columns.
+    #[must_use]
+    pub fn columns(&self) -> Range<u32> {
+        self.x..self.x + self.width
+    }
+
+    /// Its rows.
+    #[must_use]
+    pub fn rows(&self) -> Range<u32> {
+        self.y..self.y + self.height
+    }
+
+    /// The rectangles of at most `side` by `side` pixels that it is cut into, row by row.
+    #[must_use]
+    pub fn tiles(&self, side: u32) -> Vec<Self> {
+        let columns = self.columns().step_by(side as usize);
+        self.rows()
+            .step_by(side as usize)
+            .flat_map(|y| columns.clone().map(move |x| (x, y)))
+            .map(|(x, y)| Self {
+                x,
+                y,
+                width: side.min(self.columns().end - x),
+                height: side.min(self.rows().end - y),
+            })
+            .collect()
+    }
+}
+
+/// Reads the place of a pixel, such as `320,240`: column and row from the upper left, from 0.
+///
+/// # Errors
+/// When the text is not two numbers below 65536 with a comma between them.
+pub fn pixel(text: &str) -> Result<(u32, u32), String> {
+    let place = |text: &str| text.parse().ok().filter(|&place: &u32| place < 65536);
+    text.split_once(',')
+        .and_then(|(x, y)| Some((place(x)?, place(y)?)))
+        .ok_or_else(|| "expected X,Y: a column and a row from 0 to 65535".into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rectangle_is_a_place_and_a_size() {
+        let crop = Crop { x: 100, y: 50, width: 64, height: 48 };
+        assert_eq!(Crop::parse("100,50,64x48"), Ok(crop));
+        for bad in ["", "1,2", "1,2,3", "1,2,3x0", "-1,2,3x4", "1,2,3x4,5", "1x2,3x4"] {
+            assert!(Crop::parse(bad).unwrap_err().contains("X,Y,WxH"), "{bad}");
+        }
+        assert!(crop.fits(164, 98));
+        assert!(!crop.fits(163, 98) && !crop.fits(164, 97));
+        let far = Crop { x: 65535, y: 0, width: 65536, height: 1 };
+        assert!(!far.fits(65536, 1));
+    }
+
+    #[test]
+    fn tiles_cover_every_pixel_once() {
+        let crop = Crop { x: 3, y: 5, width: 7, height: 4 };
+        for side in [1, 2, 3, 7, 100] {
+            let mut covered: Vec<(u32, u32)> = Vec::new();
+            for tile in crop.tiles(side) {
+                covered.extend(tile.rows().flat_map(|y| tile.columns().map(move |x| (y, x))));
+            }
+            covered.sort_unstable();
+            let all: Vec<_> = (5..9).flat_map(|y| (3..10).map(move |x| (y, x))).collect();
+            assert_eq!(covered, all);
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! Where in its part of a pixel a ray goes.
+
+use glam::DVec2;
+
+/// Where in its part of a pixel a ray goes.
+///
+/// With jitter the neighbours of a sample, between which its footprint is spanned, are the samples
+/// of the neighbouring parts, wherever they lie in those: the box that they span is as wide on the
+/// average as that of a regular grid, and its middle is not the sample.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Pattern {
+    /// In the middle.
+    #[default]
+    Regular,
+    /// Anywhere, by a hash of the sample's numbers and the seed: the same for any number of
+    /// threads, any tiles and any crop.
+    Jitter {
+        /// Another seed is another pattern.
+        seed: u64,
+    },
+}
+
+impl Pattern {
+    /// The place within the part of the sample in column `x` and row `y` of the film's lattice,
+    /// each in `[0, 1)`.
+    #[must_use]
+    pub fn offset(self, x: i64, y: i64) -> DVec2 {
+        match self {
+            Self::Regular => DVec2::splat(0.5),
+            Self::Jitter { seed } => {
+                let hash = mixed(mixed(mixed(seed) ^ x as u64) ^ y as u64);
+                DVec2::new(fraction(hash), fraction(mixed(hash)))
+            }
+        }
+    }
+}
+
+/// One step of the generator `SplitMix64` (Steele, Lea and Flood 2014): a permutation of all words in
+/// which each bit of the argument turns about half of the result's.
+fn mixed(word: u64) -> u64 {
+    let word = word.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let word = (word ^ (word >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let word = (word ^ (word >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    word ^ (word >> 31)
+}
+
+/// The upper 53 bits as a number in `[0, 1)`.
+fn fraction(word: u64) -> f64 {
+    (word >> 11) as f64 / (1u64 << 53) as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn jitter_is_even_and_without_ties_between_neighbours() {
+        let pattern = Pattern::Jitter { seed: 7 };
+        let (mut sum, mut squares, mut along, mut axes) = (DVec2::ZERO, DVec2::ZERO, 0.0, 0.0);
+        let count = 200 * 200;
+        for y in -100..100 {
+            for x in -100..100 {
+                let at = pattern.offset(x, y);
+                assert!(at.cmpge(DVec2::ZERO).all() && at.cmplt(DVec2::ONE).all());
+                let from_middle = at - 0.5;
+                sum += from_middle;
+                squares += from_middle * from_middle;
+                along += from_middle.x * (pattern.offset(x + 1, y).x - 0.5);
+                axes += from_middle.x * from_middle.y;
+            }
+        }
+        let n = f64::from(count);
+        // Five standard deviations: of the mean sqrt(1/12 / n), of the square sqrt(1/180 / n), of
+        // the products 1/12 / sqrt(n).
+        assert!((sum / n).abs().max_element() < 5.0 * (1.0 / 12.0 / n).sqrt());
+        assert!((squares / n - 1.0 / 12.0).abs().max_element() < 5.0 * (1.0 / 180.0 / n).sqrt());
+        for product in [along, axes] {
+            assert!((product / n).abs() < 5.0 / 12.0 / n.sqrt());
+        }
+    }
+
+    #[test]
+    fn another_seed_is_another_pattern() {
+        let at = |seed| Pattern::Jitter { seed }.offset(3, -4);
+        assert_eq!(at(1), at(1));
+        assert_ne!(at(1), at(2));
+    }
+}

@@ -1,0 +1,217 @@
+//! Where the rays of a picture go, and what each counts for in a pixel.
+//!
+//! Samples lie on one lattice over the whole film, numbered by whole numbers from the upper left,
+//! also left of it and above: a sample and its place do not depend on the pixel that asks for it.
+//!
+//! ```text
+//!   N x N, here N = 2            nine weights: the same lattice, moved by
+//!   +---------+---------+       a quarter of a pixel, so that one sample
+//!   | 0   1   | 2   3   |       is in the middle of each pixel
+//!   +---------+---------+       0    1    2    3    4
+//!                                +---------+---------+
+//! ```
+//!
+//! The weights of a pixel are products of whole numbers along both axes, divided once by their
+//! sum: so they sum to one exactly, and the order in which a pixel adds its samples, row by row,
+//! does not depend on tiles.
+
+use super::pattern::Pattern;
+use glam::DVec2;
+use serde::Deserialize;
+use std::ops::Range;
+
+/// Rays along each side of a pixel at most: more would show in no 16-bit file.
+pub const MOST_SAMPLES: u32 = 256;
+
+/// How a pixel is made of rays.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Sampling {
+    /// `samples * samples` rays in each pixel.
+    Grid {
+        /// Rays along each side of a pixel, 1 to [`MOST_SAMPLES`].
+        samples: u32,
+        /// Where in its part of the pixel each ray goes.
+        pattern: Pattern,
+        /// What they count for.
+        pixel_filter: PixelFilter,
+    },
+    /// The thesis's uniform supersampling (4.5.4): a picture of twice the size, of which each pixel
+    /// takes the sample in its middle with weight 1/4, the four beside it with 1/8 and the four at
+    /// its corners with 1/16.
+    ///
+    /// We read "the pixel in the middle" as the sample in the middle of the small picture's pixel.
+    /// A picture of 2n x 2n has none there: it is moved by a quarter of a pixel, since otherwise
+    /// the small picture would be. Pixel `k` is then made of columns `2k`, `2k + 1` and `2k + 2`,
+    /// and likewise of three rows, of which it shares the outer two with its neighbours. The
+    /// samples on the border of the film and beyond it are traced like all others.
+    Nine(Nine),
+}
+
+/// What the rays of a grid count for in a pixel.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PixelFilter {
+    /// The rays in the pixel, equally.
+    #[default]
+    Box,
+    /// A tent that reaches to the middles of the neighbouring pixels. With one ray in each pixel
+    /// nothing else lies under it.
+    Tent,
+}
+
+/// Where the nine rays of a pixel take their footprints from; see [`Sampling::Nine`].
+///
+/// With a filter that looks at points both are the same to the last bit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Nine {
+    /// The picture of twice the size is a picture like any other (thesis 4.5.4): each of its
+    /// samples is averaged over the box of its own eight neighbours, half a pixel away.
+    Image,
+    /// The nine rays of a pixel are each other's neighbours (thesis 4.5.1: "row 1 and row 2 must
+    /// be cleared and row 3 must be shifted to the place of row 1"): all are averaged over the box
+    /// that they span together, which is the pixel. Textures come out sharper, and every pixel
+    /// shades nine trees, of which it shares none.
+    Rays,
+}
+
+impl Sampling {
+    /// `samples * samples` rays in each pixel, evenly spread and of equal weight.
+    #[must_use]
+    pub fn regular(samples: u32) -> Self {
+        Self::Grid { samples, pattern: Pattern::Regular, pixel_filter: PixelFilter::Box }
+    }
+
+    /// Columns of the lattice to a pixel, and rows.
+    #[must_use]
+    pub fn per_pixel(self) -> u32 {
+        match self {
+            Self::Grid { samples, .. } => samples,
+            Self::Nine(_) => 2,
+        }
+    }
+
+    /// Where a sample lies on the film, in pixels.
+    #[must_use]
+    pub fn place(self, x: i64, y: i64) -> DVec2 {
+        let corner = DVec2::new(x as f64, y as f64);
+        match self {
+            Self::Grid { samples, pattern, .. } => {
+                (corner + pattern.offset(x, y)) / f64::from(samples)
+            }
+            Self::Nine(_) => 0.5 * corner,
+        }
+    }
+
+    /// The column of the sample that stands for a pixel where one must: in its middle, or the
+    /// first after it. The same for rows.
+    #[must_use]
+    pub fn middle(self, pixel: u32) -> i64 {
+        let n = i64::from(self.per_pixel());
+        i64::from(pixel) * n + n / 2
+    }
+
+    /// The columns of the samples that count in a row of pixels. The same for rows.
+    #[must_use]
+    pub fn under(self, pixels: Range<u32>) -> Range<i64> {
+        let n = i64::from(self.per_pixel());
+        let (start, end) = (i64::from(pixels.start) * n, i64::from(pixels.end) * n);
+        match self {
+            Self::Grid { pixel_filter: PixelFilter::Box, .. } => start..end,
+            Self::Grid { pixel_filter: PixelFilter::Tent, .. } => start - n / 2..end + n / 2,
+            Self::Nine(_) => start..end + 1,
+        }
+    }
+
+    /// Whether pixels share samples.
+    #[must_use]
+    pub fn shares(self) -> bool {
+        self.under(0..1).end > self.under(1..2).start
+    }
+
+    /// What a column counts for in a pixel, of [`Sampling::whole`]; 0 where it does not. The same
+    /// for rows.
+    #[must_use]
+    pub fn weight(self, pixel: u32, column: i64) -> i64 {
+        if !self.under(pixel..pixel + 1).contains(&column) {
+            return 0;
+        }
+        let n = i64::from(self.per_pixel());
+        let into = column - i64::from(pixel) * n;
+        match self {
+            Self::Grid { pixel_filter: PixelFilter::Box, .. } => 1,
+            // By the middle of the sample's part of its pixel, in halves of such a part.
+            Self::Grid { pixel_filter: PixelFilter::Tent, .. } => 2 * n - (2 * into + 1 - n).abs(),
+            Self::Nine(_) => 2 - (into - 1).abs(),
+        }
+    }
+
+    /// The sum of the weights of a pixel along one axis.
+    #[must_use]
+    pub fn whole(self) -> i64 {
+        let n = i64::from(self.per_pixel());
+        match self {
+            Self::Grid { pixel_filter: PixelFilter::Box, .. } => n,
+            Self::Grid { pixel_filter: PixelFilter::Tent, .. } => 2 * n * n,
+            Self::Nine(_) => 4,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn all() -> Vec<Sampling> {
+        let mut all = vec![Sampling::Nine(Nine::Image), Sampling::Nine(Nine::Rays)];
+        for samples in [1, 2, 3, 4, 5, 8, 255, 256] {
+            for pixel_filter in [PixelFilter::Box, PixelFilter::Tent] {
+                let pattern = Pattern::Regular;
+                all.push(Sampling::Grid { samples, pattern, pixel_filter });
+            }
+        }
+        all
+    }
+
+    #[test]
+    fn weights_sum_to_the_whole_and_lie_even_about_the_middle() {
+        for sampling in all() {
+            let columns = sampling.under(3..4);
+            let weights: Vec<i64> = columns.clone().map(|x| sampling.weight(3, x)).collect();
+            assert_eq!(weights.iter().sum::<i64>(), sampling.whole(), "{sampling:?}");
+            assert!(weights.iter().all(|&weight| weight > 0), "{sampling:?}: {weights:?}");
+            let mirrored: Vec<i64> = weights.iter().rev().copied().collect();
+            assert_eq!(weights, mirrored, "{sampling:?}");
+            assert_eq!(sampling.weight(3, columns.start - 1), 0);
+            assert_eq!(sampling.weight(3, columns.end), 0);
+            let middle = sampling.weight(3, sampling.middle(3));
+            assert_eq!(Some(&middle), weights.iter().max(), "{sampling:?}");
+        }
+    }
+
+    #[test]
+    fn every_sample_counts_the_same_in_all_pixels_together() {
+        for sampling in all() {
+            let n = i64::from(sampling.per_pixel());
+            for x in 5 * n..6 * n {
+                let sum: i64 = (3..9).map(|pixel| sampling.weight(pixel, x)).sum();
+                // The whole of a pixel, spread over the samples there are to a pixel.
+                assert_eq!(sum * n, sampling.whole(), "{sampling:?}, column {x}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_nine_weights_are_those_of_the_thesis() {
+        let nine = Sampling::Nine(Nine::Image);
+        let at =
+            |x, y| (nine.weight(7, x) * nine.weight(4, y)) as f64 / (nine.whole().pow(2) as f64);
+        let (x, y) = (nine.middle(7), nine.middle(4));
+        assert_eq!(nine.place(x, y), DVec2::new(7.5, 4.5), "the middle of the pixel");
+        assert_eq!(at(x, y), 1.0 / 4.0);
+        assert_eq!([at(x - 1, y), at(x, y - 1), at(x + 1, y), at(x, y + 1)], [1.0 / 8.0; 4]);
+        for (dx, dy) in [(-1, -1), (1, -1), (-1, 1), (1, 1)] {
+            assert_eq!(at(x + dx, y + dy), 1.0 / 16.0);
+        }
+    }
+}

@@ -1,0 +1,126 @@
+//! One node of an intersection tree in words.
+
+use super::{light, vector};
+use crate::footprint::Footprint;
+use crate::footprint::neighbours::Neighbourhood;
+use crate::scene::Scene;
+use crate::shade::observer::{Seen, Textured};
+use crate::trace::tree::{Branch, Node};
+
+/// Where a neighbour is, by its index.
+const PLACES: [&str; 9] = [
+    "upper left",
+    "upper",
+    "upper right",
+    "left",
+    "middle",
+    "right",
+    "lower left",
+    "lower",
+    "lower right",
+];
+
+/// What a branch came to; the first line names it.
+pub fn lines(scene: &Scene, halo: bool, seen: &Seen<'_>) -> Vec<String> {
+    let Some(node) = seen.around.node() else {
+        return vec![nothing(seen.around.middle()).into(), format!("colour {}", light(seen.color))];
+    };
+    let object = &scene.objects[node.piece.object as usize];
+    let surface = object.parts[node.part as usize];
+    let mut lines = vec![
+        piece(scene, node),
+        format!(
+            "part {}, material {}, {}",
+            node.part,
+            named(&scene.names.materials, surface.material),
+            surface.texture.map_or("no texture".into(), |index| {
+                format!("texture {}", named(&scene.names.textures, index))
+            })
+        ),
+        format!("position {}", vector(node.position)),
+        format!("normal {}, of the facet {}", vector(node.normal), vector(node.geometric_normal)),
+        format!("uv {} {}", node.uv.x as f32, node.uv.y as f32),
+    ];
+    if let Some(local) = seen.local {
+        if let (Some(textured), Some(index)) = (local.textured, surface.texture) {
+            lines.push(footprint(scene, halo, seen.around, node, &textured, index));
+            lines.push(format!("texture average {}", light(textured.average)));
+        }
+        lines.push(format!("local colour {}", light(local.color)));
+    }
+    let (reflect, refract) = (node.reflect_weight as f32, node.refract_weight as f32);
+    lines.push(format!("weights: reflected {reflect}, refracted {refract}"));
+    lines.push(format!("colour handed up {}", light(seen.color)));
+    lines
+}
+
+/// A branch without a node.
+fn nothing(branch: Branch) -> &'static str {
+    match branch {
+        Branch::Background => "the background",
+        _ => "not followed: too deep, of too little weight, or the tree is full",
+    }
+}
+
+/// Which object, and which piece of it.
+fn piece(scene: &Scene, node: &Node) -> String {
+    let index = node.piece.object as usize;
+    let kind = scene.objects[index].shape.kind();
+    match scene.names.objects.get(index) {
+        Some(Some(name)) => {
+            format!("object {index}, {kind} {name:?}, triangle {}", node.piece.triangle)
+        }
+        _ if kind == "mesh" => format!("object {index}, {kind}, triangle {}", node.piece.triangle),
+        _ => format!("object {index}, {kind}"),
+    }
+}
+
+fn named(names: &[String], index: usize) -> String {
+    names.get(index).map_or_else(|| index.to_string(), |name| format!("{name:?}"))
+}
+
+/// What a node sees of its texture, and why it is a point if it is one.
+fn footprint(
+    scene: &Scene,
+    halo: bool,
+    around: &Neighbourhood<'_>,
+    node: &Node,
+    textured: &Textured,
+    texture: usize,
+) -> String {
+    match textured.footprint {
+        Footprint::Point(_) if !halo => "sees a point, as the filter asks".into(),
+        Footprint::Point(_) => format!("sees a point, since {}", disagreement(scene, around, node)),
+        Footprint::Rectangle { center, half } => {
+            let texture = &scene.textures[texture];
+            let (width, height) = (2.0 * half.x, 2.0 * half.y);
+            format!(
+                "sees a rectangle of {} x {} in uv, {} x {} in texels, around {} {}",
+                width as f32,
+                height as f32,
+                (width * texture.width as f64) as f32,
+                (height * texture.height as f64) as f32,
+                center.x as f32,
+                center.y as f32
+            )
+        }
+    }
+}
+
+/// Which neighbour saw something else, and what.
+fn disagreement(scene: &Scene, around: &Neighbourhood<'_>, node: &Node) -> String {
+    match around.stranger(node) {
+        None => "no neighbour was looked at".into(),
+        Some((k, branch, other)) => {
+            let came_to = match (branch, other) {
+                (_, Some(other)) => {
+                    let piece = piece(scene, other);
+                    format!("came to {piece}, part {}", other.part)
+                }
+                (Branch::Background, _) => "came to the background".into(),
+                _ => "came by another path".into(),
+            };
+            format!("its {} neighbour {came_to}", PLACES[k])
+        }
+    }
+}

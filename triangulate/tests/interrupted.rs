@@ -1,0 +1,41 @@
+//! Ctrl-C while a file is being written.
+
+#![cfg(unix)]
+
+use std::fs;
+use std::os::unix::process::ExitStatusExt;
+use std::process::{Command, Stdio};
+use std::thread::sleep;
+use std::time::Duration;
+
+#[test]
+fn ctrl_c_removes_the_temporary_file_and_leaves_the_old_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("out.obj");
+    fs::write(&output, "old").unwrap();
+    let names = || -> Vec<String> {
+        let entries = fs::read_dir(folder.path()).unwrap();
+        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
+    };
+    for (signal, number) in [("-INT", 2), ("-TERM", 15)] {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_triangulate"))
+            .arg("-")
+            .arg("-o")
+            .arg(&output)
+            .stdin(Stdio::piped())
+            .spawn()
+            .unwrap();
+        // It opens its output, and waits for a grid that does not come.
+        let mut patience = 500;
+        while !names().iter().any(|name| name.ends_with(".part")) && patience > 0 {
+            sleep(Duration::from_millis(10));
+            patience -= 1;
+        }
+        assert_eq!(names().len(), 2, "{:?}", names());
+        let kill = Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap();
+        assert!(kill.success());
+        assert_eq!(child.wait().unwrap().signal(), Some(number));
+        assert_eq!(names(), ["out.obj"]);
+        assert_eq!(fs::read(&output).unwrap(), b"old");
+    }
+}
