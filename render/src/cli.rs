@@ -8,7 +8,8 @@ use files::{Disk, Exit, Failure, Output, Report, input};
 use render::color::Encoding;
 use render::film::encode::{self, Format};
 use render::progress::Progress;
-use render::scene::{MeshSource, obj, read};
+use render::scene::read::{self, Draft};
+use render::scene::{MeshSource, obj};
 use render::{Settings, filter::Filter, stats::Stats};
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -176,17 +177,18 @@ fn read_scene(arguments: &Arguments) -> Result<render::Scene, Report> {
     let text = input::read(&arguments.scene)?;
     let document = Document::new(&name, &text)?;
     let file = read::parse(&document)?;
-    read::check_mesh_names(&file, arguments.meshes.iter().map(|mesh| mesh.name.as_str()))?;
+    let folder = match arguments.scene.parent() {
+        Some(folder) if !input::is_stdin(&arguments.scene) => folder,
+        _ => Path::new(""),
+    };
+    let draft = Draft::gather(&document, &file, folder, &Disk)?;
+    draft.check_mesh_names(arguments.meshes.iter().map(|mesh| mesh.name.as_str()))?;
     let mut given = MeshSource::new();
     for mesh in &arguments.meshes {
         let bytes = input::read(&mesh.file)?;
         given.insert(mesh.name.clone(), obj::read(&input::name_of(&mesh.file), &bytes)?);
     }
-    let folder = match arguments.scene.parent() {
-        Some(folder) if !input::is_stdin(&arguments.scene) => folder,
-        _ => Path::new(""),
-    };
-    Ok(read::resolve(&document, &file, folder, &Disk, given)?)
+    Ok(draft.resolve(&Disk, given)?)
 }
 
 fn format(arguments: &Arguments) -> Result<Format, UseError> {

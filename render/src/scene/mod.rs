@@ -6,6 +6,7 @@ pub mod light;
 pub mod material;
 pub mod obj;
 pub mod read;
+pub mod schema;
 
 pub use camera::Camera;
 pub use light::PointLight;

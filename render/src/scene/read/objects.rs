@@ -1,6 +1,7 @@
 //! The objects of a scene file: shapes, meshes, and what their surfaces look like.
 
-use super::{MeshSource, Reader, SceneError, meshes};
+use super::given::Given;
+use super::{Reader, SceneError};
 use crate::scene::file::{MeshFile, ObjectFile};
 use crate::scene::{Object, Surface, obj};
 use crate::shape::{Mesh, Quad, Shape, Sphere};
@@ -24,33 +25,22 @@ impl Reader<'_> {
         Ok(())
     }
 
-    pub(super) fn objects(&self, mut given: MeshSource) -> Result<Vec<Object>, SceneError> {
-        let mut objects = Vec::with_capacity(self.file.objects.len());
-        for (place, object) in self.file.objects.iter().enumerate() {
-            objects.push(match object {
-                ObjectFile::Mesh(mesh) => {
-                    // A name may stand for several objects; the last one takes the mesh itself.
-                    let again = meshes(self.file).any(|(k, m)| k > place && m.name == mesh.name);
-                    let found = if again {
-                        given.get(&mesh.name).cloned()
-                    } else {
-                        given.remove(&mesh.name)
-                    };
-                    self.mesh(place, mesh, found)?
-                }
-                _ => self.object(place, object)?,
-            });
-        }
-        Ok(objects)
+    pub(super) fn objects(&self, given: &mut Given) -> Result<Vec<Object>, SceneError> {
+        let objects = self.file.objects.iter().enumerate().map(|(place, object)| match object {
+            ObjectFile::Mesh(mesh) => self.mesh(place, mesh, given.take(&mesh.name)),
+            _ => self.object(place, object),
+        });
+        objects.collect()
     }
 
     /// Any object but a mesh.
     fn object(&self, place: usize, object: &ObjectFile) -> Result<Object, SceneError> {
         let (kind, shape, material, texture) = match object {
             ObjectFile::Sphere(sphere) => {
-                let radius = format!("objects[{place}].sphere.radius");
-                let radius = self.above_zero(&radius, sphere.radius)?;
-                let shape = Shape::Sphere(Sphere { center: sphere.center.into(), radius });
+                let at = format!("objects[{place}].sphere");
+                let center = self.vector(&format!("{at}.center"), sphere.center)?;
+                let radius = self.above_zero(&format!("{at}.radius"), sphere.radius)?;
+                let shape = Shape::Sphere(Sphere { center, radius });
                 ("sphere", shape, &sphere.material, &sphere.texture)
             }
             ObjectFile::Rectangle(quad) => {
@@ -58,13 +48,15 @@ impl Reader<'_> {
                 for (k, &repeat) in quad.repeat.iter().enumerate() {
                     self.above_zero(&format!("{at}.repeat[{k}]"), repeat)?;
                 }
-                let corners = [quad.corner, quad.edge_u, quad.edge_v];
+                let corner = self.vector(&format!("{at}.corner"), quad.corner)?;
+                let corners = [corner, quad.edge_u.into(), quad.edge_v.into()];
                 let shape = self.quad(&at, corners, quad.repeat, true)?;
                 ("rectangle", shape, &quad.material, &quad.texture)
             }
             ObjectFile::Plane(plane) => {
                 let at = format!("objects[{place}].plane");
-                let corners = [plane.point, plane.edge_u, plane.edge_v];
+                let point = self.vector(&format!("{at}.point"), plane.point)?;
+                let corners = [point, plane.edge_u.into(), plane.edge_v.into()];
                 let shape = self.quad(&at, corners, [1.0; 2], false)?;
                 ("plane", shape, &plane.material, &plane.texture)
             }
@@ -83,11 +75,13 @@ impl Reader<'_> {
     fn quad(
         &self,
         path: &str,
-        corners: [[f64; 3]; 3],
+        [corner, edge_u, edge_v]: [DVec3; 3],
         repeat: [f64; 2],
         bounded: bool,
     ) -> Result<Shape, SceneError> {
-        let [corner, edge_u, edge_v] = corners.map(DVec3::from);
+        for (key, edge) in [("edge_u", edge_u), ("edge_v", edge_v)] {
+            self.vector(&format!("{path}.{key}"), edge.into())?;
+        }
         match Quad::new(corner, edge_u, edge_v, DVec2::from(repeat), bounded) {
             Some(quad) => Ok(Shape::Quad(quad)),
             None => self.fault(
@@ -184,26 +178,26 @@ impl Reader<'_> {
     }
 
     fn material_index(&self, path: &str, name: &str) -> Result<usize, SceneError> {
-        self.index_of(path, "material", name, &self.file.materials)
+        self.index_of(path, "material", name, &self.names.materials)
     }
 
     fn texture_index(&self, path: &str, name: &str) -> Result<usize, SceneError> {
-        self.index_of(path, "texture", name, &self.file.textures)
+        self.index_of(path, "texture", name, &self.names.textures)
     }
 
-    fn index_of<T>(
+    fn index_of(
         &self,
         path: &str,
         kind: &str,
         name: &str,
-        known: &BTreeMap<String, T>,
+        known: &BTreeMap<&str, usize>,
     ) -> Result<usize, SceneError> {
-        if let Some(index) = known.keys().position(|key| key == name) {
+        if let Some(&index) = known.get(name) {
             return Ok(index);
         }
-        let near = nearest(name, known.keys().map(String::as_str));
+        let near = nearest(name, known.keys().copied());
         let suggestion = near.map_or(String::new(), |near| format!(" (did you mean {near:?}?)"));
-        let names: Vec<&str> = known.keys().map(String::as_str).collect();
+        let names: Vec<&str> = known.keys().copied().collect();
         let names = if names.is_empty() { "none".into() } else { names.join(", ") };
         self.fault(
             path,
