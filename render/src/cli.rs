@@ -7,10 +7,11 @@ use files::json::Document;
 use files::{Disk, Exit, Failure, Output, Report, input};
 use render::color::Encoding;
 use render::film::encode::{self, Format};
+use render::filter::{Filter, FilteredTexture};
 use render::progress::Progress;
 use render::scene::read::{self, Draft};
-use render::scene::{MeshSource, obj};
-use render::{Settings, filter::Filter, stats::Stats};
+use render::scene::{self, MeshSource, obj, schema};
+use render::{Settings, stats::Stats};
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -22,8 +23,10 @@ Examples:
   render scene.json --mesh vase=vase.obj --size 1024x768 --samples 3 -o vase.png
   sweep vase.json | triangulate --texture 2 | render scene.json --mesh vase=- -o vase.png
   render scene.json --filter point --stats -o - --format exr > picture.exr
+  render --check scene.json --mesh vase=vase.obj
+  render --emit-schema > tb-scene.schema.json
 
-Exit codes: 2 bad use, 3 malformed input, 5 cannot read or write, 6 too large, 70 a bug,
+Exit codes: 2 bad use, 3 malformed input, 4 wrong by --check, 5 cannot read or write, 6 too large, 70 a bug,
 141 closed pipe.";
 
 /// Renders a JSON scene with area sampled textures.
@@ -31,13 +34,21 @@ Exit codes: 2 bad use, 3 malformed input, 5 cannot read or write, 6 too large, 7
 #[command(version, after_help = EXAMPLES)]
 pub struct Arguments {
     /// The scene: a JSON file, or - for standard input
-    scene: PathBuf,
+    #[arg(required_unless_present = "emit_schema")]
+    scene: Option<PathBuf>,
     /// A mesh for the scene: its name there, and an OBJ file or - for standard input
     #[arg(long = "mesh", value_name = "NAME=FILE", value_parser = mesh_argument)]
     meshes: Vec<MeshArgument>,
     /// The picture: a .png or .exr file, or - for standard output
-    #[arg(short, long, value_name = "FILE")]
-    output: PathBuf,
+    #[arg(short, long, value_name = "FILE", required_unless_present_any = ["check", "emit_schema"])]
+    output: Option<PathBuf>,
+    /// Render nothing: say what there is in the scene, and what of it is wrong or suspicious, on
+    /// standard output; ends with 4 if something is wrong
+    #[arg(long, conflicts_with = "output")]
+    check: bool,
+    /// Print the JSON Schema of scenes and do nothing else
+    #[arg(long, exclusive = true)]
+    emit_schema: bool,
     /// The kind of file, if the extension does not tell
     #[arg(long)]
     format: Option<FormatName>,
@@ -110,6 +121,8 @@ enum UseError {
     SameMesh(String),
     #[error("a picture is binary and standard output is a terminal: add -o FILE or pipe it on")]
     BinaryToTerminal,
+    #[error("{name}: the check found {count} wrong")]
+    Wrong { name: String, count: usize },
     #[error("cannot start {0} threads: {1}")]
     Threads(usize, rayon::ThreadPoolBuildError),
 }
@@ -118,6 +131,7 @@ impl Failure for UseError {
     fn exit(&self) -> Exit {
         match self {
             Self::Threads(..) => Exit::Resource,
+            Self::Wrong { .. } => Exit::Geometry,
             _ => Exit::Use,
         }
     }
@@ -134,25 +148,45 @@ impl Failure for EncodeError {
     }
 }
 
-/// Renders what the arguments ask for.
+impl Arguments {
+    fn scene(&self) -> &Path {
+        self.scene.as_deref().unwrap_or(Path::new("-"))
+    }
+
+    fn output(&self) -> &Path {
+        self.output.as_deref().unwrap_or(Path::new("-"))
+    }
+
+    fn filter(&self) -> Filter {
+        match self.filter {
+            FilterName::Point => Filter::Point,
+            FilterName::Bilinear => Filter::Bilinear,
+            FilterName::Box => Filter::Box,
+            FilterName::Tent => Filter::Tent,
+        }
+    }
+}
+
+/// Renders, checks or prints what the arguments ask for.
 pub fn run(arguments: &Arguments) -> Result<(), Report> {
-    let format = format(arguments)?;
+    if arguments.emit_schema {
+        return print(&format!("{:#}\n", schema::of_scene()));
+    }
     check_stdin(arguments)?;
+    if arguments.check {
+        return check(arguments);
+    }
+    let format = format(arguments)?;
     let clobber = !arguments.no_clobber;
-    Output::check(&arguments.output, clobber)?;
+    Output::check(arguments.output(), clobber)?;
 
     let started = Instant::now();
-    let scene = read_scene(arguments)?;
+    let scene = read_scene(arguments, |_, scene| Ok(scene))?;
     let read_time = started.elapsed();
 
     let (width, height) = arguments.size;
-    let filter = match arguments.filter {
-        FilterName::Point => Filter::Point,
-        FilterName::Bilinear => Filter::Bilinear,
-        FilterName::Box => Filter::Box,
-        FilterName::Tent => Filter::Tent,
-    };
-    let settings = Settings { width, height, samples: arguments.samples, filter };
+    let settings =
+        Settings { width, height, samples: arguments.samples, filter: arguments.filter() };
     let progress = Progress::new("render", arguments.quiet);
     let threads = arguments.threads.unwrap_or(0);
     let pool = rayon::ThreadPoolBuilder::new()
@@ -165,20 +199,44 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
 
     let started = Instant::now();
     let bytes = encode::encode(&picture, format, arguments.gamma).map_err(EncodeError)?;
-    Output::create(&arguments.output, clobber)?.commit_all(&bytes)?;
+    Output::create(arguments.output(), clobber)?.commit_all(&bytes)?;
     stats.read_time = read_time;
     stats.write_time = started.elapsed();
     print_stats(arguments, &stats);
     Ok(())
 }
 
-fn read_scene(arguments: &Arguments) -> Result<render::Scene, Report> {
-    let name = input::name_of(&arguments.scene);
-    let text = input::read(&arguments.scene)?;
+/// Says what there is in the scene and what of it is wrong or suspicious.
+fn check(arguments: &Arguments) -> Result<(), Report> {
+    let (width, height) = arguments.size;
+    let aspect = f64::from(width) / f64::from(height);
+    let filter = arguments.filter();
+    let tables = |texture: &_| FilteredTexture::new(texture, filter).table_bytes();
+    let report = read_scene(arguments, |draft, scene| {
+        Ok(scene::check::check(draft, &scene, aspect, &tables)?)
+    })?;
+    print(&report.to_string())?;
+    match report.wrong() {
+        0 => Ok(()),
+        count => Err(UseError::Wrong { name: input::name_of(arguments.scene()), count }.into()),
+    }
+}
+
+fn print(text: &str) -> Result<(), Report> {
+    Ok(Output::create(Path::new("-"), true)?.commit_all(text.as_bytes())?)
+}
+
+/// Reads the scene, and does `then` with it while its files are at hand.
+fn read_scene<T>(
+    arguments: &Arguments,
+    then: impl FnOnce(&Draft<'_>, render::Scene) -> Result<T, Report>,
+) -> Result<T, Report> {
+    let name = input::name_of(arguments.scene());
+    let text = input::read(arguments.scene())?;
     let document = Document::new(&name, &text)?;
     let file = read::parse(&document)?;
-    let folder = match arguments.scene.parent() {
-        Some(folder) if !input::is_stdin(&arguments.scene) => folder,
+    let folder = match arguments.scene().parent() {
+        Some(folder) if !input::is_stdin(arguments.scene()) => folder,
         _ => Path::new(""),
     };
     let draft = Draft::gather(&document, &file, folder, &Disk)?;
@@ -188,25 +246,27 @@ fn read_scene(arguments: &Arguments) -> Result<render::Scene, Report> {
         let bytes = input::read(&mesh.file)?;
         given.insert(mesh.name.clone(), obj::read(&input::name_of(&mesh.file), &bytes)?);
     }
-    Ok(draft.resolve(&Disk, given)?)
+    let scene = draft.resolve(&Disk, given)?;
+    then(&draft, scene)
 }
 
 fn format(arguments: &Arguments) -> Result<Format, UseError> {
-    let to_stdout = input::is_stdin(&arguments.output);
+    let to_stdout = input::is_stdin(arguments.output());
     if to_stdout && std::io::stdout().is_terminal() {
         return Err(UseError::BinaryToTerminal);
     }
-    match (arguments.format, Format::of(&arguments.output)) {
+    match (arguments.format, Format::of(arguments.output())) {
         (Some(FormatName::Png), _) => Ok(Format::Png),
         (Some(FormatName::Exr), _) => Ok(Format::Exr),
         (None, Some(format)) => Ok(format),
-        (None, None) => Err(UseError::UnknownFormat(arguments.output.display().to_string())),
+        (None, None) => Err(UseError::UnknownFormat(arguments.output().display().to_string())),
     }
 }
 
 fn check_stdin(arguments: &Arguments) -> Result<(), UseError> {
-    let scene = std::iter::once(("the scene".to_string(), &arguments.scene));
-    let meshes = arguments.meshes.iter().map(|mesh| (format!("--mesh {}", mesh.name), &mesh.file));
+    let scene = std::iter::once(("the scene".to_string(), arguments.scene()));
+    let meshes = arguments.meshes.iter();
+    let meshes = meshes.map(|mesh| (format!("--mesh {}", mesh.name), mesh.file.as_path()));
     let mut from_stdin = scene.chain(meshes).filter(|(_, file)| input::is_stdin(file));
     if let (Some((first, _)), Some((second, _))) = (from_stdin.next(), from_stdin.next()) {
         return Err(UseError::TwoFromStdin(first, second));

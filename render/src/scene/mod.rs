@@ -1,6 +1,7 @@
 //! The scene: what there is to see, checked and resolved. After it nothing fails on user input.
 
 pub mod camera;
+pub mod check;
 pub mod file;
 pub mod light;
 pub mod material;

@@ -21,6 +21,19 @@ pub enum ObjectFile {
     Mesh(MeshFile),
 }
 
+impl ObjectFile {
+    /// The key that it stands under.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Sphere(_) => "sphere",
+            Self::Rectangle(_) => "rectangle",
+            Self::Plane(_) => "plane",
+            Self::Mesh(_) => "mesh",
+        }
+    }
+}
+
 /// A sphere with its poles along y.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
