@@ -78,7 +78,13 @@ const NUMBERS: [f64; 27] = [
 ];
 
 fn mutate(scene: &mut Value, dice: &mut Dice, seeds: &[Value]) {
-    let at = dice.below(count(scene));
+    let mut at = dice.below(count(scene));
+    // Most often a number: keys that are not known and values of other types end early.
+    for _ in 0..dice.below(9) {
+        if !nth(scene, at).is_number() {
+            at = dice.below(count(scene));
+        }
+    }
     let other = {
         let mut seed = dice.one(seeds);
         let at = dice.below(count(&seed));
@@ -218,7 +224,7 @@ fn judged(text: &[u8]) -> bool {
 #[test]
 fn thousands_of_mutated_scenes_give_a_picture_or_a_sentence_in_time() {
     let seeds: Vec<Value> = examples().into_iter().map(|(_, scene)| scene).collect();
-    let cases = 4000;
+    let cases = 6000;
     let (mut made, mut slowest) = (0, (Duration::ZERO, String::new()));
     for case in 0..cases {
         let mut dice = Dice(case);
@@ -231,14 +237,14 @@ fn thousands_of_mutated_scenes_give_a_picture_or_a_sentence_in_time() {
             text = garble(String::from_utf8(text).unwrap(), &mut dice);
         }
         let start = Instant::now();
-        made += usize::from(std::panic::catch_unwind(|| judged(&text)).unwrap_or(false));
+        made += usize::from(judged(&text));
         let took = start.elapsed();
         if took > slowest.0 {
             slowest = (took, String::from_utf8_lossy(&text).into_owned());
         }
     }
     println!("{made} of {cases} are pictures; the slowest took {:?}\n{}", slowest.0, slowest.1);
-    assert!(made > 500, "mutations are mild enough to be rendered at times: {made}");
+    assert!(made > 900, "mutations are mild enough to be rendered at times: {made}");
     // Generous, for a machine that does other work.
     assert!(slowest.0 < Duration::from_secs(4), "{:?}: {}", slowest.0, slowest.1);
 }

@@ -1,9 +1,15 @@
 //! Scenes in several files.
 
+#![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
 mod bench;
 
 use bench::{Bench, checks, ending};
+use files::Embedded;
+use files::json::Document;
+use render::scene::{MeshSource, read};
 use std::fs;
+use std::path::Path;
 
 /// A scene that takes its look from parts in another folder.
 const SCENE: &str = r#"{ "format": "tb-scene", "version": 1,
@@ -166,4 +172,18 @@ fn a_mesh_of_a_part_may_be_given() {
     let (code, said) = ending(&run);
     assert_eq!(code, Some(2));
     assert!(said.contains("objects[0].mesh in common/walls.json"), "{said}");
+}
+
+#[test]
+fn parts_built_into_a_program_are_found_there() {
+    static FILES: Embedded = Embedded(&[(
+        "pages/common/look.json",
+        br#"{ "format": "tb-scene-part", "version": 1, "materials": { "wall": { "diffuse": 0.25 } } }"#,
+    )]);
+    let text = SCENE.replace("common/look.json\", \"common/walls.json", "../common/look.json");
+    let document = Document::new("pages/scenes/scene.json", text.as_bytes()).unwrap();
+    let file = read::parse(&document).unwrap();
+    let folder = Path::new("pages/scenes");
+    let scene = read::resolve(&document, &file, folder, &FILES, MeshSource::new()).unwrap();
+    assert_eq!(scene.materials[0].diffuse, 0.25);
 }

@@ -46,7 +46,8 @@
 //! A mesh comes from `--mesh NAME=FILE`, or else from its own `"file"`. The surfaces of a mesh that
 //! `triangulate` made are named by a texture id and a surface id: `textures` binds texture ids to
 //! textures, `materials` binds surface ids to materials; `material` and `texture` stand for all that
-//! are not bound. In an OBJ of another tool both maps are keyed by the name that `usemtl` gives.
+//! are not bound. In an OBJ of another tool both maps are keyed by the name that `usemtl` gives, and
+//! `mtl` names the material library that the tool wrote beside it ([what is read](super::mtl)).
 //!
 //! # Parts
 //!

@@ -5,6 +5,7 @@ pub mod check;
 pub mod file;
 pub mod light;
 pub mod material;
+pub mod mtl;
 pub mod obj;
 pub mod read;
 pub mod schema;

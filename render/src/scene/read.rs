@@ -3,6 +3,7 @@
 
 mod draft;
 mod given;
+mod libraries;
 mod lights;
 mod materials;
 mod objects;
@@ -22,6 +23,7 @@ use files::json::Document;
 use files::{Exit, Failure, FileError, JsonError, Source};
 use given::Given;
 use glam::DVec3;
+use libraries::Libraries;
 use std::collections::BTreeMap;
 use std::path::Path;
 use thiserror::Error;
@@ -138,9 +140,13 @@ impl Draft<'_> {
         for reader in &readers {
             scene.textures.extend(reader.textures()?);
         }
+        let mut libraries = Libraries::default();
+        for reader in &readers {
+            reader.libraries(&mut libraries, &mut scene)?;
+        }
         let mut given = Given::new(given, &sheets);
         for reader in &readers {
-            scene.objects.extend(reader.objects(&mut given)?);
+            scene.objects.extend(reader.objects(&mut given, &libraries)?);
         }
         Ok(scene)
     }

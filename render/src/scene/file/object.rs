@@ -93,9 +93,14 @@ pub struct MeshFile {
     pub name: String,
     /// The OBJ file that is read when it is not given; its path counts from this file's folder.
     pub file: Option<PathBuf>,
-    /// The name of the material of all surfaces that `materials` does not bind.
+    /// A material library of another tool (MTL), by the names that `usemtl` gives; its path counts from
+    /// this file's folder. What `materials` and `textures` bind goes before it. Of the library are read
+    /// `Kd`, `map_Kd`, `Ks`, `Ns`, `d` or `Tr`, and `Ni`; none if left out.
+    pub mtl: Option<PathBuf>,
+    /// The name of the material of all surfaces that neither `materials` nor `mtl` binds.
     pub material: Option<String>,
-    /// The name of the texture of all surfaces that `textures` does not bind; none if left out.
+    /// The name of the texture of all surfaces that neither `textures` nor `mtl` binds; none if left
+    /// out.
     pub texture: Option<String>,
     /// Names of materials by surface ids, or by the names that `usemtl` gives.
     #[serde(default, deserialize_with = "each_name_once")]

@@ -1,9 +1,11 @@
 //! The objects of a scene file: shapes, meshes, and what their surfaces look like.
 
 use super::given::Given;
+use super::libraries::Libraries;
 use super::{Reader, SceneError};
 use crate::scene::file::{MeshFile, ObjectFile};
 use crate::scene::{Object, Surface, obj};
+use crate::shape::mesh::{NONE, Triangle};
 use crate::shape::{Mesh, Quad, Shape, Sphere};
 use files::json::nearest;
 use glam::{DAffine3, DVec2, DVec3};
@@ -25,9 +27,13 @@ impl Reader<'_> {
         Ok(())
     }
 
-    pub(super) fn objects(&self, given: &mut Given) -> Result<Vec<Object>, SceneError> {
+    pub(super) fn objects(
+        &self,
+        given: &mut Given,
+        libraries: &Libraries,
+    ) -> Result<Vec<Object>, SceneError> {
         let objects = self.file.objects.iter().enumerate().map(|(place, object)| match object {
-            ObjectFile::Mesh(mesh) => self.mesh(place, mesh, given.take(&mesh.name)),
+            ObjectFile::Mesh(mesh) => self.mesh(place, mesh, given.take(&mesh.name), libraries),
             _ => self.object(place, object),
         });
         objects.collect()
@@ -96,6 +102,7 @@ impl Reader<'_> {
         place: usize,
         file: &MeshFile,
         given: Option<Mesh>,
+        libraries: &Libraries,
     ) -> Result<Object, SceneError> {
         let at = format!("objects[{place}].mesh");
         let mesh = match (given, &file.file) {
@@ -118,10 +125,39 @@ impl Reader<'_> {
             }
         };
         let bindings = self.mesh_bindings(place, file)?;
-        let parts: Result<_, _> =
-            mesh.surfaces.iter().map(|name| self.bind(&at, file, &bindings, name)).collect();
+        let library = file.mtl.as_ref().map(|path| self.folder.join(path));
+        let mut parts = Vec::with_capacity(mesh.surfaces.len());
+        for name in &mesh.surfaces {
+            let own = library.as_ref().and_then(|path| libraries.surface(path, name));
+            parts.push(self.bind(&at, file, &bindings, name, own)?);
+        }
+        self.places_of_textures(&at, file, &mesh, &parts)?;
         let shape = Shape::Mesh(mesh);
-        Ok(Object { shape, parts: parts?, to_own_space: DAffine3::IDENTITY })
+        Ok(Object { shape, parts, to_own_space: DAffine3::IDENTITY })
+    }
+
+    /// Refuses a mesh that shows a texture where it does not say which part of it.
+    fn places_of_textures(
+        &self,
+        at: &str,
+        file: &MeshFile,
+        mesh: &Mesh,
+        parts: &[Surface],
+    ) -> Result<(), SceneError> {
+        let is_lost = |triangle: &&Triangle| {
+            triangle.uv[0] == NONE && parts[triangle.surface as usize].texture.is_some()
+        };
+        match mesh.triangles.iter().filter(is_lost).count() {
+            0 => Ok(()),
+            count => {
+                let message = format!(
+                    "found {count} triangles without texture coordinates (vt) in mesh {} on surfaces \
+                     with a texture, expected vt at each corner, or no texture",
+                    file.name
+                );
+                self.fault(at, message)
+            }
+        }
     }
 
     /// Finds the materials and textures that a mesh names.
@@ -145,26 +181,29 @@ impl Reader<'_> {
         Ok(bindings)
     }
 
-    /// What a surface named `surface` by `usemtl` looks like.
+    /// What a surface named `surface` by `usemtl` looks like; `own` is what the mesh's library says.
     fn bind(
         &self,
         at: &str,
         file: &MeshFile,
         bindings: &Bindings,
         surface: &str,
+        own: Option<Surface>,
     ) -> Result<Surface, SceneError> {
         let ids = obj::ids(surface);
         let [texture_key, material_key] = ids.unwrap_or([surface, surface]);
-        let material = bindings.materials.get(material_key).copied().or(bindings.material);
+        let material = bindings.materials.get(material_key).copied();
+        let material = material.or(own.map(|own| own.material)).or(bindings.material);
         let Some(material) = material else {
             let message = format!(
                 "found surface {material_key:?} in mesh {}, expected \"material\", or an entry for \
-                 it in \"materials\"",
+                 it in \"materials\" or the \"mtl\"",
                 file.name
             );
             return self.fault(at, message);
         };
-        let texture = bindings.textures.get(texture_key).copied().or(bindings.texture);
+        let texture = bindings.textures.get(texture_key).copied();
+        let texture = texture.or(own.and_then(|own| own.texture)).or(bindings.texture);
         // Texture id 0 says that there is none; any other id was meant to be seen.
         if texture.is_none() && ids.is_some() && texture_key != "0" {
             let message = format!(
