@@ -218,7 +218,7 @@ fn triangles_and_normals_that_cannot_be_meant_are_counted() {
         (
             WALL_OBJ.replace("f 1 2 3 4", "vn 0 0 -1\nf 1//1 2//1 3//1 4//1"),
             0,
-            "the normals (vn) of 2 triangles point to the side",
+            "the normals (vn) of 2 triangles of 2 point to the side",
         ),
         (
             "v 9e6 0 0\nv 9000001 0 0\nv 9e6 1 0\nv 9e6 0 1\nf 1 2 3\nf 1 2 4\n".into(),

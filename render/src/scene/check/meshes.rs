@@ -79,9 +79,10 @@ fn normals(item: &Item<'_>, mesh: &Mesh) -> Vec<Finding> {
     });
     let averted = (averted > 0).then(|| {
         let message = format!(
-            "the normals (vn) of {} point to the side from which its corners run clockwise: light \
-             and shadow will not agree",
-            count(averted, "triangle", "triangles")
+            "the normals (vn) of {} of {} point to the side from which its corners run clockwise: \
+             light and shadow will not agree",
+            count(averted, "triangle", "triangles"),
+            mesh.triangles.len()
         );
         Finding::new(Severity::Hint, &item.path, message)
     });
