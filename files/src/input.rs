@@ -93,7 +93,8 @@ fn read_error(path: &Path, source: io::Error) -> FileError {
 }
 
 /// The path without `.` and with each `..` taken against the name before it.
-fn normalized(path: &Path) -> PathBuf {
+#[must_use]
+pub fn normalized(path: &Path) -> PathBuf {
     let mut result = PathBuf::new();
     for component in path.components() {
         match component {

@@ -8,17 +8,27 @@
 const LONGEST_QUOTE: usize = 60;
 
 /// Sentences that are replaced whole.
-const SENTENCES: [(&str, &str); 12] = [
+const SENTENCES: [(&str, &str); 16] = [
     ("EOF while parsing a list", "found the end of the text inside an array, expected `]`"),
     ("EOF while parsing an object", "found the end of the text inside an object, expected `}`"),
     ("EOF while parsing a string", "found the end of the text inside a string, expected `\"`"),
     ("EOF while parsing a value", "found the end of the text, expected a value"),
+    (
+        "control character (\\u0000-\\u001F) found while parsing a string",
+        "found a control character inside a string, expected \\u and its number in its place",
+    ),
     ("expected ident", "found a word that is none of JSON's, expected true, false or null"),
     ("expected value", "expected a value"),
+    (
+        "invalid escape",
+        "found a backslash before what is no escape, expected `\\\\` for a backslash",
+    ),
     ("invalid number", "found a number that is not written as JSON has it"),
     ("key must be a string", "expected a key in double quotes"),
+    ("lone leading surrogate in hex escape", "found half of a pair of \\u escapes, expected both"),
     ("number out of range", "found a number out of range"),
     ("recursion limit exceeded", "found brackets in brackets more than a hundred deep"),
+    ("unexpected end of hex escape", "found half of a pair of \\u escapes, expected both"),
     ("trailing characters", "found more text behind the end of the JSON, expected nothing"),
     ("trailing comma", "found a comma behind the last value, expected none"),
 ];

@@ -7,7 +7,8 @@ use files::{Output, Source};
 use render::color::Encoding;
 use render::film::encode::{self, Format};
 use render::scene::file::CameraFile;
-use render::scene::{MeshSource, SceneError, read};
+use render::scene::read::{self, Draft};
+use render::scene::{MeshSource, SceneError};
 use render::stats::Stats;
 use render::{Picture, Scene, Settings};
 use std::io::Write;
@@ -110,15 +111,16 @@ impl Work<'_> {
         let (name, bytes) = (path.display().to_string(), self.source.read(path)?);
         let document = Document::new(&name, &bytes)?;
         let file = read::parse(&document)?;
-        read::check_mesh_names(&file, self.job.meshes.iter().map(|mesh| mesh.name.as_str()))
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let draft = Draft::gather(&document, &file, folder, self.source)?;
+        draft
+            .check_mesh_names(self.job.meshes.iter().map(|mesh| mesh.name.as_str()))
             .map_err(|error| self.of_meshes(error))?;
         let mut meshes = MeshSource::new();
         for mesh in &self.job.meshes {
             meshes.insert(mesh.name.clone(), self.mesh(mesh, &file.camera)?);
         }
-        let folder = path.parent().unwrap_or(Path::new(""));
-        read::resolve(&document, &file, folder, self.source, meshes)
-            .map_err(|error| self.of_meshes(error))
+        draft.resolve(self.source, meshes).map_err(|error| self.of_meshes(error))
     }
 
     /// What is wrong with a scene, where it is the job that has a mesh too many or too few.

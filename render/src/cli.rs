@@ -8,7 +8,9 @@ mod work;
 
 use clap::Parser;
 use files::{Exit, Failure, Report};
+use render::filter::FilteredTexture;
 use render::progress::Progress;
+use render::scene::{self, schema};
 use render::{Settings, inspect};
 use std::time::Instant;
 use thiserror::Error;
@@ -20,10 +22,12 @@ Examples:
   sweep vase.json | triangulate --texture 2 | render scene.json --mesh vase=- -o vase.png
   render scene.json --filter point --stats -o - --format exr > picture.exr
   render scene.json --pixel 256,300
+  render --check scene.json --mesh vase=vase.obj
+  render --emit-schema > tb-scene.schema.json
   render scene.json --crop 200,250,100x100 --layers normal,depth -o part.exr
 
-Exit codes: 2 bad use, 3 malformed input, 5 cannot read or write, 6 too large, 70 a bug,
-130 interrupted, 141 closed pipe.";
+Exit codes: 2 bad use, 3 malformed input, 4 wrong by --check, 5 cannot read or write, 6 too large,
+70 a bug, 130 interrupted, 141 closed pipe.";
 
 /// Renders a JSON scene with area sampled textures.
 #[derive(Debug, Parser)]
@@ -66,6 +70,8 @@ enum UseError {
         "--pixel-filter tent needs rays between the middles of pixels: add --samples 2 or more"
     )]
     TentOfOne,
+    #[error("{0}: the check found {1} wrong")]
+    Wrong(String, usize),
     #[error("cannot start {0} threads: {1}")]
     Threads(usize, rayon::ThreadPoolBuildError),
 }
@@ -74,6 +80,7 @@ impl Failure for UseError {
     fn exit(&self) -> Exit {
         match self {
             Self::Threads(..) => Exit::Resource,
+            Self::Wrong(..) => Exit::Geometry,
             _ => Exit::Use,
         }
     }
@@ -90,10 +97,16 @@ impl Failure for EncodeError {
     }
 }
 
-/// Renders what the arguments ask for.
+/// Renders, checks or prints what the arguments ask for.
 pub fn run(arguments: &Arguments) -> Result<(), Report> {
     let Arguments { input, output, sampling, textures, work } = arguments;
+    if input.emit_schema {
+        return Ok(output::print(&format!("{:#}\n", schema::of_scene()))?);
+    }
     input.check()?;
+    if input.check {
+        return check(arguments);
+    }
     sampling.check()?;
     let target = output.target(sampling.pixel.is_some())?;
     let (width, height) = sampling.size;
@@ -105,7 +118,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
     };
 
     let started = Instant::now();
-    let scene = input.read_scene()?;
+    let scene = input.read_scene(|_, scene| Ok(scene))?;
     let read_time = started.elapsed();
 
     let pool = work.pool()?;
@@ -127,4 +140,20 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
         output::print(&text)?;
     }
     Ok(())
+}
+
+/// Says what there is in the scene and what of it is wrong or suspicious.
+fn check(arguments: &Arguments) -> Result<(), Report> {
+    let Arguments { input, sampling, textures, .. } = arguments;
+    let (width, height) = sampling.size;
+    let aspect = f64::from(width) / f64::from(height);
+    let filter = textures.filter();
+    let tables = |texture: &_| FilteredTexture::new(texture, filter).table_bytes();
+    let report = input
+        .read_scene(|draft, scene| Ok(scene::check::check(draft, &scene, aspect, &tables)?))?;
+    output::print(&report.to_string())?;
+    match report.wrong() {
+        0 => Ok(()),
+        count => Err(UseError::Wrong(input.name(), count).into()),
+    }
 }

@@ -3,6 +3,7 @@
 use crate::color::{Color, Encoding};
 use glam::{DVec2, DVec3};
 use image::DynamicImage;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// A picture to be laid on surfaces.
@@ -29,7 +30,7 @@ pub struct Texture {
 }
 
 /// What lies beyond the edges of a texture.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Wrap {
     /// The texture again.
@@ -40,7 +41,7 @@ pub enum Wrap {
 }
 
 /// What the codes of a picture file mean.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Values {
     /// sRGB: codes become 16-bit linear before anything is summed.

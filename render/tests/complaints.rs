@@ -317,3 +317,69 @@ fn the_order_of_keys_does_not_matter() {
     let bench = Bench::with_scene(&serde_json::to_string(&value).unwrap());
     bench.make(&["scene.json", "-o", "wall.png", "--size", "2x2"], b"");
 }
+
+#[test]
+fn a_texture_without_its_places_is_refused() {
+    let textured = TEXTURED_WALL.replace("\"objects\": [", "\"objects\": [ { \"mesh\": { \"name\": \"m\", \"file\": \"m.obj\", \"material\": \"wall\", \"texture\": \"checks\" } },");
+    let bench = Bench::with_scene(&textured);
+    bench.write("checks.png", checks());
+    bench.write("m.obj", WALL_OBJ);
+    let place =
+        "scene.json:6:24: objects[0].mesh: found 2 triangles without texture coordinates (vt)";
+    bench.refuse(&["scene.json"], b"", 3, &[place, "mesh m", "expected vt"]);
+    // Without the texture there is nothing to be missed.
+    bench.write("scene.json", textured.replacen(", \"texture\": \"checks\"", "", 1));
+    bench.make(&["scene.json", "-o", "whole.png", "--size", "2x2"], b"");
+}
+
+#[test]
+fn numbers_that_cannot_be_reckoned_with_are_placed_with_their_range() {
+    let far = "found 1e200, expected -1e30 to 1e30";
+    refuse_scene(
+        "[-2, -2, 0]",
+        "[-2, 1e200, 0]",
+        &["scene.json:5:46: objects[0].rectangle.corner[1]: ", far],
+    );
+    refuse_scene("[0, 4, 0]", "[0, 1e200, 0]", &["scene.json:5:", "edge_v[1]: ", far]);
+    refuse_scene("[0, 0, 1]", "[0, 0, 1e200]", &["scene.json:2:27: camera.eye[2]: ", far]);
+    refuse_scene(
+        "[1, 0.25, 0]",
+        "1e31",
+        &["scene.json:4:35: materials.wall.color: found 1e31", "at most 1e30"],
+    );
+    refuse_scene("0.5", "1e308", &["scene.json:3:12: ambient: found 1e308"]);
+    let sphere = r#"{ "sphere": { "center": [0, 0, 0], "radius": 1e200, "material": "wall" } }, { "rectangle""#;
+    refuse_scene(
+        "{ \"rectangle\"",
+        sphere,
+        &[
+            "scene.json:5:59: objects[0].sphere.radius: found 1e200, expected more than 0: 1e-30 to 1e30",
+        ],
+    );
+    let light = "\"lights\": [ { \"point\": { \"position\": [0, 1e99, 0] } } ], \"ambient\"";
+    refuse_scene(
+        "\"ambient\"",
+        light,
+        &["scene.json:3:", "lights[0].point.position[1]: found 1e99"],
+    );
+}
+
+#[test]
+fn a_library_of_materials_that_is_wrong_is_named() {
+    let with_library =
+        MESH_WALL.replace("\"name\": \"wall\"", "\"name\": \"wall\", \"mtl\": \"a.mtl\"");
+    let bench = Bench::with_scene(&with_library);
+    bench.write("wall.obj", WALL_OBJ);
+    let arguments = ["scene.json", "--mesh", "wall=wall.obj"];
+    let place = "scene.json:5:49: objects[0].mesh.mtl: cannot read a.mtl: ";
+    bench.refuse(&arguments, b"", 5, &[place]);
+    bench.write("a.mtl", "newmtl a\nKd 1 1\n");
+    bench.refuse(&arguments, b"", 3, &["a.mtl:2: found `Kd 1 1`, expected `Kd` and three numbers"]);
+    bench.write("a.mtl", "newmtl a\nmap_Kd none.png\n");
+    bench.refuse(
+        &arguments,
+        b"",
+        5,
+        &["scene.json:5:49: objects[0].mesh.mtl: cannot read none.png: "],
+    );
+}

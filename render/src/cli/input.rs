@@ -5,16 +5,25 @@ use clap::Args;
 use files::json::Document;
 use files::{Disk, Report, input};
 use render::Scene;
-use render::scene::{MeshSource, obj, read};
+use render::scene::read::{self, Draft};
+use render::scene::{MeshSource, obj};
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
 pub struct InputArguments {
     /// The scene: a JSON file, or - for standard input
-    scene: PathBuf,
+    #[arg(required_unless_present = "emit_schema")]
+    scene: Option<PathBuf>,
     /// A mesh for the scene: its name there, and an OBJ file or - for standard input
     #[arg(long = "mesh", value_name = "NAME=FILE", value_parser = mesh_argument)]
     meshes: Vec<MeshArgument>,
+    /// Render nothing: say what there is in the scene, and what of it is wrong or suspicious, on
+    /// standard output; ends with 4 if something is wrong
+    #[arg(long, conflicts_with_all = ["output", "pixel"])]
+    pub check: bool,
+    /// Print the JSON Schema of scenes and do nothing else
+    #[arg(long, exclusive = true)]
+    pub emit_schema: bool,
 }
 
 #[derive(Debug, Clone)]
@@ -26,8 +35,9 @@ struct MeshArgument {
 impl InputArguments {
     /// Checks that nothing is read twice and no mesh is given twice.
     pub fn check(&self) -> Result<(), UseError> {
-        let scene = std::iter::once(("the scene".to_string(), &self.scene));
-        let meshes = self.meshes.iter().map(|mesh| (format!("--mesh {}", mesh.name), &mesh.file));
+        let scene = std::iter::once(("the scene".to_string(), self.scene()));
+        let meshes =
+            self.meshes.iter().map(|mesh| (format!("--mesh {}", mesh.name), mesh.file.as_path()));
         let mut from_stdin = scene.chain(meshes).filter(|(_, file)| input::is_stdin(file));
         if let (Some((first, _)), Some((second, _))) = (from_stdin.next(), from_stdin.next()) {
             return Err(UseError::TwoFromStdin(first, second));
@@ -40,22 +50,37 @@ impl InputArguments {
         Ok(())
     }
 
-    pub fn read_scene(&self) -> Result<Scene, Report> {
-        let name = input::name_of(&self.scene);
-        let text = input::read(&self.scene)?;
+    /// Reads the scene, and does `then` with it while its files are at hand.
+    pub fn read_scene<T>(
+        &self,
+        then: impl FnOnce(&Draft<'_>, Scene) -> Result<T, Report>,
+    ) -> Result<T, Report> {
+        let name = self.name();
+        let text = input::read(self.scene())?;
         let document = Document::new(&name, &text)?;
         let file = read::parse(&document)?;
-        read::check_mesh_names(&file, self.meshes.iter().map(|mesh| mesh.name.as_str()))?;
+        let folder = match self.scene().parent() {
+            Some(folder) if !input::is_stdin(self.scene()) => folder,
+            _ => Path::new(""),
+        };
+        let draft = Draft::gather(&document, &file, folder, &Disk)?;
+        draft.check_mesh_names(self.meshes.iter().map(|mesh| mesh.name.as_str()))?;
         let mut given = MeshSource::new();
         for mesh in &self.meshes {
             let bytes = input::read(&mesh.file)?;
             given.insert(mesh.name.clone(), obj::read(&input::name_of(&mesh.file), &bytes)?);
         }
-        let folder = match self.scene.parent() {
-            Some(folder) if !input::is_stdin(&self.scene) => folder,
-            _ => Path::new(""),
-        };
-        Ok(read::resolve(&document, &file, folder, &Disk, given)?)
+        let scene = draft.resolve(&Disk, given)?;
+        then(&draft, scene)
+    }
+
+    /// What messages call the scene.
+    pub fn name(&self) -> String {
+        input::name_of(self.scene())
+    }
+
+    fn scene(&self) -> &Path {
+        self.scene.as_deref().unwrap_or(Path::new("-"))
     }
 }
 

@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, Args)]
 pub struct OutputArguments {
     /// The picture: a .png or .exr file, or - for standard output
-    #[arg(short, long, value_name = "FILE", required_unless_present = "pixel")]
+    #[arg(short, long, value_name = "FILE", required_unless_present_any = ["pixel", "check", "emit_schema"])]
     output: Option<PathBuf>,
     /// The kind of file, if the extension does not tell
     #[arg(long)]

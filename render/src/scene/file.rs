@@ -27,84 +27,132 @@
 //! }
 //! ```
 //!
-//! Colours are linear, one number for grey or `[red, green, blue]`, each at least 0. Lengths are in
-//! any one unit, axes are right-handed. `up` defaults to y. A ray is reflected or refracted at most
-//! `max_depth` times (0 to 64, default 12), and not when it would count for less than `min_weight`
-//! in its pixel (0 to 1, default 0.0001); and of one ray from the eye and all that follow from it the
-//! first 8191 hits count, as many as a depth of 12 can have. `ambient` is light from everywhere
-//! (default 0.1), `background` what a ray sees that leaves the scene (default black).
+//! Colours are linear, one number for grey or `[red, green, blue]`. Lengths are in any one unit,
+//! axes are right-handed. What each key means, its range and its default stand at the fields below,
+//! which the JSON Schema that `render --emit-schema` prints is made of. Numbers without another range
+//! are at most [`LARGEST`](super::schema::LARGEST) without their sign.
 //!
-//! | a material's key | meaning | range | default |
-//! |---|---|---|---|
-//! | `color` | multiplies the texture, or stands for it | at least 0 | 1 |
-//! | `ambient`, `diffuse` | shares of the ambient light and of the lights | 0 to 1 | 1, 0.9 |
-//! | `specular`, `shininess` | strength and Phong's exponent of the highlight | 0 to 1, 1 to 1e6 | 0, 50 |
-//! | `reflectivity`, `transparency` | weights of the mirrored and the refracted ray | 0 to 1 | 0 |
-//! | `index_of_refraction` | of the inside; outside is 1 | 0.1 to 10 | 1.5 |
-//! | `fresnel` | whether those weights take Fresnel's share and its rest | true, false | false |
+//! Of one ray from the eye and all that follow from it the first 8191 hits count, as many as a
+//! `max_depth` of 12 can have.
 //!
-//! `wrap` is `repeat` or `clamp`, `values` is `srgb` or `linear`; the first is the default. A texture fills a rectangle, or the unit square of a mesh's or sphere's
-//! texture coordinates; `repeat` lays it several times. Paths count from the scene file's folder.
+//! A texture fills a rectangle, or the unit square of a mesh's or sphere's texture coordinates;
+//! `repeat` lays it several times. Paths count from the folder of the file that they stand in.
 //!
 //! Where two surfaces coincide one of them is seen, the other is not behind it: leave a small gap
 //! between glass and what it stands on.
 //!
+//! # Meshes
+//!
 //! A mesh comes from `--mesh NAME=FILE`, or else from its own `"file"`. The surfaces of a mesh that
 //! `triangulate` made are named by a texture id and a surface id: `textures` binds texture ids to
 //! textures, `materials` binds surface ids to materials; `material` and `texture` stand for all that
-//! are not bound. In an OBJ of another tool both maps are keyed by the name that `usemtl` gives.
+//! are not bound. In an OBJ of another tool both maps are keyed by the name that `usemtl` gives, and
+//! `mtl` names the material library that the tool wrote beside it ([what is read](super::mtl)).
+//!
+//! # Parts
+//!
+//! `include` takes in lights, textures, materials and objects from files of format `tb-scene-part`,
+//! which have no camera and may include others:
+//!
+//! ```json
+//! {
+//!   "format": "tb-scene-part", "version": 1,
+//!   "materials": { "brass": { "color": [0.8, 0.6, 0.2], "specular": 0.6, "reflectivity": 0.2 } }
+//! }
+//! ```
+//!
+//! What is taken in stands before what takes it in: `[a, b]` gives the lights and objects of a, those
+//! of b, then the scene's own, and of surfaces at the same place the first is seen. A name may be given
+//! once in all files together, and used in any of them. A part that is reached on two ways is taken in once.
 
 mod color;
 mod light;
 mod material;
 mod object;
+mod part;
 mod texture;
 
 pub use color::ColorFile;
 pub use light::{LightFile, PointLightFile};
 pub use material::MaterialFile;
 pub use object::{MeshFile, ObjectFile, PlaneFile, RectangleFile, SphereFile};
+pub use part::{FORMAT as PART_FORMAT, Lists, PartFile};
 pub use texture::TextureFile;
 
+use super::schema;
 use files::names::each_name_once;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+/// The value of `format` in a scene.
+pub const FORMAT: &str = "tb-scene";
+
+/// The value of `version` in a scene and its parts.
+pub const VERSION: u32 = 1;
 
 /// A scene as its file says it; nothing is checked but its types.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[expect(missing_docs, reason = "the module page explains the keys")]
 pub struct SceneFile {
+    /// Where an editor finds the schema of this file; passed over.
+    #[serde(rename = "$schema")]
+    pub schema: Option<String>,
+    /// `tb-scene`.
+    #[schemars(extend("const" = FORMAT))]
     pub format: String,
+    /// 1.
+    #[schemars(extend("const" = VERSION))]
     pub version: u32,
+    /// Files of format `tb-scene-part` whose lights, textures, materials and objects are taken in, in
+    /// this order and before the scene's own; paths count from this file's folder.
+    #[serde(default)]
+    pub include: Vec<PathBuf>,
+    /// Where the scene is seen from.
     pub camera: CameraFile,
+    /// What a ray sees that leaves the scene; black if left out.
     #[serde(default)]
     pub background: ColorFile,
+    /// Light from everywhere; 0.1 if left out.
     #[serde(default = "dim")]
     pub ambient: ColorFile,
+    /// The lights; none if left out.
     #[serde(default)]
     pub lights: Vec<LightFile>,
+    /// How often a ray is reflected or refracted at most: 0 to 64; 12 if left out.
     #[serde(default = "twelve")]
+    #[schemars(transform = schema::range(0..=schema::DEEPEST))]
     pub max_depth: u32,
+    /// A ray that would count for less than this in its pixel is not followed: 0 to 1; 0.0001 if
+    /// left out.
     #[serde(default = "one_ten_thousandth")]
+    #[schemars(transform = schema::range(0.0..=1.0))]
     pub min_weight: f64,
+    /// Pictures for surfaces, by names of one's choice.
     #[serde(default, deserialize_with = "each_name_once")]
     pub textures: BTreeMap<String, TextureFile>,
+    /// What surfaces are made of, by names of one's choice.
     #[serde(default, deserialize_with = "each_name_once")]
     pub materials: BTreeMap<String, MaterialFile>,
+    /// What there is to see; of surfaces at the same place the first is seen.
     pub objects: Vec<ObjectFile>,
 }
 
-/// `camera`.
-#[derive(Debug, Clone, Deserialize)]
+/// A pinhole camera.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[expect(missing_docs, reason = "see SceneFile")]
 pub struct CameraFile {
+    /// Where it stands, in the unit of length.
     pub eye: [f64; 3],
+    /// A point in the middle of the picture, not at the eye.
     pub target: [f64; 3],
+    /// A direction that points up in the picture, not along the view; y if left out.
     #[serde(default = "y_axis")]
     pub up: [f64; 3],
-    /// The angle between the lower and the upper edge of the picture.
+    /// The angle between the lower and the upper edge of the picture, in degrees, above 0 and below
+    /// 180.
+    #[schemars(transform = schema::between(0.0, 180.0))]
     pub fov_deg: f64,
 }
 
@@ -129,17 +177,28 @@ mod tests {
     use super::*;
     use files::json::Document;
 
+    /// The JSON on this page, in its order.
+    fn examples() -> Vec<String> {
+        let page = include_str!("file.rs");
+        let lines = page.lines().map_while(|line| line.strip_prefix("//!"));
+        let text: String = lines.map(|line| format!("{line}\n")).collect();
+        let examples = text.split("```json").skip(1);
+        examples.map(|rest| rest.split("```").next().unwrap_or_default().into()).collect()
+    }
+
     #[test]
     fn the_example_on_this_page_is_a_scene() {
-        let page = include_str!("file.rs");
-        let lines = page.lines().skip_while(|line| *line != "//! ```json").skip(1);
-        let text: String = lines
-            .take_while(|line| *line != "//! ```")
-            .map(|line| line.trim_start_matches("//!").to_string() + "\n")
-            .collect();
-        let document = Document::new("page", text.as_bytes()).unwrap();
-        let scene: SceneFile = document.parse().unwrap();
+        let text = &examples()[0];
+        let scene: SceneFile = Document::new("page", text.as_bytes()).unwrap().parse().unwrap();
         assert_eq!(scene.objects.len(), 4);
         assert_eq!(scene.ambient, ColorFile([0.2; 3]));
+    }
+
+    #[test]
+    fn the_second_example_on_this_page_is_a_part_of_a_scene() {
+        let text = &examples()[1];
+        let part: PartFile = Document::new("page", text.as_bytes()).unwrap().parse().unwrap();
+        assert_eq!(part.materials["brass"].specular, 0.6);
+        assert_eq!(part.format, part::FORMAT);
     }
 }

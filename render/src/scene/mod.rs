@@ -1,12 +1,15 @@
 //! The scene: what there is to see, checked and resolved. After it nothing fails on user input.
 
 pub mod camera;
+pub mod check;
 pub mod file;
 pub mod light;
 pub mod material;
+pub mod mtl;
 pub mod names;
 pub mod obj;
 pub mod read;
+pub mod schema;
 
 pub use camera::Camera;
 pub use light::PointLight;

@@ -1,6 +1,6 @@
 //! What the scene file calls its things, for people to read.
 
-use super::file::{ObjectFile, SceneFile};
+use super::file::{Lists, ObjectFile};
 
 /// The names of a scene's things, in the order of its lists; a scene that was not read from a file
 /// may have none.
@@ -15,17 +15,13 @@ pub struct Names {
 }
 
 impl Names {
-    /// The names that a file gives.
-    #[must_use]
-    pub fn of(file: &SceneFile) -> Self {
-        let name_of = |object: &ObjectFile| match object {
+    /// Adds the names that a file gives.
+    pub fn add(&mut self, lists: &Lists<'_>) {
+        self.materials.extend(lists.materials.keys().cloned());
+        self.textures.extend(lists.textures.keys().cloned());
+        self.objects.extend(lists.objects.iter().map(|object| match object {
             ObjectFile::Mesh(mesh) => Some(mesh.name.clone()),
             _ => None,
-        };
-        Self {
-            materials: file.materials.keys().cloned().collect(),
-            textures: file.textures.keys().cloned().collect(),
-            objects: file.objects.iter().map(name_of).collect(),
-        }
+        }));
     }
 }

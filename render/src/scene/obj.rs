@@ -1,16 +1,17 @@
-//! Reads OBJ files through tobj, and refuses what tobj would take silently.
+//! Reads OBJ files: vertices, texture coordinates, normals, faces of three or four corners, and the
+//! names that `usemtl` gives. Objects, groups, lines, points and material files are passed over.
 //!
-//! tobj passes over numbers that are not finite, gives a face without texture coordinates those of
-//! its neighbour, and loses names given by `usemtl` that no material file declares. So the text is
-//! looked through once before: for the names, for what each face has, and, when it is one of
-//! `triangulate`'s, for the closing comment `# end V F`, without which the program that wrote it
-//! has died.
+//! A file is gone through once. Nothing is taken silently: numbers that are not finite, corners that
+//! are not there and faces whose corners differ in kind are refused with their line. One of
+//! `triangulate`'s must end with the comment `# end V F`, without which the program that wrote it has
+//! died.
+
+mod reader;
 
 use crate::shape::Mesh;
-use crate::shape::mesh::{MeshError, NONE, Triangle};
+use crate::shape::mesh::MeshError;
 use files::{Exit, Failure};
-use std::collections::HashMap;
-use std::io::{BufReader, Read};
+use reader::Reader;
 use thiserror::Error;
 
 /// How the first line of `triangulate`'s OBJ begins.
@@ -63,14 +64,6 @@ pub enum ObjError {
         /// What would be right.
         expected: &'static str,
     },
-    /// tobj refused it and no line was found that is to blame.
-    #[error("{file}: {source}")]
-    Refused {
-        /// The file.
-        file: String,
-        /// What tobj said.
-        source: tobj::LoadError,
-    },
     /// Read, but no mesh.
     #[error("{file}: {source}")]
     Mesh {
@@ -105,15 +98,15 @@ pub fn read(file: &str, bytes: &[u8]) -> Result<Mesh, ObjError> {
     if text.trim().is_empty() {
         return Err(ObjError::Empty { file: file.into() });
     }
-    check_finished(file, text)?;
-    let names = look_through(file, text)?;
-
-    let options = tobj::LoadOptions { triangulate: true, ..tobj::LoadOptions::default() };
-    // A first line makes tobj ask for materials; it gets the names that the text uses.
-    let declared = BufReader::new(b"mtllib names\n".chain(text.as_bytes()));
-    let (models, _) = tobj::load_obj_buf(&mut { declared }, &options, |_| Ok(materials(&names)))
-        .map_err(|source| ObjError::Refused { file: file.into(), source })?;
-    let mesh = joined(&models, names);
+    let mut reader = Reader::new(file, text);
+    let end = closing_comment(file, text)?;
+    reader.read()?;
+    let (vertices, faces) = (reader.vertices(), reader.faces);
+    if let Some(end) = end.filter(|end| *end != format!("# end {vertices} {faces}")) {
+        let found = format!("`{end}` after {vertices} vertices and {faces} faces");
+        return Err(ObjError::NotFinished { file: file.into(), found });
+    }
+    let mesh = reader.mesh();
     mesh.check().map_err(|source| ObjError::Mesh { file: file.into(), source })?;
     Ok(mesh)
 }
@@ -126,165 +119,21 @@ pub fn ids(name: &str) -> Option<[&str; 2]> {
     (number(texture) && number(surface)).then_some([texture, surface])
 }
 
-/// One of ours ends with `# end V F`, and has as many vertices and faces as that says.
-fn check_finished(file: &str, text: &str) -> Result<(), ObjError> {
+/// The last line of one of ours, which ends with `# end V F`.
+fn closing_comment<'a>(file: &str, text: &'a str) -> Result<Option<&'a str>, ObjError> {
     if !text.starts_with(OURS) {
-        return Ok(());
+        return Ok(None);
     }
     let last = text.lines().next_back().unwrap_or_default();
-    let count = |keyword: &str| text.lines().filter(|line| line.starts_with(keyword)).count();
-    let not_finished = |found| Err(ObjError::NotFinished { file: file.into(), found });
-    if !last.starts_with("# end ") || !text.ends_with('\n') {
-        return not_finished(format!("`{}` as the last line", shortened(last)));
+    if last.starts_with("# end ") && text.ends_with('\n') {
+        return Ok(Some(last));
     }
-    let (vertices, faces) = (count("v "), count("f "));
-    if last != format!("# end {vertices} {faces}") {
-        return not_finished(format!("`{last}` after {vertices} vertices and {faces} faces"));
-    }
-    Ok(())
+    let found = format!("`{}` as the last line", shortened(last));
+    Err(ObjError::NotFinished { file: file.into(), found })
 }
 
-/// Which of texture coordinates and normals the corners of a face have.
-type FaceKind = (bool, bool);
-
-/// Checks each line that carries geometry and collects the names that `usemtl` gives, in order of
-/// first use; the first name is empty, for faces before any `usemtl`.
-fn look_through(file: &str, text: &str) -> Result<Vec<String>, ObjError> {
-    let mut names = vec![String::new()];
-    // Faces between two of these lines become one model of tobj and must be of one kind.
-    let mut kind: Option<FaceKind> = None;
-    // Vertices, texture coordinates and normals: in the whole text, and up to this line.
-    let all = ["v", "vt", "vn"].map(|keyword| {
-        text.lines().filter(|line| line.split_whitespace().next() == Some(keyword)).count()
-    });
-    let mut before = [0; 3];
-    for (number, line) in text.lines().enumerate() {
-        let line = line.trim();
-        let wrong = |expected| {
-            Err(ObjError::Line {
-                file: file.into(),
-                line: number + 1,
-                found: shortened(line),
-                expected,
-            })
-        };
-        if line.ends_with('\\') {
-            return wrong("one line per statement, without a backslash at its end");
-        }
-        let (keyword, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
-        match keyword {
-            "v" if !numbers(rest, 3..=7) => return wrong("`v` and three finite numbers"),
-            "vn" if !numbers(rest, 3..=3) => return wrong("`vn` and three finite numbers"),
-            "vt" if !numbers(rest, 2..=3) => return wrong("`vt` and two finite numbers"),
-            "v" => before[0] += 1,
-            "vt" => before[1] += 1,
-            "vn" => before[2] += 1,
-            "usemtl" => {
-                kind = None;
-                if !names.iter().any(|name| name == rest.trim()) {
-                    names.push(rest.trim().into());
-                }
-            }
-            "o" | "g" => kind = None,
-            "f" => {
-                let Some(found) = face_kind(rest) else {
-                    return wrong("`f` and three or four corners, each v, v/vt, v//vn or v/vt/vn");
-                };
-                if *kind.get_or_insert(found) != found {
-                    return wrong("corners like those of the faces before, with the same parts");
-                }
-                if !corners_are_there(rest, all, before) {
-                    return wrong("corners that the file has, counted from 1, or back from -1");
-                }
-            }
-            _ => {}
-        }
-    }
-    Ok(names)
-}
-
-fn numbers(text: &str, count: std::ops::RangeInclusive<usize>) -> bool {
-    let mut found = 0;
-    for word in text.split_whitespace() {
-        if !word.parse::<f32>().is_ok_and(f32::is_finite) {
-            return false;
-        }
-        found += 1;
-    }
-    count.contains(&found)
-}
-
-fn face_kind(text: &str) -> Option<FaceKind> {
-    let mut corners = 0;
-    let mut kind = None;
-    for corner in text.split_whitespace() {
-        let parts: Vec<&str> = corner.split('/').collect();
-        let index = |part: &str| part.parse::<i64>().is_ok_and(|index| index != 0);
-        let this = match parts[..] {
-            [v] if index(v) => (false, false),
-            [v, vt] if index(v) && index(vt) => (true, false),
-            [v, "", vn] if index(v) && index(vn) => (false, true),
-            [v, vt, vn] if index(v) && index(vt) && index(vn) => (true, true),
-            _ => return None,
-        };
-        if *kind.get_or_insert(this) != this {
-            return None;
-        }
-        corners += 1;
-    }
-    kind.filter(|_| (3..=4).contains(&corners))
-}
-
-/// Whether each index of a face leads to one of `all`, or counts back among those `before` it.
-fn corners_are_there(text: &str, all: [usize; 3], before: [usize; 3]) -> bool {
-    let is_there = |part: &str, k: usize| match part.parse::<i64>() {
-        Ok(index) if index < 0 => index.unsigned_abs() <= before[k] as u64,
-        Ok(index) => index as u64 <= all[k] as u64,
-        Err(_) => true,
-    };
-    let mut corners = text.split_whitespace();
-    corners.all(|corner| corner.split('/').enumerate().all(|(k, part)| is_there(part, k)))
-}
-
-/// Materials that are only names, so that tobj keeps them.
-fn materials(names: &[String]) -> (Vec<tobj::Material>, HashMap<String, usize>) {
-    let named = |name: &String| tobj::Material { name: name.clone(), ..tobj::Material::default() };
-    let indices = names.iter().enumerate().map(|(index, name)| (name.clone(), index));
-    (names.iter().map(named).collect(), indices.collect())
-}
-
-/// tobj's models as one mesh, in the order of the file, with only the surfaces that have faces.
-fn joined(models: &[tobj::Model], names: Vec<String>) -> Mesh {
-    let mut mesh = Mesh::default();
-    let mut surface_of = vec![NONE; names.len()];
-    for tobj::Model { mesh: model, .. } in models {
-        // Each `mtllib` line of the file gives tobj the same names once more.
-        let name = model.material_id.unwrap_or(0) % names.len();
-        if !model.indices.is_empty() && surface_of[name] == NONE {
-            surface_of[name] = mesh.surfaces.len() as u32;
-            mesh.surfaces.push(names[name].clone());
-        }
-        let first = [mesh.positions.len(), mesh.uvs.len(), mesh.normals.len()].map(|n| n as u32);
-        mesh.positions.extend(model.positions.as_chunks::<3>().0);
-        mesh.uvs.extend(model.texcoords.as_chunks::<2>().0);
-        mesh.normals.extend(model.normals.as_chunks::<3>().0);
-        let corners = |indices: &[u32], triangle: usize, first: u32| {
-            let Some(corners) = indices.get(3 * triangle..3 * triangle + 3) else {
-                return [NONE; 3];
-            };
-            [corners[0] + first, corners[1] + first, corners[2] + first]
-        };
-        mesh.triangles.extend((0..model.indices.len() / 3).map(|triangle| Triangle {
-            position: corners(&model.indices, triangle, first[0]),
-            uv: corners(&model.texcoord_indices, triangle, first[1]),
-            normal: corners(&model.normal_indices, triangle, first[2]),
-            surface: surface_of[name],
-        }));
-    }
-    mesh
-}
-
-fn shortened(line: &str) -> String {
+/// The line, or its beginning where it is long.
+pub(super) fn shortened(line: &str) -> String {
     let mut text: String = line.chars().take(60).collect();
     if text.len() < line.len() {
         text.push_str("...");
@@ -295,6 +144,7 @@ fn shortened(line: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::shape::mesh::NONE;
 
     const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
 
@@ -362,8 +212,27 @@ mod tests {
             assert!(complaint.starts_with("a.obj:9: found `"), "{complaint}");
             assert!(complaint.contains(expected), "{complaint}");
         }
-        let mixed = complaint(&format!("{SQUARE}f 1/1 2/2 3/3\nf 1 3 4\n"));
-        assert!(mixed.starts_with("a.obj:10:"), "{mixed}");
+    }
+
+    #[test]
+    fn faces_of_all_kinds_may_follow_each_other_and_name_what_comes_later() {
+        let text = format!("f 1/1 2/2 3/3\n{SQUARE}f 1 3 4\nf -4//-1 -3//-1 -2//1\nvn 0 0 1\n");
+        let bad = complaint(&text);
+        assert!(bad.starts_with("a.obj:11: found `f -4//-1") && bad.contains("back from"), "{bad}");
+        let text = text.replace("-1", "1");
+        let mesh = read("a.obj", text.as_bytes()).unwrap();
+        assert_eq!(mesh.triangles.iter().map(|t| t.uv[0]).collect::<Vec<_>>(), [0, NONE, NONE]);
+        assert_eq!(mesh.triangles.iter().map(|t| t.normal[2]).collect::<Vec<_>>(), [NONE, NONE, 0]);
+        let lost = complaint(&text.replace("f 1 3 4", "f 1 3 5"));
+        assert!(lost.starts_with("a.obj:10: found `f 1 3 5`"), "{lost}");
+    }
+
+    #[test]
+    fn vertices_that_no_face_has_are_left_out() {
+        let text = format!("v 9 9 9\n{SQUARE}v 1e30 0 0\nf 2 3 4\n");
+        let mesh = read("a.obj", text.as_bytes()).unwrap();
+        assert_eq!(mesh.positions, [[0., 0., 0.], [1., 0., 0.], [1., 1., 0.]]);
+        assert_eq!(mesh.triangles[0].position, [0, 1, 2]);
     }
 
     #[test]

@@ -1,25 +1,32 @@
 //! From a scene file to a [`Scene`]: names become indices, pictures and meshes are read, and every
 //! number is checked against its range.
 
+mod draft;
+mod given;
+mod libraries;
 mod lights;
 mod materials;
 mod objects;
 mod textures;
 
-use super::file::{ColorFile, MeshFile, ObjectFile, SceneFile};
+pub use draft::{Draft, Sheet};
+
+use super::file::{ColorFile, FORMAT, Lists, SceneFile, VERSION};
 use super::obj::ObjError;
+use super::schema::{DEEPEST, LARGEST, SMALLEST};
 use super::{Camera, Names, Scene};
 use crate::color::Color;
 use crate::shape::Mesh;
 use crate::shape::mesh::MeshError;
-use files::json::{Document, nearest};
+use draft::Indices;
+use files::json::Document;
 use files::{Exit, Failure, FileError, JsonError, Source};
+use given::Given;
+use glam::DVec3;
+use libraries::Libraries;
 use std::collections::BTreeMap;
 use std::path::Path;
 use thiserror::Error;
-
-/// Deeper recursion is refused: it would show nothing more and could exhaust the stack.
-const DEEPEST: u32 = 64;
 
 /// Why there is no scene.
 #[derive(Debug, Error)]
@@ -80,45 +87,17 @@ impl Failure for SceneError {
 /// Meshes given by name from outside the scene file.
 pub type MeshSource = BTreeMap<String, Mesh>;
 
-/// Reads a scene file's text and checks what can be checked without other files.
+/// Reads a scene file's text, and checks of it no more than its types.
 ///
 /// # Errors
 /// On JSON that is not a scene of this version.
 pub fn parse(document: &Document<'_>) -> Result<SceneFile, SceneError> {
-    document.expect("tb-scene", 1)?;
+    document.expect(FORMAT, u64::from(VERSION))?;
     Ok(document.parse()?)
 }
 
-/// Checks that each of `given` names a mesh of the scene.
-///
-/// # Errors
-/// With the names there are.
-pub fn check_mesh_names<'n>(
-    file: &SceneFile,
-    given: impl IntoIterator<Item = &'n str>,
-) -> Result<(), SceneError> {
-    let names: Vec<&str> = meshes(file).map(|(_, mesh)| mesh.name.as_str()).collect();
-    for name in given {
-        if !names.contains(&name) {
-            let mut known = if names.is_empty() { "none".into() } else { names.join(", ") };
-            if let Some(near) = nearest(name, names.iter().copied()) {
-                known.push_str(&format!(" (did you mean {near}?)"));
-            }
-            return Err(SceneError::UnknownMesh { name: name.into(), known });
-        }
-    }
-    Ok(())
-}
-
-fn meshes(file: &SceneFile) -> impl Iterator<Item = (usize, &MeshFile)> {
-    file.objects.iter().enumerate().filter_map(|(place, object)| match object {
-        ObjectFile::Mesh(mesh) => Some((place, mesh)),
-        _ => None,
-    })
-}
-
-/// Makes the scene. Paths count from `folder` and are read from `source`; a mesh in `given` is
-/// taken before its own file.
+/// Makes the scene of a file and what it includes. Paths count from `folder` and are read from
+/// `source`; a mesh in `given` is taken before its own file.
 ///
 /// # Errors
 /// On the first thing that is wrong, with its place.
@@ -129,37 +108,86 @@ pub fn resolve(
     source: &dyn Source,
     given: MeshSource,
 ) -> Result<Scene, SceneError> {
-    check_mesh_names(file, given.keys().map(String::as_str))?;
-    let reader = Reader { document, file, folder, source };
-    let camera = reader.camera()?;
-    let background = reader.color("background", file.background)?;
-    let ambient = reader.color("ambient", file.ambient)?;
-    let lights = reader.lights()?;
-    let materials = reader.materials()?;
-    reader.within("max_depth", f64::from(file.max_depth), 0.0, f64::from(DEEPEST))?;
-    reader.within("min_weight", file.min_weight, 0.0, 1.0)?;
-    reader.objects_without_meshes()?;
-    let textures = reader.textures()?;
-    let objects = reader.objects(given)?;
-    Ok(Scene {
-        camera,
-        background,
-        ambient,
-        lights,
-        materials,
-        textures,
-        objects,
-        max_depth: file.max_depth,
-        min_weight: file.min_weight,
-        names: Names::of(file),
-    })
+    Draft::gather(document, file, folder, source)?.resolve(source, given)
 }
 
+impl Draft<'_> {
+    /// Makes the scene, with files read from `source`; a mesh in `given` is taken before its own
+    /// file.
+    ///
+    /// # Errors
+    /// On the first thing that is wrong, with its place.
+    pub fn resolve(&self, source: &dyn Source, given: MeshSource) -> Result<Scene, SceneError> {
+        self.check_mesh_names(given.keys().map(String::as_str))?;
+        let sheets = self.sheets()?;
+        let indices = Indices::of(&sheets)?;
+        let readers: Vec<Reader<'_>> = sheets
+            .iter()
+            .map(|sheet| Reader {
+                document: &sheet.document,
+                file: sheet.lists,
+                folder: sheet.folder,
+                source,
+                indices: &indices,
+            })
+            .collect();
+        let mut scene = self.view()?;
+        for sheet in &sheets {
+            scene.names.add(&sheet.lists);
+        }
+        for reader in &readers {
+            scene.lights.extend(reader.lights()?);
+            scene.materials.extend(reader.materials()?);
+            reader.objects_without_meshes()?;
+        }
+        for reader in &readers {
+            scene.textures.extend(reader.textures()?);
+        }
+        let mut libraries = Libraries::default();
+        for reader in &readers {
+            reader.libraries(&mut libraries, &mut scene)?;
+        }
+        let mut given = Given::new(given, &sheets);
+        for reader in &readers {
+            scene.objects.extend(reader.objects(&mut given, &libraries)?);
+        }
+        Ok(scene)
+    }
+
+    /// What a scene says once: a scene with nothing in it.
+    fn view(&self) -> Result<Scene, SceneError> {
+        let (file, indices) = (self.file, Indices::default());
+        let reader = Reader {
+            document: self.document,
+            file: file.lists(),
+            folder: Path::new(""),
+            source: &files::Embedded(&[]),
+            indices: &indices,
+        };
+        reader.within("max_depth", f64::from(file.max_depth), 0.0, f64::from(DEEPEST))?;
+        Ok(Scene {
+            camera: reader.camera(file)?,
+            background: reader.color("background", file.background)?,
+            ambient: reader.color("ambient", file.ambient)?,
+            lights: Vec::new(),
+            materials: Vec::new(),
+            textures: Vec::new(),
+            objects: Vec::new(),
+            max_depth: file.max_depth,
+            min_weight: reader.within("min_weight", file.min_weight, 0.0, 1.0)?,
+            names: Names::default(),
+        })
+    }
+}
+
+/// Reads one file of a scene.
 struct Reader<'a> {
     document: &'a Document<'a>,
-    file: &'a SceneFile,
+    file: Lists<'a>,
     folder: &'a Path,
     source: &'a dyn Source,
+    /// Those of all files of the scene.
+    indices: &'a Indices<'a>,
 }
 
 impl Reader<'_> {
@@ -179,33 +207,54 @@ impl Reader<'_> {
         if (low..=high).contains(&value) {
             return Ok(value);
         }
-        let range =
-            if high == f64::MAX { format!("at least {low}") } else { format!("{low} to {high}") };
-        self.fault(path, format!("found {value}, expected {range}"))
+        let range = if high == LARGEST && low == 0.0 {
+            format!("at least 0 and at most {LARGEST:e}")
+        } else {
+            format!("{low} to {high}")
+        };
+        self.fault(path, format!("found {value:?}, expected {range}"))
     }
 
+    /// The value, if it is above 0 and can be reckoned with.
     fn above_zero(&self, path: &str, value: f64) -> Result<f64, SceneError> {
-        if value > 0.0 {
+        if (SMALLEST..=LARGEST).contains(&value) {
             return Ok(value);
         }
-        self.fault(path, format!("found {value}, expected more than 0"))
+        let range = format!("more than 0: {SMALLEST:e} to {LARGEST:e}");
+        self.fault(path, format!("found {value:?}, expected {range}"))
+    }
+
+    /// A point or a direction, if its coordinates can be reckoned with.
+    fn vector(&self, path: &str, coordinates: [f64; 3]) -> Result<DVec3, SceneError> {
+        let too_large = |x: &f64| !(-LARGEST..=LARGEST).contains(x);
+        match coordinates.iter().position(too_large) {
+            None => Ok(coordinates.into()),
+            Some(k) => {
+                let found = coordinates[k];
+                let message = format!("found {found:?}, expected {:e} to {LARGEST:e}", -LARGEST);
+                self.fault(&format!("{path}[{k}]"), message)
+            }
+        }
     }
 
     fn color(&self, path: &str, color: ColorFile) -> Result<Color, SceneError> {
         for channel in color.0 {
-            self.within(path, channel, 0.0, f64::MAX)?;
+            self.within(path, channel, 0.0, LARGEST)?;
         }
         Ok(Color::from(color.0))
     }
 
-    fn camera(&self) -> Result<Camera, SceneError> {
-        let camera = &self.file.camera;
+    fn camera(&self, file: &SceneFile) -> Result<Camera, SceneError> {
+        let camera = &file.camera;
+        let eye = self.vector("camera.eye", camera.eye)?;
+        let target = self.vector("camera.target", camera.target)?;
+        let up = self.vector("camera.up", camera.up)?;
         if !(camera.fov_deg > 0.0 && camera.fov_deg < 180.0) {
-            let message = format!("found {}, expected an angle between 0 and 180", camera.fov_deg);
+            let message =
+                format!("found {:?}, expected an angle between 0 and 180", camera.fov_deg);
             return self.fault("camera.fov_deg", message);
         }
-        let angle = camera.fov_deg.to_radians();
-        match Camera::new(camera.eye.into(), camera.target.into(), camera.up.into(), angle) {
+        match Camera::new(eye, target, up, camera.fov_deg.to_radians()) {
             Some(camera) => Ok(camera),
             None => self.fault(
                 "camera",

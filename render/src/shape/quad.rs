@@ -81,6 +81,13 @@ impl Quad {
         self.corner
     }
 
+    /// Its corners in their order around it; nothing for a whole plane.
+    #[must_use]
+    pub fn corners(&self) -> Option<[DVec3; 4]> {
+        let edges = [DVec3::ZERO, self.edge_u, self.edge_u + self.edge_v, self.edge_v];
+        self.bounded.then(|| edges.map(|edge| self.corner + edge))
+    }
+
     /// Lower and upper corner of its box; nothing for a whole plane.
     #[must_use]
     pub fn bounds(&self) -> Option<[DVec3; 2]> {

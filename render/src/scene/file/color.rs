@@ -1,7 +1,10 @@
 //! A colour of a scene file.
 
+use crate::scene::schema::LARGEST;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde::de::{self, Deserializer, SeqAccess, Visitor};
+use std::borrow::Cow;
 use std::fmt;
 
 /// A linear colour: one number for grey, or three.
@@ -11,6 +14,20 @@ pub struct ColorFile(pub [f64; 3]);
 impl<'de> Deserialize<'de> for ColorFile {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_any(ColorVisitor)
+    }
+}
+
+impl JsonSchema for ColorFile {
+    fn schema_name() -> Cow<'static, str> {
+        "Color".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        let light = json_schema!({ "type": "number", "minimum": 0.0, "maximum": LARGEST });
+        json_schema!({
+            "description": "Linear light: one number for grey, or [red, green, blue].",
+            "oneOf": [light, { "type": "array", "items": light, "minItems": 3, "maxItems": 3 }],
+        })
     }
 }
 

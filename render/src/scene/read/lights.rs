@@ -8,8 +8,10 @@ impl Reader<'_> {
     pub(super) fn lights(&self) -> Result<Vec<PointLight>, SceneError> {
         let lights = self.file.lights.iter().enumerate().map(|(k, light)| {
             let LightFile::Point(light) = light;
-            let color = self.color(&format!("lights[{k}].point.color"), light.color)?;
-            Ok(PointLight { position: light.position.into(), color })
+            let at = format!("lights[{k}].point");
+            let position = self.vector(&format!("{at}.position"), light.position)?;
+            let color = self.color(&format!("{at}.color"), light.color)?;
+            Ok(PointLight { position, color })
         });
         lights.collect()
     }

@@ -1,8 +1,11 @@
 //! The objects of a scene file: shapes, meshes, and what their surfaces look like.
 
-use super::{MeshSource, Reader, SceneError, meshes};
+use super::given::Given;
+use super::libraries::Libraries;
+use super::{Reader, SceneError};
 use crate::scene::file::{MeshFile, ObjectFile};
 use crate::scene::{Object, Surface, obj};
+use crate::shape::mesh::{NONE, Triangle};
 use crate::shape::{Mesh, Quad, Shape, Sphere};
 use files::json::nearest;
 use glam::{DAffine3, DVec2, DVec3};
@@ -24,33 +27,26 @@ impl Reader<'_> {
         Ok(())
     }
 
-    pub(super) fn objects(&self, mut given: MeshSource) -> Result<Vec<Object>, SceneError> {
-        let mut objects = Vec::with_capacity(self.file.objects.len());
-        for (place, object) in self.file.objects.iter().enumerate() {
-            objects.push(match object {
-                ObjectFile::Mesh(mesh) => {
-                    // A name may stand for several objects; the last one takes the mesh itself.
-                    let again = meshes(self.file).any(|(k, m)| k > place && m.name == mesh.name);
-                    let found = if again {
-                        given.get(&mesh.name).cloned()
-                    } else {
-                        given.remove(&mesh.name)
-                    };
-                    self.mesh(place, mesh, found)?
-                }
-                _ => self.object(place, object)?,
-            });
-        }
-        Ok(objects)
+    pub(super) fn objects(
+        &self,
+        given: &mut Given,
+        libraries: &Libraries,
+    ) -> Result<Vec<Object>, SceneError> {
+        let objects = self.file.objects.iter().enumerate().map(|(place, object)| match object {
+            ObjectFile::Mesh(mesh) => self.mesh(place, mesh, given.take(&mesh.name), libraries),
+            _ => self.object(place, object),
+        });
+        objects.collect()
     }
 
     /// Any object but a mesh.
     fn object(&self, place: usize, object: &ObjectFile) -> Result<Object, SceneError> {
         let (kind, shape, material, texture) = match object {
             ObjectFile::Sphere(sphere) => {
-                let radius = format!("objects[{place}].sphere.radius");
-                let radius = self.above_zero(&radius, sphere.radius)?;
-                let shape = Shape::Sphere(Sphere { center: sphere.center.into(), radius });
+                let at = format!("objects[{place}].sphere");
+                let center = self.vector(&format!("{at}.center"), sphere.center)?;
+                let radius = self.above_zero(&format!("{at}.radius"), sphere.radius)?;
+                let shape = Shape::Sphere(Sphere { center, radius });
                 ("sphere", shape, &sphere.material, &sphere.texture)
             }
             ObjectFile::Rectangle(quad) => {
@@ -58,13 +54,15 @@ impl Reader<'_> {
                 for (k, &repeat) in quad.repeat.iter().enumerate() {
                     self.above_zero(&format!("{at}.repeat[{k}]"), repeat)?;
                 }
-                let corners = [quad.corner, quad.edge_u, quad.edge_v];
+                let corner = self.vector(&format!("{at}.corner"), quad.corner)?;
+                let corners = [corner, quad.edge_u.into(), quad.edge_v.into()];
                 let shape = self.quad(&at, corners, quad.repeat, true)?;
                 ("rectangle", shape, &quad.material, &quad.texture)
             }
             ObjectFile::Plane(plane) => {
                 let at = format!("objects[{place}].plane");
-                let corners = [plane.point, plane.edge_u, plane.edge_v];
+                let point = self.vector(&format!("{at}.point"), plane.point)?;
+                let corners = [point, plane.edge_u.into(), plane.edge_v.into()];
                 let shape = self.quad(&at, corners, [1.0; 2], false)?;
                 ("plane", shape, &plane.material, &plane.texture)
             }
@@ -83,11 +81,13 @@ impl Reader<'_> {
     fn quad(
         &self,
         path: &str,
-        corners: [[f64; 3]; 3],
+        [corner, edge_u, edge_v]: [DVec3; 3],
         repeat: [f64; 2],
         bounded: bool,
     ) -> Result<Shape, SceneError> {
-        let [corner, edge_u, edge_v] = corners.map(DVec3::from);
+        for (key, edge) in [("edge_u", edge_u), ("edge_v", edge_v)] {
+            self.vector(&format!("{path}.{key}"), edge.into())?;
+        }
         match Quad::new(corner, edge_u, edge_v, DVec2::from(repeat), bounded) {
             Some(quad) => Ok(Shape::Quad(quad)),
             None => self.fault(
@@ -102,6 +102,7 @@ impl Reader<'_> {
         place: usize,
         file: &MeshFile,
         given: Option<Mesh>,
+        libraries: &Libraries,
     ) -> Result<Object, SceneError> {
         let at = format!("objects[{place}].mesh");
         let mesh = match (given, &file.file) {
@@ -124,10 +125,39 @@ impl Reader<'_> {
             }
         };
         let bindings = self.mesh_bindings(place, file)?;
-        let parts: Result<_, _> =
-            mesh.surfaces.iter().map(|name| self.bind(&at, file, &bindings, name)).collect();
+        let library = file.mtl.as_ref().map(|path| self.folder.join(path));
+        let mut parts = Vec::with_capacity(mesh.surfaces.len());
+        for name in &mesh.surfaces {
+            let own = library.as_ref().and_then(|path| libraries.surface(path, name));
+            parts.push(self.bind(&at, file, &bindings, name, own)?);
+        }
+        self.places_of_textures(&at, file, &mesh, &parts)?;
         let shape = Shape::Mesh(mesh);
-        Ok(Object { shape, parts: parts?, to_own_space: DAffine3::IDENTITY })
+        Ok(Object { shape, parts, to_own_space: DAffine3::IDENTITY })
+    }
+
+    /// Refuses a mesh that shows a texture where it does not say which part of it.
+    fn places_of_textures(
+        &self,
+        at: &str,
+        file: &MeshFile,
+        mesh: &Mesh,
+        parts: &[Surface],
+    ) -> Result<(), SceneError> {
+        let is_lost = |triangle: &&Triangle| {
+            triangle.uv[0] == NONE && parts[triangle.surface as usize].texture.is_some()
+        };
+        match mesh.triangles.iter().filter(is_lost).count() {
+            0 => Ok(()),
+            count => {
+                let message = format!(
+                    "found {count} triangles without texture coordinates (vt) in mesh {} on surfaces \
+                     with a texture, expected vt at each corner, or no texture",
+                    file.name
+                );
+                self.fault(at, message)
+            }
+        }
     }
 
     /// Finds the materials and textures that a mesh names.
@@ -151,26 +181,29 @@ impl Reader<'_> {
         Ok(bindings)
     }
 
-    /// What a surface named `surface` by `usemtl` looks like.
+    /// What a surface named `surface` by `usemtl` looks like; `own` is what the mesh's library says.
     fn bind(
         &self,
         at: &str,
         file: &MeshFile,
         bindings: &Bindings,
         surface: &str,
+        own: Option<Surface>,
     ) -> Result<Surface, SceneError> {
         let ids = obj::ids(surface);
         let [texture_key, material_key] = ids.unwrap_or([surface, surface]);
-        let material = bindings.materials.get(material_key).copied().or(bindings.material);
+        let material = bindings.materials.get(material_key).copied();
+        let material = material.or(own.map(|own| own.material)).or(bindings.material);
         let Some(material) = material else {
             let message = format!(
                 "found surface {material_key:?} in mesh {}, expected \"material\", or an entry for \
-                 it in \"materials\"",
+                 it in \"materials\" or the \"mtl\"",
                 file.name
             );
             return self.fault(at, message);
         };
-        let texture = bindings.textures.get(texture_key).copied().or(bindings.texture);
+        let texture = bindings.textures.get(texture_key).copied();
+        let texture = texture.or(own.and_then(|own| own.texture)).or(bindings.texture);
         // Texture id 0 says that there is none; any other id was meant to be seen.
         if texture.is_none() && ids.is_some() && texture_key != "0" {
             let message = format!(
@@ -184,26 +217,26 @@ impl Reader<'_> {
     }
 
     fn material_index(&self, path: &str, name: &str) -> Result<usize, SceneError> {
-        self.index_of(path, "material", name, &self.file.materials)
+        self.index_of(path, "material", name, &self.indices.materials)
     }
 
     fn texture_index(&self, path: &str, name: &str) -> Result<usize, SceneError> {
-        self.index_of(path, "texture", name, &self.file.textures)
+        self.index_of(path, "texture", name, &self.indices.textures)
     }
 
-    fn index_of<T>(
+    fn index_of(
         &self,
         path: &str,
         kind: &str,
         name: &str,
-        known: &BTreeMap<String, T>,
+        known: &BTreeMap<&str, usize>,
     ) -> Result<usize, SceneError> {
-        if let Some(index) = known.keys().position(|key| key == name) {
+        if let Some(&index) = known.get(name) {
             return Ok(index);
         }
-        let near = nearest(name, known.keys().map(String::as_str));
+        let near = nearest(name, known.keys().copied());
         let suggestion = near.map_or(String::new(), |near| format!(" (did you mean {near:?}?)"));
-        let names: Vec<&str> = known.keys().map(String::as_str).collect();
+        let names: Vec<&str> = known.keys().copied().collect();
         let names = if names.is_empty() { "none".into() } else { names.join(", ") };
         self.fault(
             path,

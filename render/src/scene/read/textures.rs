@@ -2,9 +2,10 @@
 
 use super::{Reader, SceneError};
 use crate::scene::file::TextureFile;
-use crate::texture::Texture;
+use crate::texture::{Texture, Values, Wrap};
 use image::ImageReader;
 use std::io::Cursor;
+use std::path::Path;
 
 impl Reader<'_> {
     pub(super) fn textures(&self) -> Result<Vec<Texture>, SceneError> {
@@ -14,7 +15,18 @@ impl Reader<'_> {
     fn texture(&self, name: &str, texture: &TextureFile) -> Result<Texture, SceneError> {
         let place = format!("textures.{name}.image");
         let path = self.folder.join(&texture.image);
-        let bytes = self.named_file(&place, &path)?;
+        self.picture(&place, &path, texture.values, texture.wrap)
+    }
+
+    /// The texture of the picture file at `path`, which the scene names at `place`.
+    pub(super) fn picture(
+        &self,
+        place: &str,
+        path: &Path,
+        values: Values,
+        wrap: Wrap,
+    ) -> Result<Texture, SceneError> {
+        let bytes = self.named_file(place, path)?;
         let decoded = ImageReader::new(Cursor::new(bytes))
             .with_guessed_format()
             .map_err(image::ImageError::IoError)
@@ -26,13 +38,13 @@ impl Reader<'_> {
                     "found no picture in {} ({error}), expected a PNG or JPEG file",
                     path.display()
                 );
-                return self.fault(&place, message);
+                return self.fault(place, message);
             }
         };
-        match Texture::from_picture(&picture, texture.values, texture.wrap) {
+        match Texture::from_picture(&picture, values, wrap) {
             Some(texture) => Ok(texture),
             None => self.fault(
-                &place,
+                place,
                 format!("found floating point values in {}, expected 8 or 16 bits", path.display()),
             ),
         }

@@ -1,0 +1,124 @@
+//! Where the eye stands, and what it cannot see.
+
+use super::solid;
+use super::subject::{Item, Subject};
+use super::{Finding, Severity, short};
+use glam::DVec3;
+
+/// An eye nearer to a surface than this part of its distance to the target stands on it.
+const ON: f64 = 1e-6;
+
+/// What the camera's place shows.
+#[must_use]
+pub fn findings(subject: &Subject<'_>) -> Vec<Finding> {
+    let mut found: Vec<Finding> =
+        subject.items.iter().filter_map(|item| stands(subject, item)).collect();
+    found.extend(unseen(subject));
+    found
+}
+
+/// An eye in an object or on its surface.
+fn stands(subject: &Subject<'_>, item: &Item<'_>) -> Option<Finding> {
+    let eye = subject.eye();
+    let near = ON * eye.distance(subject.camera.target.into());
+    let said = |severity, message: String| {
+        Some(Finding::new(
+            severity,
+            "camera.eye",
+            format!("{message} {} ({})", item.path, item.kind),
+        ))
+    };
+    if solid::height(item, eye).is_some_and(|height| height <= near) {
+        return said(Severity::Hint, "the eye is on the surface of".into());
+    }
+    if solid::contains(item, eye) == Some(true) {
+        let (severity, why) = if subject.is_clear(item) {
+            (Severity::Remark, "the eye is inside of")
+        } else {
+            (Severity::Hint, "the eye sees nothing but the inside of")
+        };
+        return said(severity, why.into());
+    }
+    None
+}
+
+/// Objects of which no part is in the picture.
+fn unseen(subject: &Subject<'_>) -> Vec<Finding> {
+    let sides = View::of(subject);
+    let mut found = Vec::new();
+    let mut seen = false;
+    for item in &subject.items {
+        match solid::bounds(item).and_then(|bounds| sides.misses(bounds)) {
+            Some(Miss::Behind(distance)) => {
+                let message = format!(
+                    "all of it is behind the camera, {} from it: only mirrors and its shadow show it",
+                    short(distance)
+                );
+                found.push(Finding::new(Severity::Remark, &item.path, message));
+            }
+            Some(Miss::Beside) => {
+                let message =
+                    "all of it is outside the picture: only mirrors and its shadow show it";
+                found.push(Finding::new(Severity::Remark, &item.path, message));
+            }
+            None => seen = true,
+        }
+    }
+    if !seen && !subject.items.is_empty() {
+        let message = "found no object in front of the camera, expected one at least: the picture \
+                       is nothing but background";
+        found.push(Finding::new(Severity::Wrong, "camera", message));
+    }
+    found
+}
+
+/// How a box is not in the picture.
+enum Miss {
+    /// By the distance of its nearest corner along the view.
+    Behind(f64),
+    Beside,
+}
+
+/// The four sides and the front of what the camera sees, as planes through the eye.
+struct View {
+    eye: DVec3,
+    forward: DVec3,
+    inward: [DVec3; 4],
+}
+
+impl View {
+    fn of(subject: &Subject<'_>) -> Self {
+        let camera = subject.camera;
+        let eye = subject.eye();
+        let forward = (DVec3::from(camera.target) - eye).normalize_or(DVec3::NEG_Z);
+        let right = forward.cross(camera.up.into()).normalize_or(DVec3::X);
+        let up = right.cross(forward);
+        let high = (0.5 * camera.fov_deg.to_radians()).tan();
+        let wide = high * subject.aspect;
+        let inward = [
+            wide * forward - right,
+            wide * forward + right,
+            high * forward - up,
+            high * forward + up,
+        ];
+        Self { eye, forward, inward }
+    }
+
+    /// Why a box is not in the picture, if that is certain: all its corners are behind the eye, or
+    /// on the far side of one of the sides.
+    fn misses(&self, [low, high]: [DVec3; 2]) -> Option<Miss> {
+        let corner = |k: usize| {
+            let pick = |bit: usize, low: f64, high: f64| if k >> bit & 1 == 0 { low } else { high };
+            DVec3::new(pick(0, low.x, high.x), pick(1, low.y, high.y), pick(2, low.z, high.z))
+                - self.eye
+        };
+        let corners: [DVec3; 8] = std::array::from_fn(corner);
+        let most =
+            |axis: DVec3| corners.iter().map(|c| c.dot(axis)).fold(f64::NEG_INFINITY, f64::max);
+        let front = most(self.forward);
+        if front < 0.0 {
+            return Some(Miss::Behind(-front));
+        }
+        self.inward.iter().any(|&side| most(side) < 0.0).then_some(Miss::Beside)
+    }
+}

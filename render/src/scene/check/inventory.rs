@@ -1,0 +1,103 @@
+//! What there is in a scene, a line for each thing.
+
+use super::subject::{Item, Subject};
+use super::{count, point, short, solid};
+use crate::scene::Surface;
+use crate::texture::Texture;
+use glam::DVec3;
+
+/// Camera, lights, textures, objects, and the box around those that have one.
+#[must_use]
+pub fn lines(subject: &Subject<'_>, table_bytes: &dyn Fn(&Texture) -> usize) -> Vec<String> {
+    let scene = subject.scene;
+    let camera = subject.camera;
+    let mut lines = vec![format!(
+        "camera: at {}, looks at {}, {} degrees high",
+        point(camera.eye.into()),
+        point(camera.target.into()),
+        short(camera.fov_deg)
+    )];
+    for (light, path) in scene.lights.iter().zip(&subject.lights) {
+        lines.push(format!(
+            "{path}: point at {}, colour {}",
+            point(light.position),
+            point(light.color)
+        ));
+    }
+    for (index, texture) in scene.textures.iter().enumerate() {
+        lines.push(format!(
+            "texture {}: {}",
+            subject.texture_name(index),
+            sizes(texture, table_bytes)
+        ));
+    }
+    lines.extend(subject.items.iter().map(|item| object(subject, item)));
+    let boxes = subject.items.iter().filter_map(solid::bounds);
+    let around = boxes.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
+    if let Some([low, high]) = around {
+        lines.push(format!("all: {}", extent(low, high)));
+    }
+    lines
+}
+
+/// The size of a texture and what it takes in memory.
+fn sizes(texture: &Texture, table_bytes: &dyn Fn(&Texture) -> usize) -> String {
+    let texels = size_of_val(texture.texels.as_slice());
+    let tables = match table_bytes(texture) {
+        0 => "no tables".into(),
+        bytes => format!("tables of {}", memory(bytes)),
+    };
+    format!("{} x {} texels, {}, {tables}", texture.width, texture.height, memory(texels))
+}
+
+fn memory(bytes: usize) -> String {
+    match bytes {
+        0..10_000 => format!("{bytes} bytes"),
+        10_000..10_000_000 => format!("{} kB", bytes / 1000),
+        _ => format!("{} MB", bytes / 1_000_000),
+    }
+}
+
+/// An object: what it is, what its surfaces are made of, and where it is.
+fn object(subject: &Subject<'_>, item: &Item<'_>) -> String {
+    let mut said = vec![format!("{}: {}", item.path, item.kind)];
+    if let Some(mesh) = item.mesh() {
+        said.push(count(mesh.triangles.len(), "triangle", "triangles"));
+        said.extend(item.skin.map(|skin| match (skin.rims, skin.flips) {
+            (0, 0) => format!("closed, volume {}", short(skin.volume)),
+            (0, _) => "closed, one-sided".into(),
+            (rims, _) => format!("open along {}", count(rims, "edge", "edges")),
+        }));
+    }
+    let several = item.object.parts.len() > 1;
+    for (k, part) in item.object.parts.iter().enumerate() {
+        let name = item.mesh().and_then(|mesh| mesh.surfaces.get(k)).filter(|_| several);
+        let name = name.map_or(String::new(), |name| format!("{name}: "));
+        said.push(format!("{name}{}", surface(subject, part)));
+    }
+    let extent = solid::bounds(item).map(|[low, high]| extent(low, high));
+    said.push(extent.unwrap_or("without end".into()));
+    said.join(", ")
+}
+
+fn surface(subject: &Subject<'_>, part: &Surface) -> String {
+    let material = subject.material_name(part.material);
+    match part.texture {
+        Some(texture) => {
+            format!("material {material} with texture {}", subject.texture_name(texture))
+        }
+        None => format!("material {material}"),
+    }
+}
+
+fn extent(low: DVec3, high: DVec3) -> String {
+    let size = high - low;
+    format!(
+        "from {} to {}, {} x {} x {}",
+        point(low),
+        point(high),
+        short(size.x),
+        short(size.y),
+        short(size.z)
+    )
+}

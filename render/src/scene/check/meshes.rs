@@ -1,0 +1,159 @@
+//! Triangles, normals and rims of meshes.
+
+use super::solid::{self, as_dvec3};
+use super::subject::{Item, Subject};
+use super::{Finding, Severity, count};
+use crate::shape::Mesh;
+use crate::shape::mesh::NONE;
+use glam::{DVec2, DVec3};
+
+/// A picture is stretched where one of its directions is drawn out so many times more than the other.
+const STRETCHED: f64 = 100.0;
+
+/// What the meshes show.
+#[must_use]
+pub fn findings(subject: &Subject<'_>) -> Vec<Finding> {
+    let meshes = subject.items.iter().filter_map(|item| Some((item, item.mesh()?)));
+    let mut found = Vec::new();
+    for (item, mesh) in meshes {
+        found.extend(flat(item, mesh));
+        found.extend(doubled(item));
+        found.extend(inward(subject, item));
+        found.extend(normals(item, mesh));
+        found.extend(stretched(item, mesh));
+        found.extend(rounded(item, mesh));
+    }
+    found
+}
+
+fn flat(item: &Item<'_>, mesh: &Mesh) -> Option<Finding> {
+    let (flat, all) = (item.skin?.flat, mesh.triangles.len());
+    if flat == all {
+        let message = "none of its triangles has an area: nothing of it is seen";
+        return Some(Finding::new(Severity::Wrong, &item.path, message));
+    }
+    let message = format!(
+        "{} of {all} without an area: no ray meets them",
+        count(flat, "triangle is", "triangles are")
+    );
+    (flat > 0).then(|| Finding::new(Severity::Remark, &item.path, message))
+}
+
+fn doubled(item: &Item<'_>) -> Option<Finding> {
+    let doubled = item.skin?.doubled;
+    let message = format!(
+        "{} the corners of one before: only the first is seen",
+        count(doubled, "triangle has", "triangles have")
+    );
+    (doubled > 0).then(|| Finding::new(Severity::Hint, &item.path, message))
+}
+
+/// A closed mesh whose corners run clockwise as seen from outside. Glass says so by itself.
+fn inward(subject: &Subject<'_>, item: &Item<'_>) -> Option<Finding> {
+    let skin = item.skin?;
+    let message = "its triangles face inward: seen from outside their corners run clockwise, \
+                   expected the other way round";
+    (skin.is_closed() && skin.volume < 0.0 && !subject.bends(item))
+        .then(|| Finding::new(Severity::Hint, &item.path, message))
+}
+
+/// Normals of the file that are zero, or on the other side than the corners say.
+fn normals(item: &Item<'_>, mesh: &Mesh) -> Vec<Finding> {
+    let zero = mesh.normals.iter().filter(|normal| **normal == [0.0; 3]).count();
+    let mut averted = 0;
+    for (number, triangle) in mesh.triangles.iter().enumerate() {
+        if triangle.normal[0] == NONE {
+            continue;
+        }
+        let [a, b, c] = mesh.corners(number as u32).map(as_dvec3);
+        let across = (b - a).cross(c - a);
+        let faces = |index: u32| as_dvec3(mesh.normals[index as usize]).dot(across) < 0.0;
+        averted += usize::from(triangle.normal.into_iter().all(faces));
+    }
+    let zero = (zero > 0).then(|| {
+        let message = format!(
+            "{} zero: the triangles' own stand for them",
+            count(zero, "normal (vn) is", "normals (vn) are")
+        );
+        Finding::new(Severity::Hint, &item.path, message)
+    });
+    let averted = (averted > 0).then(|| {
+        let message = format!(
+            "the normals (vn) of {} of {} point to the side from which its corners run clockwise: \
+             light and shadow will not agree",
+            count(averted, "triangle", "triangles"),
+            mesh.triangles.len()
+        );
+        Finding::new(Severity::Hint, &item.path, message)
+    });
+    zero.into_iter().chain(averted).collect()
+}
+
+/// Triangles on which a picture is drawn out far more in one direction than in the other.
+fn stretched(item: &Item<'_>, mesh: &Mesh) -> Option<Finding> {
+    let is_textured = |surface: u32| item.object.parts[surface as usize].texture.is_some();
+    let mut stretched = 0;
+    for (number, triangle) in mesh.triangles.iter().enumerate() {
+        if triangle.uv[0] == NONE || !is_textured(triangle.surface) {
+            continue;
+        }
+        let corners = mesh.corners(number as u32).map(as_dvec3);
+        let uvs = triangle.uv.map(|index| DVec2::from(mesh.uvs[index as usize].map(f64::from)));
+        stretched += usize::from(stretch(corners, uvs).is_some_and(|ratio| ratio > STRETCHED));
+    }
+    let message = format!(
+        "on {} the texture is drawn out more than {STRETCHED} times as far in one direction as in \
+         the other",
+        count(stretched, "triangle", "triangles")
+    );
+    (stretched > 0).then(|| Finding::new(Severity::Remark, &item.path, message))
+}
+
+/// The ratio of the singular values of the map from the texture to the triangle; nothing where that
+/// is no map.
+fn stretch([a, b, c]: [DVec3; 3], [s, t, u]: [DVec2; 3]) -> Option<f64> {
+    let (e, f) = (t - s, u - s);
+    let area = e.perp_dot(f);
+    if area == 0.0 || (b - a).cross(c - a) == DVec3::ZERO {
+        return None;
+    }
+    let across = ((b - a) * f.y - (c - a) * e.y) / area;
+    let up = ((c - a) * e.x - (b - a) * f.x) / area;
+    let (p, q, r) = (across.length_squared(), up.length_squared(), across.dot(up));
+    let half = 0.5 * (p + q);
+    let root = (0.25 * (p - q) * (p - q) + r * r).sqrt();
+    // The smaller by the product, which loses no digits.
+    let product = across.cross(up).length_squared();
+    let larger = half + root;
+    (product > 0.0).then(|| larger / product.sqrt())
+}
+
+/// A mesh so far from the origin that the steps of its `f32` coordinates show.
+fn rounded(item: &Item<'_>, mesh: &Mesh) -> Option<Finding> {
+    let [low, high] = solid::bounds(item)?;
+    let size = (high - low).max_element();
+    let far = low.abs().max(high.abs()).max_element();
+    let step = far * f64::from(f32::EPSILON);
+    let message = format!(
+        "its coordinates are in steps of {}, a {}th of its size: move it nearer to the origin",
+        super::short(step),
+        super::short(size / step)
+    );
+    (mesh.triangles.len() > 1 && size > 0.0 && size < 1e4 * step)
+        .then(|| Finding::new(Severity::Hint, &item.path, message))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stretch_is_the_ratio_of_a_textures_longest_and_shortest_step() {
+        let corners = |x: f64, y: f64| [DVec3::ZERO, DVec3::X * x, DVec3::Y * y];
+        let unit = [DVec2::ZERO, DVec2::X, DVec2::Y];
+        assert_eq!(stretch(corners(3.0, 3.0), unit), Some(1.0));
+        assert_eq!(stretch(corners(8.0, 2.0), unit), Some(4.0));
+        assert_eq!(stretch(corners(0.0, 2.0), unit), None);
+        assert_eq!(stretch(corners(1.0, 1.0), [DVec2::ZERO; 3]), None);
+    }
+}

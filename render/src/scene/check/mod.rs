@@ -1,0 +1,151 @@
+//! What there is in a scene, and what is wrong or suspicious about it, in words for people.
+//!
+//! | module         | looks at                                                                  |
+//! |----------------|---------------------------------------------------------------------------|
+//! | [`subject`]    | the scene beside its files: what each object is called and where it stands |
+//! | [`inventory`]  | what there is, a line for each thing                                      |
+//! | [`unused`]     | materials and textures that nothing shows                                 |
+//! | [`camera`]     | where the eye stands and what it cannot see                               |
+//! | [`lights`]     | lights shut in                                                            |
+//! | [`meshes`]     | triangles, normals and rims                                               |
+//! | [`glass`]      | what light goes through                                                   |
+//! | [`coincident`] | surfaces in the same place                                                |
+//! | [`solid`]      | what those need to know of a shape: its box, its inside, its surface      |
+//!
+//! Nothing here changes a scene, and no picture needs it.
+
+pub mod camera;
+pub mod coincident;
+pub mod glass;
+pub mod inventory;
+pub mod lights;
+pub mod meshes;
+pub mod solid;
+pub mod subject;
+pub mod unused;
+
+use super::Scene;
+use super::read::{Draft, SceneError};
+use crate::texture::Texture;
+use std::cmp::Reverse;
+use std::fmt::{self, Display};
+use subject::Subject;
+
+/// How much a finding weighs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Severity {
+    /// Good to know, and often meant.
+    Remark,
+    /// Most often not meant.
+    Hint,
+    /// The picture cannot be what the scene means.
+    Wrong,
+}
+
+/// One thing found.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Finding {
+    /// How much it weighs.
+    pub severity: Severity,
+    /// Its place: a JSON path, after the name of the file if it is an included one.
+    pub path: String,
+    /// What it is, with a number to act on.
+    pub message: String,
+}
+
+impl Finding {
+    fn new(severity: Severity, path: impl Into<String>, message: impl Into<String>) -> Self {
+        Self { severity, path: path.into(), message: message.into() }
+    }
+}
+
+impl Display for Severity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Remark => "remark",
+            Self::Hint => "hint",
+            Self::Wrong => "wrong",
+        })
+    }
+}
+
+impl Display for Finding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}: {}", self.severity, self.path, self.message)
+    }
+}
+
+/// What `--check` says.
+#[derive(Debug, Clone)]
+pub struct Report {
+    /// What there is, a line for each thing.
+    pub inventory: Vec<String>,
+    /// What is wrong or suspicious, from the worst to the least.
+    pub findings: Vec<Finding>,
+}
+
+impl Report {
+    /// How many findings say that something is wrong.
+    #[must_use]
+    pub fn wrong(&self) -> usize {
+        self.findings.iter().filter(|finding| finding.severity == Severity::Wrong).count()
+    }
+}
+
+impl Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.inventory.iter().try_for_each(|line| writeln!(f, "{line}"))?;
+        self.findings.iter().try_for_each(|finding| writeln!(f, "{finding}"))
+    }
+}
+
+/// Everything that can be said of a scene: `scene` was made of `draft`, and is to fill a picture
+/// `aspect` times as wide as high. `table_bytes` says how much memory the tables of a texture take.
+///
+/// # Errors
+/// When the draft's files are not those of a scene.
+pub fn check(
+    draft: &Draft<'_>,
+    scene: &Scene,
+    aspect: f64,
+    table_bytes: &dyn Fn(&Texture) -> usize,
+) -> Result<Report, SceneError> {
+    let sheets = draft.sheets()?;
+    let subject = Subject::new(draft, &sheets, scene, aspect);
+    let mut findings = camera::findings(&subject);
+    findings.extend(meshes::findings(&subject));
+    findings.extend(glass::findings(&subject));
+    findings.extend(lights::findings(&subject));
+    findings.extend(coincident::findings(&subject));
+    findings.extend(unused::findings(&subject));
+    findings.sort_by_key(|finding| Reverse(finding.severity));
+    Ok(Report { inventory: inventory::lines(&subject, table_bytes), findings })
+}
+
+/// A number in four digits.
+fn short(x: f64) -> String {
+    let size = x.abs();
+    if size != 0.0 && !(1e-4..1e6).contains(&size) {
+        return format!("{x:.2e}");
+    }
+    let digits = if size < 1.0 { 4 } else { 3 - (size.log10().floor() as usize).min(3) };
+    let text = format!("{x:.digits$}");
+    match text.split_once('.') {
+        Some((whole, part)) => {
+            let part = part.trim_end_matches('0');
+            let dot = if part.is_empty() { "" } else { "." };
+            format!("{whole}{dot}{part}")
+        }
+        None => text,
+    }
+}
+
+/// A point in four digits.
+fn point(p: glam::DVec3) -> String {
+    format!("({}, {}, {})", short(p.x), short(p.y), short(p.z))
+}
+
+/// A number of things, in words.
+fn count(number: usize, one: &str, many: &str) -> String {
+    if number == 1 { format!("1 {one}") } else { format!("{number} {many}") }
+}
