@@ -13,7 +13,7 @@ use crate::footprint::Footprint;
 use crate::footprint::neighbours::Neighbourhood;
 use crate::optics;
 use crate::scene::{Material, Scene};
-use crate::shape::{SeamPeriod, Shape};
+use crate::shape::SeamPeriod;
 use crate::trace::tree::{Branch, Node};
 use shadow::transmission;
 
@@ -92,9 +92,10 @@ impl Shader<'_> {
                     Footprint::Rectangle { .. } => counts.areas += 1,
                 }
                 let object = &self.scene.objects[node.piece.object as usize];
-                match object.shape {
-                    Shape::Sphere(_) => texture.average(&texture.between_poles(footprint)),
-                    Shape::Quad(_) | Shape::Mesh(_) => texture.average(&footprint),
+                if object.shape.has_poles() {
+                    texture.average(&texture.between_poles(footprint))
+                } else {
+                    texture.average(&footprint)
                 }
             });
             color += material.color * textured * (material.ambient * self.scene.ambient + diffuse);
