@@ -37,7 +37,7 @@ const ROOMS: [(&str, &[&str]); 14] = [
     ("stats", &["shade", "trace"]),
     (
         "film",
-        &["accel", "color", "filter", "footprint", "scene", "shade", "shape", "stats", "trace"],
+        &["accel", "color", "filter", "footprint", "scene", "shade", "stats", "trace"],
     ),
 ];
 

@@ -4,6 +4,8 @@
 mod lights;
 mod materials;
 mod objects;
+mod place;
+mod solids;
 mod textures;
 
 use super::file::{ColorFile, MeshFile, ObjectFile, SceneFile};

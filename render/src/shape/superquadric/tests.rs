@@ -177,7 +177,7 @@ proptest! {
         let Some(t) = shape.intersect(from, way, FREE) else { return Ok(()) };
         let point = shape.surface_point(from + t * way);
         let own = ((point.position - shape.center) / shape.radii).abs();
-        prop_assume!(own.min_element() > 0.05 && (own.x.hypot(own.z) - shape.field.ring).abs() > 0.05);
+        prop_assume!(own.min_element() > 0.05 && (shape.field.from_axis(own) - shape.field.ring).abs() > 0.05);
         let step = 1e-6;
         let slope = |axis: DVec3| {
             let value = |s: f64| value(&shape, point.position + s * axis);
