@@ -35,10 +35,7 @@ const ROOMS: [(&str, &[&str]); 14] = [
         &["accel", "color", "filter", "footprint", "optics", "ray", "scene", "shape", "trace"],
     ),
     ("stats", &["shade", "trace"]),
-    (
-        "film",
-        &["accel", "color", "filter", "footprint", "scene", "shade", "stats", "trace"],
-    ),
+    ("film", &["accel", "color", "filter", "footprint", "scene", "shade", "stats", "trace"]),
 ];
 
 /// The doors of `render`, which see all rooms.

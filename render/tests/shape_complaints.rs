@@ -71,24 +71,29 @@ fn placements_that_cannot_be_are_refused() {
         "[ { \"matrix\": [[1, 0, 0, 0], [0, 1, 0, 0], [1, 1, 0, 0]] } ]",
         &["place: found a map that presses things flat"],
     );
-    placed("[ { \"scale\": [1e70, 1e70, 1e70] } ]", &["place: found a map that stretches too much"]);
+    placed(
+        "[ { \"scale\": [1e70, 1e70, 1e70] } ]",
+        &["place: found a map that stretches too much"],
+    );
     placed(
         "[ { \"scale\": [1e200, 1, 1] }, { \"scale\": [1e200, 1, 1] } ]",
         &["place: found a map that stretches too much"],
     );
     placed("[ { \"matrix\": [[1, 0, 0], [0, 1, 0], [0, 0, 1]] } ]", &["place[0].matrix"]);
-    placed("[ { \"rotate\": 1 } ]", &["place[0]", "(did you mean `rotate_deg`?)"]);
+    placed("[ { \"rotate\": 1 } ]", &["place[0]", "expected one of `scale`, `rotate_deg`"]);
     placed("{ \"scale\": [1, 1, 1] }", &[]);
 }
 
 #[test]
 fn meshes_that_are_placed_beyond_their_numbers_are_refused() {
     let scene = |place: &str| {
-        MESH_WALL.replace("\"name\": \"wall\"", &format!("\"name\": \"wall\", \"place\": [ {place} ]"))
+        MESH_WALL
+            .replace("\"name\": \"wall\"", &format!("\"name\": \"wall\", \"place\": [ {place} ]"))
     };
     let bench = Bench::with_scene(&scene("{ \"scale\": [1e39, 1e39, 1e39] }"));
     bench.write("wall.obj", WALL_OBJ);
-    let parts = ["scene.json:5:", "objects[0].mesh.place: found vertex 0 moved to where f32 has no"];
+    let parts =
+        ["scene.json:5:", "objects[0].mesh.place: found vertex 0 moved to where f32 has no"];
     bench.refuse(&["scene.json", "--mesh", "wall=wall.obj"], b"", 3, &parts);
     // Checked before the mesh is asked for.
     let bench = Bench::with_scene(&scene("{ \"scale\": [1, 1, 0] }"));

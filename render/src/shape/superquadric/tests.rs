@@ -224,6 +224,31 @@ fn rays_along_the_axes_hit_the_tips() {
 }
 
 #[test]
+fn what_starts_near_a_crease_but_off_the_surface_is_not_on_it() {
+    // Here the slope is without bound, and says nothing of how far the surface is.
+    let star = unit([4.0, 4.0]);
+    let from = DVec3::new(1e-300, 0.1, 0.5);
+    let near = Start { leaves: None, skin: 1e-13 };
+    assert_eq!(star.intersect(from, DVec3::NEG_Z, near), star.intersect(from, DVec3::NEG_Z, FREE));
+    assert!(star.intersect(from, DVec3::NEG_Z, near).is_some());
+    let tip = DVec3::new(1.0, 0.0, 0.0);
+    assert_eq!(star.intersect(tip, DVec3::X, near), None);
+}
+
+#[test]
+fn from_the_edge_of_a_fin_the_next_fin_is_seen() {
+    // The slope at the edge, which knows no side of it, says that the way leads inside; but the fin
+    // is thinner there than any ray.
+    let fins = unit([1.0, 4.0]);
+    let (edge, inside) = (DVec3::new(0.0, 0.6, 0.8), DVec3::new(0.5, 0.0, 0.0));
+    let way = (inside - edge).normalize();
+    let t = fins.intersect(edge, way, LEAVING).unwrap();
+    let outside = |k: u32| value(&fins, edge + t * f64::from(k) / 100.0 * way) > 0.0;
+    assert!((1..100).all(outside) && t < edge.distance(inside), "{t}");
+    assert!(off(&fins, edge + t * way) < 1e-15);
+}
+
+#[test]
 fn the_map_on_a_ring_is_not_mirrored() {
     let ring = Superquadric::new(DVec3::ZERO, DVec3::ONE, [0.8, 1.2], Some(2.5)).unwrap();
     let uv = |x: f64, y: f64| ring.surface_point(DVec3::new(x, y, 3.5)).uv;
