@@ -83,7 +83,7 @@ impl Cuboid {
         let mut position = near.clamp(self.low, self.high);
         position[axis] = self.plane(face);
         let mut normal = DVec3::ZERO;
-        normal[axis] = if face % 2 == 0 { -1.0 } else { 1.0 };
+        normal[axis] = if face.is_multiple_of(2) { -1.0 } else { 1.0 };
         // From one side to the other, along each axis; and the other way round.
         let to = (position - self.low) / (self.high - self.low);
         let back = (self.high - position) / (self.high - self.low);
@@ -106,7 +106,7 @@ impl Cuboid {
 
     /// Where the plane of a face crosses its axis.
     fn plane(&self, face: u32) -> f64 {
-        let corner = if face % 2 == 0 { self.low } else { self.high };
+        let corner = if face.is_multiple_of(2) { self.low } else { self.high };
         corner[face as usize / 2]
     }
 }

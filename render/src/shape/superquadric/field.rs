@@ -64,19 +64,19 @@ impl Field {
     }
 
     /// h, the distance from the axis by the norm of the sections across it.
-    pub fn from_axis(&self, point: DVec3) -> f64 {
+    pub fn axis_norm(&self, point: DVec3) -> f64 {
         norm(point.x.abs(), point.z.abs(), self.across)
     }
 
     /// Less than 1 inside.
     pub fn value(&self, point: DVec3) -> f64 {
-        norm((self.from_axis(point) - self.ring).abs(), point.y.abs(), self.section)
+        norm((self.axis_norm(point) - self.ring).abs(), point.y.abs(), self.section)
     }
 
     /// Its slope in each coordinate; infinite at creases, and 0 in a coordinate that is 0, where
     /// the two sides mirror each other.
     pub fn gradient(&self, point: DVec3) -> DVec3 {
-        let h = self.from_axis(point);
+        let h = self.axis_norm(point);
         let tube = h - self.ring;
         let value = norm(tube.abs(), point.y.abs(), self.section);
         let part = |signed: f64, norm: f64, p: f64| {
@@ -164,7 +164,8 @@ fn joined(sizes: [Range; 2], growths: [Range; 2], p: f64) -> (Range, Range) {
     // In units of the largest size, so that no power of it is lost.
     let unit = sizes[0][1].max(sizes[1][1]);
     if unit == 0.0 {
-        return ([0.0; 2], [-f64::INFINITY, f64::INFINITY]);
+        // Both are 0 all along, and stay so.
+        return ([0.0; 2], [0.0; 2]);
     }
     let [a, b] = sizes.map(|size| size.map(|x| x / unit));
     let power = |x: f64| if p == 2.0 { x * x } else { x.powf(p) };
@@ -184,20 +185,17 @@ fn joined(sizes: [Range; 2], growths: [Range; 2], p: f64) -> (Range, Range) {
             1.0
         }
     };
+    let at = |i: usize, j: usize| (corner[i][j], corner_p[i][j]);
     let mut growth = [0.0; 2];
-    for k in 0..2 {
-        // A size is the least part of the norm when it is least and the other is most.
-        let ([own, own_p], least, most) = if k == 0 {
-            ([a, a_p], (corner[0][1], corner_p[0][1]), (corner[1][0], corner_p[1][0]))
-        } else {
-            ([b, b_p], (corner[1][0], corner_p[1][0]), (corner[0][1], corner_p[0][1]))
-        };
+    // A size is the least part of the norm when it is least and the other is most.
+    let parts = [(a, a_p, at(0, 1), at(1, 0)), (b, b_p, at(1, 0), at(0, 1))];
+    for ((own, own_p, least, most), its) in parts.into_iter().zip(growths) {
         let slopes =
             [slope(own[0], own_p[0], least.0, least.1), slope(own[1], own_p[1], most.0, most.1)];
         let [low, high] = if p < 1.0 { [slopes[1], slopes[0]] } else { slopes };
         let times = |growth: f64, slope: f64| if growth == 0.0 { 0.0 } else { growth * slope };
-        growth[0] += times(growths[k][0], if growths[k][0] < 0.0 { high } else { low });
-        growth[1] += times(growths[k][1], if growths[k][1] < 0.0 { low } else { high });
+        growth[0] += times(its[0], if its[0] < 0.0 { high } else { low });
+        growth[1] += times(its[1], if its[1] < 0.0 { low } else { high });
     }
     ([unit * corner[0][0], unit * corner[1][1]], growth)
 }

@@ -121,7 +121,7 @@ impl Superquadric {
         let longitude = 0.5 - f64::atan2(-point.x, point.z) / TAU;
         let from_axis = point.x.hypot(point.z);
         let up = if self.is_ring() {
-            let from_middle = self.field.from_axis(point) - self.field.ring;
+            let from_middle = self.field.axis_norm(point) - self.field.ring;
             0.5 + f64::atan2(point.y, from_middle) / TAU
         } else {
             0.5 + f64::atan2(point.y, from_axis) / PI

@@ -177,7 +177,7 @@ proptest! {
         let Some(t) = shape.intersect(from, way, FREE) else { return Ok(()) };
         let point = shape.surface_point(from + t * way);
         let own = ((point.position - shape.center) / shape.radii).abs();
-        prop_assume!(own.min_element() > 0.05 && (shape.field.from_axis(own) - shape.field.ring).abs() > 0.05);
+        prop_assume!(own.min_element() > 0.05 && (shape.field.axis_norm(own) - shape.field.ring).abs() > 0.05);
         let step = 1e-6;
         let slope = |axis: DVec3| {
             let value = |s: f64| value(&shape, point.position + s * axis);
@@ -194,7 +194,7 @@ fn a_ray_that_runs_along_a_straight_line_of_the_surface_ends_soon() {
     // Between its points a star with e1 of 2 is made of straight lines, and an octahedron of planes.
     for exponents in [[2.0, 4.0], [2.0, 2.0], [2.0, 0.7], [2.0, 2.5]] {
         let star = unit(exponents);
-        let h = star.field.from_axis(DVec3::new(0.6, 0.0, 0.3));
+        let h = star.field.axis_norm(DVec3::new(0.6, 0.0, 0.3));
         let (foot, top) = (DVec3::new(0.6 / h, 0.0, 0.3 / h), DVec3::Y);
         let way = (top - foot).normalize();
         for aside in [0.0, 1e-15, 1e-12, 1e-9, 1e-6] {
