@@ -35,10 +35,7 @@ const ROOMS: [(&str, &[&str]); 15] = [
         &["accel", "color", "filter", "footprint", "optics", "ray", "scene", "shape", "trace"],
     ),
     ("stats", &["shade", "trace"]),
-    (
-        "film",
-        &["accel", "color", "filter", "footprint", "scene", "shade", "shape", "stats", "trace"],
-    ),
+    ("film", &["accel", "color", "filter", "footprint", "scene", "shade", "stats", "trace"]),
     ("inspect", &["color", "film", "footprint", "scene", "shade", "trace"]),
 ];
 

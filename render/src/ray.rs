@@ -33,14 +33,15 @@ impl Ray {
     }
 }
 
-/// A piece of surface: one shape of the scene, and for a mesh one of its triangles.
+/// A piece of surface: one shape of the scene, and for a mesh one of its triangles, for a box one of
+/// its faces.
 ///
 /// The order is the tie rule: of two hits at equal distance the smaller piece is seen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Piece {
     /// Index of the object in the scene.
     pub object: u32,
-    /// Index of the triangle in its mesh; 0 for other shapes.
+    /// Index of the triangle in its mesh, or of the face of a box; 0 for other shapes.
     pub triangle: u32,
 }
 

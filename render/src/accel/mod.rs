@@ -13,7 +13,7 @@ mod bvh;
 
 use crate::ray::{Hit, Piece, Ray};
 use crate::shape::triangle::ShearedRay;
-use crate::shape::{Shape, SurfacePoint};
+use crate::shape::{Shape, Start, SurfacePoint};
 use bvh::Bvh;
 use glam::DVec3;
 
@@ -62,15 +62,14 @@ impl<'a> Accel<'a> {
             let piece = Piece { object: object as u32, triangle: 0 };
             let leaf = Leaf { piece, corners: [[0.0; 3]; 3] };
             match shape {
-                Shape::Sphere(sphere) => bounded.push((leaf, sphere.bounds())),
-                Shape::Quad(quad) => match quad.bounds() {
-                    Some(bounds) => bounded.push((leaf, bounds)),
-                    None => apart.push(piece),
-                },
                 Shape::Mesh(mesh) => bounded.extend((0..mesh.triangles.len() as u32).map(|n| {
                     let piece = Piece { triangle: n, ..piece };
                     (Leaf { piece, corners: mesh.corners(n) }, mesh.bounds(n))
                 })),
+                _ => match shape.bounds() {
+                    Some(bounds) => bounded.push((leaf, bounds)),
+                    None => apart.push(piece),
+                },
             }
         }
         let whole = bounded.iter().fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |all, (_, b)| {
@@ -112,11 +111,8 @@ impl<'a> Accel<'a> {
     /// The surface point of a hit of `ray`.
     #[must_use]
     pub fn surface_point(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
-        match self.shapes[hit.piece.object as usize] {
-            Shape::Sphere(sphere) => sphere.surface_point(ray.at(hit.t)),
-            Shape::Quad(quad) => quad.surface_point(ray.at(hit.t)),
-            Shape::Mesh(mesh) => mesh.surface_point(hit.piece.triangle, hit.barycentric),
-        }
+        let shape = self.shapes[hit.piece.object as usize];
+        shape.surface_point(hit.piece.triangle, hit.barycentric, ray.at(hit.t))
     }
 
     /// How far a point that was computed for a surface of this object may lie off it.
@@ -129,10 +125,7 @@ impl<'a> Accel<'a> {
     /// Which of its object's surfaces a hit is on.
     #[must_use]
     pub fn part(&self, hit: &Hit) -> u32 {
-        match self.shapes[hit.piece.object as usize] {
-            Shape::Mesh(mesh) => mesh.triangles[hit.piece.triangle as usize].surface,
-            Shape::Sphere(_) | Shape::Quad(_) => 0,
-        }
+        self.shapes[hit.piece.object as usize].part(hit.piece.triangle)
     }
 
     /// Shows `see` hits up to the distance it last returned, which starts as `t_max`.
@@ -159,29 +152,29 @@ impl<'a> Accel<'a> {
     /// The one hit function: the hit of `ray` with one piece, with `t` in `(0, t_max]`.
     fn try_piece(&self, ray: &Ray, sheared: &ShearedRay, leaf: &Leaf, t_max: f64) -> Option<Hit> {
         let piece = leaf.piece;
-        let leaves = ray.leaving == Some(piece);
         // What lies this near to the start is the surface that the ray leaves, or coincides with it.
         let skin = || {
             ray.leaving.map_or(0.0, |from| {
                 self.rounding(from.object, ray.origin) + self.rounding(piece.object, DVec3::ZERO)
             })
         };
-        let (t, barycentric) = match self.shapes[piece.object as usize] {
-            Shape::Mesh(_) if leaves => return None,
+        let hit = match self.shapes[piece.object as usize] {
+            Shape::Mesh(_) if ray.leaving == Some(piece) => return None,
             Shape::Mesh(_) => {
-                let hit = sheared.intersect(&leaf.corners, t_max)?;
+                let (t, barycentric) = sheared.intersect(&leaf.corners, t_max)?;
                 if ray.leaving.is_some() && sheared.starts_on(&leaf.corners, skin()) {
                     return None;
                 }
-                hit
+                Hit { t, piece, barycentric }
             }
-            Shape::Quad(_) if leaves => return None,
-            Shape::Quad(quad) => (quad.intersect(ray.origin, ray.direction, skin())?, [0.0; 2]),
-            Shape::Sphere(sphere) => {
-                (sphere.intersect(ray.origin, ray.direction, leaves, skin())?, [0.0; 2])
+            shape => {
+                let left = ray.leaving.filter(|from| from.object == piece.object);
+                let start = Start { leaves: left.map(|from| from.triangle), skin: skin() };
+                let (t, face) = shape.intersect(ray.origin, ray.direction, start)?;
+                Hit { t, piece: Piece { triangle: face, ..piece }, barycentric: [0.0; 2] }
             }
         };
-        (t <= t_max).then_some(Hit { t, piece, barycentric })
+        (hit.t <= t_max).then_some(hit)
     }
 }
 

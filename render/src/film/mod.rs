@@ -24,7 +24,6 @@ use crate::accel::Accel;
 use crate::filter::{Filter, FilteredTexture};
 use crate::scene::Scene;
 use crate::shade::Shader;
-use crate::shape::Shape;
 use crate::stats::Stats;
 use crate::trace::Tracer;
 use exposure::{Exposure, Film};
@@ -195,14 +194,10 @@ fn ready_shader<'a>(scene: &'a Scene, accel: &'a Accel<'a>, filter: Filter) -> S
     let seams = scene
         .objects
         .iter()
-        .map(|object| match &object.shape {
+        .map(|object| {
             // Only neighbours that are averaged need to be unwrapped.
-            _ if !filter.wants_area() || object.parts.iter().all(|part| part.texture.is_none()) => {
-                DVec2::ZERO
-            }
-            Shape::Sphere(sphere) => sphere.seam(),
-            Shape::Quad(_) => DVec2::ZERO,
-            Shape::Mesh(mesh) => mesh.seam(),
+            let textured = object.parts.iter().any(|part| part.texture.is_some());
+            if filter.wants_area() && textured { object.shape.seam() } else { DVec2::ZERO }
         })
         .collect();
     Shader { scene, accel, textures, seams }
@@ -213,7 +208,7 @@ mod tests {
     use super::*;
     use crate::color::Color;
     use crate::scene::{Camera, Material, Names, Object, PointLight, Surface};
-    use crate::shape::{Quad, Sphere};
+    use crate::shape::{Quad, Shape, Sphere};
     use crate::texture::{Texture, Wrap};
     use glam::{DAffine3, DVec3};
 

@@ -22,6 +22,11 @@
 //!                      "material": "floor", "texture": "checks", "repeat": [4, 4] } },
 //!     { "plane": { "point": [0, -1, 0], "edge_u": [1, 0, 0], "edge_v": [0, 0, -1],
 //!                  "material": "floor" } },
+//!     { "box": { "low": [-1, 0, -1], "high": [1, 0.2, 1], "material": "floor", "texture": "checks",
+//!                "place": [ { "rotate_deg": { "axis": [0, 1, 0], "angle": 30 } },
+//!                           { "translate": [0, 0, -3] } ] } },
+//!     { "superquadric": { "center": [2, 0.5, 0], "radii": [0.5, 0.5, 0.5], "exponents": [0.3, 1],
+//!                         "material": "floor" } },
 //!     { "mesh": { "name": "vase", "material": "floor", "textures": { "2": "checks" } } }
 //!   ]
 //! }
@@ -40,6 +45,28 @@
 //!
 //! Where two surfaces coincide one of them is seen, the other is not behind it: leave a small gap
 //! between glass and what it stands on.
+//!
+//! | an object's shape | keys | its texture |
+//! |---|---|---|
+//! | `sphere` | `center`, `radius` | a map: longitude from -z over +z, latitude from -y to +y |
+//! | `rectangle` | `corner`, `edge_u`, `edge_v` | `repeat` times, default once each way |
+//! | `plane` | `point`, `edge_u`, `edge_v` | once on the parallelogram, and on from there |
+//! | `box` | `low`, `high`, two corners | once on each face, upright on the four sides |
+//! | `superquadric` | `center`, `radii`, `exponents`, `ring` | as on a sphere; around the tube of a ring |
+//! | `mesh` | `name`, `file` | by its own coordinates |
+//!
+//! `exponents` are Barr's e1 and e2, of the section through the axis y and of that across it, 0.05 to
+//! 4: near 0 a square, 1 a circle, 2 a square on its corner, above it a pinched star. `[1, 1]` is an
+//! ellipsoid, `[0.1, 1]` a drum, `[1, 0.1]` a pillow, `[0.1, 0.1]` a box with rounded edges. With a
+//! `ring` (1 to 1000) it is a supertoroid: `radii` are those of its tube, the middle of which is `ring`
+//! times as far from the axis.
+//!
+//! Any object may have a `"place"`, a list of steps that are taken in their order: `{ "scale": [x, y,
+//! z] }`, `{ "rotate_deg": { "axis": [x, y, z], "angle": a } }` (counter-clockwise as seen from where
+//! the axis points), `{ "translate": [x, y, z] }` and `{ "matrix": [[...], [...], [...]] }` with three
+//! rows of four numbers. All are about the origin of the scene. Mirrors are welcome, and what was
+//! outside stays outside; flat maps are not: the Frobenius norms of the whole matrix and of its inverse
+//! may multiply to at most a million (a turn makes 3).
 //!
 //! # Meshes
 //!
@@ -75,7 +102,8 @@ mod texture;
 pub use color::ColorFile;
 pub use light::{LightFile, PointLightFile};
 pub use material::MaterialFile;
-pub use object::{MeshFile, ObjectFile, PlaneFile, RectangleFile, SphereFile};
+pub use object::{BoxFile, MeshFile, ObjectFile, PlaneFile, RectangleFile};
+pub use object::{RotateDegFile, SphereFile, StepFile, SuperquadricFile};
 pub use part::{FORMAT as PART_FORMAT, Lists, PartFile};
 pub use texture::TextureFile;
 
@@ -190,7 +218,7 @@ mod tests {
     fn the_example_on_this_page_is_a_scene() {
         let text = &examples()[0];
         let scene: SceneFile = Document::new("page", text.as_bytes()).unwrap().parse().unwrap();
-        assert_eq!(scene.objects.len(), 4);
+        assert_eq!(scene.objects.len(), 6);
         assert_eq!(scene.ambient, ColorFile([0.2; 3]));
     }
 

@@ -52,7 +52,8 @@ pub struct Scene {
 pub struct Object {
     /// Its shape.
     pub shape: Shape,
-    /// Its surfaces: one, or for a mesh one for each name that `usemtl` gave.
+    /// Its surfaces: one, or for a mesh one for each name that `usemtl` gave, or six alike for a
+    /// box, each a textured area by itself.
     pub parts: Vec<Surface>,
     /// From the scene's space to the one that the object was described in: what is solid in the
     /// object, such as marble, is looked up there and moves with it.

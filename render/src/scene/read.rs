@@ -7,6 +7,8 @@ mod libraries;
 mod lights;
 mod materials;
 mod objects;
+mod place;
+mod solids;
 mod textures;
 
 pub use draft::{Draft, Sheet};

@@ -14,7 +14,7 @@ use crate::footprint::Footprint;
 use crate::footprint::neighbours::Neighbourhood;
 use crate::optics;
 use crate::scene::{Material, Scene};
-use crate::shape::{SeamPeriod, Shape};
+use crate::shape::SeamPeriod;
 use crate::trace::tree::{Branch, Node};
 use observer::{Local, Observer, Seen, Textured, Way};
 use shadow::transmission;
@@ -106,9 +106,10 @@ impl Shader<'_> {
                     Footprint::Rectangle { .. } => counts.areas += 1,
                 }
                 let object = &self.scene.objects[node.piece.object as usize];
-                let average = match object.shape {
-                    Shape::Sphere(_) => texture.average(&texture.between_poles(footprint)),
-                    Shape::Quad(_) | Shape::Mesh(_) => texture.average(&footprint),
+                let average = if object.shape.has_poles() {
+                    texture.average(&texture.between_poles(footprint))
+                } else {
+                    texture.average(&footprint)
                 };
                 Textured { footprint, average }
             });

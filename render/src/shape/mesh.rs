@@ -1,6 +1,6 @@
 //! The triangle mesh, with the coordinates exactly as its file holds them.
 
-use super::{SeamPeriod, SurfacePoint};
+use super::{Placement, PlacementError, SeamPeriod, SurfacePoint};
 use glam::{DVec2, DVec3};
 use std::collections::HashMap;
 use thiserror::Error;
@@ -108,6 +108,32 @@ impl Mesh {
             }
         }
         Ok(())
+    }
+
+    /// It moved: coordinates are computed in `f64` and rounded once. In a mirror the corners of
+    /// each triangle are turned round, so that its outside stays its outside.
+    ///
+    /// # Errors
+    /// When a coordinate leaves the range of `f32`.
+    pub fn placed(mut self, placement: &Placement) -> Result<Self, PlacementError> {
+        for (number, position) in self.positions.iter_mut().enumerate() {
+            let moved = placement.to_scene().transform_point3(as_dvec3(*position)).as_vec3();
+            if !moved.is_finite() {
+                return Err(PlacementError::Far(number));
+            }
+            *position = moved.into();
+        }
+        for normal in &mut self.normals {
+            *normal = placement.normal(as_dvec3(*normal)).normalize_or_zero().as_vec3().into();
+        }
+        if placement.mirrors() {
+            for triangle in &mut self.triangles {
+                for corners in [&mut triangle.position, &mut triangle.uv, &mut triangle.normal] {
+                    corners.swap(1, 2);
+                }
+            }
+        }
+        Ok(self)
     }
 
     /// The three corners of a triangle.

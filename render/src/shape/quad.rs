@@ -1,12 +1,12 @@
 //! The rectangle (any parallelogram) and the plane it lies in.
 
-use super::SurfacePoint;
+use super::{Placement, PlacementError, SurfacePoint};
 use glam::{DVec2, DVec3};
 
 /// A parallelogram `corner + a edge_u + b edge_v` with `a` and `b` in `[0, 1]`, or the whole plane.
 ///
 /// Texture coordinates are `(a, b) * repeat`; the side that `edge_u x edge_v` points to is the
-/// outside.
+/// outside, and in a mirror the other one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Quad {
     corner: DVec3,
@@ -41,6 +41,22 @@ impl Quad {
         let dual_u = edge_v.cross(normal) / area;
         let dual_v = normal.cross(edge_u) / area;
         Some(Self { corner, edge_u, edge_v, repeat, bounded, normal, dual_u, dual_v })
+    }
+
+    /// It moved, in `f64`; its outside stays its outside.
+    ///
+    /// # Errors
+    /// When its edges become parallel.
+    pub fn placed(&self, placement: &Placement) -> Result<Self, PlacementError> {
+        let way = placement.to_scene();
+        let [edge_u, edge_v] = [self.edge_u, self.edge_v].map(|edge| way.transform_vector3(edge));
+        let corner = way.transform_point3(self.corner);
+        let moved = Self::new(corner, edge_u, edge_v, self.repeat, self.bounded);
+        let mut moved = moved.ok_or(PlacementError::Parallel)?;
+        if moved.normal.dot(placement.normal(self.normal)) < 0.0 {
+            moved.normal = -moved.normal;
+        }
+        Ok(moved)
     }
 
     /// The distance above 0 at which the ray meets it; not at all when the ray starts within

@@ -79,16 +79,7 @@ impl Skin {
 /// The box around an item; nothing for what has no end.
 #[must_use]
 pub fn bounds(item: &Item<'_>) -> Option<[DVec3; 2]> {
-    match &item.object.shape {
-        Shape::Sphere(sphere) => Some(sphere.bounds()),
-        Shape::Quad(quad) => quad.bounds(),
-        Shape::Mesh(mesh) => {
-            let points = || mesh.positions.iter().map(|&p| as_dvec3(p));
-            let low = points().fold(DVec3::INFINITY, DVec3::min);
-            let high = points().fold(DVec3::NEG_INFINITY, DVec3::max);
-            Some([low, high])
-        }
-    }
+    item.object.shape.bounds()
 }
 
 /// Whether a point is inside a closed item; nothing for one that is open.
@@ -96,6 +87,10 @@ pub fn bounds(item: &Item<'_>) -> Option<[DVec3; 2]> {
 pub fn contains(item: &Item<'_>, point: DVec3) -> Option<bool> {
     match &item.object.shape {
         Shape::Sphere(sphere) => Some(point.distance(sphere.center) < sphere.radius),
+        Shape::Cuboid(cuboid) => {
+            let [low, high] = cuboid.bounds();
+            Some(point.cmpgt(low).all() && point.cmplt(high).all())
+        }
         Shape::Mesh(mesh) => {
             let closed = item.skin.is_some_and(|skin| skin.is_closed());
             closed.then(|| winding(mesh, point).abs() > 0.5)
@@ -137,6 +132,7 @@ pub fn height(item: &Item<'_>, point: DVec3) -> Option<f64> {
                 .filter_map(|triangle| above(mesh.corners(triangle).map(as_dvec3), point));
             heights.min_by(f64::total_cmp)
         }
+        Shape::Cuboid(_) | Shape::Superquadric(_) | Shape::Placed(_) => None,
     }
 }
 

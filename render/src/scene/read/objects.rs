@@ -6,9 +6,9 @@ use super::{Reader, SceneError};
 use crate::scene::file::{MeshFile, ObjectFile};
 use crate::scene::{Object, Surface, obj};
 use crate::shape::mesh::{NONE, Triangle};
-use crate::shape::{Mesh, Quad, Shape, Sphere};
+use crate::shape::{Mesh, Placement, Quad, Shape, Sphere};
 use files::json::nearest;
-use glam::{DAffine3, DVec2, DVec3};
+use glam::{DVec2, DVec3};
 use std::collections::BTreeMap;
 
 impl Reader<'_> {
@@ -18,6 +18,7 @@ impl Reader<'_> {
             match object {
                 ObjectFile::Mesh(mesh) => {
                     self.mesh_bindings(place, mesh)?;
+                    self.placement(&format!("objects[{place}].mesh"), &mesh.place)?;
                 }
                 _ => {
                     self.object(place, object)?;
@@ -41,13 +42,13 @@ impl Reader<'_> {
 
     /// Any object but a mesh.
     fn object(&self, place: usize, object: &ObjectFile) -> Result<Object, SceneError> {
-        let (kind, shape, material, texture) = match object {
+        let (kind, shape, material, texture, steps) = match object {
             ObjectFile::Sphere(sphere) => {
                 let at = format!("objects[{place}].sphere");
                 let center = self.vector(&format!("{at}.center"), sphere.center)?;
                 let radius = self.above_zero(&format!("{at}.radius"), sphere.radius)?;
                 let shape = Shape::Sphere(Sphere { center, radius });
-                ("sphere", shape, &sphere.material, &sphere.texture)
+                ("sphere", shape, &sphere.material, &sphere.texture, &sphere.place)
             }
             ObjectFile::Rectangle(quad) => {
                 let at = format!("objects[{place}].rectangle");
@@ -57,14 +58,22 @@ impl Reader<'_> {
                 let corner = self.vector(&format!("{at}.corner"), quad.corner)?;
                 let corners = [corner, quad.edge_u.into(), quad.edge_v.into()];
                 let shape = self.quad(&at, corners, quad.repeat, true)?;
-                ("rectangle", shape, &quad.material, &quad.texture)
+                ("rectangle", shape, &quad.material, &quad.texture, &quad.place)
             }
             ObjectFile::Plane(plane) => {
                 let at = format!("objects[{place}].plane");
                 let point = self.vector(&format!("{at}.point"), plane.point)?;
                 let corners = [point, plane.edge_u.into(), plane.edge_v.into()];
                 let shape = self.quad(&at, corners, [1.0; 2], false)?;
-                ("plane", shape, &plane.material, &plane.texture)
+                ("plane", shape, &plane.material, &plane.texture, &plane.place)
+            }
+            ObjectFile::Box(file) => {
+                let shape = self.cuboid(&format!("objects[{place}].box"), file)?;
+                ("box", shape, &file.material, &file.texture, &file.place)
+            }
+            ObjectFile::Superquadric(file) => {
+                let shape = self.superquadric(&format!("objects[{place}].superquadric"), file)?;
+                ("superquadric", shape, &file.material, &file.texture, &file.place)
             }
             ObjectFile::Mesh(_) => return self.fault(&format!("objects[{place}]"), "found a mesh"),
         };
@@ -74,8 +83,23 @@ impl Reader<'_> {
             Some(name) => Some(self.texture_index(&format!("{at}.texture"), name)?),
             None => None,
         };
-        let parts = vec![Surface { material, texture }];
-        Ok(Object { shape, parts, to_own_space: DAffine3::IDENTITY })
+        let parts = vec![Surface { material, texture }; shape.parts()];
+        let placement = self.placement(&at, steps)?;
+        self.placed(&at, shape, parts, &placement)
+    }
+
+    /// The object, placed.
+    fn placed(
+        &self,
+        path: &str,
+        shape: Shape,
+        parts: Vec<Surface>,
+        placement: &Placement,
+    ) -> Result<Object, SceneError> {
+        match shape.placed(placement) {
+            Ok(shape) => Ok(Object { shape, parts, to_own_space: placement.to_own() }),
+            Err(error) => self.fault(&format!("{path}.place"), error.to_string()),
+        }
     }
 
     fn quad(
@@ -132,8 +156,8 @@ impl Reader<'_> {
             parts.push(self.bind(&at, file, &bindings, name, own)?);
         }
         self.places_of_textures(&at, file, &mesh, &parts)?;
-        let shape = Shape::Mesh(mesh);
-        Ok(Object { shape, parts, to_own_space: DAffine3::IDENTITY })
+        let placement = self.placement(&at, &file.place)?;
+        self.placed(&at, Shape::Mesh(mesh), parts, &placement)
     }
 
     /// Refuses a mesh that shows a texture where it does not say which part of it.

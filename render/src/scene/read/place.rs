@@ -1,0 +1,90 @@
+//! Where an object is placed: the steps of its `place`, joined to one map.
+
+use super::{Reader, SceneError};
+use crate::scene::file::{RotateDegFile, StepFile};
+use crate::shape::Placement;
+use glam::{DAffine3, DMat3, DVec3};
+
+impl Reader<'_> {
+    /// The placement of the object at `path`; that of no steps changes nothing.
+    pub(super) fn placement(
+        &self,
+        path: &str,
+        steps: &[StepFile],
+    ) -> Result<Placement, SceneError> {
+        let mut whole = DAffine3::IDENTITY;
+        for (k, step) in steps.iter().enumerate() {
+            let at = |key: &str| format!("{path}.place[{k}].{key}");
+            let step = match step {
+                StepFile::Scale(factors) => {
+                    if let Some(axis) = factors.iter().position(|&factor| factor == 0.0) {
+                        return self.fault(
+                            &format!("{}[{axis}]", at("scale")),
+                            "found 0, expected any other number",
+                        );
+                    }
+                    DAffine3::from_scale(DVec3::from(*factors))
+                }
+                StepFile::RotateDeg(turn) => match rotation(turn) {
+                    Some(turn) => DAffine3::from_mat3(turn),
+                    None => {
+                        return self.fault(
+                            &at("rotate_deg.axis"),
+                            "found an axis without length, expected a direction",
+                        );
+                    }
+                },
+                StepFile::Translate(way) => DAffine3::from_translation(DVec3::from(*way)),
+                StepFile::Matrix(rows) => {
+                    let column = |k: usize| DVec3::new(rows[0][k], rows[1][k], rows[2][k]);
+                    DAffine3::from_cols(column(0), column(1), column(2), column(3))
+                }
+            };
+            whole = step * whole;
+        }
+        match Placement::new(whole) {
+            Ok(placement) => Ok(placement),
+            Err(error) => self.fault(&format!("{path}.place"), error.to_string()),
+        }
+    }
+}
+
+/// A turn; quarters of it are exact about the axes.
+fn rotation(turn: &RotateDegFile) -> Option<DMat3> {
+    let axis = DVec3::from(turn.axis).try_normalize()?;
+    let angle = turn.angle % 360.0;
+    let (sine, cosine) = match angle {
+        0.0 => (0.0, 1.0),
+        90.0 | -270.0 => (1.0, 0.0),
+        180.0 | -180.0 => (0.0, -1.0),
+        270.0 | -90.0 => (-1.0, 0.0),
+        _ => angle.to_radians().sin_cos(),
+    };
+    // Rodrigues: what lies along the axis stays, the rest is turned.
+    let turned = |v: DVec3| {
+        let along = v.dot(axis) * axis;
+        cosine * (v - along) + sine * axis.cross(v) + along
+    };
+    let [x, y, z] = DVec3::AXES.map(turned);
+    Some(DMat3::from_cols(x, y, z))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn turn(axis: [f64; 3], angle: f64) -> DMat3 {
+        rotation(&RotateDegFile { axis, angle }).unwrap()
+    }
+
+    #[test]
+    fn turns_are_counter_clockwise_and_quarters_exact() {
+        assert_eq!(turn([0.0, 3.0, 0.0], 90.0) * DVec3::Z, DVec3::X);
+        assert_eq!(turn([0.0, 0.0, 1.0], -450.0) * DVec3::X, DVec3::NEG_Y);
+        assert_eq!(turn([1.0, 0.0, 0.0], 720.0), DMat3::IDENTITY);
+        let truth = DMat3::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 0.3);
+        let ours = turn([3.0, 0.0, 4.0], 0.3f64.to_degrees());
+        assert!(ours.abs_diff_eq(truth, 1e-15), "{ours}");
+        assert!(rotation(&RotateDegFile { axis: [0.0; 3], angle: 1.0 }).is_none());
+    }
+}

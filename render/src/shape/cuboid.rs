@@ -1,0 +1,191 @@
+//! The box, called cuboid since `box` is a word of the language.
+//!
+//! Its faces, each with its number and the directions in which its texture runs across and up:
+//!
+//! ```text
+//!              +-------+
+//!              | 3  +y |   across +x, up -z
+//!              |       |
+//!      +-------+-------+-------+-------+
+//!      | 0  -x | 5  +z | 1  +x | 4  -z |   up +y; across +z, +x, -z, -x
+//!      |       |       |       |       |
+//!      +-------+-------+-------+-------+
+//!              | 2  -y |   across +x, up +z
+//!              |       |
+//!              +-------+
+//! ```
+//!
+//! This is the box unfolded, seen from outside: no face is mirrored, and the four sides stand
+//! upright. Each face shows the whole texture and is a textured area by itself: what a pixel sees
+//! of two faces is not averaged as one piece of texture.
+
+use super::{Start, SurfacePoint};
+use glam::{DVec2, DVec3};
+
+/// How many faces a box has.
+pub const FACES: usize = 6;
+
+/// An axis-parallel box.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cuboid {
+    low: DVec3,
+    high: DVec3,
+}
+
+impl Cuboid {
+    /// The box between two corners; nothing unless each coordinate of `low` is less than that of
+    /// `high`.
+    #[must_use]
+    pub fn new(low: DVec3, high: DVec3) -> Option<Self> {
+        low.cmplt(high).all().then_some(Self { low, high })
+    }
+
+    /// The nearest distance above 0 at which the ray meets the box, and the face.
+    ///
+    /// A ray that starts on a face, by `start`, does not meet that face.
+    #[must_use]
+    pub fn intersect(&self, origin: DVec3, direction: DVec3, start: Start) -> Option<(f64, u32)> {
+        // Between three pairs of planes: in after the last entry, out at the first exit.
+        let mut enter = (f64::NEG_INFINITY, 0);
+        let mut leave = (f64::INFINITY, 0);
+        for axis in 0..3 {
+            let [below, above] = [self.low[axis] - origin[axis], self.high[axis] - origin[axis]];
+            if direction[axis] == 0.0 {
+                if below > 0.0 || above < 0.0 {
+                    return None;
+                }
+                continue;
+            }
+            let low = (below / direction[axis], 2 * axis as u32);
+            let high = (above / direction[axis], 2 * axis as u32 + 1);
+            let (near, far) = if direction[axis] > 0.0 { (low, high) } else { (high, low) };
+            if near.0 > enter.0 {
+                enter = near;
+            }
+            if far.0 < leave.0 {
+                leave = far;
+            }
+        }
+        if enter.0 > leave.0 {
+            return None;
+        }
+        let counts = |(t, face): &(f64, u32)| {
+            let off = self.plane(*face) - origin[*face as usize / 2];
+            *t > 0.0 && *t < f64::INFINITY && start.leaves != Some(*face) && off.abs() > start.skin
+        };
+        [enter, leave].into_iter().find(counts)
+    }
+
+    /// The surface point on a face; `near` is the hit as found along the ray.
+    #[must_use]
+    pub fn surface_point(&self, face: u32, near: DVec3) -> SurfacePoint {
+        let axis = face as usize / 2;
+        let mut position = near.clamp(self.low, self.high);
+        position[axis] = self.plane(face);
+        let mut normal = DVec3::ZERO;
+        normal[axis] = if face.is_multiple_of(2) { -1.0 } else { 1.0 };
+        // From one side to the other, along each axis; and the other way round.
+        let to = (position - self.low) / (self.high - self.low);
+        let back = (self.high - position) / (self.high - self.low);
+        let uv = match face {
+            0 => DVec2::new(to.z, to.y),
+            1 => DVec2::new(back.z, to.y),
+            2 => DVec2::new(to.x, to.z),
+            3 => DVec2::new(to.x, back.z),
+            4 => DVec2::new(back.x, to.y),
+            _ => DVec2::new(to.x, to.y),
+        };
+        SurfacePoint { position, geometric_normal: normal, shading_normal: normal, uv, part: face }
+    }
+
+    /// Lower and upper corner.
+    #[must_use]
+    pub fn bounds(&self) -> [DVec3; 2] {
+        [self.low, self.high]
+    }
+
+    /// Where the plane of a face crosses its axis.
+    fn plane(&self, face: u32) -> f64 {
+        let corner = if face.is_multiple_of(2) { self.low } else { self.high };
+        corner[face as usize / 2]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const FREE: Start = Start { leaves: None, skin: 0.0 };
+
+    fn brick() -> Cuboid {
+        Cuboid::new(DVec3::new(-1.0, -2.0, -3.0), DVec3::new(1.0, 2.0, 5.0)).unwrap()
+    }
+
+    #[test]
+    fn no_texture_of_a_face_is_mirrored_seen_from_outside() {
+        let brick = brick();
+        let middle = 0.5 * (brick.low + brick.high);
+        for face in 0..FACES as u32 {
+            let at = brick.surface_point(face, middle);
+            assert_eq!((at.uv, at.part), (DVec2::splat(0.5), face));
+            let slope = |axis: DVec3| {
+                let there = brick.surface_point(face, middle + axis);
+                (there.uv - at.uv) / axis.length()
+            };
+            let slopes = DVec3::AXES.map(slope);
+            let across = DVec3::from(slopes.map(|slope| slope.x));
+            let up = DVec3::from(slopes.map(|slope| slope.y));
+            let outward = across.cross(up).normalize();
+            assert_eq!(outward, at.geometric_normal, "face {face}");
+            assert_eq!(
+                (at.position - middle).dot(outward).abs(),
+                outward.abs().dot(brick.high - middle)
+            );
+            if face != 2 && face != 3 {
+                assert!(up.y > 0.0 && up.x == 0.0 && up.z == 0.0, "face {face} stands upright");
+            }
+        }
+    }
+
+    #[test]
+    fn a_box_without_thickness_is_none() {
+        assert!(Cuboid::new(DVec3::ZERO, DVec3::new(1.0, 0.0, 1.0)).is_none());
+        assert!(Cuboid::new(DVec3::ONE, DVec3::ZERO).is_none());
+        assert!(Cuboid::new(DVec3::ZERO, DVec3::new(1.0, f64::NAN, 1.0)).is_none());
+    }
+
+    #[test]
+    fn a_ray_along_a_face_passes_and_one_beside_it_does_not_hit() {
+        let along = |x: f64| brick().intersect(DVec3::new(x, 0.0, 9.0), DVec3::NEG_Z, FREE);
+        assert_eq!(along(1.0), Some((4.0, 5)));
+        assert_eq!(along(1.0f64.next_up()), None);
+    }
+
+    proptest! {
+        /// The way through a box from a face to another: in at the one, out at the other, and
+        /// nothing before it and after it.
+        #[test]
+        fn a_ray_through_two_faces_meets_both(
+            from in 0u32..6, to in 0u32..6, a in prop::array::uniform3(0.01..0.99f64),
+            b in prop::array::uniform3(0.01..0.99f64), before in 0.1..100.0f64,
+        ) {
+            prop_assume!(from != to);
+            let brick = brick();
+            let size = brick.high - brick.low;
+            let enter = brick.surface_point(from, brick.low + size * DVec3::from(a)).position;
+            let leave = brick.surface_point(to, brick.low + size * DVec3::from(b)).position;
+            let direction = (leave - enter).normalize();
+            let origin = enter - before * direction;
+            let (t, face) = brick.intersect(origin, direction, FREE).unwrap();
+            prop_assert!(face == from && (t - before).abs() < 1e-12, "{t} {face}");
+            let skin = 1e-13;
+            let inside = Start { leaves: Some(from), skin };
+            let (t, face) = brick.intersect(enter, direction, inside).unwrap();
+            prop_assert!(face == to && (t - enter.distance(leave)).abs() < 1e-12, "{t} {face}");
+            let outside = Start { leaves: Some(to), skin };
+            prop_assert_eq!(brick.intersect(leave, direction, outside), None);
+            prop_assert_eq!(brick.intersect(leave, direction, Start { leaves: None, skin }), None);
+        }
+    }
+}

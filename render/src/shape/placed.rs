@@ -1,0 +1,218 @@
+//! A shape that is put somewhere by an affine map: a sphere becomes an ellipsoid, a box is turned.
+//!
+//! The shape stays what it is; rays are brought to its own space and what they find is brought
+//! back. Distances along a ray keep their ratios on the way, so the nearest hit stays the nearest.
+
+use super::{Placement, Shape, Start, SurfacePoint};
+use glam::DVec3;
+
+/// Roundings of the largest coordinate by which the computed box of a placed shape is widened.
+const ROUNDINGS: f64 = 16.0;
+
+/// A shape and its placement; made by [`Shape::placed`].
+#[derive(Debug, Clone)]
+pub struct Placed {
+    shape: Box<Shape>,
+    placement: Placement,
+    /// The most by which a length grows on the way to the shape's own space.
+    growth: f64,
+}
+
+impl Placed {
+    /// A curved shape or a box, placed.
+    pub(super) fn new(shape: Shape, placement: Placement) -> Self {
+        let columns = placement.to_own().matrix3.to_cols_array();
+        let growth = columns.into_iter().map(|x| x * x).sum::<f64>().sqrt();
+        Self { shape: Box::new(shape), placement, growth }
+    }
+
+    /// The shape in its own space.
+    #[must_use]
+    pub fn shape(&self) -> &Shape {
+        &self.shape
+    }
+
+    /// As [`Shape::intersect`], in the scene's space.
+    #[must_use]
+    pub fn intersect(&self, origin: DVec3, direction: DVec3, start: Start) -> Option<(f64, u32)> {
+        let to_own = self.placement.to_own();
+        let along = to_own.transform_vector3(direction);
+        let length = along.length();
+        let start = Start { skin: self.growth * start.skin, ..start };
+        let origin = to_own.transform_point3(origin);
+        let (t, face) = self.shape.intersect(origin, along / length, start)?;
+        let t = t / length;
+        (t > 0.0 && t < f64::INFINITY).then_some((t, face))
+    }
+
+    /// As [`Shape::surface_point`], in the scene's space.
+    #[must_use]
+    pub fn surface_point(&self, face: u32, near: DVec3) -> SurfacePoint {
+        let near = self.placement.to_own().transform_point3(near);
+        let own = self.shape.surface_point(face, [0.0; 2], near);
+        let turned = |normal: DVec3| self.placement.normal(normal).normalize_or(DVec3::Y);
+        SurfacePoint {
+            position: self.placement.to_scene().transform_point3(own.position),
+            geometric_normal: turned(own.geometric_normal),
+            shading_normal: turned(own.shading_normal),
+            ..own
+        }
+    }
+
+    /// Lower and upper corner of its box.
+    #[must_use]
+    pub fn bounds(&self) -> [DVec3; 2] {
+        let to_scene = self.placement.to_scene();
+        let [low, high] = match &*self.shape {
+            // An ellipsoid reaches as far along an axis as that row of the map is long.
+            Shape::Sphere(sphere) => {
+                let rows = to_scene.matrix3.transpose();
+                let rows = [rows.x_axis, rows.y_axis, rows.z_axis].map(DVec3::length);
+                let reach = sphere.radius * DVec3::from(rows);
+                let middle = to_scene.transform_point3(sphere.center);
+                [middle - reach, middle + reach]
+            }
+            shape => self.placement.bounds(shape.bounds().unwrap_or([DVec3::ZERO; 2])),
+        };
+        let widening = ROUNDINGS * f64::EPSILON * self.extent();
+        [low - widening, high + widening]
+    }
+
+    /// The largest coordinate, without its sign, that its points are computed from.
+    #[must_use]
+    pub fn extent(&self) -> f64 {
+        let own = DVec3::splat(self.shape.extent());
+        let [low, high] = self.placement.bounds([-own, own]);
+        low.abs().max(high.abs()).max_element()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::{Cuboid, Quad, Sphere, Superquadric};
+    use glam::{DAffine3, DMat3, DVec2};
+    use proptest::prelude::*;
+
+    const FREE: Start = Start { leaves: None, skin: 0.0 };
+
+    fn vector(size: f64) -> impl Strategy<Value = DVec3> {
+        prop::array::uniform3(-size..size).prop_map(DVec3::from)
+    }
+
+    /// Turned, sheared, stretched, mirrored, moved: not flatter than a hundredth.
+    fn placement() -> impl Strategy<Value = Placement> {
+        let linear = (vector(2.0), vector(2.0), vector(2.0));
+        (linear, vector(10.0)).prop_filter_map("not flat", |((x, y, z), way)| {
+            let linear = DMat3::from_cols(x, y, z);
+            let thick = linear.determinant().abs() > 0.01;
+            thick.then(|| Placement::new(DAffine3::from_mat3_translation(linear, way)).unwrap())
+        })
+    }
+
+    fn solid() -> impl Strategy<Value = Shape> {
+        let center = DVec3::new(0.1, -0.3, 0.2);
+        let superquadric = (0.1..3.0f64, 0.1..3.0f64).prop_map(move |(e1, e2)| {
+            let radii = DVec3::new(0.6, 0.9, 1.1);
+            Shape::Superquadric(Superquadric::new(center, radii, [e1, e2], None).unwrap())
+        });
+        let cuboid = Cuboid::new(DVec3::new(-1.0, -0.5, -0.8), DVec3::new(0.7, 0.9, 1.0)).unwrap();
+        prop_oneof![
+            Just(Shape::Sphere(Sphere { center, radius: 0.8 })),
+            Just(Shape::Cuboid(cuboid)),
+            superquadric,
+        ]
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(1000))]
+
+        /// What a ray meets on a placed shape is what the ray that was brought to the shape meets,
+        /// brought back; its normal is across the surface and points out, also in a mirror; and a
+        /// ray that leaves does not meet its start.
+        #[test]
+        fn a_hit_lies_on_the_placed_surface(
+            solid in solid(), placement in placement(), from in vector(30.0), aim in vector(0.6),
+        ) {
+            let Ok(shape) = solid.clone().placed(&placement) else { unreachable!() };
+            let target = placement.to_scene().transform_point3(aim);
+            let direction = (target - from).normalize();
+            prop_assume!(from.distance(target) > 12.0);
+            let Some((t, face)) = shape.intersect(from, direction, FREE) else { return Ok(()) };
+            let point = shape.surface_point(face, [0.0; 2], from + t * direction);
+            let back = placement.to_own().transform_point3(point.position);
+            let own = solid.surface_point(face, [0.0; 2], back);
+            // A hundred roundings of coordinates up to 40, which the way back makes a hundred times
+            // as large at most.
+            prop_assert!(own.position.distance(back) < 1e-10, "{} {back}", own.position);
+            prop_assert!((own.uv - point.uv).abs().max_element() < 1e-6 || own.uv.y > 0.99 || own.uv.y < 0.01
+                || (own.uv.x - point.uv.x).abs() > 0.99);
+            prop_assert!(point.position.distance(from + t * direction) < 1e-9);
+
+            let normal = point.geometric_normal;
+            prop_assert!((normal.length() - 1.0).abs() < 1e-14);
+            let (a, b) = own.geometric_normal.any_orthonormal_pair();
+            for tangent in [a, b].map(|own| placement.to_scene().transform_vector3(own)) {
+                prop_assert!(normal.dot(tangent.normalize()).abs() < 1e-9);
+            }
+            let outward = placement.to_own().transform_vector3(normal).dot(own.geometric_normal);
+            prop_assert!(outward > 0.0, "{outward}");
+
+            let [low, high] = shape.bounds().unwrap();
+            prop_assert!(point.position.cmpge(low).all() && point.position.cmple(high).all());
+            prop_assert!(shape.extent() >= point.position.abs().max_element());
+
+            // A rounding as the renderer takes it.
+            let skin = 64.0 * f64::EPSILON * (2.0 * shape.extent() + point.position.abs().max_element());
+            let start = Start { leaves: Some(face), skin };
+            let next = shape.intersect(point.position, normal, start);
+            let convex = !matches!(&solid, Shape::Superquadric(_));
+            prop_assert!(next.is_none() || !convex, "{next:?}");
+            if let Some((t, face)) = shape.intersect(point.position, direction, start) {
+                let there = shape.surface_point(face, [0.0; 2], point.position + t * direction);
+                prop_assert!(t > skin && there.position.distance(point.position) > skin);
+            }
+        }
+
+        /// A rectangle and the plane under it, placed: the same place on the picture, and the same
+        /// side outside.
+        #[test]
+        fn a_placed_rectangle_keeps_its_picture_and_its_outside(
+            placement in placement(), a in 0.0..1.0f64, b in 0.0..1.0f64, bounded in any::<bool>(),
+        ) {
+            let edges = [DVec3::new(1.0, 0.2, 0.0), DVec3::new(-0.1, 1.0, 0.3)];
+            let quad = Quad::new(DVec3::ONE, edges[0], edges[1], DVec2::new(2.0, 3.0), bounded).unwrap();
+            let moved = quad.placed(&placement).unwrap();
+            let own = DVec3::ONE + a * edges[0] + b * edges[1];
+            let point = moved.surface_point(placement.to_scene().transform_point3(own));
+            prop_assert!(point.uv.abs_diff_eq(DVec2::new(2.0 * a, 3.0 * b), 1e-9), "{}", point.uv);
+            let outward = quad.surface_point(own).geometric_normal;
+            let above = placement.to_scene().transform_point3(own + outward) - point.position;
+            prop_assert!(above.dot(point.geometric_normal) > 0.0);
+        }
+    }
+
+    #[test]
+    fn a_stretched_sphere_is_the_ellipsoid() {
+        let radii = DVec3::new(2.0, 0.5, 3.0);
+        let placement = Placement::new(DAffine3::from_scale(radii)).unwrap();
+        let sphere = Shape::Sphere(Sphere { center: DVec3::ZERO, radius: 1.0 });
+        let ellipsoid = sphere.placed(&placement).unwrap();
+        for k in 0..1000 {
+            let angle = f64::from(k) * 0.7;
+            let from = DVec3::new(5.0 * angle.cos(), 4.0 * (0.3 * angle).sin(), 6.0 * angle.sin());
+            let direction = (DVec3::new(0.3, 0.1, -0.4) - from).normalize();
+            // |(from + t direction) / radii| = 1, by the formula of the quadratic.
+            let (o, d) = (from / radii, direction / radii);
+            let (a, b, c) = (d.length_squared(), o.dot(d), o.length_squared() - 1.0);
+            let truth = (-b - (b * b - a * c).sqrt()) / a;
+            let (t, face) = ellipsoid.intersect(from, direction, FREE).unwrap();
+            assert!((t - truth).abs() < 1e-12, "{t} {truth}");
+            let point = ellipsoid.surface_point(face, [0.0; 2], from + t * direction);
+            let normal = (point.position / (radii * radii)).normalize();
+            assert!(point.geometric_normal.abs_diff_eq(normal, 1e-12));
+        }
+        let bounds = ellipsoid.bounds().unwrap();
+        assert!(bounds[1].abs_diff_eq(radii, 1e-13) && bounds[1].cmpge(radii).all());
+    }
+}

@@ -1,0 +1,201 @@
+//! The function whose level 1 is the surface, along rays and over pieces of them.
+//!
+//! With h the norm of (x, z) of order 2/e2 it is the norm of (h - ring, y) of order 2/e1, where
+//! "norm" is (|a|^p + |b|^p)^(1/p) for p below 1 too. Barr's inside-outside function is a power of
+//! it, with the same level 1; the norm itself grows evenly, like a distance, and nothing overflows.
+//!
+//! A norm grows with each of its two sizes. So its range over a box of sizes is that between two
+//! corners, and the same is true of the terms of its slope: bounds over a piece of a ray are exact
+//! for the box around that piece.
+
+use glam::DVec3;
+
+/// The function.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Field {
+    /// The order 2/e1 of the sections through the axis.
+    pub section: f64,
+    /// The order 2/e2 of the sections across it.
+    pub across: f64,
+    /// The middle of the tube, from the axis; 0 for a superellipsoid.
+    pub ring: f64,
+}
+
+/// A line through the field.
+#[derive(Debug, Clone, Copy)]
+pub struct Line {
+    /// The field.
+    pub field: Field,
+    /// Where `t` is 0.
+    pub from: DVec3,
+    /// By how much a `t` of 1 goes on.
+    pub step: DVec3,
+}
+
+/// A closed range of numbers.
+pub type Range = [f64; 2];
+
+/// `(a^p + b^p)^(1/p)` of two numbers that are at least 0.
+fn norm(a: f64, b: f64, p: f64) -> f64 {
+    let (small, large) = if a < b { (a, b) } else { (b, a) };
+    if small == 0.0 {
+        large
+    } else if p == 2.0 {
+        (a * a + b * b).sqrt()
+    } else {
+        large * (1.0 + (small / large).powf(p)).powf(1.0 / p)
+    }
+}
+
+/// The slope of the norm in one of its sizes, which is `ratio` times the norm.
+fn slope(ratio: f64, p: f64) -> f64 {
+    if p == 2.0 { ratio } else { ratio.powf(p - 1.0) }
+}
+
+impl Field {
+    /// Whether the surface is convex, and then the function too.
+    pub fn is_convex(&self) -> bool {
+        self.section >= 1.0 && self.across >= 1.0 && self.ring == 0.0
+    }
+
+    /// The most of each coordinate.
+    pub fn reach(&self) -> DVec3 {
+        DVec3::new(self.ring + 1.0, 1.0, self.ring + 1.0)
+    }
+
+    /// h, the distance from the axis by the norm of the sections across it.
+    pub fn axis_norm(&self, point: DVec3) -> f64 {
+        norm(point.x.abs(), point.z.abs(), self.across)
+    }
+
+    /// Less than 1 inside.
+    pub fn value(&self, point: DVec3) -> f64 {
+        norm((self.axis_norm(point) - self.ring).abs(), point.y.abs(), self.section)
+    }
+
+    /// Its slope in each coordinate; infinite at creases, and 0 in a coordinate that is 0, where
+    /// the two sides mirror each other.
+    pub fn gradient(&self, point: DVec3) -> DVec3 {
+        let h = self.axis_norm(point);
+        let tube = h - self.ring;
+        let value = norm(tube.abs(), point.y.abs(), self.section);
+        let part = |signed: f64, norm: f64, p: f64| {
+            if signed == 0.0 { 0.0 } else { slope(signed.abs() / norm, p).copysign(signed) }
+        };
+        let outward = part(tube, value, self.section);
+        let times = |a: f64, b: f64| if a == 0.0 || b == 0.0 { 0.0 } else { a * b };
+        DVec3::new(
+            times(outward, part(point.x, h, self.across)),
+            part(point.y, value, self.section),
+            times(outward, part(point.z, h, self.across)),
+        )
+    }
+
+    /// The unit direction of the gradient, in a space where the coordinates are `radii` times as
+    /// large.
+    pub fn direction(&self, point: DVec3, radii: DVec3) -> DVec3 {
+        let gradient = self.gradient(point) / radii;
+        let most = gradient.abs().max_element();
+        if most.is_finite() {
+            return (gradient / most).normalize_or(DVec3::Y);
+        }
+        // What is infinite is all that counts.
+        let endless = |x: f64| if x.is_infinite() { x.signum() } else { 0.0 };
+        DVec3::from(gradient.to_array().map(endless)).normalize_or(DVec3::Y)
+    }
+}
+
+impl Line {
+    /// A point of the line.
+    fn at(&self, t: f64) -> DVec3 {
+        self.from + t * self.step
+    }
+
+    /// The field's value at `t`, less 1: negative inside.
+    pub fn value(&self, t: f64) -> f64 {
+        self.field.value(self.at(t)) - 1.0
+    }
+
+    /// The slope of that along the line; not a number where two creases meet.
+    pub fn slope(&self, t: f64) -> f64 {
+        let gradient = self.field.gradient(self.at(t));
+        let along = |k: usize| if self.step[k] == 0.0 { 0.0 } else { gradient[k] * self.step[k] };
+        along(0) + along(1) + along(2)
+    }
+
+    /// Where coordinates change their sign: between these places each keeps its own.
+    pub fn crossings(&self) -> [f64; 3] {
+        [0, 1, 2].map(|k| -self.from[k] / self.step[k])
+    }
+
+    /// Bounds of the value and of the slope between `a` and `b`, between which no coordinate changes
+    /// its sign. A bound of the slope may be infinite, or not a number where nothing is known.
+    pub fn ranges(&self, a: f64, b: f64) -> [Range; 2] {
+        let Field { section, across, ring } = self.field;
+        let (begin, end) = (self.at(a), self.at(b));
+        // Size and its growth along the line, of each coordinate.
+        let size = |k: usize| {
+            let (begin, end) = (begin[k], end[k]);
+            // Two signs are a rounding beside a crossing.
+            let low = if begin * end < 0.0 { 0.0 } else { begin.abs().min(end.abs()) };
+            let sign = if begin + end < 0.0 { -1.0 } else { 1.0 };
+            let growth = if begin == 0.0 && end == 0.0 { 0.0 } else { sign * self.step[k] };
+            ([low, begin.abs().max(end.abs())], [growth; 2])
+        };
+        let ((x, dx), (y, dy), (z, dz)) = (size(0), size(1), size(2));
+        let (h, dh) = joined([x, z], [dx, dz], across);
+        let (tube, dtube) = if ring == 0.0 {
+            (h, dh)
+        } else if h[0] >= ring {
+            ([h[0] - ring, h[1] - ring], dh)
+        } else if h[1] <= ring {
+            ([ring - h[1], ring - h[0]], [-dh[1], -dh[0]])
+        } else {
+            let most = dh[0].abs().max(dh[1].abs());
+            ([0.0, (ring - h[0]).max(h[1] - ring)], [-most, most])
+        };
+        let (value, slope) = joined([tube, y], [dtube, dy], section);
+        [value.map(|value| value - 1.0), slope]
+    }
+}
+
+/// The range of a norm and of its growth, from those of its two sizes.
+fn joined(sizes: [Range; 2], growths: [Range; 2], p: f64) -> (Range, Range) {
+    // In units of the largest size, so that no power of it is lost.
+    let unit = sizes[0][1].max(sizes[1][1]);
+    if unit == 0.0 {
+        // Both are 0 all along, and stay so.
+        return ([0.0; 2], [0.0; 2]);
+    }
+    let [a, b] = sizes.map(|size| size.map(|x| x / unit));
+    let power = |x: f64| if p == 2.0 { x * x } else { x.powf(p) };
+    let root = |x: f64| if p == 2.0 { x.sqrt() } else { x.powf(1.0 / p) };
+    let [a_p, b_p] = [a, b].map(|size| size.map(power));
+    // Powers of the norms at the four corners of the box, `corner[i][j]` where a is a[i] and b b[j].
+    let corner_p = [0, 1].map(|i| [0, 1].map(|j| a_p[i] + b_p[j]));
+    let corner = corner_p.map(|row| row.map(root));
+    let slope = |x: f64, x_p: f64, norm: f64, norm_p: f64| {
+        if x > 0.0 && norm > 0.0 {
+            (x_p / x) * (norm / norm_p)
+        } else if p > 1.0 {
+            0.0
+        } else if p < 1.0 {
+            f64::INFINITY
+        } else {
+            1.0
+        }
+    };
+    let at = |i: usize, j: usize| (corner[i][j], corner_p[i][j]);
+    let mut growth = [0.0; 2];
+    // A size is the least part of the norm when it is least and the other is most.
+    let parts = [(a, a_p, at(0, 1), at(1, 0)), (b, b_p, at(1, 0), at(0, 1))];
+    for ((own, own_p, least, most), its) in parts.into_iter().zip(growths) {
+        let slopes =
+            [slope(own[0], own_p[0], least.0, least.1), slope(own[1], own_p[1], most.0, most.1)];
+        let [low, high] = if p < 1.0 { [slopes[1], slopes[0]] } else { slopes };
+        let times = |growth: f64, slope: f64| if growth == 0.0 { 0.0 } else { growth * slope };
+        growth[0] += times(its[0], if its[0] < 0.0 { high } else { low });
+        growth[1] += times(its[1], if its[1] < 0.0 { low } else { high });
+    }
+    ([unit * corner[0][0], unit * corner[1][1]], growth)
+}

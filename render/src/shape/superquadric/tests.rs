@@ -1,0 +1,268 @@
+//! Held against the sphere, the box and brute force.
+
+use super::*;
+use crate::shape::{Cuboid, Sphere};
+use glam::Vec3Swizzles;
+use proptest::prelude::*;
+
+const FREE: Start = Start { leaves: None, skin: 0.0 };
+
+/// What a ray that leaves a shape of about unit size knows of its start.
+const LEAVING: Start = Start { leaves: Some(0), skin: 1e-13 };
+
+fn shape(exponents: [f64; 2], ring: Option<f64>) -> Superquadric {
+    Superquadric::new(DVec3::new(0.3, -0.2, 0.1), DVec3::new(1.0, 0.7, 1.6), exponents, ring)
+        .unwrap()
+}
+
+fn unit(exponents: [f64; 2]) -> Superquadric {
+    Superquadric::new(DVec3::ZERO, DVec3::ONE, exponents, None).unwrap()
+}
+
+/// Exponents of every kind: convex, pinched, mixed, and those at which the kind changes.
+fn exponent() -> impl Strategy<Value = f64> {
+    prop_oneof![0.05..2.0f64, 2.0..4.0f64, Just(0.05), Just(1.0), Just(2.0), Just(4.0)]
+}
+
+fn any_shape() -> impl Strategy<Value = Superquadric> {
+    let ring = prop_oneof![3 => Just(None), 1 => (1.0..4.0f64).prop_map(Some)];
+    (exponent(), exponent(), ring).prop_map(|(e1, e2, ring)| shape([e1, e2], ring))
+}
+
+/// Mostly generic, sometimes along an axis or in a plane of two.
+fn place(size: f64) -> impl Strategy<Value = DVec3> {
+    let coordinate = move || prop_oneof![4 => -size..size, 1 => Just(0.0)];
+    prop::array::uniform3(coordinate()).prop_map(DVec3::from)
+}
+
+fn value(shape: &Superquadric, point: DVec3) -> f64 {
+    shape.field.value((point - shape.center) / shape.radii) - 1.0
+}
+
+/// How far a point is off the surface: to the nearest place where the side changes, along the six
+/// directions of the axes and the gradient's two.
+fn off(shape: &Superquadric, point: DVec3) -> f64 {
+    let here = value(shape, point) > 0.0;
+    let mut reach = 1e-16;
+    let gradient = shape.surface_point(point).geometric_normal;
+    while reach < 1.0 {
+        let mut ways = DVec3::AXES.into_iter().chain([gradient]);
+        let changes = |way: DVec3| {
+            [way, -way].into_iter().any(|way| (value(shape, point + reach * way) > 0.0) != here)
+        };
+        if ways.any(changes) {
+            return reach;
+        }
+        reach *= 2.0;
+    }
+    reach
+}
+
+/// Checks a root against the sides at many places along the ray: none lies on another side before
+/// it, beginning with `outside`, and behind it lies the other one.
+fn check(
+    shape: &Superquadric,
+    from: DVec3,
+    way: DVec3,
+    outside: bool,
+    root: Option<f64>,
+) -> Result<(), TestCaseError> {
+    let end = root.unwrap_or(14.0);
+    for k in 1..3000 {
+        // Nothing is asked of the last rounding before the root.
+        let t = end * f64::from(k) / 3000.0;
+        let value = value(shape, from + t * way);
+        let agrees = (value > 0.0) == outside || value.abs() < 1e-11;
+        prop_assert!(agrees, "side changes at {t} (value {value}) before {root:?}");
+    }
+    if let Some(t) = root {
+        let off = off(shape, from + t * way);
+        prop_assert!(off < 1e-14, "the hit at {t} is {off} off the surface");
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    /// The hit lies on the surface and no place before it is inside; and if there is no hit, no
+    /// place at all is.
+    #[test]
+    fn no_root_is_before_the_first(shape in any_shape(), from in place(6.0), to in place(1.5)) {
+        prop_assume!((to - from).length() > 0.1 && value(&shape, from).abs() > 1e-6);
+        let way = (to - from).normalize();
+        let root = shape.intersect(from, way, FREE);
+        check(&shape, from, way, value(&shape, from) > 0.0, root)?;
+    }
+
+    /// A ray that leaves the surface comes to the next place where it meets it again, if any.
+    #[test]
+    fn a_ray_that_leaves_meets_the_next_root(shape in any_shape(), at in place(2.0), to in place(1.5)) {
+        let start = shape.center + at;
+        prop_assume!(at.length() > 0.1 && (shape.center + to - start).length() > 0.1);
+        // The last place on the surface along a ray outward.
+        let Some(t) = shape.intersect(start + 10.0 * at, -at.normalize(), FREE) else { return Ok(()) };
+        let point = shape.surface_point(start + 10.0 * at - t * at.normalize());
+        let way = (shape.center + to - point.position).normalize();
+        let cosine = way.dot(point.geometric_normal);
+        prop_assume!(cosine.abs() > 1e-3);
+        let root = shape.intersect(point.position, way, LEAVING);
+        prop_assert!(root.is_none_or(|t| t > LEAVING.skin));
+        // Creases have two normals, and which way is out depends on the side.
+        let off_crease = (point.position - shape.center).abs().min_element() > 1e-6;
+        if off_crease {
+            check(&shape, point.position, way, cosine > 0.0, root)?;
+        }
+    }
+
+    /// Both ways of finding a root agree where both may be used.
+    #[test]
+    fn pieces_find_what_newton_proves(
+        e1 in 0.05..2.0f64, e2 in 0.05..2.0f64, from in place(4.0), to in place(1.2),
+    ) {
+        prop_assume!((to - from).length() > 0.1);
+        let shape = shape([e1, e2], None);
+        let step = (to - from).normalize();
+        let line = Line { field: shape.field, from, step };
+        let Some([enter, leave]) = shape.within_box(&line) else { return Ok(()) };
+        let newton = root::of_convex(&line, enter, leave, false);
+        let pieces = root::first(&line, enter, leave, None);
+        let close = match (newton, pieces) {
+            (Some(a), Some(b)) => (a - b).abs() < 1e-7 && (line.value(a) - line.value(b)).abs() < 1e-13,
+            (a, b) => a == b,
+        };
+        prop_assert!(close, "{newton:?} {pieces:?}");
+    }
+
+    #[test]
+    fn with_exponents_of_1_it_is_the_sphere(from in place(5.0), to in place(1.2)) {
+        prop_assume!((to - from).length() > 0.1 && (from.length() - 1.0).abs() > 1e-3);
+        let way = (to - from).normalize();
+        let sphere = Sphere { center: DVec3::ZERO, radius: 1.0 };
+        let (ours, truth) = (unit([1.0; 2]).intersect(from, way, FREE), sphere.intersect(from, way, false, 0.0));
+        let aside = from.cross(way).length();
+        // Where the ray touches, the hit has half the digits.
+        prop_assume!((aside - 1.0).abs() > 1e-4);
+        prop_assert_eq!(ours.is_some(), truth.is_some());
+        if let (Some(ours), Some(truth)) = (ours, truth) {
+            prop_assert!((ours - truth).abs() < 1e-12, "{ours} {truth}");
+            let (ours, truth) = (unit([1.0; 2]).surface_point(from + ours * way), sphere.surface_point(from + truth * way));
+            prop_assert!(ours.position.abs_diff_eq(truth.position, 1e-12));
+            prop_assert!(ours.geometric_normal.abs_diff_eq(truth.geometric_normal, 1e-12));
+            prop_assume!(truth.position.xz().length() > 1e-2);
+            prop_assert!(ours.uv.abs_diff_eq(truth.uv, 1e-12), "{} {}", ours.uv, truth.uv);
+        }
+    }
+
+    /// The surface lies between the box and the box shrunk until its corners touch.
+    #[test]
+    fn with_small_exponents_it_is_nearly_a_box(from in place(5.0), to in place(0.9), e in 0.05..0.2f64) {
+        let cuboid = |reach: f64| Cuboid::new(DVec3::splat(-reach), DVec3::splat(reach)).unwrap();
+        prop_assume!(from.abs().max_element() > 1.0);
+        let way = (to - from).normalize();
+        let hit = |reach: f64| cuboid(reach).intersect(from, way, FREE).map_or(f64::INFINITY, |(t, _)| t);
+        let t = unit([e; 2]).intersect(from, way, FREE).unwrap_or(f64::INFINITY);
+        let inner = 3f64.powf(-0.5 * e);
+        prop_assert!(hit(1.0) - 1e-12 <= t && t <= hit(inner) + 1e-12, "{} {t} {}", hit(1.0), hit(inner));
+    }
+
+    #[test]
+    fn normals_agree_with_differences(
+        shape in any_shape(), toward in prop::array::uniform3(0.2..1.0f64), octant in 0u32..8,
+    ) {
+        // Away from creases and from the tips of stars, where the surface bends without bound.
+        let sign = |k: u32| if octant >> k & 1 == 0 { 1.0 } else { -1.0 };
+        let way = -DVec3::new(sign(0), sign(1), sign(2)) * DVec3::from(toward).normalize();
+        let from = shape.center - 9.0 * way + DVec3::new(0.0, 0.05, 0.0);
+        let Some(t) = shape.intersect(from, way, FREE) else { return Ok(()) };
+        let point = shape.surface_point(from + t * way);
+        let own = ((point.position - shape.center) / shape.radii).abs();
+        prop_assume!(own.min_element() > 0.05 && (shape.field.axis_norm(own) - shape.field.ring).abs() > 0.05);
+        let step = 1e-6;
+        let slope = |axis: DVec3| {
+            let value = |s: f64| value(&shape, point.position + s * axis);
+            (8.0 * (value(step) - value(-step)) - value(2.0 * step) + value(-2.0 * step)) / (12.0 * step)
+        };
+        let truth = DVec3::from(DVec3::AXES.map(slope)).normalize();
+        prop_assert!(point.geometric_normal.abs_diff_eq(truth, 1e-6), "{} {truth}", point.geometric_normal);
+        prop_assert!((point.geometric_normal.length() - 1.0).abs() < 1e-14);
+    }
+}
+
+#[test]
+fn a_ray_that_runs_along_a_straight_line_of_the_surface_ends_soon() {
+    // Between its points a star with e1 of 2 is made of straight lines, and an octahedron of planes.
+    for exponents in [[2.0, 4.0], [2.0, 2.0], [2.0, 0.7], [2.0, 2.5]] {
+        let star = unit(exponents);
+        let h = star.field.axis_norm(DVec3::new(0.6, 0.0, 0.3));
+        let (foot, top) = (DVec3::new(0.6 / h, 0.0, 0.3 / h), DVec3::Y);
+        let way = (top - foot).normalize();
+        for aside in [0.0, 1e-15, 1e-12, 1e-9, 1e-6] {
+            for side in [DVec3::Y, DVec3::NEG_Y, DVec3::X] {
+                let from = foot - way + aside * side;
+                // Whatever is found must be on the surface.
+                if let Some(t) = star.intersect(from, way, FREE) {
+                    assert!(value(&star, from + t * way).abs() < 1e-14, "{exponents:?} {aside}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn rays_along_the_axes_hit_the_tips() {
+    for e1 in [0.05, 0.3, 1.0, 2.0, 3.0, 4.0] {
+        for e2 in [0.05, 0.3, 1.0, 2.0, 3.0, 4.0] {
+            for axis in DVec3::AXES {
+                let t = unit([e1, e2]).intersect(3.0 * axis, -axis, FREE);
+                assert!(t.is_some_and(|t| (t - 2.0).abs() < 1e-15), "{e1} {e2} {axis}: {t:?}");
+                let point = unit([e1, e2]).surface_point(axis);
+                assert_eq!((point.position, point.geometric_normal), (axis, axis));
+            }
+        }
+    }
+}
+
+#[test]
+fn what_starts_near_a_crease_but_off_the_surface_is_not_on_it() {
+    // Here the slope is without bound, and says nothing of how far the surface is.
+    let star = unit([4.0, 4.0]);
+    let from = DVec3::new(1e-300, 0.1, 0.5);
+    let near = Start { leaves: None, skin: 1e-13 };
+    assert_eq!(star.intersect(from, DVec3::NEG_Z, near), star.intersect(from, DVec3::NEG_Z, FREE));
+    assert!(star.intersect(from, DVec3::NEG_Z, near).is_some());
+    let tip = DVec3::new(1.0, 0.0, 0.0);
+    assert_eq!(star.intersect(tip, DVec3::X, near), None);
+}
+
+#[test]
+fn from_the_edge_of_a_fin_the_next_fin_is_seen() {
+    // The slope at the edge, which knows no side of it, says that the way leads inside; but the fin
+    // is thinner there than any ray.
+    let fins = unit([1.0, 4.0]);
+    let (edge, inside) = (DVec3::new(0.0, 0.6, 0.8), DVec3::new(0.5, 0.0, 0.0));
+    let way = (inside - edge).normalize();
+    let t = fins.intersect(edge, way, LEAVING).unwrap();
+    let outside = |k: u32| value(&fins, edge + t * f64::from(k) / 100.0 * way) > 0.0;
+    assert!((1..100).all(outside) && t < edge.distance(inside), "{t}");
+    assert!(off(&fins, edge + t * way) < 1e-15);
+}
+
+#[test]
+fn the_map_on_a_ring_is_not_mirrored() {
+    let ring = Superquadric::new(DVec3::ZERO, DVec3::ONE, [0.8, 1.2], Some(2.5)).unwrap();
+    let uv = |x: f64, y: f64| ring.surface_point(DVec3::new(x, y, 3.5)).uv;
+    assert_eq!(uv(0.0, 0.0), DVec2::splat(0.5));
+    assert!(uv(0.1, 0.0).x > 0.5 && uv(0.0, 0.1).y > 0.5);
+    assert_eq!((ring.seam(), unit([1.0; 2]).seam()), (DVec2::ONE, DVec2::X));
+}
+
+#[test]
+fn other_numbers_are_refused() {
+    let made = |radius: f64, e: f64, ring| {
+        Superquadric::new(DVec3::ZERO, DVec3::splat(radius), [e, 1.0], ring).is_some()
+    };
+    assert!(made(1.0, 0.05, None) && made(1e-9, 4.0, Some(1.0)));
+    assert!(!made(0.0, 1.0, None) && !made(f64::NAN, 1.0, None) && !made(1.0, f64::NAN, None));
+    assert!(!made(1.0, 0.04, None) && !made(1.0, 4.1, None) && !made(1.0, 1.0, Some(0.9)));
+}
