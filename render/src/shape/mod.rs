@@ -2,6 +2,7 @@
 
 pub mod mesh;
 pub mod quad;
+pub mod right_triangle;
 pub mod sphere;
 pub mod triangle;
 
