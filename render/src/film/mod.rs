@@ -15,7 +15,7 @@ use crate::filter::{Filter, FilteredTexture};
 use crate::footprint::neighbours::Neighbourhood;
 use crate::scene::Scene;
 use crate::shade::{ShadeCounts, Shader};
-use crate::shape::Shape;
+use crate::shape::{Charts, Shape};
 use crate::stats::Stats;
 use crate::trace::rows::RowWindow;
 use crate::trace::tree::IntersectionTree;
@@ -136,20 +136,20 @@ fn ready_shader<'a>(scene: &'a Scene, accel: &'a Accel<'a>, filter: Filter) -> S
         .zip(&shown)
         .map(|(texture, &shown)| shown.then(|| FilteredTexture::new(texture, filter)))
         .collect();
-    let seams = scene
+    let charts = scene
         .objects
         .iter()
         .map(|object| match &object.shape {
             // Only neighbours that are averaged need to be unwrapped.
             _ if !filter.wants_area() || object.parts.iter().all(|part| part.texture.is_none()) => {
-                DVec2::ZERO
+                Charts::default()
             }
-            Shape::Sphere(sphere) => sphere.seam(),
-            Shape::Quad(_) => DVec2::ZERO,
-            Shape::Mesh(mesh) => mesh.seam(),
+            Shape::Sphere(sphere) => Charts::one(sphere.seam()),
+            Shape::Quad(_) => Charts::one(DVec2::ZERO),
+            Shape::Mesh(mesh) => Charts::of(mesh),
         })
         .collect();
-    Shader { scene, accel, textures, seams }
+    Shader { scene, accel, textures, charts }
 }
 
 /// All that the tiles share.

@@ -1,11 +1,13 @@
 //! The shapes of a scene, each in its own file, behind one closed enum.
 
+pub mod charts;
 pub mod mesh;
 pub mod quad;
 pub mod right_triangle;
 pub mod sphere;
 pub mod triangle;
 
+pub use charts::Charts;
 pub use mesh::Mesh;
 pub use quad::Quad;
 pub use sphere::Sphere;
