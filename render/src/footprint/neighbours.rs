@@ -11,7 +11,6 @@
 use super::Footprint;
 use crate::shape::Charts;
 use crate::trace::tree::{Branch, IntersectionTree, Node};
-use glam::DVec2;
 
 /// How many trees are looked at: the middle one has index 4.
 const ALL: usize = 9;
@@ -92,7 +91,7 @@ impl<'a> Neighbourhood<'a> {
 mod tests {
     use super::*;
     use crate::ray::Piece;
-    use glam::DVec3;
+    use glam::{DVec2, DVec3};
 
     fn tree(object: u32, uv: DVec2) -> IntersectionTree {
         let mut tree = IntersectionTree::default();

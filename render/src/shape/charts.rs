@@ -10,8 +10,8 @@
 //! halfway: an edge that two triangles of a chart share with coordinates that differ by the same
 //! whole number at both ends lies on a seam. A floor, however often its picture repeats, has none.
 
-use super::mesh::{Mesh, NONE};
 use super::SeamPeriod;
+use super::mesh::{Mesh, NONE};
 use glam::DVec2;
 use std::collections::HashMap;
 
