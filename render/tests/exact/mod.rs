@@ -96,7 +96,7 @@ impl Sample {
     }
 
     /// The exact hit point, each coordinate rounded once.
-    fn best_point(&self, truth: &[BigRational; 3]) -> DVec3 {
+    pub fn best_point(&self, truth: &[BigRational; 3]) -> DVec3 {
         let coordinate = |k: usize| {
             let terms = (0..3).map(|i| &truth[i] * exact(f64::from(self.corners[i][k])));
             terms.fold(BigRational::zero(), |sum, term| sum + term).to_f64().unwrap()

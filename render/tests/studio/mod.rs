@@ -3,6 +3,8 @@
 #![allow(dead_code, reason = "each test program uses its part of the studio")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+pub mod objects;
+
 use files::json::Document;
 use files::{FileError, Source};
 use image::{ImageFormat, Rgb, RgbImage};
