@@ -56,6 +56,14 @@ pub fn supersampled(scene: &Scene, side: u32, samples: u32, filter: Filter) -> P
     picture
 }
 
+/// Its picture, of any width and height, with one ray in each pixel.
+pub fn sized(scene: &Scene, width: u32, height: u32, filter: Filter) -> Picture {
+    let settings = Settings { width, height, samples: 1, filter };
+    let (picture, stats) = render::render(scene, &settings, &|_, _| {});
+    assert_eq!(stats.not_finite, 0);
+    picture
+}
+
 /// A picture file of `width` columns of 8-bit texels, row by row from the top.
 pub fn png(width: usize, texels: &[[u8; 3]]) -> Vec<u8> {
     let texel = |x: u32, y: u32| Rgb(texels[y as usize * width + x as usize]);
