@@ -106,14 +106,14 @@ pub fn read(file: &str, bytes: &[u8]) -> Result<Mesh, ObjError> {
         return Err(ObjError::Empty { file: file.into() });
     }
     check_finished(file, text)?;
-    let names = look_through(file, text)?;
+    let (names, kinds) = look_through(file, text)?;
 
     let options = tobj::LoadOptions { triangulate: true, ..tobj::LoadOptions::default() };
     // A first line makes tobj ask for materials; it gets the names that the text uses.
     let declared = BufReader::new(b"mtllib names\n".chain(text.as_bytes()));
     let (models, _) = tobj::load_obj_buf(&mut { declared }, &options, |_| Ok(materials(&names)))
         .map_err(|source| ObjError::Refused { file: file.into(), source })?;
-    let mesh = joined(&models, names);
+    let mesh = joined(&models, names, &kinds);
     mesh.check().map_err(|source| ObjError::Mesh { file: file.into(), source })?;
     Ok(mesh)
 }
@@ -147,10 +147,15 @@ fn check_finished(file: &str, text: &str) -> Result<(), ObjError> {
 /// Which of texture coordinates and normals the corners of a face have.
 type FaceKind = (bool, bool);
 
+/// Runs of triangles whose faces are of one kind.
+type Runs = Vec<(FaceKind, usize)>;
+
 /// Checks each line that carries geometry and collects the names that `usemtl` gives, in order of
-/// first use; the first name is empty, for faces before any `usemtl`.
-fn look_through(file: &str, text: &str) -> Result<Vec<String>, ObjError> {
+/// first use; the first name is empty, for faces before any `usemtl`. Also tells what kinds of
+/// faces there are, since tobj makes up what they do not have as soon as others have it.
+fn look_through(file: &str, text: &str) -> Result<(Vec<String>, Runs), ObjError> {
     let mut names = vec![String::new()];
+    let mut runs = Runs::new();
     // Faces between two of these lines become one model of tobj and must be of one kind.
     let mut kind: Option<FaceKind> = None;
     // Vertices, texture coordinates and normals: in the whole text, and up to this line.
@@ -187,7 +192,7 @@ fn look_through(file: &str, text: &str) -> Result<Vec<String>, ObjError> {
             }
             "o" | "g" => kind = None,
             "f" => {
-                let Some(found) = face_kind(rest) else {
+                let Some((found, triangles)) = face_kind(rest) else {
                     return wrong("`f` and three or four corners, each v, v/vt, v//vn or v/vt/vn");
                 };
                 if *kind.get_or_insert(found) != found {
@@ -196,11 +201,15 @@ fn look_through(file: &str, text: &str) -> Result<Vec<String>, ObjError> {
                 if !corners_are_there(rest, all, before) {
                     return wrong("corners that the file has, counted from 1, or back from -1");
                 }
+                match runs.last_mut() {
+                    Some((kind, count)) if *kind == found => *count += triangles,
+                    _ => runs.push((found, triangles)),
+                }
             }
             _ => {}
         }
     }
-    Ok(names)
+    Ok((names, runs))
 }
 
 fn numbers(text: &str, count: std::ops::RangeInclusive<usize>) -> bool {
@@ -214,7 +223,8 @@ fn numbers(text: &str, count: std::ops::RangeInclusive<usize>) -> bool {
     count.contains(&found)
 }
 
-fn face_kind(text: &str) -> Option<FaceKind> {
+/// What the corners of a face have, and how many triangles it is.
+fn face_kind(text: &str) -> Option<(FaceKind, usize)> {
     let mut corners = 0;
     let mut kind = None;
     for corner in text.split_whitespace() {
@@ -232,7 +242,7 @@ fn face_kind(text: &str) -> Option<FaceKind> {
         }
         corners += 1;
     }
-    kind.filter(|_| (3..=4).contains(&corners))
+    kind.filter(|_| (3..=4).contains(&corners)).map(|kind| (kind, corners - 2))
 }
 
 /// Whether each index of a face leads to one of `all`, or counts back among those `before` it.
@@ -254,8 +264,9 @@ fn materials(names: &[String]) -> (Vec<tobj::Material>, HashMap<String, usize>) 
 }
 
 /// tobj's models as one mesh, in the order of the file, with only the surfaces that have faces.
-fn joined(models: &[tobj::Model], names: Vec<String>) -> Mesh {
+fn joined(models: &[tobj::Model], names: Vec<String>, runs: &Runs) -> Mesh {
     let mut mesh = Mesh::default();
+    let mut kinds = runs.iter().flat_map(|&(kind, count)| std::iter::repeat_n(kind, count));
     let mut surface_of = vec![NONE; names.len()];
     for tobj::Model { mesh: model, .. } in models {
         // Each `mtllib` line of the file gives tobj the same names once more.
@@ -268,17 +279,20 @@ fn joined(models: &[tobj::Model], names: Vec<String>) -> Mesh {
         mesh.positions.extend(model.positions.as_chunks::<3>().0);
         mesh.uvs.extend(model.texcoords.as_chunks::<2>().0);
         mesh.normals.extend(model.normals.as_chunks::<3>().0);
-        let corners = |indices: &[u32], triangle: usize, first: u32| {
-            let Some(corners) = indices.get(3 * triangle..3 * triangle + 3) else {
-                return [NONE; 3];
-            };
-            [corners[0] + first, corners[1] + first, corners[2] + first]
+        let corners = |has: bool, indices: &[u32], triangle: usize, first: u32| match indices
+            .get(3 * triangle..3 * triangle + 3)
+        {
+            Some(corners) if has => [corners[0] + first, corners[1] + first, corners[2] + first],
+            _ => [NONE; 3],
         };
-        mesh.triangles.extend((0..model.indices.len() / 3).map(|triangle| Triangle {
-            position: corners(&model.indices, triangle, first[0]),
-            uv: corners(&model.texcoord_indices, triangle, first[1]),
-            normal: corners(&model.normal_indices, triangle, first[2]),
-            surface: surface_of[name],
+        mesh.triangles.extend((0..model.indices.len() / 3).map(|triangle| {
+            let (has_uv, has_normal) = kinds.next().unwrap_or((false, false));
+            Triangle {
+                position: corners(true, &model.indices, triangle, first[0]),
+                uv: corners(has_uv, &model.texcoord_indices, triangle, first[1]),
+                normal: corners(has_normal, &model.normal_indices, triangle, first[2]),
+                surface: surface_of[name],
+            }
         }));
     }
     mesh
