@@ -8,6 +8,7 @@
 //! with it there: those whose distance from the start, measured across the surface, is less than
 //! the rounding of both. Measured along the ray that distance would have no bound, since it grows
 //! as the ray becomes flat. There is no epsilon in units of length, so a scene may be of any size.
+//! An eye on a surface sees past it by the same rule.
 
 mod bvh;
 
@@ -160,17 +161,19 @@ impl<'a> Accel<'a> {
     fn try_piece(&self, ray: &Ray, sheared: &ShearedRay, leaf: &Leaf, t_max: f64) -> Option<Hit> {
         let piece = leaf.piece;
         let leaves = ray.leaving == Some(piece);
-        // What lies this near to the start is the surface that the ray leaves, or coincides with it.
-        let skin = || {
-            ray.leaving.map_or(0.0, |from| {
+        // What lies this near to the start is the surface that the ray leaves, or coincides with it;
+        // or the eye is on it, and sees past it.
+        let skin = || match ray.leaving {
+            Some(from) => {
                 self.rounding(from.object, ray.origin) + self.rounding(piece.object, DVec3::ZERO)
-            })
+            }
+            None => self.rounding(piece.object, ray.origin),
         };
         let (t, barycentric) = match self.shapes[piece.object as usize] {
             Shape::Mesh(_) if leaves => return None,
             Shape::Mesh(_) => {
                 let hit = sheared.intersect(&leaf.corners, t_max)?;
-                if ray.leaving.is_some() && sheared.starts_on(&leaf.corners, skin()) {
+                if sheared.starts_on(&leaf.corners, skin()) {
                     return None;
                 }
                 hit
