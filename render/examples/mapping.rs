@@ -74,7 +74,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                 (None, _) => print!("| NaN "),
                 (Some(_), 0) => print!("| {median}, {max} "),
                 (Some(_), n) => {
-                    print!("| {median}, {max}; {:.0} % NaN ", 100.0 * n as f64 / hits(line));
+                    print!("| {median}, {max}; {:.1} % NaN ", 100.0 * n as f64 / hits(line));
                 }
             }
         }
@@ -101,8 +101,8 @@ const TOP: f64 = 46.0;
 /// Errors from 1e-17 to 1 to the right, classes downward; a bar from the median to the maximum.
 fn svg(lines: &[Line]) -> Result<String, Box<dyn Error>> {
     let place = |error: f64| LEFT + WIDTH * (error.clamp(1e-17, 1.0).log10() + 17.0) / 17.0;
-    let height = TOP + ROW * lines.len() as f64 + 30.0;
-    let bottom = height - 26.0;
+    let height = TOP + ROW * lines.len() as f64 + 48.0;
+    let bottom = height - 44.0;
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"860\" height=\"{height}\" \
          font-family=\"sans-serif\" font-size=\"11\">\n<rect width=\"860\" height=\"{height}\" \
@@ -153,7 +153,7 @@ fn svg(lines: &[Line]) -> Result<String, Box<dyn Error>> {
             if failures > 0 {
                 writeln!(
                     out,
-                    "<text x=\"{}\" y=\"{}\" fill=\"{color}\" font-size=\"10\">{:.0} % NaN</text>",
+                    "<text x=\"{}\" y=\"{}\" fill=\"{color}\" font-size=\"10\">{:.1} % NaN</text>",
                     LEFT + WIDTH + 8.0,
                     y + 5.0,
                     100.0 * failures as f64 / hits(line)
@@ -161,6 +161,11 @@ fn svg(lines: &[Line]) -> Result<String, Box<dyn Error>> {
             }
         }
     }
-    out.push_str("</svg>\n");
+    writeln!(
+        out,
+        "<text x=\"{LEFT}\" y=\"{}\">error of u or v, the larger one, for sides of length 1: from \
+         the median to the largest; the left edge stands for none</text>\n</svg>",
+        bottom + 34.0
+    )?;
     Ok(out)
 }
