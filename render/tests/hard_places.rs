@@ -196,7 +196,7 @@ fn of_surfaces_that_coincide_the_first_of_the_scene_is_seen() {
     for [one, other] in surfaces {
         let seen = |objects: &[String]| shown(&keys, objects, obj);
         let both = [one.clone(), other.clone()];
-        assert_near(&seen(&both), &seen(&[one.clone()]), 0.0);
+        assert_near(&seen(&both), &seen(std::slice::from_ref(&one)), 0.0);
         assert_near(&seen(&[other.clone(), one]), &seen(&[other]), 0.0);
     }
 }

@@ -25,9 +25,9 @@ fn angles() -> impl Iterator<Item = f64> {
 /// The triangle, and the parallelogram of which it is one half.
 fn shapes(corners: [[f32; 3]; 3]) -> [Shape; 2] {
     let obj = corners.map(|[x, y, z]| format!("v {x:?} {y:?} {z:?}\n")).concat() + "f 1 2 3\n";
-    let mesh = render::scene::obj::read("m.obj", obj.as_bytes()).unwrap();
+    let mesh = render::scene::obj::read("m.obj", obj.as_bytes()).expect("a mesh");
     let [a, b, c] = corners.map(exact::doubles);
-    let quad = Quad::new(a, b - a, c - a, DVec2::ONE, true).unwrap();
+    let quad = Quad::new(a, b - a, c - a, DVec2::ONE, true).expect("a rectangle");
     [Shape::Mesh(mesh), Shape::Quad(quad)]
 }
 

@@ -80,7 +80,7 @@ pub fn classes() -> Vec<Class> {
         }));
     }
     // Weights in eighths of lattice points are exact, and so are rays along an axis.
-    let places: [(&str, fn(&mut Dice) -> [f64; 3]); 7] = [
+    let places: [(&str, Weights); 7] = [
         ("exactly on AC", |dice| eighths(dice, 0, 2)),
         ("exactly on AB", |dice| eighths(dice, 0, 1)),
         ("exactly on BC", |dice| eighths(dice, 1, 2)),
@@ -99,6 +99,9 @@ pub fn classes() -> Vec<Class> {
 }
 
 type Corners = [[f32; 3]; 3];
+
+/// Draws weights of the corners.
+type Weights = fn(&mut Dice) -> [f64; 3];
 
 fn rounded(v: DVec3) -> [f32; 3] {
     v.to_array().map(|x| x as f32)

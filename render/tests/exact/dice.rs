@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-/// SplitMix64 (Steele, Lea, Flood: *Fast splittable pseudorandom number generators*, 2014).
+/// `SplitMix64` (Steele, Lea, Flood: *Fast splittable pseudorandom number generators*, 2014).
 #[derive(Debug, Clone)]
 pub struct Dice(pub u64);
 
