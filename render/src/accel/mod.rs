@@ -35,6 +35,10 @@ const MOST_APART: usize = 8;
 /// thousands; smaller, and coincident surfaces begin to shade each other in speckles.
 const ROUNDINGS: f64 = 64.0;
 
+/// So many for an eye, whose place is given and not computed. Larger, and a floor of 1e15 units is
+/// not seen from a unit above it.
+const EYE_ROUNDINGS: f64 = 4.0;
+
 /// The shapes of a scene, ready for rays.
 #[derive(Debug)]
 pub struct Accel<'a> {
@@ -167,7 +171,8 @@ impl<'a> Accel<'a> {
             Some(from) => {
                 self.rounding(from.object, ray.origin) + self.rounding(piece.object, DVec3::ZERO)
             }
-            None => self.rounding(piece.object, ray.origin),
+            // What is meant to be on a surface is off it by the rounding of its own digits.
+            None => EYE_ROUNDINGS / ROUNDINGS * self.rounding(piece.object, ray.origin),
         };
         let (t, barycentric) = match self.shapes[piece.object as usize] {
             Shape::Mesh(_) if leaves => return None,

@@ -32,7 +32,8 @@ impl Shape {
         let largest = |corners: [DVec3; 2]| corners[0].abs().max(corners[1].abs()).max_element();
         match self {
             Self::Sphere(sphere) => largest(sphere.bounds()),
-            Self::Quad(quad) => quad.bounds().map_or(quad.corner().abs().max_element(), largest),
+            // Its edges say how far it goes, and not where it is.
+            Self::Quad(quad) => quad.corner().abs().max_element(),
             Self::Mesh(mesh) => {
                 let coordinates = mesh.positions.iter().flatten();
                 coordinates.fold(0.0, |most: f64, &x| most.max(f64::from(x).abs()))
