@@ -136,7 +136,13 @@ fn every_top_level_test_and_example_is_registered() {
 
 #[test]
 fn files_and_folders_that_pages_name_exist() {
-    for page in ["ARCHITECTURE.md", "docs/conventions.md", "docs/thesis-map.md"] {
+    for page in [
+        "ARCHITECTURE.md",
+        "docs/conventions.md",
+        "docs/hard-cases.md",
+        "docs/mapping.md",
+        "docs/thesis-map.md",
+    ] {
         let text = read(page);
         let named = spans(&text);
         let named = named.iter().filter(|span| span.ends_with(".rs") || span.ends_with('/'));
@@ -168,11 +174,32 @@ fn the_thesis_map_names_code_and_tests_that_exist() {
                 assert!(has_word(&source, span), "`{span}` is not in that file: {row:?}");
             }
         }
-        let named = spans(held_by);
-        assert!(!named.is_empty() || held_by.contains("none yet"), "held by what? {row:?}");
-        for test in named {
-            assert!(tests.contains(test), "no test is called `{test}`: {row:?}");
-        }
+        assert_held(held_by, &tests, &row);
+    }
+}
+
+#[test]
+fn the_hard_cases_are_held_by_tests_that_exist() {
+    let tests = test_functions();
+    let page = read("docs/hard-cases.md");
+    let rows: Vec<Vec<&str>> = page
+        .lines()
+        .filter(|line| line.starts_with("| ") && !line.starts_with("| Asked "))
+        .map(|line| line.split('|').collect())
+        .collect();
+    assert!(rows.len() > 30, "found {} rows, expected all cases", rows.len());
+    for row in rows {
+        assert_eq!(row.len(), 5, "expected three columns: {row:?}");
+        assert_held(row[3], &tests, &row);
+    }
+}
+
+/// Checks that a cell names tests that exist, or says that there are none yet.
+fn assert_held(held_by: &str, tests: &BTreeSet<String>, row: &[&str]) {
+    let named = spans(held_by);
+    assert!(!named.is_empty() || held_by.contains("none yet"), "held by what? {row:?}");
+    for test in named {
+        assert!(tests.contains(test), "no test is called `{test}`: {row:?}");
     }
 }
 

@@ -8,6 +8,7 @@
 //! with it there: those whose distance from the start, measured across the surface, is less than
 //! the rounding of both. Measured along the ray that distance would have no bound, since it grows
 //! as the ray becomes flat. There is no epsilon in units of length, so a scene may be of any size.
+//! An eye on a surface sees past it by the same rule.
 
 mod bvh;
 
@@ -33,6 +34,10 @@ const MOST_APART: usize = 8;
 /// roundings. Larger, and cracks narrower than that are passed over, which nothing can see before
 /// thousands; smaller, and coincident surfaces begin to shade each other in speckles.
 const ROUNDINGS: f64 = 64.0;
+
+/// So many for an eye, whose place is given and not computed. Larger, and a floor of 1e15 units is
+/// not seen from a unit above it.
+const EYE_ROUNDINGS: f64 = 4.0;
 
 /// The shapes of a scene, ready for rays.
 #[derive(Debug)]
@@ -152,17 +157,20 @@ impl<'a> Accel<'a> {
     /// The one hit function: the hit of `ray` with one piece, with `t` in `(0, t_max]`.
     fn try_piece(&self, ray: &Ray, sheared: &ShearedRay, leaf: &Leaf, t_max: f64) -> Option<Hit> {
         let piece = leaf.piece;
-        // What lies this near to the start is the surface that the ray leaves, or coincides with it.
-        let skin = || {
-            ray.leaving.map_or(0.0, |from| {
+        // What lies this near to the start is the surface that the ray leaves, or coincides with it;
+        // or the eye is on it, and sees past it.
+        let skin = || match ray.leaving {
+            Some(from) => {
                 self.rounding(from.object, ray.origin) + self.rounding(piece.object, DVec3::ZERO)
-            })
+            }
+            // What is meant to be on a surface is off it by the rounding of its own digits.
+            None => EYE_ROUNDINGS / ROUNDINGS * self.rounding(piece.object, ray.origin),
         };
         let hit = match self.shapes[piece.object as usize] {
             Shape::Mesh(_) if ray.leaving == Some(piece) => return None,
             Shape::Mesh(_) => {
                 let (t, barycentric) = sheared.intersect(&leaf.corners, t_max)?;
-                if ray.leaving.is_some() && sheared.starts_on(&leaf.corners, skin()) {
+                if sheared.starts_on(&leaf.corners, skin()) {
                     return None;
                 }
                 Hit { t, piece, barycentric }

@@ -75,8 +75,8 @@ impl Layer {
             Self::Uv => to.extend(node.uv.as_vec2().to_array()),
             Self::Object => to.push(node.piece.object as f32),
             Self::Footprint => {
-                let seam = shader.seams[node.piece.object as usize];
-                let size = match around.footprint(node, seam) {
+                let charts = &shader.charts[node.piece.object as usize];
+                let size = match around.footprint(node, charts) {
                     Footprint::Point(_) => [0.0; 2],
                     Footprint::Rectangle { half, .. } => (2.0 * half).as_vec2().to_array(),
                 };

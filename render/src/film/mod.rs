@@ -24,10 +24,10 @@ use crate::accel::Accel;
 use crate::filter::{Filter, FilteredTexture};
 use crate::scene::Scene;
 use crate::shade::Shader;
+use crate::shape::Charts;
 use crate::stats::Stats;
 use crate::trace::Tracer;
 use exposure::{Exposure, Film};
-use glam::DVec2;
 use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
@@ -191,16 +191,17 @@ fn ready_shader<'a>(scene: &'a Scene, accel: &'a Accel<'a>, filter: Filter) -> S
         .zip(&shown)
         .map(|(texture, &shown)| shown.then(|| FilteredTexture::new(texture, filter)))
         .collect();
-    let seams = scene
+    let charts = scene
         .objects
         .iter()
         .map(|object| {
             // Only neighbours that are averaged need to be unwrapped.
             let textured = object.parts.iter().any(|part| part.texture.is_some());
-            if filter.wants_area() && textured { object.shape.seam() } else { DVec2::ZERO }
+            let looked_at = filter.wants_area() && textured;
+            if looked_at { object.shape.charts() } else { Charts::default() }
         })
         .collect();
-    Shader { scene, accel, textures, seams }
+    Shader { scene, accel, textures, charts }
 }
 
 #[cfg(test)]

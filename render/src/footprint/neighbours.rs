@@ -3,13 +3,13 @@
 //!
 //! A node sees the area between its eight neighbours if all of them came to the same textured area
 //! by the same path: reflected and refracted in the same order, at the same objects. If one did
-//! not, the node sees a point.
+//! not, the node sees a point. The textured area of a mesh is a chart: [`crate::shape::charts`].
 //!
 //! The thesis asks for the same depths of reflection and refraction; asking for the same objects on
 //! the way as well tells apart two mirrors that show one floor.
 
 use super::Footprint;
-use crate::shape::SeamPeriod;
+use crate::shape::Charts;
 use crate::trace::tree::{Branch, IntersectionTree, Node};
 use glam::DVec2;
 
@@ -82,7 +82,7 @@ impl<'a> Neighbourhood<'a> {
         self.trees[k].node(self.branches[k]).filter(|other| other.area() == node.area())
     }
 
-    /// The first tree, by its index, that makes the middle node see a point, and what it came to
+    /// The first tree, by its index, that came to another area or by another path, and what it came to
     /// by the same path: [`Branch::Cut`] if it is on another one.
     #[must_use]
     pub fn stranger(&self, node: &Node) -> Option<(usize, Branch, Option<&'a Node>)> {
@@ -90,13 +90,16 @@ impl<'a> Neighbourhood<'a> {
         Some((k, self.branches[k], self.trees[k].node(self.branches[k])))
     }
 
-    /// What the middle node sees of its texture; `seam` is the period of its shape's coordinates.
+    /// What the middle node sees of its texture; `charts` are those of its shape.
     #[must_use]
-    pub fn footprint(&self, node: &Node, seam: SeamPeriod) -> Footprint {
+    pub fn footprint(&self, node: &Node, charts: &Charts) -> Footprint {
         let (mut low, mut high) = (node.uv, node.uv);
         for k in 0..ALL {
-            let Some(other) = self.agreeing(k, node) else { return Footprint::Point(node.uv) };
-            let uv = node.uv + unwrapped(other.uv - node.uv, seam);
+            let other = self.agreeing(k, node);
+            let Some(way) = other.and_then(|other| way(charts, node, other)) else {
+                return Footprint::Point(node.uv);
+            };
+            let uv = node.uv + way;
             low = low.min(uv);
             high = high.max(uv);
         }
@@ -104,18 +107,17 @@ impl<'a> Neighbourhood<'a> {
     }
 }
 
-/// The difference of two texture coordinates of one closed surface, taken the short way round.
-fn unwrapped(difference: DVec2, seam: SeamPeriod) -> DVec2 {
-    let short =
-        |d: f64, period: f64| if period > 0.0 { d - period * (d / period).round() } else { d };
-    DVec2::new(short(difference.x, seam.x), short(difference.y, seam.y))
+/// The way from the texture coordinates of one node to those of another on the same area.
+fn way(charts: &Charts, from: &Node, to: &Node) -> Option<DVec2> {
+    let [from, to] = [from, to].map(|node| (node.piece.triangle, node.uv));
+    charts.difference(from, to)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::ray::Piece;
-    use glam::DVec3;
+    use glam::{DVec2, DVec3};
 
     fn tree(object: u32, uv: DVec2) -> IntersectionTree {
         let mut tree = IntersectionTree::default();
@@ -145,7 +147,7 @@ mod tests {
 
     fn footprint(trees: &[IntersectionTree; 9], seam: DVec2) -> Footprint {
         let around = Neighbourhood::of(trees.each_ref());
-        around.footprint(around.node().unwrap(), seam)
+        around.footprint(around.node().unwrap(), &Charts::one(seam))
     }
 
     #[test]
@@ -164,7 +166,10 @@ mod tests {
         assert_eq!(footprint(&trees, DVec2::ZERO), Footprint::Point(DVec2::ZERO));
         let alone = Neighbourhood::alone(&trees[0]);
         let at = DVec2::new(-1.0, 0.0);
-        assert_eq!(alone.footprint(alone.node().unwrap(), DVec2::ZERO), Footprint::Point(at));
+        assert_eq!(
+            alone.footprint(alone.node().unwrap(), &Charts::default()),
+            Footprint::Point(at)
+        );
     }
 
     #[test]

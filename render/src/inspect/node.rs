@@ -110,7 +110,7 @@ fn footprint(
 /// Which neighbour saw something else, and what.
 fn disagreement(scene: &Scene, around: &Neighbourhood<'_>, node: &Node) -> String {
     match around.stranger(node) {
-        None => "no neighbour was looked at".into(),
+        None => "a neighbour lies on another piece of the picture".into(),
         Some((k, branch, other)) => {
             let came_to = match (branch, other) {
                 (_, Some(other)) => {

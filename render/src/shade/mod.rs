@@ -14,7 +14,7 @@ use crate::footprint::Footprint;
 use crate::footprint::neighbours::Neighbourhood;
 use crate::optics;
 use crate::scene::{Material, Scene};
-use crate::shape::SeamPeriod;
+use crate::shape::Charts;
 use crate::trace::tree::{Branch, Node};
 use observer::{Local, Observer, Seen, Textured, Way};
 use shadow::transmission;
@@ -28,8 +28,8 @@ pub struct Shader<'a> {
     pub accel: &'a Accel<'a>,
     /// The scene's textures, ready; those that are never seen are missing.
     pub textures: Vec<Option<FilteredTexture<'a>>>,
-    /// The seam of each object's texture coordinates.
-    pub seams: Vec<SeamPeriod>,
+    /// How each object's texture coordinates hang together.
+    pub charts: Vec<Charts>,
 }
 
 /// How much work shading was.
@@ -99,7 +99,7 @@ impl Shader<'_> {
         if material.shows_color() {
             let texture = surface.texture.and_then(|index| self.textures[index].as_ref());
             textured = texture.map(|texture| {
-                let footprint = around.footprint(node, self.seams[node.piece.object as usize]);
+                let footprint = around.footprint(node, &self.charts[node.piece.object as usize]);
                 counts.texels += texture.reads();
                 match footprint {
                     Footprint::Point(_) => counts.points += 1,

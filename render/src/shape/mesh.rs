@@ -1,8 +1,7 @@
 //! The triangle mesh, with the coordinates exactly as its file holds them.
 
-use super::{Placement, PlacementError, SeamPeriod, SurfacePoint};
+use super::{Placement, PlacementError, SurfacePoint};
 use glam::{DVec2, DVec3};
-use std::collections::HashMap;
 use thiserror::Error;
 
 /// Marks a corner without texture coordinates or normal.
@@ -173,36 +172,6 @@ impl Mesh {
         let [a, b, c] = self.corners(triangle).map(as_dvec3);
         [a.min(b).min(c), a.max(b).max(c)]
     }
-
-    /// By how much texture coordinates jump where the surface closes on itself.
-    ///
-    /// Read off the mesh: a position that carries several texture coordinates a whole number
-    /// apart lies on a seam, and the largest such number is the period. A mesh without seams (a
-    /// floor, however often its picture repeats) has period 0, and differences on it are taken
-    /// as they are.
-    #[must_use]
-    pub fn seam(&self) -> SeamPeriod {
-        let mut ranges: HashMap<[u32; 3], [[f32; 2]; 2]> = HashMap::new();
-        let textured = self.triangles.iter().filter(|triangle| triangle.uv[0] != NONE);
-        for triangle in textured {
-            for (&position, &uv) in triangle.position.iter().zip(&triangle.uv) {
-                // Minus zero is the same place as zero.
-                let place = self.positions[position as usize].map(|x| (x + 0.0).to_bits());
-                let uv = self.uvs[uv as usize];
-                let range = ranges.entry(place).or_insert([uv, uv]);
-                for k in 0..2 {
-                    range[0][k] = range[0][k].min(uv[k]);
-                    range[1][k] = range[1][k].max(uv[k]);
-                }
-            }
-        }
-        let jump = |range: &[[f32; 2]; 2], k: usize| {
-            let jump = f64::from(range[1][k]) - f64::from(range[0][k]);
-            if jump >= 1.0 && (jump - jump.round()).abs() < 1e-4 { jump.round() } else { 0.0 }
-        };
-        let period = |k| ranges.values().map(|range| jump(range, k)).fold(0.0, f64::max);
-        DVec2::new(period(0), period(1))
-    }
 }
 
 fn weighted(weights: [f64; 3], points: [DVec3; 3]) -> DVec3 {
@@ -240,20 +209,6 @@ mod tests {
         assert!(point.position.abs_diff_eq(DVec3::new(2.0 / 3.0, 1.0 / 3.0, 0.0), 1e-15));
         assert!(point.uv.abs_diff_eq(DVec2::new(2.0, 1.0), 1e-15));
         assert_eq!(point.shading_normal, DVec3::Z);
-    }
-
-    #[test]
-    fn a_seam_is_read_off_the_mesh() {
-        assert_eq!(square(4.0).seam(), DVec2::ZERO);
-        // The right edge takes the place of the left one, as on a tube.
-        let mut tube = square(4.0);
-        tube.positions[1] = tube.positions[0];
-        tube.positions[2] = tube.positions[3];
-        assert_eq!(tube.seam(), DVec2::new(4.0, 0.0));
-        // So they do as programs write them that round to six digits.
-        tube.positions[1][0] = -0.0;
-        tube.positions[2][0] = -0.0;
-        assert_eq!(tube.seam(), DVec2::new(4.0, 0.0));
     }
 
     #[test]

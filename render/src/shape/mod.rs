@@ -1,14 +1,17 @@
 //! The shapes of a scene, each in its own file, behind one closed enum.
 
+pub mod charts;
 pub mod cuboid;
 pub mod mesh;
 pub mod placed;
 pub mod placement;
 pub mod quad;
+pub mod right_triangle;
 pub mod sphere;
 pub mod superquadric;
 pub mod triangle;
 
+pub use charts::Charts;
 pub use cuboid::Cuboid;
 pub use mesh::Mesh;
 pub use placed::Placed;
@@ -144,7 +147,8 @@ impl Shape {
         let largest = |corners: [DVec3; 2]| corners[0].abs().max(corners[1].abs()).max_element();
         match self {
             Self::Sphere(sphere) => largest(sphere.bounds()),
-            Self::Quad(quad) => quad.bounds().map_or(quad.corner().abs().max_element(), largest),
+            // Its edges say how far it goes, and not where it is.
+            Self::Quad(quad) => quad.corner().abs().max_element(),
             Self::Mesh(mesh) => {
                 let coordinates = mesh.positions.iter().flatten();
                 coordinates.fold(0.0, |most: f64, &x| most.max(f64::from(x).abs()))
@@ -155,15 +159,15 @@ impl Shape {
         }
     }
 
-    /// By how much its texture coordinates jump at a seam.
+    /// How its texture coordinates hang together.
     #[must_use]
-    pub fn seam(&self) -> SeamPeriod {
+    pub fn charts(&self) -> Charts {
         match self {
-            Self::Sphere(sphere) => sphere.seam(),
-            Self::Mesh(mesh) => mesh.seam(),
-            Self::Superquadric(superquadric) => superquadric.seam(),
-            Self::Placed(placed) => placed.shape().seam(),
-            Self::Quad(_) | Self::Cuboid(_) => DVec2::ZERO,
+            Self::Sphere(sphere) => Charts::one(sphere.seam()),
+            Self::Mesh(mesh) => Charts::of(mesh),
+            Self::Superquadric(superquadric) => Charts::one(superquadric.seam()),
+            Self::Placed(placed) => placed.shape().charts(),
+            Self::Quad(_) | Self::Cuboid(_) => Charts::one(DVec2::ZERO),
         }
     }
 

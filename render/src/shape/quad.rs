@@ -31,15 +31,18 @@ impl Quad {
         repeat: DVec2,
         bounded: bool,
     ) -> Option<Self> {
-        let across = edge_u.cross(edge_v);
+        // In units of their own, since the area of edges that are numbers may be none.
+        let [size_u, size_v] = [edge_u, edge_v].map(|edge| edge.abs().max_element());
+        let (u, v) = (edge_u / size_u, edge_v / size_v);
+        let across = u.cross(v);
         let normal = across.try_normalize()?;
         let area = across.length();
         // Edges that differ in direction by less than this leave no digits to tell a from b.
-        if area < 1e-9 * edge_u.length() * edge_v.length() {
+        if area < 1e-9 * u.length() * v.length() {
             return None;
         }
-        let dual_u = edge_v.cross(normal) / area;
-        let dual_v = normal.cross(edge_u) / area;
+        let dual_u = v.cross(normal) / area / size_u;
+        let dual_v = normal.cross(u) / area / size_v;
         Some(Self { corner, edge_u, edge_v, repeat, bounded, normal, dual_u, dual_v })
     }
 

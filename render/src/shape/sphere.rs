@@ -30,28 +30,30 @@ impl Sphere {
         leaves: bool,
         skin: f64,
     ) -> Option<f64> {
-        let to_center = self.center - origin;
+        // In units of the radius, whose square may be no number.
+        let to_center = (self.center - origin) / self.radius;
         let along = to_center.dot(direction);
-        // |d^2 - r^2| is 2 r times the distance |d - r| from the surface.
-        let off = to_center.length_squared() - self.radius * self.radius;
-        if leaves || off.abs() < 2.0 * self.radius * skin {
-            let far = 2.0 * along;
+        // |d^2 - 1| is twice the distance |d - 1| from the surface.
+        let off = to_center.length_squared() - 1.0;
+        if leaves || off.abs() < 2.0 * (skin / self.radius) {
+            let far = 2.0 * along * self.radius;
             return (far > skin).then_some(far);
         }
         // The distance of the centre from the ray, by the vector itself: no cancellation far away.
         let aside = to_center - along * direction;
-        let half_chord_sq = self.radius * self.radius - aside.length_squared();
+        let half_chord_sq = 1.0 - aside.length_squared();
         if half_chord_sq < 0.0 {
             return None;
         }
         let half_chord = half_chord_sq.sqrt();
-        [along - half_chord, along + half_chord].into_iter().find(|&t| t > 0.0)
+        let roots = [along - half_chord, along + half_chord].map(|t| t * self.radius);
+        roots.into_iter().find(|&t| t > 0.0)
     }
 
     /// The surface point at a hit; `near` is the hit as found along the ray.
     #[must_use]
     pub fn surface_point(&self, near: DVec3) -> SurfacePoint {
-        let normal = (near - self.center).normalize();
+        let normal = ((near - self.center) / self.radius).normalize();
         let longitude = 0.5 - f64::atan2(-normal.x, normal.z) / TAU;
         let latitude = 0.5 + normal.y.clamp(-1.0, 1.0).asin() / PI;
         SurfacePoint {

@@ -3,6 +3,8 @@
 #![allow(dead_code, reason = "each test program uses its part of the studio")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+pub mod objects;
+
 use files::json::Document;
 use files::{FileError, Source};
 use image::{ImageFormat, Rgb, RgbImage};
@@ -49,6 +51,14 @@ pub fn picture(scene: &Scene, side: u32, filter: Filter) -> Picture {
 /// Its picture, `side` by `side` pixels with `samples` by `samples` rays in each.
 pub fn supersampled(scene: &Scene, side: u32, samples: u32, filter: Filter) -> Picture {
     let settings = Settings::new(side, side, filter).with_samples(samples);
+    let (picture, stats) = render::render(scene, &settings, &|_, _| {});
+    assert_eq!(stats.not_finite, 0);
+    picture
+}
+
+/// Its picture, of any width and height, with one ray in each pixel.
+pub fn sized(scene: &Scene, width: u32, height: u32, filter: Filter) -> Picture {
+    let settings = Settings { width, height, samples: 1, filter };
     let (picture, stats) = render::render(scene, &settings, &|_, _| {});
     assert_eq!(stats.not_finite, 0);
     picture

@@ -1,0 +1,349 @@
+//! How the texture coordinates of a shape hang together.
+//!
+//! Two texture coordinates can be compared when one leads to the other without a jump: over a
+//! connected piece of mesh whose triangles share both places and coordinates, a chart. A mesh with
+//! several areas has a chart for each, though they may show one texture.
+//!
+//! A chart may close on itself, as around a tube: then its coordinates jump at a seam, by a whole
+//! number, and differences are taken the short way round. Seams are read off the mesh, each chart for
+//! itself, since one area may go around with its picture once, another with four, and a third only
+//! halfway: an edge that two triangles of a chart share with coordinates that differ by the same
+//! whole number at both ends lies on a seam. A floor, however often its picture repeats, has none.
+
+use super::SeamPeriod;
+use super::mesh::{Mesh, NONE};
+use glam::DVec2;
+use std::collections::HashMap;
+
+/// Coordinates of files are rounded: to `f32`, or to six digits.
+const ROUNDING: f64 = 1e-4;
+
+/// The charts of one shape.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Charts {
+    /// The chart of each triangle; empty when there is but one.
+    of_triangle: Vec<u32>,
+    /// The seams of each chart.
+    seams: Vec<Seam>,
+}
+
+/// How the coordinates of one chart jump where it closes on itself.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+struct Seam {
+    /// By how much, across and up; 0 where it does not.
+    period: SeamPeriod,
+    /// Whether the other coordinate is mirrored there, as on a Moebius band.
+    mirrors: [bool; 2],
+}
+
+impl Charts {
+    /// One chart, whose coordinates jump by `period` at its seams.
+    #[must_use]
+    pub fn one(period: SeamPeriod) -> Self {
+        Self { of_triangle: Vec::new(), seams: vec![Seam { period, mirrors: [false; 2] }] }
+    }
+
+    /// The charts of a mesh. Triangles without texture coordinates are one chart.
+    #[must_use]
+    pub fn of(mesh: &Mesh) -> Self {
+        let places = places(mesh);
+        let of_triangle = connected(mesh, &places);
+        let count = of_triangle.iter().max().map_or(1, |&last| last as usize + 1);
+        let seams = seams(mesh, &places, &of_triangle, count);
+        Self { of_triangle: if count == 1 { Vec::new() } else { of_triangle }, seams }
+    }
+
+    /// The way from one texture coordinate to another, each with its triangle: the short way where
+    /// the chart closes on itself. Nothing when they are of different charts, or when the short way
+    /// leads over a seam that mirrors: nothing tells then what lies between.
+    #[must_use]
+    pub fn difference(&self, from: (u32, DVec2), to: (u32, DVec2)) -> Option<DVec2> {
+        let chart = self.chart(from.0);
+        if self.chart(to.0) != chart {
+            return None;
+        }
+        let Seam { period, mirrors } = self.seams.get(chart).copied().unwrap_or_default();
+        let mut way = to.1 - from.1;
+        for k in 0..2 {
+            if period[k] > 0.0 {
+                let turns = (way[k] / period[k]).round();
+                if turns != 0.0 && mirrors[k] {
+                    return None;
+                }
+                way[k] -= period[k] * turns;
+            }
+        }
+        Some(way)
+    }
+
+    fn chart(&self, triangle: u32) -> usize {
+        self.of_triangle.get(triangle as usize).map_or(0, |&chart| chart as usize)
+    }
+}
+
+/// A number for each position, the same for positions that are equal.
+fn places(mesh: &Mesh) -> Vec<u32> {
+    let mut known: HashMap<[u32; 3], u32> = HashMap::with_capacity(mesh.positions.len());
+    let places = mesh.positions.iter().zip(0..).map(|(position, number)| {
+        // Minus zero is the same place as zero.
+        *known.entry(position.map(|x| (x + 0.0).to_bits())).or_insert(number)
+    });
+    places.collect()
+}
+
+/// The chart of each triangle, numbered in their order: triangles of one surface are of one chart
+/// when they share a corner with its place and its texture coordinates.
+fn connected(mesh: &Mesh, places: &[u32]) -> Vec<u32> {
+    let mut parents: Vec<u32> = (0..mesh.triangles.len() as u32).collect();
+    let mut first: HashMap<(u32, [u32; 2], u32), u32> = HashMap::new();
+    for (triangle, number) in mesh.triangles.iter().zip(0..) {
+        for (&position, &uv) in triangle.position.iter().zip(&triangle.uv) {
+            let key = if uv == NONE {
+                (NONE, [NONE; 2], NONE)
+            } else {
+                let bits = mesh.uvs[uv as usize].map(|x| (x + 0.0).to_bits());
+                (places[position as usize], bits, triangle.surface)
+            };
+            let other = *first.entry(key).or_insert(number);
+            let [one, other] = [root(&mut parents, number), root(&mut parents, other)];
+            parents[one.max(other) as usize] = one.min(other);
+        }
+    }
+    // A root is the first triangle of its chart, so its number is known before it is asked for.
+    let mut charts = vec![0; parents.len()];
+    let mut count = 0;
+    for triangle in 0..parents.len() as u32 {
+        let root = root(&mut parents, triangle);
+        charts[triangle as usize] = if root == triangle {
+            count += 1;
+            count - 1
+        } else {
+            charts[root as usize]
+        };
+    }
+    charts
+}
+
+/// The root of a tree of parents; the way there is halved for the next time.
+fn root(parents: &mut [u32], mut node: u32) -> u32 {
+    while parents[node as usize] != node {
+        let above = parents[parents[node as usize] as usize];
+        parents[node as usize] = above;
+        node = above;
+    }
+    node
+}
+
+/// An edge between two places, in order, as one triangle has it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Edge {
+    ends: [u32; 2],
+    chart: u32,
+    /// Texture coordinates at both ends, as indices.
+    uvs: [u32; 2],
+}
+
+fn seams(mesh: &Mesh, places: &[u32], of_triangle: &[u32], count: usize) -> Vec<Seam> {
+    let mut edges = Vec::with_capacity(3 * mesh.triangles.len());
+    for (triangle, &chart) in mesh.triangles.iter().zip(of_triangle) {
+        if triangle.uv[0] == NONE {
+            continue;
+        }
+        for k in 0..3 {
+            let corner = |k: usize| (places[triangle.position[k] as usize], triangle.uv[k]);
+            let [from, to] = [corner(k), corner((k + 1) % 3)];
+            let [low, high] = if from.0 < to.0 { [from, to] } else { [to, from] };
+            if low.0 != high.0 {
+                edges.push(Edge { ends: [low.0, high.0], chart, uvs: [low.1, high.1] });
+            }
+        }
+    }
+    edges.sort_unstable();
+    let mut seams = vec![Seam::default(); count];
+    let mut beside_poles = vec![DVec2::ZERO; count];
+    for pair in edges.windows(2) {
+        let [one, other] = [pair[0], pair[1]];
+        if one.ends != other.ends || one.chart != other.chart {
+            continue;
+        }
+        let jump = |end: usize| uv(mesh, other.uvs[end]) - uv(mesh, one.uvs[end]);
+        let jumps = [jump(0), jump(1)];
+        let chart = one.chart as usize;
+        for k in 0..2 {
+            let along = jumps.map(|jump| jump[k].abs());
+            let across = jumps.map(|jump| jump[1 - k]);
+            if let Some(period) = closing(along) {
+                let seam = &mut seams[chart];
+                seam.period[k] = seam.period[k].max(period);
+                let shifted = across.map(|jump| jump - jump.round()).map(f64::abs);
+                seam.mirrors[k] |= shifted.iter().any(|&rest| rest > ROUNDING)
+                    || (across[0] - across[1]).abs() > ROUNDING;
+            } else {
+                let most = beside_pole(along).unwrap_or(0.0);
+                beside_poles[chart][k] = beside_poles[chart][k].max(most);
+            }
+        }
+    }
+    for (seam, beside) in seams.iter_mut().zip(beside_poles) {
+        for k in 0..2 {
+            if seam.period[k] == 0.0 {
+                seam.period[k] = beside[k];
+            }
+        }
+    }
+    seams
+}
+
+fn uv(mesh: &Mesh, index: u32) -> DVec2 {
+    DVec2::from(mesh.uvs[index as usize].map(f64::from))
+}
+
+/// The whole number that a coordinate jumps by at both ends of an edge.
+fn closing(jumps: [f64; 2]) -> Option<f64> {
+    let whole = whole(jumps[0])?;
+    (self::whole(jumps[1])? == whole).then_some(whole)
+}
+
+/// The whole number that a coordinate jumps by at one end of an edge whose other end is a pole.
+///
+/// There each triangle has the coordinate of its middle, so the jump is less by a triangle's width.
+/// Only a fan, which has no other edges along its seam, is judged by it.
+fn beside_pole(jumps: [f64; 2]) -> Option<f64> {
+    let [less, most] = if jumps[0] < jumps[1] { jumps } else { [jumps[1], jumps[0]] };
+    whole(most).filter(|_| less > 0.5 * most - ROUNDING)
+}
+
+/// The whole number, at least 1, that a jump is but for rounding.
+fn whole(jump: f64) -> Option<f64> {
+    let whole = jump.round();
+    let rounding = ROUNDING.max(1e-6 * jump);
+    (whole >= 1.0 && (jump - whole).abs() < rounding).then_some(whole)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::mesh::Triangle;
+    use super::*;
+    use std::f32::consts::TAU;
+
+    /// Adds a band around the y axis from height `low` to `low + 1`, of `cells` cells over the part
+    /// `ring` of it, with coordinates from 0 to `repeat`.
+    fn band(mesh: &mut Mesh, low: f32, cells: u32, ring: f32, repeat: f32, surface: u32) {
+        for cell in 0..cells {
+            let corner = |mesh: &mut Mesh, dx: u32, dy: u32| {
+                let u = (cell + dx) as f32 / cells as f32;
+                let angle = if u * ring == 1.0 { 0.0 } else { TAU * u * ring };
+                mesh.positions.push([angle.cos(), low + dy as f32, angle.sin()]);
+                mesh.uvs.push([repeat * u, dy as f32]);
+                mesh.positions.len() as u32 - 1
+            };
+            let [a, b, c, d] = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(x, y)| corner(mesh, x, y));
+            triangles(mesh, &[[a, b, c], [a, c, d]], surface);
+        }
+    }
+
+    fn triangles(mesh: &mut Mesh, corners: &[[u32; 3]], surface: u32) {
+        mesh.triangles.extend(corners.iter().map(|&corners| Triangle {
+            position: corners,
+            uv: corners,
+            normal: [NONE; 3],
+            surface,
+        }));
+    }
+
+    /// The way between two coordinates on two triangles.
+    fn way(charts: &Charts, from: (u32, f64), to: (u32, f64)) -> Option<f64> {
+        let at = |(triangle, u)| (triangle, DVec2::new(u, 0.5));
+        charts.difference(at(from), at(to)).map(|way| (way.x * 1e9).round() / 1e9)
+    }
+
+    #[test]
+    fn each_area_has_a_seam_of_its_own() {
+        let mut mesh = Mesh::default();
+        band(&mut mesh, 0.0, 8, 1.0, 1.0, 0);
+        band(&mut mesh, 1.0, 8, 1.0, 4.0, 0);
+        band(&mut mesh, 2.0, 8, 0.5, 1.0, 0);
+        let charts = Charts::of(&mesh);
+        // Once around: the short way is over the seam. Four times: 0.9 is no way round at all.
+        assert_eq!(way(&charts, (0, 0.05), (15, 0.95)), Some(-0.1));
+        assert_eq!(way(&charts, (16, 0.05), (17, 0.95)), Some(0.9));
+        assert_eq!(way(&charts, (16, 0.05), (31, 3.95)), Some(-0.1));
+        // Half around: it does not close.
+        assert_eq!(way(&charts, (32, 0.05), (47, 0.95)), Some(0.9));
+        // From one area to the next there is no way, though all are of one surface.
+        assert_eq!(way(&charts, (0, 0.0), (16, 0.0)), None);
+    }
+
+    #[test]
+    fn areas_side_by_side_on_an_open_sheet_make_no_seam() {
+        // Their coordinates jump by 2 at the border, which is not a way around.
+        let mut mesh = Mesh::default();
+        for x in 0..2u32 {
+            let first = mesh.positions.len() as u32;
+            for [dx, dy] in [[0u32, 0], [1, 0], [1, 1], [0, 1]] {
+                mesh.positions.push([(x + dx) as f32, dy as f32, 0.0]);
+                mesh.uvs.push([2.0 * dx as f32, dy as f32]);
+            }
+            triangles(&mut mesh, &[[0, 1, 2], [0, 2, 3]].map(|t| t.map(|k| first + k)), 0);
+        }
+        let charts = Charts::of(&mesh);
+        assert_eq!(way(&charts, (0, 0.1), (1, 1.9)), Some(1.8));
+        assert_eq!(way(&charts, (0, 1.9), (2, 0.1)), None);
+    }
+
+    #[test]
+    fn a_seam_is_read_off_the_mesh() {
+        // A floor repeats its picture and has none; a tube may be written with zeros of both signs
+        // and six digits.
+        let mut floor = Mesh::default();
+        band(&mut floor, 0.0, 4, 0.25, 4.0, 0);
+        assert_eq!(Charts::of(&floor), Charts::one(DVec2::ZERO));
+        let mut tube = Mesh::default();
+        band(&mut tube, 0.0, 5, 1.0, 4.0, 0);
+        for position in &mut tube.positions {
+            *position = position.map(|x| if x == 0.0 { -x } else { x });
+        }
+        tube.uvs.iter_mut().for_each(|uv| uv[0] *= 0.999_999);
+        assert_eq!(Charts::of(&tube), Charts::one(DVec2::new(4.0, 0.0)));
+        assert_eq!(Charts::of(&Mesh::default()), Charts::one(DVec2::ZERO));
+    }
+
+    #[test]
+    fn a_fan_around_a_pole_is_one_chart_that_closes() {
+        // Each triangle has the middle of its side as the coordinate of the tip.
+        let cone = |ring: f32| {
+            let mut mesh = Mesh::default();
+            band(&mut mesh, 0.0, 8, ring, 4.0, 0);
+            for pair in 0..8 {
+                mesh.triangles[2 * pair].position[2] = 2;
+                let [from, to] = [0, 1].map(|k| mesh.uvs[4 * pair + k][0]);
+                mesh.uvs[4 * pair + 2] = [0.5 * (from + to), 1.0];
+            }
+            mesh.triangles.retain(|triangle| triangle.position[1] % 4 == 1);
+            Charts::of(&mesh)
+        };
+        assert_eq!(cone(1.0), Charts::one(DVec2::new(4.0, 0.0)));
+        // A part of a cone does not close, though at its tip coordinates lie whole numbers apart.
+        assert_eq!(cone(0.5), Charts::one(DVec2::ZERO));
+    }
+
+    #[test]
+    fn over_a_seam_that_mirrors_there_is_no_way() {
+        let mut mesh = Mesh::default();
+        band(&mut mesh, 0.0, 8, 1.0, 1.0, 0);
+        // The last cell ends at the first one's corners, upside down.
+        mesh.positions.swap(29, 30);
+        let charts = Charts::of(&mesh);
+        assert_eq!(way(&charts, (0, 0.05), (15, 0.95)), None);
+        assert_eq!(way(&charts, (0, 0.05), (5, 0.3)), Some(0.25));
+    }
+
+    #[test]
+    fn triangles_without_coordinates_are_one_chart() {
+        let mut mesh = Mesh::default();
+        band(&mut mesh, 0.0, 8, 1.0, 1.0, 0);
+        mesh.triangles.iter_mut().for_each(|triangle| triangle.uv = [NONE; 3]);
+        mesh.triangles.drain(4..9);
+        assert_eq!(Charts::of(&mesh), Charts::one(DVec2::ZERO));
+    }
+}

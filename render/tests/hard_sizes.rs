@@ -1,0 +1,170 @@
+//! Pictures of a pixel, spheres and planes as small and as large as numbers go, scenes that are all
+//! one point to their shapes.
+
+mod studio;
+
+use render::filter::Filter;
+use render::{Picture, Scene};
+use studio::objects::{light, mesh, plane, quad, sphere, textured};
+use studio::{FILTERS, assert_near, at, picture, pixels, png, scene, sized};
+
+const MATERIALS: &str = r#""materials": { "white": { "diffuse": 0.8 },
+    "unlit": { "diffuse": 0 }, "mirror": { "ambient": 0, "diffuse": 0, "reflectivity": 1 },
+    "glass": { "ambient": 0, "diffuse": 0, "reflectivity": 1, "transparency": 1, "fresnel": true } }"#;
+
+const IMAGE: &str = r#""textures": { "image": { "image": "i.png", "values": "linear" } },"#;
+
+/// A scene with a picture of 5 by 3 texels of many colours.
+fn with(keys: &str, objects: &[String]) -> Scene {
+    let keys = format!("{keys} {IMAGE} {MATERIALS}, \"objects\": [ {} ]", objects.join(","));
+    let texels: Vec<[u8; 3]> =
+        (0..15u8).map(|k| [k * 17, 255 - k * 11, k.wrapping_mul(57)]).collect();
+    scene(&keys, &[("i.png", png(5, &texels))])
+}
+
+#[test]
+fn a_row_a_column_and_a_pixel_are_parts_of_a_larger_picture() {
+    let tilted = plane([0.1, -0.3, -1.0], [0.3, 0.1, 0.2], [0.1, 0.2, -0.4], "unlit");
+    let objects = [textured(&tilted), sphere([0.2, 0.1, -0.5], 0.4, "glass")];
+    let scene = with(r#""background": [0.1, 0.2, 0.3],"#, &objects);
+    for filter in FILTERS {
+        // Pixels are as large as the height says, so a column is the middle column of a square, to
+        // the last bit: what its footprints need from beside it is traced as well.
+        let square = picture(&scene, 9, filter);
+        let column = sized(&scene, 1, 9, filter);
+        for y in 0..9 {
+            assert_eq!(at(&column, 0, y), at(&square, 4, y), "{filter:?} {y}");
+        }
+        let row = sized(&scene, 7, 1, filter);
+        let pixel = sized(&scene, 1, 1, filter);
+        assert_eq!(at(&row, 3, 0), at(&pixel, 0, 0), "{filter:?}");
+        assert!(row.pixels.iter().flatten().all(|light| (0.0..=2.0).contains(light)));
+    }
+}
+
+/// A ball of this radius that just fills half of the view from `distance` radii, whatever its size.
+fn round(radius: f64) -> Picture {
+    let eye = [0.0, 0.0, 4.0 * radius];
+    let keys = format!(
+        r#""camera": {{ "eye": {eye:?}, "target": [0, 0, 0], "fov_deg": 40 }}, "background": 0.25, {}"#,
+        light([3.0 * radius, 5.0 * radius, 4.0 * radius])
+    );
+    let globe = textured(&sphere([0.0; 3], radius, "white"));
+    picture(&with(&keys, &[globe]), 33, Filter::Tent)
+}
+
+#[test]
+fn balls_of_any_size_look_the_same() {
+    let unit = round(1.0);
+    for power in [-300, -100, 40, 120] {
+        assert_near(&round(2f64.powi(power)), &unit, 0.0);
+    }
+    for radius in [1e-90, 1e-12, 1e12, 1e36] {
+        assert_near(&round(radius), &round(1.0), 1e-5);
+    }
+}
+
+#[test]
+fn a_ball_around_everything_may_be_as_large_as_numbers_go() {
+    // Its inside is seen everywhere, and the small ball in it stays as it was.
+    let small = sphere([0.0, 0.0, -1.0], 0.5, "unlit");
+    let keys = r#""ambient": 0.5, "background": [1, 0, 0],"#;
+    let bare = picture(&with(keys, std::slice::from_ref(&small)), 31, Filter::Point);
+    for radius in [1e6, 1e30, 1e100, 1e200, 1e300] {
+        let sky = sphere([0.0; 3], radius, "unlit");
+        let seen = picture(&with(keys, &[small.clone(), sky]), 31, Filter::Point);
+        assert!(seen.pixels.iter().all(|&pixel| pixel == [0.5; 3]), "radius {radius:e}");
+        // And in a mirror it is seen all around.
+        let mirror = sphere([0.0, 0.0, -1.0], 0.5, "mirror");
+        let sky = sphere([0.0; 3], radius, "unlit");
+        let seen = picture(&with(keys, &[mirror, sky]), 31, Filter::Point);
+        assert!(seen.pixels.iter().all(|&pixel| pixel == [0.5; 3]), "radius {radius:e}");
+    }
+    assert!(bare.pixels.contains(&[1.0, 0.0, 0.0]));
+}
+
+#[test]
+fn balls_too_small_to_be_met_are_not_seen() {
+    let keys = r#""background": [1, 0.5, 0.25],"#;
+    for radius in [1e-30, 1e-200, 1e-300, 5e-324] {
+        // Nine of them, so that some are leaves of a tree.
+        let dust: Vec<String> =
+            (0..9).map(|k| sphere([0.013 * f64::from(k), 0.017, -1.0], radius, "white")).collect();
+        let seen = picture(&with(keys, &dust), 16, Filter::Point);
+        assert!(seen.pixels.iter().all(|&pixel| pixel == [1.0, 0.5, 0.25]), "radius {radius:e}");
+    }
+}
+
+#[test]
+fn a_plane_is_the_same_however_long_its_edges() {
+    let keys = light([1.0, 2.0, 3.0]);
+    let wall = |size: f64| {
+        let [u, v] = [[1.0, 0.25, 0.5], [0.125, 1.0, -0.25]].map(|e: [f64; 3]| e.map(|x| x * size));
+        picture(&with(&keys, &[plane([0.3, 0.1, -1.0], u, v, "white")]), 24, Filter::Point)
+    };
+    let unit = wall(1.0);
+    for power in [-1000, -200, 200, 1000] {
+        assert_near(&wall(2f64.powi(power)), &unit, 0.0);
+    }
+    // A texture on it is one texel as far as the eye can see, or the mean of all of them.
+    let mean = [0.0, 1.0, 2.0].map(|k: f32| match k as u8 {
+        0 => 119.0 / 255.0,
+        1 => 178.0 / 255.0,
+        _ => (0..15u8).map(|k| f32::from(k.wrapping_mul(57))).sum::<f32>() / 15.0 / 255.0,
+    });
+    for size in [1e100, 1e-6, 1e-12] {
+        let edge = |x: f64, y: f64| [x * size, y * size, 0.0];
+        let wall = plane([-0.3 * size, -0.4 * size, 0.0], edge(1.0, 0.0), edge(0.0, 1.0), "unlit");
+        let scene = with(r#""ambient": 1,"#, &[textured(&wall)]);
+        for filter in [Filter::Box, Filter::Tent] {
+            let seen = picture(&scene, 8, filter);
+            let truth = if size > 1.0 { at(&seen, 0, 0) } else { mean };
+            // Beyond its last whole period a footprint of a hundred thousand has not much.
+            let far = |pixel: &[f32; 3]| (0..3).any(|k| (pixel[k] - truth[k]).abs() > 1e-4);
+            assert!(!seen.pixels.iter().any(far), "{size:e} {filter:?} {:?}", at(&seen, 0, 0));
+        }
+    }
+}
+
+#[test]
+fn a_rectangle_larger_than_its_box_can_be_is_still_seen() {
+    for size in [1e30, 1e39, 1e60] {
+        let wall = quad([-3.0, -3.0, -1.0], [size, 0.0, 0.0], [0.0, size, 0.0], "unlit");
+        let scene = with(r#""ambient": 0.5,"#, &[wall.clone(), sphere([0.0; 3], 1e-3, "unlit")]);
+        let seen = picture(&scene, 9, Filter::Point);
+        assert!(seen.pixels.iter().all(|&pixel| pixel == [0.5; 3]), "{size:e}");
+        // More of them than stand apart from the tree.
+        let many = vec![wall; 12];
+        let seen = picture(&with(r#""ambient": 0.5,"#, &many), 9, Filter::Point);
+        assert!(seen.pixels.iter().all(|&pixel| pixel == [0.5; 3]), "{size:e}");
+    }
+}
+
+#[test]
+fn a_thousand_coincident_triangles_look_like_one() {
+    let square = "v -2 -2 0\nv 2 -2 0.5\nv 2 2 0.25\nv -2 2 -0.25\n";
+    let obj = |count: usize| {
+        let faces = "f 1 2 3\nf 1 3 4\n".repeat(count);
+        format!("{square}{faces}").into_bytes()
+    };
+    for material in ["white", "mirror", "glass"] {
+        let shown = |count: usize| {
+            let keys = format!(
+                "{} \"background\": [0.5, 0.25, 1], \"max_depth\": 4, {MATERIALS}, \
+                 \"objects\": [ {}, {} ]",
+                light([1.0, 2.0, 3.0]),
+                mesh(material),
+                sphere([0.3, 0.2, -1.5], 0.6, "white"),
+            );
+            picture(&scene(&keys, &[("m.obj", obj(count))]), 24, Filter::Point)
+        };
+        // Of a thousand the first is hit, and none of the others is in the way of what leaves it.
+        assert_near(&shown(500), &shown(1), 0.0);
+    }
+    let black = picture(
+        &scene(&format!("{MATERIALS}, \"objects\": [ {} ]", mesh("white")), &[("m.obj", obj(1))]),
+        24,
+        Filter::Point,
+    );
+    assert!(pixels(&black).all(|(_, _, pixel)| pixel[0] > 0.0));
+}
