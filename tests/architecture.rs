@@ -18,14 +18,15 @@ const CRATES: [(&str, &[&str]); 5] = [
 
 /// The rooms of `render` from the bottom up, and into which others each one looks: only at rooms
 /// above it in this list, which is below it in the house.
-const ROOMS: [(&str, &[&str]); 14] = [
+const ROOMS: [(&str, &[&str]); 15] = [
     ("color", &[]),
     ("optics", &[]),
     ("progress", &[]),
     ("ray", &[]),
     ("shape", &[]),
     ("texture", &["color"]),
-    ("scene", &["color", "ray", "shape", "texture"]),
+    ("procedural", &["color"]),
+    ("scene", &["color", "procedural", "ray", "shape", "texture"]),
     ("accel", &["ray", "shape"]),
     ("trace", &["accel", "optics", "ray", "scene"]),
     ("footprint", &["shape", "trace"]),

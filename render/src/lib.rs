@@ -18,6 +18,7 @@ pub mod film;
 pub mod filter;
 pub mod footprint;
 pub mod optics;
+pub mod procedural;
 pub mod progress;
 pub mod ray;
 pub mod scene;

@@ -115,6 +115,7 @@ fn render_in_tiles(
         film.into_inner().unwrap_or_else(PoisonError::into_inner);
     stats.tables = exposure.shader.tables();
     stats.table_bytes = exposure.shader.table_bytes();
+    stats.lattice_bytes = scene.procedural.lattice_bytes();
     stats.not_finite = picture.remove_not_finite();
     stats.picture_time = started.elapsed();
     (picture, stats)
@@ -124,7 +125,7 @@ fn render_in_tiles(
 fn ready_shader<'a>(scene: &'a Scene, accel: &'a Accel<'a>, filter: Filter) -> Shader<'a> {
     let mut shown = vec![false; scene.textures.len()];
     for surface in scene.objects.iter().flat_map(|object| &object.parts) {
-        if let Some(texture) = surface.texture
+        if let Some(texture) = surface.picture()
             && scene.materials[surface.material].shows_color()
         {
             shown[texture] = true;
@@ -141,7 +142,9 @@ fn ready_shader<'a>(scene: &'a Scene, accel: &'a Accel<'a>, filter: Filter) -> S
         .iter()
         .map(|object| match &object.shape {
             // Only neighbours that are averaged need to be unwrapped.
-            _ if !filter.wants_area() || object.parts.iter().all(|part| part.texture.is_none()) => {
+            _ if !filter.wants_area()
+                || object.parts.iter().all(|part| part.picture().is_none()) =>
+            {
                 DVec2::ZERO
             }
             Shape::Sphere(sphere) => sphere.seam(),
@@ -261,7 +264,8 @@ impl Exposure<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Camera, Material, Object, PointLight, Surface};
+    use crate::procedural::Procedural;
+    use crate::scene::{Camera, Material, Object, PointLight, Surface, SurfaceTexture};
     use crate::shape::{Quad, Sphere};
     use crate::texture::{Texture, Wrap};
     use glam::{DAffine3, DVec3};
@@ -280,6 +284,7 @@ mod tests {
             transparency: 0.0,
             index_of_refraction: 1.5,
             fresnel: false,
+            bump: None,
         };
         let glass = Material {
             ambient: 0.0,
@@ -304,8 +309,9 @@ mod tests {
             lights: vec![PointLight { position: DVec3::new(3.0, 5.0, 4.0), color: Color::ONE }],
             materials: vec![plain, glass],
             textures: vec![texture],
+            procedural: Procedural::default(),
             objects: vec![
-                object(Shape::Quad(floor), 0, Some(0)),
+                object(Shape::Quad(floor), 0, Some(SurfaceTexture::Picture(0))),
                 object(Shape::Sphere(ball), 1, None),
             ],
             max_depth: 8,

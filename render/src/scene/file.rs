@@ -54,10 +54,12 @@
 //! textures, `materials` binds surface ids to materials; `material` and `texture` stand for all that
 //! are not bound. In an OBJ of another tool both maps are keyed by the name that `usemtl` gives.
 
+pub mod bump;
 mod color;
 mod light;
 mod material;
 mod object;
+pub mod solid;
 mod texture;
 
 pub use color::ColorFile;

@@ -1,21 +1,25 @@
 //! From a scene file to a [`Scene`]: names become indices, pictures and meshes are read, and every
 //! number is checked against its range.
 
+mod bumps;
 mod lights;
 mod materials;
 mod objects;
+mod solids;
 mod textures;
 
 use super::file::{ColorFile, MeshFile, ObjectFile, SceneFile};
 use super::obj::ObjError;
 use super::{Camera, Scene};
 use crate::color::Color;
+use crate::procedural::{NoiseLattice, Procedural};
 use crate::shape::Mesh;
 use crate::shape::mesh::MeshError;
 use files::json::{Document, nearest};
 use files::{Exit, Failure, FileError, JsonError, Source};
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::{Arc, OnceLock};
 use thiserror::Error;
 
 /// Deeper recursion is refused: it would show nothing more and could exhaust the stack.
@@ -130,7 +134,7 @@ pub fn resolve(
     given: MeshSource,
 ) -> Result<Scene, SceneError> {
     check_mesh_names(file, given.keys().map(String::as_str))?;
-    let reader = Reader { document, file, folder, source };
+    let reader = Reader { document, file, folder, source, lattice: OnceLock::new() };
     let camera = reader.camera()?;
     let background = reader.color("background", file.background)?;
     let ambient = reader.color("ambient", file.ambient)?;
@@ -139,8 +143,11 @@ pub fn resolve(
     reader.within("max_depth", f64::from(file.max_depth), 0.0, f64::from(DEEPEST))?;
     reader.within("min_weight", file.min_weight, 0.0, 1.0)?;
     reader.objects_without_meshes()?;
+    reader.texture_kinds()?;
+    let (solids, bumps) = (reader.solids()?, reader.bumps()?);
     let textures = reader.textures()?;
     let objects = reader.objects(given)?;
+    let procedural = Procedural { solids, bumps, lattice: reader.lattice.into_inner() };
     Ok(Scene {
         camera,
         background,
@@ -148,6 +155,7 @@ pub fn resolve(
         lights,
         materials,
         textures,
+        procedural,
         objects,
         max_depth: file.max_depth,
         min_weight: file.min_weight,
@@ -159,6 +167,8 @@ struct Reader<'a> {
     file: &'a SceneFile,
     folder: &'a Path,
     source: &'a dyn Source,
+    /// What noise is made of, once something asks for it.
+    lattice: OnceLock<Arc<NoiseLattice>>,
 }
 
 impl Reader<'_> {

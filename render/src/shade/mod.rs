@@ -41,6 +41,8 @@ pub struct ShadeCounts {
     pub points: u64,
     /// Texels or table entries read for both.
     pub texels: u64,
+    /// Solid textures looked up.
+    pub solids: u64,
 }
 
 impl Shader<'_> {
@@ -78,12 +80,13 @@ impl Shader<'_> {
 
     /// The colour of the surface itself under ambient light and the lights that reach it.
     fn local(&self, node: &Node, around: &Neighbourhood<'_>, counts: &mut ShadeCounts) -> Color {
-        let surface = self.scene.objects[node.piece.object as usize].parts[node.part as usize];
+        let object = &self.scene.objects[node.piece.object as usize];
+        let surface = object.parts[node.part as usize];
         let material = &self.scene.materials[surface.material];
         let Lighting { diffuse, highlight } = self.lighting(node, material, counts);
         let mut color = highlight;
         if material.shows_color() {
-            let texture = surface.texture.and_then(|index| self.textures[index].as_ref());
+            let texture = surface.picture().and_then(|index| self.textures[index].as_ref());
             let textured = texture.map_or(Color::ONE, |texture| {
                 let footprint = around.footprint(node, self.seams[node.piece.object as usize]);
                 counts.texels += texture.reads();
@@ -91,13 +94,20 @@ impl Shader<'_> {
                     Footprint::Point(_) => counts.points += 1,
                     Footprint::Rectangle { .. } => counts.areas += 1,
                 }
-                let object = &self.scene.objects[node.piece.object as usize];
                 match object.shape {
                     Shape::Sphere(_) => texture.average(&texture.between_poles(footprint)),
                     Shape::Quad(_) | Shape::Mesh(_) => texture.average(&footprint),
                 }
             });
-            color += material.color * textured * (material.ambient * self.scene.ambient + diffuse);
+            let carved = surface.solid().map_or(Color::ONE, |index| {
+                counts.solids += 1;
+                let solid = &self.scene.procedural.solids[index];
+                solid.color(&object.to_own_space, node.position)
+            });
+            color += material.color
+                * textured
+                * carved
+                * (material.ambient * self.scene.ambient + diffuse);
         }
         color
     }

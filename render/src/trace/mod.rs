@@ -68,9 +68,13 @@ impl Tracer<'_> {
         let inside = ray.direction.dot(point.geometric_normal) > 0.0;
         let side = if inside { -1.0 } else { 1.0 };
         let geometric_normal = side * point.geometric_normal;
-        let mut normal = side * point.shading_normal;
+        let bumped = material.bump.map_or(point.shading_normal, |bump| {
+            let bump = &self.scene.procedural.bumps[bump];
+            bump.normal(&object.to_own_space, point.position, point.shading_normal)
+        });
+        let mut normal = side * bumped;
         if ray.direction.dot(normal) >= 0.0 {
-            // Seen from behind its interpolated normal: only the facet itself tells the truth.
+            // Seen from behind its interpolated or bumped normal: only the facet itself tells the truth.
             normal = geometric_normal;
         }
 
@@ -210,6 +214,7 @@ mod tests {
                 transparency: 1.0,
                 index_of_refraction: 1.5,
                 fresnel,
+                bump: None,
             };
             let split = Split::at(&glass, incident, normal, facet, inside);
             if let Some(direction) = split.refracted {

@@ -1,5 +1,6 @@
 //! `materials` of a scene file.
 
+use super::bump::BumpFile;
 use super::color::{ColorFile, white};
 use serde::Deserialize;
 
@@ -17,6 +18,8 @@ pub struct MaterialFile {
     pub transparency: f64,
     pub index_of_refraction: f64,
     pub fresnel: bool,
+    /// How normals are turned; not at all by default.
+    pub bump: Option<BumpFile>,
 }
 
 impl Default for MaterialFile {
@@ -31,6 +34,7 @@ impl Default for MaterialFile {
             transparency: 0.0,
             index_of_refraction: 1.5,
             fresnel: false,
+            bump: None,
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{MeshSource, Reader, SceneError, meshes};
 use crate::scene::file::{MeshFile, ObjectFile};
-use crate::scene::{Object, Surface, obj};
+use crate::scene::{Object, Surface, SurfaceTexture, obj};
 use crate::shape::{Mesh, Quad, Shape, Sphere};
 use files::json::nearest;
 use glam::{DAffine3, DVec2, DVec3};
@@ -187,8 +187,15 @@ impl Reader<'_> {
         self.index_of(path, "material", name, &self.file.materials)
     }
 
-    fn texture_index(&self, path: &str, name: &str) -> Result<usize, SceneError> {
-        self.index_of(path, "texture", name, &self.file.textures)
+    fn texture_index(&self, path: &str, name: &str) -> Result<SurfaceTexture, SceneError> {
+        let index = self.index_of(path, "texture", name, &self.file.textures)?;
+        // Pictures and solids are counted apart.
+        let textures = || self.file.textures.values();
+        let pictures = textures().take(index).filter(|texture| texture.image.is_some()).count();
+        Ok(match textures().nth(index) {
+            Some(texture) if texture.image.is_none() => SurfaceTexture::Solid(index - pictures),
+            _ => SurfaceTexture::Picture(pictures),
+        })
     }
 
     fn index_of<T>(
@@ -216,7 +223,7 @@ impl Reader<'_> {
 #[derive(Debug, Default)]
 struct Bindings {
     material: Option<usize>,
-    texture: Option<usize>,
+    texture: Option<SurfaceTexture>,
     materials: BTreeMap<String, usize>,
-    textures: BTreeMap<String, usize>,
+    textures: BTreeMap<String, SurfaceTexture>,
 }

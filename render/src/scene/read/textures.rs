@@ -5,15 +5,24 @@ use crate::scene::file::TextureFile;
 use crate::texture::Texture;
 use image::ImageReader;
 use std::io::Cursor;
+use std::path::Path;
 
 impl Reader<'_> {
     pub(super) fn textures(&self) -> Result<Vec<Texture>, SceneError> {
-        self.file.textures.iter().map(|(name, texture)| self.texture(name, texture)).collect()
+        let pictures = self.file.textures.iter().filter_map(|(name, texture)| {
+            Some(self.texture(name, texture, texture.image.as_deref()?))
+        });
+        pictures.collect()
     }
 
-    fn texture(&self, name: &str, texture: &TextureFile) -> Result<Texture, SceneError> {
+    fn texture(
+        &self,
+        name: &str,
+        texture: &TextureFile,
+        image: &Path,
+    ) -> Result<Texture, SceneError> {
         let place = format!("textures.{name}.image");
-        let path = self.folder.join(&texture.image);
+        let path = self.folder.join(image);
         let bytes = self.named_file(&place, &path)?;
         let decoded = ImageReader::new(Cursor::new(bytes))
             .with_guessed_format()
@@ -29,7 +38,11 @@ impl Reader<'_> {
                 return self.fault(&place, message);
             }
         };
-        match Texture::from_picture(&picture, texture.values, texture.wrap) {
+        match Texture::from_picture(
+            &picture,
+            texture.values.unwrap_or_default(),
+            texture.wrap.unwrap_or_default(),
+        ) {
             Some(texture) => Ok(texture),
             None => self.fault(
                 &place,

@@ -1,0 +1,277 @@
+//! What noise promises, each told another way.
+
+use super::lattice::{Cell, MAXNOISE};
+use super::*;
+use glam::DMat3;
+use proptest::prelude::*;
+
+const WAYS: [Interpolation; 3] =
+    [Interpolation::Linear, Interpolation::Smooth, Interpolation::Smoother];
+
+fn noise(interpolation: Interpolation) -> Noise {
+    Noise { lattice: Arc::new(NoiseLattice::new()), interpolation }
+}
+
+fn place() -> impl Strategy<Value = DVec3> {
+    prop::array::uniform3(-100.0..100.0f64).prop_map(DVec3::from)
+}
+
+/// Trilinear interpolation as one sum over corners: no order of axes.
+fn summed(noise: &Noise, point: DVec3, value: impl Fn([i64; 3]) -> f64) -> f64 {
+    let cell = Cell::of(point);
+    let mut sum = 0.0;
+    for k in 0..8 {
+        let step = [k & 1, k >> 1 & 1, k >> 2];
+        let weights = (0..3).map(|axis| {
+            let t = noise.interpolation.fade(cell.offset[axis]);
+            if step[axis] == 1 { t } else { 1.0 - t }
+        });
+        sum += weights.product::<f64>() * value(cell.at(step));
+    }
+    sum
+}
+
+/// A central difference along each axis.
+fn slopes(of: impl Fn(DVec3) -> f64, point: DVec3, step: f64) -> DVec3 {
+    let along = |axis: DVec3| (of(point + step * axis) - of(point - step * axis)) / (2.0 * step);
+    DVec3::new(along(DVec3::X), along(DVec3::Y), along(DVec3::Z))
+}
+
+proptest! {
+    #[test]
+    fn noise_is_the_weighted_sum_of_eight_corners(point in place()) {
+        for way in WAYS {
+            let noise = noise(way);
+            let expected = summed(&noise, point, |corner| noise.lattice.value(corner));
+            prop_assert!((noise.value(point) - expected).abs() < 1e-14);
+            prop_assert!(noise.value(point).abs() <= 1.0);
+        }
+    }
+
+    #[test]
+    fn dnoise_is_the_direction_of_the_interpolated_differences(point in place()) {
+        let noise = noise(Interpolation::Linear);
+        let along = |axis: usize| summed(&noise, point, |corner| {
+            let mut next = corner;
+            next[axis] += 1;
+            noise.lattice.value(next) - noise.lattice.value(corner)
+        });
+        let expected = DVec3::new(along(0), along(1), along(2));
+        prop_assert!(noise.differences(point).abs_diff_eq(expected, 1e-14));
+        prop_assert!(noise.dnoise(point).abs_diff_eq(expected.normalize(), 1e-12));
+    }
+
+    /// Inside a cell; the error of a difference is its step squared times a third derivative of
+    /// at most 120, and what rounding leaves of 1e-16 over the step.
+    #[test]
+    fn gradients_agree_with_differences(
+        corner in prop::array::uniform3(-70..70i32), offset in prop::array::uniform3(0.01..0.99f64),
+    ) {
+        let point = DVec3::from(corner.map(f64::from)) + DVec3::from(offset);
+        for way in WAYS {
+            let noise = noise(way);
+            let expected = slopes(|p| noise.value(p), point, 1e-4);
+            prop_assert!(noise.gradient(point).abs_diff_eq(expected, 1e-6), "{way:?}");
+        }
+    }
+
+    #[test]
+    fn gradients_of_sums_agree_with_differences(point in place()) {
+        let octaves = Octaves { noise: noise(Interpolation::Smoother), count: 4 };
+        // The finest octave is 8 times as fast: its third derivative 512 / 8 times as large.
+        let expected = slopes(|p| octaves.fractal(p), point, 1e-5);
+        prop_assert!(octaves.fractal_gradient(point).abs_diff_eq(expected, 1e-5));
+        // |noise| has a crease where the noise is 0; differences across one mean nothing.
+        let places: Vec<DVec3> = places_of(point, 4).collect();
+        prop_assume!(places.iter().all(|&at| octaves.noise.value(at).abs() > 1e-3));
+        let expected = slopes(|p| octaves.turbulence(p), point, 1e-5);
+        prop_assert!(octaves.turbulence_gradient(point).abs_diff_eq(expected, 1e-5));
+    }
+
+    #[test]
+    fn sums_are_those_of_their_octaves(point in place(), count in 1..=8u32) {
+        let octaves = Octaves { noise: noise(Interpolation::Linear), count };
+        let (mut fractal, mut turbulence) = (0.0, 0.0);
+        for (k, at) in places_of(point, count).enumerate() {
+            let value = octaves.noise.value(at) / f64::from(1u32 << k);
+            fractal += value;
+            turbulence += value.abs();
+        }
+        // Places are computed in two orders; eight octaves magnify what that rounds by 2^8.
+        prop_assert!((octaves.fractal(point) - fractal).abs() < 1e-9);
+        prop_assert!((octaves.turbulence(point) - turbulence).abs() < 1e-9);
+        prop_assert!(turbulence <= octaves.weight());
+        let weights: f64 = (0..count).map(|k| 0.5f64.powi(k as i32)).sum();
+        prop_assert!((octaves.weight() - weights).abs() < 1e-15);
+    }
+
+    /// A period away is the same cell; its offset is rounded as far from the origin as it lies.
+    #[test]
+    fn noise_repeats_after_its_period(point in place(), periods in prop::array::uniform3(-9..9i32)) {
+        let away = DVec3::from(periods.map(f64::from)) * MAXNOISE as f64;
+        for way in WAYS {
+            let noise = noise(way);
+            prop_assert!((noise.value(point) - noise.value(point + away)).abs() < 1e-11);
+        }
+    }
+}
+
+/// Where octaves look: a turn by 60 degrees about (1, 1, 1) by Rodrigues' formula, a doubling, a
+/// step; again and again.
+fn places_of(point: DVec3, count: u32) -> impl Iterator<Item = DVec3> {
+    let axis = DVec3::ONE.normalize();
+    let turn = DMat3::from_axis_angle(axis, std::f64::consts::FRAC_PI_3);
+    std::iter::successors(Some(point), move |&at| {
+        Some(2.0 * (turn * at) + DVec3::new(0.371, 5.593, 11.817))
+    })
+    .take(count as usize)
+}
+
+#[test]
+fn at_lattice_points_noise_is_the_lattice() {
+    for way in WAYS {
+        let noise = noise(way);
+        for point in [[0, 0, 0], [5, -3, 70], [-64, 63, 1_000_000_000]] {
+            let at = DVec3::from(point.map(|x| x as f64));
+            assert_eq!(noise.value(at), noise.lattice.value(point), "{way:?}");
+        }
+    }
+}
+
+/// How far the value, the slope along x and the curvature along x jump over faces x = const, as
+/// root mean squares.
+fn jumps(way: Interpolation) -> [f64; 3] {
+    let noise = noise(way);
+    let step = 1e-4;
+    let mut sums = [0.0; 3];
+    let count = 400;
+    for k in 0..count {
+        let at = DVec3::new(f64::from(k % 20), 0.37 * f64::from(k), 0.71 * f64::from(k));
+        let value = |steps: f64| noise.value(at + steps * step * DVec3::X);
+        let slope = |steps: f64| noise.gradient(at + steps * step * DVec3::X).x;
+        let curvature = |side: f64| (slope(side * 2.0) - slope(side)) / (side * step);
+        let found = [
+            value(1e-6) - value(-1e-6),
+            slope(1e-6) - slope(-1e-6),
+            curvature(1.0) - curvature(-1.0),
+        ];
+        for (sum, jump) in sums.iter_mut().zip(found) {
+            *sum += jump * jump;
+        }
+    }
+    sums.map(|sum| (sum / f64::from(count)).sqrt())
+}
+
+/// Differences of random values are about 0.5 after interpolation across the face; slopes jump
+/// by as much with linear interpolation and curvatures, six times the difference, with the cubic.
+#[test]
+fn each_interpolation_is_as_smooth_as_it_says() {
+    let [[c0, c1, _], [d0, d1, d2], [e0, e1, e2]] = WAYS.map(jumps);
+    for value in [c0, d0, e0] {
+        assert!(value < 1e-8, "continuous, but for {value}");
+    }
+    assert!(c1 > 0.3, "linear interpolation has creases, found {c1}");
+    assert!(d1 < 1e-8 && e1 < 1e-8, "continuous slopes, but for {d1} and {e1}");
+    assert!(d2 > 2.0, "the cubic's curvature jumps, found {d2}");
+    // The quintic's grows from 0 by 60 times the step, on both sides.
+    assert!(e2 < 0.05, "continuous curvature, but for {e2}");
+}
+
+/// Trilinear interpolation of values of variance 1/3 has variance (1/3)(2/3)^3 over a cell. Over
+/// 64000 places of one period, about 10 to a cell side, both stay within a hundredth.
+#[test]
+fn noise_has_the_mean_and_the_variance_of_its_interpolation() {
+    let noise = noise(Interpolation::Linear);
+    let (mut sum, mut square, count) = (0.0, 0.0, 40);
+    for i in 0..count {
+        for j in 0..count {
+            for k in 0..count {
+                let step = MAXNOISE as f64 / f64::from(count);
+                let at = DVec3::new(f64::from(i), f64::from(j), f64::from(k)) + 0.29;
+                let value = noise.value(step * at);
+                sum += value;
+                square += value * value;
+            }
+        }
+    }
+    let count = f64::from(count).powi(3);
+    assert!((sum / count).abs() < 0.01, "{}", sum / count);
+    assert!((square / count - 8.0 / 81.0).abs() < 0.01, "{}", square / count);
+}
+
+#[test]
+fn far_places_have_finite_noise() {
+    for x in [1e9 + 0.25, -1e9 - 0.75, -0.25, 1e17, -1e300, f64::NAN, f64::INFINITY] {
+        for way in WAYS {
+            let octaves = Octaves { noise: noise(way), count: turbulence::MOST_OCTAVES };
+            let at = DVec3::new(x, 0.3, -x);
+            assert!(octaves.fractal(at).abs() <= 2.0 && octaves.turbulence(at) <= 2.0, "{x}");
+            assert!(octaves.fractal_gradient(at).is_finite(), "{x}");
+            assert!(octaves.noise.dnoise(at).is_finite(), "{x}");
+        }
+    }
+}
+
+/// The sphere of radius 1 pushed out by `k h` has, to first order in `k`, the bumped normal: ten
+/// times less strength leaves a hundred times less difference.
+#[test]
+fn a_bump_is_the_normal_of_the_displaced_surface() {
+    let octaves = Octaves { noise: noise(Interpolation::Smoother), count: 2 };
+    let placement = Placement::new(0.7, DVec3::new(0.3, 1.0, -0.2), DVec3::new(0.1, 0.2, 0.3));
+    let height = |p: DVec3| octaves.fractal(placement.to_texture(p));
+    let worst = |k: f64| {
+        let bump = Bump { relief: Relief::Noise(octaves.clone()), strength: k, placement };
+        let mut worst: f64 = 0.0;
+        for n in 0..50 {
+            let n = f64::from(n);
+            let normal =
+                DVec3::new((1.7 * n).sin(), (2.3 * n).cos(), (0.9 * n).sin() + 0.1).normalize();
+            // Tangents of the displaced surface, by differences along two great circles.
+            let (a, b) = normal.any_orthonormal_pair();
+            let displaced = |d: DVec3| (1.0 + k * height(d.normalize())) * d.normalize();
+            let step = 1e-5;
+            let along = |t: DVec3| displaced(normal + step * t) - displaced(normal - step * t);
+            let truth = along(a).cross(along(b)).normalize();
+            worst = worst.max(bump.normal(&DAffine3::IDENTITY, normal, normal).distance(truth));
+        }
+        worst
+    };
+    let [weak, weaker] = [0.01, 0.001].map(worst);
+    assert!(weak < 0.02 && weaker < 0.02 * weak, "{weak} and {weaker}");
+    assert_eq!(worst_of_none(&octaves, placement), 0.0);
+}
+
+/// A strength of 0 leaves every normal as it is, to rounding of the normalisation.
+fn worst_of_none(octaves: &Octaves, placement: Placement) -> f64 {
+    let bump = Bump { relief: Relief::Noise(octaves.clone()), strength: 0.0, placement };
+    bump.normal(&DAffine3::IDENTITY, DVec3::X, DVec3::Y).distance(DVec3::Y)
+}
+
+/// Eq. 2.1 and 2.2 with the vector of fig. 2.3, as the thesis has it.
+#[test]
+fn dnoise_is_added_to_the_normal_as_it_is() {
+    let noise = noise(Interpolation::Linear);
+    let placement = Placement::new(1.0, DVec3::ZERO, DVec3::ZERO);
+    let bump = Bump { relief: Relief::Dnoise(noise.clone()), strength: 0.4, placement };
+    let point = DVec3::new(0.3, 5.1, -2.2);
+    let expected = (DVec3::Z + 0.4 * noise.dnoise(point)).normalize();
+    assert!(bump.normal(&DAffine3::IDENTITY, point, DVec3::Z).abs_diff_eq(expected, 1e-15));
+}
+
+/// A moved, turned and stretched object takes its textures along: the bump of the object, carried
+/// to the scene, is the bump of what the scene shows.
+#[test]
+fn textures_move_with_their_object() {
+    let octaves = Octaves { noise: noise(Interpolation::Smooth), count: 3 };
+    let placement = Placement::new(0.5, DVec3::ZERO, DVec3::ZERO);
+    let bump = Bump { relief: Relief::Noise(octaves), strength: 0.2, placement };
+    let to_scene = DAffine3::from_translation(DVec3::new(3.0, -1.0, 2.0))
+        * DAffine3::from_axis_angle(DVec3::new(1.0, 2.0, 3.0).normalize(), 0.8)
+        * DAffine3::from_scale(DVec3::new(2.0, 0.5, 1.0));
+    let to_own = to_scene.inverse();
+    let (own, own_normal) = (DVec3::new(0.3, 0.4, 0.5), DVec3::new(0.6, 0.0, 0.8));
+    let carried = |normal: DVec3| (to_own.matrix3.transpose() * normal).normalize();
+    let expected = carried(bump.normal(&DAffine3::IDENTITY, own, own_normal));
+    let found = bump.normal(&to_own, to_scene.transform_point3(own), carried(own_normal));
+    assert!(found.abs_diff_eq(expected, 1e-12), "{found} and {expected}");
+}

@@ -1,0 +1,59 @@
+//! `bump` of a material.
+//!
+//! ```json
+//! { "hammered": { "color": 0.6, "bump": { "noise": { "octaves": 2 }, "strength": 0.02,
+//!                                         "place": { "scale": 0.2 } } } }
+//! ```
+//!
+//! Exactly one relief: `noise` (the fractal sum of octaves), `turbulence`, `wall`, or `dnoise` (the
+//! vectors of thesis fig. 2.3). The noise of a bump is `smooth` unless `interpolation` says
+//! otherwise: slopes of `linear` noise, the thesis's, jump at the faces of its cells, and the light
+//! shows them as creases.
+
+use super::solid::{PlaceFile, WallFile};
+use crate::procedural::Interpolation;
+use serde::Deserialize;
+
+/// How a material's normals are turned.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BumpFile {
+    /// The fractal sum of noise as a height from -2 to 2.
+    pub noise: Option<OctavesFile>,
+    /// Turbulence as a height from 0 to 2.
+    pub turbulence: Option<OctavesFile>,
+    /// Clamped slow noise and fast noise as a height.
+    pub wall: Option<WallFile>,
+    /// The normalised differences of the lattice, added to the normal as they are.
+    pub dnoise: Option<DnoiseFile>,
+    /// The length of a height of 1 in the object's units, below 0 for dents; of `dnoise` a number.
+    /// -1e6 to 1e6.
+    pub strength: f64,
+    /// Where the relief lies in the object.
+    #[serde(default)]
+    pub place: PlaceFile,
+}
+
+/// Octaves of noise.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct OctavesFile {
+    /// How many, 1 to 12, default 1.
+    pub octaves: u32,
+    /// How the noise is interpolated.
+    pub interpolation: Interpolation,
+}
+
+impl Default for OctavesFile {
+    fn default() -> Self {
+        Self { octaves: 1, interpolation: Interpolation::default() }
+    }
+}
+
+/// `dnoise`.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct DnoiseFile {
+    /// How the differences are interpolated.
+    pub interpolation: Interpolation,
+}
