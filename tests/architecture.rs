@@ -28,7 +28,7 @@ const ROOMS: [(&str, &[&str]); 15] = [
     ("procedural", &["color"]),
     ("scene", &["color", "procedural", "ray", "shape", "texture"]),
     ("accel", &["ray", "shape"]),
-    ("trace", &["accel", "optics", "ray", "scene"]),
+    ("trace", &["accel", "optics", "procedural", "ray", "scene", "shape"]),
     ("footprint", &["shape", "trace"]),
     ("filter", &["color", "footprint", "texture"]),
     (

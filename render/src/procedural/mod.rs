@@ -12,6 +12,7 @@ pub mod clouds;
 mod dnoise;
 pub mod grains;
 pub mod granite;
+pub mod heights;
 pub mod lattice;
 pub mod marble;
 pub mod noise;
@@ -23,7 +24,8 @@ pub mod turbulence;
 pub mod wall;
 pub mod wood;
 
-pub use bump::{Bump, Relief};
+pub use bump::{Bump, Place, Relief};
+pub use heights::Heights;
 pub use lattice::NoiseLattice;
 pub use noise::{Interpolation, Noise};
 pub use placement::Placement;

@@ -2,7 +2,7 @@
 
 use super::lattice::{Cell, MAXNOISE};
 use super::*;
-use glam::DMat3;
+use glam::{DMat3, DVec2};
 use proptest::prelude::*;
 
 const WAYS: [Interpolation; 3] =
@@ -14,6 +14,11 @@ fn noise(interpolation: Interpolation) -> Noise {
 
 fn place() -> impl Strategy<Value = DVec3> {
     prop::array::uniform3(-100.0..100.0f64).prop_map(DVec3::from)
+}
+
+/// A place without texture coordinates.
+fn at(point: DVec3, normal: DVec3) -> Place {
+    Place { point, normal, uv: DVec2::ZERO, uv_gradients: [DVec3::ZERO; 2] }
 }
 
 /// Trilinear interpolation as one sum over corners: no order of axes.
@@ -232,7 +237,8 @@ fn a_bump_is_the_normal_of_the_displaced_surface() {
             let step = 1e-5;
             let along = |t: DVec3| displaced(normal + step * t) - displaced(normal - step * t);
             let truth = along(a).cross(along(b)).normalize();
-            worst = worst.max(bump.normal(&DAffine3::IDENTITY, normal, normal).distance(truth));
+            worst =
+                worst.max(bump.normal(&DAffine3::IDENTITY, &at(normal, normal)).distance(truth));
         }
         worst
     };
@@ -244,7 +250,7 @@ fn a_bump_is_the_normal_of_the_displaced_surface() {
 /// A strength of 0 leaves every normal as it is, to rounding of the normalisation.
 fn worst_of_none(octaves: &Octaves, placement: Placement) -> f64 {
     let bump = Bump { relief: Relief::Noise(octaves.clone()), strength: 0.0, placement };
-    bump.normal(&DAffine3::IDENTITY, DVec3::X, DVec3::Y).distance(DVec3::Y)
+    bump.normal(&DAffine3::IDENTITY, &at(DVec3::X, DVec3::Y)).distance(DVec3::Y)
 }
 
 /// Eq. 2.1 and 2.2 with the vector of fig. 2.3, as the thesis has it.
@@ -255,7 +261,7 @@ fn dnoise_is_added_to_the_normal_as_it_is() {
     let bump = Bump { relief: Relief::Dnoise(noise.clone()), strength: 0.4, placement };
     let point = DVec3::new(0.3, 5.1, -2.2);
     let expected = (DVec3::Z + 0.4 * noise.dnoise(point)).normalize();
-    assert!(bump.normal(&DAffine3::IDENTITY, point, DVec3::Z).abs_diff_eq(expected, 1e-15));
+    assert!(bump.normal(&DAffine3::IDENTITY, &at(point, DVec3::Z)).abs_diff_eq(expected, 1e-15));
 }
 
 /// A moved, turned and stretched object takes its textures along: the bump of the object, carried
@@ -271,7 +277,33 @@ fn textures_move_with_their_object() {
     let to_own = to_scene.inverse();
     let (own, own_normal) = (DVec3::new(0.3, 0.4, 0.5), DVec3::new(0.6, 0.0, 0.8));
     let carried = |normal: DVec3| (to_own.matrix3.transpose() * normal).normalize();
-    let expected = carried(bump.normal(&DAffine3::IDENTITY, own, own_normal));
-    let found = bump.normal(&to_own, to_scene.transform_point3(own), carried(own_normal));
+    let expected = carried(bump.normal(&DAffine3::IDENTITY, &at(own, own_normal)));
+    let found = bump.normal(&to_own, &at(to_scene.transform_point3(own), carried(own_normal)));
     assert!(found.abs_diff_eq(expected, 1e-12), "{found} and {expected}");
+}
+
+/// A picture of waves on a plane: the bump is the normal of the surface `z = k h(x, y)`.
+#[test]
+fn a_picture_bumps_as_its_heights_say() {
+    let size = 64;
+    let wave =
+        |k: usize| 0.5 + 0.5 * ((k as f64 + 0.5) / size as f64 * std::f64::consts::TAU).sin();
+    let values = (0..size * size).map(|k| wave(k % size) * wave(k / size)).collect();
+    let heights = Heights::new(values, size, DVec2::ONE, false).unwrap();
+    let placement = Placement::new(1.0, DVec3::ZERO, DVec3::ZERO);
+    let bump = Bump { relief: Relief::Picture(heights.clone()), strength: 0.3, placement };
+    // A plane of 4 by 2 that the picture fills.
+    let uv_gradients = [DVec3::X / 4.0, DVec3::Y / 2.0];
+    for k in 0..40 {
+        let uv = DVec2::new(0.137 * f64::from(k), 0.291 * f64::from(k));
+        let point = DVec3::new(4.0 * uv.x, 2.0 * uv.y, 0.0);
+        let place = Place { point, normal: DVec3::Z, uv, uv_gradients };
+        let turn = std::f64::consts::TAU;
+        let (s, t) = (turn * uv.x, turn * (1.0 - uv.y));
+        let by_u = 0.5 * turn * s.cos() * (0.5 + 0.5 * t.sin());
+        let by_v = -0.5 * turn * t.cos() * (0.5 + 0.5 * s.sin());
+        let expected = DVec3::new(-0.3 * by_u / 4.0, -0.3 * by_v / 2.0, 1.0).normalize();
+        // The splines of 64 texels to a wave are right to a few millionths.
+        assert!(bump.normal(&DAffine3::IDENTITY, &place).abs_diff_eq(expected, 1e-5), "{uv}");
+    }
 }

@@ -5,14 +5,16 @@
 //!                                         "place": { "scale": 0.2 } } } }
 //! ```
 //!
-//! Exactly one relief: `noise` (the fractal sum of octaves), `turbulence`, `wall`, or `dnoise` (the
-//! vectors of thesis fig. 2.3). The noise of a bump is `smooth` unless `interpolation` says
+//! Exactly one relief: `noise` (the fractal sum of octaves), `turbulence`, `wall`, `dnoise` (the
+//! vectors of thesis fig. 2.3), or `image` (a grey picture as heights, laid by the surface's texture
+//! coordinates). The noise of a bump is `smooth` unless `interpolation` says
 //! otherwise: slopes of `linear` noise, the thesis's, jump at the faces of its cells, and the light
 //! shows them as creases.
 
 use super::solid::{PlaceFile, WallFile};
 use crate::procedural::Interpolation;
 use serde::Deserialize;
+use std::path::PathBuf;
 
 /// How a material's normals are turned.
 #[derive(Debug, Clone, Deserialize)]
@@ -26,12 +28,13 @@ pub struct BumpFile {
     pub wall: Option<WallFile>,
     /// The normalised differences of the lattice, added to the normal as they are.
     pub dnoise: Option<DnoiseFile>,
+    /// The grey of a picture as a height from 0 to 1.
+    pub image: Option<ImageReliefFile>,
     /// The length of a height of 1 in the object's units, below 0 for dents; of `dnoise` a number.
     /// -1e6 to 1e6.
     pub strength: f64,
-    /// Where the relief lies in the object.
-    #[serde(default)]
-    pub place: PlaceFile,
+    /// Where the relief lies in the object; not of `image`, which lies on the surface.
+    pub place: Option<PlaceFile>,
 }
 
 /// Octaves of noise.
@@ -56,4 +59,23 @@ impl Default for OctavesFile {
 pub struct DnoiseFile {
     /// How the differences are interpolated.
     pub interpolation: Interpolation,
+}
+
+/// A picture as a relief.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ImageReliefFile {
+    /// The path of a PNG or JPEG file, from the scene file's folder; its grey is the height.
+    pub file: PathBuf,
+    /// How often it is laid over the unit square of texture coordinates, across and up; 1e-6 to
+    /// 1e6, default once.
+    #[serde(default = "once")]
+    pub repeat: [f64; 2],
+    /// Whether it is mirrored at its edges, in place of beginning again; default false.
+    #[serde(default)]
+    pub mirror: bool,
+}
+
+fn once() -> [f64; 2] {
+    [1.0; 2]
 }

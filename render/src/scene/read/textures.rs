@@ -3,7 +3,7 @@
 use super::{Reader, SceneError};
 use crate::scene::file::TextureFile;
 use crate::texture::Texture;
-use image::ImageReader;
+use image::{DynamicImage, ImageReader};
 use std::io::Cursor;
 use std::path::Path;
 
@@ -22,32 +22,37 @@ impl Reader<'_> {
         image: &Path,
     ) -> Result<Texture, SceneError> {
         let place = format!("textures.{name}.image");
-        let path = self.folder.join(image);
-        let bytes = self.named_file(&place, &path)?;
+        let picture = self.picture(&place, image)?;
+        let (values, wrap) = (texture.values.unwrap_or_default(), texture.wrap.unwrap_or_default());
+        match Texture::from_picture(&picture, values, wrap) {
+            Some(texture) => Ok(texture),
+            None => self.fault(
+                &place,
+                format!(
+                    "found floating point values in {}, expected 8 or 16 bits",
+                    self.folder.join(image).display()
+                ),
+            ),
+        }
+    }
+
+    /// The picture file that the scene names at `place`.
+    pub(super) fn picture(&self, place: &str, path: &Path) -> Result<DynamicImage, SceneError> {
+        let path = self.folder.join(path);
+        let bytes = self.named_file(place, &path)?;
         let decoded = ImageReader::new(Cursor::new(bytes))
             .with_guessed_format()
             .map_err(image::ImageError::IoError)
             .and_then(ImageReader::decode);
-        let picture = match decoded {
-            Ok(picture) => picture,
+        match decoded {
+            Ok(picture) => Ok(picture),
             Err(error) => {
                 let message = format!(
                     "found no picture in {} ({error}), expected a PNG or JPEG file",
                     path.display()
                 );
-                return self.fault(&place, message);
+                self.fault(place, message)
             }
-        };
-        match Texture::from_picture(
-            &picture,
-            texture.values.unwrap_or_default(),
-            texture.wrap.unwrap_or_default(),
-        ) {
-            Some(texture) => Ok(texture),
-            None => self.fault(
-                &place,
-                format!("found floating point values in {}, expected 8 or 16 bits", path.display()),
-            ),
         }
     }
 }
