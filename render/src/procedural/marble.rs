@@ -39,7 +39,7 @@ impl Marble {
         // Slow noise, different from that of the folds: veins are wide here and lost there.
         let noise = &self.octaves.noise;
         let slow = noise.value(0.47 * point + DVec3::new(17.3, 4.7, 29.1));
-        let lost = (0.5 + 0.9 * slow).clamp(0.0, 1.0);
+        let lost = (0.25 + 1.1 * slow).clamp(0.0, 1.0);
         let large = layer + (1.0 - layer) * 0.85 * lost;
         if self.net == 0.0 {
             return large;
@@ -48,7 +48,7 @@ impl Marble {
         let shift = self.octaves.fractal(across + DVec3::splat(31.7));
         let thread = (1.6 * shift).abs().min(1.0).powf(0.55);
         let shown =
-            self.net * (0.35 - 0.65 * noise.value(0.9 * point - DVec3::splat(8.3))).clamp(0.0, 1.0);
+            self.net * (0.6 - 0.8 * noise.value(0.9 * point - DVec3::splat(8.3))).clamp(0.0, 1.0);
         large * (1.0 - shown * (1.0 - thread))
     }
 }

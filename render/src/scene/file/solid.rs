@@ -15,7 +15,7 @@
 //!
 //! | kind | keys | range | default |
 //! |---|---|---|---|
-//! | `marble` | `octaves`; `folds` of the layers, `net` of fine veins; `colors`, 0 in a vein, 1 far from it | 1 to 12; 0 to 100, 0 to 1 | 6; 1.5, 0.5; white with grey veins |
+//! | `marble` | `octaves`; `folds` of the layers, `net` of fine veins; `colors`, 0 in a vein, 1 far from it | 1 to 12; 0 to 100, 0 to 1 | 6; 2, 0.6; white with grey veins |
 //! | `granite` | `minerals`, a list of `[share, colour]`; `flakes`, `flake_color`; `vary` | above 0; 0 to 1; 0 to 1 | rose, cream, quartz; 0.3, black; 0.6 |
 //! | `wood` | `waver` of rings, `grain` of fibres; `colors`, 0 early wood, 1 late wood | 0 to 100, 0 to 1 | 0.6, 0.6; brown |
 //! | `wall` | `clamp` of the slow noise; `rough`, `frequency` of the fast one; `colors`, 0 lowest, 1 highest | -1 to 1; 0 to 10, 0.001 to 1000 | -0.15, 0.15; 0.06, 8; plaster |
@@ -60,9 +60,9 @@ pub struct MarbleFile {
     pub colors: RampFile,
     /// Octaves of the noise that folds the layers, 1 to 12, default 6.
     pub octaves: u32,
-    /// How far layers are folded, in units, 0 to 100, default 1.5.
+    /// How far layers are folded, in units, 0 to 100, default 2.
     pub folds: f64,
-    /// How much of a net of fine veins is seen, 0 to 1, default 0.5.
+    /// How much of a net of fine veins is seen, 0 to 1, default 0.6.
     pub net: f64,
     /// How the noise is interpolated.
     pub interpolation: Interpolation,
@@ -71,13 +71,14 @@ pub struct MarbleFile {
 impl Default for MarbleFile {
     fn default() -> Self {
         let colors = vec![
-            (0.0, ColorFile([0.09, 0.10, 0.12])),
-            (0.05, ColorFile([0.22, 0.23, 0.26])),
-            (0.14, ColorFile([0.50, 0.51, 0.53])),
-            (0.42, ColorFile([0.76, 0.76, 0.75])),
-            (1.0, ColorFile([0.88, 0.87, 0.85])),
+            (0.0, ColorFile([0.07, 0.075, 0.09])),
+            (0.05, ColorFile([0.17, 0.18, 0.20])),
+            (0.13, ColorFile([0.40, 0.41, 0.43])),
+            (0.4, ColorFile([0.64, 0.64, 0.64])),
+            (0.75, ColorFile([0.80, 0.79, 0.775])),
+            (1.0, ColorFile([0.87, 0.86, 0.84])),
         ];
-        Self { colors, octaves: 6, folds: 1.5, net: 0.5, interpolation: Interpolation::default() }
+        Self { colors, octaves: 6, folds: 2.0, net: 0.6, interpolation: Interpolation::default() }
     }
 }
 
