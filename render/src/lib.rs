@@ -9,7 +9,8 @@
 //! [`scene`] reads and checks everything, so that nothing after it fails on user input. [`accel`]
 //! finds hits. [`trace`] turns a place on the film into an intersection tree. [`footprint`] looks at
 //! a node of it and at its neighbours and says which piece of texture the pixel sees. [`filter`]
-//! averages a texture over that piece. [`shade`] turns trees into colours, and [`film`] makes the
+//! averages a texture over that piece. [`procedural`] computes textures that are no pictures, and
+//! bumps. [`shade`] turns trees into colours, and [`film`] makes the
 //! picture of them. [`film::render`] does it all.
 
 pub mod accel;

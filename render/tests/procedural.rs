@@ -185,3 +185,18 @@ fn a_bump_of_absurd_strength_leaves_finite_pixels() {
         }
     }
 }
+
+#[test]
+fn what_the_page_shows_is_read() {
+    let page = include_str!("../../docs/procedural.md");
+    let blocks: Vec<&str> = page
+        .split("```json\n{")
+        .skip(1)
+        .map(|rest| rest.split("\n}\n```").next().unwrap())
+        .collect();
+    assert_eq!(blocks.len(), 2);
+    for block in blocks {
+        let drawn = scene(&format!("{block}, \"objects\": []"), &[]);
+        assert_eq!(drawn.procedural.solids.len() + drawn.procedural.bumps.len(), 3);
+    }
+}

@@ -307,3 +307,78 @@ fn a_picture_bumps_as_its_heights_say() {
         assert!(bump.normal(&DAffine3::IDENTITY, &place).abs_diff_eq(expected, 1e-5), "{uv}");
     }
 }
+
+/// Flat where clamped; and elsewhere the gradient is the height's.
+#[test]
+fn a_wall_is_level_where_its_slow_noise_is_clamped() {
+    let noise = noise(Interpolation::Smoother);
+    let wall =
+        |rough| wall::Wall { clamp: [-0.1, 0.2], rough, frequency: 5.0, noise: noise.clone() };
+    let (level, rough) = (wall(0.0), wall(0.3));
+    let mut seen = [0; 3];
+    for k in 0..500 {
+        let point = DVec3::new(0.373, 0.719, 0.537) * f64::from(k) + 0.11;
+        let slow = noise.value(point);
+        let kind = if slow < -0.1 {
+            0
+        } else if slow > 0.2 {
+            2
+        } else {
+            1
+        };
+        seen[kind] += 1;
+        let height = level.height(point);
+        assert_eq!(height, [-0.1, slow, 0.2][kind]);
+        assert_eq!(level.gradient(point) == DVec3::ZERO, kind != 1);
+        assert_eq!(rough.height(point), height + 0.3 * noise.value(5.0 * point));
+        // Differences across the edge of a plain mean nothing.
+        if (slow + 0.1).abs().min((slow - 0.2).abs()) > 1e-3 {
+            let expected = slopes(|p| rough.height(p), point, 1e-5);
+            assert!(rough.gradient(point).abs_diff_eq(expected, 1e-6));
+        }
+    }
+    assert!(seen.iter().all(|&count| count > 50), "{seen:?}");
+}
+
+/// Colours between black and white stay there, wherever one looks, and are not all the same.
+#[test]
+fn every_solid_is_finite_and_has_the_colours_of_its_ramp() {
+    let colors = Ramp::new(vec![(0.0, Color::ZERO), (1.0, Color::ONE)]).unwrap();
+    let noise = noise(Interpolation::Smooth);
+    let octaves = Octaves { noise: noise.clone(), count: 5 };
+    let wall = wall::Wall { clamp: [-0.2, 0.2], rough: 0.1, frequency: 9.0, noise: noise.clone() };
+    let clouds = |sum| Clouds { colors: colors.clone(), octaves: octaves.clone(), sum };
+    let patterns = [
+        Pattern::Marble(Marble {
+            colors: colors.clone(),
+            octaves: octaves.clone(),
+            folds: 2.0,
+            net: 0.5,
+        }),
+        Pattern::Granite(Granite {
+            minerals: vec![(1.0, Color::splat(0.3)), (2.0, Color::splat(0.6))],
+            flakes: 0.3,
+            flake: Color::ZERO,
+            vary: 1.0,
+            noise: noise.clone(),
+        }),
+        Pattern::Wood(Wood { colors: colors.clone(), waver: 1.0, grain: 1.0, noise }),
+        Pattern::Wall(WallPaint { wall, colors: colors.clone() }),
+        Pattern::Clouds(clouds(clouds::Sum::Fractal)),
+        Pattern::Clouds(clouds(clouds::Sum::Turbulence)),
+    ];
+    let placement = Placement::new(1.0, DVec3::ZERO, DVec3::ZERO);
+    for pattern in patterns {
+        let solid = Solid { pattern, placement };
+        let (mut low, mut high) = (1.0f64, 0.0f64);
+        for k in 0..2000 {
+            let far = [1.0, 1e9, -1e15][k % 3];
+            let point = far * DVec3::new(0.137, 0.071, -0.053) * k as f64;
+            let color = solid.color(&DAffine3::IDENTITY, point);
+            assert!(color.is_finite() && color.min_element() >= 0.0, "{color} of {solid:?}");
+            assert!(color.max_element() <= 1.0, "{color} of {solid:?}");
+            (low, high) = (low.min(color.x), high.max(color.x));
+        }
+        assert!(high - low > 0.2, "from {low} to {high}: {solid:?}");
+    }
+}

@@ -9,10 +9,11 @@
 //!   "lights": [ { "point": { "position": [4, 8, 5], "color": 0.9 } } ],
 //!   "max_depth": 12, "min_weight": 0.0001,
 //!   "textures": {
-//!     "checks": { "image": "../textures/checkerboard.png", "wrap": "repeat", "values": "srgb" }
+//!     "checks": { "image": "../textures/checkerboard.png", "wrap": "repeat", "values": "srgb" },
+//!     "stone": { "marble": {}, "place": { "scale": 0.4 } }
 //!   },
 //!   "materials": {
-//!     "floor": { "diffuse": 0.9 },
+//!     "floor": { "diffuse": 0.9, "bump": { "wall": {}, "strength": 0.02 } },
 //!     "glass": { "ambient": 0, "diffuse": 0, "specular": 0.5, "reflectivity": 1,
 //!                "transparency": 1, "index_of_refraction": 1.5, "fresnel": true }
 //!   },
@@ -42,8 +43,10 @@
 //! | `reflectivity`, `transparency` | weights of the mirrored and the refracted ray | 0 to 1 | 0 |
 //! | `index_of_refraction` | of the inside; outside is 1 | 0.1 to 10 | 1.5 |
 //! | `fresnel` | whether those weights take Fresnel's share and its rest | true, false | false |
+//! | `bump` | turns normals as a relief would: see [`bump`] | | none |
 //!
-//! `wrap` is `repeat` or `clamp`, `values` is `srgb` or `linear`; the first is the default. A texture fills a rectangle, or the unit square of a mesh's or sphere's
+//! A texture is a picture (`image`) or a solid, which fills space and is carved by the surface: see
+//! [`solid`]. `wrap` is `repeat` or `clamp`, `values` is `srgb` or `linear`; the first is the default. A texture fills a rectangle, or the unit square of a mesh's or sphere's
 //! texture coordinates; `repeat` lays it several times. Paths count from the scene file's folder.
 //!
 //! Where two surfaces coincide one of them is seen, the other is not behind it: leave a small gap

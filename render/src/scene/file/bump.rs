@@ -79,3 +79,23 @@ pub struct ImageReliefFile {
 fn once() -> [f64; 2] {
     [1.0; 2]
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::scene::file::MaterialFile;
+    use files::json::Document;
+    use std::collections::BTreeMap;
+
+    #[test]
+    fn the_example_on_this_page_is_read() {
+        let page = include_str!("bump.rs");
+        let lines = page.lines().skip_while(|line| *line != "//! ```json").skip(1);
+        let text: String = lines
+            .take_while(|line| *line != "//! ```")
+            .map(|line| line.trim_start_matches("//!").to_string() + "\n")
+            .collect();
+        let document = Document::new("page", text.as_bytes()).unwrap();
+        let read: BTreeMap<String, MaterialFile> = document.parse().unwrap();
+        assert_eq!(read.len(), 1);
+    }
+}

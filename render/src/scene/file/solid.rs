@@ -226,3 +226,23 @@ impl Default for BrickFile {
         Self { size: [1.0, 1.0 / 3.0, 0.5], joint: 0.04, colors, vary: 0.5 }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::scene::file::TextureFile;
+    use files::json::Document;
+    use std::collections::BTreeMap;
+
+    #[test]
+    fn the_example_on_this_page_is_read() {
+        let page = include_str!("solid.rs");
+        let lines = page.lines().skip_while(|line| *line != "//! ```json").skip(1);
+        let text: String = lines
+            .take_while(|line| *line != "//! ```")
+            .map(|line| line.trim_start_matches("//!").to_string() + "\n")
+            .collect();
+        let document = Document::new("page", text.as_bytes()).unwrap();
+        let read: BTreeMap<String, TextureFile> = document.parse().unwrap();
+        assert_eq!(read.len(), 3);
+    }
+}
