@@ -82,7 +82,7 @@ fn solids_and_pictures_keep_their_names_side_by_side() {
 fn ramp() -> Vec<u8> {
     let picture = GrayImage::from_fn(256, 1, |x, _| Luma([x as u8]));
     let mut bytes = Cursor::new(Vec::new());
-    picture.write_to(&mut bytes, ImageFormat::Png).unwrap();
+    picture.write_to(&mut bytes, ImageFormat::Png).expect("memory takes it");
     bytes.into_inner()
 }
 

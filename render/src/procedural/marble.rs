@@ -29,11 +29,11 @@ impl Marble {
     /// The colour at a point.
     #[must_use]
     pub fn color(&self, point: DVec3) -> Color {
-        self.colors.color(self.from_vein(point))
+        self.colors.color(self.to_vein(point))
     }
 
     /// How far a point is from a vein: 0 in its middle, up to 1.
-    fn from_vein(&self, point: DVec3) -> f64 {
+    fn to_vein(&self, point: DVec3) -> f64 {
         let fold = self.octaves.fractal(point);
         let layer = (PI * (point.x + self.folds * fold)).sin().abs();
         // Slow noise, different from that of the folds: veins are wide here and lost there.
