@@ -98,7 +98,7 @@ mod tests {
             for y in -3..3 {
                 for z in -3..3 {
                     let corner = DVec3::new(f64::from(x), f64::from(y), f64::from(z));
-                    let expected = BLACK_WHITE[((x + y + z) as i32).rem_euclid(2) as usize];
+                    let expected = BLACK_WHITE[i32::rem_euclid(x + y + z, 2) as usize];
                     for part in [0.0, 1e-6, 0.5, 0.999_999] {
                         assert_eq!(checker.color(corner + part), expected, "{corner}");
                     }

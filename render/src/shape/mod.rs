@@ -90,7 +90,7 @@ mod tests {
             let near = DVec3::new((2.1 * f64::from(k)).sin(), (0.7 * f64::from(k)).cos(), 0.4);
             let at = |point: DVec3| [ball.surface_point(point), quad.surface_point(point)];
             let here = at(ball.center + near);
-            let found = [Shape::Sphere(ball), Shape::Quad(quad.clone())].map(|shape| {
+            let found = [Shape::Sphere(ball), Shape::Quad(quad)].map(|shape| {
                 let place = usize::from(!matches!(shape, Shape::Sphere(_)));
                 shape.uv_gradients(0, here[place].position)
             });
