@@ -25,9 +25,10 @@ const ROOMS: [(&str, &[&str]); 15] = [
     ("ray", &[]),
     ("shape", &[]),
     ("texture", &["color"]),
-    ("scene", &["color", "ray", "shape", "texture"]),
+    ("procedural", &["color"]),
+    ("scene", &["color", "procedural", "ray", "shape", "texture"]),
     ("accel", &["ray", "shape"]),
-    ("trace", &["accel", "optics", "ray", "scene"]),
+    ("trace", &["accel", "optics", "procedural", "ray", "scene", "shape"]),
     ("footprint", &["shape", "trace"]),
     ("filter", &["color", "footprint", "texture"]),
     (

@@ -77,9 +77,8 @@ fn every_surface_in_examples_is_what_the_gallery_says() {
         let name = path.file_stem().unwrap().to_str().unwrap();
         let expected = match name {
             "fluted-vase" | "relief-vase" | "horn" => DISC,
-            "figure-eight" | "trefoil" | "torus-knot" | "threefold-torus" | "picture-frame" => {
-                TORUS
-            }
+            "figure-eight" | "trefoil" | "torus-knot" | "threefold-torus" | "picture-frame"
+            | "smooth-ring" | "scaly-ring" => TORUS,
             "klein-bottle" | "figure-eight-klein" => KLEIN_BOTTLE,
             "moebius-band" => MOEBIUS_BAND,
             _ => SPHERE,

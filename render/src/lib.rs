@@ -9,8 +9,9 @@
 //! [`scene`] reads and checks everything, so that nothing after it fails on user input. [`accel`]
 //! finds hits. [`trace`] turns a place on the film into an intersection tree. [`footprint`] looks at
 //! a node of it and at its neighbours and says which piece of texture the pixel sees. [`filter`]
-//! averages a texture over that piece. [`shade`] turns trees into colours, and [`film`] makes the
-//! picture of them. [`film::render`] does it all, and [`inspect`] prints what one pixel is made of.
+//! averages a texture over that piece. [`procedural`] computes textures that are no pictures, and
+//! bumps. [`shade`] turns trees into colours, and [`film`] makes the picture of them.
+//! [`film::render`] does it all, and [`inspect`] prints what one pixel is made of.
 
 pub mod accel;
 pub mod color;
@@ -19,6 +20,7 @@ pub mod filter;
 pub mod footprint;
 pub mod inspect;
 pub mod optics;
+pub mod procedural;
 pub mod progress;
 pub mod ray;
 pub mod scene;

@@ -26,10 +26,14 @@ pub struct Stats {
     /// Texels or table entries read for both; an average over an area counts as the number that the
     /// usual footprint reads ([`crate::filter::FilteredTexture::reads`]).
     pub texels: u64,
+    /// Solid textures looked up.
+    pub solid_points: u64,
     /// Prefiltered tables built.
     pub tables: u64,
     /// Their memory in bytes.
     pub table_bytes: u64,
+    /// Memory of the noise lattice in bytes; 0 when nothing of the scene is made of noise.
+    pub lattice_bytes: u64,
     /// Pixels that came out NaN or infinite and were made black; there should be none.
     pub not_finite: u64,
     /// Reading the scene, its meshes and textures.
@@ -64,6 +68,7 @@ impl Stats {
         self.texture_areas += shading.areas;
         self.texture_points += shading.points;
         self.texels += shading.texels;
+        self.solid_points += shading.solids;
     }
 }
 
@@ -78,8 +83,10 @@ impl fmt::Display for Stats {
             ("texture areas", self.texture_areas),
             ("texture points", self.texture_points),
             ("texels read", self.texels),
+            ("solid points", self.solid_points),
             ("tables built", self.tables),
             ("table bytes", self.table_bytes),
+            ("lattice bytes", self.lattice_bytes),
         ];
         for (name, count) in counts {
             writeln!(f, "{name:<16}{count:>14}")?;

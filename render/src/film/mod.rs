@@ -172,14 +172,17 @@ fn with_exposure<T>(
         shader,
         settings,
     };
-    work(&exposure, Stats { accel_time, table_time, tables, table_bytes, ..Stats::default() })
+    let lattice_bytes = scene.procedural.lattice_bytes();
+    let stats =
+        Stats { accel_time, table_time, tables, table_bytes, lattice_bytes, ..Stats::default() };
+    work(&exposure, stats)
 }
 
 /// Prepares the textures that surfaces show, and no others.
 fn ready_shader<'a>(scene: &'a Scene, accel: &'a Accel<'a>, filter: Filter) -> Shader<'a> {
     let mut shown = vec![false; scene.textures.len()];
     for surface in scene.objects.iter().flat_map(|object| &object.parts) {
-        if let Some(texture) = surface.texture
+        if let Some(texture) = surface.picture()
             && scene.materials[surface.material].shows_color()
         {
             shown[texture] = true;
@@ -196,7 +199,7 @@ fn ready_shader<'a>(scene: &'a Scene, accel: &'a Accel<'a>, filter: Filter) -> S
         .iter()
         .map(|object| {
             // Only neighbours that are averaged need to be unwrapped.
-            let textured = object.parts.iter().any(|part| part.texture.is_some());
+            let textured = object.parts.iter().any(|part| part.picture().is_some());
             let looked_at = filter.wants_area() && textured;
             if looked_at { object.shape.charts() } else { Charts::default() }
         })
@@ -208,7 +211,8 @@ fn ready_shader<'a>(scene: &'a Scene, accel: &'a Accel<'a>, filter: Filter) -> S
 mod tests {
     use super::*;
     use crate::color::Color;
-    use crate::scene::{Camera, Material, Names, Object, PointLight, Surface};
+    use crate::procedural::Procedural;
+    use crate::scene::{Camera, Material, Names, Object, PointLight, Surface, SurfaceTexture};
     use crate::shape::{Quad, Shape, Sphere};
     use crate::texture::{Texture, Wrap};
     use glam::{DAffine3, DVec3};
@@ -227,6 +231,7 @@ mod tests {
             transparency: 0.0,
             index_of_refraction: 1.5,
             fresnel: false,
+            bump: None,
         };
         let glass = Material {
             ambient: 0.0,
@@ -251,8 +256,9 @@ mod tests {
             lights: vec![PointLight { position: DVec3::new(3.0, 5.0, 4.0), color: Color::ONE }],
             materials: vec![plain, glass],
             textures: vec![texture],
+            procedural: Procedural::default(),
             objects: vec![
-                object(Shape::Quad(floor), 0, Some(0)),
+                object(Shape::Quad(floor), 0, Some(SurfaceTexture::Picture(0))),
                 object(Shape::Sphere(ball), 1, None),
             ],
             max_depth: 8,

@@ -3,7 +3,7 @@
 use super::{light, vector};
 use crate::footprint::Footprint;
 use crate::footprint::neighbours::Neighbourhood;
-use crate::scene::Scene;
+use crate::scene::{Scene, SurfaceTexture};
 use crate::shade::observer::{Seen, Textured};
 use crate::trace::tree::{Branch, Node};
 
@@ -33,8 +33,13 @@ pub fn lines(scene: &Scene, halo: bool, seen: &Seen<'_>) -> Vec<String> {
             "part {}, material {}, {}",
             node.part,
             named(&scene.names.materials, surface.material),
-            surface.texture.map_or("no texture".into(), |index| {
-                format!("texture {}", named(&scene.names.textures, index))
+            surface.texture.map_or("no texture".into(), |texture| match texture {
+                SurfaceTexture::Picture(index) => {
+                    format!("texture {}", named(&scene.names.textures, index))
+                }
+                SurfaceTexture::Solid(index) => {
+                    format!("solid texture {}", named(&scene.names.solids, index))
+                }
             })
         ),
         format!("position {}", vector(node.position)),
@@ -42,7 +47,7 @@ pub fn lines(scene: &Scene, halo: bool, seen: &Seen<'_>) -> Vec<String> {
         format!("uv {} {}", node.uv.x as f32, node.uv.y as f32),
     ];
     if let Some(local) = seen.local {
-        if let (Some(textured), Some(index)) = (local.textured, surface.texture) {
+        if let (Some(textured), Some(index)) = (local.textured, surface.picture()) {
             lines.push(footprint(scene, halo, seen.around, node, &textured, index));
             lines.push(format!("texture average {}", light(textured.average)));
         }

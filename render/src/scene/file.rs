@@ -9,10 +9,11 @@
 //!   "lights": [ { "point": { "position": [4, 8, 5], "color": 0.9 } } ],
 //!   "max_depth": 12, "min_weight": 0.0001,
 //!   "textures": {
-//!     "checks": { "image": "../textures/checkerboard.png", "wrap": "repeat", "values": "srgb" }
+//!     "checks": { "image": "../textures/checkerboard.png", "wrap": "repeat", "values": "srgb" },
+//!     "stone": { "marble": {}, "place": { "scale": 0.4 } }
 //!   },
 //!   "materials": {
-//!     "floor": { "diffuse": 0.9 },
+//!     "floor": { "diffuse": 0.9, "bump": { "wall": {}, "strength": 0.02 } },
 //!     "glass": { "ambient": 0, "diffuse": 0, "specular": 0.5, "reflectivity": 1,
 //!                "transparency": 1, "index_of_refraction": 1.5, "fresnel": true }
 //!   },
@@ -40,8 +41,9 @@
 //! Of one ray from the eye and all that follow from it the first 8191 hits count, as many as a
 //! `max_depth` of 12 can have.
 //!
-//! A texture fills a rectangle, or the unit square of a mesh's or sphere's texture coordinates;
-//! `repeat` lays it several times. Paths count from the folder of the file that they stand in.
+//! A texture is a picture (`image`) or a solid, which fills space and is carved by the surface: see
+//! [`solid`]. A picture fills a rectangle, or the unit square of a mesh's or sphere's texture coordinates;
+//! `repeat` lays it several times. A material's `bump` turns normals as a relief would: see [`bump`]. Paths count from the folder of the file that they stand in.
 //!
 //! Where two surfaces coincide one of them is seen, the other is not behind it: leave a small gap
 //! between glass and what it stands on.
@@ -92,11 +94,13 @@
 //! of b, then the scene's own, and of surfaces at the same place the first is seen. A name may be given
 //! once in all files together, and used in any of them. A part that is reached on two ways is taken in once.
 
+pub mod bump;
 mod color;
 mod light;
 mod material;
 mod object;
 mod part;
+pub mod solid;
 mod texture;
 
 pub use color::ColorFile;

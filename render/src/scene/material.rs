@@ -27,6 +27,8 @@ pub struct Material {
     pub index_of_refraction: f64,
     /// Whether the two weights are multiplied by Fresnel's share and its rest.
     pub fresnel: bool,
+    /// What turns its normals, an index into the scene's bumps.
+    pub bump: Option<usize>,
 }
 
 impl Material {

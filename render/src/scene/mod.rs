@@ -18,6 +18,7 @@ pub use names::Names;
 pub use read::{MeshSource, SceneError};
 
 use crate::color::Color;
+use crate::procedural::Procedural;
 use crate::shape::Shape;
 use crate::texture::Texture;
 use glam::DAffine3;
@@ -37,6 +38,8 @@ pub struct Scene {
     pub materials: Vec<Material>,
     /// Pictures on surfaces.
     pub textures: Vec<Texture>,
+    /// Textures that are computed.
+    pub procedural: Procedural,
     /// The objects; a ray's hit counts in here.
     pub objects: Vec<Object>,
     /// How often a ray may be reflected or refracted.
@@ -65,6 +68,35 @@ pub struct Object {
 pub struct Surface {
     /// What it is made of.
     pub material: usize,
-    /// The picture on it.
-    pub texture: Option<usize>,
+    /// The picture on it, or what it is carved from.
+    pub texture: Option<SurfaceTexture>,
+}
+
+/// A texture of a surface; an index into one of the scene's lists.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SurfaceTexture {
+    /// A picture on it, of the scene's `textures`: averaged over what a pixel sees.
+    Picture(usize),
+    /// What it is carved from, of the scene's `procedural.solids`: looked up at a point.
+    Solid(usize),
+}
+
+impl Surface {
+    /// The picture on it, if it has one.
+    #[must_use]
+    pub fn picture(&self) -> Option<usize> {
+        match self.texture {
+            Some(SurfaceTexture::Picture(index)) => Some(index),
+            Some(SurfaceTexture::Solid(_)) | None => None,
+        }
+    }
+
+    /// The solid it is carved from, if there is one.
+    #[must_use]
+    pub fn solid(&self) -> Option<usize> {
+        match self.texture {
+            Some(SurfaceTexture::Solid(index)) => Some(index),
+            Some(SurfaceTexture::Picture(_)) | None => None,
+        }
+    }
 }

@@ -114,6 +114,7 @@ fn plain() -> Material {
         transparency: 0.0,
         index_of_refraction: 1.0,
         fresnel: false,
+        bump: None,
     }
 }
 

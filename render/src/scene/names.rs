@@ -8,8 +8,10 @@ use super::file::{Lists, ObjectFile};
 pub struct Names {
     /// Of its materials.
     pub materials: Vec<String>,
-    /// Of its textures.
+    /// Of its textures that are pictures.
     pub textures: Vec<String>,
+    /// Of its textures that are solids.
+    pub solids: Vec<String>,
     /// Of its objects: only meshes have names.
     pub objects: Vec<Option<String>>,
 }
@@ -18,7 +20,10 @@ impl Names {
     /// Adds the names that a file gives.
     pub fn add(&mut self, lists: &Lists<'_>) {
         self.materials.extend(lists.materials.keys().cloned());
-        self.textures.extend(lists.textures.keys().cloned());
+        for (name, texture) in lists.textures {
+            let names = if texture.image.is_some() { &mut self.textures } else { &mut self.solids };
+            names.push(name.clone());
+        }
         self.objects.extend(lists.objects.iter().map(|object| match object {
             ObjectFile::Mesh(mesh) => Some(mesh.name.clone()),
             _ => None,

@@ -1,6 +1,7 @@
 //! From a scene file to a [`Scene`]: names become indices, pictures and meshes are read, and every
 //! number is checked against its range.
 
+mod bumps;
 mod draft;
 mod given;
 mod libraries;
@@ -8,6 +9,7 @@ mod lights;
 mod materials;
 mod objects;
 mod place;
+mod shapes;
 mod solids;
 mod textures;
 
@@ -18,6 +20,7 @@ use super::obj::ObjError;
 use super::schema::{DEEPEST, LARGEST, SMALLEST};
 use super::{Camera, Names, Scene};
 use crate::color::Color;
+use crate::procedural::{NoiseLattice, Procedural};
 use crate::shape::Mesh;
 use crate::shape::mesh::MeshError;
 use draft::Indices;
@@ -28,6 +31,7 @@ use glam::DVec3;
 use libraries::Libraries;
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::{Arc, OnceLock};
 use thiserror::Error;
 
 /// Why there is no scene.
@@ -123,6 +127,7 @@ impl Draft<'_> {
         self.check_mesh_names(given.keys().map(String::as_str))?;
         let sheets = self.sheets()?;
         let indices = Indices::of(&sheets)?;
+        let lattice = OnceLock::new();
         let readers: Vec<Reader<'_>> = sheets
             .iter()
             .map(|sheet| Reader {
@@ -131,16 +136,23 @@ impl Draft<'_> {
                 folder: sheet.folder,
                 source,
                 indices: &indices,
+                lattice: &lattice,
             })
             .collect();
         let mut scene = self.view()?;
         for sheet in &sheets {
             scene.names.add(&sheet.lists);
         }
+        let mut bumps = 0..;
         for reader in &readers {
             scene.lights.extend(reader.lights()?);
-            scene.materials.extend(reader.materials()?);
+            scene.materials.extend(reader.materials(&mut bumps)?);
             reader.objects_without_meshes()?;
+            reader.texture_kinds()?;
+        }
+        for reader in &readers {
+            scene.procedural.solids.extend(reader.solids()?);
+            scene.procedural.bumps.extend(reader.bumps()?);
         }
         for reader in &readers {
             scene.textures.extend(reader.textures()?);
@@ -153,6 +165,7 @@ impl Draft<'_> {
         for reader in &readers {
             scene.objects.extend(reader.objects(&mut given, &libraries)?);
         }
+        scene.procedural.lattice = lattice.into_inner();
         Ok(scene)
     }
 
@@ -165,6 +178,7 @@ impl Draft<'_> {
             folder: Path::new(""),
             source: &files::Embedded(&[]),
             indices: &indices,
+            lattice: &OnceLock::new(),
         };
         reader.within("max_depth", f64::from(file.max_depth), 0.0, f64::from(DEEPEST))?;
         Ok(Scene {
@@ -174,6 +188,7 @@ impl Draft<'_> {
             lights: Vec::new(),
             materials: Vec::new(),
             textures: Vec::new(),
+            procedural: Procedural::default(),
             objects: Vec::new(),
             max_depth: file.max_depth,
             min_weight: reader.within("min_weight", file.min_weight, 0.0, 1.0)?,
@@ -190,6 +205,8 @@ struct Reader<'a> {
     source: &'a dyn Source,
     /// Those of all files of the scene.
     indices: &'a Indices<'a>,
+    /// What noise is made of, once something asks for it.
+    lattice: &'a OnceLock<Arc<NoiseLattice>>,
 }
 
 impl Reader<'_> {

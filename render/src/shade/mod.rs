@@ -43,6 +43,8 @@ pub struct ShadeCounts {
     pub points: u64,
     /// Texels or table entries read for both.
     pub texels: u64,
+    /// Solid textures looked up.
+    pub solids: u64,
 }
 
 impl Shader<'_> {
@@ -91,13 +93,14 @@ impl Shader<'_> {
 
     /// The colour of the surface itself under ambient light and the lights that reach it.
     fn local(&self, node: &Node, around: &Neighbourhood<'_>, counts: &mut ShadeCounts) -> Local {
-        let surface = self.scene.objects[node.piece.object as usize].parts[node.part as usize];
+        let object = &self.scene.objects[node.piece.object as usize];
+        let surface = object.parts[node.part as usize];
         let material = &self.scene.materials[surface.material];
         let Lighting { diffuse, highlight } = self.lighting(node, material, counts);
         let mut color = highlight;
         let mut textured = None;
         if material.shows_color() {
-            let texture = surface.texture.and_then(|index| self.textures[index].as_ref());
+            let texture = surface.picture().and_then(|index| self.textures[index].as_ref());
             textured = texture.map(|texture| {
                 let footprint = around.footprint(node, &self.charts[node.piece.object as usize]);
                 counts.texels += texture.reads();
@@ -105,7 +108,6 @@ impl Shader<'_> {
                     Footprint::Point(_) => counts.points += 1,
                     Footprint::Rectangle { .. } => counts.areas += 1,
                 }
-                let object = &self.scene.objects[node.piece.object as usize];
                 let average = if object.shape.has_poles() {
                     texture.average(&texture.between_poles(footprint))
                 } else {
@@ -114,7 +116,15 @@ impl Shader<'_> {
                 Textured { footprint, average }
             });
             let texture = textured.map_or(Color::ONE, |textured| textured.average);
-            color += material.color * texture * (material.ambient * self.scene.ambient + diffuse);
+            let carved = surface.solid().map_or(Color::ONE, |index| {
+                counts.solids += 1;
+                let solid = &self.scene.procedural.solids[index];
+                solid.color(&object.to_own_space, node.position)
+            });
+            color += material.color
+                * texture
+                * carved
+                * (material.ambient * self.scene.ambient + diffuse);
         }
         Local { textured, color }
     }

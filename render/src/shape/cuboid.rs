@@ -98,6 +98,21 @@ impl Cuboid {
         SurfacePoint { position, geometric_normal: normal, shading_normal: normal, uv, part: face }
     }
 
+    /// As [`Shape::uv_gradients`](super::Shape::uv_gradients).
+    #[must_use]
+    pub fn uv_gradients(&self, face: u32) -> [DVec3; 2] {
+        let per_side = (self.high - self.low).recip();
+        let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| axis * per_side);
+        match face {
+            0 => [z, y],
+            1 => [-z, y],
+            2 => [x, z],
+            3 => [x, -z],
+            4 => [-x, y],
+            _ => [x, y],
+        }
+    }
+
     /// Lower and upper corner.
     #[must_use]
     pub fn bounds(&self) -> [DVec3; 2] {

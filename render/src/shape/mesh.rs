@@ -166,6 +166,27 @@ impl Mesh {
         SurfacePoint { position, geometric_normal, shading_normal, uv, part: corners.surface }
     }
 
+    /// The gradients of a triangle's texture coordinates; zero if it has none or no area.
+    #[must_use]
+    pub fn uv_gradients(&self, triangle: u32) -> [DVec3; 2] {
+        let corners = &self.triangles[triangle as usize];
+        if corners.uv[0] == NONE {
+            return [DVec3::ZERO; 2];
+        }
+        let [p0, p1, p2] = corners.position.map(|i| as_dvec3(self.positions[i as usize]));
+        let uvs = corners.uv.map(|i| DVec2::from(self.uvs[i as usize].map(f64::from)));
+        let (b, c) = (p1 - p0, p2 - p0);
+        let normal = b.cross(c);
+        let area_sq = normal.length_squared();
+        if area_sq == 0.0 {
+            return [DVec3::ZERO; 2];
+        }
+        // The gradients of the weights of the second and the third corner.
+        let (by_b, by_c) = (c.cross(normal) / area_sq, normal.cross(b) / area_sq);
+        let (along_b, along_c) = (uvs[1] - uvs[0], uvs[2] - uvs[0]);
+        [along_b.x * by_b + along_c.x * by_c, along_b.y * by_b + along_c.y * by_c]
+    }
+
     /// Lower and upper corner of a triangle's box.
     #[must_use]
     pub fn bounds(&self, triangle: u32) -> [DVec3; 2] {

@@ -59,6 +59,18 @@ impl Placed {
         }
     }
 
+    /// As [`Shape::uv_gradients`], in the scene's space.
+    #[must_use]
+    pub fn uv_gradients(&self, face: u32, position: DVec3) -> [DVec3; 2] {
+        let to_own = self.placement.to_own();
+        let near = to_own.transform_point3(position);
+        let normal = self.surface_point(face, position).geometric_normal;
+        self.shape.uv_gradients(face, near).map(|own| {
+            let gradient = to_own.matrix3.transpose() * own;
+            gradient - gradient.dot(normal) * normal
+        })
+    }
+
     /// Lower and upper corner of its box.
     #[must_use]
     pub fn bounds(&self) -> [DVec3; 2] {

@@ -94,6 +94,12 @@ impl Quad {
         }
     }
 
+    /// The gradients of its texture coordinates.
+    #[must_use]
+    pub fn uv_gradients(&self) -> [DVec3; 2] {
+        [self.dual_u * self.repeat.x, self.dual_v * self.repeat.y]
+    }
+
     /// The corner at which both edges begin.
     #[must_use]
     pub fn corner(&self) -> DVec3 {

@@ -65,6 +65,16 @@ impl Sphere {
         }
     }
 
+    /// The gradients of its texture coordinates at a point of it; none of the longitude at a pole.
+    #[must_use]
+    pub fn uv_gradients(&self, position: DVec3) -> [DVec3; 2] {
+        let normal = (position - self.center).normalize_or_zero();
+        let Some(east) = DVec3::Y.cross(normal).try_normalize() else { return [DVec3::ZERO; 2] };
+        let north = normal.cross(east);
+        let parallel = self.radius * normal.x.hypot(normal.z);
+        [east / (TAU * parallel), north / (PI * self.radius)]
+    }
+
     /// Texture coordinates jump by 1 across the seam meridian.
     #[must_use]
     pub fn seam(&self) -> super::SeamPeriod {

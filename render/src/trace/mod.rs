@@ -9,8 +9,10 @@ pub mod tree;
 
 use crate::accel::Accel;
 use crate::optics;
-use crate::ray::Ray;
+use crate::procedural::Place;
+use crate::ray::{Hit, Ray};
 use crate::scene::{Material, Scene};
+use crate::shape::SurfacePoint;
 use glam::DVec3;
 use tree::{Branch, IntersectionTree, Node};
 
@@ -68,9 +70,9 @@ impl Tracer<'_> {
         let inside = ray.direction.dot(point.geometric_normal) > 0.0;
         let side = if inside { -1.0 } else { 1.0 };
         let geometric_normal = side * point.geometric_normal;
-        let mut normal = side * point.shading_normal;
+        let mut normal = side * self.bumped(material, &hit, &point);
         if ray.direction.dot(normal) >= 0.0 {
-            // Seen from behind its interpolated normal: only the facet itself tells the truth.
+            // Seen from behind its interpolated or bumped normal: only the facet itself tells the truth.
             normal = geometric_normal;
         }
 
@@ -109,6 +111,22 @@ impl Tracer<'_> {
             tree.node_mut(slot).refracted = branch;
         }
         Branch::Node(slot)
+    }
+
+    /// The normal to shade with, turned by the material's bump if it has one.
+    fn bumped(&self, material: &Material, hit: &Hit, point: &SurfacePoint) -> DVec3 {
+        let Some(bump) = material.bump.map(|bump| &self.scene.procedural.bumps[bump]) else {
+            return point.shading_normal;
+        };
+        let object = &self.scene.objects[hit.piece.object as usize];
+        let uv_gradients = if bump.wants_uv() {
+            object.shape.uv_gradients(hit.piece.triangle, point.position)
+        } else {
+            [DVec3::ZERO; 2]
+        };
+        let (position, normal) = (point.position, point.shading_normal);
+        let place = Place { point: position, normal, uv: point.uv, uv_gradients };
+        bump.normal(&object.to_own_space, &place)
     }
 }
 
@@ -210,6 +228,7 @@ mod tests {
                 transparency: 1.0,
                 index_of_refraction: 1.5,
                 fresnel,
+                bump: None,
             };
             let split = Split::at(&glass, incident, normal, facet, inside);
             if let Some(direction) = split.refracted {

@@ -2,7 +2,7 @@
 
 use super::subject::{Item, Subject};
 use super::{count, point, short, solid};
-use crate::scene::Surface;
+use crate::scene::{Surface, SurfaceTexture};
 use crate::texture::Texture;
 use glam::DVec3;
 
@@ -27,7 +27,7 @@ pub fn lines(subject: &Subject<'_>, table_bytes: &dyn Fn(&Texture) -> usize) -> 
     for (index, texture) in scene.textures.iter().enumerate() {
         lines.push(format!(
             "texture {}: {}",
-            subject.texture_name(index),
+            subject.texture_name(SurfaceTexture::Picture(index)),
             sizes(texture, table_bytes)
         ));
     }

@@ -91,7 +91,7 @@ fn normals(item: &Item<'_>, mesh: &Mesh) -> Vec<Finding> {
 
 /// Triangles on which a picture is drawn out far more in one direction than in the other.
 fn stretched(item: &Item<'_>, mesh: &Mesh) -> Option<Finding> {
-    let is_textured = |surface: u32| item.object.parts[surface as usize].texture.is_some();
+    let is_textured = |surface: u32| item.object.parts[surface as usize].picture().is_some();
     let mut stretched = 0;
     for (number, triangle) in mesh.triangles.iter().enumerate() {
         if triangle.uv[0] == NONE || !is_textured(triangle.surface) {

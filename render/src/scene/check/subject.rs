@@ -3,7 +3,7 @@
 use super::solid::Skin;
 use crate::scene::file::{CameraFile, ObjectFile};
 use crate::scene::read::{Draft, Sheet};
-use crate::scene::{Material, Object, Scene};
+use crate::scene::{Material, Object, Scene, SurfaceTexture};
 use crate::shape::{Mesh, Shape};
 use glam::DVec3;
 
@@ -22,8 +22,8 @@ pub struct Subject<'a> {
     pub lights: Vec<String>,
     /// Its materials' names and paths, in its order.
     pub materials: Vec<[String; 2]>,
-    /// Its textures' names and paths, in its order.
-    pub textures: Vec<[String; 2]>,
+    /// Its textures with their names and paths, pictures and solids each in the scene's order.
+    pub textures: Vec<(SurfaceTexture, [String; 2])>,
 }
 
 /// An object with its place.
@@ -53,6 +53,7 @@ impl<'a> Subject<'a> {
             textures: Vec::new(),
         };
         let mut objects = scene.objects.iter();
+        let (mut pictures, mut solids) = (0.., 0..);
         for (number, sheet) in sheets.iter().enumerate() {
             let own = number + 1 == sheets.len();
             let file = if own { String::new() } else { format!("{}: ", sheet.document.file) };
@@ -60,7 +61,13 @@ impl<'a> Subject<'a> {
             subject.lights.extend((0..lists.lights.len()).map(|k| format!("{file}lights[{k}]")));
             let named = |key: &str, name: &String| [name.clone(), format!("{file}{key}.{name}")];
             subject.materials.extend(lists.materials.keys().map(|name| named("materials", name)));
-            subject.textures.extend(lists.textures.keys().map(|name| named("textures", name)));
+            for (name, texture) in lists.textures {
+                let texture = match texture.image {
+                    Some(_) => pictures.next().map(SurfaceTexture::Picture),
+                    None => solids.next().map(SurfaceTexture::Solid),
+                };
+                subject.textures.extend(texture.map(|texture| (texture, named("textures", name))));
+            }
             for ((place, entry), object) in lists.objects.iter().enumerate().zip(&mut objects) {
                 let kind = match entry {
                     ObjectFile::Mesh(mesh) => format!("mesh {}", mesh.name),
@@ -88,8 +95,9 @@ impl<'a> Subject<'a> {
 
     /// The name of a texture; one that no file names is of a material library.
     #[must_use]
-    pub fn texture_name(&self, texture: usize) -> &str {
-        self.textures.get(texture).map_or("of its mtl", |[name, _]| name)
+    pub fn texture_name(&self, texture: SurfaceTexture) -> &str {
+        let known = self.textures.iter().find(|(other, _)| *other == texture);
+        known.map_or("of its mtl", |(_, [name, _])| name)
     }
 
     /// The materials of an object.

@@ -11,8 +11,8 @@ pub fn findings(subject: &Subject<'_>) -> Vec<Finding> {
         let used = parts().any(|part| part.material == index);
         (!used).then(|| Finding::new(Severity::Remark, path, "no surface is made of this material"))
     });
-    let textures = subject.textures.iter().enumerate().filter_map(|(index, [_, path])| {
-        let bound = || parts().filter(|part| part.texture == Some(index));
+    let textures = subject.textures.iter().filter_map(|(texture, [_, path])| {
+        let bound = || parts().filter(|part| part.texture == Some(*texture));
         let shows = |material: usize| subject.scene.materials[material].shows_color();
         if bound().next().is_none() {
             return Some(Finding::new(Severity::Remark, path, "no surface has this texture"));

@@ -1,5 +1,6 @@
 //! `materials` of a scene file.
 
+use super::bump::BumpFile;
 use super::color::{ColorFile, white};
 use crate::scene::schema;
 use schemars::JsonSchema;
@@ -36,6 +37,8 @@ pub struct MaterialFile {
     /// Whether the weights of the mirrored and the refracted ray are multiplied by Fresnel's share and
     /// its rest; false if left out.
     pub fresnel: bool,
+    /// How normals are turned; not at all by default.
+    pub bump: Option<BumpFile>,
 }
 
 impl Default for MaterialFile {
@@ -50,6 +53,7 @@ impl Default for MaterialFile {
             transparency: 0.0,
             index_of_refraction: 1.5,
             fresnel: false,
+            bump: None,
         }
     }
 }

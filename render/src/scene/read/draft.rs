@@ -1,6 +1,7 @@
 //! A scene's texts: its own, and those of the parts that it includes.
 
 use super::SceneError;
+use crate::scene::SurfaceTexture;
 use crate::scene::file::{Lists, MeshFile, ObjectFile, PART_FORMAT, PartFile, SceneFile, VERSION};
 use files::json::{Document, nearest};
 use files::{JsonError, Source, input};
@@ -160,11 +161,11 @@ impl Gathering<'_> {
     }
 }
 
-/// The names of a scene's materials and textures, each with its place in the scene's list.
+/// The names of a scene's materials and textures, each with its place in the scene's lists.
 #[derive(Debug, Default)]
 pub(super) struct Indices<'a> {
     pub(super) materials: BTreeMap<&'a str, usize>,
-    pub(super) textures: BTreeMap<&'a str, usize>,
+    pub(super) textures: BTreeMap<&'a str, SurfaceTexture>,
 }
 
 impl<'a> Indices<'a> {
@@ -174,6 +175,7 @@ impl<'a> Indices<'a> {
     /// When one is given in two files.
     pub(super) fn of(sheets: &[Sheet<'a>]) -> Result<Self, JsonError> {
         let mut names = Self::default();
+        let (mut pictures, mut solids) = (0.., 0..);
         for (k, sheet) in sheets.iter().enumerate() {
             let Lists { materials, textures, .. } = sheet.lists;
             let clash = |key: &str, kind: &str, name: &str, has: fn(&Lists<'_>, &str) -> bool| {
@@ -191,8 +193,13 @@ impl<'a> Indices<'a> {
                     return clash("materials", "material", name, has);
                 }
             }
-            for name in textures.keys() {
-                let index = names.textures.len();
+            for (name, texture) in textures {
+                // Pictures and solids are counted apart.
+                let index = match texture.image {
+                    Some(_) => pictures.next().map(SurfaceTexture::Picture),
+                    None => solids.next().map(SurfaceTexture::Solid),
+                };
+                let Some(index) = index else { continue };
                 if names.textures.insert(name, index).is_some() {
                     let has = |lists: &Lists<'_>, name: &str| lists.textures.contains_key(name);
                     return clash("textures", "texture", name, has);

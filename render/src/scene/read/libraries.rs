@@ -2,7 +2,7 @@
 
 use super::{Reader, SceneError};
 use crate::scene::file::ObjectFile;
-use crate::scene::{Scene, Surface, mtl};
+use crate::scene::{Scene, Surface, SurfaceTexture, mtl};
 use crate::texture::{Values, Wrap};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -46,7 +46,7 @@ impl Reader<'_> {
                         None => {
                             let file = folder.join(&picture);
                             let index = scene.textures.len();
-                            let texture = self.picture(&at, &file, Values::Srgb, Wrap::Repeat)?;
+                            let texture = self.texels(&at, &file, Values::Srgb, Wrap::Repeat)?;
                             scene.textures.push(texture);
                             scene.names.textures.push(picture.clone());
                             pictures.insert(picture, index);
@@ -57,6 +57,7 @@ impl Reader<'_> {
                 let material = scene.materials.len();
                 scene.materials.push(entry.material);
                 scene.names.materials.push(entry.name.clone());
+                let texture = texture.map(SurfaceTexture::Picture);
                 surfaces.insert(entry.name, Surface { material, texture });
             }
             libraries.0.insert(path, surfaces);

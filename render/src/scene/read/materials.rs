@@ -5,8 +5,16 @@ use crate::scene::Material;
 use crate::scene::file::MaterialFile;
 
 impl Reader<'_> {
-    pub(super) fn materials(&self) -> Result<Vec<Material>, SceneError> {
-        self.file.materials.iter().map(|(name, material)| self.material(name, material)).collect()
+    /// The materials; those with a bump take its number from `bumps`.
+    pub(super) fn materials(
+        &self,
+        bumps: &mut impl Iterator<Item = usize>,
+    ) -> Result<Vec<Material>, SceneError> {
+        let materials = self.file.materials.iter().map(|(name, file)| {
+            let bump = file.bump.as_ref().and_then(|_| bumps.next());
+            Ok(Material { bump, ..self.material(name, file)? })
+        });
+        materials.collect()
     }
 
     fn material(&self, name: &str, material: &MaterialFile) -> Result<Material, SceneError> {
@@ -27,6 +35,7 @@ impl Reader<'_> {
                 10.0,
             )?,
             fresnel: material.fresnel,
+            bump: None,
         })
     }
 }

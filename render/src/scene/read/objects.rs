@@ -4,7 +4,7 @@ use super::given::Given;
 use super::libraries::Libraries;
 use super::{Reader, SceneError};
 use crate::scene::file::{MeshFile, ObjectFile};
-use crate::scene::{Object, Surface, obj};
+use crate::scene::{Object, Surface, SurfaceTexture, obj};
 use crate::shape::mesh::{NONE, Triangle};
 use crate::shape::{Mesh, Placement, Quad, Shape, Sphere};
 use files::json::nearest;
@@ -169,7 +169,7 @@ impl Reader<'_> {
         parts: &[Surface],
     ) -> Result<(), SceneError> {
         let is_lost = |triangle: &&Triangle| {
-            triangle.uv[0] == NONE && parts[triangle.surface as usize].texture.is_some()
+            triangle.uv[0] == NONE && parts[triangle.surface as usize].picture().is_some()
         };
         match mesh.triangles.iter().filter(is_lost).count() {
             0 => Ok(()),
@@ -244,17 +244,17 @@ impl Reader<'_> {
         self.index_of(path, "material", name, &self.indices.materials)
     }
 
-    fn texture_index(&self, path: &str, name: &str) -> Result<usize, SceneError> {
+    fn texture_index(&self, path: &str, name: &str) -> Result<SurfaceTexture, SceneError> {
         self.index_of(path, "texture", name, &self.indices.textures)
     }
 
-    fn index_of(
+    fn index_of<T: Copy>(
         &self,
         path: &str,
         kind: &str,
         name: &str,
-        known: &BTreeMap<&str, usize>,
-    ) -> Result<usize, SceneError> {
+        known: &BTreeMap<&str, T>,
+    ) -> Result<T, SceneError> {
         if let Some(&index) = known.get(name) {
             return Ok(index);
         }
@@ -273,7 +273,7 @@ impl Reader<'_> {
 #[derive(Debug, Default)]
 struct Bindings {
     material: Option<usize>,
-    texture: Option<usize>,
+    texture: Option<SurfaceTexture>,
     materials: BTreeMap<String, usize>,
-    textures: BTreeMap<String, usize>,
+    textures: BTreeMap<String, SurfaceTexture>,
 }

@@ -68,6 +68,15 @@ impl Field {
         norm(point.x.abs(), point.z.abs(), self.across)
     }
 
+    /// The slope of h in each coordinate.
+    pub fn axis_gradient(&self, point: DVec3) -> DVec3 {
+        let h = self.axis_norm(point);
+        let part = |signed: f64| {
+            if signed == 0.0 { 0.0 } else { slope(signed.abs() / h, self.across).copysign(signed) }
+        };
+        DVec3::new(part(point.x), 0.0, part(point.z))
+    }
+
     /// Less than 1 inside.
     pub fn value(&self, point: DVec3) -> f64 {
         norm((self.axis_norm(point) - self.ring).abs(), point.y.abs(), self.section)

@@ -135,6 +135,33 @@ impl Superquadric {
         }
     }
 
+    /// As [`Shape::uv_gradients`](super::Shape::uv_gradients).
+    #[must_use]
+    pub fn uv_gradients(&self, position: DVec3) -> [DVec3; 2] {
+        let point = (position - self.center) / self.radii;
+        let DVec3 { x, y, z } = point;
+        let from_axis_sq = x * x + z * z;
+        if from_axis_sq == 0.0 {
+            return [DVec3::ZERO; 2];
+        }
+        let around = DVec3::new(z, 0.0, -x) / (TAU * from_axis_sq);
+        // Across the axis: from it, or from the middle of the tube.
+        let (out, outward, turn) = if self.is_ring() {
+            let out = self.field.axis_norm(point) - self.field.ring;
+            (out, self.field.axis_gradient(point), TAU)
+        } else {
+            let from_axis = from_axis_sq.sqrt();
+            (from_axis, DVec3::new(x, 0.0, z) / from_axis, PI)
+        };
+        let up = (out * DVec3::Y - y * outward) / (turn * (out * out + y * y));
+        let normal = self.field.direction(point, self.radii);
+        [around, up].map(|own| {
+            let gradient = own / self.radii;
+            let along = gradient - gradient.dot(normal) * normal;
+            if along.is_finite() { along } else { DVec3::ZERO }
+        })
+    }
+
     /// Texture coordinates jump by 1 across the seam meridian, and on a ring at its innermost line.
     #[must_use]
     pub fn seam(&self) -> SeamPeriod {

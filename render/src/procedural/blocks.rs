@@ -1,0 +1,152 @@
+//! Checker, stripes and bricks: exact, with no noise in them.
+//!
+//! Each is a cell number and a place in the cell. A surface that lies in a face between cells, as a
+//! floor does at height 0, would see one side here and the other there as its coordinates are
+//! rounded; so all faces lie [`BELOW`] lower than said, and it sees the upper side everywhere.
+//! These patterns could be averaged over a box in closed form. They are looked up at a point like
+//! all solids, which is the thesis's way; supersampling smooths their edges.
+
+use super::lattice::{mixed_at, share};
+use crate::color::Color;
+use glam::DVec3;
+
+/// How far faces are moved, in units of the texture. Larger than the rounding of coordinates up to
+/// a million units, and far smaller than anything that could be seen.
+pub const BELOW: f64 = 1.0 / (1u64 << 30) as f64;
+
+/// Cubes of side 1, of two colours in turn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Checker {
+    /// The cube from the origin to (1, 1, 1) has the first.
+    pub colors: [Color; 2],
+}
+
+impl Checker {
+    /// The colour at a point.
+    #[must_use]
+    pub fn color(&self, point: DVec3) -> Color {
+        let cube = (point + BELOW).floor();
+        let odd = (cube.x + cube.y + cube.z).rem_euclid(2.0);
+        self.colors[usize::from(odd == 1.0)]
+    }
+}
+
+/// Layers along x that repeat.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stripes {
+    /// The thickness of each, more than 0, and its colour; the first begins at x = 0.
+    pub layers: Vec<(f64, Color)>,
+}
+
+impl Stripes {
+    /// The colour at a point.
+    #[must_use]
+    pub fn color(&self, point: DVec3) -> Color {
+        let period: f64 = self.layers.iter().map(|(thickness, _)| thickness).sum();
+        let mut left = (point.x + BELOW).rem_euclid(period);
+        for &(thickness, color) in &self.layers {
+            if left < thickness {
+                return color;
+            }
+            left -= thickness;
+        }
+        // rem_euclid rounds up to the period itself just below it.
+        self.layers.first().map_or(Color::ZERO, |&(_, color)| color)
+    }
+}
+
+/// Brickwork in running bond: rows along x, each half a brick off the one below.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Brick {
+    /// From one brick to the next, joint included, along x, y and z; more than 0.
+    pub size: DVec3,
+    /// The joint, at the upper end of each brick along each axis; at least 0 and less than a brick.
+    pub joint: f64,
+    /// Colours of bricks and of the joint.
+    pub colors: [Color; 2],
+    /// How much bricks differ in tone, 0 to 1.
+    pub vary: f64,
+}
+
+impl Brick {
+    /// The colour at a point.
+    #[must_use]
+    pub fn color(&self, point: DVec3) -> Color {
+        let mut at = (point + BELOW) / self.size;
+        let row = at.y.floor();
+        at.x -= 0.5 * row.rem_euclid(2.0);
+        let brick = at.floor();
+        let inside = (at - brick) * self.size;
+        if inside.cmpge(self.size - self.joint).any() {
+            return self.colors[1];
+        }
+        let random = share(mixed_at(brick.to_array().map(|x| x as i64), 41));
+        self.colors[0] * (1.0 + self.vary * (random - 0.5))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BLACK_WHITE: [Color; 2] = [Color::ZERO, Color::ONE];
+
+    #[test]
+    fn checkers_alternate_across_every_face_and_nowhere_else() {
+        let checker = Checker { colors: BLACK_WHITE };
+        for x in -3..3 {
+            for y in -3..3 {
+                for z in -3..3 {
+                    let corner = DVec3::new(f64::from(x), f64::from(y), f64::from(z));
+                    let expected = BLACK_WHITE[i32::rem_euclid(x + y + z, 2) as usize];
+                    for part in [0.0, 1e-6, 0.5, 0.999_999] {
+                        assert_eq!(checker.color(corner + part), expected, "{corner}");
+                    }
+                }
+            }
+        }
+        // A floor at height 0, rounded this way and that.
+        let rounded = [1e-15, 0.0, -1e-15].map(|y| checker.color(DVec3::new(0.5, y, 0.5)));
+        assert_eq!(rounded, [Color::ZERO; 3]);
+        assert!(checker.color(DVec3::new(1e9 + 0.5, -1e300, 0.5)).is_finite());
+    }
+
+    #[test]
+    fn stripes_have_their_widths_and_repeat() {
+        let layers = vec![(0.5, Color::ONE), (0.25, Color::X), (1.0, Color::Y)];
+        let stripes = Stripes { layers };
+        for period in -2..3 {
+            let start = 1.75 * f64::from(period);
+            for (x, color) in [
+                (0.0, Color::ONE),
+                (0.49, Color::ONE),
+                (0.5, Color::X),
+                (0.74, Color::X),
+                (0.75, Color::Y),
+                (1.74, Color::Y),
+            ] {
+                assert_eq!(stripes.color(DVec3::new(start + x, 5.0, -3.0)), color, "{period} {x}");
+            }
+        }
+    }
+
+    /// A wall of bricks shows as much brick as the sizes say, and half a brick of offset.
+    #[test]
+    fn bricks_and_joints_have_their_sizes() {
+        let size = DVec3::new(2.0, 0.75, 1.0);
+        let brick = Brick { size, joint: 0.25, colors: [Color::ONE, Color::ZERO], vary: 0.0 };
+        // Middles of cells of 1/16 over two bricks of two rows: edges fall between them.
+        let mut bricks = 0;
+        for i in 0..64 {
+            for j in 0..24 {
+                let at = DVec3::new(f64::from(i) + 0.5, f64::from(j) + 0.5, 1.0) / 16.0;
+                bricks += usize::from(brick.color(at) == Color::ONE);
+            }
+        }
+        assert_eq!(bricks as f64 / (64.0 * 24.0), (1.75 * 0.5) / (2.0 * 0.75));
+        let joint = |x: f64, y: f64| brick.color(DVec3::new(x, y, 0.1)) == Color::ZERO;
+        assert!(joint(1.9, 0.1) && !joint(0.9, 0.1), "the first row");
+        assert!(joint(0.9, 0.85) && !joint(1.9, 0.85), "the second row, half a brick off");
+        assert!(joint(0.3, 0.6) && !joint(0.3, 0.4), "between rows");
+    }
+}
