@@ -6,6 +6,7 @@ use files::json::Document;
 use files::{Output, Source};
 use render::color::Encoding;
 use render::film::encode::{self, Format};
+use render::film::memory;
 use render::scene::file::CameraFile;
 use render::scene::{MeshSource, SceneError, read};
 use render::stats::Stats;
@@ -28,6 +29,8 @@ pub struct Options {
     pub folder: PathBuf,
     /// Pixels across and down.
     pub size: (u32, u32),
+    /// Memory for textures and their tables, in bytes.
+    pub max_texture_bytes: u64,
     /// Whether grids and OBJ files are written too.
     pub keep: bool,
     /// Whether files that exist are replaced.
@@ -117,8 +120,13 @@ impl Work<'_> {
             meshes.insert(mesh.name.clone(), self.mesh(mesh, &file.camera)?);
         }
         let folder = path.parent().unwrap_or(Path::new(""));
-        read::resolve(&document, &file, folder, self.source, meshes)
-            .map_err(|error| self.of_meshes(error))
+        let most = self.options.max_texture_bytes;
+        let scene = read::resolve_within(&document, &file, folder, self.source, meshes, most)
+            .map_err(|error| self.of_meshes(error))?;
+        for mode in &self.job.modes {
+            memory::check(&scene, mode.filter, most)?;
+        }
+        Ok(scene)
     }
 
     /// What is wrong with a scene, where it is the job that has a mesh too many or too few.

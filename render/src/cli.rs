@@ -52,6 +52,9 @@ pub struct Arguments {
     /// How a PNG is encoded: srgb, or a gamma such as 2.2
     #[arg(long, value_name = "srgb|G", default_value = "srgb", value_parser = gamma_argument)]
     gamma: Encoding,
+    /// Memory for textures and their tables, in bytes or with k, M or G; beyond it nothing is read
+    #[arg(long, value_name = "BYTES", default_value = "2G", value_parser = render::film::memory::bytes)]
+    max_texture_mem: u64,
     /// Worker threads [default: one for each core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024).map(usize::from))]
     threads: Option<usize>,
@@ -84,10 +87,14 @@ enum FilterName {
     Point,
     /// Four texels interpolated at the point
     Bilinear,
-    /// The average under a box over the footprint (summed areas)
+    /// Eight texels of a pyramid of smaller pictures, interpolated (mip-mapping)
+    Mip,
+    /// The average under a box over the footprint (summed areas, n = 1)
     Box,
     /// The average under a tent over the footprint (repeated integration, n = 2)
     Tent,
+    /// The average under a quadratic B-spline over the footprint (n = 3)
+    Quadratic,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -148,9 +155,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
     let filter = match arguments.filter {
         FilterName::Point => Filter::Point,
         FilterName::Bilinear => Filter::Bilinear,
+        FilterName::Mip => Filter::Mip,
         FilterName::Box => Filter::Box,
         FilterName::Tent => Filter::Tent,
+        FilterName::Quadratic => Filter::Quadratic,
     };
+    render::film::memory::check(&scene, filter, arguments.max_texture_mem)?;
     let settings = Settings { width, height, samples: arguments.samples, filter };
     let progress = Progress::new("render", arguments.quiet);
     let threads = arguments.threads.unwrap_or(0);
@@ -186,7 +196,8 @@ fn read_scene(arguments: &Arguments) -> Result<render::Scene, Report> {
         Some(folder) if !input::is_stdin(&arguments.scene) => folder,
         _ => Path::new(""),
     };
-    Ok(read::resolve(&document, &file, folder, &Disk, given)?)
+    let most = arguments.max_texture_mem;
+    Ok(read::resolve_within(&document, &file, folder, &Disk, given, most)?)
 }
 
 fn format(arguments: &Arguments) -> Result<Format, UseError> {

@@ -2,7 +2,7 @@
 
 use crate::color::{Color, Encoding};
 use glam::{DVec2, DVec3};
-use image::DynamicImage;
+use image::{ColorType, DynamicImage};
 use serde::Deserialize;
 
 /// A picture to be laid on surfaces.
@@ -14,8 +14,10 @@ use serde::Deserialize;
 ///   t = 0  +---------------+   and y = (1 - t) * height downward
 ///         s = 0           s = 1
 /// ```
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Texture {
+    /// What the scene calls it.
+    pub name: String,
     /// Texels across.
     pub width: usize,
     /// Texels down.
@@ -28,6 +30,12 @@ pub struct Texture {
     pub white: u16,
 }
 
+/// Memory for textures and their tables, in bytes, unless a picture is asked for with more or less.
+///
+/// 2 GiB hold a square picture of 6800 texels with the tables of the tent, or one of 8192 with those
+/// of the box, and leave the smaller half of a common machine alone.
+pub const USUAL_MEMORY: u64 = 2 << 30;
+
 /// What lies beyond the edges of a texture.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -37,6 +45,8 @@ pub enum Wrap {
     Repeat,
     /// Its edge texels, without end.
     Clamp,
+    /// The texture turned over, and so on: what lies beyond an edge is what lies before it.
+    Mirror,
 }
 
 /// What the codes of a picture file mean.
@@ -82,7 +92,23 @@ impl Texture {
                 (codes.into_iter().map(decode).collect(), u16::MAX)
             }
         };
-        Some(Self { width, height, wrap, texels, white })
+        Some(Self { name: String::new(), width, height, wrap, texels, white })
+    }
+
+    /// Memory in bytes while a picture of this kind becomes a texture: as decoded, as codes, and as
+    /// texels, all at once. What the decoder itself works with is not in it.
+    #[must_use]
+    pub fn decoding_bytes(width: u32, height: u32, kind: ColorType) -> u64 {
+        let wide = kind.bytes_per_pixel() / kind.channel_count() > 1;
+        let codes = if wide { 6 } else { 3 };
+        let each = u64::from(kind.bytes_per_pixel()) + codes + size_of::<[u16; 3]>() as u64;
+        (u64::from(width) * u64::from(height)).saturating_mul(each)
+    }
+
+    /// Memory of the texels in bytes.
+    #[must_use]
+    pub fn bytes(&self) -> u64 {
+        size_of_val(self.texels.as_slice()) as u64
     }
 
     /// Light of one code.
@@ -110,6 +136,9 @@ impl Texture {
         let at = self.in_texels(uv) - 0.5;
         let corner = at.floor();
         let part = at - corner;
+        if !part.is_finite() {
+            return self.point(uv);
+        }
         let row = |y: f64| self.texel(corner.x, y).lerp(self.texel(corner.x + 1.0, y), part.x);
         row(corner.y).lerp(row(corner.y + 1.0), part.y) * self.unit()
     }
@@ -132,10 +161,20 @@ impl Wrap {
     /// A place in texels, not too far from the origin, that looks like the one at `at`.
     #[must_use]
     pub fn nearer(self, at: f64, size: usize) -> f64 {
-        match self {
+        match self.period(size) {
             _ if at.abs() <= FAR => at,
-            Self::Repeat => at.rem_euclid(size as f64),
-            Self::Clamp => at.clamp(-FAR, FAR),
+            Some(period) => at.rem_euclid(period),
+            None => at.clamp(-FAR, FAR),
+        }
+    }
+
+    /// After how many texels an axis of this size begins again, if it does.
+    #[must_use]
+    pub fn period(self, size: usize) -> Option<f64> {
+        match self {
+            Self::Repeat => Some(size as f64),
+            Self::Clamp => None,
+            Self::Mirror => Some(2.0 * size as f64),
         }
     }
 
@@ -150,6 +189,10 @@ impl Wrap {
         let inside = match self {
             Self::Repeat => at.rem_euclid(size_f),
             Self::Clamp => at.clamp(0.0, size_f - 1.0),
+            Self::Mirror => {
+                let turned = at.rem_euclid(2.0 * size_f);
+                if turned < size_f { turned } else { 2.0 * size_f - 1.0 - turned }
+            }
         };
         // rem_euclid rounds up to the size itself just below a period; NaN becomes 0.
         (inside as usize).min(size - 1)
@@ -186,6 +229,9 @@ mod tests {
         assert_eq!(code(four(Wrap::Clamp).point(beyond)), 10.0);
         assert_eq!(code(four(Wrap::Repeat).bilinear(DVec2::new(1.0, 0.75))), 5.0);
         assert_eq!(code(four(Wrap::Clamp).bilinear(DVec2::new(1.0, 0.75))), 10.0);
+        assert_eq!(code(four(Wrap::Mirror).point(beyond)), 10.0);
+        assert_eq!(code(four(Wrap::Mirror).point(beyond + DVec2::X)), 0.0);
+        assert_eq!(code(four(Wrap::Mirror).bilinear(DVec2::new(1.0, 0.75))), 10.0);
         assert_eq!(code(four(Wrap::Clamp).bilinear(DVec2::new(0.5, 0.5))), 15.0);
     }
 
@@ -200,5 +246,10 @@ mod tests {
     fn a_coordinate_just_below_a_period_stays_inside() {
         assert_eq!(Wrap::Repeat.index(-1e-30, 3), 2);
         assert_eq!(Wrap::Repeat.index(f64::NAN, 3), 0);
+        assert_eq!(Wrap::Mirror.index(-1e-30, 3), 0);
+        assert_eq!(
+            [-1.0, -3.0, 3.0, 5.0, 6.0].map(|at| Wrap::Mirror.index(at, 3)),
+            [0, 2, 2, 0, 0]
+        );
     }
 }

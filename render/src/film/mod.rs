@@ -5,6 +5,7 @@
 //! tile has all it needs, and the picture does not depend on how it is cut or on who works on it.
 
 pub mod encode;
+pub mod memory;
 pub mod picture;
 
 pub use picture::Picture;
@@ -122,14 +123,7 @@ fn render_in_tiles(
 
 /// Prepares the textures that surfaces show, and no others.
 fn ready_shader<'a>(scene: &'a Scene, accel: &'a Accel<'a>, filter: Filter) -> Shader<'a> {
-    let mut shown = vec![false; scene.textures.len()];
-    for surface in scene.objects.iter().flat_map(|object| &object.parts) {
-        if let Some(texture) = surface.texture
-            && scene.materials[surface.material].shows_color()
-        {
-            shown[texture] = true;
-        }
-    }
+    let shown = scene.shown_textures();
     let textures = scene
         .textures
         .par_iter()
@@ -263,13 +257,14 @@ mod tests {
     use super::*;
     use crate::scene::{Camera, Material, Object, PointLight, Surface};
     use crate::shape::{Quad, Sphere};
-    use crate::texture::{Texture, Wrap};
+    use crate::texture::Texture;
     use glam::{DAffine3, DVec3};
 
     /// A glass sphere on a textured floor.
     fn scene() -> Scene {
         let texels = (0..64u16).map(|k| [k * 1000, 60000 - k * 900, (k % 8) * 8000]).collect();
-        let texture = Texture { width: 8, height: 8, wrap: Wrap::Repeat, texels, white: u16::MAX };
+        let texture =
+            Texture { width: 8, height: 8, texels, white: u16::MAX, ..Texture::default() };
         let plain = Material {
             color: Color::ONE,
             ambient: 1.0,

@@ -40,6 +40,22 @@ pub struct Scene {
     pub min_weight: f64,
 }
 
+impl Scene {
+    /// Which textures some surface shows.
+    #[must_use]
+    pub fn shown_textures(&self) -> Vec<bool> {
+        let mut shown = vec![false; self.textures.len()];
+        for surface in self.objects.iter().flat_map(|object| &object.parts) {
+            if let Some(texture) = surface.texture
+                && self.materials[surface.material].shows_color()
+            {
+                shown[texture] = true;
+            }
+        }
+        shown
+    }
+}
+
 /// A shape and what its surfaces look like.
 #[derive(Debug, Clone)]
 pub struct Object {

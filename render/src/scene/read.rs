@@ -12,6 +12,7 @@ use super::{Camera, Scene};
 use crate::color::Color;
 use crate::shape::Mesh;
 use crate::shape::mesh::MeshError;
+use crate::texture::USUAL_MEMORY;
 use files::json::{Document, nearest};
 use files::{Exit, Failure, FileError, JsonError, Source};
 use std::collections::BTreeMap;
@@ -33,6 +34,9 @@ pub enum SceneError {
     /// A file that the scene names cannot be read.
     #[error(transparent)]
     Named(JsonError),
+    /// A texture takes more memory than is allowed.
+    #[error(transparent)]
+    TooLarge(JsonError),
     /// A mesh file is wrong.
     #[error(transparent)]
     Obj(#[from] ObjError),
@@ -71,6 +75,7 @@ impl Failure for SceneError {
         match self {
             Self::File(error) => error.exit(),
             Self::Named(_) => Exit::ReadWrite,
+            Self::TooLarge(_) => Exit::Resource,
             Self::UnknownMesh { .. } | Self::MissingMesh { .. } => Exit::Use,
             _ => Exit::Malformed,
         }
@@ -129,8 +134,24 @@ pub fn resolve(
     source: &dyn Source,
     given: MeshSource,
 ) -> Result<Scene, SceneError> {
+    resolve_within(document, file, folder, source, given, USUAL_MEMORY)
+}
+
+/// The same with this much memory for textures, in bytes, in place of [`USUAL_MEMORY`]. Pictures
+/// are measured before they are decoded.
+///
+/// # Errors
+/// As above.
+pub fn resolve_within(
+    document: &Document<'_>,
+    file: &SceneFile,
+    folder: &Path,
+    source: &dyn Source,
+    given: MeshSource,
+    max_texture_bytes: u64,
+) -> Result<Scene, SceneError> {
     check_mesh_names(file, given.keys().map(String::as_str))?;
-    let reader = Reader { document, file, folder, source };
+    let reader = Reader { document, file, folder, source, max_texture_bytes };
     let camera = reader.camera()?;
     let background = reader.color("background", file.background)?;
     let ambient = reader.color("ambient", file.ambient)?;
@@ -159,6 +180,7 @@ struct Reader<'a> {
     file: &'a SceneFile,
     folder: &'a Path,
     source: &'a dyn Source,
+    max_texture_bytes: u64,
 }
 
 impl Reader<'_> {
