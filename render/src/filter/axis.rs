@@ -160,9 +160,11 @@ fn difference(line: Line, x: f64, step: f64) -> Axis {
     let mut f = [0.0; MOST_POINTS];
     for k in 0..=n {
         let point = x + (k as f64 - 0.5 * n as f64) * step;
-        let whole = point.floor();
-        f[k] = point - whole;
-        points[k] = whole as i64;
+        // Rounding down without a call; places are far below 2^63.
+        let toward_zero = point as i64;
+        let whole = toward_zero - i64::from(point < toward_zero as f64);
+        f[k] = point - whole as f64;
+        points[k] = whole;
     }
     let plain = points[0] >= 0 && points[n] < line.size;
     let mut weights = [0.0; MOST_REDUCED];

@@ -12,12 +12,12 @@ use glam::{DVec2, DVec3};
 /// Steps up to this many texels are averaged directly, by order.
 ///
 /// Such a tent covers at most six by six texels of 6 bytes, against 81 entries of 24 bytes that lie
-/// far apart; at steps of 3 and more the two cost the same. The quadratic covers eleven by eleven,
+/// far apart; at steps of 3 and more the two cost the same. The quadratic covers up to 20 by 20,
 /// against 256 entries of 24 or 48 bytes. A box reads 16 entries, which is few enough.
-pub const WIDEST: [f64; 4] = [0.0, 0.0, 2.0, 3.0];
+pub const WIDEST: [f64; 4] = [0.0, 0.0, 2.0, 6.0];
 
 /// More texels than any direct footprint covers along one axis.
-const MOST: usize = 11;
+const MOST: usize = 20;
 
 /// The average under the B-spline of order `n` and these steps (1 to [`WIDEST`]) along each axis,
 /// centred at `at`; all in texels.
@@ -25,8 +25,10 @@ const MOST: usize = 11;
 pub fn average(texture: &Texture, n: usize, at: DVec2, step: DVec2) -> Color {
     let columns = Weights::new(n, at.x, step.x);
     let rows = Weights::new(n, at.y, step.y);
-    let places: [usize; MOST] =
-        std::array::from_fn(|k| texture.wrap.index(columns.first + k as f64, texture.width));
+    let mut places = [0; MOST];
+    for (k, place) in places.iter_mut().enumerate().take(columns.count) {
+        *place = texture.wrap.index(columns.first + k as f64, texture.width);
+    }
     let mut sum = DVec3::ZERO;
     for (k, &row_weight) in rows.weights.iter().enumerate().take(rows.count) {
         let row = texture.wrap.index(rows.first + k as f64, texture.height) * texture.width;

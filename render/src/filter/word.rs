@@ -50,4 +50,28 @@ macro_rules! word {
 
 word!(u32, i32);
 word!(u64, i64);
-word!(u128, i128);
+
+impl Word for u128 {
+    #[inline(always)]
+    fn from_code(code: u16) -> Self {
+        Self::from(code)
+    }
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        self.wrapping_add(other)
+    }
+    #[inline(always)]
+    fn minus(self, other: Self) -> Self {
+        self.wrapping_sub(other)
+    }
+    #[inline(always)]
+    fn times(self, factor: i128) -> Self {
+        self.wrapping_mul(factor as Self)
+    }
+    #[inline(always)]
+    fn to_f64(self) -> f64 {
+        // Most results are short, and long ones are slow to turn.
+        let short = self as u64 as i64;
+        if i128::from(short) == self as i128 { short as f64 } else { self as i128 as f64 }
+    }
+}
