@@ -127,27 +127,27 @@ impl Texture {
     #[must_use]
     pub fn point(&self, uv: DVec2) -> Color {
         let at = self.in_texels(uv);
-        self.texel(at.x.floor(), at.y.floor()) * self.unit()
+        let column = self.wrap.index(floor(at.x), self.width);
+        let row = self.wrap.index(floor(at.y), self.height);
+        DVec3::from(self.texels[row * self.width + column].map(f64::from)) * self.unit()
     }
 
     /// Linear interpolation between the four texel centres around the point.
     #[must_use]
     pub fn bilinear(&self, uv: DVec2) -> Color {
         let at = self.in_texels(uv) - 0.5;
-        let corner = at.floor();
+        let corner = DVec2::new(floor(at.x), floor(at.y));
         let part = at - corner;
         if !part.is_finite() {
             return self.point(uv);
         }
-        let row = |y: f64| self.texel(corner.x, y).lerp(self.texel(corner.x + 1.0, y), part.x);
+        let columns = [corner.x, corner.x + 1.0].map(|x| self.wrap.index(x, self.width));
+        let row = |y: f64| {
+            let row = self.wrap.index(y, self.height) * self.width;
+            let [left, right] = columns.map(|x| DVec3::from(self.texels[row + x].map(f64::from)));
+            left.lerp(right, part.x)
+        };
         row(corner.y).lerp(row(corner.y + 1.0), part.y) * self.unit()
-    }
-
-    /// The codes of a texel by column and row, wrapped; the arguments are whole numbers.
-    fn texel(&self, x: f64, y: f64) -> DVec3 {
-        let column = self.wrap.index(x, self.width);
-        let row = self.wrap.index(y, self.height);
-        DVec3::from(self.texels[row * self.width + column].map(f64::from))
     }
 }
 
@@ -156,6 +156,15 @@ impl Texture {
 /// A few texels from here `f64` still tells a thousandth of a texel; from 2^53 on it does not tell
 /// one texel from the next, and the weights of a filter no longer sum to one.
 const FAR: f64 = (1u64 << 42) as f64;
+
+/// The next whole number below, without a call for all but the farthest places.
+fn floor(at: f64) -> f64 {
+    if at.abs() < FAR {
+        let toward_zero = at as i64 as f64;
+        return if toward_zero > at { toward_zero - 1.0 } else { toward_zero };
+    }
+    at.floor()
+}
 
 impl Wrap {
     /// A place in texels, not too far from the origin, that looks like the one at `at`.
@@ -240,6 +249,13 @@ mod tests {
         let white = RgbImage::from_pixel(1, 1, image::Rgb([255, 188, 0]));
         let texture = Texture::from_picture(&white.into(), Values::Srgb, Wrap::Clamp).unwrap();
         assert_eq!((texture.white, texture.texels[0]), (65535, [65535, 32957, 0]));
+    }
+
+    #[test]
+    fn whole_numbers_below_are_those_of_the_standard_library() {
+        let places = [0.0, 0.5, 1.0, -0.5, -1.0, -1e-300, 7.999, -7.001, 1e18, -1e18, 1e300];
+        assert_eq!(places.map(floor), places.map(f64::floor));
+        assert!(floor(f64::NAN).is_nan());
     }
 
     #[test]

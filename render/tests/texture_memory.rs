@@ -107,7 +107,8 @@ fn what_is_said_is_what_stats_count() {
 #[test]
 fn a_size_that_is_none_ends_with_2() {
     for bad in ["much", "-1", "1.5G", "1T", ""] {
-        let arguments = ["scene.json", "-o", "a.png", "--max-texture-mem", bad];
+        let flag = format!("--max-texture-mem={bad}");
+        let arguments = ["scene.json", "-o", "a.png", &flag];
         let (code, said) = ending(&wall().run(&arguments, b""));
         assert_eq!(code, Some(2), "{bad}: {said}");
         assert!(said.contains("--max-texture-mem"), "{said}");

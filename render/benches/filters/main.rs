@@ -3,6 +3,8 @@
 //! `cargo bench -p render --bench filters -- docs/measured` writes `filters.csv` and `filters.svg`
 //! there; without a folder it only prints. What is measured is told in docs/filters.md.
 
+#![expect(clippy::print_stdout, reason = "a bench is read on the terminal")]
+
 mod floor;
 mod report;
 mod textures;
@@ -40,7 +42,7 @@ impl Method {
     pub fn name(self) -> String {
         match self {
             Self::Filter(filter) => filter.to_string(),
-            Self::BoxOfOnePixel => "box, 1 pixel".into(),
+            Self::BoxOfOnePixel => "box, 1 px".into(),
             Self::Samples(n) => format!("bilinear, {n} x {n}"),
         }
     }

@@ -23,7 +23,7 @@ const LEFT: f64 = 80.0;
 const TOP: f64 = 30.0;
 const WIDTH: f64 = 640.0;
 const HEIGHT: f64 = 400.0;
-const RATIOS: [f64; 2] = [0.2, 200.0];
+const RATIOS: [f64; 2] = [0.2, 500.0];
 const ERRORS: [f64; 2] = [0.02, 0.5];
 
 /// Errors against ratios, both axes by powers of ten.
@@ -35,7 +35,7 @@ pub fn svg(lines: &[Line]) -> Result<String, fmt::Error> {
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 760 500\" font-family=\"sans-serif\" \
          font-size=\"13\">\n<rect width=\"760\" height=\"500\" fill=\"white\"/>\n",
     );
-    for ratio in [0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0] {
+    for ratio in [0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0] {
         let (x, bottom) = (x(ratio), TOP + HEIGHT);
         writeln!(out, "<path d=\"M{x:.1} {TOP}V{bottom}\" stroke=\"#ddd\"/>")?;
         writeln!(

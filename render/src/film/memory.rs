@@ -39,8 +39,7 @@ impl Failure for TextureMemoryError {
 /// # Errors
 /// With the first texture that does not fit.
 pub fn check(scene: &Scene, filter: Filter, limit: u64) -> Result<(), TextureMemoryError> {
-    let texels: u64 = scene.textures.iter().map(|texture| texture.bytes()).sum();
-    let mut sum = texels;
+    let mut sum = scene.texture_bytes();
     for (texture, shown) in scene.textures.iter().zip(scene.shown_textures()) {
         let table = if shown { filter.bytes_for(texture) } else { 0 };
         sum = sum.saturating_add(table);

@@ -92,7 +92,7 @@ impl Line {
     /// Adds `factor` times the j-th difference from one of the ends on.
     fn add_from(self, entry: &mut Entry, first: usize, j: usize, factor: i128) {
         for k in 0..=j {
-            let sign = if (j - k) % 2 == 0 { 1 } else { -1 };
+            let sign = if (j - k).is_multiple_of(2) { 1 } else { -1 };
             entry.factors[first + k] += sign * binomial(j as i64, k) * factor;
         }
     }
@@ -135,7 +135,7 @@ impl Line {
         let beyond = i - size;
         if beyond >= n as i64 {
             entry.index = (size - beyond) as usize + n - 1;
-            entry.sign = if n % 2 == 0 { 1 } else { -1 };
+            entry.sign = if n.is_multiple_of(2) { 1 } else { -1 };
             self.reflect(&mut entry, n, beyond, 1);
         }
         // D_m(2W) is the reflection of D_m(m - 1), which is 0.

@@ -52,8 +52,7 @@ impl Pyramid {
     #[must_use]
     pub fn average(&self, texture: &Texture, center: DVec2, half: DVec2) -> Color {
         let d = side(texture, half).log2();
-        // Not above 0 is also what is not a number.
-        if !(d > 0.0) || self.levels.is_empty() {
+        if d.is_nan() || d <= 0.0 || self.levels.is_empty() {
             return texture.bilinear(center);
         }
         let top = self.levels.len();

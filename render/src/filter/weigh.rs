@@ -48,14 +48,14 @@ pub fn weigh<W: Word, const N: usize, const E: usize, const R: usize>(
         }
     }
     let mut sum = DVec3::ZERO;
-    for i in 0..column.reduce.reduced(R) {
+    for (i, &column_weight) in column.weights.iter().enumerate().take(column.reduce.reduced(R)) {
         let entries: [[W; 3]; E] = std::array::from_fn(|slot| lines[slot][i]);
         let down = reduced::<W, N, E, R>(row.reduce, &entries);
         let mut average = DVec3::ZERO;
-        for k in 0..row.reduce.reduced(R) {
-            average += row.weights[k] * DVec3::from(down[k].map(W::to_f64));
+        for (value, &weight) in down.iter().zip(&row.weights).take(row.reduce.reduced(R)) {
+            average += weight * DVec3::from(value.map(W::to_f64));
         }
-        sum += column.weights[i] * average;
+        sum += column_weight * average;
     }
     sum
 }

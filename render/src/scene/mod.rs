@@ -41,6 +41,12 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// Memory of all texels, in bytes.
+    #[must_use]
+    pub fn texture_bytes(&self) -> u64 {
+        self.textures.iter().map(Texture::bytes).sum()
+    }
+
     /// Which textures some surface shows.
     #[must_use]
     pub fn shown_textures(&self) -> Vec<bool> {
