@@ -80,12 +80,11 @@ pub fn svg(lines: &[Line]) -> Result<String, fmt::Error> {
             "<circle cx=\"{x:.1}\" cy=\"{of_tent:.1}\" r=\"5\" fill=\"white\" stroke=\"{color}\" stroke-width=\"2\"/>"
         )?;
         let name = line.method.name();
-        writeln!(
-            out,
-            "<text x=\"{:.1}\" y=\"{:.1}\" fill=\"{color}\">{name}</text>",
-            x + 9.0,
-            of_box + 4.0
-        )?;
+        // Where there is room: to the right, or below.
+        let (right, down) =
+            if line.method == Method::BoxOfOnePixel { (-22.0, 20.0) } else { (9.0, 4.0) };
+        let (x, y) = (x + right, of_box + down);
+        writeln!(out, "<text x=\"{x:.1}\" y=\"{y:.1}\" fill=\"{color}\">{name}</text>")?;
     }
     for (at, (fill, text)) in
         [("#1b6ca8", "against the pixel's box"), ("white", "against a tent of 2 pixels")]
