@@ -98,8 +98,9 @@ fn a_mirrored_picture_is_the_repetition_of_itself_beside_its_image() {
     let mut code = (0..).map(|k: u32| (k.wrapping_mul(2_654_435_761) >> 24) as u8);
     let texels: Vec<[u8; 3]> = (0..64).map(|_| [(); 3].map(|()| code.next().unwrap())).collect();
     let folded = |k: usize| k.min(15 - k);
+    // Coordinates begin at the bottom, so there the upright picture is, and its image above.
     let twice: Vec<[u8; 3]> =
-        (0..256).map(|k| texels[folded(k / 16) * 8 + folded(k % 16)]).collect();
+        (0..256).map(|k| texels[folded((k / 16 + 8) % 16) * 8 + folded(k % 16)]).collect();
     let objects =
         |repeat| RECTANGLE.replace("\"material\"", &format!("\"repeat\": {repeat}, \"material\""));
     for filter in FILTERS {
