@@ -64,6 +64,9 @@ struct RunArguments {
     /// Pixels across and down
     #[arg(long, value_name = "WxH", default_value = "512x512", value_parser = render::film::size)]
     size: (u32, u32),
+    /// Memory for textures and their tables, in bytes or with k, M or G; beyond it nothing is read
+    #[arg(long, value_name = "BYTES", default_value = "2G", value_parser = render::film::memory::bytes)]
+    max_texture_mem: u64,
     /// Write the grids and OBJ files too, as the programs would have piped them
     #[arg(long)]
     keep: bool,
@@ -148,6 +151,7 @@ fn run_all(arguments: &RunArguments) -> Result<(), Report> {
     let options = Options {
         folder: arguments.output.clone(),
         size: arguments.size,
+        max_texture_bytes: arguments.max_texture_mem,
         keep: arguments.keep,
         clobber: !arguments.no_clobber,
     };

@@ -1,6 +1,7 @@
 //! What can go wrong in a job.
 
 use files::{Exit, Failure, FileError, JsonError};
+use render::film::memory::TextureMemoryError;
 use render::scene::SceneError;
 use sweep::SweepError;
 use thiserror::Error;
@@ -24,6 +25,9 @@ pub enum PipelineError {
     /// The scene is wrong.
     #[error(transparent)]
     Scene(#[from] SceneError),
+    /// The scene's textures take more memory than is allowed.
+    #[error(transparent)]
+    TextureMemory(#[from] TextureMemoryError),
     /// A picture does not fit its file format.
     #[error("cannot encode {name}: {source}")]
     Encode {
@@ -86,7 +90,7 @@ impl Failure for PipelineError {
             Self::Sweep(error) => error.exit(),
             Self::Triangulate(error) => error.exit(),
             Self::Scene(error) => error.exit(),
-            Self::Encode { .. } => Exit::Resource,
+            Self::TextureMemory(_) | Self::Encode { .. } => Exit::Resource,
             Self::SameFile { .. }
             | Self::UnknownMesh { .. }
             | Self::MissingMesh { .. }

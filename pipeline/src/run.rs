@@ -6,6 +6,7 @@ use files::json::Document;
 use files::{Output, Source};
 use render::color::Encoding;
 use render::film::encode::{self, Format};
+use render::film::memory;
 use render::scene::file::CameraFile;
 use render::scene::read::{self, Draft};
 use render::scene::{MeshSource, SceneError};
@@ -29,6 +30,8 @@ pub struct Options {
     pub folder: PathBuf,
     /// Pixels across and down.
     pub size: (u32, u32),
+    /// Memory for textures and their tables, in bytes.
+    pub max_texture_bytes: u64,
     /// Whether grids and OBJ files are written too.
     pub keep: bool,
     /// Whether files that exist are replaced.
@@ -120,7 +123,14 @@ impl Work<'_> {
         for mesh in &self.job.meshes {
             meshes.insert(mesh.name.clone(), self.mesh(mesh, &file.camera)?);
         }
-        draft.resolve(self.source, meshes).map_err(|error| self.of_meshes(error))
+        let most = self.options.max_texture_bytes;
+        let scene = draft
+            .resolve_within(self.source, meshes, most)
+            .map_err(|error| self.of_meshes(error))?;
+        for mode in &self.job.modes {
+            memory::check(&scene, mode.filter, most)?;
+        }
+        Ok(scene)
     }
 
     /// What is wrong with a scene, where it is the job that has a mesh too many or too few.

@@ -8,7 +8,7 @@ mod work;
 
 use clap::Parser;
 use files::{Exit, Failure, Report};
-use render::filter::FilteredTexture;
+use render::film::memory;
 use render::progress::Progress;
 use render::scene::{self, schema};
 use render::{Settings, inspect};
@@ -118,7 +118,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
     };
 
     let started = Instant::now();
-    let scene = input.read_scene(|_, scene| Ok(scene))?;
+    let most = textures.max_texture_mem;
+    let scene = input.read_scene(most, |_, scene| Ok(scene))?;
+    memory::check(&scene, textures.filter(), most)?;
     let read_time = started.elapsed();
 
     let pool = work.pool()?;
@@ -148,9 +150,10 @@ fn check(arguments: &Arguments) -> Result<(), Report> {
     let (width, height) = sampling.size;
     let aspect = f64::from(width) / f64::from(height);
     let filter = textures.filter();
-    let tables = |texture: &_| FilteredTexture::new(texture, filter).table_bytes();
-    let report = input
-        .read_scene(|draft, scene| Ok(scene::check::check(draft, &scene, aspect, &tables)?))?;
+    let tables = |texture: &_| filter.bytes_for(texture);
+    let report = input.read_scene(textures.max_texture_mem, |draft, scene| {
+        Ok(scene::check::check(draft, &scene, aspect, &tables)?)
+    })?;
     output::print(&report.to_string())?;
     match report.wrong() {
         0 => Ok(()),

@@ -2,7 +2,7 @@
 
 use crate::color::{Color, Encoding};
 use glam::{DVec2, DVec3};
-use image::DynamicImage;
+use image::{ColorType, DynamicImage};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -15,8 +15,10 @@ use serde::Deserialize;
 ///   t = 0  +---------------+   and y = (1 - t) * height downward
 ///         s = 0           s = 1
 /// ```
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Texture {
+    /// What the scene calls it.
+    pub name: String,
     /// Texels across.
     pub width: usize,
     /// Texels down.
@@ -29,6 +31,12 @@ pub struct Texture {
     pub white: u16,
 }
 
+/// Memory for textures and their tables, in bytes, unless a picture is asked for with more or less.
+///
+/// 2 GiB hold a square picture of 6800 texels with the tables of the tent, or one of 8192 with those
+/// of the box, and leave the smaller half of a common machine alone.
+pub const USUAL_MEMORY: u64 = 2 << 30;
+
 /// What lies beyond the edges of a texture.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -38,6 +46,8 @@ pub enum Wrap {
     Repeat,
     /// Its edge texels, without end.
     Clamp,
+    /// The texture turned over, and so on: what lies beyond an edge is what lies before it.
+    Mirror,
 }
 
 /// What the codes of a picture file mean.
@@ -83,7 +93,23 @@ impl Texture {
                 (codes.into_iter().map(decode).collect(), u16::MAX)
             }
         };
-        Some(Self { width, height, wrap, texels, white })
+        Some(Self { name: String::new(), width, height, wrap, texels, white })
+    }
+
+    /// Memory in bytes while a picture of this kind becomes a texture: as decoded, as codes, and as
+    /// texels, all at once. What the decoder itself works with is not in it.
+    #[must_use]
+    pub fn decoding_bytes(width: u32, height: u32, kind: ColorType) -> u64 {
+        let wide = kind.bytes_per_pixel() / kind.channel_count() > 1;
+        let codes = if wide { 6 } else { 3 };
+        let each = u64::from(kind.bytes_per_pixel()) + codes + size_of::<[u16; 3]>() as u64;
+        (u64::from(width) * u64::from(height)).saturating_mul(each)
+    }
+
+    /// Memory of the texels in bytes.
+    #[must_use]
+    pub fn bytes(&self) -> u64 {
+        size_of_val(self.texels.as_slice()) as u64
     }
 
     /// Light of one code.
@@ -102,24 +128,27 @@ impl Texture {
     #[must_use]
     pub fn point(&self, uv: DVec2) -> Color {
         let at = self.in_texels(uv);
-        self.texel(at.x.floor(), at.y.floor()) * self.unit()
+        let column = self.wrap.index(floor(at.x), self.width);
+        let row = self.wrap.index(floor(at.y), self.height);
+        DVec3::from(self.texels[row * self.width + column].map(f64::from)) * self.unit()
     }
 
     /// Linear interpolation between the four texel centres around the point.
     #[must_use]
     pub fn bilinear(&self, uv: DVec2) -> Color {
         let at = self.in_texels(uv) - 0.5;
-        let corner = at.floor();
+        let corner = DVec2::new(floor(at.x), floor(at.y));
         let part = at - corner;
-        let row = |y: f64| self.texel(corner.x, y).lerp(self.texel(corner.x + 1.0, y), part.x);
+        if !part.is_finite() {
+            return self.point(uv);
+        }
+        let columns = [corner.x, corner.x + 1.0].map(|x| self.wrap.index(x, self.width));
+        let row = |y: f64| {
+            let row = self.wrap.index(y, self.height) * self.width;
+            let [left, right] = columns.map(|x| DVec3::from(self.texels[row + x].map(f64::from)));
+            left.lerp(right, part.x)
+        };
         row(corner.y).lerp(row(corner.y + 1.0), part.y) * self.unit()
-    }
-
-    /// The codes of a texel by column and row, wrapped; the arguments are whole numbers.
-    fn texel(&self, x: f64, y: f64) -> DVec3 {
-        let column = self.wrap.index(x, self.width);
-        let row = self.wrap.index(y, self.height);
-        DVec3::from(self.texels[row * self.width + column].map(f64::from))
     }
 }
 
@@ -129,14 +158,33 @@ impl Texture {
 /// one texel from the next, and the weights of a filter no longer sum to one.
 const FAR: f64 = (1u64 << 42) as f64;
 
+/// The next whole number below, without a call for all but the farthest places.
+fn floor(at: f64) -> f64 {
+    if at.abs() < FAR {
+        let toward_zero = at as i64 as f64;
+        return if toward_zero > at { toward_zero - 1.0 } else { toward_zero };
+    }
+    at.floor()
+}
+
 impl Wrap {
     /// A place in texels, not too far from the origin, that looks like the one at `at`.
     #[must_use]
     pub fn nearer(self, at: f64, size: usize) -> f64 {
-        match self {
+        match self.period(size) {
             _ if at.abs() <= FAR => at,
-            Self::Repeat => at.rem_euclid(size as f64),
-            Self::Clamp => at.clamp(-FAR, FAR),
+            Some(period) => at.rem_euclid(period),
+            None => at.clamp(-FAR, FAR),
+        }
+    }
+
+    /// After how many texels an axis of this size begins again, if it does.
+    #[must_use]
+    pub fn period(self, size: usize) -> Option<f64> {
+        match self {
+            Self::Repeat => Some(size as f64),
+            Self::Clamp => None,
+            Self::Mirror => Some(2.0 * size as f64),
         }
     }
 
@@ -151,6 +199,10 @@ impl Wrap {
         let inside = match self {
             Self::Repeat => at.rem_euclid(size_f),
             Self::Clamp => at.clamp(0.0, size_f - 1.0),
+            Self::Mirror => {
+                let turned = at.rem_euclid(2.0 * size_f);
+                if turned < size_f { turned } else { 2.0 * size_f - 1.0 - turned }
+            }
         };
         // rem_euclid rounds up to the size itself just below a period; NaN becomes 0.
         (inside as usize).min(size - 1)
@@ -187,6 +239,9 @@ mod tests {
         assert_eq!(code(four(Wrap::Clamp).point(beyond)), 10.0);
         assert_eq!(code(four(Wrap::Repeat).bilinear(DVec2::new(1.0, 0.75))), 5.0);
         assert_eq!(code(four(Wrap::Clamp).bilinear(DVec2::new(1.0, 0.75))), 10.0);
+        assert_eq!(code(four(Wrap::Mirror).point(beyond)), 10.0);
+        assert_eq!(code(four(Wrap::Mirror).point(beyond + DVec2::X)), 0.0);
+        assert_eq!(code(four(Wrap::Mirror).bilinear(DVec2::new(1.0, 0.75))), 10.0);
         assert_eq!(code(four(Wrap::Clamp).bilinear(DVec2::new(0.5, 0.5))), 15.0);
     }
 
@@ -198,8 +253,20 @@ mod tests {
     }
 
     #[test]
+    fn whole_numbers_below_are_those_of_the_standard_library() {
+        let places = [0.0, 0.5, 1.0, -0.5, -1.0, -1e-300, 7.999, -7.001, 1e18, -1e18, 1e300];
+        assert_eq!(places.map(floor), places.map(f64::floor));
+        assert!(floor(f64::NAN).is_nan());
+    }
+
+    #[test]
     fn a_coordinate_just_below_a_period_stays_inside() {
         assert_eq!(Wrap::Repeat.index(-1e-30, 3), 2);
         assert_eq!(Wrap::Repeat.index(f64::NAN, 3), 0);
+        assert_eq!(Wrap::Mirror.index(-1e-30, 3), 0);
+        assert_eq!(
+            [-1.0, -3.0, 3.0, 5.0, 6.0].map(|at| Wrap::Mirror.index(at, 3)),
+            [0, 2, 2, 0, 0]
+        );
     }
 }

@@ -126,7 +126,9 @@ fn only_tables_that_a_surface_shows_are_built() {
     assert_eq!(stats(&without, &["--filter", "tent"])["tables"], 0);
     let bench = Bench::with_scene(TEXTURED_WALL);
     bench.write("checks.png", checks());
-    for (filter, tables) in [("point", 0), ("bilinear", 0), ("box", 1), ("tent", 1)] {
+    let filters =
+        [("point", 0), ("bilinear", 0), ("mip", 1), ("box", 1), ("tent", 1), ("quadratic", 1)];
+    for (filter, tables) in filters {
         let stats = stats(&bench, &["--filter", filter]);
         assert_eq!(stats["tables"], tables, "{filter}");
         assert_eq!(stats["table_bytes"].as_u64() > Some(0), tables > 0, "{filter}");

@@ -336,7 +336,8 @@ fn at_a_pole_a_globe_shows_nothing_of_the_other_pole() {
             _ => [0; 3],
         })
         .collect();
-    for filter in FILTERS {
+    // A pyramid's square is as wide as the pixel sees of the pole's row: all of it.
+    for filter in FILTERS.into_iter().filter(|&filter| filter != Filter::Mip) {
         for (y, truth) in [(4.0, 0.0), (-4.0, 1.0)] {
             // An odd number of pixels looks straight at the pole.
             let eye = camera([0.0, y, 0.0], [0.0, 0.0, 1.0]);

@@ -94,6 +94,27 @@ fn repeat_lays_a_picture_several_times_and_every_copy_is_upright() {
 }
 
 #[test]
+fn a_mirrored_picture_is_the_repetition_of_itself_beside_its_image() {
+    let mut code = (0..).map(|k: u32| (k.wrapping_mul(2_654_435_761) >> 24) as u8);
+    let texels: Vec<[u8; 3]> = (0..64).map(|_| [(); 3].map(|()| code.next().unwrap())).collect();
+    let folded = |k: usize| k.min(15 - k);
+    // Coordinates begin at the bottom, so there the upright picture is, and its image above.
+    let twice: Vec<[u8; 3]> =
+        (0..256).map(|k| texels[folded((k / 16 + 8) % 16) * 8 + folded(k % 16)]).collect();
+    let objects =
+        |repeat| RECTANGLE.replace("\"material\"", &format!("\"repeat\": {repeat}, \"material\""));
+    for filter in FILTERS {
+        // Magnified, and several texels to a pixel.
+        for (mirrored, repeated) in [("[4, 2]", "[2, 1]"), ("[40, 60]", "[20, 30]")] {
+            let one = picture(&paper("mirror", 8, &texels, &objects(mirrored), b""), 64, filter);
+            let other = picture(&paper("repeat", 16, &twice, &objects(repeated), b""), 64, filter);
+            // A few roundings to f32, and of a pyramid's codes.
+            assert_near(&one, &other, if filter == Filter::Mip { 1e-4 } else { 1e-6 });
+        }
+    }
+}
+
+#[test]
 fn texels_have_their_exact_place_on_a_rectangle() {
     // 64 pixels over 16 texels, each of its own colour.
     let texels: Vec<[u8; 3]> = (0..=255).map(|k| [k, 255 - k, k / 2]).collect();
@@ -190,7 +211,7 @@ const MEAN: f64 = 125.0 / 255.0;
 fn far_away_a_filtered_floor_varies_less_than_a_point_sampled_one() {
     let far = 33..37;
     let [_, point] = moments(&picture(&floor(1), 64, Filter::Point), far.clone());
-    for filter in [Filter::Box, Filter::Tent] {
+    for filter in [Filter::Mip, Filter::Box, Filter::Tent, Filter::Quadratic] {
         let [_, filtered] = moments(&picture(&floor(1), 64, filter), far.clone());
         assert!(filtered < 0.05 * point, "{filter:?}: {filtered} against {point}");
     }
@@ -202,7 +223,7 @@ fn far_away_a_filtered_floor_varies_less_than_a_point_sampled_one() {
 
 #[test]
 fn far_away_a_filtered_floor_tends_to_the_mean_of_its_texture() {
-    for filter in [Filter::Box, Filter::Tent] {
+    for filter in [Filter::Mip, Filter::Box, Filter::Tent, Filter::Quadratic] {
         let shown = picture(&floor(1), 64, filter);
         for (x, y, pixel) in pixels(&shown).filter(|(_, y, _)| (33..35).contains(y)) {
             assert!((f64::from(pixel[0]) - MEAN).abs() < 0.02, "{filter:?} at {x} {y}: {pixel:?}");
@@ -226,7 +247,7 @@ fn at_equal_support_the_tent_keeps_more_contrast_than_the_box() {
 fn the_filters_keep_the_mean_brightness_of_the_floor() {
     let whole = 40..64;
     let [truth, _] = moments(&supersampled(&floor(16), 64, 16, Filter::Point), whole.clone());
-    for filter in [Filter::Bilinear, Filter::Box, Filter::Tent] {
+    for filter in [Filter::Bilinear, Filter::Mip, Filter::Box, Filter::Tent, Filter::Quadratic] {
         let [mean, _] = moments(&picture(&floor(16), 64, filter), whole.clone());
         assert!((mean - truth).abs() < 0.01, "{filter:?}: {mean}, expected {truth}");
     }

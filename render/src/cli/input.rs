@@ -53,6 +53,7 @@ impl InputArguments {
     /// Reads the scene, and does `then` with it while its files are at hand.
     pub fn read_scene<T>(
         &self,
+        max_texture_bytes: u64,
         then: impl FnOnce(&Draft<'_>, Scene) -> Result<T, Report>,
     ) -> Result<T, Report> {
         let name = self.name();
@@ -70,7 +71,7 @@ impl InputArguments {
             let bytes = input::read(&mesh.file)?;
             given.insert(mesh.name.clone(), obj::read(&input::name_of(&mesh.file), &bytes)?);
         }
-        let scene = draft.resolve(&Disk, given)?;
+        let scene = draft.resolve_within(&Disk, given, max_texture_bytes)?;
         then(&draft, scene)
     }
 

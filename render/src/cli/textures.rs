@@ -8,6 +8,9 @@ pub struct TextureArguments {
     /// How textures are averaged
     #[arg(long, default_value = "tent")]
     filter: FilterName,
+    /// Memory for textures and their tables, in bytes or with k, M or G; beyond it nothing is read
+    #[arg(long, value_name = "BYTES", default_value = "2G", value_parser = render::film::memory::bytes)]
+    pub max_texture_mem: u64,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -16,10 +19,14 @@ enum FilterName {
     Point,
     /// Four texels interpolated at the point
     Bilinear,
-    /// The average under a box over the footprint (summed areas)
+    /// Eight texels of a pyramid of smaller pictures, interpolated (mip-mapping)
+    Mip,
+    /// The average under a box over the footprint (summed areas, n = 1)
     Box,
     /// The average under a tent over the footprint (repeated integration, n = 2)
     Tent,
+    /// The average under a quadratic B-spline over the footprint (n = 3)
+    Quadratic,
 }
 
 impl TextureArguments {
@@ -27,8 +34,10 @@ impl TextureArguments {
         match self.filter {
             FilterName::Point => Filter::Point,
             FilterName::Bilinear => Filter::Bilinear,
+            FilterName::Mip => Filter::Mip,
             FilterName::Box => Filter::Box,
             FilterName::Tent => Filter::Tent,
+            FilterName::Quadratic => Filter::Quadratic,
         }
     }
 }

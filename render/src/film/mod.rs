@@ -9,6 +9,7 @@ pub mod crop;
 pub mod encode;
 mod exposure;
 pub mod layer;
+pub mod memory;
 pub mod pattern;
 pub mod picture;
 pub mod sampling;
@@ -180,14 +181,7 @@ fn with_exposure<T>(
 
 /// Prepares the textures that surfaces show, and no others.
 fn ready_shader<'a>(scene: &'a Scene, accel: &'a Accel<'a>, filter: Filter) -> Shader<'a> {
-    let mut shown = vec![false; scene.textures.len()];
-    for surface in scene.objects.iter().flat_map(|object| &object.parts) {
-        if let Some(texture) = surface.picture()
-            && scene.materials[surface.material].shows_color()
-        {
-            shown[texture] = true;
-        }
-    }
+    let shown = scene.shown_textures();
     let textures = scene
         .textures
         .par_iter()
@@ -214,13 +208,14 @@ mod tests {
     use crate::procedural::Procedural;
     use crate::scene::{Camera, Material, Names, Object, PointLight, Surface, SurfaceTexture};
     use crate::shape::{Quad, Shape, Sphere};
-    use crate::texture::{Texture, Wrap};
+    use crate::texture::Texture;
     use glam::{DAffine3, DVec3};
 
     /// A glass sphere on a textured floor.
     fn scene() -> Scene {
         let texels = (0..64u16).map(|k| [k * 1000, 60000 - k * 900, (k % 8) * 8000]).collect();
-        let texture = Texture { width: 8, height: 8, wrap: Wrap::Repeat, texels, white: u16::MAX };
+        let texture =
+            Texture { width: 8, height: 8, texels, white: u16::MAX, ..Texture::default() };
         let plain = Material {
             color: Color::ONE,
             ambient: 1.0,

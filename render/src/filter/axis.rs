@@ -1,67 +1,68 @@
 //! One axis of a repeated integration filter: which table entries, with which weights.
 //!
 //! Heckbert, *Filtering by Repeated Integration*, SIGGRAPH 1986. Let `T(i)` be the texels of one
-//! row, `D_1(i)` the sum of those before `i`, `D_2(i)` the sum of `D_1` before `i`. The texture is
-//! constant on each texel, so its n-fold integral at `i + f` is, for `f` in `[0, 1)`,
+//! row, `D_1(i)` the sum of those before `i`, and `D_n(i)` the sum of `D_{n-1}` before `i`; so the
+//! differences of `D_n` are `D_{n-1}`, down to `D_0 = T`. The texture is constant on each texel, and
+//! its n-fold integral at `i + f` is, for `f` in `[0, 1)`,
 //!
 //! ```text
-//!   F_1(i + f) = (1 - f) D_1(i) + f D_1(i+1)
-//!   F_2(i + f) = (1/2 - f + f^2/2) D_2(i) + (1/2 + f - f^2) D_2(i+1) + f^2/2 D_2(i+2)
+//!   F_1(i + f) = D_1(i) + f T(i)
+//!   F_2(i + f) = D_2(i) + (1/2 + f) D_1(i) + f^2/2 T(i)
+//!   F_3(i + f) = D_3(i) + (1 + f) D_2(i) + (1/6 + f/2 + f^2/2) D_1(i) + f^3/6 T(i)
 //! ```
 //!
-//! and the average under the box of width `h` (n = 1), or under the tent of half-width `h` (n = 2),
-//! centred at `x`, is an n-th difference of it, exact for real `x` and `h`:
+//! The average under the B-spline of order `n` and step `h`, centred at `x`, is an n-th difference
+//! of it, exact for real `x` and `h`: a box of width `h` (n = 1), a tent of half-width `h` (n = 2),
+//! a quadratic of half-width `3h/2` (n = 3):
 //!
 //! ```text
-//!   n = 1:  (F_1(x + h/2) - F_1(x - h/2)) / h
-//!   n = 2:  (F_2(x + h) - 2 F_2(x) + F_2(x - h)) / h^2
+//!   h^-n  sum_k  c_k F_n(p_k),    p_k = x + (k - n/2) h,    c_k = (-1)^(n-k) C(n,k)
 //! ```
+//!
+//! The `c_k` of both axes multiply to the grid coefficients of thesis fig. 3.9.
 //!
 //! Real weights must not touch huge sums, whose differences alone are exact modulo 2^B. With `i_k`
-//! and `f_k` the whole and the broken part of the k-th point, the difference is therefore written
-//! over reduced integers, each a small difference of entries:
+//! and `f_k` the whole and the broken part of `p_k`, every `D_m(i_k)` is therefore taken without
+//! its Newton polynomial around one of the points, `r`: with `d = i_k - r`, what is left,
 //!
 //! ```text
-//!   n = 1:  D(i_1) - D(i_0),  and with weights f_1, -f_0 the texels T(i_1), T(i_0)
-//!   n = 2:  D(i_0) - 2 D(i_1) + D(i_2) + m D'(i_1),
-//!           with weights 1/2 + f_0 and 1/2 + f_2:  D'(i_0) - D'(i_1),  D'(i_2) - D'(i_1),
-//!           with weights f_0^2/2, -f_1^2, f_2^2/2:  T(i_0), T(i_1), T(i_2)
+//!   R_m(k) = D_m(i_k) - D_m(r) - C(d,1) D_{m-1}(r) - ... - C(d,m-1) D_1(r),
 //! ```
 //!
-//! where `D'(i) = D(i+1) - D(i)` and the whole number `m = 2 i_1 - i_0 - i_2` is `f_0 - 2 f_1 + f_2`,
-//! because the points are evenly spaced. That is what makes a table of wrapping integers usable for
-//! real places and widths.
+//! is an integer as small as the footprint. The polynomials themselves add up to nothing: their sum
+//! is the n-th difference of a polynomial of degree below `n` in the evenly spaced `p_k`. So
+//! [`super::reduce`] finds small integers and [`Axis::weights`] their real weights. That is what
+//! makes a table of wrapping integers usable for real places and widths.
 //!
 //! The table holds `D_n(i)` for `i` from 0 to `size + n - 1`. Beyond that `D_n` goes on as a
-//! polynomial in the stored entries, which [`Entry`] writes down; so no footprint is too large and
+//! polynomial in the stored entries, told in [`super::entry`]; so no footprint is too large and
 //! none is too far from the origin.
 //!
-//! A footprint wider than a repeating texture is folded, exactly: shifting a difference's points by
-//! whole periods changes the kernel by a constant only, so the box of width `q size + r` is the box
-//! of width `r` with weight `r/h` and the mean of the axis for the rest, and the tent of half-width
-//! `h` is that of half-width `r`, its distance from the nearest multiple of the size, with weight
-//! `(r/h)^2` and the mean for the rest.
+//! A footprint wider than half a period of a repeating texture is folded, exactly. A box of width
+//! `h = q P + r`, with `r` of either sign, is `q` whole periods and, beside them, a box of width
+//! `|r|` that is added or taken away; so it is the mean of the axis with weight `1 - r/h` and that
+//! box with `r/h`, moved by `q P/2`. A filter of order `n` is `n` boxes one after another: weight
+//! `(r/h)^n`, moved by `n q P/2`, and the mean for the rest. The period is the size, or twice that
+//! under [`Wrap::Mirror`].
 
+use super::entry::{Entry, Line};
+use super::reduce::Reduce;
 use crate::texture::Wrap;
 
-/// At most this many entries make an axis: three points of three.
-pub const MOST: usize = 9;
+/// The highest order there is.
+pub const HIGHEST: usize = 3;
 
-/// At most this many integers are left of them.
-pub const MOST_REDUCED: usize = 6;
+/// At most this many points make a difference.
+pub const MOST_POINTS: usize = HIGHEST + 1;
 
-/// Under [`Wrap::Clamp`], wider footprints are taken as this many times the texture.
+/// At most this many integers are left of an axis.
+pub const MOST_REDUCED: usize = 11;
+
+/// Under [`Wrap::Clamp`], wider steps are taken as this many times the texture.
 ///
 /// They average little but the edge texels already (a sixteenth of a tent's weight lies on the
 /// texture), and the integers that hold their sums stay short.
-const WIDEST_CLAMPED: f64 = 4.0;
-
-/// A table entry at any index, as a sum of stored ones.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Entry {
-    /// Stored entries and their whole factors; unused terms have factor 0 and come last.
-    pub terms: [(usize, i64); 3],
-}
+pub const WIDEST_CLAMPED: f64 = 4.0;
 
 /// One axis of a filter: at which points, and with which weights.
 #[derive(Debug, Clone, Copy)]
@@ -69,78 +70,25 @@ pub struct Axis {
     /// What is done to the entries.
     pub reduce: Reduce,
     /// The whole parts `i_k` of the points; entries `i_k` to `i_k + n` belong to each.
-    pub points: [i64; 3],
+    pub points: [i64; MOST_POINTS],
     /// A weight for each reduced integer in use.
     pub weights: [f64; MOST_REDUCED],
     /// Whether all entries are stored ones.
     pub plain: bool,
-    size: i64,
-    wrap: Wrap,
-    n: usize,
+    /// The axis of the table.
+    pub line: Line,
 }
 
 impl Axis {
-    /// An entry as a sum of stored ones; `slot` counts the entries of all points (the mean's only
-    /// entry answers for any slot).
+    /// An entry in terms of stored ones; `slot` counts the entries of all points. The mean has one.
     #[must_use]
     pub fn entry(&self, slot: usize) -> Entry {
+        let per_point = self.line.n + 1;
         match self.reduce {
-            // D_1(size), which a table of order 2 holds as a difference.
-            Reduce::Mean if self.n == 1 => Entry::stored([(self.size, 1), (0, 0), (0, 0)]),
-            Reduce::Mean => Entry::stored([(self.size + 1, 1), (self.size, -1), (0, 0)]),
-            Reduce::Box | Reduce::Tent { .. } => {
-                let per_point = self.n + 1;
-                let point = self.points[(slot / per_point).min(self.n)];
-                let index = point + (slot % per_point) as i64;
-                entry(self.n, index, self.size, self.wrap)
+            Reduce::Mean => self.line.sum(),
+            Reduce::Difference { .. } => {
+                self.line.entry(self.points[slot / per_point] + (slot % per_point) as i64)
             }
-        }
-    }
-}
-
-impl Entry {
-    /// The terms with their factors, those without a factor left out.
-    pub fn used(&self) -> impl Iterator<Item = (usize, i64)> {
-        self.terms.into_iter().filter(|term| term.1 != 0)
-    }
-
-    fn stored(terms: [(i64, i64); 3]) -> Self {
-        Self { terms: terms.map(|(index, factor)| (index as usize, factor)) }
-    }
-}
-
-/// How the entries of an axis become small integers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Reduce {
-    /// The one entry is small already.
-    Mean,
-    /// Two points of two entries.
-    Box,
-    /// Three points of three entries.
-    Tent {
-        /// `2 i_1 - i_0 - i_2`.
-        m: i64,
-    },
-}
-
-impl Reduce {
-    /// How many entries go in.
-    #[must_use]
-    pub fn entries(self) -> usize {
-        match self {
-            Self::Mean => 1,
-            Self::Box => 4,
-            Self::Tent { .. } => 9,
-        }
-    }
-
-    /// How many integers come out.
-    #[must_use]
-    pub fn reduced(self) -> usize {
-        match self {
-            Self::Mean => 1,
-            Self::Box => 3,
-            Self::Tent { .. } => 6,
         }
     }
 }
@@ -150,7 +98,7 @@ impl Reduce {
 pub struct Part {
     /// Its entries and weights; they average, so they give 1 for a texture of ones.
     pub axis: Axis,
-    /// Its share; those of all parts sum to 1.
+    /// Its share, of either sign; those of all parts sum to 1.
     pub share: f64,
 }
 
@@ -159,111 +107,100 @@ pub struct Part {
 /// The step is never below a texel: a smaller footprint is smoothed by the B-spline of degree `n`,
 /// which for n = 1 is bilinear interpolation.
 #[must_use]
+#[inline]
 pub fn parts(n: usize, x: f64, half: f64, size: usize, wrap: Wrap) -> [Option<Part>; 2] {
-    let size_f = size as f64;
     let step = (2.0 * half / n as f64).max(1.0);
-    match wrap {
-        Wrap::Clamp => {
-            let step = step.min(WIDEST_CLAMPED * size_f);
-            // Further out the clamped texture is constant and the place does not matter.
-            let reach = 2.0 * (step + size_f);
-            let x = x.clamp(-reach, size_f + reach);
-            [Some(Part { axis: difference(n, x, step, size, wrap), share: 1.0 }), None]
-        }
-        Wrap::Repeat => {
-            let folded = fold(n, step, size_f);
-            let share = (folded / step).powi(n as i32);
-            let mean = Part { axis: mean(n, size, wrap), share: 1.0 - share };
-            // A box keeps its lower end, a tent its middle.
-            let middle = if n == 1 { x - 0.5 * (step - folded) } else { x };
-            // A step of 0 is a whole number of periods: only the mean is left.
-            let local = (share > 0.0).then(|| {
-                let lowest = middle - 0.5 * n as f64 * folded;
-                let shift = (lowest / size_f).floor() * size_f;
-                Part { axis: difference(n, middle - shift, folded, size, wrap), share }
-            });
-            let folds = folded < step;
-            [local, (folds || local.is_none()).then_some(mean)]
-        }
+    let line = Line { n, size: size as i64, wrap };
+    let Some(period) = wrap.period(size) else {
+        let step = step.min(WIDEST_CLAMPED * size as f64);
+        // Further out the clamped texture is constant and the place does not matter.
+        let reach = 2.0 * (step + size as f64);
+        let x = x.clamp(-reach, size as f64 + reach);
+        return [Some(Part { axis: difference(line, x, step), share: 1.0 }), None];
+    };
+    if 2.0 * step <= period {
+        // The usual case, without a slow remainder.
+        let axis = difference(line, nearest(line, x, step, period), step);
+        return [Some(Part { axis, share: 1.0 }), None];
     }
+    let beyond = step % period;
+    let rest = if 2.0 * beyond > period { beyond - period } else { beyond };
+    let share = (rest / step).powi(n as i32);
+    let odd = (n as f64 * ((step - rest) / period).round()) % 2.0 == 1.0;
+    let x = if odd { x - 0.5 * period } else { x };
+    // A step of a whole number of periods: only the mean is left.
+    let local = (share != 0.0).then(|| {
+        let step = rest.abs();
+        Part { axis: difference(line, nearest(line, x, step, period), step), share }
+    });
+    [local, Some(Part { axis: mean(line), share: 1.0 - share })]
 }
 
-/// The step of the narrower filter that, with the mean, stands for one of `step`.
-fn fold(n: usize, step: f64, size: f64) -> f64 {
-    let widest = if n == 1 { size } else { 0.5 * size };
-    if step < widest {
-        // The usual case, without a slow remainder.
-        return step;
-    }
-    let rest = step % size;
-    if n == 1 { rest } else { rest.min(size - rest) }
+/// A place that looks the same, from where the points begin within the first period, or within
+/// the texture if it is mirrored.
+fn nearest(line: Line, x: f64, step: f64, period: f64) -> f64 {
+    let reach = 0.5 * line.n as f64 * step;
+    let x = if x - reach >= 0.0 && x + reach < line.size as f64 {
+        return x;
+    } else if line.wrap == Wrap::Mirror {
+        // The filter is even, and so is the texture around its edges.
+        let x = x.rem_euclid(period);
+        if 2.0 * x > period { period - x } else { x }
+    } else {
+        x
+    };
+    x - ((x - reach) / period).floor() * period
 }
 
 /// The n-th difference of the n-fold integral around `x`.
-fn difference(n: usize, x: f64, step: f64, size: usize, wrap: Wrap) -> Axis {
-    let size = size as i64;
-    let mut points = [0; 3];
-    let mut f = [0.0; 3];
+#[inline]
+fn difference(line: Line, x: f64, step: f64) -> Axis {
+    let n = line.n;
+    let mut points = [0; MOST_POINTS];
+    let mut f = [0.0; MOST_POINTS];
     for k in 0..=n {
         let point = x + (k as f64 - 0.5 * n as f64) * step;
-        let whole = point.floor();
-        f[k] = point - whole;
-        points[k] = whole as i64;
+        // Rounding down without a call; places are far below 2^63.
+        let toward_zero = point as i64;
+        let whole = toward_zero - i64::from(point < toward_zero as f64);
+        f[k] = point - whole as f64;
+        points[k] = whole;
     }
-    let plain = points[0] >= 0 && points[n] < size;
-    let (reduce, weights) = if n == 1 {
-        let scale = 1.0 / step;
-        (Reduce::Box, [scale, scale * f[1], -scale * f[0], 0.0, 0.0, 0.0])
-    } else {
-        let [half, scale] = [0.5, 1.0 / (step * step)];
-        let bends = [half * f[0] * f[0], -f[1] * f[1], half * f[2] * f[2]];
-        let weights = [1.0, half + f[0], half + f[2], bends[0], bends[1], bends[2]];
-        let m = 2 * points[1] - points[0] - points[2];
-        (Reduce::Tent { m }, weights.map(|weight| scale * weight))
-    };
-    Axis { reduce, points, weights, plain, size, wrap, n }
+    let plain = points[0] >= 0 && points[n] < line.size;
+    let mut weights = [0.0; MOST_REDUCED];
+    match n {
+        1 => {
+            let scale = 1.0 / step;
+            weights[..3].copy_from_slice(&[scale, -scale * f[0], scale * f[1]]);
+        }
+        2 => {
+            let [half, scale] = [0.5, 1.0 / (step * step)];
+            let bends = [half * f[0] * f[0], -f[1] * f[1], half * f[2] * f[2]];
+            let exact = [1.0, half + f[0], half + f[2], bends[0], bends[1], bends[2]];
+            weights[..6].copy_from_slice(&exact.map(|weight| scale * weight));
+        }
+        _ => {
+            let scale = 1.0 / (step * step * step);
+            let c = [-scale, 3.0 * scale, -3.0 * scale, scale];
+            weights[0] = scale;
+            for (at, k) in [0, 2, 3].into_iter().enumerate() {
+                weights[1 + at] = c[k] * (1.0 + f[k]);
+                weights[4 + at] = c[k] * (1.0 / 6.0 + 0.5 * f[k] * (1.0 + f[k]));
+            }
+            for k in 0..=n {
+                weights[7 + k] = c[k] * f[k] * f[k] * f[k] / 6.0;
+            }
+        }
+    }
+    Axis { reduce: Reduce::difference(n, &points), points, weights, plain, line }
 }
 
 /// The mean over the whole size: `D_1(size) / size`.
-fn mean(n: usize, size: usize, wrap: Wrap) -> Axis {
+fn mean(line: Line) -> Axis {
     let mut weights = [0.0; MOST_REDUCED];
-    weights[0] = 1.0 / size as f64;
-    let size = size as i64;
-    Axis { reduce: Reduce::Mean, points: [0; 3], weights, plain: false, size, wrap, n }
-}
-
-/// `D_n(i)` for any `i`, from the entries `0..size + n` of the table.
-fn entry(n: usize, i: i64, size: i64, wrap: Wrap) -> Entry {
-    if (0..size + n as i64).contains(&i) {
-        return Entry::stored([(i, 1), (0, 0), (0, 0)]);
-    }
-    let triangular = |k: i64| k * (k - 1) / 2;
-    match (wrap, n) {
-        (Wrap::Repeat, _) => {
-            let (q, i) = (i.div_euclid(size), i.rem_euclid(size));
-            if n == 1 {
-                return Entry::stored([(i, 1), (size, q), (0, 0)]);
-            }
-            let sums = q * i + size * triangular(q);
-            Entry::stored([(i, 1), (size, q - sums), (size + 1, sums)])
-        }
-        (Wrap::Clamp, 1) if i < 0 => Entry::stored([(1, i), (0, 0), (0, 0)]),
-        (Wrap::Clamp, 1) => {
-            let beyond = i - size;
-            Entry::stored([(size, 1 + beyond), (size - 1, -beyond), (0, 0)])
-        }
-        // D_2(2) is the first texel.
-        (Wrap::Clamp, _) if i < 0 => Entry::stored([(2, triangular(1 - i)), (0, 0), (0, 0)]),
-        (Wrap::Clamp, _) => {
-            let beyond = i - size;
-            let last = triangular(beyond);
-            Entry::stored([
-                (size, 1 - beyond - 2 * last),
-                (size + 1, beyond + last),
-                (size - 1, last),
-            ])
-        }
-    }
+    weights[0] = 1.0 / line.size as f64;
+    let points = [0; MOST_POINTS];
+    Axis { reduce: Reduce::Mean, points, weights, plain: false, line }
 }
 
 /// A bound on the reduced integers of one axis for texels of 1: what the table's words must hold,
@@ -271,100 +208,108 @@ fn entry(n: usize, i: i64, size: i64, wrap: Wrap) -> Entry {
 #[must_use]
 pub fn sum_bound(n: usize, size: usize, wrap: Wrap) -> f64 {
     let size = size as f64;
-    let widest = match (wrap, n) {
-        (Wrap::Repeat, 1) => size,
-        (Wrap::Repeat, _) => 0.5 * size,
-        (Wrap::Clamp, _) => WIDEST_CLAMPED * size,
+    let widest = match wrap {
+        Wrap::Repeat => 0.5 * size,
+        Wrap::Mirror => size,
+        Wrap::Clamp => WIDEST_CLAMPED * size,
     };
-    // A step is at least a texel; points are rounded and followed by n more entries.
-    let far = widest.max(1.0) + 3.0;
-    if n == 1 { far } else { far * (far + 1.0) }
+    // The sum of all texels, of which the mean is made, is one of them.
+    reduced_bound(n, widest.max(1.0)).max(size)
+}
+
+/// The same for steps up to `step`: the kernel's own sum is `step^n`, points are rounded and
+/// followed by `n` more entries.
+fn reduced_bound(n: usize, step: f64) -> f64 {
+    (step + 3.0).powi(n as i32)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::filter::entry::tests::{direct, wraps};
+    use crate::filter::kernel;
+    use crate::filter::reduce::difference as reduced;
     use proptest::prelude::*;
 
-    /// `D_n` of a wrapped row by counting, for `i` of either sign.
-    fn direct(n: usize, i: i64, row: &[i64], wrap: Wrap) -> i64 {
-        let size = row.len() as i64;
-        let texel = |k: i64| match wrap {
-            Wrap::Repeat => row[k.rem_euclid(size) as usize],
-            Wrap::Clamp => row[k.clamp(0, size - 1) as usize],
+    /// What the reduced integers and weights of an axis make of a table.
+    fn average<const N: usize, const E: usize, const R: usize>(axis: &Axis, table: &[i64]) -> f64 {
+        let value = |slot| [axis.line.value(&axis.entry(slot), table) as u64; 3];
+        let words: Vec<[u64; 3]> = match &axis.reduce {
+            Reduce::Mean => vec![value(0)],
+            Reduce::Difference { moments, distances } => {
+                let entries: [_; E] = std::array::from_fn(value);
+                reduced::<u64, N, E, R>(&entries, moments, distances).to_vec()
+            }
         };
-        let value = |k: i64| if n == 1 { texel(k) } else { direct(1, k, row, wrap) };
-        if i >= 0 { (0..i).map(value).sum() } else { -(i..0).map(value).sum::<i64>() }
-    }
-
-    fn wraps() -> impl Strategy<Value = Wrap> {
-        prop_oneof![Just(Wrap::Repeat), Just(Wrap::Clamp)]
+        words.iter().zip(axis.weights).map(|(word, weight)| weight * word[0] as i64 as f64).sum()
     }
 
     proptest! {
-        #[test]
-        fn entries_beyond_the_table_are_exact(
-            row in prop::collection::vec(-9i64..9, 1..6), i in -30i64..30, n in 1usize..=2,
-            wrap in wraps(),
-        ) {
-            let table: Vec<i64> =
-                (0..(row.len() + n) as i64).map(|k| direct(n, k, &row, wrap)).collect();
-            let entry = entry(n, i, row.len() as i64, wrap);
-            let value: i64 = entry.terms.iter().map(|&(k, factor)| table[k] * factor).sum();
-            prop_assert_eq!(value, direct(n, i, &row, wrap));
-        }
-
         /// The parts against the kernel itself, integrated texel by texel.
         #[test]
         fn the_average_is_that_of_the_kernel(
             row in prop::collection::vec(0i64..9, 1..6), x in -20.0..20.0f64,
-            half in 0.0..12.0f64, n in 1usize..=2, wrap in wraps(),
+            half in prop_oneof![0.0..18.0f64, (0..30u8).prop_map(|k| 0.5 * f64::from(k))],
+            n in 1usize..=3, wrap in wraps(),
         ) {
             let size = row.len();
             let table: Vec<i64> =
                 (0..(size + n) as i64).map(|k| direct(n, k, &row, wrap)).collect();
-            let mut average = 0.0;
-            for part in parts(n, x, half, size, wrap).into_iter().flatten() {
-                let Axis { weights, reduce, .. } = part.axis;
-                let mut line = [[0u64; 3]; MOST];
-                for (slot, value) in line.iter_mut().enumerate().take(reduce.entries()) {
-                    let terms = part.axis.entry(slot).terms;
-                    let sum: i64 = terms.iter().map(|&(k, factor)| table[k] * factor).sum();
-                    *value = [sum as u64; 3];
-                }
-                let words = crate::filter::table::reduced(reduce, &line);
-                for (word, weight) in words.iter().zip(weights).take(reduce.reduced()) {
-                    average += part.share * weight * word[0] as i64 as f64;
-                }
+            let mut sum = 0.0;
+            for Part { axis, share } in parts(n, x, half, size, wrap).into_iter().flatten() {
+                sum += share * match n {
+                    1 => average::<1, 4, 3>(&axis, &table),
+                    2 => average::<2, 9, 6>(&axis, &table),
+                    _ => average::<3, 16, 11>(&axis, &table),
+                };
             }
             let limit = if wrap == Wrap::Clamp { WIDEST_CLAMPED * size as f64 } else { f64::MAX };
             let step = (2.0 * half / n as f64).clamp(1.0, limit);
-            let truth = brute_force(n, x, step, &row, wrap);
+            let weights = kernel::weights(n, x, step);
+            let truth: f64 = weights
+                .map(|(i, weight)| weight * row[wrap.index(i as f64, size)] as f64)
+                .sum();
             // Sums of at most 1e5 in f64.
-            prop_assert!((average - truth).abs() < 1e-9, "{} {}", average, truth);
+            prop_assert!((sum - truth).abs() < 1e-9, "{} {}", sum, truth);
         }
     }
 
-    /// The kernel's own integral over each texel times the texel.
-    fn brute_force(n: usize, x: f64, step: f64, row: &[i64], wrap: Wrap) -> f64 {
-        // The kernel's integral from minus infinity to its middle plus z.
-        let integral = |z: f64| {
-            let z = (z / step).clamp(-0.5 * n as f64, 0.5 * n as f64);
-            match n {
-                1 => z + 0.5,
-                _ if z < 0.0 => 0.5 * (z + 1.0) * (z + 1.0),
-                _ => 1.0 - 0.5 * (1.0 - z) * (1.0 - z),
+    #[test]
+    fn reduced_integers_stay_below_their_bound() {
+        // The most that texels from -1 to 1 can make of a reduced integer is the sum of what each
+        // texel alone makes of it, without signs.
+        fn most<const N: usize, const E: usize, const R: usize>(
+            line: Line,
+            x: f64,
+            step: f64,
+        ) -> i64 {
+            let axis = difference(line, x, step);
+            let Reduce::Difference { moments, distances } = axis.reduce else { unreachable!() };
+            let mut sums = [0i64; R];
+            for texel in 0..line.size as usize {
+                let mut row = vec![0; line.size as usize];
+                row[texel] = 1;
+                let entries = std::array::from_fn(|slot| {
+                    let i = axis.points[slot / (N + 1)] + (slot % (N + 1)) as i64;
+                    [direct(N, i, &row, line.wrap) as u64; 3]
+                });
+                let small = reduced::<u64, N, E, R>(&entries, &moments, &distances);
+                for (sum, word) in sums.iter_mut().zip(small) {
+                    *sum += (word[0] as i64).abs();
+                }
             }
-        };
-        let reach = (0.5 * n as f64 * step) as i64 + 2;
-        let size = row.len() as i64;
-        (x as i64 - reach..=x as i64 + reach)
-            .map(|i| {
-                let weight = integral((i + 1) as f64 - x) - integral(i as f64 - x);
-                let k =
-                    if wrap == Wrap::Repeat { i.rem_euclid(size) } else { i.clamp(0, size - 1) };
-                weight * row[k as usize] as f64
-            })
-            .sum()
+            sums.into_iter().max().unwrap()
+        }
+        for (n, k, size) in (1..=3).flat_map(|n| (0..40).map(move |k| (n, k, 100))) {
+            let line = Line { n, size, wrap: Wrap::Repeat };
+            let (x, step) = (50.0 + 0.137 * f64::from(k), 1.0 + f64::from(k * k) * 0.0131);
+            let most = match n {
+                1 => most::<1, 4, 3>(line, x, step),
+                2 => most::<2, 9, 6>(line, x, step),
+                _ => most::<3, 16, 11>(line, x, step),
+            };
+            let bound = reduced_bound(n, step);
+            assert!((most as f64) < bound, "order {n}, step {step}: {most}, bound {bound}");
+        }
     }
 }

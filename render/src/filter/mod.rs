@@ -1,19 +1,29 @@
 //! Averages a texture over a footprint.
 //!
-//! | filter     | what it gives for a rectangle                                              |
-//! |------------|----------------------------------------------------------------------------|
-//! | `point`    | the texel at its middle                                                    |
-//! | `bilinear` | four texels interpolated at its middle                                     |
-//! | `box`      | the average under a box that fills it (summed areas, order 1)              |
-//! | `tent`     | the average under a tent that fills it (repeated integration, order 2)     |
+//! | filter      | what it gives for a rectangle                                                |
+//! |-------------|------------------------------------------------------------------------------|
+//! | `point`     | the texel at its middle                                                      |
+//! | `bilinear`  | four texels interpolated at its middle                                       |
+//! | `mip`       | eight texels of a pyramid, interpolated (mip-mapping)                        |
+//! | `box`       | the average under a box that fills it (summed areas; order 1)                |
+//! | `tent`      | the average under a tent that fills it (repeated integration, order 2)       |
+//! | `quadratic` | the average under a quadratic B-spline that fills it (the same, order 3)     |
 //!
-//! The last two work from tables, which are built only for textures that a scene shows.
+//! The last four work from pyramids and tables, which are built only for textures that a scene
+//! shows. [`literal`] is the thesis's own form of the tables, to test ours against.
 
 mod axis;
 mod direct;
+mod entry;
+mod kernel;
+pub mod literal;
+mod pyramid;
+mod reduce;
 mod table;
+mod weigh;
 mod word;
 
+pub use pyramid::Pyramid;
 pub use table::PrefilteredTable;
 
 use crate::color::Color;
@@ -21,6 +31,7 @@ use crate::footprint::Footprint;
 use crate::texture::Texture;
 use glam::DVec2;
 use serde::Deserialize;
+use std::fmt;
 
 /// How a texture is averaged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -30,17 +41,60 @@ pub enum Filter {
     Point,
     /// Linear interpolation between texels.
     Bilinear,
-    /// A box over the footprint.
+    /// Linear interpolation between texels and levels of a pyramid; a square about as wide as the
+    /// footprint.
+    Mip,
+    /// A box over the footprint (summed areas, n = 1).
     Box,
-    /// A tent over the footprint.
+    /// A tent over the footprint (n = 2).
     Tent,
+    /// A quadratic B-spline over the footprint (n = 3).
+    Quadratic,
 }
 
 impl Filter {
+    /// All there are, from the simplest on.
+    pub const ALL: [Self; 6] =
+        [Self::Point, Self::Bilinear, Self::Mip, Self::Box, Self::Tent, Self::Quadratic];
+
     /// Whether this filter wants more than a point: then neighbours must be traced.
     #[must_use]
     pub fn wants_area(self) -> bool {
-        matches!(self, Self::Box | Self::Tent)
+        !matches!(self, Self::Point | Self::Bilinear)
+    }
+
+    /// How often its table is integrated, if it has one.
+    #[must_use]
+    pub fn order(self) -> Option<usize> {
+        match self {
+            Self::Point | Self::Bilinear | Self::Mip => None,
+            Self::Box => Some(1),
+            Self::Tent => Some(2),
+            Self::Quadratic => Some(3),
+        }
+    }
+
+    /// Memory in bytes that it takes for a texture, beside the texture.
+    #[must_use]
+    pub fn bytes_for(self, texture: &Texture) -> u64 {
+        match (self, self.order()) {
+            (_, Some(order)) => PrefilteredTable::bytes_for(texture, order),
+            (Self::Mip, _) => Pyramid::bytes_for(texture),
+            _ => 0,
+        }
+    }
+}
+
+impl fmt::Display for Filter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Point => "point",
+            Self::Bilinear => "bilinear",
+            Self::Mip => "mip",
+            Self::Box => "box",
+            Self::Tent => "tent",
+            Self::Quadratic => "quadratic",
+        })
     }
 }
 
@@ -49,19 +103,27 @@ impl Filter {
 pub struct FilteredTexture<'a> {
     texture: &'a Texture,
     filter: Filter,
-    table: Option<PrefilteredTable>,
+    prepared: Prepared,
+}
+
+/// What was worked out before the first average.
+#[derive(Debug)]
+enum Prepared {
+    Nothing,
+    Pyramid(Pyramid),
+    Table(PrefilteredTable),
 }
 
 impl<'a> FilteredTexture<'a> {
     /// Builds what the filter needs.
     #[must_use]
     pub fn new(texture: &'a Texture, filter: Filter) -> Self {
-        let order = match filter {
-            Filter::Point | Filter::Bilinear => None,
-            Filter::Box => Some(1),
-            Filter::Tent => Some(2),
+        let prepared = match (filter, filter.order()) {
+            (_, Some(order)) => Prepared::Table(PrefilteredTable::build(texture, order)),
+            (Filter::Mip, _) => Prepared::Pyramid(Pyramid::build(texture)),
+            _ => Prepared::Nothing,
         };
-        Self { texture, filter, table: order.map(|n| PrefilteredTable::build(texture, n)) }
+        Self { texture, filter, prepared }
     }
 
     /// The average of the texture over the footprint.
@@ -71,10 +133,11 @@ impl<'a> FilteredTexture<'a> {
             Footprint::Point(at) => (at, DVec2::ZERO),
             Footprint::Rectangle { center, half } => (center, half),
         };
-        match (&self.table, self.filter) {
-            (Some(table), _) => table.average(self.texture, center, half),
-            (None, Filter::Point) => self.texture.point(center),
-            (None, _) => self.texture.bilinear(center),
+        match &self.prepared {
+            Prepared::Table(table) => table.average(self.texture, center, half),
+            Prepared::Pyramid(pyramid) => pyramid.average(self.texture, center, half),
+            Prepared::Nothing if self.filter == Filter::Point => self.texture.point(center),
+            Prepared::Nothing => self.texture.bilinear(center),
         }
     }
 
@@ -82,24 +145,24 @@ impl<'a> FilteredTexture<'a> {
     /// last row of texels.
     ///
     /// On a sphere those rows are poles, and beyond a pole is not the other one, though the texture
-    /// repeats. Footprints end at the poles, so only the filter's smallest width moves any: by less
-    /// than a texel.
+    /// repeats. Footprints end at the poles, so only a table's smallest width moves any, by less
+    /// than a texel, and the square of a pyramid.
     #[must_use]
     pub fn between_poles(&self, footprint: Footprint) -> Footprint {
+        let (center, half) = match footprint {
+            Footprint::Point(center) => (center, DVec2::ZERO),
+            Footprint::Rectangle { center, half } => (center, half),
+        };
+        // Half a texel of the upper of two levels is at most the side of the square.
         let smallest = match self.filter {
-            Filter::Point | Filter::Bilinear | Filter::Box => 0.5,
-            Filter::Tent => 1.0,
+            Filter::Mip => pyramid::side(self.texture, half).max(0.5),
+            _ => 0.5 * self.filter.order().unwrap_or(1) as f64,
         };
-        let within = |v: f64, half: f64| {
-            let reach = half.max(smallest / self.texture.height as f64).min(0.5);
-            v.clamp(reach, 1.0 - reach)
-        };
+        let reach = half.y.max(smallest / self.texture.height as f64).min(0.5);
+        let center = DVec2::new(center.x, center.y.clamp(reach, 1.0 - reach));
         match footprint {
-            Footprint::Point(at) => Footprint::Point(DVec2::new(at.x, within(at.y, 0.0))),
-            Footprint::Rectangle { center, half } => {
-                let center = DVec2::new(center.x, within(center.y, half.y));
-                Footprint::Rectangle { center, half }
-            }
+            Footprint::Point(_) => Footprint::Point(center),
+            Footprint::Rectangle { .. } => Footprint::Rectangle { center, half },
         }
     }
 
@@ -110,14 +173,53 @@ impl<'a> FilteredTexture<'a> {
         match self.filter {
             Filter::Point => 1,
             Filter::Bilinear => 4,
+            Filter::Mip => 8,
             Filter::Box => 16,
             Filter::Tent => 81,
+            Filter::Quadratic => 256,
         }
     }
 
-    /// Memory of the table, in bytes; 0 when there is none.
+    /// Memory of the table or pyramid, in bytes; 0 when there is none.
     #[must_use]
     pub fn table_bytes(&self) -> usize {
-        self.table.as_ref().map_or(0, PrefilteredTable::bytes)
+        match &self.prepared {
+            Prepared::Nothing => 0,
+            Prepared::Pyramid(pyramid) => pyramid.bytes(),
+            Prepared::Table(table) => table.bytes(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn filters_are_read_by_the_names_that_they_show() {
+        for filter in Filter::ALL {
+            let name = format!("\"{filter}\"");
+            assert_eq!(serde_json::from_str::<Filter>(&name).ok(), Some(filter));
+        }
+    }
+
+    #[test]
+    fn every_filter_stays_within_the_texture_wherever_it_looks() {
+        let texels = (0..6u16).map(|k| [k * 40, 255 - k, 7]).collect();
+        let texture = Texture { width: 3, height: 2, texels, white: 255, ..Texture::default() };
+        let odd = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300, -1e18, 1e9, 0.0, -0.4];
+        for filter in Filter::ALL {
+            let ready = FilteredTexture::new(&texture, filter);
+            for (u, half) in odd.iter().flat_map(|&u| odd.map(|half| (u, half))) {
+                let center = DVec2::new(u, 0.3);
+                let rectangle = Footprint::Rectangle { center, half: DVec2::new(0.1, half) };
+                for footprint in [Footprint::Point(center), rectangle] {
+                    let found = ready.average(&footprint);
+                    let within = found.min_element() >= -1e-9 && found.max_element() <= 1.0 + 1e-9;
+                    assert!(within, "{filter} at {u} with {half}: {found}");
+                    assert!((found.z - 7.0 / 255.0).abs() < 1e-9, "{filter}: {found}");
+                }
+            }
+        }
     }
 }

@@ -6,8 +6,6 @@
 
 /// An integer whose sums wrap.
 pub trait Word: Copy + Default + Send + Sync + std::fmt::Debug {
-    /// Number of bits, B.
-    const BITS: u32;
     /// The word of a texel's code.
     fn from_code(code: u16) -> Self;
     /// Sum modulo 2^B.
@@ -18,7 +16,7 @@ pub trait Word: Copy + Default + Send + Sync + std::fmt::Debug {
     fn minus(self, other: Self) -> Self;
     /// Product with a factor of either sign, modulo 2^B.
     #[must_use]
-    fn times(self, factor: i64) -> Self;
+    fn times(self, factor: i128) -> Self;
     /// The value of the word taken as signed, rounded to 53 bits.
     fn to_f64(self) -> f64;
 }
@@ -26,19 +24,23 @@ pub trait Word: Copy + Default + Send + Sync + std::fmt::Debug {
 macro_rules! word {
     ($type:ty, $signed:ty) => {
         impl Word for $type {
-            const BITS: u32 = <$type>::BITS;
+            #[inline(always)]
             fn from_code(code: u16) -> Self {
                 Self::from(code)
             }
+            #[inline(always)]
             fn plus(self, other: Self) -> Self {
                 self.wrapping_add(other)
             }
+            #[inline(always)]
             fn minus(self, other: Self) -> Self {
                 self.wrapping_sub(other)
             }
-            fn times(self, factor: i64) -> Self {
+            #[inline(always)]
+            fn times(self, factor: i128) -> Self {
                 self.wrapping_mul(factor as Self)
             }
+            #[inline(always)]
             fn to_f64(self) -> f64 {
                 self as $signed as f64
             }
@@ -48,4 +50,28 @@ macro_rules! word {
 
 word!(u32, i32);
 word!(u64, i64);
-word!(u128, i128);
+
+impl Word for u128 {
+    #[inline(always)]
+    fn from_code(code: u16) -> Self {
+        Self::from(code)
+    }
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        self.wrapping_add(other)
+    }
+    #[inline(always)]
+    fn minus(self, other: Self) -> Self {
+        self.wrapping_sub(other)
+    }
+    #[inline(always)]
+    fn times(self, factor: i128) -> Self {
+        self.wrapping_mul(factor as Self)
+    }
+    #[inline(always)]
+    fn to_f64(self) -> f64 {
+        // Most results are short, and long ones are slow to turn.
+        let short = self as u64 as i64;
+        if i128::from(short) == self as i128 { short as f64 } else { self as i128 as f64 }
+    }
+}

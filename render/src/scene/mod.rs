@@ -50,6 +50,28 @@ pub struct Scene {
     pub names: Names,
 }
 
+impl Scene {
+    /// Memory of all texels, in bytes.
+    #[must_use]
+    pub fn texture_bytes(&self) -> u64 {
+        self.textures.iter().map(Texture::bytes).sum()
+    }
+
+    /// Which textures some surface shows.
+    #[must_use]
+    pub fn shown_textures(&self) -> Vec<bool> {
+        let mut shown = vec![false; self.textures.len()];
+        for surface in self.objects.iter().flat_map(|object| &object.parts) {
+            if let Some(texture) = surface.picture()
+                && self.materials[surface.material].shows_color()
+            {
+                shown[texture] = true;
+            }
+        }
+        shown
+    }
+}
+
 /// A shape and what its surfaces look like.
 #[derive(Debug, Clone)]
 pub struct Object {

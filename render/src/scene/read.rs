@@ -23,15 +23,18 @@ use crate::color::Color;
 use crate::procedural::{NoiseLattice, Procedural};
 use crate::shape::Mesh;
 use crate::shape::mesh::MeshError;
+use crate::texture::USUAL_MEMORY;
 use draft::Indices;
 use files::json::Document;
 use files::{Exit, Failure, FileError, JsonError, Source};
 use given::Given;
 use glam::DVec3;
 use libraries::Libraries;
+use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
+use textures::Memory;
 use thiserror::Error;
 
 /// Why there is no scene.
@@ -46,6 +49,9 @@ pub enum SceneError {
     /// A file that the scene names cannot be read.
     #[error(transparent)]
     Named(JsonError),
+    /// A texture takes more memory than is allowed.
+    #[error(transparent)]
+    TooLarge(JsonError),
     /// A mesh file is wrong.
     #[error(transparent)]
     Obj(#[from] ObjError),
@@ -84,6 +90,7 @@ impl Failure for SceneError {
         match self {
             Self::File(error) => error.exit(),
             Self::Named(_) => Exit::ReadWrite,
+            Self::TooLarge(_) => Exit::Resource,
             Self::UnknownMesh { .. } | Self::MissingMesh { .. } => Exit::Use,
             _ => Exit::Malformed,
         }
@@ -124,10 +131,25 @@ impl Draft<'_> {
     /// # Errors
     /// On the first thing that is wrong, with its place.
     pub fn resolve(&self, source: &dyn Source, given: MeshSource) -> Result<Scene, SceneError> {
+        self.resolve_within(source, given, USUAL_MEMORY)
+    }
+
+    /// The same with this much memory for textures, in bytes, in place of [`USUAL_MEMORY`]. Pictures
+    /// are measured before they are decoded.
+    ///
+    /// # Errors
+    /// As above.
+    pub fn resolve_within(
+        &self,
+        source: &dyn Source,
+        given: MeshSource,
+        max_texture_bytes: u64,
+    ) -> Result<Scene, SceneError> {
         self.check_mesh_names(given.keys().map(String::as_str))?;
         let sheets = self.sheets()?;
         let indices = Indices::of(&sheets)?;
         let lattice = OnceLock::new();
+        let memory = Memory { limit: max_texture_bytes, kept: Cell::new(0) };
         let readers: Vec<Reader<'_>> = sheets
             .iter()
             .map(|sheet| Reader {
@@ -137,6 +159,7 @@ impl Draft<'_> {
                 source,
                 indices: &indices,
                 lattice: &lattice,
+                memory: &memory,
             })
             .collect();
         let mut scene = self.view()?;
@@ -179,6 +202,7 @@ impl Draft<'_> {
             source: &files::Embedded(&[]),
             indices: &indices,
             lattice: &OnceLock::new(),
+            memory: &Memory { limit: 0, kept: Cell::new(0) },
         };
         reader.within("max_depth", f64::from(file.max_depth), 0.0, f64::from(DEEPEST))?;
         Ok(Scene {
@@ -207,6 +231,7 @@ struct Reader<'a> {
     indices: &'a Indices<'a>,
     /// What noise is made of, once something asks for it.
     lattice: &'a OnceLock<Arc<NoiseLattice>>,
+    memory: &'a Memory,
 }
 
 impl Reader<'_> {

@@ -15,7 +15,7 @@ use std::io::{Cursor, ErrorKind};
 use std::path::Path;
 
 /// Every filter there is.
-pub const FILTERS: [Filter; 4] = [Filter::Point, Filter::Bilinear, Filter::Box, Filter::Tent];
+pub const FILTERS: [Filter; 6] = Filter::ALL;
 
 /// The files that a scene names, by path.
 #[derive(Debug)]

@@ -8,7 +8,7 @@ use glam::DVec3;
 
 /// Camera, lights, textures, objects, and the box around those that have one.
 #[must_use]
-pub fn lines(subject: &Subject<'_>, table_bytes: &dyn Fn(&Texture) -> usize) -> Vec<String> {
+pub fn lines(subject: &Subject<'_>, table_bytes: &dyn Fn(&Texture) -> u64) -> Vec<String> {
     let scene = subject.scene;
     let camera = subject.camera;
     let mut lines = vec![format!(
@@ -41,8 +41,8 @@ pub fn lines(subject: &Subject<'_>, table_bytes: &dyn Fn(&Texture) -> usize) -> 
 }
 
 /// The size of a texture and what it takes in memory.
-fn sizes(texture: &Texture, table_bytes: &dyn Fn(&Texture) -> usize) -> String {
-    let texels = size_of_val(texture.texels.as_slice());
+fn sizes(texture: &Texture, table_bytes: &dyn Fn(&Texture) -> u64) -> String {
+    let texels = texture.bytes();
     let tables = match table_bytes(texture) {
         0 => "no tables".into(),
         bytes => format!("tables of {}", memory(bytes)),
@@ -50,7 +50,7 @@ fn sizes(texture: &Texture, table_bytes: &dyn Fn(&Texture) -> usize) -> String {
     format!("{} x {} texels, {}, {tables}", texture.width, texture.height, memory(texels))
 }
 
-fn memory(bytes: usize) -> String {
+fn memory(bytes: u64) -> String {
     match bytes {
         0..10_000 => format!("{bytes} bytes"),
         10_000..10_000_000 => format!("{} kB", bytes / 1000),

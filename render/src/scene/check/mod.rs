@@ -108,7 +108,7 @@ pub fn check(
     draft: &Draft<'_>,
     scene: &Scene,
     aspect: f64,
-    table_bytes: &dyn Fn(&Texture) -> usize,
+    table_bytes: &dyn Fn(&Texture) -> u64,
 ) -> Result<Report, SceneError> {
     let sheets = draft.sheets()?;
     let subject = Subject::new(draft, &sheets, scene, aspect);

@@ -1,0 +1,185 @@
+//! Pixels that see a textured floor: near and far, from above and at a slant.
+
+use glam::{DVec2, DVec3};
+use render::texture::Texture;
+
+/// Texels across the short side of a pixel's piece of texture, by its anisotropy: thin, middle, far.
+pub const SCALES: [f64; 3] = [1.0 / 32.0, 1.0 / 8.0, 1.0 / 2.0];
+
+/// Degrees between the texture's axes and the view.
+pub const ANGLES: [f64; 3] = [0.0, 15.0, 45.0];
+
+/// Anisotropies from 1 to 64, evenly by their logarithms.
+const ANISOTROPIES: usize = 32;
+
+/// Places on the texture for each of them.
+const PLACES: usize = 8;
+
+/// The side of a pixel by the distance of the film: 512 of them see 60 degrees.
+const PITCH: f64 = 0.002_255;
+
+/// A pixel and what it sees.
+#[derive(Debug)]
+pub struct Pixel {
+    /// Which texture.
+    pub texture: usize,
+    /// Which of [`SCALES`].
+    pub scale: usize,
+    /// Which of [`ANGLES`].
+    pub angle: usize,
+    /// The middle of the box around nine hits, in texture coordinates.
+    pub center: DVec2,
+    /// Half its width and height.
+    pub half: DVec2,
+    /// The tangent of the angle by which its middle lies below the horizon.
+    below: f64,
+    /// From the floor to the texture: a turned and scaled first axis, and a place.
+    turned: DVec2,
+    place: DVec2,
+}
+
+impl Pixel {
+    /// The texture coordinates that the place (x, y) of the pixel sees; it reaches from -1/2 to 1/2.
+    pub fn uv(&self, x: f64, y: f64) -> DVec2 {
+        // From a unit above the floor; further down on the film is nearer.
+        let far = 1.0 / (self.below + PITCH * y);
+        self.place + self.turned.rotate(DVec2::new(PITCH * x * far, far))
+    }
+
+    /// The mean of N x N bilinear samples, evenly spread.
+    pub fn samples(&self, texture: &Texture, n: u32) -> DVec3 {
+        let at = |k: u32| (f64::from(k) + 0.5) / f64::from(n) - 0.5;
+        let mut sum = DVec3::ZERO;
+        for j in 0..n {
+            for i in 0..n {
+                sum += texture.bilinear(self.uv(at(i), at(j)));
+            }
+        }
+        sum / f64::from(n * n)
+    }
+
+    /// The averages of the bilinear texture under the pixel's box, and under the tent of twice its
+    /// width, by brute force: samples jittered in cells of at most a quarter of a texel.
+    pub fn truth(&self, texture: &Texture) -> [DVec3; 2] {
+        self.brute_force(texture, 4.0, 1)
+    }
+
+    fn brute_force(&self, texture: &Texture, per_texel: f64, seed: u64) -> [DVec3; 2] {
+        let size = DVec2::new(texture.width as f64, texture.height as f64);
+        let span = |a: DVec2, b: DVec2| ((a - b) * size).length();
+        // An even number, so that the box ends between cells.
+        let cells = |texels: f64| 2 * ((0.5 * per_texel * texels).ceil() as u32).max(16);
+        let across = cells(span(self.uv(-0.5, -0.5), self.uv(0.5, -0.5)));
+        // The upper half of the tent's support is the longest; below it cells are smaller still.
+        let down = cells(span(self.uv(0.0, -0.5), self.uv(0.0, 0.5)));
+        let (mut sums, mut weights) = ([DVec3::ZERO; 2], [0.0; 2]);
+        let mut state = seed;
+        let mut jitter = || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1u64 << 53) as f64
+        };
+        for j in 0..2 * down {
+            let y = (f64::from(j) + jitter()) / f64::from(down) - 1.0;
+            for i in 0..2 * across {
+                let x = (f64::from(i) + jitter()) / f64::from(across) - 1.0;
+                let color = texture.bilinear(self.uv(x, y));
+                let inside = x.abs().max(y.abs()) <= 0.5;
+                let both = [f64::from(u8::from(inside)), (1.0 - x.abs()) * (1.0 - y.abs())];
+                for k in 0..2 {
+                    sums[k] += both[k] * color;
+                    weights[k] += both[k];
+                }
+            }
+        }
+        [sums[0] / weights[0], sums[1] / weights[1]]
+    }
+}
+
+/// The root mean square of the truth's own error against the box: how far apart two of them are, of
+/// every 37th pixel.
+pub fn noise(pixels: &[Pixel], textures: &[(&str, Texture)], truths: &[[DVec3; 2]]) -> f64 {
+    let some = || pixels.iter().zip(truths).step_by(37);
+    let squares: f64 = some()
+        .map(|(pixel, truth)| {
+            let again = pixel.brute_force(&textures[pixel.texture].1, 4.0, 2);
+            (again[0].x - truth[0].x).powi(2)
+        })
+        .sum();
+    // Each of the two has half of it.
+    (0.5 * squares / some().count() as f64).sqrt()
+}
+
+/// All pixels, texture by texture.
+pub fn pixels(textures: usize) -> Vec<Pixel> {
+    let mut pixels = Vec::new();
+    let mut state = 1u64;
+    let mut random = || {
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1u64 << 53) as f64
+    };
+    for texture in 0..textures {
+        for (scale, texels) in SCALES.iter().enumerate() {
+            for (angle, degrees) in ANGLES.iter().enumerate() {
+                for step in 0..ANISOTROPIES {
+                    // One end is at the anisotropy of 64, the other at 1, straight down, where
+                    // the tangent would be infinite: there the slant is a little less.
+                    let a = 64f64.powf((step as f64 + 0.5) / ANISOTROPIES as f64);
+                    let below = 1.0 / (a * a - 1.0).sqrt();
+                    for _ in 0..PLACES {
+                        let place = DVec2::new(random(), random());
+                        pixels.push(pixel(
+                            texture,
+                            scale,
+                            angle,
+                            below,
+                            a * texels,
+                            *degrees,
+                            place,
+                        ));
+                    }
+                }
+            }
+        }
+    }
+    pixels
+}
+
+fn pixel(
+    texture: usize,
+    scale: usize,
+    angle: usize,
+    below: f64,
+    short: f64,
+    degrees: f64,
+    place: DVec2,
+) -> Pixel {
+    // The short side of the piece is the pixel's side by the distance, on the floor straight ahead.
+    let width = PITCH / below;
+    // Texture coordinates of one unit of floor; textures are square, sizes come in below.
+    let side = super::textures::SIDES[texture] as f64;
+    let turned = DVec2::from_angle(degrees.to_radians()) * (short / width / side);
+    let mut pixel = Pixel {
+        texture,
+        scale,
+        angle,
+        center: DVec2::ZERO,
+        half: DVec2::ZERO,
+        below,
+        turned,
+        place: DVec2::ZERO,
+    };
+    pixel.place = place - pixel.uv(0.0, 0.0);
+    let places = [-1.0, 0.0, 1.0];
+    let hits = places.map(|y| places.map(|x| pixel.uv(x, y)));
+    let (mut low, mut high) = (hits[1][1], hits[1][1]);
+    for hit in hits.into_iter().flatten() {
+        low = low.min(hit);
+        high = high.max(hit);
+    }
+    pixel.center = 0.5 * (low + high);
+    pixel.half = 0.5 * (high - low);
+    pixel
+}
