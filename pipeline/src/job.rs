@@ -20,6 +20,7 @@
 use files::json::Document;
 use files::names::each_name_once;
 use files::{JsonError, Source};
+use render::accel::Structure;
 use render::film::MOST_SAMPLES;
 use render::filter::Filter;
 use serde::Deserialize;
@@ -66,6 +67,9 @@ pub struct Mode {
     /// Rays along each side of a pixel.
     #[serde(default = "one")]
     pub samples: u32,
+    /// What finds the hits: `bvh`, `grid` or `none`; the picture is the same.
+    #[serde(default)]
+    pub accel: Structure,
 }
 
 #[derive(Debug, Deserialize)]
@@ -165,7 +169,7 @@ impl Job {
 
 fn modes(document: &Document<'_>, modes: Option<Vec<Mode>>) -> Result<Vec<Mode>, JsonError> {
     let Some(modes) = modes else {
-        return Ok(vec![Mode { name: "tent".into(), filter: Filter::Tent, samples: 1 }]);
+        return Ok(vec![Mode { name: "tent".into(), filter: Filter::Tent, samples: 1, accel: Structure::Bvh }]);
     };
     if modes.is_empty() {
         return Err(document.fault("modes", "found no modes, expected at least one"));

@@ -181,7 +181,8 @@ impl Work<'_> {
         read_time: Duration,
     ) -> Result<Picture, PipelineError> {
         let (width, height) = self.options.size;
-        let settings = Settings { width, height, samples: mode.samples, filter: mode.filter };
+        let Mode { filter, samples, accel, .. } = *mode;
+        let settings = Settings { width, height, samples, filter, accel };
         let progress = |done, total| (self.tell)(Event::Progress { mode: &mode.name, done, total });
         let (picture, mut stats) = render::render(scene, &settings, &progress);
         let started = Instant::now();

@@ -5,6 +5,7 @@ use clap::{Parser, ValueEnum};
 use files::exit::say;
 use files::json::Document;
 use files::{Disk, Exit, Failure, Output, Report, input};
+use render::accel::Structure;
 use render::color::Encoding;
 use render::film::encode::{self, Format};
 use render::progress::Progress;
@@ -46,6 +47,9 @@ pub struct Arguments {
     /// How textures are averaged
     #[arg(long, default_value = "tent")]
     filter: FilterName,
+    /// What finds the surfaces that rays hit; the picture is the same
+    #[arg(long, value_name = "STRUCTURE", default_value = "bvh")]
+    accel: AccelName,
     /// Rays along each side of a pixel: N times N in each
     #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..=i64::from(render::film::MOST_SAMPLES)))]
     samples: u32,
@@ -88,6 +92,16 @@ enum FilterName {
     Box,
     /// The average under a tent over the footprint (repeated integration, n = 2)
     Tent,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum AccelName {
+    /// A tree of boxes, the fastest
+    Bvh,
+    /// A uniform grid for each object, as in the thesis
+    Grid,
+    /// Nothing: every ray tries every triangle
+    None,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -151,7 +165,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
         FilterName::Box => Filter::Box,
         FilterName::Tent => Filter::Tent,
     };
-    let settings = Settings { width, height, samples: arguments.samples, filter };
+    let accel = match arguments.accel {
+        AccelName::Bvh => Structure::Bvh,
+        AccelName::Grid => Structure::Grid,
+        AccelName::None => Structure::None,
+    };
+    let settings = Settings { width, height, samples: arguments.samples, filter, accel };
     let progress = Progress::new("render", arguments.quiet);
     let threads = arguments.threads.unwrap_or(0);
     let pool = rayon::ThreadPoolBuilder::new()

@@ -26,6 +26,8 @@ pub struct Stats {
     /// Texels or table entries read for both; an average over an area counts as the number that the
     /// usual footprint reads ([`crate::filter::FilteredTexture::reads`]).
     pub texels: u64,
+    /// Memory of what finds the hits, in bytes ([`crate::accel::Accel::bytes`]).
+    pub accel_bytes: u64,
     /// Prefiltered tables built.
     pub tables: u64,
     /// Their memory in bytes.
@@ -78,6 +80,7 @@ impl fmt::Display for Stats {
             ("texture areas", self.texture_areas),
             ("texture points", self.texture_points),
             ("texels read", self.texels),
+            ("accel bytes", self.accel_bytes),
             ("tables built", self.tables),
             ("table bytes", self.table_bytes),
         ];

@@ -4,6 +4,7 @@
 mod studio;
 
 use glam::DVec3;
+use render::accel::Structure;
 use render::filter::Filter;
 use render::trace::tree::MOST_NODES;
 use render::{Picture, Scene, Settings};
@@ -259,7 +260,7 @@ fn behind_many_half_transparent_panes_a_picture_still_comes() {
         r#""max_depth": 64, "min_weight": 0, {materials}, "objects": [ {} ]"#,
         panes.join(",")
     );
-    let settings = Settings { width: 2, height: 2, samples: 1, filter: Filter::Tent };
+    let settings = Settings { width: 2, height: 2, samples: 1, filter: Filter::Tent, accel: Structure::Bvh };
     let (_, stats) = render::render(&scene(&keys, &[]), &settings, &|_, _| {});
     assert_eq!(stats.hits, 4 * MOST_NODES as u64);
 }

@@ -8,6 +8,7 @@
 
 use files::Disk;
 use files::json::Document;
+use render::accel::Structure;
 use render::filter::Filter;
 use render::scene::{MeshSource, read};
 use render::{Picture, Scene, Settings};
@@ -34,7 +35,7 @@ fn mean(picture: &Picture, columns: std::ops::Range<u32>, rows: std::ops::Range<
 }
 
 fn check(scene: &Scene, samples: u32, filter: Filter, truth: f64) {
-    let settings = Settings { width: SIDE, height: SIDE, samples, filter };
+    let settings = Settings { width: SIDE, height: SIDE, samples, filter, accel: Structure::Bvh };
     let (picture, _) = render::render(scene, &settings, &|_, _| {});
     let quarter = SIDE / 4;
     let blocks: Vec<f64> =

@@ -1,13 +1,10 @@
 //! A bounding volume hierarchy, built by obvhs and walked here.
 //!
 //! The library builds a binary tree (PLOC with reinsertion) over boxes rounded outward to `f32`.
-//! The walk tests those boxes in `f64` and a hair generously, so that no primitive is lost to
-//! rounding; what is hit is decided elsewhere, by one function for every structure.
-//!
-//! The triangle test works on coordinates relative to the ray's origin and is off by their
-//! rounding, so a ray that misses a box by that much may still hit what is in it. Boxes are
-//! therefore widened, for each ray, by a bound on it.
+//! The walk tests those boxes in `f64`; what is hit is decided elsewhere, by one function for every
+//! structure.
 
+use super::slabs::SlabRay;
 use glam::{DVec3, Vec3A};
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::leaf_collapser::collapse;
@@ -26,37 +23,6 @@ const STACK: usize = if cfg!(test) { 2 } else { 24 };
 pub struct Bvh {
     nodes: Vec<Bvh2Node>,
     order: Vec<u32>,
-    /// The largest coordinate of any box, without its sign.
-    extent: f64,
-}
-
-/// A ray prepared for the box tests of one tree.
-#[derive(Debug, Clone, Copy)]
-struct BoxRay {
-    /// The origin moved up and down by the widening, which is the same as widening every box.
-    above: DVec3,
-    below: DVec3,
-    inverse: DVec3,
-}
-
-impl BoxRay {
-    fn new(origin: DVec3, direction: DVec3, extent: f64) -> Self {
-        // A zero component becomes a huge finite inverse: no product is NaN, even on a box's face.
-        let invert = |d: f64| if d.abs() > 1e-300 { 1.0 / d } else { 1e300f64.copysign(d) };
-        let inverse = DVec3::new(invert(direction.x), invert(direction.y), invert(direction.z));
-        // Shearing rounds each coordinate four times; twice that, and the box test's own three.
-        let widening = 16.0 * f64::EPSILON * (origin.abs().max_element() + extent);
-        Self { above: origin + widening, below: origin - widening, inverse }
-    }
-
-    /// Where the ray enters the box, if that is before `t_max`.
-    fn enters(&self, bounds: &Aabb, t_max: f64) -> Option<f64> {
-        let low = (bounds.min.as_dvec3() - self.above) * self.inverse;
-        let high = (bounds.max.as_dvec3() - self.below) * self.inverse;
-        let enter = low.min(high).max_element().max(0.0);
-        let leave = low.max(high).min_element();
-        (enter <= leave && enter <= t_max).then_some(enter)
-    }
 }
 
 impl Bvh {
@@ -70,9 +36,6 @@ impl Bvh {
             .iter()
             .map(|[low, high]| Aabb { min: round_down(*low), max: round_up(*high) })
             .collect();
-        let extent = boxes.iter().fold(0.0, |extent: f32, bounds| {
-            extent.max(bounds.min.abs().max(bounds.max.abs()).max_element())
-        });
         let indices = (0..boxes.len() as u32).collect();
         let mut tree = PlocBuilder::with_capacity(boxes.len()).build(
             PlocSearchDistance::Medium,
@@ -86,28 +49,27 @@ impl Bvh {
         optimizer.run(&mut tree, 0.05, None);
         collapse(&mut tree, 4, 3.0);
         optimizer.run(&mut tree, 0.1, None);
-        Some(Self { nodes: tree.nodes, order: tree.primitive_indices, extent: f64::from(extent) })
+        Some(Self { nodes: tree.nodes, order: tree.primitive_indices })
     }
 
     /// Gives `visit` every box that the ray may meet within `t_max`, nearer ones first as far as
     /// the tree tells; `visit` takes the current `t_max` and returns the one to go on with.
-    pub fn walk(
-        &self,
-        origin: DVec3,
-        direction: DVec3,
-        t_max: f64,
-        mut visit: impl FnMut(u32, f64) -> f64,
-    ) {
-        let ray = BoxRay::new(origin, direction, self.extent);
-        if ray.enters(&self.nodes[0].aabb, t_max).is_some() {
-            self.walk_from(0, &ray, t_max, &mut visit);
+    pub fn walk(&self, ray: &SlabRay, t_max: f64, mut visit: impl FnMut(u32, f64) -> f64) {
+        if enters(ray, &self.nodes[0].aabb, t_max).is_some() {
+            self.walk_from(0, ray, t_max, &mut visit);
         }
+    }
+
+    /// Memory in bytes.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        size_of_val(&*self.nodes) + size_of_val(&*self.order)
     }
 
     fn walk_from(
         &self,
         start: u32,
-        ray: &BoxRay,
+        ray: &SlabRay,
         mut t_max: f64,
         visit: &mut impl FnMut(u32, f64) -> f64,
     ) -> f64 {
@@ -139,7 +101,7 @@ impl Bvh {
                 }
                 continue;
             }
-            let enters = |child: u32| ray.enters(&nodes[child as usize].aabb, t_max);
+            let enters = |child: u32| enters(ray, &nodes[child as usize].aabb, t_max);
             let (near, far) = match (enters(first), enters(first + 1)) {
                 (None, None) => continue,
                 (Some(_), None) => (first, None),
@@ -160,6 +122,12 @@ impl Bvh {
             }
         }
     }
+}
+
+/// Where the ray enters the box, if that is before `t_max`.
+fn enters(ray: &SlabRay, bounds: &Aabb, t_max: f64) -> Option<f64> {
+    let [enter, _] = ray.crosses([bounds.min.as_dvec3(), bounds.max.as_dvec3()])?;
+    (enter <= t_max).then_some(enter)
 }
 
 fn round_down(v: DVec3) -> Vec3A {

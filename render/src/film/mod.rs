@@ -9,7 +9,7 @@ pub mod picture;
 
 pub use picture::Picture;
 
-use crate::accel::Accel;
+use crate::accel::{Accel, Structure};
 use crate::color::Color;
 use crate::filter::{Filter, FilteredTexture};
 use crate::footprint::neighbours::Neighbourhood;
@@ -43,6 +43,8 @@ pub struct Settings {
     pub samples: u32,
     /// How textures are averaged.
     pub filter: Filter,
+    /// What finds the hits.
+    pub accel: Structure,
 }
 
 /// Pixels of one picture at most: 3 GB of them.
@@ -86,7 +88,7 @@ fn render_in_tiles(
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> (Picture, Stats) {
     let started = Instant::now();
-    let accel = Accel::build(scene.objects.iter().map(|object| &object.shape).collect());
+    let accel = Accel::build(scene.objects.iter().map(|object| &object.shape).collect(), settings.accel);
     let accel_time = started.elapsed();
 
     let started = Instant::now();
@@ -114,6 +116,7 @@ fn render_in_tiles(
     let Film { mut picture, mut stats, .. } =
         film.into_inner().unwrap_or_else(PoisonError::into_inner);
     stats.tables = exposure.shader.tables();
+    stats.accel_bytes = accel.bytes() as u64;
     stats.table_bytes = exposure.shader.table_bytes();
     stats.not_finite = picture.remove_not_finite();
     stats.picture_time = started.elapsed();
@@ -317,7 +320,7 @@ mod tests {
     fn the_picture_does_not_depend_on_how_it_is_cut_into_tiles() {
         let scene = scene();
         for (filter, samples) in [(Filter::Tent, 1), (Filter::Box, 2), (Filter::Point, 2)] {
-            let settings = Settings { width: 37, height: 29, samples, filter };
+            let settings = Settings { width: 37, height: 29, samples, filter, accel: Structure::Bvh };
             let cut = |side| render_in_tiles(&scene, &settings, side, &|_, _| {}).0;
             let whole = cut(1000);
             for side in [1, 6, 16, 64] {
@@ -328,7 +331,7 @@ mod tests {
 
     #[test]
     fn rays_that_count_for_little_are_left_out() {
-        let settings = Settings { width: 16, height: 16, samples: 1, filter: Filter::Point };
+        let settings = Settings { width: 16, height: 16, samples: 1, filter: Filter::Point, accel: Structure::Bvh };
         let mut scene = scene();
         let (all, cost) = render(&scene, &settings, &|_, _| {});
         scene.min_weight = 1e-3;

@@ -6,6 +6,7 @@
 use files::json::Document;
 use files::{FileError, Source};
 use image::{ImageFormat, Rgb, RgbImage};
+use render::accel::Structure;
 use render::filter::Filter;
 use render::scene::read;
 use render::{Picture, Scene, Settings};
@@ -48,7 +49,7 @@ pub fn picture(scene: &Scene, side: u32, filter: Filter) -> Picture {
 
 /// Its picture, `side` by `side` pixels with `samples` by `samples` rays in each.
 pub fn supersampled(scene: &Scene, side: u32, samples: u32, filter: Filter) -> Picture {
-    let settings = Settings { width: side, height: side, samples, filter };
+    let settings = Settings { width: side, height: side, samples, filter, accel: Structure::Bvh };
     let (picture, stats) = render::render(scene, &settings, &|_, _| {});
     assert_eq!(stats.not_finite, 0);
     picture
