@@ -169,7 +169,12 @@ impl Job {
 
 fn modes(document: &Document<'_>, modes: Option<Vec<Mode>>) -> Result<Vec<Mode>, JsonError> {
     let Some(modes) = modes else {
-        return Ok(vec![Mode { name: "tent".into(), filter: Filter::Tent, samples: 1, accel: Structure::Bvh }]);
+        return Ok(vec![Mode {
+            name: "tent".into(),
+            filter: Filter::Tent,
+            samples: 1,
+            accel: Structure::Bvh,
+        }]);
     };
     if modes.is_empty() {
         return Err(document.fault("modes", "found no modes, expected at least one"));

@@ -260,7 +260,8 @@ fn behind_many_half_transparent_panes_a_picture_still_comes() {
         r#""max_depth": 64, "min_weight": 0, {materials}, "objects": [ {} ]"#,
         panes.join(",")
     );
-    let settings = Settings { width: 2, height: 2, samples: 1, filter: Filter::Tent, accel: Structure::Bvh };
+    let settings =
+        Settings { width: 2, height: 2, samples: 1, filter: Filter::Tent, accel: Structure::Bvh };
     let (_, stats) = render::render(&scene(&keys, &[]), &settings, &|_, _| {});
     assert_eq!(stats.hits, 4 * MOST_NODES as u64);
 }

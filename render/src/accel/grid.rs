@@ -116,7 +116,9 @@ impl Grid {
         let cut = loop {
             let cut = Cut::new(bounds, wanted);
             let entries = own.iter().fold(0usize, |sum, piece| {
-                sum.saturating_add(cut.voxels(piece).iter().map(|[a, b]| (b - a + 1) as usize).product())
+                sum.saturating_add(
+                    cut.voxels(piece).iter().map(|[a, b]| (b - a + 1) as usize).product(),
+                )
             });
             if entries <= most || cut.count == [1; 3] {
                 break cut;
@@ -145,12 +147,7 @@ impl Grid {
         Self { bounds, cut, pieces, starts, listed, sides, reach: cut.reach() }
     }
 
-    fn walk(
-        &self,
-        ray: &SlabRay,
-        mut t_max: f64,
-        visit: &mut impl FnMut(u32, f64) -> f64,
-    ) -> f64 {
+    fn walk(&self, ray: &SlabRay, mut t_max: f64, visit: &mut impl FnMut(u32, f64) -> f64) -> f64 {
         let Some([enter, leave]) = ray.crosses(self.bounds).filter(|[enter, _]| *enter <= t_max)
         else {
             return t_max;
@@ -235,10 +232,10 @@ impl Cut {
                 None => break,
             }
         }
-        let count = [0, 1, 2].map(|axis| {
-            if cut[axis] { ((size[axis] / edge).round() as u32).max(1) } else { 1 }
-        });
-        let voxel = size / DVec3::new(f64::from(count[0]), f64::from(count[1]), f64::from(count[2]));
+        let count = [0, 1, 2]
+            .map(|axis| if cut[axis] { ((size[axis] / edge).round() as u32).max(1) } else { 1 });
+        let voxel =
+            size / DVec3::new(f64::from(count[0]), f64::from(count[1]), f64::from(count[2]));
         Self { low, voxel, count }
     }
 
@@ -270,7 +267,8 @@ impl Cut {
         };
         for k in z[0]..=z[1] {
             for j in y[0]..=y[1] {
-                let row = (k as usize * self.count[1] as usize + j as usize) * self.count[0] as usize;
+                let row =
+                    (k as usize * self.count[1] as usize + j as usize) * self.count[0] as usize;
                 let on_row = START | sides(1, j, *y) | sides(2, k, *z);
                 for i in x[0]..=x[1] {
                     each(row + i as usize, on_row | sides(0, i, *x));
@@ -289,5 +287,61 @@ impl Cut {
         let most = f64::from(self.count.into_iter().max().unwrap_or(1));
         let slack = cut.map(|axis| SLACK * self.voxel[axis]).fold(f64::INFINITY, f64::min);
         slack / ((64.0 + most) * f64::EPSILON)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cut(size: [f64; 3], wanted: f64) -> [u32; 3] {
+        let low = DVec3::new(5.0, -3.0, 0.1);
+        Cut::new([low, low + DVec3::from(size)], wanted).count
+    }
+
+    #[test]
+    fn voxels_are_nearly_cubes_and_flat_boxes_are_not_cut_across() {
+        assert_eq!(cut([1.0, 1.0, 1.0], 1000.0), [10, 10, 10]);
+        assert_eq!(cut([4.0, 2.0, 1.0], 512.0), [16, 8, 4]);
+        assert_eq!(cut([1.0, 0.0, 1.0], 100.0), [10, 1, 10]);
+        assert_eq!(cut([1.0, 1e-30, 1.0], 100.0), [10, 1, 10]);
+        assert_eq!(cut([0.0, 3.0, 0.0], 7.0), [1, 7, 1]);
+        assert_eq!(cut([0.0; 3], 50.0), [1, 1, 1]);
+        assert_eq!(cut([3.0, 1.0, 2.0], 1.0), [1, 1, 1]);
+    }
+
+    /// Long diagonal pieces would be listed in every voxel.
+    #[test]
+    fn lists_stay_short_when_every_piece_is_as_large_as_the_object() {
+        let boxes = vec![[DVec3::ZERO, DVec3::ONE]; 5000];
+        let grid = Grid::build(&boxes, 0..5000);
+        assert!(grid.listed.len() <= MOST_ENTRIES * 5000);
+        assert!(grid.starts.len() > 10, "it is still cut");
+    }
+
+    /// A ray passes a row of voxels and is given one piece from each, in order; then all at once
+    /// from beyond the grid's reach.
+    #[test]
+    fn the_walk_goes_from_voxel_to_voxel() {
+        let at = |k: u32| DVec3::new(f64::from(k) + 0.5, 0.5, 0.5);
+        let boxes: Vec<_> = (0..10).map(|k| [at(k) - 0.4, at(k) + 0.4]).collect();
+        let grid = Grid::build(&boxes, 0..10);
+        assert_eq!(grid.cut.count, [10, 1, 1]);
+        let given = |origin: DVec3, direction: DVec3, t_max: f64| {
+            let mut given = Vec::new();
+            let ray = SlabRay::new(origin, direction, 10.0);
+            grid.walk(&ray, t_max, &mut |piece, t_max| {
+                given.push(piece);
+                t_max
+            });
+            given
+        };
+        let beside = DVec3::new(-1.0, 0.5, 0.5);
+        assert_eq!(given(beside, DVec3::X, f64::INFINITY), (0..10).collect::<Vec<_>>());
+        assert_eq!(given(at(7), DVec3::NEG_X, f64::INFINITY), [7, 6, 5, 4, 3, 2, 1, 0]);
+        assert_eq!(given(at(2), DVec3::X, 2.0), [2, 3, 4]);
+        assert!(grid.reach > 1e9);
+        let far = DVec3::new(1e30, 0.5, 0.5);
+        assert_eq!(given(far, DVec3::NEG_X, f64::INFINITY), (0..10).collect::<Vec<_>>());
     }
 }

@@ -287,12 +287,56 @@ impl<'a> Accel<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
 
     #[test]
     fn an_empty_scene_has_no_hits() {
         let ray = Ray::from_eye(DVec3::ZERO, DVec3::X);
         for structure in [Structure::Bvh, Structure::Grid, Structure::None] {
             assert!(Accel::build(vec![], structure).nearest(&ray).is_none());
+        }
+    }
+
+    fn place() -> impl Strategy<Value = DVec3> {
+        prop::array::uniform3(-4i8..=4).prop_map(|p| DVec3::from(p.map(|k| f64::from(k) * 0.25)))
+    }
+
+    proptest! {
+        /// What the structures promise, without any hit function: the boxes that a ray crosses
+        /// before `t_max`, and no box twice.
+        #[test]
+        fn every_box_that_a_ray_crosses_is_given_once(
+            boxes in prop::collection::vec((place(), place()), 1..200),
+            origin in place(), toward in place(), near in any::<bool>(),
+            nudge in prop::sample::select(vec![0.0, 1e-16, -1e-16, 1e-9]),
+        ) {
+            let boxes: Vec<_> = boxes.into_iter().map(|(a, b)| {
+                // Small ones, many of them flat.
+                let b = a + 0.25 * (b - a);
+                [a.min(b), a.max(b)]
+            }).collect();
+            let t_max = if near { 0.75 } else { f64::INFINITY };
+            let direction = (toward - origin + nudge).normalize_or(DVec3::NEG_X);
+            let ray = SlabRay::new(origin, direction, 2.0);
+            let crossed = |piece: &[DVec3; 2]| ray.crosses(*piece).is_some_and(|at| at[0] <= t_max);
+            let half = boxes.len() as u32 / 2;
+            let ranges = [0..half, half..boxes.len() as u32];
+            let [mut by_tree, mut by_grids] = [vec![0; boxes.len()], vec![0; boxes.len()]];
+            Bvh::build(&boxes).unwrap().walk(&ray, t_max, |piece, t_max| {
+                by_tree[piece as usize] += 1;
+                t_max
+            });
+            let objects: Vec<_> = ranges.into_iter().filter(|range| !range.is_empty()).collect();
+            Grids::build(&boxes, &objects).walk(&ray, t_max, |piece, t_max| {
+                by_grids[piece as usize] += 1;
+                t_max
+            });
+            for (k, piece) in boxes.iter().enumerate() {
+                for given in [&by_tree, &by_grids] {
+                    prop_assert!(given[k] <= 1, "box {} was given {} times", k, given[k]);
+                    prop_assert!(given[k] == 1 || !crossed(piece), "box {} was missed", k);
+                }
+            }
         }
     }
 }

@@ -88,7 +88,8 @@ fn render_in_tiles(
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> (Picture, Stats) {
     let started = Instant::now();
-    let accel = Accel::build(scene.objects.iter().map(|object| &object.shape).collect(), settings.accel);
+    let accel =
+        Accel::build(scene.objects.iter().map(|object| &object.shape).collect(), settings.accel);
     let accel_time = started.elapsed();
 
     let started = Instant::now();
@@ -320,7 +321,8 @@ mod tests {
     fn the_picture_does_not_depend_on_how_it_is_cut_into_tiles() {
         let scene = scene();
         for (filter, samples) in [(Filter::Tent, 1), (Filter::Box, 2), (Filter::Point, 2)] {
-            let settings = Settings { width: 37, height: 29, samples, filter, accel: Structure::Bvh };
+            let settings =
+                Settings { width: 37, height: 29, samples, filter, accel: Structure::Bvh };
             let cut = |side| render_in_tiles(&scene, &settings, side, &|_, _| {}).0;
             let whole = cut(1000);
             for side in [1, 6, 16, 64] {
@@ -331,7 +333,13 @@ mod tests {
 
     #[test]
     fn rays_that_count_for_little_are_left_out() {
-        let settings = Settings { width: 16, height: 16, samples: 1, filter: Filter::Point, accel: Structure::Bvh };
+        let settings = Settings {
+            width: 16,
+            height: 16,
+            samples: 1,
+            filter: Filter::Point,
+            accel: Structure::Bvh,
+        };
         let mut scene = scene();
         let (all, cost) = render(&scene, &settings, &|_, _| {});
         scene.min_weight = 1e-3;
