@@ -130,9 +130,12 @@ impl<'a> Accel<'a> {
             }
             !outsized
         });
-        let (leaves, boxes): (Vec<Leaf>, Vec<[DVec3; 2]>) = bounded.into_iter().unzip();
+        let (mut leaves, boxes): (Vec<Leaf>, Vec<[DVec3; 2]>) = bounded.into_iter().unzip();
         let index = match structure {
-            Structure::Bvh => Index::Tree(Bvh::build(&boxes)),
+            Structure::Bvh => Index::Tree(Bvh::build(&boxes).map(|(tree, order)| {
+                leaves = order.into_iter().map(|leaf| leaves[leaf as usize]).collect();
+                tree
+            })),
             Structure::Grid => {
                 let object = |a: &Leaf, b: &Leaf| a.piece.object == b.piece.object;
                 let ranges = leaves.chunk_by(object).scan(0, |end, leaves| {
@@ -322,8 +325,9 @@ mod tests {
             let half = boxes.len() as u32 / 2;
             let ranges = [0..half, half..boxes.len() as u32];
             let [mut by_tree, mut by_grids] = [vec![0; boxes.len()], vec![0; boxes.len()]];
-            Bvh::build(&boxes).unwrap().walk(&ray, t_max, |piece, t_max| {
-                by_tree[piece as usize] += 1;
+            let (tree, order) = Bvh::build(&boxes).unwrap();
+            tree.walk(&ray, t_max, |place, t_max| {
+                by_tree[order[place as usize] as usize] += 1;
                 t_max
             });
             let objects: Vec<_> = ranges.into_iter().filter(|range| !range.is_empty()).collect();
