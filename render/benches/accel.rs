@@ -1,9 +1,9 @@
 //! How fast a tree, the grids and brute force find hits, beside each other.
 //!
 //! `cargo bench -p render --bench accel`. A torus of about 10 000 and of about 100 000 triangles
-//! over a floor of two, which stands apart. Each round times all structures on the same rays one
-//! after the other, on one thread; the table has the medians over the rounds, and ratios of the same
-//! rounds. docs/acceleration.md has a run.
+//! over a floor, which stands apart. Each round times all structures on the same rays one after the
+//! other, on one thread, a few rays at a time; of each few the fastest round counts, so that
+//! what else a machine does disturbs little. docs/acceleration.md has a run.
 //!
 //! Numbers of rounds and the size of the picture may follow: `-- 9 512`.
 
@@ -21,8 +21,8 @@ use std::time::Instant;
 const STRUCTURES: [(&str, Structure); 3] =
     [("bvh", Structure::Bvh), ("grid", Structure::Grid), ("none", Structure::None)];
 
-/// Brute force gets only every so manieth ray.
-const FEW: usize = 1009;
+/// So many rays are timed together.
+const FEW: usize = 509;
 
 /// A torus about y whose circles have `rows` and `cols` points, a little lumpy.
 fn torus(rows: u32, cols: u32) -> Mesh {
@@ -79,22 +79,25 @@ fn rays(accel: &Accel<'_>, side: u32) -> [Vec<(Ray, f64)>; 3] {
     sets
 }
 
-/// Seconds for each ray.
-fn time(accel: &Accel<'_>, rays: &[(Ray, f64)], every: usize) -> f64 {
-    let started = Instant::now();
-    let mut count = 0;
-    for (ray, t_max) in rays.iter().step_by(every) {
-        if t_max.is_finite() {
-            accel.all_before(ray, *t_max, |hit| {
-                black_box(hit);
-                false
-            });
-        } else {
-            black_box(accel.nearest(ray));
+/// The seconds that each few of the rays take, where that is less than `best` has; brute force
+/// gets one ray of each few.
+fn time(accel: &Accel<'_>, rays: &[(Ray, f64)], brute: bool, best: &mut Vec<f64>) {
+    best.resize(rays.len().div_ceil(FEW), f64::INFINITY);
+    for (few, best) in rays.chunks(FEW).zip(best) {
+        let few = if brute { &few[..1] } else { few };
+        let started = Instant::now();
+        for (ray, t_max) in few {
+            if t_max.is_finite() {
+                accel.all_before(ray, *t_max, |hit| {
+                    black_box(hit);
+                    false
+                });
+            } else {
+                black_box(accel.nearest(ray));
+            }
         }
-        count += 1;
+        *best = best.min(started.elapsed().as_secs_f64() / few.len() as f64);
     }
-    started.elapsed().as_secs_f64() / f64::from(count)
 }
 
 /// Rays from inside the tube through vertices and points of edges that get out.
@@ -112,9 +115,9 @@ fn leaks(accel: &Accel<'_>, mesh: &Mesh, rows: u32, count: usize) -> usize {
     aimed.filter(|ray| accel.nearest(ray).is_none()).count()
 }
 
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
+/// Million rays a second.
+fn rate(seconds: &[f64]) -> f64 {
+    1e-6 * seconds.len() as f64 / seconds.iter().sum::<f64>()
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -137,19 +140,19 @@ fn main() -> Result<(), Box<dyn Error>> {
         let build = |structure| Accel::build(shapes.iter().collect(), structure);
         let accels = STRUCTURES.map(|(_, structure)| build(structure));
         let sets = rays(&accels[0], side);
-        // By structure and kind of ray, and then the time to build.
-        let mut times = vec![vec![Vec::new(); 4]; 3];
+        // By structure and kind of ray, and the time to build.
+        let mut best: [[Vec<f64>; 3]; 3] = Default::default();
+        let mut build_time = [f64::INFINITY; 3];
         for _ in 0..rounds {
             for (kind, set) in sets.iter().enumerate() {
                 for (k, accel) in accels.iter().enumerate() {
-                    let every = if STRUCTURES[k].1 == Structure::None { FEW } else { 1 };
-                    times[k][kind].push(time(accel, set, every));
+                    time(accel, set, k == 2, &mut best[k][kind]);
                 }
             }
             for (k, (_, structure)) in STRUCTURES.iter().enumerate() {
                 let started = Instant::now();
                 black_box(build(*structure));
-                times[k][3].push(started.elapsed().as_secs_f64());
+                build_time[k] = build_time[k].min(started.elapsed().as_secs_f64());
             }
         }
         let triangles = mesh.triangles.len();
@@ -159,13 +162,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         )?;
         writeln!(out, "| | build ms | bytes each | from the eye | mirrored | to a light |")?;
         for (k, (name, _)) in STRUCTURES.iter().enumerate() {
-            write!(out, "| {name} | {:.1} ", 1e3 * median(times[k][3].clone()))?;
+            write!(out, "| {name} | {:.1} ", 1e3 * build_time[k])?;
             write!(out, "| {:.0} ", accels[k].bytes() as f64 / triangles as f64)?;
-            for kind in 0..3 {
-                let pairs = times[0][kind].iter().zip(&times[k][kind]);
-                let ratio = median(pairs.map(|(tree, own)| tree / own).collect());
-                let rate = 1e-6 / median(times[k][kind].clone());
-                write!(out, "| {rate:.4} ({ratio:.4}) ")?;
+            for (own, tree) in best[k].iter().zip(&best[0]) {
+                write!(out, "| {:.4} ({:.4}) ", rate(own), rate(own) / rate(tree))?;
             }
             writeln!(out, "|")?;
         }

@@ -27,7 +27,7 @@ use glam::DVec3;
 /// The thesis wants about one or two triangles in a voxel. A surface leaves most voxels empty, so
 /// that the filled ones hold more. Larger, and rays step through more empty voxels and triangles are
 /// listed in more of them; smaller, and more triangles are tried. docs/acceleration.md has figures.
-const DENSITY: f64 = 1.0;
+const DENSITY: f64 = 2.0;
 
 /// List entries for each piece at most; an object of long thin pieces that would need more gets
 /// larger voxels.
