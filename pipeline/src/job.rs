@@ -255,6 +255,12 @@ mod tests {
             ),
             (
                 format!(
+                    "{scene}, \"modes\": [{{\"name\": \"a\", \"filter\": \"box\", \"accel\": \"grids\"}}]"
+                ),
+                "did you mean `grid`?",
+            ),
+            (
+                format!(
                     "{scene}, \"meshes\": {{\"a\": {{\"spec\": \"b\"}}, \"a\": {{\"spec\": \"c\"}}}}"
                 ),
                 "meshes: duplicate key `a`",
