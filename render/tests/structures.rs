@@ -352,6 +352,17 @@ fn from_far_away_all_see_alike() {
     assert!(seen > 100, "{seen}");
 }
 
+/// Corners and numbers of 1920 triangles take 44 bytes each; beside them a structure is small.
+#[test]
+fn a_structure_tells_its_memory() {
+    let shapes = [Shape::Mesh(torus(40, 24, 0.4))];
+    let [none, tree, grid] = all_structures(&shapes).map(|accel| accel.bytes());
+    assert_eq!(none, 44 * 1920);
+    for bytes in [tree, grid] {
+        assert!(bytes > none + 8 * 1920 && bytes < none + 80 * 1920, "{bytes}");
+    }
+}
+
 #[test]
 fn a_thousand_coincident_triangles_are_one_hit_the_first() {
     let shapes = [Shape::Mesh(soup(&[[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]; 1000]))];

@@ -84,7 +84,8 @@ impl Grids {
     /// Grids over boxes, given as lower and upper corners; `objects` are ranges of them.
     #[must_use]
     pub fn build(boxes: &[[DVec3; 2]], objects: &[std::ops::Range<u32>]) -> Self {
-        let grids = objects.iter().map(|object| Grid::build(boxes, object.clone())).collect();
+        let grids =
+            objects.iter().map(|object| Grid::build(boxes, object.clone(), DENSITY)).collect();
         Self { grids }
     }
 
@@ -106,13 +107,13 @@ impl Grids {
 }
 
 impl Grid {
-    fn build(boxes: &[[DVec3; 2]], pieces: std::ops::Range<u32>) -> Self {
+    fn build(boxes: &[[DVec3; 2]], pieces: std::ops::Range<u32>, density: f64) -> Self {
         let own = &boxes[pieces.start as usize..pieces.end as usize];
         let bounds = own.iter().fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |all, piece| {
             [all[0].min(piece[0]), all[1].max(piece[1])]
         });
         let most = own.len().saturating_mul(MOST_ENTRIES).min(u32::MAX as usize);
-        let mut wanted = DENSITY * own.len() as f64;
+        let mut wanted = density * own.len() as f64;
         let cut = loop {
             let cut = Cut::new(bounds, wanted);
             let entries = own.iter().fold(0usize, |sum, piece| {
@@ -314,7 +315,7 @@ mod tests {
     #[test]
     fn lists_stay_short_when_every_piece_is_as_large_as_the_object() {
         let boxes = vec![[DVec3::ZERO, DVec3::ONE]; 5000];
-        let grid = Grid::build(&boxes, 0..5000);
+        let grid = Grid::build(&boxes, 0..5000, DENSITY);
         assert!(grid.listed.len() <= MOST_ENTRIES * 5000);
         assert!(grid.starts.len() > 10, "it is still cut");
     }
@@ -325,7 +326,7 @@ mod tests {
     fn the_walk_goes_from_voxel_to_voxel() {
         let at = |k: u32| DVec3::new(f64::from(k) + 0.5, 0.5, 0.5);
         let boxes: Vec<_> = (0..10).map(|k| [at(k) - 0.4, at(k) + 0.4]).collect();
-        let grid = Grid::build(&boxes, 0..10);
+        let grid = Grid::build(&boxes, 0..10, 1.0);
         assert_eq!(grid.cut.count, [10, 1, 1]);
         let given = |origin: DVec3, direction: DVec3, t_max: f64| {
             let mut given = Vec::new();
