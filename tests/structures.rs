@@ -1,7 +1,5 @@
 //! Every page comes out the same to the last byte, whatever finds the hits.
 
-#![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
-
 use pipeline::job::{Job, Mode};
 use pipeline::run::{Options, run};
 use rayon::prelude::*;
