@@ -9,7 +9,7 @@ use std::fs;
 use std::path::Path;
 
 /// So few pixels that brute force is done in seconds, and without neighbours, which trace more rays.
-const SIZE: (u32, u32) = (9, 7);
+const SIZE: (u32, u32) = (6, 5);
 
 #[test]
 fn tree_grids_and_brute_force_make_the_same_pages() {
