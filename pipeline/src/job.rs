@@ -28,6 +28,7 @@ use files::json::Document;
 use files::names::each_name_once;
 use files::{JsonError, Source};
 use render::Sampling;
+use render::accel::Structure;
 use render::film::{MOST_SAMPLES, Nine, Pattern, PixelFilter};
 use render::filter::Filter;
 use serde::Deserialize;
@@ -72,6 +73,8 @@ pub struct Mode {
     pub filter: Filter,
     /// How a pixel is made of rays.
     pub sampling: Sampling,
+    /// What finds the hits; the picture is the same.
+    pub accel: Structure,
 }
 
 #[derive(Debug, Deserialize)]
@@ -95,6 +98,8 @@ struct JobFile {
 struct ModeFile {
     name: String,
     filter: Filter,
+    #[serde(default)]
+    accel: Structure,
     #[serde(default)]
     samples: Option<u32>,
     #[serde(default)]
@@ -191,8 +196,12 @@ impl Job {
 
 fn modes(document: &Document<'_>, modes: Option<Vec<ModeFile>>) -> Result<Vec<Mode>, JsonError> {
     let Some(modes) = modes else {
-        let sampling = Sampling::regular(1);
-        return Ok(vec![Mode { name: "tent".into(), filter: Filter::Tent, sampling }]);
+        return Ok(vec![Mode {
+            name: "tent".into(),
+            filter: Filter::Tent,
+            sampling: Sampling::regular(1),
+            accel: Structure::Bvh,
+        }]);
     };
     if modes.is_empty() {
         return Err(document.fault("modes", "found no modes, expected at least one"));
@@ -206,7 +215,8 @@ fn modes(document: &Document<'_>, modes: Option<Vec<ModeFile>>) -> Result<Vec<Mo
             return Err(document.fault(&name_path, message));
         }
         let sampling = sampling(document, &format!("modes[{k}]"), &mode)?;
-        checked.push(Mode { name: mode.name, filter: mode.filter, sampling });
+        let ModeFile { name, filter, accel, .. } = mode;
+        checked.push(Mode { name, filter, sampling, accel });
     }
     Ok(checked)
 }
@@ -310,6 +320,12 @@ mod tests {
                     "{scene}, \"modes\": [{{\"name\": \"a\", \"filter\": \"box\", \"samples\": 0}}]"
                 ),
                 "modes[0].samples: found 0, expected 1 to 256",
+            ),
+            (
+                format!(
+                    "{scene}, \"modes\": [{{\"name\": \"a\", \"filter\": \"box\", \"accel\": \"grids\"}}]"
+                ),
+                "did you mean `grid`?",
             ),
             (
                 format!(

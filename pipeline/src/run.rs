@@ -193,8 +193,8 @@ impl Work<'_> {
         read_time: Duration,
     ) -> Result<Picture, PipelineError> {
         let (width, height) = self.options.size;
-        let settings =
-            Settings { sampling: mode.sampling, ..Settings::new(width, height, mode.filter) };
+        let Mode { filter, sampling, accel, .. } = *mode;
+        let settings = Settings { sampling, accel, ..Settings::new(width, height, filter) };
         let progress = |done, total| (self.tell)(Event::Progress { mode: &mode.name, done, total });
         let (picture, mut stats) = render::render(scene, &settings, &progress);
         let started = Instant::now();

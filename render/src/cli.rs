@@ -114,6 +114,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
         sampling: sampling.sampling()?,
         crop: sampling.crop,
         layers: output.layers(),
+        accel: work.accel(),
         ..Settings::new(width, height, textures.filter())
     };
 

@@ -28,6 +28,8 @@ pub struct Stats {
     pub texels: u64,
     /// Solid textures looked up.
     pub solid_points: u64,
+    /// Memory of what finds the hits, in bytes ([`crate::accel::Accel::bytes`]).
+    pub accel_bytes: u64,
     /// Prefiltered tables built.
     pub tables: u64,
     /// Their memory in bytes.
@@ -84,6 +86,7 @@ impl fmt::Display for Stats {
             ("texture points", self.texture_points),
             ("texels read", self.texels),
             ("solid points", self.solid_points),
+            ("accel bytes", self.accel_bytes),
             ("tables built", self.tables),
             ("table bytes", self.table_bytes),
             ("lattice bytes", self.lattice_bytes),

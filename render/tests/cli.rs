@@ -121,6 +121,19 @@ fn any_number_of_threads_gives_the_same_file() {
 }
 
 #[test]
+fn any_structure_gives_the_same_file() {
+    let bench = Bench::with_scene(TEXTURED_WALL);
+    bench.write("checks.png", checks());
+    for structure in ["bvh", "grid", "none"] {
+        let name = format!("{structure}.exr");
+        let arguments = ["scene.json", "-o", &name, "--size", "60x50", "--accel", structure];
+        bench.make(&arguments, b"");
+    }
+    assert_eq!(bench.read("grid.exr"), bench.read("bvh.exr"));
+    assert_eq!(bench.read("none.exr"), bench.read("bvh.exr"));
+}
+
+#[test]
 fn only_tables_that_a_surface_shows_are_built() {
     let without = Bench::with_scene(WALL);
     assert_eq!(stats(&without, &["--filter", "tent"])["tables"], 0);
@@ -162,6 +175,8 @@ fn stats_say_what_the_picture_cost() {
     for none in ["reflected_rays", "refracted_rays", "shadow_rays", "not_finite"] {
         assert_eq!(stats[none], 0, "{none}");
     }
+    // The wall stands apart, and nothing else needs a structure.
+    assert_eq!(stats["accel_bytes"], 0);
     for stage in ["read", "accel", "table", "picture", "write"] {
         assert!(stats[format!("{stage}_seconds")].is_f64(), "{stage}");
     }
@@ -192,6 +207,7 @@ fn bad_flags_end_with_2_and_name_the_flag() {
         ["--gamma", "rec709"],
         ["--filter", "gauss"],
         ["--format", "jpg"],
+        ["--accel", "octree"],
         ["--mesh", "wall"],
         ["--mesh", "=wall.obj"],
         ["--mesh", "wall="],

@@ -1,17 +1,20 @@
 //! A bounding volume hierarchy, built by obvhs and walked here.
 //!
-//! The library builds a binary tree (PLOC with reinsertion) over boxes rounded outward to `f32`.
-//! The walk tests those boxes in `f64` and a hair generously, so that no primitive is lost to
-//! rounding; what is hit is decided elsewhere, by one function for every structure.
+//! The library builds a binary tree (PLOC with reinsertion). For the walk the boxes of two siblings
+//! lie in one cache line as `f32`, counted from the middle of the tree, and are tested together.
 //!
-//! The triangle test works on coordinates relative to the ray's origin and is off by their
-//! rounding, so a ray that misses a box by that much may still hit what is in it. Boxes are
-//! therefore widened, for each ray, by a bound on it.
+//! **Nothing missed.** [`SlabRay::crosses`] decides in `f64` which boxes a ray crosses. The test in
+//! `f32` lets through all of those: the ray is first moved to where it enters the whole tree, so
+//! that everything is as small as the tree, and boxes are widened by more than the roundings. With
+//! `h` the tree's largest coordinate and in units of `2^-24 h` these are 1 for the start, 1 for
+//! moving it by the widening, 2 for its distance from a plane, 4 for the product with the inverse:
+//! 8 of about 17 that are given. Those of `f64` are added as parts of their scale.
 
-use glam::{DVec3, Vec3A};
+use super::slabs::SlabRay;
+use glam::{DVec3, Vec3A, Vec4, Vec4Swizzles};
 use obvhs::aabb::Aabb;
+use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::leaf_collapser::collapse;
-use obvhs::bvh2::node::Bvh2Node;
 use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
 use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 
@@ -21,58 +24,97 @@ use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 /// which tests are made to do.
 const STACK: usize = if cfg!(test) { 2 } else { 24 };
 
-/// A tree over boxes; the leaves name them by index.
+/// A tree over boxes, which are renumbered in the tree's order.
 #[derive(Debug)]
 pub struct Bvh {
-    nodes: Vec<Bvh2Node>,
-    order: Vec<u32>,
-    /// The largest coordinate of any box, without its sign.
-    extent: f64,
+    bounds: [DVec3; 2],
+    /// The middle of the tree, from which its boxes count.
+    middle: DVec3,
+    /// The largest coordinate of any box, from the middle and without its sign.
+    half: f64,
+    root: Child,
+    pairs: Vec<Pair>,
 }
 
-/// A ray prepared for the box tests of one tree.
+/// Two siblings: along each axis the lower sides of both boxes and then the upper ones.
 #[derive(Debug, Clone, Copy)]
-struct BoxRay {
-    /// The origin moved up and down by the widening, which is the same as widening every box.
-    above: DVec3,
-    below: DVec3,
-    inverse: DVec3,
+struct Pair {
+    x: Vec4,
+    y: Vec4,
+    z: Vec4,
+    children: [Child; 2],
 }
 
-impl BoxRay {
-    fn new(origin: DVec3, direction: DVec3, extent: f64) -> Self {
-        // A zero component becomes a huge finite inverse: no product is NaN, even on a box's face.
-        let invert = |d: f64| if d.abs() > 1e-300 { 1.0 / d } else { 1e300f64.copysign(d) };
-        let inverse = DVec3::new(invert(direction.x), invert(direction.y), invert(direction.z));
-        // Shearing rounds each coordinate four times; twice that, and the box test's own three.
-        let widening = 16.0 * f64::EPSILON * (origin.abs().max_element() + extent);
-        Self { above: origin + widening, below: origin - widening, inverse }
+/// A node without its box.
+#[derive(Debug, Clone, Copy, Default)]
+struct Child {
+    /// Its first box, or where its own children are.
+    first: u32,
+    /// How many boxes it has; 0 for children.
+    count: u32,
+}
+
+/// A ray prepared for the tests of one tree.
+#[derive(Debug, Clone, Copy)]
+struct PairRay {
+    /// Where the ray enters the tree; distances count from here.
+    start: f64,
+    x: Vec4,
+    y: Vec4,
+    z: Vec4,
+    inverse: [Vec4; 3],
+}
+
+impl PairRay {
+    fn new(tree: &Bvh, ray: &SlabRay, start: f64) -> Self {
+        let widening = (1e-6 * tree.half + 64.0 * f64::EPSILON * ray.scale) as f32 + 1e-37;
+        let place = ray.origin + start * ray.direction - tree.middle;
+        let sides = |axis: usize| {
+            let place = place[axis].clamp(f64::from(f32::MIN), f64::from(f32::MAX)) as f32;
+            let (above, below) = (place + widening, place - widening);
+            Vec4::new(above, above, below, below)
+        };
+        // Where this cuts, the ray stays on one side of all planes in the tree.
+        let inverse = ray.inverse.clamp(DVec3::splat(-1e30), DVec3::splat(1e30)).as_vec3();
+        let inverse = inverse.to_array().map(Vec4::splat);
+        Self { start, x: sides(0), y: sides(1), z: sides(2), inverse }
     }
 
-    /// Where the ray enters the box, if that is before `t_max`.
-    fn enters(&self, bounds: &Aabb, t_max: f64) -> Option<f64> {
-        let low = (bounds.min.as_dvec3() - self.above) * self.inverse;
-        let high = (bounds.max.as_dvec3() - self.below) * self.inverse;
-        let enter = low.min(high).max_element().max(0.0);
-        let leave = low.max(high).min_element();
-        (enter <= leave && enter <= t_max).then_some(enter)
+    /// A distance of the ray as one in the tree, not less.
+    fn distance(&self, t: f64) -> f32 {
+        ((t - self.start) as f32).next_up()
+    }
+
+    /// For both siblings where the ray enters, and whether it does before `t_max`.
+    #[inline]
+    fn enters(&self, pair: &Pair, t_max: f32) -> ([f32; 2], [bool; 2]) {
+        let x = (pair.x - self.x) * self.inverse[0];
+        let y = (pair.y - self.y) * self.inverse[1];
+        let z = (pair.z - self.z) * self.inverse[2];
+        // Upper sides come first where the ray goes down.
+        let (a, b, c) = (x.zwxy(), y.zwxy(), z.zwxy());
+        let enter = x.min(a).max(y.min(b)).max(z.min(c)).max(Vec4::ZERO);
+        let leave = x.max(a).min(y.max(b)).min(z.max(c)).min(Vec4::splat(t_max));
+        let met = enter.cmple(leave).bitmask();
+        ([enter.x, enter.y], [met & 1 != 0, met & 2 != 0])
     }
 }
 
 impl Bvh {
-    /// A tree over boxes given as lower and upper corners; nothing for no boxes.
+    /// A tree over boxes given as lower and upper corners, and the boxes' numbers in its order;
+    /// nothing for no boxes.
     #[must_use]
-    pub fn build(boxes: &[[DVec3; 2]]) -> Option<Self> {
-        if boxes.is_empty() {
-            return None;
-        }
+    pub fn build(boxes: &[[DVec3; 2]]) -> Option<(Self, Vec<u32>)> {
+        let bounds = boxes.iter().copied().reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])?;
+        let middle = 0.5 * (bounds[0] + bounds[1]);
+        let half = (bounds[0] - middle).abs().max((bounds[1] - middle).abs()).max_element();
         let boxes: Vec<Aabb> = boxes
             .iter()
-            .map(|[low, high]| Aabb { min: round_down(*low), max: round_up(*high) })
+            .map(|[low, high]| Aabb {
+                min: round_down(*low - middle),
+                max: round_up(*high - middle),
+            })
             .collect();
-        let extent = boxes.iter().fold(0.0, |extent: f32, bounds| {
-            extent.max(bounds.min.abs().max(bounds.max.abs()).max_element())
-        });
         let indices = (0..boxes.len() as u32).collect();
         let mut tree = PlocBuilder::with_capacity(boxes.len()).build(
             PlocSearchDistance::Medium,
@@ -86,80 +128,119 @@ impl Bvh {
         optimizer.run(&mut tree, 0.05, None);
         collapse(&mut tree, 4, 3.0);
         optimizer.run(&mut tree, 0.1, None);
-        Some(Self { nodes: tree.nodes, order: tree.primitive_indices, extent: f64::from(extent) })
+        let (root, pairs, order) = laid_out(&tree);
+        Some((Self { bounds, middle, half, root, pairs }, order))
+    }
+
+    /// Memory in bytes.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        size_of_val(&*self.pairs)
     }
 
     /// Gives `visit` every box that the ray may meet within `t_max`, nearer ones first as far as
     /// the tree tells; `visit` takes the current `t_max` and returns the one to go on with.
-    pub fn walk(
-        &self,
-        origin: DVec3,
-        direction: DVec3,
-        t_max: f64,
-        mut visit: impl FnMut(u32, f64) -> f64,
-    ) {
-        let ray = BoxRay::new(origin, direction, self.extent);
-        if ray.enters(&self.nodes[0].aabb, t_max).is_some() {
-            self.walk_from(0, &ray, t_max, &mut visit);
+    pub fn walk(&self, ray: &SlabRay, t_max: f64, mut visit: impl FnMut(u32, f64) -> f64) {
+        if let Some([enter, _]) = ray.crosses(self.bounds).filter(|[enter, _]| *enter <= t_max) {
+            self.walk_from(self.root, &PairRay::new(self, ray, enter), t_max, &mut visit);
         }
     }
 
     fn walk_from(
         &self,
-        start: u32,
-        ray: &BoxRay,
+        start: Child,
+        ray: &PairRay,
         mut t_max: f64,
         visit: &mut impl FnMut(u32, f64) -> f64,
     ) -> f64 {
-        let nodes = &self.nodes;
-        let mut waiting = [(0u32, 0.0f64); STACK];
+        let mut limit = ray.distance(t_max);
+        let mut waiting = [(Child::default(), 0.0f32); STACK];
         let mut count = 0;
-        let mut next = Some(start);
-        loop {
-            let Some(current) = next.take() else {
-                // The nearest node that still matters.
-                loop {
-                    if count == 0 {
-                        return t_max;
-                    }
-                    count -= 1;
-                    let (node, enter) = waiting[count];
-                    if enter <= t_max {
-                        next = Some(node);
-                        break;
-                    }
+        let mut current = start;
+        'nodes: loop {
+            if current.count > 0 {
+                for place in current.first..current.first + current.count {
+                    t_max = visit(place, t_max);
                 }
-                continue;
-            };
-            let node = &nodes[current as usize];
-            let first = node.first_index;
-            if node.is_leaf() {
-                for slot in first..first + node.prim_count {
-                    t_max = visit(self.order[slot as usize], t_max);
-                }
-                continue;
-            }
-            let enters = |child: u32| ray.enters(&nodes[child as usize].aabb, t_max);
-            let (near, far) = match (enters(first), enters(first + 1)) {
-                (None, None) => continue,
-                (Some(_), None) => (first, None),
-                (None, Some(_)) => (first + 1, None),
-                (Some(a), Some(b)) if a <= b => (first, Some((first + 1, b))),
-                (Some(a), Some(_)) => (first + 1, Some((first, a))),
-            };
-            next = Some(near);
-            if let Some(far) = far {
-                if count == STACK {
-                    // A tree deeper than the stack: finish the near side first.
-                    t_max = self.walk_from(near, ray, t_max, visit);
-                    next = Some(far.0);
-                } else {
-                    waiting[count] = far;
-                    count += 1;
+                limit = ray.distance(t_max);
+            } else {
+                let pair = &self.pairs[current.first as usize];
+                let (enter, met) = ray.enters(pair, limit);
+                let [a, b] = pair.children;
+                match met {
+                    [false, false] => {}
+                    [true, false] => {
+                        current = a;
+                        continue;
+                    }
+                    [false, true] => {
+                        current = b;
+                        continue;
+                    }
+                    [true, true] => {
+                        let (near, far) = if enter[0] <= enter[1] {
+                            (a, (b, enter[1]))
+                        } else {
+                            (b, (a, enter[0]))
+                        };
+                        if count < STACK {
+                            waiting[count] = far;
+                            count += 1;
+                            current = near;
+                        } else {
+                            // A tree deeper than the stack: finish the near side first.
+                            t_max = self.walk_from(near, ray, t_max, visit);
+                            limit = ray.distance(t_max);
+                            current = far.0;
+                        }
+                        continue;
+                    }
                 }
             }
+            // The nearest node that still matters.
+            while count > 0 {
+                count -= 1;
+                let (node, enter) = waiting[count];
+                if enter <= limit {
+                    current = node;
+                    continue 'nodes;
+                }
+            }
+            return t_max;
         }
     }
+}
+
+/// The nodes in pairs, parents first, and the boxes' numbers in the order of the leaves.
+fn laid_out(tree: &Bvh2) -> (Child, Vec<Pair>, Vec<u32>) {
+    let mut pairs: Vec<Pair> = Vec::with_capacity(tree.nodes.len() / 2);
+    let mut order = Vec::with_capacity(tree.primitive_indices.len());
+    let mut root = Child::default();
+    // Nodes, and which child of which pair they are.
+    let mut open = vec![(0u32, None)];
+    while let Some((number, parent)) = open.pop() {
+        let node = &tree.nodes[number as usize];
+        let first = node.first_index;
+        let child = if node.is_leaf() {
+            let slots = first as usize..(first + node.prim_count) as usize;
+            let start = order.len() as u32;
+            order.extend(&tree.primitive_indices[slots]);
+            Child { first: start, count: node.prim_count }
+        } else {
+            let [a, b] = [first, first + 1].map(|child| tree.nodes[child as usize].aabb);
+            let sides = |axis: usize| Vec4::new(a.min[axis], b.min[axis], a.max[axis], b.max[axis]);
+            let place = pairs.len();
+            let children = [Child::default(); 2];
+            pairs.push(Pair { x: sides(0), y: sides(1), z: sides(2), children });
+            open.extend([(first + 1, Some((place, 1))), (first, Some((place, 0)))]);
+            Child { first: place as u32, count: 0 }
+        };
+        match parent {
+            Some((pair, which)) => pairs[pair].children[which] = child,
+            None => root = child,
+        }
+    }
+    (root, pairs, order)
 }
 
 fn round_down(v: DVec3) -> Vec3A {

@@ -1,8 +1,15 @@
 //! Finds what a ray hits.
 //!
 //! A few shapes stand apart and are tried one by one: planes, which have no box, and shapes so
-//! large beside the rest (a floor under a vase) that they would spoil a tree. All others are
-//! leaves of one tree of boxes. One function, `Accel::try_piece`, decides for both.
+//! large beside the rest (a floor under a vase) that they would spoil any structure. All others are
+//! leaves of a [`Structure`]: one tree of boxes, or the thesis's grids, or none. One function,
+//! `Accel::try_piece`, decides for all, and one rule, [`Hit::before`], says which hit is seen.
+//!
+//! So that all structures see the same to the last bit, a hit lies where the ray crosses the box of
+//! its piece, widened by the roundings of the hit function (`Accel::meet`). A structure then has to
+//! give every piece whose box the ray crosses before the nearest hit, and needs to know no more.
+//! Where the arithmetic is sound this changes nothing; it holds triangles that are seen edge on,
+//! whose distance is all rounding, to a place where they are.
 //!
 //! A ray that leaves a surface does not hit it again at its start, nor any surface that coincides
 //! with it there: those whose distance from the start, measured across the surface, is less than
@@ -10,13 +17,20 @@
 //! as the ray becomes flat. There is no epsilon in units of length, so a scene may be of any size.
 //! An eye on a surface sees past it by the same rule.
 
+mod brute;
 mod bvh;
+mod grid;
+mod slabs;
 
 use crate::ray::{Hit, Piece, Ray};
-use crate::shape::triangle::ShearedRay;
+use crate::shape::triangle::{self, ShearedRay};
 use crate::shape::{Shape, Start, SurfacePoint};
+use brute::Brute;
 use bvh::Bvh;
 use glam::DVec3;
+use grid::Grids;
+use serde::Deserialize;
+use slabs::SlabRay;
 
 /// A shape is outsized when its box is longer than this part of the box around everything.
 ///
@@ -39,18 +53,43 @@ const ROUNDINGS: f64 = 64.0;
 /// not seen from a unit above it.
 const EYE_ROUNDINGS: f64 = 4.0;
 
+/// What finds the pieces that a ray may meet. All give the same picture, byte for byte.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Structure {
+    /// One tree of boxes, a bounding volume hierarchy.
+    #[default]
+    Bvh,
+    /// The thesis's uniform grid for each object (5.2).
+    Grid,
+    /// None: every ray tries every piece.
+    None,
+}
+
 /// The shapes of a scene, ready for rays.
 #[derive(Debug)]
 pub struct Accel<'a> {
     shapes: Vec<&'a Shape>,
     apart: Vec<Piece>,
-    tree: Option<Bvh>,
+    index: Index,
     leaves: Vec<Leaf>,
+    /// The boxes of shapes that are one piece; none for meshes and for planes.
+    bounds: Vec<Option<[DVec3; 2]>>,
     /// The largest coordinate that each shape's points are computed from, without its sign.
     extents: Vec<f64>,
+    /// The largest of them.
+    extent: f64,
 }
 
-/// A leaf of the tree: which piece, and for a triangle its corners, kept near each other.
+/// A structure over the leaves.
+#[derive(Debug)]
+enum Index {
+    Tree(Option<Bvh>),
+    Grids(Grids),
+    All(Brute),
+}
+
+/// Which piece, and for a triangle its corners, kept near each other.
 #[derive(Debug, Clone, Copy)]
 struct Leaf {
     piece: Piece,
@@ -60,18 +99,23 @@ struct Leaf {
 impl<'a> Accel<'a> {
     /// Gets the shapes ready; the index of a shape becomes [`Piece::object`].
     #[must_use]
-    pub fn build(shapes: Vec<&'a Shape>) -> Self {
+    pub fn build(shapes: Vec<&'a Shape>, structure: Structure) -> Self {
         let mut apart = Vec::new();
         let mut bounded: Vec<(Leaf, [DVec3; 2])> = Vec::new();
+        let mut bounds = vec![None; shapes.len()];
         for (object, shape) in shapes.iter().enumerate() {
             let piece = Piece { object: object as u32, triangle: 0 };
             let leaf = Leaf { piece, corners: [[0.0; 3]; 3] };
+            bounds[object] = match shape {
+                Shape::Mesh(_) => None,
+                _ => shape.bounds(),
+            };
             match shape {
                 Shape::Mesh(mesh) => bounded.extend((0..mesh.triangles.len() as u32).map(|n| {
                     let piece = Piece { triangle: n, ..piece };
                     (Leaf { piece, corners: mesh.corners(n) }, mesh.bounds(n))
                 })),
-                _ => match shape.bounds() {
+                _ => match bounds[object] {
                     Some(bounds) => bounded.push((leaf, bounds)),
                     None => apart.push(piece),
                 },
@@ -90,9 +134,36 @@ impl<'a> Accel<'a> {
             }
             !outsized
         });
-        let (leaves, boxes): (Vec<Leaf>, Vec<[DVec3; 2]>) = bounded.into_iter().unzip();
-        let extents = shapes.iter().map(|shape| shape.extent()).collect();
-        Self { shapes, apart, tree: Bvh::build(&boxes), leaves, extents }
+        let (mut leaves, boxes): (Vec<Leaf>, Vec<[DVec3; 2]>) = bounded.into_iter().unzip();
+        let index = match structure {
+            Structure::Bvh => Index::Tree(Bvh::build(&boxes).map(|(tree, order)| {
+                leaves = order.into_iter().map(|leaf| leaves[leaf as usize]).collect();
+                tree
+            })),
+            Structure::Grid => {
+                let object = |a: &Leaf, b: &Leaf| a.piece.object == b.piece.object;
+                let ranges = leaves.chunk_by(object).scan(0, |end, leaves| {
+                    let start = std::mem::replace(end, *end + leaves.len() as u32);
+                    Some(start..*end)
+                });
+                Index::Grids(Grids::build(&boxes, &ranges.collect::<Vec<_>>()))
+            }
+            Structure::None => Index::All(Brute { pieces: leaves.len() as u32 }),
+        };
+        let extents: Vec<f64> = shapes.iter().map(|shape| shape.extent()).collect();
+        let extent = extents.iter().copied().fold(0.0, f64::max);
+        Self { shapes, apart, index, leaves, bounds, extents, extent }
+    }
+
+    /// Memory in bytes: the structure, and the copies of triangles that it leads to.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        let index = match &self.index {
+            Index::Tree(tree) => tree.as_ref().map_or(0, Bvh::bytes),
+            Index::Grids(grids) => grids.bytes(),
+            Index::All(_) => 0,
+        };
+        index + size_of_val(&*self.leaves)
     }
 
     /// The hit that is seen: the nearest, and of equally near ones the first by [`Piece`].
@@ -136,26 +207,57 @@ impl<'a> Accel<'a> {
     /// Shows `see` hits up to the distance it last returned, which starts as `t_max`.
     fn walk(&self, ray: &Ray, t_max: f64, mut see: impl FnMut(Hit) -> f64) {
         let sheared = ShearedRay::new(ray.origin, ray.direction);
+        let slabs = SlabRay::new(ray.origin, ray.direction, self.extent);
         let mut t_max = t_max;
         for &piece in &self.apart {
             let corners = match self.shapes[piece.object as usize] {
                 Shape::Mesh(mesh) => mesh.corners(piece.triangle),
                 _ => [[0.0; 3]; 3],
             };
-            if let Some(hit) = self.try_piece(ray, &sheared, &Leaf { piece, corners }, t_max) {
+            if let Some(hit) = self.meet(ray, &sheared, &slabs, &Leaf { piece, corners }, t_max) {
                 t_max = see(hit);
             }
         }
-        if let Some(tree) = &self.tree {
-            tree.walk(ray.origin, ray.direction, t_max, |leaf, t_max| {
-                let hit = self.try_piece(ray, &sheared, &self.leaves[leaf as usize], t_max);
-                hit.map_or(t_max, &mut see)
-            });
+        let visit = |leaf: u32, t_max: f64| {
+            let hit = self.meet(ray, &sheared, &slabs, &self.leaves[leaf as usize], t_max);
+            hit.map_or(t_max, &mut see)
+        };
+        match &self.index {
+            Index::Tree(Some(tree)) => tree.walk(&slabs, t_max, visit),
+            Index::Tree(None) => {}
+            Index::Grids(grids) => grids.walk(&slabs, t_max, visit),
+            Index::All(brute) => brute.walk(t_max, visit),
         }
     }
 
-    /// The one hit function: the hit of `ray` with one piece, with `t` in `(0, t_max]`.
-    fn try_piece(&self, ray: &Ray, sheared: &ShearedRay, leaf: &Leaf, t_max: f64) -> Option<Hit> {
+    /// The hit of `ray` with one piece where the ray crosses the piece's widened box, with `t` in
+    /// `(0, t_max]`. Whether there is one, and where, does not depend on `t_max`.
+    fn meet(
+        &self,
+        ray: &Ray,
+        sheared: &ShearedRay,
+        slabs: &SlabRay,
+        leaf: &Leaf,
+        t_max: f64,
+    ) -> Option<Hit> {
+        let hit = self.try_piece(ray, sheared, leaf)?;
+        let object = hit.piece.object as usize;
+        let bounds = match self.shapes[object] {
+            Shape::Mesh(_) => Some(triangle::bounds(&leaf.corners)),
+            _ => self.bounds[object],
+        };
+        let t = match bounds {
+            Some(bounds) => {
+                let [enter, leave] = slabs.crosses(bounds)?;
+                hit.t.clamp(enter, leave)
+            }
+            None => hit.t,
+        };
+        (t > 0.0 && t <= t_max).then_some(Hit { t, ..hit })
+    }
+
+    /// The one hit function: the hit of `ray` with one piece, with `t` above 0.
+    fn try_piece(&self, ray: &Ray, sheared: &ShearedRay, leaf: &Leaf) -> Option<Hit> {
         let piece = leaf.piece;
         // What lies this near to the start is the surface that the ray leaves, or coincides with it;
         // or the eye is on it, and sees past it.
@@ -169,7 +271,7 @@ impl<'a> Accel<'a> {
         let hit = match self.shapes[piece.object as usize] {
             Shape::Mesh(_) if ray.leaving == Some(piece) => return None,
             Shape::Mesh(_) => {
-                let (t, barycentric) = sheared.intersect(&leaf.corners, t_max)?;
+                let (t, barycentric) = sheared.intersect(&leaf.corners, f64::INFINITY)?;
                 if sheared.starts_on(&leaf.corners, skin()) {
                     return None;
                 }
@@ -182,106 +284,64 @@ impl<'a> Accel<'a> {
                 Hit { t, piece: Piece { triangle: face, ..piece }, barycentric: [0.0; 2] }
             }
         };
-        (hit.t <= t_max).then_some(hit)
+        Some(hit)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shape::mesh::{Mesh, NONE, Triangle};
-    use crate::shape::{Quad, Sphere};
-    use glam::DVec2;
     use proptest::prelude::*;
-
-    /// A scene of everything: a triangle soup, spheres, a floor that stands apart.
-    fn soup(corners: &[[[f32; 3]; 3]]) -> Vec<Shape> {
-        let mut mesh = Mesh { surfaces: vec![String::new()], ..Mesh::default() };
-        for corner in corners {
-            let first = mesh.positions.len() as u32;
-            mesh.positions.extend(corner);
-            mesh.triangles.push(Triangle {
-                position: [first, first + 1, first + 2],
-                uv: [NONE; 3],
-                normal: [NONE; 3],
-                surface: 0,
-            });
-        }
-        let floor = Quad::new(
-            DVec3::new(-1e3, -1.0, -1e3),
-            DVec3::new(0.0, 0.0, 2e3),
-            DVec3::new(2e3, 0.0, 0.0),
-            DVec2::ONE,
-            true,
-        );
-        let sphere = |x: f64| Shape::Sphere(Sphere { center: DVec3::splat(x), radius: 0.3 });
-        vec![Shape::Mesh(mesh), Shape::Quad(floor.unwrap()), sphere(0.2), sphere(-0.4)]
-    }
-
-    /// The nearest hit by trying every piece.
-    fn brute_force(accel: &Accel<'_>, ray: &Ray) -> Option<Hit> {
-        let sheared = ShearedRay::new(ray.origin, ray.direction);
-        let mut best: Option<Hit> = None;
-        for (object, shape) in accel.shapes.iter().enumerate() {
-            let count = if let Shape::Mesh(mesh) = shape { mesh.triangles.len() } else { 1 };
-            for triangle in 0..count as u32 {
-                let piece = Piece { object: object as u32, triangle };
-                let corners = match shape {
-                    Shape::Mesh(mesh) => mesh.corners(triangle),
-                    _ => [[0.0; 3]; 3],
-                };
-                let leaf = Leaf { piece, corners };
-                if let Some(hit) = accel.try_piece(ray, &sheared, &leaf, f64::INFINITY)
-                    && best.is_none_or(|best| hit.before(&best))
-                {
-                    best = Some(hit);
-                }
-            }
-        }
-        best
-    }
-
-    /// Coordinates from a coarse lattice meet each other often: shared corners, flat triangles.
-    fn corner() -> impl Strategy<Value = [f32; 3]> {
-        prop::array::uniform3((-4i8..=4).prop_map(|k| f32::from(k) * 0.25))
-    }
-
-    proptest! {
-        #[test]
-        fn the_tree_sees_what_brute_force_sees(
-            corners in prop::collection::vec(prop::array::uniform3(corner()), 1..60),
-            eye in corner(), toward in corner(),
-        ) {
-            let eye = DVec3::new(f64::from(eye[0]), f64::from(eye[1]), 3.0 + f64::from(eye[2]));
-            let toward = DVec3::new(f64::from(toward[0]), f64::from(toward[1]), f64::from(toward[2]));
-            let shapes = soup(&corners);
-            let accel = Accel::build(shapes.iter().collect());
-            prop_assert!(!accel.apart.is_empty(), "the floor stands apart");
-            let ray = Ray::from_eye(eye, (toward - eye).normalize());
-            let (found, truth) = (accel.nearest(&ray), brute_force(&accel, &ray));
-            prop_assert_eq!(found.map(|h| (h.t, h.piece)), truth.map(|h| (h.t, h.piece)));
-        }
-    }
-
-    #[test]
-    fn a_thousand_coincident_triangles_are_one_hit_the_first() {
-        let corners = [[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]; 1000];
-        let shapes = soup(&corners);
-        let accel = Accel::build(shapes.iter().take(1).collect());
-        let ray = Ray::from_eye(DVec3::new(0.2, 0.2, 1.0), DVec3::NEG_Z);
-        let hit = accel.nearest(&ray).unwrap();
-        assert_eq!(hit.piece, Piece { object: 0, triangle: 0 });
-        let mut count = 0;
-        accel.all_before(&ray, 2.0, |_| {
-            count += 1;
-            true
-        });
-        assert_eq!(count, 1000);
-    }
 
     #[test]
     fn an_empty_scene_has_no_hits() {
         let ray = Ray::from_eye(DVec3::ZERO, DVec3::X);
-        assert!(Accel::build(vec![]).nearest(&ray).is_none());
+        for structure in [Structure::Bvh, Structure::Grid, Structure::None] {
+            assert!(Accel::build(vec![], structure).nearest(&ray).is_none());
+        }
+    }
+
+    fn place() -> impl Strategy<Value = DVec3> {
+        prop::array::uniform3(-4i8..=4).prop_map(|p| DVec3::from(p.map(|k| f64::from(k) * 0.25)))
+    }
+
+    proptest! {
+        /// What the structures promise, without any hit function: the boxes that a ray crosses
+        /// before `t_max`, and no box twice.
+        #[test]
+        fn every_box_that_a_ray_crosses_is_given_once(
+            boxes in prop::collection::vec((place(), place()), 1..200),
+            origin in place(), toward in place(), near in any::<bool>(),
+            nudge in prop::sample::select(vec![0.0, 1e-16, -1e-16, 1e-9]),
+        ) {
+            let boxes: Vec<_> = boxes.into_iter().map(|(a, b)| {
+                // Small ones, many of them flat.
+                let b = a + 0.25 * (b - a);
+                [a.min(b), a.max(b)]
+            }).collect();
+            let t_max = if near { 0.75 } else { f64::INFINITY };
+            let direction = (toward - origin + nudge).normalize_or(DVec3::NEG_X);
+            let ray = SlabRay::new(origin, direction, 2.0);
+            let crossed = |piece: &[DVec3; 2]| ray.crosses(*piece).is_some_and(|at| at[0] <= t_max);
+            let half = boxes.len() as u32 / 2;
+            let ranges = [0..half, half..boxes.len() as u32];
+            let [mut by_tree, mut by_grids] = [vec![0; boxes.len()], vec![0; boxes.len()]];
+            let (tree, order) = Bvh::build(&boxes).unwrap();
+            tree.walk(&ray, t_max, |place, t_max| {
+                by_tree[order[place as usize] as usize] += 1;
+                t_max
+            });
+            let objects: Vec<_> = ranges.into_iter().filter(|range| !range.is_empty()).collect();
+            Grids::build(&boxes, &objects).walk(&ray, t_max, |piece, t_max| {
+                by_grids[piece as usize] += 1;
+                t_max
+            });
+            for (k, piece) in boxes.iter().enumerate() {
+                for given in [&by_tree, &by_grids] {
+                    prop_assert!(given[k] <= 1, "box {} was given {} times", k, given[k]);
+                    prop_assert!(given[k] == 1 || !crossed(piece), "box {} was missed", k);
+                }
+            }
+        }
     }
 }

@@ -4,10 +4,14 @@ use super::UseError;
 use clap::builder::TypedValueParser;
 use clap::{Args, ValueEnum};
 use files::exit::say;
+use render::accel::Structure;
 use render::stats::Stats;
 
 #[derive(Debug, Args)]
 pub struct WorkArguments {
+    /// What finds the surfaces that rays hit; the picture is the same
+    #[arg(long, value_name = "STRUCTURE", default_value = "bvh")]
+    accel: AccelName,
     /// Worker threads, 1 to 1024 [default: one for each core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024).map(usize::from))]
     threads: Option<usize>,
@@ -20,6 +24,16 @@ pub struct WorkArguments {
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
+enum AccelName {
+    /// A tree of boxes, the fastest
+    Bvh,
+    /// A uniform grid for each object, as in the thesis
+    Grid,
+    /// Nothing: every ray tries every triangle
+    None,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
 enum StatsForm {
     /// A table
     Text,
@@ -28,6 +42,14 @@ enum StatsForm {
 }
 
 impl WorkArguments {
+    pub fn accel(&self) -> Structure {
+        match self.accel {
+            AccelName::Bvh => Structure::Bvh,
+            AccelName::Grid => Structure::Grid,
+            AccelName::None => Structure::None,
+        }
+    }
+
     pub fn pool(&self) -> Result<rayon::ThreadPool, UseError> {
         let threads = self.threads.unwrap_or(0);
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();

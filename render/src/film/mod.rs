@@ -21,7 +21,7 @@ pub use pattern::Pattern;
 pub use picture::Picture;
 pub use sampling::{MOST_SAMPLES, Nine, PixelFilter, Sampling};
 
-use crate::accel::Accel;
+use crate::accel::{Accel, Structure};
 use crate::filter::{Filter, FilteredTexture};
 use crate::scene::Scene;
 use crate::shade::Shader;
@@ -59,6 +59,8 @@ pub struct Settings {
     pub crop: Option<Crop>,
     /// What is kept besides the colour, in this order.
     pub layers: Vec<Layer>,
+    /// What finds the hits.
+    pub accel: Structure,
 }
 
 impl Settings {
@@ -66,7 +68,8 @@ impl Settings {
     #[must_use]
     pub fn new(width: u32, height: u32, filter: Filter) -> Self {
         let sampling = Sampling::regular(1);
-        Self { width, height, sampling, filter, crop: None, layers: Vec::new() }
+        let accel = Structure::default();
+        Self { width, height, sampling, filter, crop: None, layers: Vec::new(), accel }
     }
 
     /// The same with `samples * samples` rays in each pixel, evenly spread and of equal weight.
@@ -161,7 +164,8 @@ fn with_exposure<T>(
     work: impl FnOnce(&Exposure<'_>, Stats) -> T,
 ) -> T {
     let started = Instant::now();
-    let accel = Accel::build(scene.objects.iter().map(|object| &object.shape).collect());
+    let accel =
+        Accel::build(scene.objects.iter().map(|object| &object.shape).collect(), settings.accel);
     let accel_time = started.elapsed();
     let started = Instant::now();
     let shader = ready_shader(scene, &accel, settings.filter);
@@ -174,8 +178,16 @@ fn with_exposure<T>(
         settings,
     };
     let lattice_bytes = scene.procedural.lattice_bytes();
-    let stats =
-        Stats { accel_time, table_time, tables, table_bytes, lattice_bytes, ..Stats::default() };
+    let accel_bytes = accel.bytes() as u64;
+    let stats = Stats {
+        accel_time,
+        accel_bytes,
+        table_time,
+        tables,
+        table_bytes,
+        lattice_bytes,
+        ..Stats::default()
+    };
     work(&exposure, stats)
 }
 

@@ -1,6 +1,6 @@
 //! The triangle mesh, with the coordinates exactly as its file holds them.
 
-use super::{Placement, PlacementError, SurfacePoint};
+use super::{Placement, PlacementError, SurfacePoint, triangle};
 use glam::{DVec2, DVec3};
 use thiserror::Error;
 
@@ -190,8 +190,7 @@ impl Mesh {
     /// Lower and upper corner of a triangle's box.
     #[must_use]
     pub fn bounds(&self, triangle: u32) -> [DVec3; 2] {
-        let [a, b, c] = self.corners(triangle).map(as_dvec3);
-        [a.min(b).min(c), a.max(b).max(c)]
+        triangle::bounds(&self.corners(triangle))
     }
 }
 

@@ -81,6 +81,13 @@ impl ShearedRay {
     }
 }
 
+/// Lower and upper corner of a triangle's box.
+#[must_use]
+pub fn bounds(corners: &[[f32; 3]; 3]) -> [DVec3; 2] {
+    let [a, b, c] = corners.map(|corner| DVec3::from(corner.map(f64::from)));
+    [a.min(b).min(c), a.max(b).max(c)]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

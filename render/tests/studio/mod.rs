@@ -8,6 +8,7 @@ pub mod objects;
 use files::json::Document;
 use files::{FileError, Source};
 use image::{ImageFormat, Rgb, RgbImage};
+use render::accel::Structure;
 use render::filter::Filter;
 use render::scene::read;
 use render::{Picture, Scene, Settings};

@@ -1,0 +1,85 @@
+//! Rays against boxes along the axes.
+//!
+//! The hit function and every structure use this one test, and it is monotone: each step of it
+//! rounds, but rounding keeps order, so a ray crosses a box for at least as long as any box inside
+//! it. A structure therefore never loses a piece whose own box the ray crosses.
+//!
+//! The triangle test works on coordinates relative to the ray's origin and is off by their
+//! rounding, so a ray that misses a box by that much may still hit what is in it. Boxes are
+//! therefore widened, for each ray, by a bound on it.
+
+use glam::DVec3;
+
+/// A ray prepared for tests against boxes.
+#[derive(Debug, Clone, Copy)]
+pub struct SlabRay {
+    /// Where it starts.
+    pub origin: DVec3,
+    /// Where it goes; unit.
+    pub direction: DVec3,
+    /// One over the direction; where that is zero, huge and of its sign.
+    pub inverse: DVec3,
+    /// The largest coordinate of the origin and of all boxes together: what roundings are parts of.
+    pub scale: f64,
+    /// The origin moved up and down by the widening, which is the same as widening every box.
+    above: DVec3,
+    below: DVec3,
+}
+
+impl SlabRay {
+    /// Components of a direction up to this size are taken for zero: their inverse would overflow.
+    pub const ZERO: f64 = 1e-300;
+
+    /// The ray for boxes whose coordinates are `extent` at most, without their sign.
+    #[must_use]
+    pub fn new(origin: DVec3, direction: DVec3, extent: f64) -> Self {
+        // A zero component becomes a huge finite inverse: no product is NaN, even on a box's face.
+        let invert =
+            |d: f64| if d.abs() > Self::ZERO { 1.0 / d } else { Self::ZERO.recip().copysign(d) };
+        let inverse = DVec3::new(invert(direction.x), invert(direction.y), invert(direction.z));
+        let scale = origin.abs().max_element() + extent;
+        // Shearing rounds each coordinate four times; twice that, and the box test's own three.
+        let widening = 16.0 * f64::EPSILON * scale;
+        let (above, below) = (origin + widening, origin - widening);
+        Self { origin, direction, inverse, scale, above, below }
+    }
+
+    /// Where the ray enters the box and where it leaves it, from its start on; nothing if it does
+    /// not meet it.
+    #[must_use]
+    pub fn crosses(&self, [low, high]: [DVec3; 2]) -> Option<[f64; 2]> {
+        let low = (low - self.above) * self.inverse;
+        let high = (high - self.below) * self.inverse;
+        let enter = low.min(high).max_element().max(0.0);
+        let leave = low.max(high).min_element();
+        (enter <= leave).then_some([enter, leave])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_ray_along_a_face_crosses_the_box_whatever_the_sign_of_its_zeros() {
+        let unit = [DVec3::ZERO, DVec3::ONE];
+        for zero in [0.0, -0.0] {
+            for y in [0.0, -0.0, 0.5, 1.0] {
+                let ray = SlabRay::new(DVec3::new(-1.0, y, 1.0), DVec3::new(1.0, zero, zero), 1.0);
+                let [enter, leave] = ray.crosses(unit).unwrap();
+                assert!((enter - 1.0).abs() < 1e-14 && (leave - 2.0).abs() < 1e-14);
+            }
+            let beside = DVec3::new(-1.0, -1e-9, 0.5);
+            let ray = SlabRay::new(beside, DVec3::new(1.0, zero, zero), 1.0);
+            assert_eq!(ray.crosses(unit), None);
+        }
+    }
+
+    #[test]
+    fn a_box_behind_the_ray_is_not_crossed_and_one_around_it_is_entered_at_once() {
+        let behind = SlabRay::new(DVec3::new(3.0, 0.5, 0.5), DVec3::X, 1.0);
+        assert_eq!(behind.crosses([DVec3::ZERO, DVec3::ONE]), None);
+        let inside = SlabRay::new(DVec3::splat(0.25), DVec3::X, 1.0);
+        assert_eq!(inside.crosses([DVec3::ZERO, DVec3::ONE]).unwrap()[0], 0.0);
+    }
+}
