@@ -25,9 +25,9 @@ const ROOMS: [(&str, &[&str]); 14] = [
     ("ray", &[]),
     ("shape", &[]),
     ("texture", &["color"]),
-    ("scene", &["color", "ray", "shape", "texture"]),
+    ("scene", &["color", "optics", "ray", "shape", "texture"]),
     ("accel", &["ray", "shape"]),
-    ("trace", &["accel", "optics", "ray", "scene"]),
+    ("trace", &["accel", "color", "optics", "ray", "scene", "shape"]),
     ("footprint", &["shape", "trace"]),
     ("filter", &["color", "footprint", "texture"]),
     (

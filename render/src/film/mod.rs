@@ -19,6 +19,7 @@ use crate::shape::Shape;
 use crate::stats::Stats;
 use crate::trace::rows::RowWindow;
 use crate::trace::tree::IntersectionTree;
+use crate::trace::volume::Volumes;
 use crate::trace::{RayCounts, Tracer};
 use glam::DVec2;
 use rayon::prelude::*;
@@ -90,12 +91,13 @@ fn render_in_tiles(
     let accel_time = started.elapsed();
 
     let started = Instant::now();
-    let shader = ready_shader(scene, &accel, settings.filter);
+    let volumes = Volumes::of(scene);
+    let shader = ready_shader(scene, &accel, &volumes, settings.filter);
     let table_time = started.elapsed();
 
     let started = Instant::now();
     let exposure = Exposure {
-        tracer: Tracer { scene, accel: &accel },
+        tracer: Tracer::new(scene, &accel, &volumes),
         halo: settings.filter.wants_area() && shader.textures.iter().any(Option::is_some),
         shader,
         settings: *settings,
@@ -121,7 +123,12 @@ fn render_in_tiles(
 }
 
 /// Prepares the textures that surfaces show, and no others.
-fn ready_shader<'a>(scene: &'a Scene, accel: &'a Accel<'a>, filter: Filter) -> Shader<'a> {
+fn ready_shader<'a>(
+    scene: &'a Scene,
+    accel: &'a Accel<'a>,
+    volumes: &'a Volumes,
+    filter: Filter,
+) -> Shader<'a> {
     let mut shown = vec![false; scene.textures.len()];
     for surface in scene.objects.iter().flat_map(|object| &object.parts) {
         if let Some(texture) = surface.texture
@@ -149,7 +156,8 @@ fn ready_shader<'a>(scene: &'a Scene, accel: &'a Accel<'a>, filter: Filter) -> S
             Shape::Mesh(mesh) => mesh.seam(),
         })
         .collect();
-    Shader { scene, accel, textures, seams }
+    let around_lights = volumes.around_lights(scene, accel);
+    Shader { scene, accel, textures, seams, volumes, around_lights }
 }
 
 /// All that the tiles share.
@@ -261,7 +269,7 @@ impl Exposure<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Camera, Material, Object, PointLight, Surface};
+    use crate::scene::{Camera, Light, Material, Object, PointLight, Surface};
     use crate::shape::{Quad, Sphere};
     use crate::texture::{Texture, Wrap};
     use glam::{DAffine3, DVec3};
@@ -270,24 +278,14 @@ mod tests {
     fn scene() -> Scene {
         let texels = (0..64u16).map(|k| [k * 1000, 60000 - k * 900, (k % 8) * 8000]).collect();
         let texture = Texture { width: 8, height: 8, wrap: Wrap::Repeat, texels, white: u16::MAX };
-        let plain = Material {
-            color: Color::ONE,
-            ambient: 1.0,
-            diffuse: 0.5,
-            specular: 0.0,
-            shininess: 1.0,
-            reflectivity: 0.0,
-            transparency: 0.0,
-            index_of_refraction: 1.5,
-            fresnel: false,
-        };
+        let plain = Material { diffuse: 0.5, ..Material::default() };
         let glass = Material {
             ambient: 0.0,
             diffuse: 0.0,
             reflectivity: 1.0,
             transparency: 1.0,
             fresnel: true,
-            ..plain
+            ..Material::default()
         };
         let floor = Quad::new(DVec3::ZERO, DVec3::Z, DVec3::X, DVec2::ONE, false).unwrap();
         let ball = Sphere { center: DVec3::new(0.0, 1.2, 0.0), radius: 1.0 };
@@ -301,7 +299,11 @@ mod tests {
             camera: Camera::new(eye, DVec3::Y, DVec3::Y, 0.7).unwrap(),
             background: Color::splat(0.2),
             ambient: Color::splat(0.5),
-            lights: vec![PointLight { position: DVec3::new(3.0, 5.0, 4.0), color: Color::ONE }],
+            lights: vec![Light::Point(PointLight {
+                position: DVec3::new(3.0, 5.0, 4.0),
+                color: Color::ONE,
+                falloff: None,
+            })],
             materials: vec![plain, glass],
             textures: vec![texture],
             objects: vec![

@@ -39,6 +39,12 @@ impl Camera {
         Some(Self { eye, right, up: right.cross(forward), forward, half_height })
     }
 
+    /// Where it stands.
+    #[must_use]
+    pub fn eye(&self) -> DVec3 {
+        self.eye
+    }
+
     /// The ray through a place on a film of `size` pixels.
     #[must_use]
     pub fn ray(&self, place: DVec2, size: DVec2) -> Ray {

@@ -40,14 +40,27 @@
 //! | `ambient`, `diffuse` | shares of the ambient light and of the lights | 0 to 1 | 1, 0.9 |
 //! | `specular`, `shininess` | strength and Phong's exponent of the highlight | 0 to 1, 1 to 1e6 | 0, 50 |
 //! | `reflectivity`, `transparency` | weights of the mirrored and the refracted ray | 0 to 1 | 0 |
-//! | `index_of_refraction` | of the inside; outside is 1 | 0.1 to 10 | 1.5 |
+//! | `index_of_refraction` | of the inside; outside is what the ray was in, or 1 | 0.1 to 10 | 1.5 |
 //! | `fresnel` | whether those weights take Fresnel's share and its rest | true, false | false |
+//! | `absorption` | of the inside: a way `d` leaves `exp(-absorption d)` of the light | at least 0 | 0 |
+//! | `priority` | which of overlapping insides is there; of equals, the last entered | 0 to 255 | 0 |
+//! | `by_angle` | `[[degrees, colour], ...]`, by the angle between light and normal | 0 to 90 | none |
+//! | `thin_film` | such colours by interference: `thickness_nm`, `index`, `base_index` | 1 to 5000, 1 to 5 | none, 1.33, 1 |
+//!
+//! Spheres, planes (behind them) and closed meshes have an inside. They may contain and overlap each
+//! other, and the camera may stand in them. A rectangle or an open mesh has none: it absorbs
+//! nothing, and a ray that passes it is still in what it was in.
+//!
+//! A light is a `point` light or a `directional` one, whose `direction` is the way its light goes. A
+//! point light may fade: `"falloff": { "quadratic": 1, "reference": 4 }` is the inverse square with
+//! the light's colour at a distance of 4, in general `1 / (constant + linear x + quadratic x^2)` with
+//! `x = distance / reference`. Nothing is made brighter by it than a million times.
 //!
 //! `wrap` is `repeat` or `clamp`, `values` is `srgb` or `linear`; the first is the default. A texture fills a rectangle, or the unit square of a mesh's or sphere's
 //! texture coordinates; `repeat` lays it several times. Paths count from the scene file's folder.
 //!
 //! Where two surfaces coincide one of them is seen, the other is not behind it: leave a small gap
-//! between glass and what it stands on.
+//! between glass and what it stands on, and let water and the glass around it overlap a little.
 //!
 //! A mesh comes from `--mesh NAME=FILE`, or else from its own `"file"`. The surfaces of a mesh that
 //! `triangulate` made are named by a texture id and a surface id: `textures` binds texture ids to
@@ -61,8 +74,8 @@ mod object;
 mod texture;
 
 pub use color::ColorFile;
-pub use light::{LightFile, PointLightFile};
-pub use material::MaterialFile;
+pub use light::{DirectionalLightFile, FalloffFile, LightFile, PointLightFile};
+pub use material::{MaterialFile, ThinFilmFile};
 pub use object::{MeshFile, ObjectFile, PlaneFile, RectangleFile, SphereFile};
 pub use texture::TextureFile;
 

@@ -5,11 +5,13 @@ pub mod file;
 pub mod light;
 pub mod material;
 pub mod obj;
+pub mod ramp;
 pub mod read;
 
 pub use camera::Camera;
-pub use light::PointLight;
+pub use light::{DirectionalLight, Falloff, Light, PointLight};
 pub use material::Material;
+pub use ramp::AngleRamp;
 pub use read::{MeshSource, SceneError};
 
 use crate::color::Color;
@@ -26,8 +28,8 @@ pub struct Scene {
     pub background: Color,
     /// Light from everywhere.
     pub ambient: Color,
-    /// Lights at points.
-    pub lights: Vec<PointLight>,
+    /// Lights.
+    pub lights: Vec<Light>,
     /// What surfaces are made of.
     pub materials: Vec<Material>,
     /// Pictures on surfaces.

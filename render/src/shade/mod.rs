@@ -14,8 +14,9 @@ use crate::footprint::neighbours::Neighbourhood;
 use crate::optics;
 use crate::scene::{Material, Scene};
 use crate::shape::{SeamPeriod, Shape};
+use crate::trace::medium::Media;
 use crate::trace::tree::{Branch, Node};
-use shadow::transmission;
+use crate::trace::volume::Volumes;
 
 /// Shades the trees of one scene.
 #[derive(Debug)]
@@ -28,6 +29,10 @@ pub struct Shader<'a> {
     pub textures: Vec<Option<FilteredTexture<'a>>>,
     /// The seam of each object's texture coordinates.
     pub seams: Vec<SeamPeriod>,
+    /// The scene's volumes.
+    pub volumes: &'a Volumes,
+    /// The volumes that each light lies in.
+    pub around_lights: Vec<Media>,
 }
 
 /// How much work shading was.
@@ -56,22 +61,27 @@ impl Shader<'_> {
         self.textures.iter().flatten().map(|texture| texture.table_bytes() as u64).sum()
     }
 
-    /// The colour that comes along the middle branch.
+    /// The colour that comes to the eye.
     #[must_use]
     pub fn shade(&self, around: &Neighbourhood<'_>, counts: &mut ShadeCounts) -> Color {
+        around.through() * self.branch(around, counts)
+    }
+
+    /// The colour that the middle branch starts with.
+    fn branch(&self, around: &Neighbourhood<'_>, counts: &mut ShadeCounts) -> Color {
         let node = match (around.middle(), around.node()) {
             (Branch::Background, _) => return self.scene.background,
             (_, None) => return Color::ZERO,
             (_, Some(node)) => node,
         };
         let mut color = self.local(node, around, counts);
-        if node.reflect_weight > 0.0 {
+        if node.reflect_weight != Color::ZERO {
             let reflected = around.step(|node| node.reflected);
-            color += node.reflect_weight * self.shade(&reflected, counts);
+            color += node.reflect_weight * self.branch(&reflected, counts);
         }
-        if node.refract_weight > 0.0 {
+        if node.refract_weight != Color::ZERO {
             let refracted = around.step(|node| node.refracted);
-            color += node.refract_weight * self.shade(&refracted, counts);
+            color += node.refract_weight * self.branch(&refracted, counts);
         }
         color
     }
@@ -109,15 +119,15 @@ impl Shader<'_> {
             return sum;
         }
         let mirrored = optics::reflect(node.incident, node.normal);
-        for light in &self.scene.lights {
-            let toward = (light.position - node.position).normalize_or_zero();
+        for (light, around_light) in self.scene.lights.iter().zip(&self.around_lights) {
+            let toward = light.toward(node.position);
             let cosine = node.normal.dot(toward);
             if cosine <= 0.0 || node.geometric_normal.dot(toward) <= 0.0 {
                 continue;
             }
             counts.shadow += 1;
-            let reaching = transmission(self.scene, self.accel, node, light.position);
-            let light = reaching * light.color;
+            let reaching = self.transmission(node, light, around_light);
+            let light = reaching * light.arriving(node.position) * material.tint(cosine);
             sum.diffuse += material.diffuse * cosine * light;
             if material.specular > 0.0 {
                 let phong = mirrored.dot(toward).max(0.0).powf(material.shininess);

@@ -1,5 +1,6 @@
 //! The shapes of a scene, each in its own file, behind one closed enum.
 
+mod closed;
 pub mod mesh;
 pub mod quad;
 pub mod sphere;

@@ -81,6 +81,12 @@ impl Quad {
         self.corner
     }
 
+    /// The unit normal, on the side that is outside.
+    #[must_use]
+    pub fn normal(&self) -> DVec3 {
+        self.normal
+    }
+
     /// Lower and upper corner of its box; nothing for a whole plane.
     #[must_use]
     pub fn bounds(&self) -> Option<[DVec3; 2]> {

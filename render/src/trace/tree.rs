@@ -1,5 +1,6 @@
 //! The intersection tree of one ray from the eye (thesis figs. 4.2 and 4.3).
 
+use crate::color::Color;
 use crate::ray::Piece;
 use glam::{DVec2, DVec3};
 
@@ -19,6 +20,9 @@ pub const MOST_NODES: usize = (1 << 13) - 1;
 pub struct IntersectionTree {
     /// What the ray from the eye came to.
     pub root: Branch,
+    /// What the way from the eye to there leaves of the light; less than 1 where the eye is in
+    /// something that absorbs it.
+    pub through: Color,
     nodes: Vec<Node>,
 }
 
@@ -55,10 +59,10 @@ pub struct Node {
     pub reflected: Branch,
     /// What the refracted ray came to.
     pub refracted: Branch,
-    /// What the mirrored ray's light counts for.
-    pub reflect_weight: f64,
-    /// What the refracted ray's light counts for.
-    pub refract_weight: f64,
+    /// What the mirrored ray's light counts for in each channel, after what it lost on its way.
+    pub reflect_weight: Color,
+    /// What the refracted ray's light counts for, likewise.
+    pub refract_weight: Color,
 }
 
 impl Node {
@@ -73,6 +77,7 @@ impl IntersectionTree {
     /// Forgets all hits and keeps the memory.
     pub fn clear(&mut self) {
         self.root = Branch::Cut;
+        self.through = Color::ONE;
         self.nodes.clear();
     }
 
