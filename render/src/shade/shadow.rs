@@ -86,7 +86,7 @@ impl Shader<'_> {
             }
         }
         // Back from the light, as the light goes: what is around it is known.
-        let mut media = *around_light;
+        let mut media = around_light.clone();
         let mut left = Color::ONE;
         let mut far = distance;
         let mut pass = |medium: Option<u32>, way: f64| {
@@ -98,7 +98,7 @@ impl Shader<'_> {
             // What the way to the light leaves, the light enters.
             let boundary = media.boundary(own, !leaves, &scene.materials);
             pass(boundary.before, far - near);
-            media = media.crossed(own, !leaves);
+            media.cross(own, !leaves);
             far = near;
         }
         pass(media.current(&scene.materials), far);

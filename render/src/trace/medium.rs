@@ -12,10 +12,6 @@
 use crate::scene::Material;
 use std::iter::once;
 
-/// So many volumes around each other are known, as many as a ray of the greatest depth can enter;
-/// of more, the outermost are forgotten.
-pub const MOST_NESTED: usize = 64;
-
 /// The inside of an object.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Medium {
@@ -26,10 +22,21 @@ pub struct Medium {
 }
 
 /// The volumes that a ray is in, in the order in which it entered them.
-#[derive(Debug, Clone, Copy)]
+///
+/// Lists of the rays that led to a ray lie before its own, so that following one and coming back
+/// asks for no memory.
+#[derive(Debug, Clone, Default)]
 pub struct Media {
-    entered: [Medium; MOST_NESTED],
-    count: usize,
+    lists: Vec<Medium>,
+    /// Where the list of this ray begins.
+    begin: usize,
+}
+
+/// A state of [`Media`] to come back to.
+#[derive(Debug, Clone, Copy)]
+pub struct Mark {
+    begin: usize,
+    end: usize,
 }
 
 /// A surface between two media, as a ray meets it.
@@ -55,23 +62,34 @@ impl Boundary {
 }
 
 impl Media {
-    /// Free space.
-    pub const NONE: Self =
-        Self { entered: [Medium { object: 0, material: 0 }; MOST_NESTED], count: 0 };
-
     /// The volumes, in the order in which they were entered.
     #[must_use]
     pub fn entered(&self) -> &[Medium] {
-        &self.entered[..self.count]
+        &self.lists[self.begin..]
+    }
+
+    /// Makes these the same volumes as `other`, and keeps the memory.
+    pub fn start_in(&mut self, other: &Self) {
+        self.lists.clear();
+        self.lists.extend(other.entered());
+        self.begin = 0;
+    }
+
+    /// The state now.
+    #[must_use]
+    pub fn mark(&self) -> Mark {
+        Mark { begin: self.begin, end: self.lists.len() }
+    }
+
+    /// Goes back to an earlier state.
+    pub fn back_to(&mut self, mark: Mark) {
+        self.begin = mark.begin;
+        self.lists.truncate(mark.end);
     }
 
     /// The material that the ray is in; nothing for free space.
     #[must_use]
     pub fn current(&self, materials: &[Material]) -> Option<u32> {
-        // Nearly all rays are in free space.
-        if self.count == 0 {
-            return None;
-        }
         there(self.entered().iter().copied(), materials).map(|medium| medium.material)
     }
 
@@ -105,20 +123,19 @@ impl Media {
         Boundary { before, behind, seen: true }
     }
 
-    /// The volumes behind the boundary of one.
-    #[must_use]
-    pub fn crossed(&self, own: Medium, inside: bool) -> Self {
-        let mut after = Self::NONE;
-        let others = self.entered().iter().filter(|other| other.object != own.object);
-        for &medium in others.chain((!inside).then_some(&own)) {
-            if after.count == MOST_NESTED {
-                after.entered.rotate_left(1);
-                after.count -= 1;
+    /// Crosses the boundary of a volume.
+    pub fn cross(&mut self, own: Medium, inside: bool) {
+        let before = self.begin..self.lists.len();
+        self.begin = before.end;
+        for place in before {
+            let other = self.lists[place];
+            if other.object != own.object {
+                self.lists.push(other);
             }
-            after.entered[after.count] = medium;
-            after.count += 1;
         }
-        after
+        if !inside {
+            self.lists.push(own);
+        }
     }
 }
 
@@ -146,10 +163,10 @@ mod tests {
 
     /// The boundaries of these crossings, from free space.
     fn walk(crossings: &[(Medium, bool)], materials: &[Material]) -> Vec<(f64, bool)> {
-        let mut media = Media::NONE;
+        let mut media = Media::default();
         let step = |&(own, inside)| {
             let boundary = media.boundary(own, inside, materials);
-            media = media.crossed(own, inside);
+            media.cross(own, inside);
             (boundary.eta(materials), boundary.seen)
         };
         crossings.iter().map(step).collect()
@@ -197,19 +214,22 @@ mod tests {
     }
 
     #[test]
-    fn what_is_around_too_many_volumes_is_forgotten() {
+    fn a_thousand_volumes_are_left_as_they_were_entered() {
         let materials = materials([0; 3]);
-        let mut media = Media::NONE;
-        for object in 0..100 {
-            media = media.crossed(Medium { object, ..WATER }, false);
-        }
-        assert_eq!(media.entered().len(), MOST_NESTED);
-        assert_eq!(media.entered()[0].object, 36);
-        for object in (0..100).rev() {
+        let mut media = Media::default();
+        let marks: Vec<Mark> = (0..1000)
+            .map(|object| {
+                let mark = media.mark();
+                media.cross(Medium { object, ..WATER }, false);
+                mark
+            })
+            .collect();
+        for (object, &mark) in (0..1000).zip(&marks).rev() {
+            assert_eq!(media.entered().len(), object as usize + 1);
             let boundary = media.boundary(Medium { object, ..WATER }, true, &materials);
-            assert_eq!((boundary.before, boundary.seen), (Some(1), true));
-            assert_eq!(boundary.behind, if object > 36 { Some(1) } else { None });
-            media = media.crossed(Medium { object, ..WATER }, true);
+            let behind = (object > 0).then_some(1);
+            assert_eq!(boundary, Boundary { before: Some(1), behind, seen: true });
+            media.back_to(mark);
         }
         assert_eq!(media.current(&materials), None);
     }
@@ -217,10 +237,12 @@ mod tests {
     #[test]
     fn a_sheet_lies_in_what_is_around_it() {
         let materials = materials([0; 3]);
-        assert_eq!(Media::NONE.sheet(0, false, &materials).eta(&materials), 1.0 / 1.5);
-        let water = Media::NONE.crossed(WATER, false);
-        assert_eq!(water.sheet(0, true, &materials).eta(&materials), 1.5 / 1.33);
-        assert_eq!(water.sheet(2, false, &materials).eta(&materials), 1.33);
-        assert_eq!(water.crossed(AIR, false).current(&materials), Some(2));
+        let mut media = Media::default();
+        assert_eq!(media.sheet(0, false, &materials).eta(&materials), 1.0 / 1.5);
+        media.cross(WATER, false);
+        assert_eq!(media.sheet(0, true, &materials).eta(&materials), 1.5 / 1.33);
+        assert_eq!(media.sheet(2, false, &materials).eta(&materials), 1.33);
+        media.cross(AIR, false);
+        assert_eq!(media.current(&materials), Some(2));
     }
 }

@@ -51,18 +51,21 @@ pub struct RayCounts {
 }
 
 /// Where a ray ends: at a surface that is seen, or nowhere.
-struct Arrival {
-    end: End,
-    /// What its way leaves of light that comes back along it.
-    through: Color,
-    /// The volumes it is in at its end, if they are not those of its start.
-    media: Option<Media>,
-}
-
 enum End {
     Surface(Hit, SurfacePoint, Boundary),
     Background,
     Lost,
+}
+
+/// A surface that a ray has come to.
+struct Seen {
+    hit: Hit,
+    point: SurfacePoint,
+    boundary: Boundary,
+    /// How often the ray was divided before.
+    depth: u32,
+    /// What it counts for in its pixel.
+    weight: Color,
 }
 
 impl<'a> Tracer<'a> {
@@ -77,17 +80,21 @@ impl<'a> Tracer<'a> {
     pub fn trace(&self, ray: &Ray, tree: &mut IntersectionTree, counts: &mut RayCounts) {
         tree.clear();
         counts.primary += 1;
-        (tree.root, tree.through) = self.follow(ray, &self.around_eye, 0, Color::ONE, tree, counts);
+        let mut media = std::mem::take(&mut tree.media);
+        media.start_in(&self.around_eye);
+        (tree.root, tree.through) = self.follow(ray, &mut media, 0, Color::ONE, tree, counts);
+        tree.media = media;
     }
 
     /// Adds what a ray hits, and what its mirrored and refracted rays hit, to the tree. Gives what
     /// it came to, and what its way there leaves of the light.
     ///
-    /// `media` is what the ray starts in, `weight` what it counts for in its pixel.
+    /// `media` is what the ray starts in, and is left as it was; `weight` is what the ray counts for
+    /// in its pixel.
     fn follow(
         &self,
         ray: &Ray,
-        media: &Media,
+        media: &mut Media,
         depth: u32,
         weight: Color,
         tree: &mut IntersectionTree,
@@ -96,13 +103,30 @@ impl<'a> Tracer<'a> {
         if tree.is_full() {
             return (Branch::Cut, Color::ONE);
         }
-        let Arrival { end, through, media: passed } = self.arrive(ray, media);
-        let (hit, point, boundary) = match end {
-            End::Surface(hit, point, boundary) => (hit, point, boundary),
-            End::Background => return (Branch::Background, through),
-            End::Lost => return (Branch::Cut, through),
+        let start = media.mark();
+        let (end, through) = self.arrive(ray, media);
+        let branch = match end {
+            End::Surface(hit, point, boundary) => {
+                let seen = Seen { hit, point, boundary, depth, weight: weight * through };
+                self.divide(ray, media, &seen, tree, counts)
+            }
+            End::Background => Branch::Background,
+            End::Lost => Branch::Cut,
         };
-        let (media, weight) = (passed.as_ref().unwrap_or(media), weight * through);
+        media.back_to(start);
+        (branch, through)
+    }
+
+    /// Adds a surface that a ray has come to, and what follows from it.
+    fn divide(
+        &self,
+        ray: &Ray,
+        media: &mut Media,
+        seen: &Seen,
+        tree: &mut IntersectionTree,
+        counts: &mut RayCounts,
+    ) -> Branch {
+        let Seen { hit, point, boundary, depth, weight } = *seen;
         counts.hits += 1;
         let object = &self.scene.objects[hit.piece.object as usize];
         let material = &self.scene.materials[object.parts[point.part as usize].material];
@@ -136,7 +160,7 @@ impl<'a> Tracer<'a> {
             refract_weight,
         });
         if depth >= self.scene.max_depth {
-            return (Branch::Node(slot), through);
+            return Branch::Node(slot);
         }
 
         // What counts for little in each channel is left out.
@@ -158,47 +182,47 @@ impl<'a> Tracer<'a> {
             counts.refracted += 1;
             let passed = Ray::leaving(hit.piece, point.position, direction);
             let share = weight * refract_weight;
-            let own = self.volumes.medium(self.scene, hit.piece.object, point.part);
-            let behind = own.map(|own| media.crossed(own, inside));
-            let media = behind.as_ref().unwrap_or(media);
+            if let Some(own) = self.volumes.medium(self.scene, hit.piece.object, point.part) {
+                media.cross(own, inside);
+            }
             let (branch, way) = self.follow(&passed, media, depth + 1, share, tree, counts);
             let node = tree.node_mut(slot);
             node.refracted = branch;
             node.refract_weight *= way;
         }
-        (Branch::Node(slot), through)
+        Branch::Node(slot)
     }
 
-    /// Sends a ray to the first surface that no other volume hides.
-    fn arrive(&self, ray: &Ray, start: &Media) -> Arrival {
+    /// Sends a ray to the first surface that no other volume hides; gives what its way leaves of
+    /// light that comes back along it. `media` becomes what it is in there.
+    fn arrive(&self, ray: &Ray, media: &mut Media) -> (End, Color) {
         let Self { scene, volumes, .. } = self;
-        let mut arrival = Arrival { end: End::Lost, through: Color::ONE, media: None };
+        let mut through = Color::ONE;
         let mut ray = *ray;
         for _ in 0..MOST_HIDDEN {
-            let media = arrival.media.as_ref().unwrap_or(start);
             let Some(hit) = self.accel.nearest(&ray) else {
                 let medium = media.current(&scene.materials);
-                arrival.through *= self.transmittance(medium, f64::INFINITY);
-                arrival.end = End::Background;
-                break;
+                return (End::Background, through * self.transmittance(medium, f64::INFINITY));
             };
             let point = self.accel.surface_point(&ray, &hit);
             let inside = ray.direction.dot(point.geometric_normal) > 0.0;
-            let area = [hit.piece.object, point.part];
-            let boundary = volumes.boundary(scene, media, area, inside);
-            let own = volumes.medium(scene, hit.piece.object, point.part);
-            // A sheet has no inside that the way could lie in.
-            let medium =
-                if own.is_some() { boundary.before } else { media.current(&scene.materials) };
-            arrival.through *= self.transmittance(medium, hit.t);
+            let Some(own) = volumes.medium(scene, hit.piece.object, point.part) else {
+                // A sheet has no inside that the way could lie in.
+                let medium = media.current(&scene.materials);
+                through *= self.transmittance(medium, hit.t);
+                let surface = scene.objects[hit.piece.object as usize].parts[point.part as usize];
+                let boundary = media.sheet(surface.material as u32, inside, &scene.materials);
+                return (End::Surface(hit, point, boundary), through);
+            };
+            let boundary = media.boundary(own, inside, &scene.materials);
+            through *= self.transmittance(boundary.before, hit.t);
             if boundary.seen {
-                arrival.end = End::Surface(hit, point, boundary);
-                break;
+                return (End::Surface(hit, point, boundary), through);
             }
-            arrival.media = own.map(|own| media.crossed(own, inside));
+            media.cross(own, inside);
             ray = Ray::leaving(hit.piece, point.position, ray.direction);
         }
-        arrival
+        (End::Lost, through)
     }
 
     /// What a way through a material leaves of the light.

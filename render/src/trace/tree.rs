@@ -1,5 +1,6 @@
 //! The intersection tree of one ray from the eye (thesis figs. 4.2 and 4.3).
 
+use super::medium::Media;
 use crate::color::Color;
 use crate::ray::Piece;
 use glam::{DVec2, DVec3};
@@ -24,6 +25,8 @@ pub struct IntersectionTree {
     /// something that absorbs it.
     pub through: Color,
     nodes: Vec<Node>,
+    /// Room for what rays are in while the tree is made.
+    pub(super) media: Media,
 }
 
 /// What became of a ray.

@@ -1,6 +1,6 @@
 //! Which objects have an inside that light passes, and what a place lies in.
 
-use super::medium::{Boundary, Media, Medium};
+use super::medium::{Media, Medium};
 use crate::accel::Accel;
 use crate::ray::Ray;
 use crate::scene::{Light, Object, Scene};
@@ -53,25 +53,6 @@ impl Volumes {
         transparent.then_some(Medium { object, material: material as u32 })
     }
 
-    /// The boundary that a ray meets; `inside` says that it meets the surface's back.
-    #[must_use]
-    pub fn boundary(
-        &self,
-        scene: &Scene,
-        media: &Media,
-        [object, part]: [u32; 2],
-        inside: bool,
-    ) -> Boundary {
-        let materials = &scene.materials;
-        match self.medium(scene, object, part) {
-            Some(own) => media.boundary(own, inside, materials),
-            None => {
-                let material = scene.objects[object as usize].parts[part as usize].material;
-                media.sheet(material as u32, inside, materials)
-            }
-        }
-    }
-
     /// The volumes that a place lies in, the innermost last.
     ///
     /// They are those whose back a ray from there meets once more often than their front. Of two,
@@ -113,7 +94,7 @@ impl Volumes {
     #[must_use]
     pub fn around_lights(&self, scene: &Scene, accel: &Accel<'_>) -> Vec<Media> {
         let around = |light: &Light| match light {
-            _ if !self.absorb => Media::NONE,
+            _ if !self.absorb => Media::default(),
             Light::Point(light) => self.around(scene, accel, light.position),
             Light::Directional(light) => self.around_far(scene, light.toward),
         };
@@ -137,10 +118,12 @@ impl Volumes {
     fn ordered(&self, mut media: Vec<(Medium, i32, f64)>) -> Media {
         media
             .sort_by(|(a, _, near), (b, _, far)| far.total_cmp(near).then(a.object.cmp(&b.object)));
-        let enter = |media: Media, own: Medium| {
-            let known = media.entered().iter().any(|medium| medium.object == own.object);
-            if known { media } else { media.crossed(own, false) }
-        };
-        media.into_iter().map(|(own, ..)| own).fold(Media::NONE, enter)
+        let mut around = Media::default();
+        for (own, ..) in media {
+            if around.entered().iter().all(|medium| medium.object != own.object) {
+                around.cross(own, false);
+            }
+        }
+        around
     }
 }
