@@ -128,7 +128,7 @@ fn refuse(keys: &str, parts: &[&str]) {
 "camera": {{ "eye": [0, 0, 1], "target": [0, 0, 0], "fov_deg": 90 }},
 {keys} }}"#
     );
-    let document = Document::new("scene.json", text.as_bytes()).unwrap();
+    let document = Document::new("scene.json", text.as_bytes()).expect("it is text");
     let source = files::Disk;
     let refused = read::parse(&document).and_then(|file| {
         read::resolve(&document, &file, "".as_ref(), &source, read::MeshSource::new())

@@ -61,7 +61,7 @@ fn obj(side: f64, low: f64, high: f64) -> Vec<u8> {
             text.push_str(&format!("v {x} {y} {z}\n"));
         }
     }
-    text + "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n"
+    (text + "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n").into_bytes()
 }
 
 /// What a ray meets on its refracted way, up to the last surface, and where it goes from there.
@@ -204,9 +204,9 @@ fn glass_water_and_a_bubble_in_a_white_background_are_white() {
         sphere([0.1, 0.0, 0.0], 0.5, "shiny water"),
         sphere([0.1, 0.1, 0.1], 0.2, "air"),
     ];
-    let keys = r#""background": 1, "max_depth": 64, "min_weight": 0.00001,"#;
+    let keys = r#""background": 1, "max_depth": 64, "min_weight": 0.000001,"#;
     let white = picture(&of(keys, &objects, &[]), 32, Filter::Point);
-    // A hundred branches of less than `min_weight` may be missing.
+    // A thousand branches of less than `min_weight` may be missing.
     for (x, y, pixel) in pixels(&white) {
         assert!((0.999..=1.000_001).contains(&pixel[0]), "at {x} {y}: {pixel:?}");
     }
@@ -367,7 +367,7 @@ fn with_fresnel_the_critical_angle_leaves_no_step_for_any_weights() {
         let (mut tree, mut counts) = (IntersectionTree::default(), RayCounts::default());
         let direction = DVec3::new(sine, 0.0, (1.0 - sine * sine).sqrt());
         tracer.trace(&Ray::from_eye(DVec3::NEG_Z, direction), &mut tree, &mut counts);
-        let node = *tree.node(tree.root).unwrap();
+        let node = *tree.node(tree.root).expect("the surface is met");
         (node.reflect_weight.x + node.refract_weight.x, node.refract_weight.x)
     };
     let critical = 1.0f64 / 1.5;

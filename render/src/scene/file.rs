@@ -29,8 +29,9 @@
 //!
 //! Colours are linear, one number for grey or `[red, green, blue]`, each at least 0. Lengths are in
 //! any one unit, axes are right-handed. `up` defaults to y. A ray is reflected or refracted at most
-//! `max_depth` times (0 to 64, default 12), and not when it would count for less than `min_weight`
-//! in its pixel (0 to 1, default 0.0001); and of one ray from the eye and all that follow from it the
+//! `max_depth` times (0 to 64, default 12), and not when it would count for less than `min_weight` in
+//! every channel of its pixel (0 to 1, default 0.0001), so that each ray left out takes at most that
+//! part of the brightest light; and of one ray from the eye and all that follow from it the
 //! first 8191 hits count, as many as a depth of 12 can have. `ambient` is light from everywhere
 //! (default 0.1), `background` what a ray sees that leaves the scene (default black).
 //!

@@ -96,6 +96,10 @@ impl Media {
     /// The boundary of a closed volume, met from its inside or from outside.
     #[must_use]
     pub fn boundary(&self, own: Medium, inside: bool, materials: &[Material]) -> Boundary {
+        if self.entered().is_empty() {
+            // Nearly all rays are in free space.
+            return self.sheet(own.material, inside, materials);
+        }
         let others = || self.entered().iter().copied().filter(|other| other.object != own.object);
         let outer = there(others(), materials);
         // Left, it is where it was entered; if that was missed, it was entered last.

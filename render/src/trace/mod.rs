@@ -118,6 +118,7 @@ impl<'a> Tracer<'a> {
     }
 
     /// Adds a surface that a ray has come to, and what follows from it.
+    #[inline]
     fn divide(
         &self,
         ray: &Ray,
@@ -195,6 +196,7 @@ impl<'a> Tracer<'a> {
 
     /// Sends a ray to the first surface that no other volume hides; gives what its way leaves of
     /// light that comes back along it. `media` becomes what it is in there.
+    #[inline]
     fn arrive(&self, ray: &Ray, media: &mut Media) -> (End, Color) {
         let Self { scene, volumes, .. } = self;
         let mut through = Color::ONE;
