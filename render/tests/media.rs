@@ -204,11 +204,12 @@ fn glass_water_and_a_bubble_in_a_white_background_are_white() {
         sphere([0.1, 0.0, 0.0], 0.5, "shiny water"),
         sphere([0.1, 0.1, 0.1], 0.2, "air"),
     ];
-    let keys = r#""background": 1, "max_depth": 64, "min_weight": 0.000001,"#;
+    let keys = r#""background": 1, "max_depth": 64, "min_weight": 0.00001,"#;
     let white = picture(&of(keys, &objects, &[]), 32, Filter::Point);
-    // A thousand branches of less than `min_weight` may be missing.
+    // What is still inside after 64 surfaces is lost: most at grazing angles, a little more than a
+    // thousandth.
     for (x, y, pixel) in pixels(&white) {
-        assert!((0.999..=1.000_001).contains(&pixel[0]), "at {x} {y}: {pixel:?}");
+        assert!((0.998..=1.000_001).contains(&pixel[0]), "at {x} {y}: {pixel:?}");
     }
 }
 
