@@ -115,4 +115,19 @@ mod tests {
             }
         }
     }
+    #[test]
+    fn with_fresnel_the_critical_angle_leaves_no_step_for_any_weights() {
+        let critical = 1.0f64 / 1.5;
+        for (reflectivity, transparency) in [(1.0, 1.0), (0.5, 1.0), (0.0, 0.9), (1.0, 0.25)] {
+            let water =
+                Material { reflectivity, transparency, fresnel: true, ..Material::default() };
+            for ulps in -8i64..=8 {
+                let sine = f64::from_bits(critical.to_bits().wrapping_add_signed(ulps));
+                let incident = DVec3::new(sine, 0.0, -(1.0 - sine * sine).sqrt());
+                let split = Split::at(&water, incident, DVec3::Z, DVec3::Z, 1.5);
+                let off = (split.reflect_weight - reflectivity).abs();
+                assert!(off < 1e-6 && split.refract_weight < 1e-6, "{ulps}: {split:?}");
+            }
+        }
+    }
 }
