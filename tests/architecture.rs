@@ -26,9 +26,9 @@ const ROOMS: [(&str, &[&str]); 15] = [
     ("shape", &[]),
     ("texture", &["color"]),
     ("procedural", &["color"]),
-    ("scene", &["color", "procedural", "ray", "shape", "texture"]),
+    ("scene", &["color", "optics", "procedural", "ray", "shape", "texture"]),
     ("accel", &["ray", "shape"]),
-    ("trace", &["accel", "optics", "procedural", "ray", "scene", "shape"]),
+    ("trace", &["accel", "color", "optics", "procedural", "ray", "scene", "shape"]),
     ("footprint", &["shape", "trace"]),
     ("filter", &["color", "footprint", "texture"]),
     (

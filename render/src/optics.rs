@@ -4,6 +4,8 @@
 //! `N` lies on the incident side, both are unit, and `eta` is the index on the incident side over
 //! that on the transmitted side. Other books turn one or both round.
 
+pub mod thin_film;
+
 use glam::DVec3;
 
 /// The mirrored direction, `R = I + 2 c1 N` (thesis eq. 4.1), unit when its arguments are.
@@ -13,6 +15,8 @@ pub fn reflect(incident: DVec3, normal: DVec3) -> DVec3 {
 }
 
 /// The refracted direction, or nothing when all light is reflected (thesis eq. 4.6-4.8).
+///
+/// Between equal media the direction stays as it is, to the last bit.
 #[must_use]
 pub fn refract(incident: DVec3, normal: DVec3, eta: f64) -> Option<DVec3> {
     if eta == 1.0 {
@@ -28,7 +32,7 @@ pub fn refract(incident: DVec3, normal: DVec3, eta: f64) -> Option<DVec3> {
 /// The share of unpolarized light that a smooth boundary of two dielectrics reflects, in `[0, 1]`.
 ///
 /// `c1` is the cosine of the angle of incidence. The rest is transmitted; beyond the critical
-/// angle the share is exactly 1.
+/// angle the share is exactly 1, and between equal media exactly 0.
 #[must_use]
 pub fn fresnel(c1: f64, eta: f64) -> f64 {
     if eta == 1.0 {
@@ -95,13 +99,36 @@ mod tests {
     }
 
     #[test]
+    fn at_the_critical_angle_fresnels_share_has_no_step() {
+        for eta in [1.1, 1.33, 1.5, 2.4] {
+            // The last cosine that passes and the first that does not, and ten ulps on each side.
+            let mut low = f64::sqrt(1.0 - 1.0 / (eta * eta)).to_bits() - 1000;
+            let mut high = low + 2000;
+            while high - low > 1 {
+                let middle = u64::midpoint(low, high);
+                let passes = transmitted_cosine(f64::from_bits(middle), eta).is_some();
+                if passes { high = middle } else { low = middle }
+            }
+            for bits in high - 10..high + 10 {
+                let c1 = f64::from_bits(bits);
+                let share = fresnel(c1, eta);
+                assert!((0.0..=1.0).contains(&share) && 1.0 - share < 1e-6, "{eta} {c1} {share}");
+                let sine = (1.0 - c1 * c1).sqrt();
+                let refracted = refract(DVec3::new(sine, 0.0, -c1), DVec3::Z, eta);
+                assert_eq!(refracted.is_some(), bits >= high, "{eta} {c1}");
+                assert!(refracted.is_none_or(DVec3::is_normalized));
+            }
+        }
+    }
+
+    #[test]
     fn known_values() {
         // Straight on glass: ((n - 1)/(n + 1))^2.
         assert!((fresnel(1.0, 1.0 / 1.5) - 0.04).abs() < 1e-15);
         assert_eq!(fresnel(0.0, 1.0 / 1.5), 1.0);
         assert_eq!((fresnel(0.3, 1.0), fresnel(0.0, 1.0)), (0.0, 0.0));
         let incident = down_at(0.7);
-        assert!(refract(incident, DVec3::Z, 1.0).unwrap().abs_diff_eq(incident, 1e-15));
+        assert_eq!(refract(incident, DVec3::Z, 1.0), Some(incident));
         assert!(
             reflect(incident, DVec3::Z)
                 .abs_diff_eq(DVec3::new(0.7f64.sin(), 0.0, 0.7f64.cos()), 1e-15)

@@ -28,6 +28,7 @@ use crate::shade::Shader;
 use crate::shape::Charts;
 use crate::stats::Stats;
 use crate::trace::Tracer;
+use crate::trace::volume::Volumes;
 use exposure::{Exposure, Film};
 use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
@@ -168,11 +169,12 @@ fn with_exposure<T>(
         Accel::build(scene.objects.iter().map(|object| &object.shape).collect(), settings.accel);
     let accel_time = started.elapsed();
     let started = Instant::now();
-    let shader = ready_shader(scene, &accel, settings.filter);
+    let volumes = Volumes::of(scene);
+    let shader = ready_shader(scene, &accel, &volumes, settings.filter);
     let table_time = started.elapsed();
     let (tables, table_bytes) = (shader.tables(), shader.table_bytes());
     let exposure = Exposure {
-        tracer: Tracer { scene, accel: &accel },
+        tracer: Tracer::new(scene, &accel, &volumes),
         halo: settings.filter.wants_area() && shader.textures.iter().any(Option::is_some),
         shader,
         settings,
@@ -192,7 +194,12 @@ fn with_exposure<T>(
 }
 
 /// Prepares the textures that surfaces show, and no others.
-fn ready_shader<'a>(scene: &'a Scene, accel: &'a Accel<'a>, filter: Filter) -> Shader<'a> {
+fn ready_shader<'a>(
+    scene: &'a Scene,
+    accel: &'a Accel<'a>,
+    volumes: &'a Volumes,
+    filter: Filter,
+) -> Shader<'a> {
     let shown = scene.shown_textures();
     let textures = scene
         .textures
@@ -210,7 +217,8 @@ fn ready_shader<'a>(scene: &'a Scene, accel: &'a Accel<'a>, filter: Filter) -> S
             if looked_at { object.shape.charts() } else { Charts::default() }
         })
         .collect();
-    Shader { scene, accel, textures, charts }
+    let around_lights = volumes.around_lights(scene, accel);
+    Shader { scene, accel, textures, charts, volumes, around_lights }
 }
 
 #[cfg(test)]
@@ -218,7 +226,9 @@ mod tests {
     use super::*;
     use crate::color::Color;
     use crate::procedural::Procedural;
-    use crate::scene::{Camera, Material, Names, Object, PointLight, Surface, SurfaceTexture};
+    use crate::scene::{
+        Camera, Light, Material, Names, Object, PointLight, Surface, SurfaceTexture,
+    };
     use crate::shape::{Quad, Shape, Sphere};
     use crate::texture::Texture;
     use glam::{DAffine3, DVec3};
@@ -228,25 +238,14 @@ mod tests {
         let texels = (0..64u16).map(|k| [k * 1000, 60000 - k * 900, (k % 8) * 8000]).collect();
         let texture =
             Texture { width: 8, height: 8, texels, white: u16::MAX, ..Texture::default() };
-        let plain = Material {
-            color: Color::ONE,
-            ambient: 1.0,
-            diffuse: 0.5,
-            specular: 0.0,
-            shininess: 1.0,
-            reflectivity: 0.0,
-            transparency: 0.0,
-            index_of_refraction: 1.5,
-            fresnel: false,
-            bump: None,
-        };
+        let plain = Material { diffuse: 0.5, ..Material::default() };
         let glass = Material {
             ambient: 0.0,
             diffuse: 0.0,
             reflectivity: 1.0,
             transparency: 1.0,
             fresnel: true,
-            ..plain
+            ..Material::default()
         };
         let floor = Quad::new(DVec3::ZERO, DVec3::Z, DVec3::X, DVec2::ONE, false).unwrap();
         let ball = Sphere { center: DVec3::new(0.0, 1.2, 0.0), radius: 1.0 };
@@ -260,7 +259,11 @@ mod tests {
             camera: Camera::new(eye, DVec3::Y, DVec3::Y, 0.7).unwrap(),
             background: Color::splat(0.2),
             ambient: Color::splat(0.5),
-            lights: vec![PointLight { position: DVec3::new(3.0, 5.0, 4.0), color: Color::ONE }],
+            lights: vec![Light::Point(PointLight {
+                position: DVec3::new(3.0, 5.0, 4.0),
+                color: Color::ONE,
+                falloff: None,
+            })],
             materials: vec![plain, glass],
             textures: vec![texture],
             procedural: Procedural::default(),

@@ -11,7 +11,7 @@
 use super::Footprint;
 use crate::shape::Charts;
 use crate::trace::tree::{Branch, IntersectionTree, Node};
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 /// How many trees are looked at.
 pub const ALL: usize = 9;
@@ -55,6 +55,12 @@ impl<'a> Neighbourhood<'a> {
     #[must_use]
     pub fn middle(&self) -> Branch {
         self.branches[self.middle]
+    }
+
+    /// What the way from the eye to the middle tree's root leaves of the light.
+    #[must_use]
+    pub fn through(&self) -> DVec3 {
+        self.trees[self.middle].through
     }
 
     /// The middle tree's node, if its branch came to one.
@@ -117,7 +123,6 @@ fn way(charts: &Charts, from: &Node, to: &Node) -> Option<DVec2> {
 mod tests {
     use super::*;
     use crate::ray::Piece;
-    use glam::{DVec2, DVec3};
 
     fn tree(object: u32, uv: DVec2) -> IntersectionTree {
         let mut tree = IntersectionTree::default();
@@ -131,8 +136,8 @@ mod tests {
             uv,
             reflected: Branch::Background,
             refracted: Branch::Cut,
-            reflect_weight: 0.0,
-            refract_weight: 0.0,
+            reflect_weight: DVec3::ZERO,
+            refract_weight: DVec3::ZERO,
         });
         tree.root = Branch::Node(slot);
         tree

@@ -53,8 +53,8 @@ pub fn lines(scene: &Scene, halo: bool, seen: &Seen<'_>) -> Vec<String> {
         }
         lines.push(format!("local colour {}", light(local.color)));
     }
-    let (reflect, refract) = (node.reflect_weight as f32, node.refract_weight as f32);
-    lines.push(format!("weights: reflected {reflect}, refracted {refract}"));
+    let [reflect, refract] = [node.reflect_weight, node.refract_weight].map(light);
+    lines.push(format!("weights: reflected {reflect}; refracted {refract}"));
     lines.push(format!("colour handed up {}", light(seen.color)));
     lines
 }

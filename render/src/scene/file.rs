@@ -41,12 +41,21 @@
 //! Of one ray from the eye and all that follow from it the first 8191 hits count, as many as a
 //! `max_depth` of 12 can have.
 //!
+//! Spheres, boxes, superquadrics, planes (behind them) and closed meshes have an inside. They may contain and overlap each
+//! other, and the camera may stand in them. A rectangle or an open mesh has none: it absorbs
+//! nothing, and a ray that passes it is still in what it was in.
+//!
+//! A light is a `point` light or a `directional` one, whose `direction` is the way its light goes. A
+//! point light may fade: `"falloff": { "quadratic": 1, "reference": 4 }` is the inverse square with
+//! the light's colour at a distance of 4, in general `1 / (constant + linear x + quadratic x^2)` with
+//! `x = distance / reference`. Nothing is made brighter by it than a million times.
+//!
 //! A texture is a picture (`image`) or a solid, which fills space and is carved by the surface: see
 //! [`solid`]. A picture fills a rectangle, or the unit square of a mesh's or sphere's texture coordinates;
 //! `repeat` lays it several times. A material's `bump` turns normals as a relief would: see [`bump`]. Paths count from the folder of the file that they stand in.
 //!
 //! Where two surfaces coincide one of them is seen, the other is not behind it: leave a small gap
-//! between glass and what it stands on.
+//! between glass and what it stands on, and let water and the glass around it overlap a little.
 //!
 //! | an object's shape | keys | its texture |
 //! |---|---|---|
@@ -104,8 +113,8 @@ pub mod solid;
 mod texture;
 
 pub use color::ColorFile;
-pub use light::{LightFile, PointLightFile};
-pub use material::MaterialFile;
+pub use light::{DirectionalLightFile, FalloffFile, LightFile, PointLightFile};
+pub use material::{MaterialFile, ThinFilmFile};
 pub use object::{BoxFile, MeshFile, ObjectFile, PlaneFile, RectangleFile};
 pub use object::{RotateDegFile, SphereFile, StepFile, SuperquadricFile};
 pub use part::{FORMAT as PART_FORMAT, Lists, PartFile};

@@ -8,13 +8,15 @@ pub mod material;
 pub mod mtl;
 pub mod names;
 pub mod obj;
+pub mod ramp;
 pub mod read;
 pub mod schema;
 
 pub use camera::Camera;
-pub use light::PointLight;
+pub use light::{DirectionalLight, Falloff, Light, PointLight};
 pub use material::Material;
 pub use names::Names;
+pub use ramp::AngleRamp;
 pub use read::{MeshSource, SceneError};
 
 use crate::color::Color;
@@ -32,8 +34,8 @@ pub struct Scene {
     pub background: Color,
     /// Light from everywhere.
     pub ambient: Color,
-    /// Lights at points.
-    pub lights: Vec<PointLight>,
+    /// Lights.
+    pub lights: Vec<Light>,
     /// What surfaces are made of.
     pub materials: Vec<Material>,
     /// Pictures on surfaces.

@@ -104,18 +104,7 @@ pub fn read(file: &str, bytes: &[u8]) -> Result<Vec<Entry>, ObjError> {
 
 /// What a material is of which the file says no more than its name.
 fn plain() -> Material {
-    Material {
-        color: Color::ONE,
-        ambient: 1.0,
-        diffuse: 1.0,
-        specular: 0.0,
-        shininess: 50.0,
-        reflectivity: 0.0,
-        transparency: 0.0,
-        index_of_refraction: 1.0,
-        fresnel: false,
-        bump: None,
-    }
+    Material { diffuse: 1.0, index_of_refraction: 1.0, ..Material::default() }
 }
 
 /// Three numbers, or one for all three.

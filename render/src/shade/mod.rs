@@ -15,9 +15,10 @@ use crate::footprint::neighbours::Neighbourhood;
 use crate::optics;
 use crate::scene::{Material, Scene};
 use crate::shape::Charts;
+use crate::trace::medium::Media;
 use crate::trace::tree::{Branch, Node};
+use crate::trace::volume::Volumes;
 use observer::{Local, Observer, Seen, Textured, Way};
-use shadow::transmission;
 
 /// Shades the trees of one scene.
 #[derive(Debug)]
@@ -30,6 +31,10 @@ pub struct Shader<'a> {
     pub textures: Vec<Option<FilteredTexture<'a>>>,
     /// How each object's texture coordinates hang together.
     pub charts: Vec<Charts>,
+    /// The scene's volumes.
+    pub volumes: &'a Volumes,
+    /// The volumes that each light lies in.
+    pub around_lights: Vec<Media>,
 }
 
 /// How much work shading was.
@@ -60,9 +65,19 @@ impl Shader<'_> {
         self.textures.iter().flatten().map(|texture| texture.table_bytes() as u64).sum()
     }
 
-    /// The colour that comes along the middle branch; `observer` is told of all that follow.
+    /// The colour that comes to the eye; `observer` is told of all branches that lead to it.
     #[must_use]
     pub fn shade<O: Observer>(
+        &self,
+        around: &Neighbourhood<'_>,
+        counts: &mut ShadeCounts,
+        observer: &mut O,
+    ) -> Color {
+        around.through() * self.branch(around, counts, observer)
+    }
+
+    /// The colour that the middle branch starts with; `observer` is told of all that follow.
+    fn branch<O: Observer>(
         &self,
         around: &Neighbourhood<'_>,
         counts: &mut ShadeCounts,
@@ -74,15 +89,15 @@ impl Shader<'_> {
             (_, Some(node)) => {
                 let local = self.local(node, around, counts);
                 let mut color = local.color;
-                if node.reflect_weight > 0.0 {
+                if node.reflect_weight != Color::ZERO {
                     observer.follow(Way::Reflected);
                     let reflected = around.step(|node| node.reflected);
-                    color += node.reflect_weight * self.shade(&reflected, counts, observer);
+                    color += node.reflect_weight * self.branch(&reflected, counts, observer);
                 }
-                if node.refract_weight > 0.0 {
+                if node.refract_weight != Color::ZERO {
                     observer.follow(Way::Refracted);
                     let refracted = around.step(|node| node.refracted);
-                    color += node.refract_weight * self.shade(&refracted, counts, observer);
+                    color += node.refract_weight * self.branch(&refracted, counts, observer);
                 }
                 (Some(local), color)
             }
@@ -136,15 +151,15 @@ impl Shader<'_> {
             return sum;
         }
         let mirrored = optics::reflect(node.incident, node.normal);
-        for light in &self.scene.lights {
-            let toward = (light.position - node.position).normalize_or_zero();
+        for (light, around_light) in self.scene.lights.iter().zip(&self.around_lights) {
+            let toward = light.toward(node.position);
             let cosine = node.normal.dot(toward);
             if cosine <= 0.0 || node.geometric_normal.dot(toward) <= 0.0 {
                 continue;
             }
             counts.shadow += 1;
-            let reaching = transmission(self.scene, self.accel, node, light.position);
-            let light = reaching * light.color;
+            let reaching = self.transmission(node, light, around_light);
+            let light = reaching * light.arriving(node.position) * material.tint(cosine);
             sum.diffuse += material.diffuse * cosine * light;
             if material.specular > 0.0 {
                 let phong = mirrored.dot(toward).max(0.0).powf(material.shininess);

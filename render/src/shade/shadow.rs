@@ -1,48 +1,113 @@
 //! How much of a light reaches a point (thesis 4.5.2).
 
-use crate::accel::Accel;
+use super::Shader;
+use crate::color::Color;
 use crate::ray::{Hit, Ray};
-use crate::scene::Scene;
+use crate::scene::{Light, PointLight, Scene};
+use crate::trace::medium::{Media, Medium};
 use crate::trace::tree::Node;
-use glam::DVec3;
 
-/// The part of the light at `light` that reaches the node's point, in `[0, 1]`.
-///
-/// An opaque surface on the way takes all of it. A transparent one multiplies it by its
-/// transparency, once however often the way crosses it; the way itself stays straight, as in the
-/// thesis. A surface that the light lies on takes nothing.
-#[must_use]
-pub fn transmission(scene: &Scene, accel: &Accel<'_>, node: &Node, light: DVec3) -> f64 {
-    let way = light - node.position;
-    let distance = way.length();
-    let ray = Ray::leaving(node.piece, node.position, way / distance);
-    // Measured across the surface, as at the ray's start.
-    let holds_light = |hit: &Hit| {
-        let normal = accel.surface_point(&ray, hit).geometric_normal;
-        let gap = (distance - hit.t) * normal.dot(ray.direction).abs();
-        gap <= accel.rounding(hit.piece.object, light) + accel.rounding(node.piece.object, light)
-    };
-    // Transparent surfaces on the way; pushing nothing allocates nothing.
-    let mut crossed: Vec<(u32, u32)> = Vec::new();
-    let mut blocked = false;
-    accel.all_before(&ray, distance, |hit| {
-        let area = (hit.piece.object, accel.part(&hit));
-        if holds_light(&hit) {
-            return true;
+/// A boundary of a volume between a point and a light: how far from the point, whose, and whether
+/// the way to the light leaves the volume there.
+type Crossing = (f64, Medium, bool);
+
+impl Shader<'_> {
+    /// The part of a light that reaches the node's point, in `[0, 1]` for each channel.
+    ///
+    /// An opaque surface on the way takes all of it. A transparent one multiplies it by its
+    /// transparency, once however often the way crosses it; the way itself stays straight, as in the
+    /// thesis. What absorbs light does so along that straight way, by Beer's law: so a coloured
+    /// glass throws a coloured shadow, and a deep one a dark shadow. A surface that the light lies
+    /// on takes nothing. The way to a directional light has no end.
+    #[must_use]
+    pub fn transmission(&self, node: &Node, light: &Light, around_light: &Media) -> Color {
+        let Self { scene, accel, .. } = *self;
+        let (ray, distance) = match light {
+            Light::Point(light) => {
+                let way = light.position - node.position;
+                let distance = way.length();
+                (Ray::leaving(node.piece, node.position, way / distance), distance)
+            }
+            Light::Directional(light) => {
+                (Ray::leaving(node.piece, node.position, light.toward), f64::INFINITY)
+            }
+        };
+        // Measured across the surface, as at the ray's start.
+        let holds_light = |hit: &Hit| {
+            let Light::Point(PointLight { position, .. }) = *light else { return false };
+            let normal = accel.surface_point(&ray, hit).geometric_normal;
+            let gap = (distance - hit.t) * normal.dot(ray.direction).abs();
+            gap <= accel.rounding(hit.piece.object, position)
+                + accel.rounding(node.piece.object, position)
+        };
+        // Transparent surfaces on the way; pushing nothing allocates nothing.
+        let mut crossed: Vec<(u32, u32)> = Vec::new();
+        let mut blocked = false;
+        accel.all_before(&ray, distance, |hit| {
+            let area = (hit.piece.object, accel.part(&hit));
+            if holds_light(&hit) {
+                return true;
+            }
+            blocked = transparency(scene, area) == 0.0;
+            if !blocked && !crossed.contains(&area) {
+                crossed.push(area);
+            }
+            !blocked
+        });
+        if blocked {
+            return Color::ZERO;
         }
-        blocked = transparency(scene, area) == 0.0;
-        if !blocked && !crossed.contains(&area) {
-            crossed.push(area);
+        // In the scene's order, so that the product does not depend on the order of the hits.
+        crossed.sort_unstable();
+        let dimmed: f64 = crossed.into_iter().map(|area| transparency(scene, area)).product();
+        if self.volumes.absorb() && dimmed > 0.0 {
+            dimmed * self.absorbed(&ray, distance, around_light)
+        } else {
+            Color::splat(dimmed)
         }
-        !blocked
-    });
-    if blocked {
-        return 0.0;
     }
-    // In the scene's order, so that the product does not depend on the order of the hits.
-    crossed.sort_unstable();
-    crossed.into_iter().map(|area| transparency(scene, area)).product()
+
+    /// What the volumes on the way to a light leave of it.
+    fn absorbed(&self, ray: &Ray, distance: f64, around_light: &Media) -> Color {
+        let Self { scene, accel, volumes, .. } = *self;
+        // From the point to the light, since a directional one has no place to begin at.
+        let mut crossings: Vec<Crossing> = Vec::new();
+        let (mut step, mut start) = (*ray, 0.0);
+        while let Some(hit) = accel.nearest(&step).filter(|hit| start + hit.t < distance) {
+            start += hit.t;
+            let point = accel.surface_point(&step, &hit);
+            if let Some(own) = volumes.medium(scene, hit.piece.object, point.part) {
+                let leaves = ray.direction.dot(point.geometric_normal) > 0.0;
+                crossings.push((start, own, leaves));
+            }
+            step = Ray::leaving(hit.piece, point.position, ray.direction);
+            if crossings.len() == MOST_CROSSINGS {
+                break;
+            }
+        }
+        // Back from the light, as the light goes: what is around it is known.
+        let mut media = around_light.clone();
+        let mut left = Color::ONE;
+        let mut far = distance;
+        let mut pass = |medium: Option<u32>, way: f64| {
+            if let Some(material) = medium {
+                left *= scene.materials[material as usize].transmittance(way);
+            }
+        };
+        for (near, own, leaves) in crossings.into_iter().rev() {
+            // What the way to the light leaves, the light enters.
+            let boundary = media.boundary(own, !leaves, &scene.materials);
+            pass(boundary.before, far - near);
+            media.cross(own, !leaves);
+            far = near;
+        }
+        pass(media.current(&scene.materials), far);
+        left
+    }
 }
+
+/// Boundaries between a point and a light that are told apart at most: a bound on the work.
+const MOST_CROSSINGS: usize = 1 << 12;
 
 fn transparency(scene: &Scene, (object, part): (u32, u32)) -> f64 {
     let surface = scene.objects[object as usize].parts[part as usize];

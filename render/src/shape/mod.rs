@@ -1,6 +1,7 @@
 //! The shapes of a scene, each in its own file, behind one closed enum.
 
 pub mod charts;
+mod closed;
 pub mod cuboid;
 pub mod mesh;
 pub mod placed;

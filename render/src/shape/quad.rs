@@ -113,6 +113,12 @@ impl Quad {
         self.bounded.then(|| edges.map(|edge| self.corner + edge))
     }
 
+    /// The unit normal, on the side that is outside.
+    #[must_use]
+    pub fn normal(&self) -> DVec3 {
+        self.normal
+    }
+
     /// Lower and upper corner of its box; nothing for a whole plane.
     #[must_use]
     pub fn bounds(&self) -> Option<[DVec3; 2]> {

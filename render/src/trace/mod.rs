@@ -4,17 +4,27 @@
 //! that nothing is shaded on the way. Each place on the film gets an [`tree::IntersectionTree`],
 //! and shading waits until its neighbours have theirs.
 
+pub mod medium;
 pub mod rows;
+mod split;
 pub mod tree;
+pub mod volume;
 
 use crate::accel::Accel;
-use crate::optics;
+use crate::color::Color;
 use crate::procedural::Place;
 use crate::ray::{Hit, Ray};
 use crate::scene::{Material, Scene};
 use crate::shape::SurfacePoint;
 use glam::DVec3;
+use medium::{Boundary, Media};
+use split::{Split, mirror};
 use tree::{Branch, IntersectionTree, Node};
+use volume::Volumes;
+
+/// A ray passes at most so many boundaries that other volumes hide before it is given up: more
+/// than any scene can mean, and a bound on the work for one ray.
+const MOST_HIDDEN: usize = 1 << 12;
 
 /// Follows rays through one scene.
 #[derive(Debug)]
@@ -23,6 +33,10 @@ pub struct Tracer<'a> {
     pub scene: &'a Scene,
     /// What finds the hits.
     pub accel: &'a Accel<'a>,
+    /// Its volumes.
+    pub volumes: &'a Volumes,
+    /// Those that the camera stands in.
+    pub around_eye: Media,
 }
 
 /// How many rays were sent, by kind, and how many of them hit something.
@@ -38,79 +52,71 @@ pub struct RayCounts {
     pub hits: u64,
 }
 
-impl Tracer<'_> {
+/// Where a ray ends: at a surface that is seen, or nowhere.
+enum End {
+    Surface(Hit, SurfacePoint, Boundary),
+    Background,
+    Lost,
+}
+
+/// A surface that a ray has come to.
+struct Seen {
+    hit: Hit,
+    point: SurfacePoint,
+    boundary: Boundary,
+    /// How often the ray was divided before.
+    depth: u32,
+    /// What it counts for in its pixel.
+    weight: Color,
+}
+
+impl<'a> Tracer<'a> {
+    /// A tracer for the scene's camera.
+    #[must_use]
+    pub fn new(scene: &'a Scene, accel: &'a Accel<'a>, volumes: &'a Volumes) -> Self {
+        let around_eye = volumes.around(scene, accel, scene.camera.eye());
+        Self { scene, accel, volumes, around_eye }
+    }
+
     /// The intersection tree of a ray from the eye.
     pub fn trace(&self, ray: &Ray, tree: &mut IntersectionTree, counts: &mut RayCounts) {
         tree.clear();
         counts.primary += 1;
-        tree.root = self.follow(ray, 0, 1.0, tree, counts);
+        let mut media = std::mem::take(&mut tree.media);
+        media.start_in(&self.around_eye);
+        (tree.root, tree.through) = self.follow(ray, &mut media, 0, Color::ONE, tree, counts);
+        tree.media = media;
     }
 
-    /// Adds what a ray hits, and what its mirrored and refracted rays hit, to the tree.
+    /// Adds what a ray hits, and what its mirrored and refracted rays hit, to the tree. Gives what
+    /// it came to, and what its way there leaves of the light.
     ///
-    /// `weight` is what the ray counts for in its pixel.
+    /// `media` is what the ray starts in, and is left as it was; `weight` is what the ray counts for
+    /// in its pixel.
     fn follow(
         &self,
         ray: &Ray,
+        media: &mut Media,
         depth: u32,
-        weight: f64,
+        weight: Color,
         tree: &mut IntersectionTree,
         counts: &mut RayCounts,
-    ) -> Branch {
+    ) -> (Branch, Color) {
         if tree.is_full() {
-            return Branch::Cut;
+            return (Branch::Cut, Color::ONE);
         }
-        let Some(hit) = self.accel.nearest(ray) else { return Branch::Background };
-        counts.hits += 1;
-        let point = self.accel.surface_point(ray, &hit);
-        let object = &self.scene.objects[hit.piece.object as usize];
-        let material = &self.scene.materials[object.parts[point.part as usize].material];
-
-        // Turn both normals to the side the ray comes from.
-        let inside = ray.direction.dot(point.geometric_normal) > 0.0;
-        let side = if inside { -1.0 } else { 1.0 };
-        let geometric_normal = side * point.geometric_normal;
-        let mut normal = side * self.bumped(material, &hit, &point);
-        if ray.direction.dot(normal) >= 0.0 {
-            // Seen from behind its interpolated or bumped normal: only the facet itself tells the truth.
-            normal = geometric_normal;
-        }
-
-        let split = Split::at(material, ray.direction, normal, geometric_normal, inside);
-        let slot = tree.push(Node {
-            piece: hit.piece,
-            part: point.part,
-            position: point.position,
-            incident: ray.direction,
-            geometric_normal,
-            normal,
-            uv: point.uv,
-            reflected: Branch::Cut,
-            refracted: Branch::Cut,
-            reflect_weight: split.reflect_weight,
-            refract_weight: split.refract_weight,
-        });
-        if depth >= self.scene.max_depth {
-            return Branch::Node(slot);
-        }
-
-        let worth_it = |share: f64| share > 0.0 && weight * share >= self.scene.min_weight;
-        if worth_it(split.reflect_weight) {
-            counts.reflected += 1;
-            let direction = mirror(ray.direction, normal, geometric_normal);
-            let mirrored = Ray::leaving(hit.piece, point.position, direction);
-            let share = weight * split.reflect_weight;
-            let branch = self.follow(&mirrored, depth + 1, share, tree, counts);
-            tree.node_mut(slot).reflected = branch;
-        }
-        if let Some(direction) = split.refracted.filter(|_| worth_it(split.refract_weight)) {
-            counts.refracted += 1;
-            let passed = Ray::leaving(hit.piece, point.position, direction);
-            let share = weight * split.refract_weight;
-            let branch = self.follow(&passed, depth + 1, share, tree, counts);
-            tree.node_mut(slot).refracted = branch;
-        }
-        Branch::Node(slot)
+        let start = media.mark();
+        let (end, through) = self.arrive(ray, media);
+        let branch = match end {
+            End::Surface(hit, point, boundary) => {
+                let seen = Seen { hit, point, boundary, depth, weight: weight * through };
+                self.divide(ray, media, &seen, tree, counts)
+            }
+            End::Background => Branch::Background,
+            End::Lost => Branch::Cut,
+        };
+        media.back_to(start);
+        (branch, through)
     }
 
     /// The normal to shade with, turned by the material's bump if it has one.
@@ -128,115 +134,121 @@ impl Tracer<'_> {
         let place = Place { point: position, normal, uv: point.uv, uv_gradients };
         bump.normal(&object.to_own_space, &place)
     }
-}
 
-/// How light divides at a surface.
-#[derive(Debug, Clone, Copy)]
-struct Split {
-    reflect_weight: f64,
-    refract_weight: f64,
-    refracted: Option<DVec3>,
-}
+    /// Adds a surface that a ray has come to, and what follows from it.
+    #[inline]
+    fn divide(
+        &self,
+        ray: &Ray,
+        media: &mut Media,
+        seen: &Seen,
+        tree: &mut IntersectionTree,
+        counts: &mut RayCounts,
+    ) -> Branch {
+        let Seen { hit, point, boundary, depth, weight } = *seen;
+        counts.hits += 1;
+        let object = &self.scene.objects[hit.piece.object as usize];
+        let material = &self.scene.materials[object.parts[point.part as usize].material];
 
-impl Split {
-    fn at(
-        material: &Material,
-        incident: DVec3,
-        normal: DVec3,
-        geometric_normal: DVec3,
-        inside: bool,
-    ) -> Self {
-        let Material { reflectivity, transparency, index_of_refraction, .. } = *material;
-        let mirror_only =
-            Self { reflect_weight: reflectivity, refract_weight: 0.0, refracted: None };
-        if transparency == 0.0 && !material.fresnel {
-            return mirror_only;
+        // Turn both normals to the side the ray comes from.
+        let inside = ray.direction.dot(point.geometric_normal) > 0.0;
+        let side = if inside { -1.0 } else { 1.0 };
+        let geometric_normal = side * point.geometric_normal;
+        let mut normal = side * self.bumped(material, &hit, &point);
+        if ray.direction.dot(normal) >= 0.0 {
+            // Seen from behind its interpolated normal: only the facet itself tells the truth.
+            normal = geometric_normal;
         }
-        let eta = if inside { index_of_refraction } else { 1.0 / index_of_refraction };
-        let share =
-            if material.fresnel { optics::fresnel(-incident.dot(normal), eta) } else { 1.0 };
-        if transparency == 0.0 {
-            return Self { reflect_weight: reflectivity * share, ..mirror_only };
-        }
-        // Where the interpolated normal would keep the ray on this side, the facet's does not.
-        let refracted = optics::refract(incident, normal, eta).and_then(|direction| {
-            if direction.dot(geometric_normal) < 0.0 {
-                Some(direction)
-            } else {
-                optics::refract(incident, geometric_normal, eta)
-            }
+
+        let eta = boundary.eta(&self.scene.materials);
+        let split = Split::at(material, ray.direction, normal, geometric_normal, eta);
+        let tint = material.tint(-ray.direction.dot(normal));
+        let (reflect_weight, refract_weight) =
+            (split.reflect_weight * tint, Color::splat(split.refract_weight));
+        let slot = tree.push(Node {
+            piece: hit.piece,
+            part: point.part,
+            position: point.position,
+            incident: ray.direction,
+            geometric_normal,
+            normal,
+            uv: point.uv,
+            reflected: Branch::Cut,
+            refracted: Branch::Cut,
+            reflect_weight,
+            refract_weight,
         });
-        match refracted {
-            Some(direction) if material.fresnel => Self {
-                reflect_weight: reflectivity * share,
-                refract_weight: transparency * (1.0 - share),
-                refracted: Some(direction),
-            },
-            Some(direction) => Self {
-                reflect_weight: reflectivity,
-                refract_weight: transparency,
-                refracted: Some(direction),
-            },
-            // Total internal reflection: what would have passed is mirrored as well.
-            None => Self { reflect_weight: reflectivity.max(transparency), ..mirror_only },
+        if depth >= self.scene.max_depth {
+            return Branch::Node(slot);
         }
+
+        // What counts for little in each channel is left out.
+        let worth_it = |share: Color| {
+            let most = (weight * share).max_element();
+            most > 0.0 && most >= self.scene.min_weight
+        };
+        if worth_it(reflect_weight) {
+            counts.reflected += 1;
+            let direction = mirror(ray.direction, normal, geometric_normal);
+            let mirrored = Ray::leaving(hit.piece, point.position, direction);
+            let share = weight * reflect_weight;
+            let (branch, way) = self.follow(&mirrored, media, depth + 1, share, tree, counts);
+            let node = tree.node_mut(slot);
+            node.reflected = branch;
+            node.reflect_weight *= way;
+        }
+        if let Some(direction) = split.refracted.filter(|_| worth_it(refract_weight)) {
+            counts.refracted += 1;
+            let passed = Ray::leaving(hit.piece, point.position, direction);
+            let share = weight * refract_weight;
+            if let Some(own) = self.volumes.medium(self.scene, hit.piece.object, point.part) {
+                media.cross(own, inside);
+            }
+            let (branch, way) = self.follow(&passed, media, depth + 1, share, tree, counts);
+            let node = tree.node_mut(slot);
+            node.refracted = branch;
+            node.refract_weight *= way;
+        }
+        Branch::Node(slot)
     }
-}
 
-/// The mirrored direction; about the facet itself where the interpolated normal would send the
-/// ray through the surface.
-fn mirror(incident: DVec3, normal: DVec3, geometric_normal: DVec3) -> DVec3 {
-    let direction = optics::reflect(incident, normal);
-    if direction.dot(geometric_normal) > 0.0 {
-        direction
-    } else {
-        optics::reflect(incident, geometric_normal)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::color::Color;
-    use proptest::prelude::*;
-
-    fn unit() -> impl Strategy<Value = DVec3> {
-        prop::array::uniform3(-1.0..1.0f64)
-            .prop_map(DVec3::from)
-            .prop_filter("a direction", |v| v.length() > 0.1)
-            .prop_map(DVec3::normalize)
-    }
-
-    proptest! {
-        /// However wrong the interpolated normal, mirrored light stays on its side of the facet
-        /// and refracted light leaves it, and no light is made.
-        #[test]
-        fn an_interpolated_normal_sends_no_ray_through_the_facet(
-            incident in unit(), facet in unit(), normal in unit(), inside in any::<bool>(),
-            fresnel in any::<bool>(),
-        ) {
-            let facet = if incident.dot(facet) < 0.0 { facet } else { -facet };
-            prop_assume!(incident.dot(facet) < -1e-3 && incident.dot(normal) < -1e-3);
-            prop_assert!(mirror(incident, normal, facet).dot(facet) > 0.0);
-            let glass = Material {
-                color: Color::ONE,
-                ambient: 0.0,
-                diffuse: 0.0,
-                specular: 0.0,
-                shininess: 1.0,
-                reflectivity: 1.0,
-                transparency: 1.0,
-                index_of_refraction: 1.5,
-                fresnel,
-                bump: None,
+    /// Sends a ray to the first surface that no other volume hides; gives what its way leaves of
+    /// light that comes back along it. `media` becomes what it is in there.
+    #[inline]
+    fn arrive(&self, ray: &Ray, media: &mut Media) -> (End, Color) {
+        let Self { scene, volumes, .. } = self;
+        let mut through = Color::ONE;
+        let mut ray = *ray;
+        for _ in 0..MOST_HIDDEN {
+            let Some(hit) = self.accel.nearest(&ray) else {
+                let medium = media.current(&scene.materials);
+                return (End::Background, through * self.transmittance(medium, f64::INFINITY));
             };
-            let split = Split::at(&glass, incident, normal, facet, inside);
-            if let Some(direction) = split.refracted {
-                prop_assert!(direction.dot(facet) < 0.0);
+            let point = self.accel.surface_point(&ray, &hit);
+            let inside = ray.direction.dot(point.geometric_normal) > 0.0;
+            let Some(own) = volumes.medium(scene, hit.piece.object, point.part) else {
+                // A sheet has no inside that the way could lie in.
+                let medium = media.current(&scene.materials);
+                through *= self.transmittance(medium, hit.t);
+                let surface = scene.objects[hit.piece.object as usize].parts[point.part as usize];
+                let boundary = media.sheet(surface.material as u32, inside, &scene.materials);
+                return (End::Surface(hit, point, boundary), through);
+            };
+            let boundary = media.boundary(own, inside, &scene.materials);
+            through *= self.transmittance(boundary.before, hit.t);
+            if boundary.seen {
+                return (End::Surface(hit, point, boundary), through);
             }
-            if fresnel {
-                prop_assert!((split.reflect_weight + split.refract_weight - 1.0).abs() < 1e-12);
-            }
+            media.cross(own, inside);
+            ray = Ray::leaving(hit.piece, point.position, ray.direction);
         }
+        (End::Lost, through)
+    }
+
+    /// What a way through a material leaves of the light.
+    fn transmittance(&self, medium: Option<u32>, way: f64) -> Color {
+        medium.map_or(Color::ONE, |material| {
+            self.scene.materials[material as usize].transmittance(way)
+        })
     }
 }

@@ -1,5 +1,7 @@
 //! The intersection tree of one ray from the eye (thesis figs. 4.2 and 4.3).
 
+use super::medium::Media;
+use crate::color::Color;
 use crate::ray::Piece;
 use glam::{DVec2, DVec3};
 
@@ -20,7 +22,12 @@ pub const MOST_NODES: usize = (1 << 13) - 1;
 pub struct IntersectionTree {
     /// What the ray from the eye came to.
     pub root: Branch,
+    /// What the way from the eye to there leaves of the light; less than 1 where the eye is in
+    /// something that absorbs it.
+    pub through: Color,
     nodes: Vec<Node>,
+    /// Room for what rays are in while the tree is made.
+    pub(super) media: Media,
 }
 
 /// What became of a ray.
@@ -56,10 +63,10 @@ pub struct Node {
     pub reflected: Branch,
     /// What the refracted ray came to.
     pub refracted: Branch,
-    /// What the mirrored ray's light counts for.
-    pub reflect_weight: f64,
-    /// What the refracted ray's light counts for.
-    pub refract_weight: f64,
+    /// What the mirrored ray's light counts for in each channel, after what it lost on its way.
+    pub reflect_weight: Color,
+    /// What the refracted ray's light counts for, likewise.
+    pub refract_weight: Color,
 }
 
 impl Node {
@@ -74,6 +81,7 @@ impl IntersectionTree {
     /// Forgets all hits and keeps the memory.
     pub fn clear(&mut self) {
         self.root = Branch::Cut;
+        self.through = Color::ONE;
         self.nodes.clear();
     }
 

@@ -2,7 +2,7 @@
 
 use super::subject::{Item, Subject};
 use super::{count, point, short, solid};
-use crate::scene::{Surface, SurfaceTexture};
+use crate::scene::{Light, Surface, SurfaceTexture};
 use crate::texture::Texture;
 use glam::DVec3;
 
@@ -18,11 +18,15 @@ pub fn lines(subject: &Subject<'_>, table_bytes: &dyn Fn(&Texture) -> u64) -> Ve
         short(camera.fov_deg)
     )];
     for (light, path) in scene.lights.iter().zip(&subject.lights) {
-        lines.push(format!(
-            "{path}: point at {}, colour {}",
-            point(light.position),
-            point(light.color)
-        ));
+        let color = point(light.color());
+        lines.push(match light {
+            Light::Point(light) => {
+                format!("{path}: point at {}, colour {color}", point(light.position))
+            }
+            Light::Directional(light) => {
+                format!("{path}: from the direction {}, colour {color}", point(light.toward))
+            }
+        });
     }
     for (index, texture) in scene.textures.iter().enumerate() {
         lines.push(format!(

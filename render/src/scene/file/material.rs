@@ -31,14 +31,52 @@ pub struct MaterialFile {
     /// Weight of the refracted ray, 0 to 1; 0 if left out.
     #[schemars(transform = schema::range(0.0..=1.0))]
     pub transparency: f64,
-    /// Index of refraction of the inside, 0.1 to 10, where that of the outside is 1; 1.5 if left out.
+    /// Index of refraction of the inside, 0.1 to 10, where that of air is 1; 1.5 if left out.
     #[schemars(transform = schema::range(0.1..=10.0))]
     pub index_of_refraction: f64,
     /// Whether the weights of the mirrored and the refracted ray are multiplied by Fresnel's share and
     /// its rest; false if left out.
     pub fresnel: bool,
-    /// How normals are turned; not at all by default.
+    /// How normals are turned; not at all if left out.
     pub bump: Option<BumpFile>,
+    /// How the inside of a closed object absorbs light, per unit of length and at least 0: a way `d`
+    /// leaves `exp(-absorption d)` of it; 0 if left out.
+    pub absorption: ColorFile,
+    /// Where transparent closed objects overlap, the one of the highest priority is there, and of
+    /// equals the one that a ray entered last; 0 to 255; 0 if left out.
+    #[schemars(transform = schema::range(0..=255))]
+    pub priority: u8,
+    /// Colours by the angle between light and normal: `[degrees, colour]`, rising from 0 to 90,
+    /// linear between. They multiply what each light brings, and at the angle of the view the
+    /// mirrored ray; none if left out.
+    pub by_angle: Option<Vec<(f64, ColorFile)>>,
+    /// A thin film whose interference gives the colours by the angle; not together with `by_angle`.
+    pub thin_film: Option<ThinFilmFile>,
+}
+
+/// A thin film. Its colours are scaled so that the brightest up to 60 degrees is 1.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ThinFilmFile {
+    /// Thickness in nanometres, 1 to 5000.
+    #[schemars(transform = schema::range(1.0..=5000.0))]
+    pub thickness_nm: f64,
+    /// Index of refraction of the film, 1 to 5; 1.33, soap, if left out.
+    #[serde(default = "soap")]
+    #[schemars(transform = schema::range(1.0..=5.0))]
+    pub index: f64,
+    /// Index of refraction of what it lies on, 1 to 5; 1, air, if left out.
+    #[serde(default = "air")]
+    #[schemars(transform = schema::range(1.0..=5.0))]
+    pub base_index: f64,
+}
+
+fn soap() -> f64 {
+    1.33
+}
+
+fn air() -> f64 {
+    1.0
 }
 
 impl Default for MaterialFile {
@@ -54,6 +92,10 @@ impl Default for MaterialFile {
             index_of_refraction: 1.5,
             fresnel: false,
             bump: None,
+            absorption: ColorFile([0.0; 3]),
+            priority: 0,
+            by_angle: None,
+            thin_film: None,
         }
     }
 }

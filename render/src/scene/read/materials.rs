@@ -1,8 +1,10 @@
 //! The materials of a scene file.
 
 use super::{Reader, SceneError};
-use crate::scene::Material;
-use crate::scene::file::MaterialFile;
+use crate::optics::thin_film::ThinFilm;
+use crate::scene::file::{MaterialFile, ThinFilmFile};
+use crate::scene::{AngleRamp, Material};
+use std::sync::Arc;
 
 impl Reader<'_> {
     /// The materials; those with a bump take its number from `bumps`.
@@ -36,6 +38,45 @@ impl Reader<'_> {
             )?,
             fresnel: material.fresnel,
             bump: None,
+            absorption: self.color(&at("absorption"), material.absorption)?,
+            priority: material.priority,
+            by_angle: self.by_angle(name, material)?.map(Arc::new),
         })
+    }
+
+    fn by_angle(&self, name: &str, file: &MaterialFile) -> Result<Option<AngleRamp>, SceneError> {
+        let at = format!("materials.{name}.by_angle");
+        match (&file.by_angle, &file.thin_film) {
+            (None, None) => Ok(None),
+            (None, Some(film)) => self.thin_film(name, film).map(Some),
+            (Some(_), Some(_)) => {
+                self.fault(&at, "found beside \"thin_film\", expected one of the two")
+            }
+            (Some(file), None) => {
+                let mut stops = Vec::with_capacity(file.len());
+                for (k, &(angle, color)) in file.iter().enumerate() {
+                    let angle = self.within(&format!("{at}[{k}][0]"), angle, 0.0, 90.0)?;
+                    stops.push((angle, self.color(&format!("{at}[{k}][1]"), color)?));
+                }
+                match AngleRamp::new(stops) {
+                    Some(ramp) => Ok(Some(ramp)),
+                    None => self.fault(
+                        &at,
+                        "found no angles, or angles that do not ascend; expected [degrees, colour] \
+                         from 0 to 90, each angle larger than the one before",
+                    ),
+                }
+            }
+        }
+    }
+
+    fn thin_film(&self, name: &str, file: &ThinFilmFile) -> Result<AngleRamp, SceneError> {
+        let at = |key: &str| format!("materials.{name}.thin_film.{key}");
+        let film = ThinFilm {
+            thickness_nm: self.within(&at("thickness_nm"), file.thickness_nm, 1.0, 5000.0)?,
+            index: self.within(&at("index"), file.index, 1.0, 5.0)?,
+            base_index: self.within(&at("base_index"), file.base_index, 1.0, 5.0)?,
+        };
+        Ok(AngleRamp::of_film(&film))
     }
 }

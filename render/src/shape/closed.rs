@@ -1,0 +1,100 @@
+//! Whether a shape has an inside.
+
+use super::{Mesh, Shape};
+use glam::DVec3;
+use std::collections::HashMap;
+
+impl Shape {
+    /// Whether it parts space into an inside and an outside, with its normals pointing out: a
+    /// rectangle does not, a plane does (behind it is the inside), a mesh does if it is closed.
+    #[must_use]
+    pub fn is_closed(&self) -> bool {
+        match self {
+            Self::Sphere(_) | Self::Cuboid(_) | Self::Superquadric(_) => true,
+            Self::Placed(placed) => placed.shape().is_closed(),
+            Self::Quad(quad) => quad.bounds().is_none(),
+            Self::Mesh(mesh) => mesh.is_closed(),
+        }
+    }
+}
+
+impl Mesh {
+    /// Whether each side of each triangle is that of another one, run through the other way, and
+    /// the volume within is positive. Corners in equal places are one corner, and triangles with
+    /// two such are not there.
+    #[must_use]
+    pub fn is_closed(&self) -> bool {
+        let mut corners: HashMap<[u32; 3], u32> = HashMap::new();
+        let mut number = |place: [f32; 3]| {
+            let next = corners.len() as u32;
+            // Minus zero is the same place as zero.
+            *corners.entry(place.map(|x| (x + 0.0).to_bits())).or_insert(next)
+        };
+        let numbers: Vec<u32> = self.positions.iter().map(|&place| number(place)).collect();
+        // Each side with its smaller corner first; run through backwards it counts as -1.
+        let mut sides: Vec<([u32; 2], i32)> = Vec::with_capacity(3 * self.triangles.len());
+        let mut volume = 0.0;
+        for (place, triangle) in (0..).zip(&self.triangles) {
+            let [a, b, c] = triangle.position.map(|corner| numbers[corner as usize]);
+            if a == b || b == c || c == a {
+                continue;
+            }
+            for [from, to] in [[a, b], [b, c], [c, a]] {
+                let way = if from < to { 1 } else { -1 };
+                sides.push(([from.min(to), from.max(to)], way));
+            }
+            // Six times the volume between the triangle and one corner, so as to lose no digits far
+            // from the origin.
+            let origin = dvec3(self.corners(0)[0]);
+            let [p, q, r] = self.corners(place).map(|corner| dvec3(corner) - origin);
+            volume += p.dot(q.cross(r));
+        }
+        sides.sort_unstable_by_key(|(side, _)| *side);
+        let matched =
+            |group: &[([u32; 2], i32)]| group.iter().map(|(_, way)| way).sum::<i32>() == 0;
+        volume > 0.0 && sides.chunk_by(|(a, _), (b, _)| a == b).all(matched)
+    }
+}
+
+fn dvec3(place: [f32; 3]) -> DVec3 {
+    DVec3::from(place.map(f64::from))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::mesh::{NONE, Triangle};
+
+    /// A tetrahedron whose corners are given for each triangle anew.
+    fn tetrahedron() -> Mesh {
+        let corners = [[5., 5., 5.], [6., 5., 5.], [5., 6., 5.], [5., 5., 6.]];
+        let faces = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
+        let triangle = |first: u32| Triangle {
+            position: [first, first + 1, first + 2],
+            uv: [NONE; 3],
+            normal: [NONE; 3],
+            surface: 0,
+        };
+        Mesh {
+            positions: faces.into_iter().flatten().map(|corner: usize| corners[corner]).collect(),
+            triangles: (0..4).map(|face| triangle(3 * face)).collect(),
+            surfaces: vec![String::new()],
+            ..Mesh::default()
+        }
+    }
+
+    #[test]
+    fn a_mesh_is_closed_when_each_side_is_met_by_another() {
+        let whole = tetrahedron();
+        assert!(whole.is_closed());
+        let mut open = whole.clone();
+        open.triangles.pop();
+        assert!(!open.is_closed());
+        let mut turned = whole.clone();
+        turned.triangles[0].position.swap(0, 1);
+        assert!(!turned.is_closed());
+        let mut inside_out = whole;
+        inside_out.triangles.iter_mut().for_each(|triangle| triangle.position.swap(0, 1));
+        assert!(!inside_out.is_closed());
+    }
+}

@@ -1,0 +1,129 @@
+//! Which objects have an inside that light passes, and what a place lies in.
+
+use super::medium::{Media, Medium};
+use crate::accel::Accel;
+use crate::ray::Ray;
+use crate::scene::{Light, Object, Scene};
+use crate::shape::Shape;
+use glam::DVec3;
+
+/// A direction that no edge of a scene is likely to lie in: a ray that meets an edge may count
+/// both of its triangles.
+const ASKEW: DVec3 = DVec3::new(0.4199743416, 0.5532967357, 0.7193814786);
+
+/// The volumes of a scene.
+#[derive(Debug)]
+pub struct Volumes {
+    /// For each object whether it is one: transparent, and closed.
+    volumes: Vec<bool>,
+    /// Whether light is absorbed in one of them.
+    absorb: bool,
+}
+
+impl Volumes {
+    /// Finds them. A mesh is looked at only if it is transparent.
+    #[must_use]
+    pub fn of(scene: &Scene) -> Self {
+        let transparent = |object: &Object| {
+            object.parts.iter().any(|part| scene.materials[part.material].transparency > 0.0)
+        };
+        let volume = |object: &Object| transparent(object) && object.shape.is_closed();
+        let volumes: Vec<bool> = scene.objects.iter().map(volume).collect();
+        let absorb = scene.objects.iter().zip(&volumes).any(|(object, &volume)| {
+            let absorbs = |material: usize| scene.materials[material].absorption != DVec3::ZERO;
+            volume && object.parts.iter().any(|part| absorbs(part.material))
+        });
+        Self { volumes, absorb }
+    }
+
+    /// Whether light is absorbed anywhere.
+    #[must_use]
+    pub fn absorb(&self) -> bool {
+        self.absorb
+    }
+
+    /// The volume whose boundary this surface is, if it is one.
+    #[must_use]
+    pub fn medium(&self, scene: &Scene, object: u32, part: u32) -> Option<Medium> {
+        if !self.volumes[object as usize] {
+            return None;
+        }
+        let material = scene.objects[object as usize].parts[part as usize].material;
+        let transparent = scene.materials[material].transparency > 0.0;
+        transparent.then_some(Medium { object, material: material as u32 })
+    }
+
+    /// The volumes that a place lies in, the innermost last.
+    ///
+    /// They are those whose back a ray from there meets once more often than their front. Of two,
+    /// the one that the ray leaves first counts as the inner one.
+    #[must_use]
+    pub fn around(&self, scene: &Scene, accel: &Accel<'_>, place: DVec3) -> Media {
+        let ray = Ray::from_eye(place, ASKEW.normalize());
+        // For each volume that is met: its boundary, how much more often from its inside, and where.
+        let mut met: Vec<(Medium, i32, f64)> = Vec::new();
+        if self.volumes.contains(&true) {
+            accel.all_before(&ray, f64::INFINITY, |hit| {
+                if let Some(own) = self.medium(scene, hit.piece.object, accel.part(&hit)) {
+                    let normal = accel.surface_point(&ray, &hit).geometric_normal;
+                    let side = if normal.dot(ray.direction) > 0.0 { 1 } else { -1 };
+                    match met.iter_mut().find(|(medium, ..)| medium.object == own.object) {
+                        Some((_, sides, far)) => (*sides, *far) = (*sides + side, far.max(hit.t)),
+                        None => met.push((own, side, hit.t)),
+                    }
+                }
+                true
+            });
+            met.retain(|(_, sides, _)| *sides > 0);
+            met.extend(self.endless(scene, place).map(|own| (own, 1, f64::INFINITY)));
+        }
+        self.ordered(met)
+    }
+
+    /// The volumes that one is in that is endlessly far away in a direction.
+    fn around_far(&self, scene: &Scene, toward: DVec3) -> Media {
+        let behind = |object: &Object| match &object.shape {
+            Shape::Quad(quad) => quad.normal().dot(toward) < 0.0,
+            _ => false,
+        };
+        let media = self.all(scene).filter(|own| behind(&scene.objects[own.object as usize]));
+        self.ordered(media.map(|own| (own, 1, f64::INFINITY)).collect())
+    }
+
+    /// What each light lies in; only needed, and only known, where light is absorbed.
+    #[must_use]
+    pub fn around_lights(&self, scene: &Scene, accel: &Accel<'_>) -> Vec<Media> {
+        let around = |light: &Light| match light {
+            _ if !self.absorb => Media::default(),
+            Light::Point(light) => self.around(scene, accel, light.position),
+            Light::Directional(light) => self.around_far(scene, light.toward),
+        };
+        scene.lights.iter().map(around).collect()
+    }
+
+    /// The half spaces behind planes that a place lies in; a ray may never meet their boundary.
+    fn endless<'s>(&'s self, scene: &'s Scene, place: DVec3) -> impl Iterator<Item = Medium> + 's {
+        self.all(scene).filter(move |own| match &scene.objects[own.object as usize].shape {
+            Shape::Quad(quad) => (place - quad.corner()).dot(quad.normal()) < 0.0,
+            _ => false,
+        })
+    }
+
+    /// The volumes of one surface.
+    fn all<'s>(&'s self, scene: &'s Scene) -> impl Iterator<Item = Medium> + 's {
+        (0..scene.objects.len() as u32).filter_map(|object| self.medium(scene, object, 0))
+    }
+
+    /// What is left last comes first; a half space that is met is also endless, and counts as that.
+    fn ordered(&self, mut media: Vec<(Medium, i32, f64)>) -> Media {
+        media
+            .sort_by(|(a, _, near), (b, _, far)| far.total_cmp(near).then(a.object.cmp(&b.object)));
+        let mut around = Media::default();
+        for (own, ..) in media {
+            if around.entered().iter().all(|medium| medium.object != own.object) {
+                around.cross(own, false);
+            }
+        }
+        around
+    }
+}
