@@ -18,7 +18,7 @@ const CRATES: [(&str, &[&str]); 5] = [
 
 /// The rooms of `render` from the bottom up, and into which others each one looks: only at rooms
 /// above it in this list, which is below it in the house.
-const ROOMS: [(&str, &[&str]); 15] = [
+const ROOMS: [(&str, &[&str]); 16] = [
     ("color", &[]),
     ("optics", &[]),
     ("progress", &[]),

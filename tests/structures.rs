@@ -3,8 +3,10 @@
 use pipeline::job::{Job, Mode};
 use pipeline::run::{Options, run};
 use rayon::prelude::*;
+use render::Sampling;
 use render::accel::Structure;
 use render::filter::Filter;
+use render::texture::USUAL_MEMORY;
 use std::fs;
 use std::path::Path;
 
@@ -20,15 +22,24 @@ fn tree_grids_and_brute_force_make_the_same_pages() {
     pages.par_iter().for_each(|page| {
         let mut job = Job::read(page, &files::Disk).unwrap();
         let folder = tempfile::tempdir().unwrap();
-        let mode =
-            |name: &str, accel| Mode { name: name.into(), filter: Filter::Tent, samples: 1, accel };
+        let mode = |name: &str, accel| Mode {
+            name: name.into(),
+            filter: Filter::Tent,
+            sampling: Sampling::regular(1),
+            accel,
+        };
         job.modes = vec![
             mode("none", Structure::None),
             mode("bvh", Structure::Bvh),
             mode("grid", Structure::Grid),
         ];
-        let (keep, clobber) = (false, true);
-        let options = Options { folder: folder.path().into(), size: SIZE, keep, clobber };
+        let options = Options {
+            folder: folder.path().into(),
+            size: SIZE,
+            keep: false,
+            clobber: true,
+            max_texture_bytes: USUAL_MEMORY,
+        };
         run(&job, &files::Disk, &options, &|_| {}).unwrap();
         let made =
             |name: &str| fs::read(folder.path().join(format!("{}-{name}.png", job.name))).unwrap();

@@ -4,7 +4,6 @@
 mod studio;
 
 use glam::DVec3;
-use render::accel::Structure;
 use render::filter::Filter;
 use render::trace::tree::MOST_NODES;
 use render::{Picture, Scene, Settings};

@@ -200,7 +200,7 @@ fn judged(text: &[u8]) -> bool {
     });
     match made {
         Ok(scene) => {
-            let settings = Settings { width: 5, height: 4, samples: 1, filter: Filter::Tent };
+            let settings = Settings::new(5, 4, Filter::Tent);
             let (picture, stats) = render::render(&scene, &settings, &|_, _| {});
             let finite = |pixel: &[f32; 3]| pixel.iter().all(|x| x.is_finite() && *x >= 0.0);
             assert!(picture.pixels.iter().all(finite), "{:?}\n{shown}", picture.pixels);

@@ -6,11 +6,12 @@ mod studio;
 use exact::dice::Dice;
 use glam::DVec3;
 use render::Scene;
-use render::accel::Accel;
+use render::accel::{Accel, Structure};
 use render::filter::Filter;
 use render::optics::{fresnel, refract};
 use render::ray::Ray;
 use render::trace::tree::IntersectionTree;
+use render::trace::volume::Volumes;
 use render::trace::{RayCounts, Tracer};
 use studio::objects::{ball, light, mesh, plane, quad, sphere, textured};
 use studio::{assert_near, picture, png, scene};
@@ -63,8 +64,12 @@ fn around_the_critical_angle_weights_sum_to_one_and_the_colour_is_calm() {
             plane([0.0; 3], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0], "glass")
         );
         let scene = scene(&keys, &[]);
-        let accel = Accel::build(scene.objects.iter().map(|object| &object.shape).collect());
-        let tracer = Tracer { scene: &scene, accel: &accel };
+        let accel = Accel::build(
+            scene.objects.iter().map(|object| &object.shape).collect(),
+            Structure::Bvh,
+        );
+        let volumes = Volumes::of(&scene);
+        let tracer = Tracer::new(&scene, &accel, &volumes);
         let mut before: Option<f64> = None;
         for cosine in critical(index) {
             let direction = DVec3::new((1.0 - cosine * cosine).sqrt(), cosine, 0.0);
@@ -72,10 +77,10 @@ fn around_the_critical_angle_weights_sum_to_one_and_the_colour_is_calm() {
             let eye = DVec3::new(0.0, -1.0, 0.0);
             tracer.trace(&Ray::from_eye(eye, direction), &mut tree, &mut RayCounts::default());
             let node = tree.node(tree.root).unwrap();
-            let sum = node.reflect_weight + node.refract_weight;
+            let sum = (node.reflect_weight + node.refract_weight).x;
             assert!((sum - 1.0).abs() <= f64::EPSILON, "{index} {cosine}: {sum}");
             // A floor of light 1 below, a black sky above.
-            let color = node.reflect_weight;
+            let color = node.reflect_weight.x;
             let jump = before.map_or(0.0, |before: f64| (color - before).abs());
             assert!(jump <= 1e-6, "{index} {cosine}: the colour jumps by {jump:e}");
             before = Some(color);

@@ -101,7 +101,7 @@ fn a_light_at_the_eye_shows_no_shadow() {
     let scene = with(&keys, &objects, &obj);
     let seen = picture(&scene, 64, Filter::Point);
     let shapes = scene.objects.iter().map(|object| &object.shape).collect();
-    let accel = render::accel::Accel::build(shapes);
+    let accel = render::accel::Accel::build(shapes, render::accel::Structure::Bvh);
     let mut dark = 0;
     for (x, y, pixel) in pixels(&seen) {
         let [a, b] = on_film(x, y, 64);

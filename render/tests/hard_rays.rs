@@ -7,12 +7,13 @@ mod studio;
 use exact::Sample;
 use exact::dice::Dice;
 use glam::{DVec2, DVec3};
-use render::accel::Accel;
+use render::accel::{Accel, Structure};
 use render::optics::reflect;
 use render::ray::Ray;
 use render::scene::Scene;
 use render::shape::{Quad, Shape, Sphere};
 use render::trace::tree::{Branch, IntersectionTree, Node};
+use render::trace::volume::Volumes;
 use render::trace::{RayCounts, Tracer};
 use studio::objects::{ball, mesh};
 use studio::scene;
@@ -48,7 +49,7 @@ fn grazing_rays_hit_where_they_should() {
             let truth = Sample { corners, origin, direction: ray.direction };
             let truth = (truth.best_point(&truth.truth()) - origin).length();
             for shape in shapes(corners) {
-                let accel = Accel::build(vec![&shape]);
+                let accel = Accel::build(vec![&shape], Structure::Bvh);
                 // A rounding of the coordinates, seen at this angle.
                 let bound = 16.0 * f64::EPSILON / angle;
                 let hit = accel.nearest(&ray);
@@ -67,7 +68,7 @@ fn grazing_rays_along_a_sphere_hit_it_where_they_should() {
         for scale in [1e-6, 1.0, 1e6] {
             let center = DVec3::new(0.3, -0.7, 0.2) * scale;
             let ball = Shape::Sphere(Sphere { center, radius: scale });
-            let accel = Accel::build(vec![&ball]);
+            let accel = Accel::build(vec![&ball], Structure::Bvh);
             // The ray passes the centre at this part of the radius, and its height over the chord's
             // middle is what is left of it.
             let aside = angle.cos();
@@ -80,7 +81,7 @@ fn grazing_rays_along_a_sphere_hit_it_where_they_should() {
         }
     }
     let ball = Shape::Sphere(Sphere { center: DVec3::ZERO, radius: 1.0 });
-    let accel = Accel::build(vec![&ball]);
+    let accel = Accel::build(vec![&ball], Structure::Bvh);
     let past = Ray::from_eye(DVec3::new(-4.0, 1f64.next_up(), 0.0), DVec3::X);
     assert!(accel.nearest(&past).is_none());
 }
@@ -102,7 +103,7 @@ fn a_mirrored_grazing_ray_leaves_flat_and_round_surfaces_for_good() {
     ];
     let (mut hits, mut again) = (0, 0);
     for shape in &shapes {
-        let accel = Accel::build(vec![shape]);
+        let accel = Accel::build(vec![shape], Structure::Bvh);
         for angle in angles() {
             for _ in 0..100 {
                 let (place, normal) = match shape {
@@ -158,7 +159,7 @@ fn in_a_hollow_mirror_a_ray_goes_round_for_ever() {
         for away in [0.0, 1e3] {
             let center = scale * away * DVec3::new(0.6, -0.48, 0.64);
             let ball = Shape::Sphere(Sphere { center, radius: scale });
-            let accel = Accel::build(vec![&ball]);
+            let accel = Accel::build(vec![&ball], Structure::Bvh);
             for grazing in [1.0, 1e-2, 1e-4, 1e-6] {
                 let normal = dice.direction();
                 let along = dice.direction().reject_from(normal).normalize();
@@ -187,7 +188,7 @@ fn in_a_closed_mirror_mesh_no_ray_escapes() {
     for (columns, rows) in [(24, 12), (7, 4), (4, 2)] {
         let obj = ball(DVec3::new(0.1, 0.2, -0.3), 1.0, columns, rows, false);
         let shape = Shape::Mesh(render::scene::obj::read("m.obj", &obj).unwrap());
-        let accel = Accel::build(vec![&shape]);
+        let accel = Accel::build(vec![&shape], Structure::Bvh);
         let mut escaped = 0;
         for _ in 0..400 {
             let mut ray = Ray::from_eye(DVec3::new(0.15, 0.1, -0.25), dice.direction());
@@ -244,8 +245,9 @@ fn in_glass_no_ray_escapes_and_none_hits_what_it_left() {
         .collect();
     for (which, scene) in scenes.iter().enumerate() {
         let shapes = scene.objects.iter().map(|object| &object.shape).collect();
-        let accel = Accel::build(shapes);
-        let tracer = Tracer { scene, accel: &accel };
+        let accel = Accel::build(shapes, Structure::Bvh);
+        let volumes = Volumes::of(scene);
+        let tracer = Tracer::new(scene, &accel, &volumes);
         let (mut tree, mut counts) = (IntersectionTree::default(), RayCounts::default());
         let mut found = [0; 2];
         // From outside over the whole ball, its rim included, and from inside to everywhere; many

@@ -45,7 +45,8 @@ fn a_texture_of_any_size_looks_like_four_of_it_in_one() {
         let four: Vec<[u8; 3]> = (0..4 * width * height)
             .map(|k| texels[k / (2 * width) % height * width + k % (2 * width) % width])
             .collect();
-        for filter in FILTERS {
+        // A pyramid over other texels has other levels.
+        for filter in FILTERS.into_iter().filter(|&filter| filter != Filter::Mip) {
             // Down to rows where a footprint covers many of them.
             let one = picture(&paper("", &floor(1.0), width, &texels), 48, filter);
             let tiled = picture(&paper("", &floor(2.0), 2 * width, &four), 48, filter);
@@ -137,7 +138,8 @@ fn a_footprint_of_a_pole_and_a_seam_at_once_is_an_average_of_its_rows() {
             r#""camera": {{ "eye": {eye:?}, "target": [0, 0, 0], "up": [0, 0, 1], "fov_deg": 20 }},"#
         );
         let globe = sphere([0.0; 3], 1.0, "unlit");
-        for filter in FILTERS {
+        // A mip-map's square takes in the whole row at a pole, and so as many rows.
+        for filter in FILTERS.into_iter().filter(|&filter| filter != Filter::Mip) {
             let seen = picture(&paper(&camera, &globe, 64, &rows), 41, filter);
             // The northern half is of one colour, whatever lies across the pole or the seam.
             for (x, y, pixel) in pixels(&seen) {

@@ -3,7 +3,7 @@
 mod studio;
 
 use glam::DVec3;
-use render::accel::Accel;
+use render::accel::{Accel, Structure};
 use render::filter::Filter;
 use render::ray::Ray;
 use render::trace::tree::{Branch, IntersectionTree, Node};
@@ -68,7 +68,8 @@ fn obj(side: f64, low: f64, high: f64) -> Vec<u8> {
 
 /// What a ray meets on its refracted way, up to the last surface, and where it goes from there.
 fn way(scene: &Scene, origin: DVec3, direction: DVec3) -> Vec<Node> {
-    let accel = Accel::build(scene.objects.iter().map(|object| &object.shape).collect());
+    let accel =
+        Accel::build(scene.objects.iter().map(|object| &object.shape).collect(), Structure::Bvh);
     let volumes = Volumes::of(scene);
     let tracer = Tracer::new(scene, &accel, &volumes);
     let (mut tree, mut counts) = (IntersectionTree::default(), RayCounts::default());
@@ -222,7 +223,8 @@ fn glass_water_and_a_bubble_in_a_white_background_are_white() {
         sphere([0.1, 0.1, 0.1], 0.2, "shiny air"),
     ];
     let scene = of(r#""max_depth": 64, "min_weight": 0.00001,"#, &objects, &[]);
-    let accel = Accel::build(scene.objects.iter().map(|object| &object.shape).collect());
+    let accel =
+        Accel::build(scene.objects.iter().map(|object| &object.shape).collect(), Structure::Bvh);
     let volumes = Volumes::of(&scene);
     let tracer = Tracer::new(&scene, &accel, &volumes);
     let (mut tree, mut counts) = (IntersectionTree::default(), RayCounts::default());
@@ -351,7 +353,7 @@ fn a_ray_that_counts_in_one_channel_is_followed() {
         "absorption": 1 } }"#;
     let objects = [block("slab", "ink"), block("second", "ink")].join(",");
     let scene = scene(&format!(r#"{keys} {materials}, "objects": [ {objects} ]"#), &files);
-    let settings = render::Settings { width: 4, height: 4, samples: 1, filter: Filter::Point };
+    let settings = render::Settings::new(4, 4, Filter::Point);
     let (shown, stats) = render::render(&scene, &settings, &|_, _| {});
     assert_eq!((stats.primary_rays, stats.refracted_rays), (16, 16));
     assert!(shown.pixels.iter().all(|&pixel| pixel == [0.0; 3]));

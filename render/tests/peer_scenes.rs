@@ -8,7 +8,6 @@
 
 use files::Disk;
 use files::json::Document;
-use render::accel::Structure;
 use render::filter::Filter;
 use render::scene::{MeshSource, read};
 use render::{Picture, Scene, Settings};

@@ -21,7 +21,7 @@ fn wall(textures: &str, texture: &str) -> Scene {
 }
 
 fn stats(scene: &Scene, filter: Filter) -> Stats {
-    let settings = Settings { width: 8, height: 6, samples: 1, filter };
+    let settings = Settings::new(8, 6, filter);
     render::render(scene, &settings, &|_, _| {}).1
 }
 

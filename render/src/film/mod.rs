@@ -231,7 +231,7 @@ mod tests {
     };
     use crate::shape::{Quad, Shape, Sphere};
     use crate::texture::Texture;
-    use glam::{DAffine3, DVec3};
+    use glam::{DAffine3, DVec2, DVec3};
 
     /// A glass sphere on a textured floor.
     fn scene() -> Scene {

@@ -8,7 +8,6 @@ pub mod objects;
 use files::json::Document;
 use files::{FileError, Source};
 use image::{ImageFormat, Rgb, RgbImage};
-use render::accel::Structure;
 use render::filter::Filter;
 use render::scene::read;
 use render::{Picture, Scene, Settings};
@@ -59,7 +58,7 @@ pub fn supersampled(scene: &Scene, side: u32, samples: u32, filter: Filter) -> P
 
 /// Its picture, of any width and height, with one ray in each pixel.
 pub fn sized(scene: &Scene, width: u32, height: u32, filter: Filter) -> Picture {
-    let settings = Settings { width, height, samples: 1, filter };
+    let settings = Settings::new(width, height, filter);
     let (picture, stats) = render::render(scene, &settings, &|_, _| {});
     assert_eq!(stats.not_finite, 0);
     picture
