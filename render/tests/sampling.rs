@@ -15,7 +15,7 @@ fn exposed(scene: &Scene, side: u32, sampling: Sampling, filter: Filter) -> Pict
     render::render(scene, &settings, &|_, _| {}).0
 }
 
-/// A wall of many colours, a lit ball and one of glass before it, seen from (0, 0, 1) at an angle
+/// A wall of many colours, placed so that no ray meets the edge of a texel; a lit ball and one of glass before it, seen from (0, 0, 1) at an angle
 /// whose half has this tangent.
 fn room(tangent: f64, objects: &str) -> Scene {
     let texel = |k: u8| [k.wrapping_mul(37), 255 - k.wrapping_mul(11), k.wrapping_mul(91)];
@@ -29,7 +29,7 @@ fn room(tangent: f64, objects: &str) -> Scene {
         "materials": {{ "wall": {{ "diffuse": 0 }}, "ball": {{ "diffuse": 0.8 }},
           "glass": {{ "transparency": 1, "reflectivity": 1, "fresnel": true, "ambient": 0,
             "diffuse": 0 }} }},
-        "objects": [ {{ "plane": {{ "point": [-2, -2, 0], "edge_u": [1.5, 0.1, 0],
+        "objects": [ {{ "plane": {{ "point": [-2.0131, -2.0077, 0], "edge_u": [1.5, 0.1, 0],
           "edge_v": [0.2, 1.4, 0], "material": "wall", "texture": "colours" }} }}{objects} ]"#
     );
     scene(&keys, &[("colours.png", png(8, &texels))])
