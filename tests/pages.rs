@@ -192,8 +192,11 @@ fn no_clobber_refuses_before_the_first_picture_is_made() {
 #[test]
 fn pixels_that_are_not_finite_are_told() {
     let folder = tempfile::tempdir().unwrap();
-    let scene = "{\"format\": \"tb-scene\", \"version\": 1, \"background\": 1e39, \
-        \"camera\": {\"eye\": [0, 0, 1], \"target\": [0, 0, 0], \"fov_deg\": 40}, \"objects\": []}";
+    // Each number is in its range, and their product above all that a pixel can hold.
+    let scene = "{\"format\": \"tb-scene\", \"version\": 1, \"ambient\": 1e30, \
+        \"camera\": {\"eye\": [0, 0, 1], \"target\": [0, 0, 0], \"fov_deg\": 40}, \
+        \"materials\": {\"sun\": {\"color\": 1e30}}, \"objects\": [{\"plane\": {\"point\": [0, 0, 0], \
+        \"edge_u\": [1, 0, 0], \"edge_v\": [0, 1, 0], \"material\": \"sun\"}}]}";
     fs::write(folder.path().join("s.json"), scene).unwrap();
     let job = "{\"format\": \"tb-job\", \"version\": 1, \"scene\": \"s.json\"}";
     fs::write(folder.path().join("bright.json"), job).unwrap();
