@@ -256,7 +256,7 @@ impl Reader<'_> {
         } else {
             format!("{low} to {high}")
         };
-        self.fault(path, format!("found {value:?}, expected {range}"))
+        self.fault(path, format!("found {}, expected {range}", number(value)))
     }
 
     /// The value, if it is above 0 and can be reckoned with.
@@ -265,7 +265,7 @@ impl Reader<'_> {
             return Ok(value);
         }
         let range = format!("more than 0: {SMALLEST:e} to {LARGEST:e}");
-        self.fault(path, format!("found {value:?}, expected {range}"))
+        self.fault(path, format!("found {}, expected {range}", number(value)))
     }
 
     /// A point or a direction, if its coordinates can be reckoned with.
@@ -275,7 +275,8 @@ impl Reader<'_> {
             None => Ok(coordinates.into()),
             Some(k) => {
                 let found = coordinates[k];
-                let message = format!("found {found:?}, expected {:e} to {LARGEST:e}", -LARGEST);
+                let found = number(found);
+                let message = format!("found {found}, expected {:e} to {LARGEST:e}", -LARGEST);
                 self.fault(&format!("{path}[{k}]"), message)
             }
         }
@@ -295,7 +296,7 @@ impl Reader<'_> {
         let up = self.vector("camera.up", camera.up)?;
         if !(camera.fov_deg > 0.0 && camera.fov_deg < 180.0) {
             let message =
-                format!("found {:?}, expected an angle between 0 and 180", camera.fov_deg);
+                format!("found {}, expected an angle between 0 and 180", number(camera.fov_deg));
             return self.fault("camera.fov_deg", message);
         }
         match Camera::new(eye, target, up, camera.fov_deg.to_radians()) {
@@ -306,4 +307,10 @@ impl Reader<'_> {
             ),
         }
     }
+}
+
+/// A number as one writes it: whole ones without a point, very large and small ones with a power.
+fn number(value: f64) -> String {
+    let usual = value == 0.0 || (1e-5..1e16).contains(&value.abs());
+    if usual { value.to_string() } else { format!("{value:?}") }
 }
