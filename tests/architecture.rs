@@ -36,7 +36,10 @@ const ROOMS: [(&str, &[&str]); 16] = [
         &["accel", "color", "filter", "footprint", "optics", "ray", "scene", "shape", "trace"],
     ),
     ("stats", &["shade", "trace"]),
-    ("film", &["accel", "color", "filter", "footprint", "scene", "shade", "stats", "trace"]),
+    (
+        "film",
+        &["accel", "color", "filter", "footprint", "scene", "shade", "shape", "stats", "trace"],
+    ),
     ("inspect", &["color", "film", "footprint", "scene", "shade", "trace"]),
 ];
 
