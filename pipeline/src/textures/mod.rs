@@ -2,21 +2,21 @@
 //!
 //! | file               | drawn by         | what it shows                                     |
 //! |--------------------|------------------|---------------------------------------------------|
-//! | `checkerboard.png` | [`checkerboard`] | eight by eight checks, ivory and oxblood          |
-//! | `vase-band.png`    | [`vase_band`]    | the painted bands of a blue and white vase        |
-//! | `floor-tiles.png`  | [`floor_tiles`]  | octagons of stone with small squares between them |
-//! | `granite.png`      | [`granite`]      | pink granite                                      |
-//! | `scales.png`       | [`scales`]       | heights: rows of scales, each over the one above  |
-//! | `drawing-board.png` | [`drawing_board`] | pale paper ruled in squares                      |
-//! | `net.png`          | [`net`]          | light grey checks between dark lines              |
-//! | `ribbon.png`       | [`ribbon`]       | slanting stripes of light grey                    |
-//! | `graticule.png`    | [`graticule`]    | parallels and meridians of a globe                |
-//! | `world-chart.png`  | [`world_chart`]  | an old chart of the world                         |
-//! | `sea.png`          | [`sea`]          | the sea from above                                |
-//! | `lettering.png`    | [`lettering`]    | a sheet of fine lettering                         |
+//! | `checkerboard.png` | `checkerboard` | eight by eight checks, ivory and oxblood          |
+//! | `vase-band.png`    | `vase_band`    | the painted bands of a blue and white vase        |
+//! | `floor-tiles.png`  | `floor_tiles`  | octagons of stone with small squares between them |
+//! | `granite.png`      | `granite`      | pink granite                                      |
+//! | `scales.png`       | `scales`       | heights: rows of scales, each over the one above  |
+//! | `drawing-board.png` | `drawing_board` | pale paper ruled in squares                      |
+//! | `net.png`          | `net`          | light grey checks between dark lines              |
+//! | `ribbon.png`       | `ribbon`       | slanting stripes of light grey                    |
+//! | `graticule.png`    | `graticule`    | parallels and meridians of a globe                |
+//! | `world-chart.png`  | `world_chart`  | an old chart of the world                         |
+//! | `sea.png`          | `sea`          | the sea from above                                |
+//! | `lettering.png`    | `lettering`    | a sheet of fine lettering                         |
 //!
-//! [`canvas`] samples a colour per point into a picture; [`shape`] has the outlines, [`noise`] the
-//! irregularities and [`color`] the way between linear light and bytes. A picture depends on
+//! `canvas` samples a colour per point into a picture; `shape` has the outlines, `noise` the
+//! irregularities and `color` the way between linear light and bytes. A picture depends on
 //! nothing but this code: there is no clock, no entropy, and no arithmetic beyond `+ − × ÷ √` and
 //! rounding, which every machine does alike.
 //!

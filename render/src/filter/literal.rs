@@ -4,7 +4,7 @@
 //! read off it. Widths and places are whole. The kernel is then the discrete B-spline: `n` boxes of
 //! `w` texels one after another.
 //!
-//! The tables of [`super::table`] take texels as squares instead of points, so their kernel is the
+//! The tables of `table` take texels as squares instead of points, so their kernel is the
 //! same convolved with the B-spline of degree `n` of one texel: nothing for n = 1, and for whole
 //! widths the weights (1, 6, 1)/8 for n = 2 and (1, 4, 1)/6 for n = 3, along each axis.
 //!
