@@ -124,7 +124,9 @@ fn render_in_tiles(
         let crop = Crop::of(settings);
         let tiles = crop.tiles((tile_samples / sampling.per_pixel()).max(least));
         let film = Mutex::new(Film::new(crop, &settings.layers, stats));
-        tiles.par_iter().for_each(|tile| {
+        // Tile by tile: in longer runs, which are taken whole, the last one would keep one core busy and
+        // leave the others idle.
+        tiles.par_iter().with_max_len(1).for_each(|tile| {
             let exposed = exposure.expose(tile, &mut ());
             let done = film.lock().unwrap_or_else(PoisonError::into_inner).take(tile, &exposed);
             progress(done, tiles.len());
