@@ -44,8 +44,7 @@ impl JsonSchema for BackgroundFile {
     }
 
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        let kinds =
-            [generator.subschema_for::<ColorFile>(), generator.subschema_for::<SkyFile>()];
+        let kinds = [generator.subschema_for::<ColorFile>(), generator.subschema_for::<SkyFile>()];
         json_schema!({ "description": "A colour, or a sky.", "oneOf": kinds })
     }
 }

@@ -11,7 +11,8 @@ impl Reader<'_> {
                 self.color("background", *color).map(Background::Uniform)
             }
             BackgroundFile::Sky(sky) => {
-                let ramp = self.colors_by_angle("background.by_elevation", &sky.by_elevation, -90.0)?;
+                let ramp =
+                    self.colors_by_angle("background.by_elevation", &sky.by_elevation, -90.0)?;
                 Ok(Background::ByElevation(ramp))
             }
         }
