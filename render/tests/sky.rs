@@ -132,7 +132,7 @@ fn a_sky_that_is_none_is_refused_with_its_place_by_reader_and_schema_alike() {
     }
     // What is not of the form both refuse; what is out of its range the reader knows.
     for (background, part, form) in [
-        (json!("blue"), "background: invalid type: string \"blue\"", true),
+        (json!("blue"), "background: found the string \"blue\", expected a colour", true),
         (json!({}), "missing key `by_elevation`", true),
         (json!({ "by_elevation": [[0, 1]], "haze": 1 }), "unknown key `haze`", true),
         (json!({ "by_elevation": [[0]] }), "background.by_elevation[0]", true),
