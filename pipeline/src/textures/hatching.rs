@@ -1,6 +1,6 @@
 //! `hatching.png`: a fine net as an engraver lays it over a surface: rings across it, thinner lines
-//! along it, and every eighth ring bold. It is tileable both ways and its own mirror image, so that it
-//! also closes where a surface comes back with its other side out.
+//! along it, and every seventh ring bold. It is tileable both ways and its own mirror image, so that it
+//! also closes where a surface comes back with its other side out; the seam lies between two rings.
 
 use super::canvas;
 use super::color::{Color, srgb};
@@ -9,8 +9,9 @@ use image::RgbImage;
 
 /// Texels along a side of the picture.
 const SIZE: u32 = 256;
-/// Texels from line to line, of which eight repeat.
-const PITCH: f64 = 32.0;
+/// Texels from line to line along the surface, and from ring to ring.
+const ALONG_PITCH: f64 = 32.0;
+const RING_PITCH: f64 = SIZE as f64 / 7.0;
 /// How wide a ring, a bold ring and a line along the surface are, in texels.
 const RING: f64 = 9.0;
 const BOLD: f64 = 17.0;
@@ -25,9 +26,11 @@ pub fn draw() -> RgbImage {
 /// The colour at `p` in texels.
 fn color_at(p: DVec2, ground: Color, line: Color, bold: Color) -> Color {
     let off = |x: f64, pitch: f64| (x - (x / pitch).round() * pitch).abs();
-    if off(p.y, f64::from(SIZE)) < 0.5 * BOLD {
+    // The fourth of seven rings is in the middle.
+    let middle = p.y - 0.5 * f64::from(SIZE);
+    if off(middle, f64::from(SIZE)) < 0.5 * BOLD {
         bold
-    } else if off(p.y, PITCH) < 0.5 * RING || off(p.x, PITCH) < 0.5 * ALONG {
+    } else if off(middle, RING_PITCH) < 0.5 * RING || off(p.x, ALONG_PITCH) < 0.5 * ALONG {
         line
     } else {
         ground
@@ -43,7 +46,7 @@ mod tests {
         let side = f64::from(SIZE);
         let [ground, line, bold] = [1.0, 2.0, 3.0].map(Color::splat);
         let at = |texel: DVec2| color_at(texel, ground, line, bold);
-        canvas::assert_repeats(SIZE, DVec2::new(PITCH, 0.0), at);
+        canvas::assert_repeats(SIZE, DVec2::new(ALONG_PITCH, 0.0), at);
         canvas::assert_repeats(SIZE, DVec2::new(0.0, side), at);
         let drawn = draw();
         for (x, y, texel) in drawn.enumerate_pixels() {
