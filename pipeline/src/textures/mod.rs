@@ -14,6 +14,8 @@
 //! | `world-chart.png`  | `world_chart`  | an old chart of the world                         |
 //! | `sea.png`          | `sea`          | the sea from above                                |
 //! | `lettering.png`    | `lettering`    | a sheet of fine lettering                         |
+//! | `hatching.png`     | `hatching`     | a fine net, its own mirror image                  |
+//! | `plate.png`        | `plate`        | a page of a book of specimens                     |
 //!
 //! `canvas` samples a colour per point into a picture; `shape` has the outlines, `noise` the
 //! irregularities and `color` the way between linear light and bytes. A picture depends on
@@ -31,9 +33,11 @@ mod drawing_board;
 mod floor_tiles;
 mod granite;
 mod graticule;
+mod hatching;
 mod lettering;
 mod net;
 mod noise;
+mod plate;
 mod ribbon;
 mod scales;
 mod sea;
@@ -80,7 +84,7 @@ impl Texture {
 }
 
 /// All textures that this folder draws.
-pub const TEXTURES: [Texture; 12] = [
+pub const TEXTURES: [Texture; 14] = [
     Texture { file: "checkerboard.png", draw: checkerboard::draw },
     Texture { file: "vase-band.png", draw: vase_band::draw },
     Texture { file: "floor-tiles.png", draw: floor_tiles::draw },
@@ -93,4 +97,6 @@ pub const TEXTURES: [Texture; 12] = [
     Texture { file: "world-chart.png", draw: world_chart::draw },
     Texture { file: "sea.png", draw: sea::draw },
     Texture { file: "lettering.png", draw: lettering::draw },
+    Texture { file: "hatching.png", draw: hatching::draw },
+    Texture { file: "plate.png", draw: plate::draw },
 ];
