@@ -8,6 +8,7 @@
 
 pub mod compare;
 pub mod error;
+pub mod html;
 pub mod job;
 pub mod mesh;
 pub mod pages;
