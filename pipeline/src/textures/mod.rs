@@ -4,6 +4,7 @@
 //! |--------------------|------------------|---------------------------------------------------|
 //! | `checkerboard.png` | `checkerboard` | eight by eight checks, ivory and oxblood          |
 //! | `vase-band.png`    | `vase_band`    | the painted bands of a blue and white vase        |
+//! | `cup-band.png`     | `cup_band`       | stripes of a cream cup                            |
 //! | `floor-tiles.png`  | `floor_tiles`  | octagons of stone with small squares between them |
 //! | `granite.png`      | `granite`      | pink granite                                      |
 //! | `scales.png`       | `scales`       | heights: rows of scales, each over the one above  |
@@ -29,6 +30,7 @@ mod canvas;
 mod checkerboard;
 mod coast;
 mod color;
+mod cup_band;
 mod drawing_board;
 mod floor_tiles;
 mod granite;
@@ -84,9 +86,10 @@ impl Texture {
 }
 
 /// All textures that this folder draws.
-pub const TEXTURES: [Texture; 14] = [
+pub const TEXTURES: [Texture; 15] = [
     Texture { file: "checkerboard.png", draw: checkerboard::draw },
     Texture { file: "vase-band.png", draw: vase_band::draw },
+    Texture { file: "cup-band.png", draw: cup_band::draw },
     Texture { file: "floor-tiles.png", draw: floor_tiles::draw },
     Texture { file: "granite.png", draw: granite::draw },
     Texture { file: "scales.png", draw: scales::draw },
