@@ -14,6 +14,7 @@ pub mod mesh;
 pub mod pages;
 pub mod report;
 pub mod run;
+pub mod stages;
 pub mod textures;
 
 pub use error::PipelineError;
