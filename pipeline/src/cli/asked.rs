@@ -22,6 +22,14 @@ pub struct Asked {
     pub argument: String,
 }
 
+impl Asked {
+    /// What `pipeline run` calls the whole job.
+    #[must_use]
+    pub fn whole(&self) -> String {
+        if self.built_in { self.job.name.clone() } else { self.path.display().to_string() }
+    }
+}
+
 /// The jobs that were named, in the order in which they were; what is named twice is there once, and a figure
 /// beside the page that shows it is no more than the page.
 ///

@@ -1,6 +1,7 @@
 //! What the program `pipeline` is asked, and how it does it: a file for each command.
 
 mod asked;
+mod book;
 mod list;
 mod run;
 mod textures;
@@ -17,6 +18,7 @@ Examples:
   pipeline run A.11 -o out
   pipeline run all -o out --size 1024x1024 --keep
   pipeline run my-job.json -o out --stats
+  pipeline book -o book
   pipeline textures -o textures
 
 Exit codes: 2 bad use, 3 malformed input, 4 impossible geometry, 5 cannot read or write,
@@ -36,6 +38,8 @@ enum Command {
     List,
     /// Make the pictures of pages or of jobs of your own
     Run(run::RunArguments),
+    /// Make the picture book: pages with their modes, costs and errors, as one file of HTML
+    Book(book::BookArguments),
     /// Draw the textures of the examples again
     Textures(textures::TexturesArguments),
 }
@@ -45,6 +49,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
     match &arguments.command {
         Command::List => list::list(),
         Command::Run(arguments) => run::run(arguments),
+        Command::Book(arguments) => book::book(arguments),
         Command::Textures(arguments) => textures::textures(arguments),
     }
 }
