@@ -250,6 +250,19 @@ mod tests {
     }
 
     #[test]
+    fn regions_are_the_same_for_any_number_of_threads() {
+        let ball = r#", { "sphere": { "center": [0, 1, -3], "radius": 1, "material": "glass" } }"#;
+        let scene = scene(17.0, ball);
+        let with = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| sights(&scene, SIZE))
+        };
+        let alone = with(1);
+        assert!(alone.iter().any(|sight| sight.through > 0.5), "the ball shows the floor");
+        assert_eq!(alone, with(3));
+    }
+
+    #[test]
     fn bare_surfaces_are_in_no_region() {
         let board = r#", { "rectangle": { "corner": [-9, -9, -1.5], "edge_u": [18, 0, 0],
             "edge_v": [0, 18, 0], "material": "bare" } }"#;
