@@ -2,6 +2,7 @@
 
 mod asked;
 mod book;
+mod compare;
 mod list;
 mod run;
 mod textures;
@@ -20,9 +21,10 @@ Examples:
   pipeline run my-job.json -o out --stats
   pipeline book -o book
   pipeline textures -o textures
+  pipeline compare a.png b.png --map difference.png --rmse 0.01
 
-Exit codes: 2 bad use, 3 malformed input, 4 impossible geometry, 5 cannot read or write,
-6 too large, 70 a bug, 130 interrupted, 141 closed pipe.";
+Exit codes: 1 pictures that differ by more than was allowed, 2 bad use, 3 malformed input,
+4 impossible geometry, 5 cannot read or write, 6 too large, 70 a bug, 130 interrupted, 141 closed pipe.";
 
 /// From curves to pictures: sweep, triangulate and render in one process.
 #[derive(Debug, Parser)]
@@ -42,6 +44,8 @@ enum Command {
     Book(book::BookArguments),
     /// Draw the textures of the examples again
     Textures(textures::TexturesArguments),
+    /// Say how far one picture is from another, in linear light
+    Compare(compare::CompareArguments),
 }
 
 /// Does what the arguments ask for.
@@ -51,6 +55,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
         Command::Run(arguments) => run::run(arguments),
         Command::Book(arguments) => book::book(arguments),
         Command::Textures(arguments) => textures::textures(arguments),
+        Command::Compare(arguments) => compare::compare(arguments),
     }
 }
 
