@@ -6,7 +6,7 @@ use pipeline::book::{Entry, Plate};
 use pipeline::{pages, run as jobs};
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use support::{run, words};
 
 /// A book of a few arguments, made in a folder of its own.
@@ -23,7 +23,8 @@ fn book(arguments: &[&str]) -> String {
 
 /// The values of an attribute.
 fn values<'a>(text: &'a str, attribute: &str) -> Vec<&'a str> {
-    let parts = text.split(&format!(" {attribute}=\"")[..]).skip(1);
+    let start = format!(" {attribute}=\"");
+    let parts = text.split(start.as_str()).skip(1);
     parts.map(|part| part.split_once('"').unwrap().0).collect()
 }
 
@@ -86,7 +87,7 @@ fn every_figure_that_has_a_page_is_in_the_book_once_and_in_order() {
         at = here;
     }
     assert!(at > 0);
-    assert!(!text.contains("truth"), "none was asked for");
+    assert!(!text.contains("class=\"truth\""), "none was asked for");
 }
 
 #[test]
@@ -198,7 +199,7 @@ fn a_job_of_ones_own_is_in_the_book() {
     let examples = support::root().join("examples/pages/horn.json");
     let text = book(&[examples.to_str().unwrap(), "--size", "40x30", "--truth", "0"]);
     assert!(text.contains(&format!("pipeline run {} --size 40x30", examples.display())));
-    assert!(Path::new(&examples).exists() && text.contains("A horn"));
+    assert!(text.contains("A horn"));
 }
 
 #[test]
