@@ -27,6 +27,8 @@ fn tree_grids_and_brute_force_make_the_same_pages() {
             filter: Filter::Tent,
             sampling: Sampling::regular(1),
             accel,
+            figure: None,
+            thesis_minutes: None,
         };
         job.modes = vec![
             mode("none", Structure::None),

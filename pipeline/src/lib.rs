@@ -3,12 +3,16 @@
 //! A [`Job`] names curve specs, the texture ids of their surfaces, a scene, and the ways to render
 //! it. [`run()`] does a job: grids and meshes pass in memory, as the same numbers that the three
 //! programs pass through pipes, so the pictures are the same byte for byte. The jobs in [`pages`]
-//! are built into the program.
+//! are built into the program. [`compare`] says how far one picture is from another, and [`mod@report`]
+//! what each way of rendering a page costs and how wrong it is.
 
+pub mod compare;
 pub mod error;
+pub mod html;
 pub mod job;
 pub mod mesh;
 pub mod pages;
+pub mod report;
 pub mod run;
 pub mod textures;
 

@@ -3,7 +3,7 @@
 use crate::job::{MeshJob, Mode};
 use crate::{Job, PipelineError, mesh};
 use files::json::Document;
-use files::{Output, Source};
+use files::{JsonError, Output, Source};
 use render::color::Encoding;
 use render::film::encode::{self, Format};
 use render::film::memory;
@@ -15,9 +15,9 @@ use render::{Picture, Scene, Settings};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
-use sweep::Object;
 use sweep::grid::file as grid_file;
 use sweep::spec::{self, Camera};
+use sweep::{Object, SweepError};
 use triangulate::TriangulateError;
 
 /// White between the pictures of a strip, in pixels.
@@ -100,6 +100,20 @@ pub fn run(
     Ok(())
 }
 
+/// The scene of a job with its meshes in it, as [`run()`] renders it: for those who render it in ways of
+/// their own. With `keep`, grids and OBJ files are written on the way.
+///
+/// # Errors
+/// When a file cannot be read or is wrong, or the textures take too much memory in one of the job's modes.
+pub fn scene(
+    job: &Job,
+    source: &dyn Source,
+    options: &Options,
+    tell: &(dyn Fn(Event<'_>) + Sync),
+) -> Result<Scene, PipelineError> {
+    Work { job, source, options, tell }.scene()
+}
+
 struct Work<'a> {
     job: &'a Job,
     source: &'a dyn Source,
@@ -159,9 +173,16 @@ impl Work<'_> {
         let CameraFile { eye, target, up, fov_deg } = *camera;
         let size = [self.options.size.0, self.options.size.1];
         let camera = Some(Camera { eye, target, up, fov_deg, size });
-        let seen = spec::Mesh { camera, ..spec::Mesh::default() };
+        let seen = spec::Mesh { camera: mesh.mesh.camera.or(camera), ..mesh.mesh.clone() };
         let document = Document::new(&name, &bytes)?;
-        let object = Object::read(&document, folder, self.source, &seen)?;
+        let object =
+            Object::read(&document, folder, self.source, &seen).map_err(|error| match error {
+                // It is about what the job says in place of the spec.
+                SweepError::Resolution(message) => {
+                    JsonError { message, ..mesh.mesh_place.clone() }.into()
+                }
+                other => PipelineError::from(other),
+            })?;
         let grids = object.grids()?;
         if self.options.keep {
             self.write(&self.job.grid_file(mesh), |out| {

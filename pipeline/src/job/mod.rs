@@ -4,37 +4,47 @@
 //! {
 //!   "format": "tb-job", "version": 1,
 //!   "title": "A porcelain vase on tiles",
-//!   "meshes": { "vase": { "spec": "../curves/vase.json", "texture": 2, "surface": 0 } },
+//!   "caption": "Look at the far tiles, and at the lines on the neck.",
+//!   "crops": [ { "title": "the far tiles", "at": [0.2, 0.45] } ],
+//!   "meshes": { "vase": { "spec": "../curves/vase.json", "texture": 2, "surface": 0,
+//!                         "mesh": { "rows": 60, "cols": 60 } } },
 //!   "scene": "../scenes/vase.json",
 //!   "modes": [
 //!     { "name": "point", "filter": "point" },
 //!     { "name": "prefiltered", "filter": "tent", "samples": 1 },
 //!     { "name": "jittered", "filter": "tent", "samples": 4,
 //!       "pattern": "jitter", "seed": 7, "pixel_filter": "tent" },
-//!     { "name": "nine", "filter": "tent", "supersample": "image" }
+//!     { "name": "nine", "filter": "tent", "supersample": "image", "figure": "A.4", "thesis_minutes": 90 }
 //!   ]
 //! }
 //! ```
 //!
 //! `meshes` says which spec makes each mesh that the scene names, and the texture and surface ids
-//! that its triangles carry (those of the spec, or 0, when left out). The scene is rendered once in each mode; without
+//! that its triangles carry (those of the spec, or 0, when left out); `mesh` is resolution in place of the
+//! spec's, in the same words ([`sweep::spec::Mesh`]). The scene is rendered once in each mode; without
 //! `modes`, once with the tent filter. Paths count from the job file's folder.
 //!
 //! Of a mode, `filter` must be there; the rest is what the flags of `render` are: `samples` (1 to 256,
 //! by default 1), `pattern` (`regular` or `jitter`, with a `seed`), `pixel_filter` (`box` or `tent`), or
-//! in their place `supersample` (`image` or `rays`).
+//! in their place `supersample` (`image` or `rays`). `figure` says which figure of the thesis it is made after,
+//! `thesis_minutes` how long that took.
+//!
+//! `caption` and `crops`, places by fractions of width and height that are worth a look pixel by pixel, are for
+//! the book.
 
 use files::json::Document;
 use files::names::each_name_once;
 use files::{JsonError, Source};
-use render::Sampling;
-use render::accel::Structure;
-use render::film::{MOST_SAMPLES, Nine, Pattern, PixelFilter};
-use render::filter::Filter;
+use mode::ModeFile;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use sweep::spec;
 use triangulate::Options;
+
+pub mod mode;
+
+pub use mode::Mode;
 
 use crate::PipelineError;
 
@@ -45,6 +55,10 @@ pub struct Job {
     pub name: String,
     /// What it shows, in one line.
     pub title: String,
+    /// What there is to see in it, in a few sentences; or nothing.
+    pub caption: String,
+    /// Places worth looking at pixel by pixel.
+    pub crops: Vec<Place>,
     /// The meshes to make, by the names that the scene gives them.
     pub meshes: Vec<MeshJob>,
     /// The scene file.
@@ -62,19 +76,20 @@ pub struct MeshJob {
     pub spec: PathBuf,
     /// The ids on its triangles.
     pub options: Options,
+    /// What of its resolution is said here, in place of what the spec says.
+    pub mesh: spec::Mesh,
+    /// Where that is said: a complaint whose words are still missing.
+    pub(crate) mesh_place: JsonError,
 }
 
-/// A way to render a scene.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Mode {
-    /// What its picture is called, after the job.
-    pub name: String,
-    /// How textures are averaged.
-    pub filter: Filter,
-    /// How a pixel is made of rays.
-    pub sampling: Sampling,
-    /// What finds the hits; the picture is the same.
-    pub accel: Structure,
+/// A place in a picture.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Place {
+    /// What is seen there.
+    pub title: String,
+    /// Its middle, as fractions of the width from the left and of the height from the top, 0 to 1.
+    pub at: [f64; 2],
 }
 
 #[derive(Debug, Deserialize)]
@@ -86,37 +101,15 @@ struct JobFile {
     version: u32,
     #[serde(default)]
     title: String,
+    #[serde(default)]
+    caption: String,
+    #[serde(default)]
+    crops: Vec<Place>,
     #[serde(default, deserialize_with = "each_name_once")]
     meshes: BTreeMap<String, MeshFile>,
     scene: PathBuf,
     #[serde(default)]
     modes: Option<Vec<ModeFile>>,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ModeFile {
-    name: String,
-    filter: Filter,
-    #[serde(default)]
-    accel: Structure,
-    #[serde(default)]
-    samples: Option<u32>,
-    #[serde(default)]
-    pattern: Option<PatternName>,
-    #[serde(default)]
-    seed: Option<u64>,
-    #[serde(default)]
-    pixel_filter: Option<PixelFilter>,
-    #[serde(default)]
-    supersample: Option<Nine>,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "snake_case")]
-enum PatternName {
-    Regular,
-    Jitter,
 }
 
 #[derive(Debug, Deserialize)]
@@ -127,6 +120,8 @@ struct MeshFile {
     texture: Option<u32>,
     #[serde(default)]
     surface: Option<u32>,
+    #[serde(default)]
+    mesh: spec::Mesh,
 }
 
 impl Job {
@@ -179,84 +174,29 @@ impl Job {
         for mesh in file.meshes.keys() {
             check_word(document, &format!("meshes.{mesh}"), mesh)?;
         }
+        for (k, place) in file.crops.iter().enumerate() {
+            if !place.at.iter().all(|fraction| (0.0..=1.0).contains(fraction)) {
+                let message = format!("found {:?}, expected two fractions from 0 to 1", place.at);
+                return Err(document.fault(&format!("crops[{k}].at"), message));
+            }
+        }
         let meshes = file.meshes.into_iter().map(|(name, mesh)| MeshJob {
+            mesh_place: document.fault(&format!("meshes.{name}.mesh"), ""),
             name,
             spec: folder.join(mesh.spec),
             options: Options { texture: mesh.texture, surface: mesh.surface },
+            mesh: mesh.mesh,
         });
         Ok(Self {
             name: name.into(),
             title: file.title,
+            caption: file.caption,
+            crops: file.crops,
             meshes: meshes.collect(),
             scene: folder.join(file.scene),
-            modes: modes(document, file.modes)?,
+            modes: mode::modes(document, file.modes)?,
         })
     }
-}
-
-fn modes(document: &Document<'_>, modes: Option<Vec<ModeFile>>) -> Result<Vec<Mode>, JsonError> {
-    let Some(modes) = modes else {
-        return Ok(vec![Mode {
-            name: "tent".into(),
-            filter: Filter::Tent,
-            sampling: Sampling::regular(1),
-            accel: Structure::Bvh,
-        }]);
-    };
-    if modes.is_empty() {
-        return Err(document.fault("modes", "found no modes, expected at least one"));
-    }
-    let mut checked: Vec<Mode> = Vec::with_capacity(modes.len());
-    for (k, mode) in modes.into_iter().enumerate() {
-        let name_path = format!("modes[{k}].name");
-        check_word(document, &name_path, &mode.name)?;
-        if checked.iter().any(|other| other.name == mode.name) {
-            let message = format!("found {:?} twice, expected a name for each mode", mode.name);
-            return Err(document.fault(&name_path, message));
-        }
-        let sampling = sampling(document, &format!("modes[{k}]"), &mode)?;
-        let ModeFile { name, filter, accel, .. } = mode;
-        checked.push(Mode { name, filter, sampling, accel });
-    }
-    Ok(checked)
-}
-
-/// How a pixel is made of rays, in the mode at `path`.
-fn sampling(document: &Document<'_>, path: &str, mode: &ModeFile) -> Result<Sampling, JsonError> {
-    let fault = |key: &str, message: String| Err(document.fault(&format!("{path}.{key}"), message));
-    if let Some(nine) = mode.supersample {
-        let others = [
-            ("samples", mode.samples.is_some()),
-            ("pattern", mode.pattern.is_some()),
-            ("seed", mode.seed.is_some()),
-            ("pixel_filter", mode.pixel_filter.is_some()),
-        ];
-        return match others.iter().find(|(_, there)| *there) {
-            Some((key, _)) => {
-                fault(key, format!("found {key} beside supersample, expected one of them"))
-            }
-            None => Ok(Sampling::Nine(nine)),
-        };
-    }
-    let samples = mode.samples.unwrap_or(1);
-    if !(1..=MOST_SAMPLES).contains(&samples) {
-        return fault("samples", format!("found {samples}, expected 1 to {MOST_SAMPLES}"));
-    }
-    let pattern = match (mode.pattern, mode.seed) {
-        (Some(PatternName::Jitter), seed) => Pattern::Jitter { seed: seed.unwrap_or(0) },
-        (_, None) => Pattern::Regular,
-        (_, Some(_)) => {
-            return fault(
-                "seed",
-                "found a seed, expected it beside \"pattern\": \"jitter\"".into(),
-            );
-        }
-    };
-    let pixel_filter = mode.pixel_filter.unwrap_or_default();
-    if pixel_filter == PixelFilter::Tent && samples < 2 {
-        return fault("pixel_filter", "found tent, expected it beside samples of 2 or more".into());
-    }
-    Ok(Sampling::Grid { samples, pattern, pixel_filter })
 }
 
 /// Names become parts of file names.
@@ -272,6 +212,9 @@ fn check_word(document: &Document<'_>, path: &str, name: &str) -> Result<(), Jso
 #[cfg(test)]
 mod tests {
     use super::*;
+    use render::Sampling;
+    use render::film::{Nine, Pattern, PixelFilter};
+    use render::filter::Filter;
 
     fn parse(text: &str) -> Result<Job, JsonError> {
         let document = Document::new("a.json", text.as_bytes())?;
@@ -280,7 +223,7 @@ mod tests {
 
     #[test]
     fn the_example_on_this_page_is_a_job() {
-        let page = include_str!("job.rs");
+        let page = include_str!("mod.rs");
         let lines = page.lines().skip_while(|line| *line != "//! ```json").skip(1);
         let text: String = lines
             .take_while(|line| *line != "//! ```")
@@ -295,6 +238,12 @@ mod tests {
         let nine = Sampling::Nine(Nine::Image);
         let samplings: Vec<Sampling> = job.modes.iter().map(|mode| mode.sampling).collect();
         assert_eq!(samplings, [Sampling::regular(1), Sampling::regular(1), jittered, nine]);
+        assert_eq!(
+            (job.modes[3].figure.as_deref(), job.modes[3].thesis_minutes),
+            (Some("A.4"), Some(90))
+        );
+        assert_eq!(job.meshes[0].mesh.rows, Some(60));
+        assert_eq!(job.crops[0].at, [0.2, 0.45]);
     }
 
     #[test]
@@ -307,6 +256,10 @@ mod tests {
         for (rest, expected) in [
             (format!("{scene}, \"modes\": []"), "modes: found no modes"),
             (format!("{scene}, \"mods\": []"), "did you mean `modes`?"),
+            (
+                format!("{scene}, \"crops\": [{{\"title\": \"\", \"at\": [0, 1.5]}}]"),
+                "crops[0].at: found [0.0, 1.5], expected two fractions",
+            ),
             (
                 format!("{scene}, \"modes\": [{{\"name\": \"../x\", \"filter\": \"tent\"}}]"),
                 "modes[0].name: found name \"../x\"",
@@ -345,6 +298,7 @@ mod tests {
             (r#""supersample": "rays", "samples": 1"#, "modes[0].samples: found samples beside"),
             (r#""supersample": "ray""#, "did you mean `rays`?"),
             (r#""pattern": "jiter""#, "did you mean `jitter`?"),
+            (r#""figure": "A.05""#, "modes[0].figure: found \"A.05\", expected a figure"),
         ] {
             let mode = format!(r#"{{"name": "a", "filter": "box", {mode}}}"#);
             let complaint = job(&format!("{scene}, \"modes\": [{mode}]"));

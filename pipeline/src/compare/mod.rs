@@ -1,0 +1,5 @@
+//! How far one picture is from another.
+
+pub mod difference;
+
+pub use difference::Difference;

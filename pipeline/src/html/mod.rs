@@ -1,0 +1,51 @@
+//! Pages of HTML that stand alone: style and pictures within, no other file and no network.
+//!
+//! They follow the reader's choice of light or dark, and fit a telephone and a desk.
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+const STYLE: &str = include_str!("style.css");
+
+/// A whole page with a title and a body.
+#[must_use]
+pub fn page(title: &str, body: &Markup) -> String {
+    html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="color-scheme" content="light dark";
+                title { (title) }
+                style { (PreEscaped(STYLE)) }
+            }
+            body { (body) }
+        }
+    }
+    .into_string()
+}
+
+/// The address of a PNG file that is the file itself.
+#[must_use]
+pub fn png_address(png: &[u8]) -> String {
+    format!("data:image/png;base64,{}", STANDARD.encode(png))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_page_stands_alone_and_texts_are_escaped() {
+        let body = html! { p { "a < b & c" } img src=(png_address(b"\x89PNG")) alt=""; };
+        let text = page("<title>", &body);
+        assert!(text.starts_with("<!DOCTYPE html>"));
+        assert!(text.contains("a &lt; b &amp; c") && text.contains("<title>&lt;title&gt;</title>"));
+        assert!(text.contains("data:image/png;base64,iVBORw=="));
+        for outside in ["http:", "https:", "<script", "<link", "@import", "url("] {
+            assert!(!text.contains(outside), "{outside}");
+        }
+    }
+}

@@ -1,0 +1,145 @@
+//! The ways to render a scene, and what is made after which figure.
+
+use super::check_word;
+use files::JsonError;
+use files::json::Document;
+use render::Sampling;
+use render::accel::Structure;
+use render::film::{MOST_SAMPLES, Nine, Pattern, PixelFilter};
+use render::filter::Filter;
+use serde::Deserialize;
+
+/// A way to render a scene.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Mode {
+    /// What its picture is called, after the job.
+    pub name: String,
+    /// How textures are averaged.
+    pub filter: Filter,
+    /// How a pixel is made of rays.
+    pub sampling: Sampling,
+    /// What finds the hits; the picture is the same.
+    pub accel: Structure,
+    /// The figure of the thesis that this is made after, such as `A.5`.
+    pub figure: Option<String>,
+    /// How long that took in 1993, in minutes.
+    pub thesis_minutes: Option<u32>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ModeFile {
+    name: String,
+    filter: Filter,
+    #[serde(default)]
+    accel: Structure,
+    #[serde(default)]
+    samples: Option<u32>,
+    #[serde(default)]
+    pattern: Option<PatternName>,
+    #[serde(default)]
+    seed: Option<u64>,
+    #[serde(default)]
+    pixel_filter: Option<PixelFilter>,
+    #[serde(default)]
+    supersample: Option<Nine>,
+    #[serde(default)]
+    figure: Option<String>,
+    #[serde(default)]
+    thesis_minutes: Option<u32>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum PatternName {
+    Regular,
+    Jitter,
+}
+
+/// The modes of a job; one, with the tent filter, if none are written.
+pub(super) fn modes(
+    document: &Document<'_>,
+    modes: Option<Vec<ModeFile>>,
+) -> Result<Vec<Mode>, JsonError> {
+    let Some(modes) = modes else {
+        return Ok(vec![Mode {
+            name: "tent".into(),
+            filter: Filter::Tent,
+            sampling: Sampling::regular(1),
+            accel: Structure::Bvh,
+            figure: None,
+            thesis_minutes: None,
+        }]);
+    };
+    if modes.is_empty() {
+        return Err(document.fault("modes", "found no modes, expected at least one"));
+    }
+    let mut checked: Vec<Mode> = Vec::with_capacity(modes.len());
+    for (k, mode) in modes.into_iter().enumerate() {
+        let name_path = format!("modes[{k}].name");
+        check_word(document, &name_path, &mode.name)?;
+        if checked.iter().any(|other| other.name == mode.name) {
+            let message = format!("found {:?} twice, expected a name for each mode", mode.name);
+            return Err(document.fault(&name_path, message));
+        }
+        let sampling = sampling(document, &format!("modes[{k}]"), &mode)?;
+        if let Some(figure) = &mode.figure {
+            check_figure(document, &format!("modes[{k}].figure"), figure)?;
+        }
+        let ModeFile { name, filter, accel, figure, thesis_minutes, .. } = mode;
+        checked.push(Mode { name, filter, sampling, accel, figure, thesis_minutes });
+    }
+    Ok(checked)
+}
+
+/// How a pixel is made of rays, in the mode at `path`.
+fn sampling(document: &Document<'_>, path: &str, mode: &ModeFile) -> Result<Sampling, JsonError> {
+    let fault = |key: &str, message: String| Err(document.fault(&format!("{path}.{key}"), message));
+    if let Some(nine) = mode.supersample {
+        let others = [
+            ("samples", mode.samples.is_some()),
+            ("pattern", mode.pattern.is_some()),
+            ("seed", mode.seed.is_some()),
+            ("pixel_filter", mode.pixel_filter.is_some()),
+        ];
+        return match others.iter().find(|(_, there)| *there) {
+            Some((key, _)) => {
+                fault(key, format!("found {key} beside supersample, expected one of them"))
+            }
+            None => Ok(Sampling::Nine(nine)),
+        };
+    }
+    let samples = mode.samples.unwrap_or(1);
+    if !(1..=MOST_SAMPLES).contains(&samples) {
+        return fault("samples", format!("found {samples}, expected 1 to {MOST_SAMPLES}"));
+    }
+    let pattern = match (mode.pattern, mode.seed) {
+        (Some(PatternName::Jitter), seed) => Pattern::Jitter { seed: seed.unwrap_or(0) },
+        (_, None) => Pattern::Regular,
+        (_, Some(_)) => {
+            return fault(
+                "seed",
+                "found a seed, expected it beside \"pattern\": \"jitter\"".into(),
+            );
+        }
+    };
+    let pixel_filter = mode.pixel_filter.unwrap_or_default();
+    if pixel_filter == PixelFilter::Tent && samples < 2 {
+        return fault("pixel_filter", "found tent, expected it beside samples of 2 or more".into());
+    }
+    Ok(Sampling::Grid { samples, pattern, pixel_filter })
+}
+
+/// Whether a text names a figure of the thesis's appendix: `A.` and a number without a leading 0.
+#[must_use]
+pub fn is_figure(text: &str) -> bool {
+    let number = text.strip_prefix("A.").unwrap_or_default();
+    !number.starts_with(['0', '+']) && number.len() <= 2 && number.parse::<u8>().is_ok()
+}
+
+fn check_figure(document: &Document<'_>, path: &str, figure: &str) -> Result<(), JsonError> {
+    if is_figure(figure) {
+        return Ok(());
+    }
+    Err(document.fault(path, format!("found {figure:?}, expected a figure such as \"A.5\"")))
+}
