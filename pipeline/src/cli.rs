@@ -20,6 +20,7 @@ Examples:
   pipeline run glass-sphere vase -o out
   pipeline run all -o out --size 1024x1024 --keep
   pipeline run my-job.json -o out --stats
+  pipeline run frontispiece --mode supersampled --size 4096x4096 -o poster
   pipeline textures -o textures
 
 Exit codes: 2 bad use, 3 malformed input, 4 impossible geometry, 5 cannot read or write,
@@ -64,6 +65,9 @@ struct RunArguments {
     /// Pixels across and down
     #[arg(long, value_name = "WxH", default_value = "512x512", value_parser = render::film::size)]
     size: (u32, u32),
+    /// Make only the pictures of this mode, which all jobs must have; may be given several times
+    #[arg(long = "mode", value_name = "NAME")]
+    modes: Vec<String>,
     /// Memory for textures and their tables, in bytes or with k, M or G; beyond it nothing is read
     #[arg(long, value_name = "BYTES", default_value = "2G", value_parser = render::film::memory::bytes)]
     max_texture_mem: u64,
@@ -183,6 +187,7 @@ fn jobs(arguments: &RunArguments) -> Result<Vec<(Job, &'static dyn Source)>, Pip
         } else {
             (pages::page(name)?, &pages::FILES)
         };
+        let job = (job.0.only(&arguments.modes)?, job.1);
         for file in job.0.files(arguments.keep) {
             if let Some(first) = written.get(&file) {
                 let (first, second) = (first.to_string(), name.to_string());

@@ -70,6 +70,16 @@ pub enum PipelineError {
         /// The scene file.
         scene: String,
     },
+    /// The job has no mode of that name.
+    #[error("job {job} has no mode {name:?}; it has {known}")]
+    UnknownMode {
+        /// The job.
+        job: String,
+        /// The name given.
+        name: String,
+        /// The names there are.
+        known: String,
+    },
     /// There is no page of that name.
     #[error(
         "there is no page {name:?}; there are {known}; a job of your own is named by its .json file"
@@ -94,6 +104,7 @@ impl Failure for PipelineError {
             Self::SameFile { .. }
             | Self::UnknownMesh { .. }
             | Self::MissingMesh { .. }
+            | Self::UnknownMode { .. }
             | Self::UnknownPage { .. } => Exit::Use,
         }
     }

@@ -30,6 +30,7 @@ pub const FILES: Embedded = Embedded(examples![
     "curves/globe.json",
     "curves/horn.json",
     "curves/klein-bottle.json",
+    "curves/klein-glass.json",
     "curves/moebius-band.json",
     "curves/pawn.json",
     "curves/picture-frame.json",
@@ -52,6 +53,7 @@ pub const FILES: Embedded = Embedded(examples![
     "pages/figure-eight.json",
     "pages/figure-eight-klein.json",
     "pages/fluted-vase.json",
+    "pages/frontispiece.json",
     "pages/glass-sphere.json",
     "pages/globe.json",
     "pages/horn.json",
@@ -75,6 +77,7 @@ pub const FILES: Embedded = Embedded(examples![
     "scenes/figure-eight.json",
     "scenes/figure-eight-klein.json",
     "scenes/fluted-vase.json",
+    "scenes/frontispiece.json",
     "scenes/glass-sphere.json",
     "scenes/globe.json",
     "scenes/horn.json",
@@ -97,10 +100,12 @@ pub const FILES: Embedded = Embedded(examples![
     "textures/floor-tiles.png",
     "textures/granite.png",
     "textures/graticule.png",
+    "textures/lettering.png",
     "textures/net.png",
     "textures/ribbon.png",
     "textures/scales.png",
     "textures/vase-band.png",
+    "textures/world-chart.png",
 ]);
 
 /// Where the jobs lie among the files.

@@ -137,6 +137,22 @@ impl Job {
         Ok(Self::parse(&Document::new(&name, &bytes)?, &stem, folder)?)
     }
 
+    /// The job with only the modes of these names, in its own order; with all of them where there are
+    /// no names.
+    ///
+    /// # Errors
+    /// When it has no mode of one of the names.
+    pub fn only(mut self, names: &[String]) -> Result<Self, PipelineError> {
+        let has = |name: &&String| self.modes.iter().any(|mode| mode.name == **name);
+        if let Some(name) = names.iter().find(|name| !has(name)) {
+            let known: Vec<&str> = self.modes.iter().map(|mode| mode.name.as_str()).collect();
+            let (job, name, known) = (self.name.clone(), name.clone(), known.join(", "));
+            return Err(PipelineError::UnknownMode { job, name, known });
+        }
+        self.modes.retain(|mode| names.is_empty() || names.contains(&mode.name));
+        Ok(self)
+    }
+
     /// The names of all files that it writes; with `keep` also of its grids and OBJ files.
     #[must_use]
     pub fn files(&self, keep: bool) -> Vec<String> {
