@@ -3,6 +3,7 @@
 //! They are the files of `examples/`, under the same paths, so that they work in an empty folder
 //! and can be read as models for one's own.
 
+use crate::job::figure::listed;
 use crate::{Job, PipelineError};
 use files::Embedded;
 use files::json::nearest;
@@ -20,10 +21,15 @@ macro_rules! examples {
 /// The files built in.
 pub const FILES: Embedded = Embedded(examples![
     "curves/bent-tower.json",
+    "curves/bumpy-vase.json",
     "curves/cup.json",
+    "curves/eight.json",
     "curves/figure-eight.json",
+    "curves/figure-eight-immersion.json",
     "curves/figure-eight-klein.json",
     "curves/fluted-vase.json",
+    "curves/glass-bud.json",
+    "curves/glass-prism.json",
     "curves/globe-arm.json",
     "curves/globe-axle.json",
     "curves/globe-foot.json",
@@ -31,6 +37,7 @@ pub const FILES: Embedded = Embedded(examples![
     "curves/horn.json",
     "curves/klein-bottle.json",
     "curves/klein-glass.json",
+    "curves/marble-column.json",
     "curves/moebius-band.json",
     "curves/pawn.json",
     "curves/picture-frame.json",
@@ -38,26 +45,40 @@ pub const FILES: Embedded = Embedded(examples![
     "curves/saucer.json",
     "curves/scaly-ring.json",
     "curves/sections.json",
+    "curves/six.json",
     "curves/smooth-ring.json",
     "curves/spring.json",
+    "curves/still-water.json",
     "curves/threefold-torus.json",
     "curves/torus-knot.json",
     "curves/trefoil.json",
     "curves/twisted-column.json",
+    "curves/u-cup.json",
     "curves/vase.json",
+    "curves/water-glass.json",
     "curves/wine-glass.json",
     "curves/wine.json",
+    "curves/world.json",
     "pages/bent-tower.json",
     "pages/bump-and-relief.json",
     "pages/cup.json",
+    "pages/eight-world-klein.json",
+    "pages/eight-world-klein-adaptive.json",
+    "pages/cup-and-vase.json",
+    "pages/cup-and-vase-adaptive.json",
     "pages/figure-eight.json",
     "pages/figure-eight-klein.json",
     "pages/fluted-vase.json",
     "pages/frontispiece.json",
     "pages/glass-sphere.json",
+    "pages/glass-table.json",
+    "pages/glass-table-adaptive.json",
     "pages/globe.json",
     "pages/horn.json",
     "pages/klein-bottle.json",
+    "pages/knots.json",
+    "pages/marble-column.json",
+    "pages/marble-column-adaptive.json",
     "pages/moebius-band.json",
     "pages/pawn.json",
     "pages/picture-frame.json",
@@ -73,15 +94,20 @@ pub const FILES: Embedded = Embedded(examples![
     "pages/wine-glass.json",
     "scenes/bent-tower.json",
     "scenes/bump-and-relief.json",
+    "scenes/cup-and-vase.json",
     "scenes/cup.json",
+    "scenes/eight-world-klein.json",
     "scenes/figure-eight.json",
     "scenes/figure-eight-klein.json",
     "scenes/fluted-vase.json",
     "scenes/frontispiece.json",
     "scenes/glass-sphere.json",
+    "scenes/glass-table.json",
     "scenes/globe.json",
     "scenes/horn.json",
     "scenes/klein-bottle.json",
+    "scenes/knots.json",
+    "scenes/marble-column.json",
     "scenes/moebius-band.json",
     "scenes/pawn.json",
     "scenes/picture-frame.json",
@@ -96,14 +122,18 @@ pub const FILES: Embedded = Embedded(examples![
     "scenes/vase.json",
     "scenes/wine-glass.json",
     "textures/checkerboard.png",
+    "textures/cup-band.png",
     "textures/drawing-board.png",
     "textures/floor-tiles.png",
     "textures/granite.png",
     "textures/graticule.png",
+    "textures/hatching.png",
     "textures/lettering.png",
     "textures/net.png",
+    "textures/plate.png",
     "textures/ribbon.png",
     "textures/scales.png",
+    "textures/sea.png",
     "textures/vase-band.png",
     "textures/world-chart.png",
 ]);
@@ -120,6 +150,12 @@ pub fn names() -> Vec<&'static str> {
         .collect()
 }
 
+/// Where the job of a page lies among the files.
+#[must_use]
+pub fn path(name: &str) -> PathBuf {
+    [FOLDER, &format!("{name}.json")].iter().collect()
+}
+
 /// The job of a page.
 ///
 /// # Errors
@@ -133,13 +169,37 @@ pub fn page(name: &str) -> Result<Job, PipelineError> {
         }
         return Err(PipelineError::UnknownPage { name: name.into(), known });
     }
-    let path: PathBuf = [FOLDER, &format!("{name}.json")].iter().collect();
-    Job::read(&path, &FILES)
+    Job::read(&path(name), &FILES)
+}
+
+/// All pages: those with figures of the thesis by their numbers, then the others by their names.
+///
+/// # Errors
+/// None, as long as every page is a job, which a test holds.
+pub fn in_order() -> Result<Vec<Job>, PipelineError> {
+    let mut jobs = names().into_iter().map(page).collect::<Result<Vec<_>, _>>()?;
+    jobs.sort_by_key(|job| job.figures().first().copied().unwrap_or(u8::MAX));
+    Ok(jobs)
+}
+
+/// The name of the page that shows a figure of the thesis.
+///
+/// # Errors
+/// When no page does; with the figures that there are.
+pub fn of_figure(number: u8) -> Result<String, PipelineError> {
+    let jobs = in_order()?;
+    if let Some(job) = jobs.iter().find(|job| job.figures().contains(&number)) {
+        return Ok(job.name.clone());
+    }
+    let mut all: Vec<u8> = jobs.iter().flat_map(Job::figures).collect();
+    all.sort_unstable();
+    Err(PipelineError::UnknownFigure { number, known: listed(&all) })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::job::Mode;
 
     #[test]
     fn every_page_in_examples_is_built_in() {
@@ -164,5 +224,21 @@ mod tests {
         for name in names() {
             assert!(!page(name).unwrap().title.is_empty(), "{name}");
         }
+    }
+
+    #[test]
+    fn a_figure_is_on_one_page_and_in_one_mode() {
+        let jobs = in_order().unwrap();
+        let mut shown: Vec<u8> =
+            jobs.iter().flat_map(|job| job.modes.iter().filter_map(Mode::figure_number)).collect();
+        shown.sort_unstable();
+        let all = shown.len();
+        shown.dedup();
+        assert_eq!(shown.len(), all, "{shown:?}");
+        for figure in shown {
+            assert!(page(&of_figure(figure).unwrap()).unwrap().figures().contains(&figure));
+        }
+        let unknown = of_figure(99).unwrap_err().to_string();
+        assert!(unknown.contains("no figure A.99") && unknown.contains("A.11"), "{unknown}");
     }
 }

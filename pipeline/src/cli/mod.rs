@@ -1,0 +1,67 @@
+//! What the program `pipeline` is asked, and how it does it: a file for each command.
+
+mod asked;
+mod book;
+mod compare;
+mod list;
+mod run;
+mod textures;
+mod threads;
+
+use clap::{Parser, Subcommand};
+use files::{FileError, Report};
+use std::path::Path;
+
+const EXAMPLES: &str = "\
+Examples:
+  pipeline list
+  pipeline run glass-sphere vase -o out
+  pipeline run A.11 -o out
+  pipeline run all -o out --size 1024x1024 --keep
+  pipeline run my-job.json -o out --stats
+  pipeline run frontispiece --mode supersampled --size 4096x4096 -o poster
+  pipeline book -o book
+  pipeline textures -o textures
+  pipeline compare a.png b.png --map difference.png --rmse 0.01
+
+Exit codes: 1 pictures that differ by more than was allowed, 2 bad use, 3 malformed input,
+4 impossible geometry, 5 cannot read or write, 6 too large, 70 a bug, 130 interrupted, 141 closed pipe.";
+
+/// From curves to pictures: sweep, triangulate and render in one process.
+#[derive(Debug, Parser)]
+#[command(version, after_help = EXAMPLES)]
+pub struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Name the pages that are built in, and the figures of the thesis that they show
+    List,
+    /// Make the pictures of pages or of jobs of your own
+    Run(run::RunArguments),
+    /// Make the picture book: pages with their modes, costs and errors, as one file of HTML
+    Book(book::BookArguments),
+    /// Draw the textures of the examples again
+    Textures(textures::TexturesArguments),
+    /// Say how far one picture is from another, in linear light
+    Compare(compare::CompareArguments),
+}
+
+/// Does what the arguments ask for.
+pub fn run(arguments: &Arguments) -> Result<(), Report> {
+    match &arguments.command {
+        Command::List => list::list(),
+        Command::Run(arguments) => run::run(arguments),
+        Command::Book(arguments) => book::book(arguments),
+        Command::Textures(arguments) => textures::textures(arguments),
+        Command::Compare(arguments) => compare::compare(arguments),
+    }
+}
+
+/// Makes the folder for the files of a command.
+fn make_folder(folder: &Path) -> Result<(), FileError> {
+    let named = |source| FileError::Write { name: folder.display().to_string(), source };
+    std::fs::create_dir_all(folder).map_err(named)
+}

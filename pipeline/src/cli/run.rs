@@ -1,0 +1,186 @@
+//! `pipeline run`: the pictures of pages and jobs.
+
+use super::asked::{Asked, asked};
+use super::{make_folder, threads};
+use clap::Args;
+use clap::builder::TypedValueParser;
+use files::exit::say;
+use files::{Output, Report, Source};
+use pipeline::run::{Event, Options};
+use pipeline::stages::Stages;
+use pipeline::{Job, PipelineError, run as run_job};
+use render::progress::Progress;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::sync::{Mutex, PoisonError};
+use std::time::Instant;
+
+/// What `pipeline run` is asked.
+#[derive(Debug, Args)]
+pub struct RunArguments {
+    /// Pages by name, all of them, figures of the thesis by number, or job files, whose names end in .json
+    #[arg(required = true, value_name = "NAME|all|A.N|FILE.json")]
+    jobs: Vec<String>,
+    /// The folder for the pictures; made if it is missing
+    #[arg(short, long, value_name = "DIR", default_value = "out")]
+    output: PathBuf,
+    /// Pixels across and down
+    #[arg(long, value_name = "WxH", default_value = "512x512", value_parser = render::film::size)]
+    size: (u32, u32),
+    /// Make only the pictures of this mode, which all jobs must have; may be given several times
+    #[arg(long = "mode", value_name = "NAME")]
+    modes: Vec<String>,
+    /// Memory for textures and their tables, in bytes or with k, M or G; beyond it nothing is read
+    #[arg(long, value_name = "BYTES", default_value = "2G", value_parser = render::film::memory::bytes)]
+    max_texture_mem: u64,
+    /// Write the grids and OBJ files too, as the programs would have piped them
+    #[arg(long)]
+    keep: bool,
+    /// Worker threads [default: one for each core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024).map(usize::from))]
+    threads: Option<usize>,
+    /// Print counts of rays, hits and texels and the time of each stage on standard error
+    #[arg(long)]
+    stats: bool,
+    /// Print nothing but errors
+    #[arg(short, long)]
+    quiet: bool,
+    /// Refuse to replace existing files
+    #[arg(long)]
+    no_clobber: bool,
+}
+
+/// Does the jobs that were named.
+pub fn run(arguments: &RunArguments) -> Result<(), Report> {
+    // Every job is read before the first is done, so that a slip in a name costs no waiting.
+    let jobs = jobs(arguments)?;
+    make_folder(&arguments.output)?;
+    for (job, _) in &jobs {
+        for file in job.files(arguments.keep) {
+            Output::check(&arguments.output.join(file), !arguments.no_clobber)?;
+        }
+    }
+    let pool = threads::pool(arguments.threads)?;
+    let options = Options {
+        folder: arguments.output.clone(),
+        size: arguments.size,
+        max_texture_bytes: arguments.max_texture_mem,
+        keep: arguments.keep,
+        clobber: !arguments.no_clobber,
+    };
+    let mut rows: Vec<(String, Stages)> = Vec::new();
+    let mut all = Stages::default();
+    for (job, source) in &jobs {
+        let talk = Talk::new(job, arguments);
+        let stages =
+            pool.install(|| run_job(job, *source, &options, &|event| talk.hear(&event)))?;
+        rows.push((job.name.clone(), stages));
+        rows.extend(talk.modes());
+        all += stages;
+    }
+    if jobs.len() > 1 {
+        rows.push(("all".into(), all));
+    }
+    if !arguments.quiet {
+        say(Stages::table(&rows).trim_end());
+    }
+    Ok(())
+}
+
+/// The jobs to do, each with the place where its files are; no two write the same file.
+fn jobs(arguments: &RunArguments) -> Result<Vec<(Job, &'static dyn Source)>, PipelineError> {
+    let mut jobs: Vec<(Job, &'static dyn Source)> = Vec::new();
+    let mut written: BTreeMap<String, String> = BTreeMap::new();
+    for Asked { job, source, figures, argument, .. } in asked(&arguments.jobs)? {
+        let job = if figures.is_empty() { job } else { job.only(&figures) };
+        let job = job.with_modes(&arguments.modes)?;
+        for file in job.files(arguments.keep) {
+            if let Some(first) = written.get(&file) {
+                return Err(PipelineError::SameFile {
+                    first: first.clone(),
+                    second: argument,
+                    file,
+                });
+            }
+            written.insert(file, argument.clone());
+        }
+        jobs.push((job, source));
+    }
+    Ok(jobs)
+}
+
+/// Says on standard error what a job is doing.
+struct Talk<'a> {
+    job: &'a str,
+    arguments: &'a RunArguments,
+    started: Instant,
+    progress: Mutex<Option<(String, Progress)>>,
+    modes: Mutex<Vec<(String, Stages)>>,
+}
+
+impl<'a> Talk<'a> {
+    fn new(job: &'a Job, arguments: &'a RunArguments) -> Self {
+        let (progress, modes) = (Mutex::new(None), Mutex::new(Vec::new()));
+        Self { job: &job.name, arguments, started: Instant::now(), progress, modes }
+    }
+
+    /// What each mode took by itself, where that was asked for.
+    fn modes(self) -> Vec<(String, Stages)> {
+        self.modes.into_inner().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn hear(&self, event: &Event<'_>) {
+        match event {
+            Event::Progress { mode, done, total } => self.progress(mode, *done, *total),
+            Event::Mesh { name, triangles, sweep, triangulate, missed } => {
+                let seconds = (*sweep + *triangulate).as_secs_f64();
+                self.say(&format!("{}: {name}, {triangles} triangles, {seconds:.2} s", self.job));
+                if let Some(missed) = missed {
+                    self.say(&format!("{}: note: {name}: {missed}", self.job));
+                }
+            }
+            Event::Picture { mode, stats } => {
+                self.clear();
+                if stats.not_finite > 0 {
+                    let (job, count) = (self.job, stats.not_finite);
+                    let words = "pixels came out not finite and are black";
+                    say(format_args!("pipeline: {job} {mode}: {count} {words}"));
+                }
+                if self.arguments.stats {
+                    self.say(&format!("{} {mode}:\n{stats}", self.job));
+                    if let Ok(mut modes) = self.modes.lock() {
+                        modes.push((format!("  {mode}"), Stages::of_mode(stats)));
+                    }
+                }
+            }
+            Event::Written(path) => {
+                self.clear();
+                let seconds = self.started.elapsed().as_secs_f64();
+                self.say(&format!("{}  {seconds:.2} s", path.display()));
+            }
+        }
+    }
+
+    fn progress(&self, mode: &str, done: usize, total: usize) {
+        let Ok(mut progress) = self.progress.lock() else { return };
+        if progress.as_ref().is_none_or(|(shown, _)| shown != mode) {
+            let label = format!("{} {mode}", self.job);
+            *progress = Some((mode.into(), Progress::new(&label, self.arguments.quiet)));
+        }
+        if let Some((_, progress)) = progress.as_ref() {
+            progress.tell(done, total);
+        }
+    }
+
+    fn clear(&self) {
+        if let Ok(mut progress) = self.progress.lock() {
+            *progress = None;
+        }
+    }
+
+    fn say(&self, words: &str) {
+        if !self.arguments.quiet {
+            say(words.trim_end());
+        }
+    }
+}
