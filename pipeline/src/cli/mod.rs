@@ -19,6 +19,7 @@ Examples:
   pipeline run A.11 -o out
   pipeline run all -o out --size 1024x1024 --keep
   pipeline run my-job.json -o out --stats
+  pipeline run frontispiece --mode supersampled --size 4096x4096 -o poster
   pipeline book -o book
   pipeline textures -o textures
   pipeline compare a.png b.png --map difference.png --rmse 0.01
