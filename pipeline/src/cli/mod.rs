@@ -1,5 +1,6 @@
 //! What the program `pipeline` is asked, and how it does it: a file for each command.
 
+mod report;
 mod run;
 mod textures;
 
@@ -14,6 +15,7 @@ Examples:
   pipeline run glass-sphere vase -o out
   pipeline run all -o out --size 1024x1024 --keep
   pipeline run my-job.json -o out --stats
+  pipeline report glass-sphere -o report --quick
   pipeline textures -o textures
 
 Exit codes: 2 bad use, 3 malformed input, 4 impossible geometry, 5 cannot read or write,
@@ -33,6 +35,8 @@ enum Command {
     List,
     /// Make the pictures of pages or of jobs of your own
     Run(run::RunArguments),
+    /// Measure what each way of rendering pages costs, and how wrong it is
+    Report(report::ReportArguments),
     /// Draw the textures of the examples again
     Textures(textures::TexturesArguments),
 }
@@ -42,6 +46,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
     match &arguments.command {
         Command::List => list(),
         Command::Run(arguments) => run::run(arguments),
+        Command::Report(arguments) => report::report(arguments),
         Command::Textures(arguments) => textures::textures(arguments),
     }
 }

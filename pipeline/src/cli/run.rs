@@ -49,7 +49,7 @@ pub struct RunArguments {
 /// The threads asked for cannot be had.
 #[derive(Debug, Error)]
 #[error("cannot start {threads} threads: {source}")]
-struct ThreadsError {
+pub struct ThreadsError {
     threads: usize,
     source: rayon::ThreadPoolBuildError,
 }
@@ -70,11 +70,7 @@ pub fn run(arguments: &RunArguments) -> Result<(), Report> {
             Output::check(&arguments.output.join(file), !arguments.no_clobber)?;
         }
     }
-    let threads = arguments.threads.unwrap_or(0);
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .map_err(|source| ThreadsError { threads, source })?;
+    let pool = pool(arguments.threads)?;
     let options = Options {
         folder: arguments.output.clone(),
         size: arguments.size,
@@ -87,6 +83,15 @@ pub fn run(arguments: &RunArguments) -> Result<(), Report> {
         pool.install(|| run_job(job, *source, &options, &|event| talk.hear(&event)))?;
     }
     Ok(())
+}
+
+/// As many threads as were asked for, or one for each core.
+pub fn pool(asked: Option<usize>) -> Result<rayon::ThreadPool, ThreadsError> {
+    let threads = asked.unwrap_or(0);
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .map_err(|source| ThreadsError { threads, source })
 }
 
 /// The jobs that were named, each with the place where its files are; no two write the same file.
