@@ -1,5 +1,6 @@
 //! What the program `pipeline` is asked, and how it does it: a file for each command.
 
+mod compare;
 mod report;
 mod run;
 mod textures;
@@ -17,9 +18,10 @@ Examples:
   pipeline run my-job.json -o out --stats
   pipeline report glass-sphere -o report --quick
   pipeline textures -o textures
+  pipeline compare a.png b.png --map difference.png --rmse 0.01
 
-Exit codes: 2 bad use, 3 malformed input, 4 impossible geometry, 5 cannot read or write,
-6 too large, 70 a bug, 130 interrupted, 141 closed pipe.";
+Exit codes: 1 pictures that differ by more than was allowed, 2 bad use, 3 malformed input,
+4 impossible geometry, 5 cannot read or write, 6 too large, 70 a bug, 130 interrupted, 141 closed pipe.";
 
 /// From curves to pictures: sweep, triangulate and render in one process.
 #[derive(Debug, Parser)]
@@ -39,6 +41,8 @@ enum Command {
     Report(report::ReportArguments),
     /// Draw the textures of the examples again
     Textures(textures::TexturesArguments),
+    /// Say how far one picture is from another, in linear light
+    Compare(compare::CompareArguments),
 }
 
 /// Does what the arguments ask for.
@@ -48,6 +52,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
         Command::Run(arguments) => run::run(arguments),
         Command::Report(arguments) => report::report(arguments),
         Command::Textures(arguments) => textures::textures(arguments),
+        Command::Compare(arguments) => compare::compare(arguments),
     }
 }
 
