@@ -1,20 +1,24 @@
 //! `pipeline report`: what each way of rendering a page costs, and how wrong it is.
 
-use super::make_folder;
+use super::asked::{Asked, asked};
+use super::{make_folder, threads};
 use clap::Args;
 use clap::builder::TypedValueParser;
 use cpu_time::ProcessTime;
 use files::exit::say;
-use files::{Disk, Output, Report, Source};
+use files::{Output, Report};
 use pipeline::report::measure::{self, Meter};
 use pipeline::report::{Measured, Plan, csv};
 use pipeline::run::Options;
-use pipeline::{Job, PipelineError, pages};
+use pipeline::{Job, PipelineError};
 use render::film::memory;
 use render::progress::Progress;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
+
+/// The scenes that other renderers were measured on.
+const PEERS: [&str; 2] = ["peer-glass", "peer-tube"];
 
 /// What `pipeline report` is asked.
 #[derive(Debug, Args)]
@@ -54,7 +58,7 @@ pub fn report(arguments: &ReportArguments) -> Result<(), Report> {
     Output::check(&file, !arguments.no_clobber)?;
     let mut plan = if arguments.quick { Plan::quick() } else { Plan::full() };
     plan.size = arguments.size.unwrap_or(plan.size);
-    let pool = super::run::pool(arguments.threads)?;
+    let pool = threads::pool(arguments.threads)?;
     let options = Options {
         folder: arguments.output.clone(),
         size: plan.size,
@@ -68,7 +72,7 @@ pub fn report(arguments: &ReportArguments) -> Result<(), Report> {
         quick: arguments.quick,
         tables: Vec::new(),
     };
-    for (job, source) in &jobs {
+    for Asked { job, source, .. } in &jobs {
         let started = Instant::now();
         let scene = pipeline::run::scene(job, *source, &options, &|_| {})?;
         for &filter in &plan.filters {
@@ -146,16 +150,15 @@ impl Meter for Usage {
     }
 }
 
-/// The jobs that were named, each with the place where its files are.
-fn jobs(names: &[String]) -> Result<Vec<(Job, &'static dyn Source)>, PipelineError> {
-    let mut jobs: Vec<(Job, &'static dyn Source)> = Vec::new();
-    for name in names {
-        let is_file = Path::new(name).extension().is_some_and(|extension| extension == "json");
-        if is_file {
-            jobs.push((Job::read(Path::new(name), &Disk)?, &Disk));
-        } else {
-            jobs.push((pages::page(name)?, &pages::FILES));
-        }
+/// The jobs that were named; without names, the pages that show figures of the thesis, and the scenes that
+/// other renderers were measured on.
+fn jobs(names: &[String]) -> Result<Vec<Asked>, PipelineError> {
+    if !names.is_empty() {
+        return asked(names);
     }
-    Ok(jobs)
+    let all = asked(&["all".into()])?;
+    let default = |job: &Job| {
+        PEERS.contains(&job.name.as_str()) || job.modes.iter().any(|mode| mode.figure.is_some())
+    };
+    Ok(all.into_iter().filter(|asked| default(&asked.job)).collect())
 }
