@@ -6,6 +6,8 @@ pub mod measure;
 pub mod measured;
 pub mod plan;
 pub mod truth;
+pub mod regions;
+mod sight;
 
 pub use measured::Measured;
 pub use plan::Plan;
