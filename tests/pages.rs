@@ -41,6 +41,7 @@ fn all_pages_are_the_same_bytes_on_one_thread_and_on_five() {
     for page in pages::names() {
         let modes: &[&str] = match page {
             "glass-sphere" | "vase" => &["-point", "-prefiltered", "-supersampled", ""],
+            "peer-glass" | "peer-tube" => &["-point", "-box", "-tent", "-supersampled", ""],
             _ => &["-prefiltered"],
         };
         for mode in modes {

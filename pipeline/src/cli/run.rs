@@ -1,11 +1,11 @@
-//! What the program `pipeline` is asked, and how it does it.
+//! `pipeline run`: the pictures of pages and jobs.
 
+use super::make_folder;
+use clap::Args;
 use clap::builder::TypedValueParser;
-use clap::{Args, Parser, Subcommand};
 use files::exit::say;
-use files::{Disk, Exit, Failure, FileError, Output, Report, Source};
+use files::{Disk, Exit, Failure, Output, Report, Source};
 use pipeline::run::{Event, Options};
-use pipeline::textures::{TEXTURES, Texture};
 use pipeline::{Job, PipelineError, pages, run as run_job};
 use render::progress::Progress;
 use std::collections::BTreeMap;
@@ -14,47 +14,9 @@ use std::sync::Mutex;
 use std::time::Instant;
 use thiserror::Error;
 
-const EXAMPLES: &str = "\
-Examples:
-  pipeline list
-  pipeline run glass-sphere vase -o out
-  pipeline run all -o out --size 1024x1024 --keep
-  pipeline run my-job.json -o out --stats
-  pipeline textures -o textures
-
-Exit codes: 2 bad use, 3 malformed input, 4 impossible geometry, 5 cannot read or write,
-6 too large, 70 a bug, 130 interrupted, 141 closed pipe.";
-
-/// From curves to pictures: sweep, triangulate and render in one process.
-#[derive(Debug, Parser)]
-#[command(version, after_help = EXAMPLES)]
-pub struct Arguments {
-    #[command(subcommand)]
-    command: Command,
-}
-
-#[derive(Debug, Subcommand)]
-enum Command {
-    /// Name the pages that are built in
-    List,
-    /// Make the pictures of pages or of jobs of your own
-    Run(RunArguments),
-    /// Draw the textures of the examples again
-    Textures(TexturesArguments),
-}
-
+/// What `pipeline run` is asked.
 #[derive(Debug, Args)]
-struct TexturesArguments {
-    /// The folder for the pictures; made if it is missing
-    #[arg(short, long, value_name = "DIR", default_value = "textures")]
-    output: PathBuf,
-    /// Refuse to replace existing files
-    #[arg(long)]
-    no_clobber: bool,
-}
-
-#[derive(Debug, Args)]
-struct RunArguments {
+pub struct RunArguments {
     /// Pages by name, all of them, or job files, whose names end in .json
     #[arg(required = true, value_name = "NAME|all|FILE.json")]
     jobs: Vec<String>,
@@ -98,43 +60,8 @@ impl Failure for ThreadsError {
     }
 }
 
-/// Does what the arguments ask for.
-pub fn run(arguments: &Arguments) -> Result<(), Report> {
-    match &arguments.command {
-        Command::List => list(),
-        Command::Run(arguments) => run_all(arguments),
-        Command::Textures(arguments) => textures(arguments),
-    }
-}
-
-fn list() -> Result<(), Report> {
-    let mut text = String::new();
-    for name in pages::names() {
-        text.push_str(&format!("{name:<16}{}\n", pages::page(name)?.title));
-    }
-    Ok(Output::create(Path::new("-"), true)?.commit_all(text.as_bytes())?)
-}
-
-fn textures(arguments: &TexturesArguments) -> Result<(), Report> {
-    make_folder(&arguments.output)?;
-    let clobber = !arguments.no_clobber;
-    let path = |texture: &Texture| arguments.output.join(texture.file);
-    for texture in &TEXTURES {
-        Output::check(&path(texture), clobber)?;
-    }
-    for texture in &TEXTURES {
-        Output::create(&path(texture), clobber)?.commit_all(&texture.png()?)?;
-        say(path(texture).display());
-    }
-    Ok(())
-}
-
-fn make_folder(folder: &Path) -> Result<(), FileError> {
-    let named = |source| FileError::Write { name: folder.display().to_string(), source };
-    std::fs::create_dir_all(folder).map_err(named)
-}
-
-fn run_all(arguments: &RunArguments) -> Result<(), Report> {
+/// Does the jobs that were named.
+pub fn run(arguments: &RunArguments) -> Result<(), Report> {
     // Every job is read before the first is done, so that a slip in a name costs no waiting.
     let jobs = jobs(arguments)?;
     make_folder(&arguments.output)?;

@@ -1,0 +1,61 @@
+//! What the program `pipeline` is asked, and how it does it: a file for each command.
+
+mod run;
+mod textures;
+
+use clap::{Parser, Subcommand};
+use files::{FileError, Output, Report};
+use pipeline::pages;
+use std::path::Path;
+
+const EXAMPLES: &str = "\
+Examples:
+  pipeline list
+  pipeline run glass-sphere vase -o out
+  pipeline run all -o out --size 1024x1024 --keep
+  pipeline run my-job.json -o out --stats
+  pipeline textures -o textures
+
+Exit codes: 2 bad use, 3 malformed input, 4 impossible geometry, 5 cannot read or write,
+6 too large, 70 a bug, 130 interrupted, 141 closed pipe.";
+
+/// From curves to pictures: sweep, triangulate and render in one process.
+#[derive(Debug, Parser)]
+#[command(version, after_help = EXAMPLES)]
+pub struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Name the pages that are built in
+    List,
+    /// Make the pictures of pages or of jobs of your own
+    Run(run::RunArguments),
+    /// Draw the textures of the examples again
+    Textures(textures::TexturesArguments),
+}
+
+/// Does what the arguments ask for.
+pub fn run(arguments: &Arguments) -> Result<(), Report> {
+    match &arguments.command {
+        Command::List => list(),
+        Command::Run(arguments) => run::run(arguments),
+        Command::Textures(arguments) => textures::textures(arguments),
+    }
+}
+
+fn list() -> Result<(), Report> {
+    let mut text = String::new();
+    for name in pages::names() {
+        text.push_str(&format!("{name:<16}{}\n", pages::page(name)?.title));
+    }
+    Ok(Output::create(Path::new("-"), true)?.commit_all(text.as_bytes())?)
+}
+
+/// Makes the folder for the files of a command.
+fn make_folder(folder: &Path) -> Result<(), FileError> {
+    let named = |source| FileError::Write { name: folder.display().to_string(), source };
+    std::fs::create_dir_all(folder).map_err(named)
+}
