@@ -9,9 +9,8 @@
 pub fn front(points: &[(f64, f64)]) -> Vec<usize> {
     // Adding 0 makes -0 the 0 that it is equal to, which the order would set apart.
     let points: Vec<(f64, f64)> = points.iter().map(|&(a, b)| (a + 0.0, b + 0.0)).collect();
-    let mut order: Vec<usize> = (0..points.len())
-        .filter(|&k| points[k].0.is_finite() && points[k].1.is_finite())
-        .collect();
+    let mut order: Vec<usize> =
+        (0..points.len()).filter(|&k| points[k].0.is_finite() && points[k].1.is_finite()).collect();
     order.sort_by(|&a, &b| {
         let by_cost = points[a].0.total_cmp(&points[b].0);
         by_cost.then(points[a].1.total_cmp(&points[b].1)).then(a.cmp(&b))

@@ -1,29 +1,13 @@
-//! Tables of measured numbers, as the measuring programs write them.
+//! Looking things up in tables of measured numbers.
 
-/// A table with a name for each column.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Table {
-    /// The names.
-    pub columns: Vec<String>,
-    /// The rows, each with as many cells as there are names.
-    pub rows: Vec<Vec<String>>,
-}
+use super::measured::Table;
 
 impl Table {
-    /// The table in a text of comma separated values, whose cells may stand in quotation marks. Rows
-    /// with another number of cells than the first are left out.
-    #[must_use]
-    pub fn read(text: &str) -> Self {
-        let mut rows = text.lines().filter(|line| !line.is_empty()).map(cells);
-        let columns = rows.next().unwrap_or_default();
-        let rows = rows.filter(|row| row.len() == columns.len()).collect();
-        Self { columns, rows }
-    }
-
     /// The row whose first cell is this.
     #[must_use]
     pub fn row(&self, first: &str) -> Option<&[String]> {
-        self.rows.iter().find(|row| row[0] == first).map(Vec::as_slice)
+        let is = |row: &&Vec<String>| row.first().is_some_and(|cell| cell == first);
+        self.rows.iter().find(is).map(Vec::as_slice)
     }
 
     /// What stands in a column of a row.
@@ -36,36 +20,22 @@ impl Table {
     /// The same as a number.
     #[must_use]
     pub fn number(&self, row: &[String], column: &str) -> Option<f64> {
-        self.cell(row, column)?.parse().ok()
+        self.cell(row, column)?.trim().parse().ok()
     }
-}
-
-fn cells(line: &str) -> Vec<String> {
-    let (mut cells, mut cell, mut quoted) = (Vec::new(), String::new(), false);
-    for c in line.chars() {
-        match c {
-            '"' => quoted = !quoted,
-            ',' if !quoted => cells.push(std::mem::take(&mut cell)),
-            c => cell.push(c),
-        }
-    }
-    cells.push(cell);
-    cells
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use crate::report::fixture;
 
     #[test]
     fn cells_are_found_by_row_and_column() {
-        let table = Table::read("method,ns,rms\n\"box, 1 px\",128.2,0.05\nodd\ntent,3e2,0.1\n");
-        assert_eq!(table.rows.len(), 2);
-        let row = table.row("box, 1 px").unwrap();
-        assert_eq!(table.number(row, "ns"), Some(128.2));
-        assert_eq!(table.cell(table.row("tent").unwrap(), "ns"), Some("3e2"));
+        let table = fixture::table("filters", "method,ns,rms", &["mip,66.5,0.05", "tent,3e2,none"]);
+        let row = table.row("mip").unwrap();
+        assert_eq!(table.number(row, "ns"), Some(66.5));
         assert_eq!(table.number(row, "none"), None);
-        assert_eq!(table.row("mip"), None);
-        assert_eq!(Table::read("").rows.len(), 0);
+        let row = table.row("tent").unwrap();
+        assert_eq!((table.cell(row, "ns"), table.number(row, "rms")), (Some("3e2"), None));
+        assert_eq!(table.row("box"), None);
     }
 }

@@ -128,9 +128,7 @@ fn superscript(c: char) -> char {
         '1' => '\u{b9}',
         '2' => '\u{b2}',
         '3' => '\u{b3}',
-        '0' | '4'..='9' => {
-            char::from_u32(0x2070 + c.to_digit(10).unwrap_or_default()).unwrap_or(c)
-        }
+        '0' | '4'..='9' => char::from_u32(0x2070 + c.to_digit(10).unwrap_or_default()).unwrap_or(c),
         other => other,
     }
 }

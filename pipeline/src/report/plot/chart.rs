@@ -215,7 +215,9 @@ impl Chart {
             let Some(note) = &place.note else { continue };
             let Some((x, y)) = self.place(frame, place.x, place.y) else { continue };
             let at = (x - 6.0, y + 14.0);
-            if taken.iter().all(|other| (other.0 - at.0).abs() > 16.0 || (other.1 - at.1).abs() > 10.0)
+            if taken
+                .iter()
+                .all(|other| (other.0 - at.0).abs() > 16.0 || (other.1 - at.1).abs() > 10.0)
             {
                 svg.text("faint tiny halo", at.0, at.1, Anchor::End, note);
                 taken.push(at);

@@ -37,14 +37,8 @@ impl Look {
     /// One of six looks, which differ in colour and mark; over again after them.
     #[must_use]
     pub fn number(k: usize) -> Self {
-        let marks = [
-            Mark::Cross,
-            Mark::Circle,
-            Mark::Triangle,
-            Mark::Square,
-            Mark::Diamond,
-            Mark::Wedge,
-        ];
+        let marks =
+            [Mark::Cross, Mark::Circle, Mark::Triangle, Mark::Square, Mark::Diamond, Mark::Wedge];
         let color = k % marks.len();
         Self { color: color as u8, mark: marks[color], hollow: false, dashed: false }
     }

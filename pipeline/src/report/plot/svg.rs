@@ -44,10 +44,8 @@ impl Svg {
             Anchor::Middle => "middle",
             Anchor::End => "end",
         };
-        let _ = write!(
-            self.0,
-            "<text class=\"{class}\" x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\">"
-        );
+        let _ =
+            write!(self.0, "<text class=\"{class}\" x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\">");
         let _ = Escaper::new(&mut self.0).write_str(text);
         self.0.push_str("</text>\n");
     }

@@ -21,20 +21,24 @@ pub fn claims(pages: &[PageMeasured]) -> Vec<Claim> {
     if !methods.contains(&&one) {
         return Vec::new();
     }
-    let mut claims: Vec<(&Method, Claim)> = Vec::new();
-    let mut add = |found: Option<(&_, String)>, topic| {
-        let Some((method, text)) = found else { return };
-        // What holds for the greater time, or the smaller error, is said once.
-        claims.retain(|(known, claim)| *known != method || claim.topic != topic);
-        claims.push((method, Claim::general(topic, Verdict::Use, text)));
-    };
+    let mut found: Vec<(&Method, Topic, String)> = Vec::new();
     for budget in BUDGETS {
-        add(for_budget(pages, &methods, &one, budget), Topic::Budget);
+        let next = for_budget(pages, &methods, &one, budget);
+        found.extend(next.map(|(method, text)| (method, Topic::Budget, text)));
     }
     for aim in AIMS {
-        add(for_aim(pages, &methods, &one, aim), Topic::Aim);
+        let next = for_aim(pages, &methods, &one, aim);
+        found.extend(next.map(|(method, text)| (method, Topic::Aim, text)));
     }
-    claims.into_iter().map(|(_, claim)| claim).collect()
+    // What holds for the greater time, or the smaller error, is said once.
+    let mut claims = Vec::new();
+    for (k, (method, topic, text)) in found.iter().enumerate() {
+        let again = found.get(k + 1).is_some_and(|next| (next.0, next.1) == (*method, *topic));
+        if !again {
+            claims.push(Claim::general(*topic, Verdict::Use, text.clone()));
+        }
+    }
+    claims
 }
 
 /// The method whose error is, in the geometric mean of the pages, the least by that of the nearest

@@ -1,6 +1,6 @@
 //! Footprints that are hard for the thesis's method: at a slant, and thin.
 
-use super::super::table::Table;
+use super::super::measured::Table;
 use super::numbers::{error, list, times};
 use super::{AS_NEAR, Claim, Topic, Verdict, nearer};
 
@@ -22,12 +22,7 @@ pub fn claims(floor: &Table) -> Vec<Claim> {
 }
 
 /// The tent's error on easy and on hard footprints, and what is nearer on the hard ones.
-fn hard(
-    floor: &Table,
-    topic: Topic,
-    columns: [&str; 2],
-    places: [&str; 2],
-) -> Option<Claim> {
+fn hard(floor: &Table, topic: Topic, columns: [&str; 2], places: [&str; 2]) -> Option<Claim> {
     let number = |row: &[String], column: &str| floor.number(row, column);
     let own = floor.row("tent")?;
     let [easy, hard] = columns.map(|column| number(own, column));
@@ -64,7 +59,11 @@ fn hard(
     };
     text += &match names.is_empty() {
         true => "; of what has no tables nothing is nearer there".to_string(),
-        false => format!("; there {} {} nearer", list(&names), if names.len() == 1 { "is" } else { "are" }),
+        false => format!(
+            "; there {} {} nearer",
+            list(&names),
+            if names.len() == 1 { "is" } else { "are" }
+        ),
     };
     text += ". (One average each, on a floor in perspective; see \"The filters by themselves\".)";
     Some(Claim::general(topic, verdict, text))

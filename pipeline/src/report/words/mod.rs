@@ -12,7 +12,6 @@ mod regions;
 mod samples;
 
 use super::measured::Measured;
-use super::table::Table;
 
 /// Errors of which the larger is at most this times the smaller count as the same.
 ///
@@ -102,14 +101,16 @@ impl Claim {
     }
 }
 
-/// All that can be said of the pages and of the filters' floor set (`docs/measured/filters.csv`).
+/// All that can be said of the pages and of the filters by themselves, which are in the table
+/// `filters`.
 #[must_use]
-pub fn claims(measured: &Measured, floor: &Table) -> Vec<Claim> {
+pub fn claims(measured: &Measured) -> Vec<Claim> {
     let pages = &measured.pages;
     let mut claims = advice::claims(pages);
     claims.extend(pages::claims(pages));
     claims.extend(regions::claims(pages));
     claims.extend(samples::claims(pages));
-    claims.extend(footprints::claims(floor));
+    let floor = measured.tables.iter().find(|table| table.name == "filters");
+    claims.extend(floor.map(footprints::claims).unwrap_or_default());
     claims
 }

@@ -110,9 +110,13 @@ mod tests {
         ] {
             assert_eq!(error(value), text);
         }
-        for (value, text) in
-            [(0.0349, "35 ms"), (1.0, "1.0 s"), (0.9999, "1.0 s"), (12.34, "12 s"), (432.1, "432 s")]
-        {
+        for (value, text) in [
+            (0.0349, "35 ms"),
+            (1.0, "1.0 s"),
+            (0.9999, "1.0 s"),
+            (12.34, "12 s"),
+            (432.1, "432 s"),
+        ] {
             assert_eq!(seconds(value), text);
         }
         assert_eq!(bytes(5_242_872), "5.0 MiB");

@@ -36,9 +36,9 @@ fn one_ray(page: &PageMeasured) -> Option<Claim> {
     let rays = |n: u32| evenly(page, Filter::Bilinear, n);
     let one = rays(1)?;
     let (name, filter, own_error) = (&page.name, own.method.filter, own.whole.rmse);
-    let enough = counts.iter().position(|&n| {
-        rays(n).is_some_and(|trial| as_near(trial.whole.rmse, own_error))
-    });
+    let enough = counts
+        .iter()
+        .position(|&n| rays(n).is_some_and(|trial| as_near(trial.whole.rmse, own_error)));
     let Some(at) = enough else {
         let most = *counts.last()?;
         let trial = rays(most)?;
@@ -111,11 +111,8 @@ fn beaten(page: &PageMeasured) -> Option<Claim> {
             && ((nearer(error, own.whole.rmse) && cost <= own.cost.cpu)
                 || (error <= own.whole.rmse && AS_FAST * cost < own.cost.cpu))
     };
-    let other = page
-        .trials
-        .iter()
-        .filter(beats)
-        .min_by(|a, b| a.whole.rmse.total_cmp(&b.whole.rmse))?;
+    let other =
+        page.trials.iter().filter(beats).min_by(|a, b| a.whole.rmse.total_cmp(&b.whole.rmse))?;
     let text = format!(
         "On {} the {} with one ray is beaten by {}: {} against {}, {}.",
         page.name,
@@ -128,20 +125,32 @@ fn beaten(page: &PageMeasured) -> Option<Claim> {
     Some(claim(page, Topic::Beaten, Verdict::Loses, text))
 }
 
-/// Whether the truth is good enough to tell the nearest method from it.
+/// Whether the truth is good enough to tell the nearest method from it, in the whole and in regions.
 fn noise(page: &PageMeasured) -> Option<Claim> {
-    let smallest =
-        page.trials.iter().map(|trial| trial.whole.rmse).min_by(f64::total_cmp)?;
+    let smallest = |of: &dyn Fn(&Trial) -> Option<f64>| {
+        page.trials.iter().filter_map(of).min_by(f64::total_cmp)
+    };
     // The two seeds differ by twice the error of their mean.
-    let seeds = 2.0 * page.truth.noise;
+    let doubtful = |noise: f64, smallest: Option<f64>| {
+        smallest.filter(|&smallest| 2.0 * noise > NOISE * smallest)
+    };
+    let mut places: Vec<String> = Vec::new();
+    let mut look = |name: &str, noise: f64, least: Option<f64>| {
+        if let Some(least) = doubtful(noise, least) {
+            places.push(format!("{name} ({} of {})", error(2.0 * noise), error(least)));
+        }
+    };
+    look("in the whole", page.truth.noise, smallest(&|trial| Some(trial.whole.rmse)));
+    for (k, (region, &noise)) in page.regions.iter().zip(&page.truth.noise_by_region).enumerate() {
+        let least = smallest(&|trial| trial.by_region.get(k).map(|own| own.rmse));
+        look(region.name, noise, least);
+    }
     let text = format!(
-        "On {} the smallest errors are in doubt: the truth's two seeds differ by {}, which is more than a \
-         fifth of the smallest error, {}.",
+        "On {} the smallest errors are in doubt: the truth's two seeds differ by more than a fifth of them: {}.",
         page.name,
-        error(seeds),
-        error(smallest)
+        list(&places)
     );
-    (seeds > NOISE * smallest).then(|| claim(page, Topic::Noise, Verdict::Doubt, text))
+    (!places.is_empty()).then(|| claim(page, Topic::Noise, Verdict::Doubt, text))
 }
 
 /// On how many pages one ray with the thesis's filter is worth it.
@@ -170,11 +179,7 @@ fn together(claims: &[Claim]) -> Vec<Claim> {
         );
     }
     if !even.is_empty() {
-        say(
-            Topic::OneRay,
-            Verdict::Even,
-            format!("It costs as much as those on {}.", list(&even)),
-        );
+        say(Topic::OneRay, Verdict::Even, format!("It costs as much as those on {}.", list(&even)));
     }
     if !loses.is_empty() {
         say(

@@ -32,11 +32,8 @@ impl Everywhere<'_> {
     /// The error of a filter with `samples * samples` rays, if it was measured on all the pages.
     fn error(&self, filter: Filter, samples: u32) -> Option<f64> {
         let method = Method { filter, sampling: Sampling::regular(samples) };
-        let found: Option<Vec<&Difference>> = self
-            .places
-            .iter()
-            .map(|&(page, at)| trial(page, &method)?.by_region.get(at))
-            .collect();
+        let found: Option<Vec<&Difference>> =
+            self.places.iter().map(|&(page, at)| trial(page, &method)?.by_region.get(at)).collect();
         pooled(found?.into_iter())
     }
 }
@@ -48,10 +45,8 @@ fn claim(pages: &[PageMeasured], name: &str) -> Option<Claim> {
     let bilinear = region.error(Filter::Bilinear, 1)?;
     let (filter, own) =
         THESIS.iter().find_map(|&filter| Some((filter, region.error(filter, 1)?)))?;
-    let errors: Vec<(Filter, f64)> = Filter::ALL
-        .iter()
-        .filter_map(|&filter| Some((filter, region.error(filter, 1)?)))
-        .collect();
+    let errors: Vec<(Filter, f64)> =
+        Filter::ALL.iter().filter_map(|&filter| Some((filter, region.error(filter, 1)?))).collect();
     let &(best, least) = errors
         .iter()
         .filter(|(filter, _)| filter.wants_area())
@@ -83,7 +78,8 @@ fn claim(pages: &[PageMeasured], name: &str) -> Option<Claim> {
         (verdict, text + &worth(&region, own))
     };
     if best != filter && nearer(least, own) {
-        text += &format!("; with one ray the {best} is nearer than the {filter}, {} off", error(least));
+        text +=
+            &format!("; with one ray the {best} is nearer than the {filter}, {} off", error(least));
     }
     text.push('.');
     Some(Claim::general(Topic::Region, verdict, text))
@@ -110,8 +106,12 @@ fn worth(region: &Everywhere<'_>, own: f64) -> String {
     let counts = (2..=render::film::MOST_SAMPLES).map(|n| (n, region.error(Filter::Bilinear, n)));
     let measured: Vec<(u32, f64)> = counts.filter_map(|(n, found)| Some((n, found?))).collect();
     match (measured.iter().find(|(_, rays)| as_near(*rays, own)), measured.last()) {
-        (Some((n, rays)), _) => format!("; it takes {n} x {n} of those ({}) to be as near", error(*rays)),
-        (None, Some((n, rays))) => format!("; {n} x {n} of those are not as near ({})", error(*rays)),
+        (Some((n, rays)), _) => {
+            format!("; it takes {n} x {n} of those ({}) to be as near", error(*rays))
+        }
+        (None, Some((n, rays))) => {
+            format!("; {n} x {n} of those are not as near ({})", error(*rays))
+        }
         (None, None) => String::new(),
     }
 }

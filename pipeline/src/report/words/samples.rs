@@ -139,7 +139,8 @@ fn memory(pages: &[PageMeasured]) -> Option<Claim> {
         own.max().filter(|&most| most > 0)
     };
     let tent = more(Filter::Tent)?;
-    let mut text = format!("For its tables the tent holds up to {} more than bilinear rays", bytes(tent));
+    let mut text =
+        format!("For its tables the tent holds up to {} more than bilinear rays", bytes(tent));
     let verdict = match more(Filter::Mip) {
         Some(mip) if mip < tent => {
             text += &format!("; mip-mapping holds {} more", bytes(mip));
