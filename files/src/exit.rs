@@ -10,6 +10,9 @@ use std::process::ExitCode;
 /// The exit codes of all four programs. 0 is success.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Exit {
+    /// Two pictures that were compared differ by more than was allowed, as `diff` ends where files
+    /// differ.
+    Differ = 1,
     /// Bad use of the command line; clap ends with the same code.
     Use = 2,
     /// An input is malformed: JSON, grid, OBJ or picture.

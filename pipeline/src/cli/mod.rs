@@ -1,5 +1,6 @@
 //! What the program `pipeline` is asked, and how it does it: a file for each command.
 
+mod compare;
 mod run;
 mod textures;
 
@@ -15,9 +16,10 @@ Examples:
   pipeline run all -o out --size 1024x1024 --keep
   pipeline run my-job.json -o out --stats
   pipeline textures -o textures
+  pipeline compare a.png b.png --map difference.png --rmse 0.01
 
-Exit codes: 2 bad use, 3 malformed input, 4 impossible geometry, 5 cannot read or write,
-6 too large, 70 a bug, 130 interrupted, 141 closed pipe.";
+Exit codes: 1 pictures that differ by more than was allowed, 2 bad use, 3 malformed input,
+4 impossible geometry, 5 cannot read or write, 6 too large, 70 a bug, 130 interrupted, 141 closed pipe.";
 
 /// From curves to pictures: sweep, triangulate and render in one process.
 #[derive(Debug, Parser)]
@@ -35,6 +37,8 @@ enum Command {
     Run(run::RunArguments),
     /// Draw the textures of the examples again
     Textures(textures::TexturesArguments),
+    /// Say how far one picture is from another, in linear light
+    Compare(compare::CompareArguments),
 }
 
 /// Does what the arguments ask for.
@@ -43,6 +47,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
         Command::List => list(),
         Command::Run(arguments) => run::run(arguments),
         Command::Textures(arguments) => textures::textures(arguments),
+        Command::Compare(arguments) => compare::compare(arguments),
     }
 }
 

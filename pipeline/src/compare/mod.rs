@@ -1,5 +1,12 @@
-//! How far one picture is from another.
+//! How far one picture is from another: in numbers, and as a map.
 
 pub mod difference;
+pub mod error;
+pub mod map;
+pub mod read;
+pub mod scale;
+pub mod ssim;
 
 pub use difference::Difference;
+pub use error::CompareError;
+pub use scale::Scale;

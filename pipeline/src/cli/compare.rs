@@ -1,0 +1,191 @@
+//! `pipeline compare`: how far one picture is from another.
+
+use clap::Args;
+use files::{Exit, Failure, Output, Report, input};
+use pipeline::compare::{Difference, Scale, difference, map, read, ssim};
+use render::film::Crop;
+use render::film::encode::Format;
+use serde_json::json;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+const MEASURES: &str = "\
+Measures, in linear light where white is 1:
+  rmse  root mean square difference over all pixels and channels
+  max   largest difference in any channel, and the pixel where it is
+  p999  what 99.9 % of the pixels do not exceed in any channel
+  bias  mean of A minus B: above 0 where A is brighter
+  ssim  structural similarity of luma as a screen shows it (Wang and others 2004); 1 if equal
+
+Ends with 1 if one of the limits given is passed. A PNG is taken as sRGB, an EXR as linear.";
+
+/// What `pipeline compare` is asked.
+#[derive(Debug, Args)]
+#[command(after_help = MEASURES)]
+pub struct CompareArguments {
+    /// A picture, PNG or EXR; - for standard input
+    #[arg(value_name = "A")]
+    first: PathBuf,
+    /// The picture that it is held against, of the same size
+    #[arg(value_name = "B")]
+    second: PathBuf,
+    /// Draw where they differ
+    #[arg(long, value_name = "FILE.png")]
+    map: Option<PathBuf>,
+    /// The errors that the map tells apart, linear:MOST or log:LEAST:MOST
+    #[arg(long, value_name = "SCALE", default_value = "log:1e-4:1", requires = "map")]
+    map_scale: Scale,
+    /// The largest RMSE that is allowed
+    #[arg(long, value_name = "X", value_parser = limit)]
+    rmse: Option<f64>,
+    /// The largest difference that is allowed
+    #[arg(long, value_name = "X", value_parser = limit)]
+    max: Option<f64>,
+    /// The largest difference that is allowed in 99.9 % of the pixels
+    #[arg(long, value_name = "X", value_parser = limit)]
+    p999: Option<f64>,
+    /// The least structural similarity that is allowed, up to 1
+    #[arg(long, value_name = "X", allow_negative_numbers = true, value_parser = similarity)]
+    ssim: Option<f64>,
+    /// Compare a part only: its upper left pixel and its size
+    #[arg(long, value_name = "X,Y,WxH", value_parser = Crop::parse)]
+    crop: Option<Crop>,
+    /// Print the numbers as JSON
+    #[arg(long)]
+    json: bool,
+    /// Refuse to replace an existing map
+    #[arg(long)]
+    no_clobber: bool,
+}
+
+/// Reads a difference that is allowed.
+fn limit(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|x: &f64| x.is_finite() && *x >= 0.0);
+    number.ok_or_else(|| "expected a number of at least 0".into())
+}
+
+/// Reads a similarity.
+fn similarity(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|x| (-1.0..=1.0).contains(x));
+    number.ok_or_else(|| "expected a number from -1 to 1".into())
+}
+
+/// Why a comparison does not end well.
+#[derive(Debug, Error)]
+enum Unequal {
+    #[error("{first} differs from {second} by more than was allowed: {passed}")]
+    Limits { first: String, second: String, passed: String },
+    #[error("a map is a PNG file: found {0}, expected a name that ends in .png")]
+    MapName(String),
+    #[error("standard input was named twice, expected one of the pictures there")]
+    TwiceStdin,
+    #[error("pictures of {0}x{1} pixels have no structural similarity: expected 11x11 at least")]
+    NoSimilarity(u32, u32),
+    #[error("cannot encode {name}: {source}")]
+    Encode { name: String, source: image::ImageError },
+}
+
+impl Failure for Unequal {
+    fn exit(&self) -> Exit {
+        match self {
+            Self::Limits { .. } => Exit::Differ,
+            Self::MapName(_) | Self::TwiceStdin | Self::NoSimilarity(..) => Exit::Use,
+            Self::Encode { .. } => Exit::Resource,
+        }
+    }
+}
+
+/// What was measured.
+struct Measures {
+    size: (u32, u32),
+    difference: Difference,
+    /// The place of the largest difference, in the whole picture.
+    place: (u32, u32),
+    ssim: Option<f64>,
+}
+
+/// Compares two pictures, draws the map, prints the numbers and holds them against the limits.
+pub fn compare(arguments: &CompareArguments) -> Result<(), Report> {
+    let (first, second) = (&arguments.first, &arguments.second);
+    if input::is_stdin(first) && input::is_stdin(second) {
+        return Err(Unequal::TwiceStdin.into());
+    }
+    if let Some(path) = &arguments.map {
+        if Format::of(path) != Some(Format::Png) {
+            return Err(Unequal::MapName(path.display().to_string()).into());
+        }
+        Output::check(path, !arguments.no_clobber)?;
+    }
+    let [a, b] = read::pair(first, second, arguments.crop)?;
+    let (x, y) = difference::farthest(&a, &b)?;
+    let corner = arguments.crop.map_or((0, 0), |crop| (crop.x, crop.y));
+    let measures = Measures {
+        size: (a.width, a.height),
+        difference: Difference::between(&a, &b, None)?,
+        place: (corner.0 + x, corner.1 + y),
+        ssim: ssim::ssim(&a, &b)?,
+    };
+    if arguments.ssim.is_some() && measures.ssim.is_none() {
+        return Err(Unequal::NoSimilarity(a.width, a.height).into());
+    }
+    if let Some(path) = &arguments.map {
+        let name = path.display().to_string();
+        let bytes = map::png(&map::map(&a, &b, arguments.map_scale)?)
+            .map_err(|source| Unequal::Encode { name, source })?;
+        Output::create(path, !arguments.no_clobber)?.commit_all(&bytes)?;
+    }
+    let mut out = Output::create(Path::new("-"), true)?;
+    measures.write(arguments.json, &mut out).map_err(|source| out.failed(source))?;
+    out.commit()?;
+    let passed = measures.passed(arguments);
+    if passed.is_empty() {
+        return Ok(());
+    }
+    let [first, second] = [first, second].map(|path| input::name_of(path));
+    Err(Unequal::Limits { first, second, passed: passed.join(", ") }.into())
+}
+
+impl Measures {
+    /// Prints the numbers: as lines of words rounded to `f32`, or as JSON in full.
+    fn write(&self, json: bool, out: &mut impl Write) -> io::Result<()> {
+        let (width, height) = self.size;
+        let Difference { pixels: _, rmse, max, p999, bias } = self.difference;
+        let (x, y) = self.place;
+        if json {
+            let numbers = json!({
+                "width": width, "height": height, "rmse": rmse, "max": max, "max_at": [x, y],
+                "p999": p999, "bias": bias, "ssim": self.ssim,
+            });
+            return writeln!(out, "{numbers}");
+        }
+        writeln!(out, "size  {width}x{height}")?;
+        writeln!(out, "rmse  {}", number(rmse))?;
+        writeln!(out, "max   {} at {x},{y}", number(max))?;
+        writeln!(out, "p999  {}", number(p999))?;
+        writeln!(out, "bias  {}", number(bias))?;
+        match self.ssim {
+            Some(ssim) => writeln!(out, "ssim  {}", number(ssim)),
+            None => writeln!(out, "ssim  none, smaller than 11x11"),
+        }
+    }
+
+    /// The limits that are passed, in words.
+    fn passed(&self, limits: &CompareArguments) -> Vec<String> {
+        let Difference { rmse, max, p999, .. } = self.difference;
+        let above =
+            [("rmse", rmse, limits.rmse), ("max", max, limits.max), ("p999", p999, limits.p999)]
+                .into_iter()
+                .filter_map(|(name, found, limit)| Some((name, found, limit?)))
+                .filter(|(_, found, limit)| found > limit)
+                .map(|(name, found, limit)| format!("{name} {} is above {limit}", number(found)));
+        let below = self.ssim.zip(limits.ssim).filter(|(found, limit)| found < limit);
+        let below = below.map(|(found, limit)| format!("ssim {} is below {limit}", number(found)));
+        above.chain(below).collect()
+    }
+}
+
+/// A number with the digits of an `f32`: more are rounding.
+fn number(x: f64) -> String {
+    format!("{:?}", x as f32)
+}

@@ -1,0 +1,312 @@
+//! Pictures to be compared, from PNG and EXR files, in linear light.
+//!
+//! The codes of a PNG file, of 8 or of 16 bits, are read as sRGB, whatever else its chunks may say; grey
+//! is three equal channels. An EXR file is read as it is: its channels `R`, `G` and `B`, and no layers. A
+//! picture with an alpha channel must be opaque, since what lies behind it is not known.
+
+use files::{Exit, Failure, FileError, input};
+use image::{
+    DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, ImageResult, Limits,
+};
+use render::Picture;
+use render::color::Encoding;
+use render::film::Crop;
+use std::io::Cursor;
+use std::path::Path;
+use thiserror::Error;
+
+/// Bytes that one picture may take while it is decoded: 8192 x 8192 pixels of an EXR file.
+const MOST_BYTES: u64 = 2 << 30;
+
+/// Why a picture file cannot be compared.
+#[derive(Debug, Error)]
+pub enum ReadError {
+    /// The file cannot be read.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// It holds no picture that we read.
+    #[error("{name}: found no picture ({found}), expected a PNG or EXR file")]
+    NoPicture {
+        /// The file.
+        name: String,
+        /// What was found, in words.
+        found: String,
+    },
+    /// It takes too much memory.
+    #[error(
+        "{name}: found {width}x{height} pixels, which take {bytes} bytes to read; expected at most {MOST_BYTES}"
+    )]
+    TooLarge {
+        /// The file.
+        name: String,
+        /// Pixels across.
+        width: u32,
+        /// Pixels down.
+        height: u32,
+        /// Bytes of the decoded picture.
+        bytes: u64,
+    },
+    /// A pixel holds what cannot be compared.
+    #[error("{name}: found {found} in pixel {},{}, expected {expected}", place.0, place.1)]
+    Pixel {
+        /// The file.
+        name: String,
+        /// Column and row, from 0.
+        place: (u32, u32),
+        /// What was found.
+        found: String,
+        /// What was expected.
+        expected: &'static str,
+    },
+    /// The two pictures are not equally large.
+    #[error("{first} is {}x{} pixels and {second} {}x{}: expected the same size", sizes[0].0, sizes[0].1, sizes[1].0, sizes[1].1)]
+    Sizes {
+        /// The first file.
+        first: String,
+        /// The second file.
+        second: String,
+        /// Pixels across and down of both.
+        sizes: [(u32, u32); 2],
+    },
+    /// The part to be compared does not lie in the picture.
+    #[error("the crop {},{},{}x{} does not lie in {name}, which is {}x{} pixels", crop.x, crop.y, crop.width, crop.height, size.0, size.1)]
+    Crop {
+        /// The file.
+        name: String,
+        /// The part.
+        crop: Crop,
+        /// Pixels of the picture across and down.
+        size: (u32, u32),
+    },
+}
+
+impl Failure for ReadError {
+    fn exit(&self) -> Exit {
+        match self {
+            Self::File(error) => error.exit(),
+            Self::NoPicture { .. } | Self::Pixel { .. } => Exit::Malformed,
+            Self::TooLarge { .. } => Exit::Resource,
+            Self::Sizes { .. } | Self::Crop { .. } => Exit::Use,
+        }
+    }
+}
+
+/// The picture in the file named on a command line; `-` is standard input. Its format is told by its
+/// first bytes.
+///
+/// # Errors
+/// When it cannot be read, is no PNG or EXR file, is broken, is not opaque or not finite.
+pub fn read(argument: &Path) -> Result<Picture, ReadError> {
+    let name = input::name_of(argument);
+    decode(&name, &input::read(argument)?)
+}
+
+/// Two pictures of the same size from the files named on a command line, or the same part of both.
+///
+/// # Errors
+/// When one of them cannot be read, their sizes differ, or the part does not lie in them.
+pub fn pair(first: &Path, second: &Path, crop: Option<Crop>) -> Result<[Picture; 2], ReadError> {
+    let pictures = [read(first)?, read(second)?];
+    let sizes = pictures.each_ref().map(|picture| (picture.width, picture.height));
+    let [first, second] = [first, second].map(input::name_of);
+    if sizes[0] != sizes[1] {
+        return Err(ReadError::Sizes { first, second, sizes });
+    }
+    let size = sizes[0];
+    match crop {
+        None => Ok(pictures),
+        Some(crop) if crop.fits(size.0, size.1) => {
+            Ok(pictures.each_ref().map(|whole| part(whole, &crop)))
+        }
+        Some(crop) => Err(ReadError::Crop { name: first, crop, size }),
+    }
+}
+
+/// A part of a picture, which lies in it; without its layers.
+#[must_use]
+pub fn part(whole: &Picture, crop: &Crop) -> Picture {
+    let (start, end) = (crop.x as usize, (crop.x + crop.width) as usize);
+    let rows = whole.pixels.chunks_exact(whole.width as usize);
+    let rows = rows.skip(crop.y as usize).take(crop.height as usize);
+    let pixels = rows.flat_map(|row| &row[start..end]).copied().collect();
+    Picture { pixels, ..Picture::black(crop.width, crop.height) }
+}
+
+/// The picture in the bytes of a file, which messages call `name`.
+///
+/// # Errors
+/// As [`read`], but for reading.
+pub fn decode(name: &str, bytes: &[u8]) -> Result<Picture, ReadError> {
+    let no_picture =
+        |error: ImageError| ReadError::NoPicture { name: name.into(), found: error.to_string() };
+    let decoded = match open(bytes).map_err(no_picture)? {
+        Found::Picture(decoded) => decoded,
+        Found::Nothing(found) => return Err(ReadError::NoPicture { name: name.into(), found }),
+        Found::TooLarge { width, height, bytes } => {
+            return Err(ReadError::TooLarge { name: name.into(), width, height, bytes });
+        }
+    };
+    let (width, height) = (decoded.width(), decoded.height());
+    let fault = |index: usize, found: String, expected: &'static str| {
+        let place = super::error::place(width, index);
+        Err(ReadError::Pixel { name: name.into(), place, found, expected })
+    };
+    let mut picture = Picture::black(width, height);
+    for (index, (to, [light @ .., alpha])) in
+        picture.pixels.iter_mut().zip(linear(decoded)).enumerate()
+    {
+        if alpha != 1.0 {
+            return fault(index, format!("an alpha of {alpha}"), "an opaque picture");
+        }
+        if let Some(value) = light.iter().find(|value| !value.is_finite()) {
+            return fault(index, value.to_string(), "finite numbers");
+        }
+        *to = light;
+    }
+    Ok(picture)
+}
+
+/// What is in the bytes of a file.
+enum Found {
+    Picture(DynamicImage),
+    /// A format that we do not read, or none.
+    Nothing(String),
+    /// Not begun: it would take too much memory.
+    TooLarge {
+        width: u32,
+        height: u32,
+        bytes: u64,
+    },
+}
+
+/// Decodes a file, whose size is looked at first.
+fn open(bytes: &[u8]) -> ImageResult<Found> {
+    let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format()?;
+    match reader.format() {
+        Some(ImageFormat::Png | ImageFormat::OpenExr) => {}
+        Some(other) => return Ok(Found::Nothing(format!("a {} file", other.to_mime_type()))),
+        None if bytes.is_empty() => return Ok(Found::Nothing("an empty file".into())),
+        None => return Ok(Found::Nothing("no known beginning".into())),
+    }
+    let mut limits = Limits::no_limits();
+    // What the decoder works with comes on top of the picture.
+    limits.max_alloc = Some(2 * MOST_BYTES);
+    reader.limits(limits);
+    let decoder = reader.into_decoder()?;
+    let (width, height) = decoder.dimensions();
+    let bytes = decoder.total_bytes();
+    if bytes > MOST_BYTES {
+        return Ok(Found::TooLarge { width, height, bytes });
+    }
+    DynamicImage::from_decoder(decoder).map(Found::Picture)
+}
+
+/// Linear red, green, blue and alpha of each pixel.
+fn linear(decoded: DynamicImage) -> Vec<[f32; 4]> {
+    if matches!(decoded, DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_)) {
+        return decoded.into_rgba32f().pixels().map(|pixel| pixel.0).collect();
+    }
+    let whole = f64::from(u16::MAX);
+    let light: Vec<f32> =
+        (0..=u16::MAX).map(|code| Encoding::Srgb.decode(f64::from(code) / whole) as f32).collect();
+    // An 8-bit code k becomes 257 k, which is the same part of the whole.
+    let codes = decoded.into_rgba16();
+    let pixels = codes.pixels().map(|pixel| {
+        let [r, g, b, alpha] = pixel.0;
+        let [r, g, b] = [r, g, b].map(|code| light[usize::from(code)]);
+        [r, g, b, f32::from(alpha) / f32::from(u16::MAX)]
+    });
+    pixels.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use image::{GrayAlphaImage, GrayImage, ImageBuffer, Luma, Rgb, Rgb32FImage, Rgba};
+    use render::film::encode::{self, Format};
+
+    fn bytes(picture: impl Into<DynamicImage>, format: ImageFormat) -> Vec<u8> {
+        let mut bytes = Cursor::new(Vec::new());
+        picture.into().write_to(&mut bytes, format).unwrap();
+        bytes.into_inner()
+    }
+
+    fn complaint(bytes: &[u8]) -> String {
+        decode("a.png", bytes).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn what_render_writes_is_read() {
+        let pixels = vec![[0.0, 0.5, 1.0], [-0.25, 7.5, 1e-6]];
+        let picture = Picture { pixels, ..Picture::black(2, 1) };
+        let exr = encode::encode(&picture, Format::Exr, Encoding::Srgb).unwrap();
+        assert_eq!(decode("a.exr", &exr).unwrap(), picture);
+        let png = encode::encode(&picture, Format::Png, Encoding::Srgb).unwrap();
+        let read = decode("a.png", &png).unwrap();
+        // Code 188 is the nearest to the middle grey; half a code is 0.004 of light there.
+        assert_eq!((read.pixels[0][0], read.pixels[0][2]), (0.0, 1.0));
+        assert!((read.pixels[0][1] - 0.5).abs() < 0.004);
+        assert_eq!(read.pixels[1], [0.0, 1.0, 0.0]);
+        // Every code is itself again.
+        assert_eq!(encode::encode(&read, Format::Png, Encoding::Srgb).unwrap(), png);
+    }
+
+    #[test]
+    fn codes_of_8_and_16_bits_and_grey_are_the_same_light() {
+        let wide = ImageBuffer::from_pixel(1, 1, Rgb([188 * 257u16; 3]));
+        let opaque = ImageBuffer::from_pixel(1, 1, Rgba([188u8, 188, 188, 255]));
+        let grey = GrayImage::from_pixel(1, 1, Luma([188]));
+        let expected = Encoding::Srgb.decode(188.0 / 255.0) as f32;
+        for file in [
+            bytes(wide, ImageFormat::Png),
+            bytes(opaque, ImageFormat::Png),
+            bytes(grey, ImageFormat::Png),
+        ] {
+            assert_eq!(decode("a.png", &file).unwrap().pixels, [[expected; 3]]);
+        }
+        let finest = ImageBuffer::from_pixel(1, 1, Rgb([1u16, 2, 3]));
+        let read = decode("a.png", &bytes(finest, ImageFormat::Png)).unwrap().pixels[0];
+        let code = 1.0 / 65535.0 / 12.92;
+        assert_eq!(read, [1.0, 2.0, 3.0].map(|k| (k * code) as f32));
+    }
+
+    #[test]
+    fn pixels_that_cannot_be_compared_are_named() {
+        let mut glass = GrayAlphaImage::from_pixel(3, 2, image::LumaA([0, 255]));
+        glass.get_pixel_mut(2, 1).0[1] = 51;
+        assert_eq!(
+            complaint(&bytes(glass, ImageFormat::Png)),
+            "a.png: found an alpha of 0.2 in pixel 2,1, expected an opaque picture"
+        );
+        let mut broken = Rgb32FImage::new(2, 2);
+        broken.get_pixel_mut(1, 0).0[2] = f32::NAN;
+        assert_eq!(
+            complaint(&bytes(broken, ImageFormat::OpenExr)),
+            "a.png: found NaN in pixel 1,0, expected finite numbers"
+        );
+    }
+
+    #[test]
+    fn what_is_no_picture_is_refused() {
+        let grey = bytes(GrayImage::new(40, 40), ImageFormat::Png);
+        for broken in [&b""[..], b"no picture", b"GIF89a..", &grey[..30], &grey[..grey.len() / 2]] {
+            let error = complaint(broken);
+            assert!(error.starts_with("a.png: found no picture ("), "{error}");
+            assert!(error.ends_with("), expected a PNG or EXR file"), "{error}");
+            assert!(!error.contains('\n'), "{error}");
+        }
+    }
+
+    #[test]
+    fn a_part_is_that_part() {
+        let mut whole = Picture::black(5, 4);
+        for (k, pixel) in (0u8..).zip(&mut whole.pixels) {
+            *pixel = [f32::from(k); 3];
+        }
+        let found = part(&whole, &Crop { x: 1, y: 2, width: 3, height: 2 });
+        let light: Vec<f32> = found.pixels.iter().map(|pixel| pixel[0]).collect();
+        assert_eq!((found.width, found.height), (3, 2));
+        assert_eq!(light, [11.0, 12.0, 13.0, 16.0, 17.0, 18.0]);
+        assert_eq!(part(&whole, &Crop::whole(5, 4)), whole);
+    }
+}
