@@ -1,5 +1,6 @@
 //! Speed against error: what each way of rendering a page costs, and how wrong it is.
 
+mod document;
 #[cfg(test)]
 mod fixture;
 pub mod measured;
@@ -8,5 +9,7 @@ pub mod pareto;
 pub mod plot;
 mod table;
 pub mod words;
+mod write;
 
 pub use measured::Measured;
+pub use write::{files, write};
