@@ -142,6 +142,7 @@ fn every_top_level_test_and_example_is_registered() {
 fn files_and_folders_that_pages_name_exist() {
     for page in [
         "ARCHITECTURE.md",
+        "docs/compare.md",
         "docs/conventions.md",
         "docs/hard-cases.md",
         "docs/mapping.md",

@@ -74,9 +74,17 @@ pub enum PipelineError {
         /// The scene file.
         scene: String,
     },
+    /// No page shows that figure of the thesis.
+    #[error("there is no figure A.{number}; there are {known}")]
+    UnknownFigure {
+        /// The number asked for.
+        number: u8,
+        /// The figures there are.
+        known: String,
+    },
     /// There is no page of that name.
     #[error(
-        "there is no page {name:?}; there are {known}; a job of your own is named by its .json file"
+        "there is no page {name:?}; there are {known}; figures are named by their numbers, as A.10, and a job of your own by its .json file"
     )]
     UnknownPage {
         /// The name given.
@@ -99,6 +107,7 @@ impl Failure for PipelineError {
             Self::SameFile { .. }
             | Self::UnknownMesh { .. }
             | Self::MissingMesh { .. }
+            | Self::UnknownFigure { .. }
             | Self::UnknownPage { .. } => Exit::Use,
         }
     }

@@ -3,9 +3,10 @@
 //! A [`Job`] names curve specs, the texture ids of their surfaces, a scene, and the ways to render
 //! it. [`run()`] does a job: grids and meshes pass in memory, as the same numbers that the three
 //! programs pass through pipes, so the pictures are the same byte for byte. The jobs in [`pages`]
-//! are built into the program. [`compare`] says how far one picture is from another, and [`mod@report`]
+//! are built into the program, and [`mod@book`] shows them. [`compare`] says how far one picture is from another, and [`mod@report`]
 //! what each way of rendering a page costs and how wrong it is.
 
+pub mod book;
 pub mod compare;
 pub mod error;
 pub mod html;
@@ -14,6 +15,7 @@ pub mod mesh;
 pub mod pages;
 pub mod report;
 pub mod run;
+pub mod stages;
 pub mod textures;
 
 pub use error::PipelineError;

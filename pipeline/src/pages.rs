@@ -3,6 +3,7 @@
 //! They are the files of `examples/`, under the same paths, so that they work in an empty folder
 //! and can be read as models for one's own.
 
+use crate::job::figure::listed;
 use crate::{Job, PipelineError};
 use files::Embedded;
 use files::json::nearest;
@@ -121,6 +122,12 @@ pub fn names() -> Vec<&'static str> {
         .collect()
 }
 
+/// Where the job of a page lies among the files.
+#[must_use]
+pub fn path(name: &str) -> PathBuf {
+    [FOLDER, &format!("{name}.json")].iter().collect()
+}
+
 /// The job of a page.
 ///
 /// # Errors
@@ -134,13 +141,37 @@ pub fn page(name: &str) -> Result<Job, PipelineError> {
         }
         return Err(PipelineError::UnknownPage { name: name.into(), known });
     }
-    let path: PathBuf = [FOLDER, &format!("{name}.json")].iter().collect();
-    Job::read(&path, &FILES)
+    Job::read(&path(name), &FILES)
+}
+
+/// All pages: those with figures of the thesis by their numbers, then the others by their names.
+///
+/// # Errors
+/// None, as long as every page is a job, which a test holds.
+pub fn in_order() -> Result<Vec<Job>, PipelineError> {
+    let mut jobs = names().into_iter().map(page).collect::<Result<Vec<_>, _>>()?;
+    jobs.sort_by_key(|job| job.figures().first().copied().unwrap_or(u8::MAX));
+    Ok(jobs)
+}
+
+/// The name of the page that shows a figure of the thesis.
+///
+/// # Errors
+/// When no page does; with the figures that there are.
+pub fn of_figure(number: u8) -> Result<String, PipelineError> {
+    let jobs = in_order()?;
+    if let Some(job) = jobs.iter().find(|job| job.figures().contains(&number)) {
+        return Ok(job.name.clone());
+    }
+    let mut all: Vec<u8> = jobs.iter().flat_map(Job::figures).collect();
+    all.sort_unstable();
+    Err(PipelineError::UnknownFigure { number, known: listed(&all) })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::job::Mode;
 
     #[test]
     fn every_page_in_examples_is_built_in() {
@@ -165,5 +196,21 @@ mod tests {
         for name in names() {
             assert!(!page(name).unwrap().title.is_empty(), "{name}");
         }
+    }
+
+    #[test]
+    fn a_figure_is_on_one_page_and_in_one_mode() {
+        let jobs = in_order().unwrap();
+        let mut shown: Vec<u8> =
+            jobs.iter().flat_map(|job| job.modes.iter().filter_map(Mode::figure_number)).collect();
+        shown.sort_unstable();
+        let all = shown.len();
+        shown.dedup();
+        assert_eq!(shown.len(), all, "{shown:?}");
+        for figure in shown {
+            assert!(page(&of_figure(figure).unwrap()).unwrap().figures().contains(&figure));
+        }
+        let unknown = of_figure(99).unwrap_err().to_string();
+        assert!(unknown.contains("no figure A.99") && unknown.contains("A.11"), "{unknown}");
     }
 }

@@ -1,6 +1,7 @@
 //! Does a job: specs to grids to meshes to pictures.
 
 use crate::job::{MeshJob, Mode};
+use crate::stages::Stages;
 use crate::{Job, PipelineError, mesh};
 use files::json::Document;
 use files::{JsonError, Output, Source};
@@ -12,6 +13,7 @@ use render::scene::read::{self, Draft};
 use render::scene::{MeshSource, SceneError};
 use render::stats::Stats;
 use render::{Picture, Scene, Settings};
+use std::cell::Cell;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -47,8 +49,10 @@ pub enum Event<'a> {
         name: &'a str,
         /// How many triangles it has.
         triangles: usize,
-        /// How long it took.
-        time: Duration,
+        /// How long its grid took.
+        sweep: Duration,
+        /// How long its triangles took.
+        triangulate: Duration,
         /// By how much its tolerance is missed, in words.
         missed: Option<String>,
     },
@@ -76,7 +80,7 @@ pub enum Event<'a> {
 ///
 /// Each mode gives a picture `JOB-MODE.png`; several modes also give `JOB.png`, all of them side by
 /// side. With `keep`, each mesh gives `JOB-MESH.grid` and `JOB-MESH.obj`, the bytes that the programs
-/// would have piped.
+/// would have piped. Returned is where the time went.
 ///
 /// # Errors
 /// On the first thing that is wrong; files already written stay.
@@ -85,8 +89,8 @@ pub fn run(
     source: &dyn Source,
     options: &Options,
     tell: &(dyn Fn(Event<'_>) + Sync),
-) -> Result<(), PipelineError> {
-    let work = Work { job, source, options, tell };
+) -> Result<Stages, PipelineError> {
+    let work = Work { job, source, options, tell, stages: Cell::default() };
     let started = Instant::now();
     let scene = work.scene()?;
     let read_time = started.elapsed();
@@ -95,9 +99,11 @@ pub fn run(
         pictures.push(work.picture(&scene, mode, read_time)?);
     }
     if let Some(strip) = job.strip_file() {
+        let started = Instant::now();
         work.write_picture(&strip, &Picture::side_by_side(&pictures, GAP))?;
+        work.took(Stages { write: started.elapsed(), ..Stages::default() });
     }
-    Ok(())
+    Ok(work.stages.get())
 }
 
 /// The scene of a job with its meshes in it, as [`run()`] renders it: for those who render it in ways of
@@ -111,7 +117,14 @@ pub fn scene(
     options: &Options,
     tell: &(dyn Fn(Event<'_>) + Sync),
 ) -> Result<Scene, PipelineError> {
-    Work { job, source, options, tell }.scene()
+    Work { job, source, options, tell, stages: Cell::default() }.scene()
+}
+
+/// What a mode asks of a picture of this size.
+#[must_use]
+pub fn settings(mode: &Mode, (width, height): (u32, u32)) -> Settings {
+    let Mode { filter, sampling, accel, .. } = *mode;
+    Settings { sampling, accel, ..Settings::new(width, height, filter) }
 }
 
 struct Work<'a> {
@@ -119,11 +132,19 @@ struct Work<'a> {
     source: &'a dyn Source,
     options: &'a Options,
     tell: &'a (dyn Fn(Event<'_>) + Sync),
+    stages: Cell<Stages>,
 }
 
 impl Work<'_> {
+    fn took(&self, more: Stages) {
+        let mut stages = self.stages.get();
+        stages += more;
+        self.stages.set(stages);
+    }
+
     /// The scene with the job's meshes in it.
     fn scene(&self) -> Result<Scene, PipelineError> {
+        let started = Instant::now();
         let path = &self.job.scene;
         let (name, bytes) = (path.display().to_string(), self.source.read(path)?);
         let document = Document::new(&name, &bytes)?;
@@ -144,6 +165,9 @@ impl Work<'_> {
         for mode in &self.job.modes {
             memory::check(&scene, mode.filter, most)?;
         }
+        // The meshes are made in between, and have stages of their own.
+        let read = started.elapsed().saturating_sub(self.stages.get().total());
+        self.took(Stages { read, ..Stages::default() });
         Ok(scene)
     }
 
@@ -184,6 +208,7 @@ impl Work<'_> {
                 other => PipelineError::from(other),
             })?;
         let grids = object.grids()?;
+        let sweep = started.elapsed();
         if self.options.keep {
             self.write(&self.job.grid_file(mesh), |out| {
                 grid_file::write_all(&grids, grid_file::Encoding::Binary, out)
@@ -197,11 +222,16 @@ impl Work<'_> {
                 }
             })?;
         }
+        let write = started.elapsed() - sweep;
+        let started = Instant::now();
         let triangles = mesh::for_render(triangulate::mesh_all(&grids, &mesh.options)?);
+        let triangulate = started.elapsed();
+        self.took(Stages { sweep, triangulate, write, ..Stages::default() });
         (self.tell)(Event::Mesh {
             name: &mesh.name,
             triangles: triangles.triangles.len(),
-            time: started.elapsed(),
+            sweep,
+            triangulate,
             missed: object.missed(),
         });
         Ok(triangles)
@@ -213,15 +243,14 @@ impl Work<'_> {
         mode: &Mode,
         read_time: Duration,
     ) -> Result<Picture, PipelineError> {
-        let (width, height) = self.options.size;
-        let Mode { filter, sampling, accel, .. } = *mode;
-        let settings = Settings { sampling, accel, ..Settings::new(width, height, filter) };
+        let settings = settings(mode, self.options.size);
         let progress = |done, total| (self.tell)(Event::Progress { mode: &mode.name, done, total });
         let (picture, mut stats) = render::render(scene, &settings, &progress);
         let started = Instant::now();
         self.write_picture(&self.job.picture_file(mode), &picture)?;
         stats.read_time = read_time;
         stats.write_time = started.elapsed();
+        self.took(Stages::of_mode(&stats));
         (self.tell)(Event::Picture { mode: &mode.name, stats: &stats });
         Ok(picture)
     }

@@ -2,10 +2,11 @@
 
 use clap::Args;
 use files::{Exit, Failure, Output, Report, input};
-use pipeline::compare::{Difference, Scale, difference, map, read, ssim};
+use pipeline::compare::{CompareError, Difference, Scale, difference, map, read, ssim};
+use render::Picture;
 use render::film::Crop;
 use render::film::encode::Format;
-use serde_json::json;
+use serde::Serialize;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -37,13 +38,13 @@ pub struct CompareArguments {
     #[arg(long, value_name = "SCALE", default_value = "log:1e-4:1", requires = "map")]
     map_scale: Scale,
     /// The largest RMSE that is allowed
-    #[arg(long, value_name = "X", value_parser = limit)]
+    #[arg(long, value_name = "X", allow_negative_numbers = true, value_parser = limit)]
     rmse: Option<f64>,
     /// The largest difference that is allowed
-    #[arg(long, value_name = "X", value_parser = limit)]
+    #[arg(long, value_name = "X", allow_negative_numbers = true, value_parser = limit)]
     max: Option<f64>,
     /// The largest difference that is allowed in 99.9 % of the pixels
-    #[arg(long, value_name = "X", value_parser = limit)]
+    #[arg(long, value_name = "X", allow_negative_numbers = true, value_parser = limit)]
     p999: Option<f64>,
     /// The least structural similarity that is allowed, up to 1
     #[arg(long, value_name = "X", allow_negative_numbers = true, value_parser = similarity)]
@@ -96,12 +97,17 @@ impl Failure for Unequal {
     }
 }
 
-/// What was measured.
+/// What was measured, in the order in which it is printed.
+#[derive(Debug, Serialize)]
 struct Measures {
-    size: (u32, u32),
-    difference: Difference,
-    /// The place of the largest difference, in the whole picture.
-    place: (u32, u32),
+    width: u32,
+    height: u32,
+    rmse: f64,
+    max: f64,
+    /// The place of the largest difference in the whole picture, if there is one.
+    max_at: Option<(u32, u32)>,
+    p999: f64,
+    bias: f64,
     ssim: Option<f64>,
 }
 
@@ -118,14 +124,7 @@ pub fn compare(arguments: &CompareArguments) -> Result<(), Report> {
         Output::check(path, !arguments.no_clobber)?;
     }
     let [a, b] = read::pair(first, second, arguments.crop)?;
-    let (x, y) = difference::farthest(&a, &b)?;
-    let corner = arguments.crop.map_or((0, 0), |crop| (crop.x, crop.y));
-    let measures = Measures {
-        size: (a.width, a.height),
-        difference: Difference::between(&a, &b, None)?,
-        place: (corner.0 + x, corner.1 + y),
-        ssim: ssim::ssim(&a, &b)?,
-    };
+    let measures = Measures::of(&a, &b, arguments.crop)?;
     if arguments.ssim.is_some() && measures.ssim.is_none() {
         return Err(Unequal::NoSimilarity(a.width, a.height).into());
     }
@@ -147,23 +146,36 @@ pub fn compare(arguments: &CompareArguments) -> Result<(), Report> {
 }
 
 impl Measures {
+    /// Measures two pictures, which are such a part of two larger ones.
+    fn of(a: &Picture, b: &Picture, crop: Option<Crop>) -> Result<Self, CompareError> {
+        let corner = crop.map_or((0, 0), |crop| (crop.x, crop.y));
+        let Difference { pixels: _, rmse, max, p999, bias } = Difference::between(a, b, None)?;
+        Ok(Self {
+            width: a.width,
+            height: a.height,
+            rmse,
+            max,
+            max_at: difference::farthest(a, b)?.map(|(x, y)| (corner.0 + x, corner.1 + y)),
+            p999,
+            bias,
+            ssim: ssim::ssim(a, b)?,
+        })
+    }
+
     /// Prints the numbers: as lines of words rounded to `f32`, or as JSON in full.
     fn write(&self, json: bool, out: &mut impl Write) -> io::Result<()> {
-        let (width, height) = self.size;
-        let Difference { pixels: _, rmse, max, p999, bias } = self.difference;
-        let (x, y) = self.place;
         if json {
-            let numbers = json!({
-                "width": width, "height": height, "rmse": rmse, "max": max, "max_at": [x, y],
-                "p999": p999, "bias": bias, "ssim": self.ssim,
-            });
-            return writeln!(out, "{numbers}");
+            serde_json::to_writer(&mut *out, self)?;
+            return writeln!(out);
         }
-        writeln!(out, "size  {width}x{height}")?;
-        writeln!(out, "rmse  {}", number(rmse))?;
-        writeln!(out, "max   {} at {x},{y}", number(max))?;
-        writeln!(out, "p999  {}", number(p999))?;
-        writeln!(out, "bias  {}", number(bias))?;
+        writeln!(out, "size  {}x{}", self.width, self.height)?;
+        writeln!(out, "rmse  {}", number(self.rmse))?;
+        match self.max_at {
+            Some((x, y)) => writeln!(out, "max   {} at {x},{y}", number(self.max))?,
+            None => writeln!(out, "max   {}", number(self.max))?,
+        }
+        writeln!(out, "p999  {}", number(self.p999))?;
+        writeln!(out, "bias  {}", number(self.bias))?;
         match self.ssim {
             Some(ssim) => writeln!(out, "ssim  {}", number(ssim)),
             None => writeln!(out, "ssim  none, smaller than 11x11"),
@@ -172,13 +184,15 @@ impl Measures {
 
     /// The limits that are passed, in words.
     fn passed(&self, limits: &CompareArguments) -> Vec<String> {
-        let Difference { rmse, max, p999, .. } = self.difference;
-        let above =
-            [("rmse", rmse, limits.rmse), ("max", max, limits.max), ("p999", p999, limits.p999)]
-                .into_iter()
-                .filter_map(|(name, found, limit)| Some((name, found, limit?)))
-                .filter(|(_, found, limit)| found > limit)
-                .map(|(name, found, limit)| format!("{name} {} is above {limit}", number(found)));
+        let above = [
+            ("rmse", self.rmse, limits.rmse),
+            ("max", self.max, limits.max),
+            ("p999", self.p999, limits.p999),
+        ]
+        .into_iter()
+        .filter_map(|(name, found, limit)| Some((name, found, limit?)))
+        .filter(|(_, found, limit)| found > limit)
+        .map(|(name, found, limit)| format!("{name} {} is above {limit}", number(found)));
         let below = self.ssim.zip(limits.ssim).filter(|(found, limit)| found < limit);
         let below = below.map(|(found, limit)| format!("ssim {} is below {limit}", number(found)));
         above.chain(below).collect()

@@ -1,20 +1,27 @@
 //! What the program `pipeline` is asked, and how it does it: a file for each command.
 
+mod asked;
+mod book;
 mod compare;
+mod list;
+mod report;
 mod run;
 mod textures;
+mod threads;
 
 use clap::{Parser, Subcommand};
-use files::{FileError, Output, Report};
-use pipeline::pages;
+use files::{FileError, Report};
 use std::path::Path;
 
 const EXAMPLES: &str = "\
 Examples:
   pipeline list
   pipeline run glass-sphere vase -o out
+  pipeline run A.11 -o out
   pipeline run all -o out --size 1024x1024 --keep
   pipeline run my-job.json -o out --stats
+  pipeline report glass-sphere -o report --quick
+  pipeline book -o book
   pipeline textures -o textures
   pipeline compare a.png b.png --map difference.png --rmse 0.01
 
@@ -31,10 +38,14 @@ pub struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Name the pages that are built in
+    /// Name the pages that are built in, and the figures of the thesis that they show
     List,
     /// Make the pictures of pages or of jobs of your own
     Run(run::RunArguments),
+    /// Measure what each way of rendering pages costs, and how wrong it is
+    Report(report::ReportArguments),
+    /// Make the picture book: pages with their modes, costs and errors, as one file of HTML
+    Book(book::BookArguments),
     /// Draw the textures of the examples again
     Textures(textures::TexturesArguments),
     /// Say how far one picture is from another, in linear light
@@ -44,19 +55,13 @@ enum Command {
 /// Does what the arguments ask for.
 pub fn run(arguments: &Arguments) -> Result<(), Report> {
     match &arguments.command {
-        Command::List => list(),
+        Command::List => list::list(),
         Command::Run(arguments) => run::run(arguments),
+        Command::Report(arguments) => report::report(arguments),
+        Command::Book(arguments) => book::book(arguments),
         Command::Textures(arguments) => textures::textures(arguments),
         Command::Compare(arguments) => compare::compare(arguments),
     }
-}
-
-fn list() -> Result<(), Report> {
-    let mut text = String::new();
-    for name in pages::names() {
-        text.push_str(&format!("{name:<16}{}\n", pages::page(name)?.title));
-    }
-    Ok(Output::create(Path::new("-"), true)?.commit_all(text.as_bytes())?)
 }
 
 /// Makes the folder for the files of a command.

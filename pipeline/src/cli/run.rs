@@ -1,24 +1,25 @@
 //! `pipeline run`: the pictures of pages and jobs.
 
-use super::make_folder;
+use super::asked::{Asked, asked};
+use super::{make_folder, threads};
 use clap::Args;
 use clap::builder::TypedValueParser;
 use files::exit::say;
-use files::{Disk, Exit, Failure, Output, Report, Source};
+use files::{Output, Report, Source};
 use pipeline::run::{Event, Options};
-use pipeline::{Job, PipelineError, pages, run as run_job};
+use pipeline::stages::Stages;
+use pipeline::{Job, PipelineError, run as run_job};
 use render::progress::Progress;
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
-use std::sync::Mutex;
+use std::path::PathBuf;
+use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
-use thiserror::Error;
 
 /// What `pipeline run` is asked.
 #[derive(Debug, Args)]
 pub struct RunArguments {
-    /// Pages by name, all of them, or job files, whose names end in .json
-    #[arg(required = true, value_name = "NAME|all|FILE.json")]
+    /// Pages by name, all of them, figures of the thesis by number, or job files, whose names end in .json
+    #[arg(required = true, value_name = "NAME|all|A.N|FILE.json")]
     jobs: Vec<String>,
     /// The folder for the pictures; made if it is missing
     #[arg(short, long, value_name = "DIR", default_value = "out")]
@@ -46,20 +47,6 @@ pub struct RunArguments {
     no_clobber: bool,
 }
 
-/// The threads asked for cannot be had.
-#[derive(Debug, Error)]
-#[error("cannot start {threads} threads: {source}")]
-struct ThreadsError {
-    threads: usize,
-    source: rayon::ThreadPoolBuildError,
-}
-
-impl Failure for ThreadsError {
-    fn exit(&self) -> Exit {
-        Exit::Resource
-    }
-}
-
 /// Does the jobs that were named.
 pub fn run(arguments: &RunArguments) -> Result<(), Report> {
     // Every job is read before the first is done, so that a slip in a name costs no waiting.
@@ -70,11 +57,7 @@ pub fn run(arguments: &RunArguments) -> Result<(), Report> {
             Output::check(&arguments.output.join(file), !arguments.no_clobber)?;
         }
     }
-    let threads = arguments.threads.unwrap_or(0);
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .map_err(|source| ThreadsError { threads, source })?;
+    let pool = threads::pool(arguments.threads)?;
     let options = Options {
         folder: arguments.output.clone(),
         size: arguments.size,
@@ -82,42 +65,42 @@ pub fn run(arguments: &RunArguments) -> Result<(), Report> {
         keep: arguments.keep,
         clobber: !arguments.no_clobber,
     };
+    let mut rows: Vec<(String, Stages)> = Vec::new();
+    let mut all = Stages::default();
     for (job, source) in &jobs {
         let talk = Talk::new(job, arguments);
-        pool.install(|| run_job(job, *source, &options, &|event| talk.hear(&event)))?;
+        let stages =
+            pool.install(|| run_job(job, *source, &options, &|event| talk.hear(&event)))?;
+        rows.push((job.name.clone(), stages));
+        rows.extend(talk.modes());
+        all += stages;
+    }
+    if jobs.len() > 1 {
+        rows.push(("all".into(), all));
+    }
+    if !arguments.quiet {
+        say(Stages::table(&rows).trim_end());
     }
     Ok(())
 }
 
-/// The jobs that were named, each with the place where its files are; no two write the same file.
+/// The jobs to do, each with the place where its files are; no two write the same file.
 fn jobs(arguments: &RunArguments) -> Result<Vec<(Job, &'static dyn Source)>, PipelineError> {
-    let mut asked: Vec<&str> = Vec::new();
-    for name in &arguments.jobs {
-        let all = if name == "all" { pages::names() } else { vec![name.as_str()] };
-        for name in all {
-            // A page named twice is made once.
-            if !asked.contains(&name) {
-                asked.push(name);
-            }
-        }
-    }
     let mut jobs: Vec<(Job, &'static dyn Source)> = Vec::new();
-    let mut written: BTreeMap<String, &str> = BTreeMap::new();
-    for name in asked {
-        let is_file = Path::new(name).extension().is_some_and(|extension| extension == "json");
-        let job: (Job, &'static dyn Source) = if is_file {
-            (Job::read(Path::new(name), &Disk)?, &Disk)
-        } else {
-            (pages::page(name)?, &pages::FILES)
-        };
-        for file in job.0.files(arguments.keep) {
+    let mut written: BTreeMap<String, String> = BTreeMap::new();
+    for Asked { job, source, figures, argument, .. } in asked(&arguments.jobs)? {
+        let job = if figures.is_empty() { job } else { job.only(&figures) };
+        for file in job.files(arguments.keep) {
             if let Some(first) = written.get(&file) {
-                let (first, second) = (first.to_string(), name.to_string());
-                return Err(PipelineError::SameFile { first, second, file });
+                return Err(PipelineError::SameFile {
+                    first: first.clone(),
+                    second: argument,
+                    file,
+                });
             }
-            written.insert(file, name);
+            written.insert(file, argument.clone());
         }
-        jobs.push(job);
+        jobs.push((job, source));
     }
     Ok(jobs)
 }
@@ -128,19 +111,25 @@ struct Talk<'a> {
     arguments: &'a RunArguments,
     started: Instant,
     progress: Mutex<Option<(String, Progress)>>,
+    modes: Mutex<Vec<(String, Stages)>>,
 }
 
 impl<'a> Talk<'a> {
     fn new(job: &'a Job, arguments: &'a RunArguments) -> Self {
-        let progress = Mutex::new(None);
-        Self { job: &job.name, arguments, started: Instant::now(), progress }
+        let (progress, modes) = (Mutex::new(None), Mutex::new(Vec::new()));
+        Self { job: &job.name, arguments, started: Instant::now(), progress, modes }
+    }
+
+    /// What each mode took by itself, where that was asked for.
+    fn modes(self) -> Vec<(String, Stages)> {
+        self.modes.into_inner().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn hear(&self, event: &Event<'_>) {
         match event {
             Event::Progress { mode, done, total } => self.progress(mode, *done, *total),
-            Event::Mesh { name, triangles, time, missed } => {
-                let seconds = time.as_secs_f64();
+            Event::Mesh { name, triangles, sweep, triangulate, missed } => {
+                let seconds = (*sweep + *triangulate).as_secs_f64();
                 self.say(&format!("{}: {name}, {triangles} triangles, {seconds:.2} s", self.job));
                 if let Some(missed) = missed {
                     self.say(&format!("{}: note: {name}: {missed}", self.job));
@@ -155,6 +144,9 @@ impl<'a> Talk<'a> {
                 }
                 if self.arguments.stats {
                     self.say(&format!("{} {mode}:\n{stats}", self.job));
+                    if let Ok(mut modes) = self.modes.lock() {
+                        modes.push((format!("  {mode}"), Stages::of_mode(stats)));
+                    }
                 }
             }
             Event::Written(path) => {

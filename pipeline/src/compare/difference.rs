@@ -72,20 +72,20 @@ impl Difference {
 }
 
 /// The place of the pixel with the largest difference in a channel, column and row from 0; of several
-/// equal ones the first, row by row.
+/// equal ones the first, row by row. Nothing for equal pictures.
 ///
 /// # Errors
 /// When the sizes differ or there are no pixels.
-pub fn farthest(first: &Picture, second: &Picture) -> Result<(u32, u32), CompareError> {
+pub fn farthest(first: &Picture, second: &Picture) -> Result<Option<(u32, u32)>, CompareError> {
     check_sizes(first, second)?;
-    let (mut index, mut most) = (0, 0.0);
+    let (mut found, mut most) = (None, 0.0);
     for (k, pair) in first.pixels.iter().zip(&second.pixels).enumerate() {
         let magnitude = magnitude(pair);
         if magnitude > most {
-            (index, most) = (k, magnitude);
+            (found, most) = (Some(k), magnitude);
         }
     }
-    Ok(place(first.width, index))
+    Ok(found.map(|index| place(first.width, index)))
 }
 
 /// First minus second in each channel.
@@ -164,8 +164,8 @@ mod tests {
         // 9 over 300 values.
         assert!((found.rmse - 0.03f64.sqrt()).abs() < 1e-15, "{found:?}");
         assert_eq!((found.max, found.p999, found.bias), (3.0, 3.0, -0.01));
-        assert_eq!(farthest(&dot, &black), Ok((7, 4)));
-        assert_eq!(farthest(&black, &black), Ok((0, 0)));
+        assert_eq!(farthest(&dot, &black), Ok(Some((7, 4))));
+        assert_eq!(farthest(&black, &black), Ok(None));
     }
 
     #[test]

@@ -186,7 +186,7 @@ fn open(bytes: &[u8]) -> ImageResult<Found> {
         Some(ImageFormat::Png | ImageFormat::OpenExr) => {}
         Some(other) => return Ok(Found::Nothing(format!("a {} file", other.to_mime_type()))),
         None if bytes.is_empty() => return Ok(Found::Nothing("an empty file".into())),
-        None => return Ok(Found::Nothing("no known beginning".into())),
+        None => return Ok(Found::Nothing("its first bytes are of no known format".into())),
     }
     let mut limits = Limits::no_limits();
     // What the decoder works with comes on top of the picture.

@@ -11,6 +11,12 @@ const STYLE: &str = include_str!("style.css");
 /// A whole page with a title and a body.
 #[must_use]
 pub fn page(title: &str, body: &Markup) -> String {
+    styled_page(title, "", body)
+}
+
+/// The same with more rules of style after those that all pages have.
+#[must_use]
+pub fn styled_page(title: &str, style: &str, body: &Markup) -> String {
     html! {
         (DOCTYPE)
         html lang="en" {
@@ -19,7 +25,7 @@ pub fn page(title: &str, body: &Markup) -> String {
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta name="color-scheme" content="light dark";
                 title { (title) }
-                style { (PreEscaped(STYLE)) }
+                style { (PreEscaped(STYLE)) (PreEscaped(style)) }
             }
             body { (body) }
         }

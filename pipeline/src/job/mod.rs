@@ -42,6 +42,7 @@ use std::path::{Path, PathBuf};
 use sweep::spec;
 use triangulate::Options;
 
+pub mod figure;
 pub mod mode;
 
 pub use mode::Mode;
@@ -65,6 +66,8 @@ pub struct Job {
     pub scene: PathBuf,
     /// The ways to render it, at least one.
     pub modes: Vec<Mode>,
+    /// Whether these are all the modes that its file has; if not, they are not put side by side.
+    pub whole: bool,
 }
 
 /// A mesh to make.
@@ -137,6 +140,24 @@ impl Job {
         Ok(Self::parse(&Document::new(&name, &bytes)?, &stem, folder)?)
     }
 
+    /// The numbers of the figures of the thesis that it shows, ascending.
+    #[must_use]
+    pub fn figures(&self) -> Vec<u8> {
+        let mut numbers: Vec<u8> = self.modes.iter().filter_map(Mode::figure_number).collect();
+        numbers.sort_unstable();
+        numbers.dedup();
+        numbers
+    }
+
+    /// The same job with only those of its modes that show one of these figures.
+    #[must_use]
+    pub fn only(mut self, figures: &[u8]) -> Self {
+        let all = self.modes.len();
+        self.modes.retain(|mode| mode.figure_number().is_some_and(|k| figures.contains(&k)));
+        self.whole &= self.modes.len() == all;
+        self
+    }
+
     /// The names of all files that it writes; with `keep` also of its grids and OBJ files.
     #[must_use]
     pub fn files(&self, keep: bool) -> Vec<String> {
@@ -154,7 +175,7 @@ impl Job {
 
     /// The file of all pictures side by side, when there are several.
     pub(crate) fn strip_file(&self) -> Option<String> {
-        (self.modes.len() > 1).then(|| format!("{}.png", self.name))
+        (self.whole && self.modes.len() > 1).then(|| format!("{}.png", self.name))
     }
 
     /// The file of a mesh's grid.
@@ -195,6 +216,7 @@ impl Job {
             meshes: meshes.collect(),
             scene: folder.join(file.scene),
             modes: mode::modes(document, file.modes)?,
+            whole: true,
         })
     }
 }

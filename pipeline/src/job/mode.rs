@@ -1,6 +1,6 @@
 //! The ways to render a scene, and what is made after which figure.
 
-use super::check_word;
+use super::{check_word, figure};
 use files::JsonError;
 use files::json::Document;
 use render::Sampling;
@@ -24,6 +24,14 @@ pub struct Mode {
     pub figure: Option<String>,
     /// How long that took in 1993, in minutes.
     pub thesis_minutes: Option<u32>,
+}
+
+impl Mode {
+    /// The number of the figure that it is made after.
+    #[must_use]
+    pub fn figure_number(&self) -> Option<u8> {
+        figure::number(self.figure.as_deref()?)
+    }
 }
 
 #[derive(Debug, Deserialize)]
@@ -130,15 +138,8 @@ fn sampling(document: &Document<'_>, path: &str, mode: &ModeFile) -> Result<Samp
     Ok(Sampling::Grid { samples, pattern, pixel_filter })
 }
 
-/// Whether a text names a figure of the thesis's appendix: `A.` and a number without a leading 0.
-#[must_use]
-pub fn is_figure(text: &str) -> bool {
-    let number = text.strip_prefix("A.").unwrap_or_default();
-    !number.starts_with(['0', '+']) && number.len() <= 2 && number.parse::<u8>().is_ok()
-}
-
 fn check_figure(document: &Document<'_>, path: &str, figure: &str) -> Result<(), JsonError> {
-    if is_figure(figure) {
+    if figure::number(figure).is_some() {
         return Ok(());
     }
     Err(document.fault(path, format!("found {figure:?}, expected a figure such as \"A.5\"")))

@@ -68,8 +68,8 @@ pub struct Truth {
     pub noise: f64,
     /// The same within each of the page's regions, in their order.
     pub noise_by_region: Vec<f64>,
-    /// Whether the pictures of the two seeds differ by at most a fifth of the smallest error reported,
-    /// in the whole and in each region.
+    /// Whether the pictures of the two seeds differ by at most a fifth of the smallest error reported of
+    /// the whole picture.
     pub settled: bool,
 }
 
@@ -98,7 +98,8 @@ pub struct Trial {
     pub method: Method,
     /// Its cost.
     pub cost: Cost,
-    /// Its error over the whole picture.
+    /// Its error over the whole picture. Of the root mean square, here and by region, the noise of the truth
+    /// is taken out.
     pub whole: Difference,
     /// Its error in each of the page's regions, in their order.
     pub by_region: Vec<Difference>,

@@ -1,0 +1,129 @@
+//! The front of the book: its title, how to read it, and what is in it.
+
+use super::image::{address, thumbnail};
+use super::leaf::figures_in_words;
+use super::plate::{Plate, Shot};
+use super::{Entry, Options};
+use crate::PipelineError;
+use maud::{Markup, html};
+
+/// Pixels along the longer side of a picture in the contents.
+const THUMBNAIL: u32 = 192;
+
+/// What is on the front.
+#[derive(Debug)]
+pub struct Front {
+    truth: u32,
+    frontispiece: Option<(String, String)>,
+    contents: Vec<Line>,
+}
+
+/// A page in the contents.
+#[derive(Debug)]
+struct Line {
+    id: String,
+    figures: Vec<u8>,
+    title: String,
+    thumbnail: String,
+}
+
+impl Front {
+    /// A front without pages.
+    #[must_use]
+    pub fn new(options: &Options) -> Self {
+        Self { truth: options.truth, frontispiece: None, contents: Vec::new() }
+    }
+
+    /// Takes a page into the contents; as `frontispiece` its picture is shown large too.
+    ///
+    /// # Errors
+    /// When a picture does not fit a PNG.
+    pub fn take(
+        &mut self,
+        entry: &Entry<'_>,
+        plate: &Plate,
+        id: &str,
+        frontispiece: bool,
+    ) -> Result<(), PipelineError> {
+        let Some(Shot { picture, .. }) = plate.shots.iter().rfind(|shot| shot.own) else {
+            return Ok(());
+        };
+        if frontispiece {
+            self.frontispiece = Some((address(id, picture)?, entry.job.title.clone()));
+        }
+        self.contents.push(Line {
+            id: id.into(),
+            figures: entry.job.figures(),
+            title: entry.job.title.clone(),
+            thumbnail: address(id, &thumbnail(picture, THUMBNAIL))?,
+        });
+        Ok(())
+    }
+
+    /// The front as HTML.
+    #[must_use]
+    pub fn print(&self) -> Markup {
+        let (thesis, ours): (Vec<&Line>, Vec<&Line>) =
+            self.contents.iter().partition(|line| !line.figures.is_empty());
+        let rays = 2 * self.truth * self.truth;
+        html! {
+            header.front {
+                div.title {
+                    p.eyebrow { "Topobook" }
+                    h1 { "The picture book" }
+                    p.lead {
+                        "A contour is swept along a trajectory, the grid is split into triangles, and a ray tracer shows "
+                        "them with textures that are averaged over what a pixel sees of them. The figures are those "
+                        "of a thesis of 1993, " cite { "Texture Mapping with Ray Tracing" } ", made anew; then come ours."
+                    }
+                }
+                @if let Some((picture, title)) = &self.frontispiece {
+                    figure.frontispiece { img src=(picture) alt=(title); figcaption.faint { (title) } }
+                }
+            }
+            nav aria-label="contents" {
+                (contents("After the thesis", &thesis))
+                (contents(if thesis.is_empty() { "Pages" } else { "Ours" }, &ours))
+            }
+            section.reading {
+                h2 { "How to read it" }
+                p {
+                    "The tabs over a picture change its mode in place; a click on it enlarges it. The frames in it "
+                    "are the details below it, shown pixel by pixel."
+                }
+                p {
+                    "Times are of this making, on this machine. The times of 1993 are the thesis’s own, from a Sun Sparc "
+                    "workstation."
+                }
+                @if self.truth > 0 {
+                    p {
+                        "Numbers beside a detail are its error: root mean square in linear light, where white is 1, against a "
+                        "truth of " (rays) " jittered rays in each pixel that average no textures. What the "
+                        "truth itself is wrong by is not counted in it."
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn contents(heading: &str, lines: &[&Line]) -> Markup {
+    html! {
+        @if !lines.is_empty() {
+            h2 { (heading) }
+            ol.contents {
+                @for line in lines {
+                    li {
+                        a href=(format!("#{}", line.id)) {
+                            img src=(line.thumbnail) alt="";
+                            span {
+                                @if !line.figures.is_empty() { span.eyebrow { (figures_in_words(&line.figures)) } }
+                                (line.title)
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}

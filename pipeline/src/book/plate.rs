@@ -1,0 +1,163 @@
+//! A page of the book, made and measured.
+
+use super::Entry;
+use super::detail::{Detail, most_different};
+use super::sources::{SourceText, texts};
+use super::truth::Truth;
+use crate::PipelineError;
+use crate::job::{Mode, Place};
+use crate::run::{self, Event};
+use crate::stages::Stages;
+use render::accel::Structure;
+use render::color::Encoding;
+use render::film::Crop;
+use render::film::encode::{self, Format};
+use render::filter::Filter;
+use render::stats::Stats;
+use render::{Picture, Sampling, Scene};
+use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+/// All that the book shows of a job.
+#[derive(Debug)]
+pub struct Plate {
+    /// The meshes that were made, and how many triangles each has.
+    pub meshes: Vec<(String, usize)>,
+    /// What meshes and scene took, which all modes share.
+    pub shared: Stages,
+    /// The modes, those of the job first.
+    pub shots: Vec<Shot>,
+    /// Parts pixel by pixel.
+    pub details: Vec<Detail>,
+    /// The job, its scene and its specs.
+    pub texts: Vec<SourceText>,
+}
+
+/// A picture in a mode.
+#[derive(Debug)]
+pub struct Shot {
+    /// The mode.
+    pub mode: Mode,
+    /// Whether it is of the job, and not made only to be compared with.
+    pub own: bool,
+    /// The picture.
+    pub picture: Picture,
+    /// Its rays and texels.
+    pub stats: Stats,
+    /// What it took by itself.
+    pub stages: Stages,
+    /// Root mean square error of the whole in linear light, where it was measured.
+    pub error: Option<f64>,
+}
+
+impl Plate {
+    /// Makes the pictures of a job, and measures them by truths of `truth * truth` rays in each pixel of a detail
+    /// for each of two seeds, of a quarter along each side for whole pictures; by none if it is 0.
+    ///
+    /// # Errors
+    /// When a file cannot be read or is wrong.
+    pub fn make(
+        entry: &Entry<'_>,
+        options: &run::Options,
+        truth: u32,
+    ) -> Result<Self, PipelineError> {
+        let job = entry.job;
+        let (scene, meshes, shared) = scene(entry, options)?;
+        let mut shots = Vec::new();
+        for mode in &job.modes {
+            shots.push(Shot::make(&scene, mode, true, options.size)?);
+        }
+        if !shots.iter().any(|shot| shot.mode.filter == Filter::Point) {
+            let mode = Mode {
+                name: "point".into(),
+                filter: Filter::Point,
+                sampling: Sampling::regular(1),
+                accel: Structure::default(),
+                figure: None,
+                thesis_minutes: None,
+            };
+            shots.push(Shot::make(&scene, &mode, false, options.size)?);
+        }
+        // A comparison of the thesis, or a page with modes of its own to compare: judged as a whole.
+        if truth > 0 && job.modes.len() > 1 {
+            let whole = Crop::whole(options.size.0, options.size.1);
+            let truth = Truth::render(&scene, options.size, whole, truth.div_ceil(4));
+            for shot in &mut shots {
+                shot.error = truth.error_of(&shot.picture, |_| true);
+            }
+        }
+        let places = places(&job.crops, &shots);
+        let pictures: Vec<&Picture> = in_details(&shots).map(|shot| &shot.picture).collect();
+        let details = places.iter().map(|place| Detail::new(&scene, place, &pictures, truth));
+        Ok(Self { meshes, shared, details: details.collect(), shots, texts: texts(entry)? })
+    }
+
+    /// What the job took in all: meshes, scene and its own modes.
+    #[must_use]
+    pub fn total(&self) -> Stages {
+        let mut total = self.shared;
+        for shot in self.shots.iter().filter(|shot| shot.own) {
+            total += shot.stages;
+        }
+        total
+    }
+}
+
+impl Shot {
+    fn make(
+        scene: &Scene,
+        mode: &Mode,
+        own: bool,
+        size: (u32, u32),
+    ) -> Result<Self, PipelineError> {
+        let (picture, mut stats) = render::render(scene, &run::settings(mode, size), &|_, _| {});
+        let started = Instant::now();
+        // As `run` would write it, so that the times are those of `run`.
+        encode::encode(&picture, Format::Png, Encoding::Srgb)
+            .map_err(|source| PipelineError::Encode { name: mode.name.clone(), source })?;
+        stats.write_time = started.elapsed();
+        let stages = Stages::of_mode(&stats);
+        Ok(Self { mode: mode.clone(), own, picture, stats, stages, error: None })
+    }
+}
+
+/// The shots that details show: the point sampled first, to which the others are compared.
+pub fn in_details(shots: &[Shot]) -> impl Iterator<Item = &Shot> {
+    let is_first = |shot: &&Shot| shot.mode.filter == Filter::Point && !shot.own;
+    shots.iter().filter(is_first).chain(shots.iter().filter(move |shot| !is_first(shot)))
+}
+
+/// The places of the job, or the one where its modes differ most.
+fn places(crops: &[Place], shots: &[Shot]) -> Vec<Place> {
+    if !crops.is_empty() {
+        return crops.to_vec();
+    }
+    let point = shots.iter().find(|shot| shot.mode.filter == Filter::Point);
+    let best = shots.iter().rfind(|shot| shot.own);
+    match (point, best) {
+        (Some(point), Some(best)) => {
+            vec![most_different("where the filter matters most", &point.picture, &best.picture)]
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// The scene of a job, its meshes, and what both took.
+fn scene(
+    entry: &Entry<'_>,
+    options: &run::Options,
+) -> Result<(Scene, Vec<(String, usize)>, Stages), PipelineError> {
+    let made = Mutex::new((Vec::new(), Stages::default()));
+    let started = Instant::now();
+    let scene = run::scene(entry.job, entry.source, options, &|event| {
+        if let Event::Mesh { name, triangles, sweep, triangulate, .. } = event {
+            let mut made = made.lock().unwrap_or_else(PoisonError::into_inner);
+            made.0.push((name.to_owned(), triangles));
+            made.1 += Stages { sweep, triangulate, ..Stages::default() };
+        }
+    })?;
+    let all: Duration = started.elapsed();
+    let (meshes, mut stages) = made.into_inner().unwrap_or_else(PoisonError::into_inner);
+    stages.read = all.saturating_sub(stages.total());
+    Ok((scene, meshes, stages))
+}

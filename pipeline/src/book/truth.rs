@@ -1,0 +1,96 @@
+//! What a part of a picture ought to be, and how far others are from it.
+//!
+//! The truth is made of many jittered rays in each pixel, which look textures up by interpolation and
+//! average nothing. It is made twice, of two seeds, and errors are measured with both at once: the mean of
+//! `(x - a)(x - b)` is the mean square of `x - truth`, as the noise of `a` and that of `b` have nothing to do
+//! with each other. So even a few rays measure without bias, where against one picture of them, or against
+//! the mean of both, their own noise would be counted as an error of `x`.
+
+use render::film::{Crop, Pattern, PixelFilter};
+use render::filter::Filter;
+use render::{Picture, Sampling, Scene, Settings, render};
+
+/// The seeds of the two pictures.
+const SEEDS: [u64; 2] = [1, 2];
+
+/// A part of a picture, made twice.
+#[derive(Debug, Clone)]
+pub struct Truth {
+    pictures: [Picture; 2],
+}
+
+impl Truth {
+    /// Makes the part `crop` of a picture of `size` pixels, twice, of `samples * samples` rays in each pixel.
+    #[must_use]
+    pub fn render(scene: &Scene, (width, height): (u32, u32), crop: Crop, samples: u32) -> Self {
+        let pictures = SEEDS.map(|seed| {
+            let pattern = Pattern::Jitter { seed };
+            let sampling = Sampling::Grid { samples, pattern, pixel_filter: PixelFilter::Box };
+            let settings = Settings::new(width, height, Filter::Bilinear);
+            render(scene, &Settings { sampling, crop: Some(crop), ..settings }, &|_, _| {}).0
+        });
+        Self { pictures }
+    }
+
+    /// The mean of both.
+    #[must_use]
+    pub fn mean(&self) -> Picture {
+        let [first, second] = &self.pictures;
+        let pairs = first.pixels.iter().zip(&second.pixels);
+        let mean = |(a, b): (&[f32; 3], &[f32; 3])| std::array::from_fn(|k| 0.5 * (a[k] + b[k]));
+        Picture { pixels: pairs.map(mean).collect(), ..first.clone() }
+    }
+
+    /// The root mean square error of a picture of the same size, over the channels of the pixels that
+    /// `among` says, in linear light where white is 1; nothing if there are none. 0 where the error is below
+    /// what can be told from noise.
+    #[must_use]
+    pub fn error_of(&self, picture: &Picture, among: impl Fn(usize) -> bool) -> Option<f64> {
+        let [first, second] = &self.pictures;
+        let (mut sum, mut count) = (0.0, 0_u32);
+        for place in (0..picture.pixels.len()).filter(|&place| among(place)) {
+            let (x, a, b) = (picture.pixels[place], first.pixels[place], second.pixels[place]);
+            for k in 0..3 {
+                let x = f64::from(x[k]);
+                sum += (x - f64::from(a[k])) * (x - f64::from(b[k]));
+                count += 1;
+            }
+        }
+        (count > 0).then(|| (sum / f64::from(count)).max(0.0).sqrt())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::RngCore;
+    use proptest::test_runner::{RngAlgorithm, TestRng};
+
+    /// Noise of standard deviation 0.1 around 0.5, and a picture that is 0.02 too bright: held against either
+    /// picture, or the mean of both, the error would be five or four times as large.
+    #[test]
+    fn noise_of_the_truth_is_not_counted() {
+        let mut random = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
+        let (side, sigma) = (200, 0.1);
+        let mut noisy = || {
+            let mut picture = Picture::black(side, side);
+            for light in picture.pixels.as_flattened_mut() {
+                let uniform = f64::from(random.next_u32()) / f64::from(u32::MAX) - 0.5;
+                *light = (0.5 + sigma * 12.0_f64.sqrt() * uniform) as f32;
+            }
+            picture
+        };
+        let truth = Truth { pictures: [noisy(), noisy()] };
+        let mut bright = Picture::black(side, side);
+        bright.pixels.fill([0.52; 3]);
+        let error = truth.error_of(&bright, |_| true).unwrap();
+        // The mean square has a standard deviation of about sigma^2 / sqrt(120000) = 3e-5.
+        assert!((error * error - 0.0004).abs() < 1.5e-4, "{error}");
+        let naive = (f64::from(0.02_f32).powi(2) + sigma * sigma / 2.0).sqrt();
+        assert!(naive > 3.0 * error);
+        assert_eq!(truth.error_of(&bright, |_| false), None);
+        let half = truth.error_of(&truth.mean(), |place| place < 5000).unwrap();
+        // Their mean lies between them, where the products are below 0.
+        assert_eq!(half, 0.0);
+    }
+}

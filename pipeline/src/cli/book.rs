@@ -1,0 +1,89 @@
+//! `pipeline book`: the picture book.
+
+use super::asked::{Asked, asked};
+use super::{make_folder, threads};
+use clap::Args;
+use clap::builder::TypedValueParser;
+use files::exit::say;
+use files::{Output, Report};
+use pipeline::book::{self, Entry, Options};
+use render::progress::Progress;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+
+/// What `pipeline book` is asked.
+#[derive(Debug, Args)]
+pub struct BookArguments {
+    /// Pages by name, figures of the thesis by number, which stand for their pages, or job files; all pages if none are
+    /// named
+    #[arg(value_name = "NAME|all|A.N|FILE.json")]
+    jobs: Vec<String>,
+    /// The folder for the book; made if it is missing
+    #[arg(short, long, value_name = "DIR", default_value = "book")]
+    output: PathBuf,
+    /// Pixels across and down of each picture
+    #[arg(long, value_name = "WxH", default_value = "512x512", value_parser = render::film::size)]
+    size: (u32, u32),
+    /// Rays along each side of a pixel of a truth, for each of two seeds; 0 for no truths and no errors
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(0..=256))]
+    truth: u32,
+    /// Memory for textures and their tables, in bytes or with k, M or G; beyond it nothing is read
+    #[arg(long, value_name = "BYTES", default_value = "2G", value_parser = render::film::memory::bytes)]
+    max_texture_mem: u64,
+    /// Worker threads [default: one for each core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024).map(usize::from))]
+    threads: Option<usize>,
+    /// Print nothing but errors
+    #[arg(short, long)]
+    quiet: bool,
+    /// Refuse to replace an existing book
+    #[arg(long)]
+    no_clobber: bool,
+}
+
+/// Makes the book.
+pub fn book(arguments: &BookArguments) -> Result<(), Report> {
+    let jobs = if arguments.jobs.is_empty() {
+        asked(&["all".to_owned()])?
+    } else {
+        asked(&arguments.jobs)?
+    };
+    make_folder(&arguments.output)?;
+    let path = arguments.output.join(book::FILE);
+    Output::check(&path, !arguments.no_clobber)?;
+    let options = Options {
+        size: arguments.size,
+        max_texture_bytes: arguments.max_texture_mem,
+        truth: arguments.truth,
+    };
+    let names: Vec<String> = jobs.iter().map(Asked::whole).collect();
+    let entries: Vec<Entry<'_>> = jobs
+        .iter()
+        .zip(&names)
+        .map(|(Asked { job, path, source, .. }, argument)| Entry {
+            job,
+            path,
+            source: *source,
+            argument,
+        })
+        .collect();
+    let started = Instant::now();
+    let progress = Progress::new("book", arguments.quiet);
+    let done = AtomicUsize::new(0);
+    let text = threads::pool(arguments.threads)?.install(|| {
+        book::book(&entries, &options, &|_| {
+            let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+            progress.tell(done, entries.len());
+        })
+    })?;
+    drop(progress);
+    Output::create(&path, !arguments.no_clobber)?.commit_all(text.as_bytes())?;
+    if !arguments.quiet {
+        let seconds = started.elapsed().as_secs_f64();
+        let megabytes = text.len() as f64 / 1e6;
+        let pages = entries.len();
+        say(format_args!("{}: {pages} pages, {megabytes:.1} MB, {seconds:.1} s", path.display()));
+    }
+    Ok(())
+}

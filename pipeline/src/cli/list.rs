@@ -1,0 +1,24 @@
+//! `pipeline list`: the pages that are built in.
+
+use files::{Output, Report};
+use pipeline::job::figure;
+use pipeline::pages;
+use std::path::Path;
+
+/// Names the pages, one in a line: first those of the thesis, with the numbers of their figures, then the others.
+pub fn list() -> Result<(), Report> {
+    let rows: Vec<[String; 3]> = pages::in_order()?
+        .into_iter()
+        .map(|job| {
+            let figures = figure::listed(&job.figures());
+            [job.name, figures, job.title]
+        })
+        .collect();
+    let wide = |column: usize| rows.iter().map(|row| row[column].chars().count()).max();
+    let (names, figures) = (wide(0).unwrap_or(0), wide(1).unwrap_or(0));
+    let mut text = String::new();
+    for [name, numbers, title] in &rows {
+        text.push_str(&format!("{name:<names$}  {numbers:<figures$}  {title}\n"));
+    }
+    Ok(Output::create(Path::new("-"), true)?.commit_all(text.as_bytes())?)
+}

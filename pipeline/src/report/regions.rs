@@ -1,0 +1,276 @@
+//! Parts of a picture in which methods are judged by themselves.
+//!
+//! Each pixel is judged by the ray through its middle, and by what the scene says of it, not by any
+//! picture: so regions are the same for all methods.
+//!
+//! - `silhouettes`: among the first hits of the pixel and its eight neighbours in the picture there is
+//!   more than one object, or an object and nothing. These pixels are in no other region.
+//! - `far floor`: the first hit is on a plane, a rectangle or a side of a box that shows a picture, and
+//!   the minor axis of the pixel's footprint there is longer than [`MINIFIED`] texels.
+//! - `in mirrors`: more than half of the pixel's weight comes from pictures by mirrored rays only.
+//! - `through glass`: more than half of it comes from pictures by rays of which one at least has passed
+//!   a surface.
+//!
+//! The footprint is the parallelogram that the pixel's two sides become on the texture: its axes are the
+//! singular values of the derivative of texture coordinates on the film, in texels. The weight of a path
+//! is the product of what its surfaces mirror or let through, times the colour of the surface at its end
+//! in even light; a path that leaves the scene counts as if it ended on white.
+
+use super::measured::Region;
+use super::sight::{self, Looker, Sight};
+use rayon::prelude::*;
+use render::Scene;
+use render::trace::volume::Volumes;
+
+/// The texels that a footprint must be longer than along its minor axis to be called minified.
+pub const MINIFIED: f64 = 2.0;
+
+/// The regions of a picture of `size`, columns and rows; those without pixels are left out.
+///
+/// Runs on the threads of the current rayon pool; the result is the same for any number of them.
+#[must_use]
+pub fn regions(scene: &Scene, size: (u32, u32)) -> Vec<Region> {
+    let seen = sights(scene, size);
+    let silhouettes = silhouettes(&seen, size.0 as usize);
+    let elsewhere = |belongs: &dyn Fn(&Sight) -> bool| -> Vec<bool> {
+        seen.iter().zip(&silhouettes).map(|(sight, edge)| !edge && belongs(sight)).collect()
+    };
+    let far = |sight: &Sight| sight.flat.is_some_and(|minor| minor > MINIFIED);
+    let regions = [
+        Region { name: "far floor", mask: elsewhere(&far) },
+        Region { name: "in mirrors", mask: elsewhere(&|sight| sight.mirrored > 0.5) },
+        Region { name: "through glass", mask: elsewhere(&|sight| sight.through > 0.5) },
+        Region { name: "silhouettes", mask: silhouettes },
+    ];
+    regions.into_iter().filter(|region| region.mask.contains(&true)).collect()
+}
+
+/// The pixels of a picture of `size`, row by row, more than half of whose weight comes from one place on
+/// a picture, directly or by mirrors and glass, where the minor axis of their footprint is longer than
+/// [`MINIFIED`] texels.
+#[must_use]
+pub fn minified(scene: &Scene, size: (u32, u32)) -> Vec<bool> {
+    let seen = sights(scene, size);
+    seen.iter().map(|sight| sight.minor.is_some_and(|minor| minor > MINIFIED)).collect()
+}
+
+/// What every pixel sees, row by row.
+fn sights(scene: &Scene, size: (u32, u32)) -> Vec<Sight> {
+    let accel = sight::accel_of(scene);
+    let volumes = Volumes::of(scene);
+    let looker = Looker::new(scene, &accel, &volumes, size);
+    let rows = (0..size.1).into_par_iter().map(|y| {
+        let mut trees = sight::Trees::default();
+        (0..size.0).map(|x| looker.look(x, y, &mut trees)).collect::<Vec<_>>()
+    });
+    rows.flatten_iter().collect()
+}
+
+/// The pixels whose neighbours do not all see the same object first.
+fn silhouettes(seen: &[Sight], width: usize) -> Vec<bool> {
+    let height = seen.len().checked_div(width).unwrap_or(0);
+    let edge = |k: usize| {
+        let (x, y) = (k % width, k / width);
+        let columns = x.saturating_sub(1)..(x + 2).min(width);
+        let mut rows = y.saturating_sub(1)..(y + 2).min(height);
+        rows.any(|y| columns.clone().any(|x| seen[y * width + x].object != seen[k].object))
+    };
+    (0..seen.len()).map(edge).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pages;
+    use files::json::Document;
+    use render::scene::MeshSource;
+    use render::scene::read::{self, Draft};
+    use std::path::Path;
+
+    const SIZE: (u32, u32) = (96, 64);
+    /// Half the picture's height at distance 1 over half its pixels: fields of view of 90 degrees.
+    const PIXEL: f64 = 2.0 / 64.0;
+
+    /// A floor seen from a height of 1, the view level along -z, and more objects. The picture on the
+    /// floor repeats every `side` units.
+    fn scene(side: f64, objects: &str) -> Scene {
+        let text = format!(
+            r#"{{ "format": "tb-scene", "version": 1,
+            "camera": {{ "eye": [0, 1, 0], "target": [0, 1, -1], "up": [0, 1, 0], "fov_deg": 90 }},
+            "background": 0.5, "ambient": 0.5, "lights": [],
+            "textures": {{ "checks": {{ "image": "../textures/checkerboard.png" }} }},
+            "materials": {{
+                "floor": {{ "diffuse": 0.5 }}, "bare": {{ "diffuse": 0.5 }},
+                "mirror": {{ "ambient": 0, "diffuse": 0, "reflectivity": 0.9 }},
+                "glass": {{ "ambient": 0, "diffuse": 0, "transparency": 1, "reflectivity": 1,
+                            "fresnel": true, "index_of_refraction": 1.5 }} }},
+            "objects": [ {{ "plane": {{ "point": [0, 0, 0], "edge_u": [{side}, 0, 0],
+                "edge_v": [0, 0, {side}], "material": "floor", "texture": "checks" }} }}{objects} ] }}"#
+        );
+        let document = Document::new("scene.json", text.as_bytes()).unwrap();
+        let file = read::parse(&document).unwrap();
+        let folder = Path::new("examples/scenes");
+        let draft = Draft::gather(&document, &file, folder, &pages::FILES).unwrap();
+        draft.resolve(&pages::FILES, MeshSource::new()).unwrap()
+    }
+
+    /// The direction of the ray through the middle of a pixel, one unit ahead.
+    fn direction(x: u32, y: u32) -> (f64, f64) {
+        let across = (f64::from(x) + 0.5 - f64::from(SIZE.0) / 2.0) * PIXEL;
+        (across, -(f64::from(y) + 0.5 - f64::from(SIZE.1) / 2.0) * PIXEL)
+    }
+
+    fn mask(belongs: impl Fn(u32, u32) -> bool) -> Vec<bool> {
+        (0..SIZE.1)
+            .flat_map(|y| (0..SIZE.0).map(move |x| (x, y)))
+            .map(|(x, y)| belongs(x, y))
+            .collect()
+    }
+
+    /// The minor axis of a pixel's footprint on an endless floor, in texels, by hand: the ray through
+    /// (X, Y) meets it at (-X / Y, 1 / Y), whose derivative has the columns (1, 0) / -Y and
+    /// (X, -1) / Y^2; the larger eigenvalue of its square is found from trace and determinant.
+    fn minor_on_floor((x, y): (f64, f64), texels: f64) -> f64 {
+        let columns = [[-1.0 / y, 0.0], [x / (y * y), -1.0 / (y * y)]];
+        let trace: f64 = columns.iter().flatten().map(|entry| entry * entry).sum();
+        let determinant = 1.0 / (y * y * y).abs();
+        let larger = 0.5 * (trace + (trace * trace - 4.0 * determinant * determinant).sqrt());
+        PIXEL * texels * determinant / larger.sqrt()
+    }
+
+    fn texels_a_unit(scene: &Scene, side: f64) -> f64 {
+        let texture = &scene.textures[0];
+        assert_eq!(texture.width, texture.height, "the test takes texels as square");
+        texture.width as f64 / side
+    }
+
+    fn region(regions: &[Region], name: &str) -> Vec<bool> {
+        let found = regions.iter().find(|region| region.name == name);
+        found.map_or(vec![false; (SIZE.0 * SIZE.1) as usize], |region| region.mask.clone())
+    }
+
+    #[test]
+    fn the_far_floor_begins_where_the_minor_axis_has_two_texels() {
+        let side = 17.0;
+        let scene = scene(side, "");
+        let texels = texels_a_unit(&scene, side);
+        let found = regions(&scene, SIZE);
+        // The horizon lies between two rows.
+        let silhouettes = mask(|_, y| y == 31 || y == 32);
+        assert_eq!(region(&found, "silhouettes"), silhouettes);
+        let small = |x, y| {
+            let (across, up) = direction(x, y);
+            up < 0.0 && minor_on_floor((across, up), texels) > MINIFIED
+        };
+        assert_eq!(minified(&scene, SIZE), mask(small));
+        assert_eq!(region(&found, "far floor"), mask(|x, y| y > 32 && small(x, y)));
+        let count = mask(small).into_iter().filter(|set| *set).count();
+        assert!((200..2800).contains(&count), "{count} pixels: the edge lies in the picture");
+        assert_eq!(found.len(), 2, "nothing is seen in mirrors or through glass");
+    }
+
+    #[test]
+    fn the_axes_are_exact_in_every_pixel() {
+        let scene = scene(0.9, "");
+        let texels = texels_a_unit(&scene, 0.9);
+        for (sight, (x, y)) in sights(&scene, SIZE)
+            .iter()
+            .zip((0..SIZE.1).flat_map(|y| (0..SIZE.0).map(move |x| (x, y))))
+        {
+            let (across, up) = direction(x, y);
+            let expected = (up < 0.0).then(|| minor_on_floor((across, up), texels));
+            assert_eq!(sight.minor, sight.flat);
+            match (sight.minor, expected) {
+                // Half a pixel below the horizon the difference is off by (1/32)^2.
+                (Some(found), Some(expected)) => {
+                    assert!((found / expected - 1.0).abs() < 2e-3, "{x},{y}: {found} {expected}");
+                }
+                (found, expected) => assert_eq!(found, expected, "{x},{y}"),
+            }
+        }
+    }
+
+    /// A mirror that stands upright across the view shows the floor as if it went on behind it.
+    #[test]
+    fn a_mirror_shows_a_floor_as_far_as_its_mirror_image() {
+        let mirror = r#", { "rectangle": { "corner": [-3, 0, -4], "edge_u": [6, 0, 0],
+            "edge_v": [0, 3, 0], "material": "mirror" } }"#;
+        let scene = scene(60.0, mirror);
+        let texels = texels_a_unit(&scene, 60.0);
+        let found = regions(&scene, SIZE);
+        let silhouettes = region(&found, "silhouettes");
+        let on_mirror = |x, y| {
+            let (across, up) = direction(x, y);
+            (4.0 * across).abs() < 3.0 && (0.0..3.0).contains(&(1.0 + 4.0 * up))
+        };
+        let inside = mask(|x, y| on_mirror(x, y) && direction(x, y).1 < 0.0);
+        let expected: Vec<bool> = inside.iter().zip(&silhouettes).map(|(a, b)| *a && !b).collect();
+        assert_eq!(region(&found, "in mirrors"), expected);
+        assert!(expected.iter().filter(|set| **set).count() > 200);
+        let small = |x, y| {
+            let (across, up) = direction(x, y);
+            up < 0.0 && minor_on_floor((across, up), texels) > MINIFIED
+        };
+        let edge_in_mirror =
+            inside.iter().zip(mask(small)).filter(|(inside, small)| **inside && !small);
+        assert!(edge_in_mirror.count() > 50, "some of the mirrored floor is not minified");
+        // What is behind the mirror is hidden, and in it seen as far.
+        assert_eq!(minified(&scene, SIZE), mask(small));
+        let far = mask(|x, y| small(x, y) && !on_mirror(x, y));
+        let far: Vec<bool> = far.iter().zip(&silhouettes).map(|(a, b)| *a && !b).collect();
+        assert_eq!(region(&found, "far floor"), far);
+        assert!(region(&found, "through glass").iter().all(|set| !set));
+    }
+
+    #[test]
+    fn a_pane_shows_the_floor_behind_it() {
+        let pane =
+            r#", { "box": { "low": [-3, 0.01, -4.2], "high": [3, 3, -4], "material": "glass" } }"#;
+        let found = regions(&scene(1.7, pane), SIZE);
+        let silhouettes = region(&found, "silhouettes");
+        // Well inside the front, so that what is seen has come through front and back: the floor below
+        // the horizon and nothing above it.
+        let front = |x: u32, y: u32| {
+            let (across, up) = direction(x, y);
+            (4.0 * across).abs() < 2.8 && (0.25..3.0).contains(&(1.0 + 4.0 * up))
+        };
+        let through = region(&found, "through glass");
+        for (k, (through, edge)) in through.iter().zip(&silhouettes).enumerate() {
+            let (x, y) = (k as u32 % SIZE.0, k as u32 / SIZE.0);
+            if front(x, y) && !edge {
+                assert_eq!(*through, direction(x, y).1 < 0.0, "{x},{y}");
+            }
+        }
+        assert!(
+            region(&found, "in mirrors").iter().all(|set| !set),
+            "Fresnel mirrors a tenth here"
+        );
+        let outline = region(&found, "silhouettes");
+        assert!(outline.iter().filter(|set| **set).count() > 200);
+    }
+
+    #[test]
+    fn regions_are_the_same_for_any_number_of_threads() {
+        let ball = r#", { "sphere": { "center": [0, 1, -3], "radius": 1, "material": "glass" } }"#;
+        let scene = scene(17.0, ball);
+        let with = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| sights(&scene, SIZE))
+        };
+        let alone = with(1);
+        assert!(alone.iter().any(|sight| sight.through > 0.5), "the ball shows the floor");
+        assert_eq!(alone, with(3));
+    }
+
+    #[test]
+    fn bare_surfaces_are_in_no_region() {
+        let board = r#", { "rectangle": { "corner": [-9, -9, -1.5], "edge_u": [18, 0, 0],
+            "edge_v": [0, 18, 0], "material": "bare" } }"#;
+        let scene = scene(17.0, board);
+        assert!(region(&regions(&scene, SIZE), "far floor").iter().all(|set| !set));
+        let seen = sights(&scene, SIZE);
+        assert!(
+            seen.iter().filter(|sight| sight.object == Some(1)).all(|sight| sight.minor.is_none())
+        );
+    }
+}
