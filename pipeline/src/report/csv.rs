@@ -151,7 +151,8 @@ mod tests {
 
     #[test]
     fn what_is_written_is_read() {
-        let rows = vec![vec!["box, 1 px".into(), "a \"b\"".into()], vec![String::new(), "3".into()]];
+        let rows =
+            vec![vec!["box, 1 px".into(), "a \"b\"".into()], vec![String::new(), "3".into()]];
         let (columns, drawing) = (vec!["method".to_string(), "x".to_string()], None);
         let (title, about) = (String::new(), String::new());
         let whole = Table { name: "t", title, about, command: None, columns, rows, drawing };

@@ -62,8 +62,8 @@ pub fn page(
             Ok::<_, CompareError>(without_noise(difference, noise))
         };
         let by_region = regions.iter().zip(&noise_by_region);
-        let by_region = by_region
-            .map(|(region, &noise): (&Region, &f64)| against(Some(&region.mask), noise));
+        let by_region =
+            by_region.map(|(region, &noise): (&Region, &f64)| against(Some(&region.mask), noise));
         Ok(Trial {
             whole: against(None, noise)?,
             by_region: by_region.collect::<Result<_, _>>()?,

@@ -163,7 +163,8 @@ mod tests {
 
     #[test]
     fn an_axis_of_nothing_or_of_one_value_still_has_a_length() {
-        for values in [&[][..], &[0.3], &[0.0, f64::NAN], &[1e-320], &[f64::MAX], &[1e-300, 1e300]] {
+        for values in [&[][..], &[0.3], &[0.0, f64::NAN], &[1e-320], &[f64::MAX], &[1e-300, 1e300]]
+        {
             let axis = Axis::around("", Unit::Plain, values.iter().copied());
             assert!(axis.low > 0.0 && axis.high > axis.low && axis.high.is_finite(), "{values:?}");
             assert!(!axis.ticks().is_empty(), "{values:?}");

@@ -229,7 +229,7 @@ fn slanted_footprints_are_judged_by_the_filters_own_table() {
     let mut measured = fixture::measured(Vec::new());
     let expected = "Where footprints lie along the texture the tent is 0.038 off, where they lie at 45 degrees \
                     to it 0.096, 2.5 times as far; of what has no tables nothing is nearer there. (One \
-                    average each, on a floor in perspective; see \"The filters by themselves\".)";
+                    average each, on a floor in perspective; see the filters by themselves.)";
     assert_eq!(one(&claims(&measured), Topic::Rotated), (Verdict::Loses, expected));
     for (row, verdict, words) in [
         ("mip,67,0.079,0.080", Verdict::Loses, "there mip (0.080) is nearer"),
