@@ -159,7 +159,7 @@ fn costs(plate: &Plate) -> Markup {
                             }
                         }
                         tr.ratio {
-                            th scope="row" { "times faster" }
+                            th scope="row" { "times as fast" }
                             @for shot in &own {
                                 td {
                                     @if let Some(minutes) = shot.mode.thesis_minutes {

@@ -87,8 +87,8 @@ mod tests {
 
     #[test]
     fn steps_that_undo_each_other_are_not_shown() {
-        let plain = |path: &str| super::plain(Path::new(path)).display().to_string();
-        assert_eq!(plain("examples/pages/../curves/a.json"), "examples/curves/a.json");
-        assert_eq!(plain("../../b/../a.json"), "../../a.json");
+        let shown = |path: &str| plain(Path::new(path)).display().to_string();
+        assert_eq!(shown("examples/pages/../curves/a.json"), "examples/curves/a.json");
+        assert_eq!(shown("../../b/../a.json"), "../../a.json");
     }
 }

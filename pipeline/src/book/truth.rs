@@ -63,7 +63,7 @@ impl Truth {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use proptest::prelude::RngCore;
+    use proptest::prelude::Rng;
     use proptest::test_runner::{RngAlgorithm, TestRng};
 
     /// Noise of standard deviation 0.1 around 0.5, and a picture that is 0.02 too bright: held against either
