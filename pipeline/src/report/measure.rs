@@ -5,6 +5,7 @@
 
 use super::measured::{Cost, Method, PageMeasured, Region, Trial, Truth};
 use super::plan::Plan;
+use super::regions;
 use super::truth::Pair;
 use crate::compare::{CompareError, Difference};
 use render::stats::Stats;
@@ -48,7 +49,8 @@ pub fn page(
     meter: &dyn Meter,
     tell: Tell<'_>,
 ) -> Result<PageMeasured, CompareError> {
-    let regions: Vec<Region> = Vec::new();
+    tell("regions", 0, 1);
+    let regions = regions::regions(scene, plan.size);
     let taken = take_turns(scene, plan, meter, tell);
     let (pair, settled) = settle(scene, plan, &taken, tell)?;
     let truth = pair.mean();
@@ -195,4 +197,89 @@ fn smallest(pair: &Pair, turns: &[Turn]) -> Result<f64, CompareError> {
         let difference = Difference::between(&turn.picture, &truth, None)?;
         Ok(without_noise(difference, noise).rmse.min(smallest))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::board;
+    use super::*;
+    use render::Sampling;
+    use render::filter::Filter;
+
+    /// Measures nothing.
+    struct None;
+
+    impl Meter for None {
+        fn cpu(&self) -> Duration {
+            Duration::ZERO
+        }
+
+        fn mark(&self) -> usize {
+            7
+        }
+
+        fn peak(&self) -> usize {
+            10
+        }
+    }
+
+    fn plan() -> Plan {
+        Plan {
+            size: (20, 20),
+            filters: vec![Filter::Point, Filter::Tent],
+            samplings: [1, 2, 4, 16].map(Sampling::regular).into(),
+            truth_samples: 32,
+            most_truth_samples: 64,
+            patience: Duration::ZERO,
+            quick: true,
+        }
+    }
+
+    fn measured(threads: usize) -> PageMeasured {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let scene = board::scene();
+        pool.install(|| page("board", "Checks", &scene, &plan(), &None, &|_, _, _| {})).unwrap()
+    }
+
+    #[test]
+    fn errors_are_those_from_what_is_exactly_there() {
+        let page = measured(2);
+        let exact = board::exact(20);
+        for trial in &page.trials {
+            let picture = trial.picture.as_ref().unwrap();
+            let right = Difference::between(picture, &exact, Option::None).unwrap().rmse;
+            // What is left of the truth's noise when its squares are taken out.
+            let wrong = (trial.whole.rmse - right).abs();
+            assert!(wrong < 0.3 * page.truth.noise + 0.01 * right, "{:?}: {wrong}", trial.method);
+        }
+        let [first, .., last] = &page.trials[..4] else { panic!("four points") };
+        assert!(last.whole.rmse < 0.2 * first.whole.rmse, "more points are nearer");
+        assert_eq!(
+            page.truth.settled,
+            page.trials
+                .iter()
+                .all(|trial| { 2.0 * page.truth.noise <= SETTLED * trial.whole.rmse })
+        );
+    }
+
+    #[test]
+    fn all_but_the_times_is_the_same_for_any_number_of_threads() {
+        let (one, three) = (measured(1), measured(3));
+        assert_eq!(one.truth.picture, three.truth.picture);
+        assert_eq!(one.truth.noise_by_region, three.truth.noise_by_region);
+        for (one, three) in one.trials.iter().zip(&three.trials) {
+            assert_eq!(one.method, three.method);
+            assert_eq!(one.picture, three.picture);
+            assert_eq!((one.whole, &one.by_region), (three.whole, &three.by_region));
+            let counts = |cost: &Cost| (cost.rays, cost.texels, cost.peak_bytes);
+            assert_eq!(counts(&one.cost), counts(&three.cost));
+            assert_eq!(one.cost.peak_bytes, 3, "beyond what was held before");
+        }
+    }
+
+    #[test]
+    fn the_median_is_the_lower_of_two_middles() {
+        assert_eq!([median(&[]), median(&[3.0]), median(&[4.0, 1.0])], [0.0, 3.0, 1.0]);
+        assert_eq!(median(&[9.0, 1.0, 2.0]), 2.0);
+    }
 }

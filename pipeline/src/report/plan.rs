@@ -39,7 +39,7 @@ impl Plan {
             filters: Filter::ALL.into(),
             samplings: [&[one, two], thesis.as_slice(), &rest].concat(),
             truth_samples: 32,
-            most_truth_samples: 128,
+            most_truth_samples: 64,
             patience: Duration::from_millis(200),
             quick: false,
         }

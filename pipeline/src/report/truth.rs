@@ -150,3 +150,58 @@ fn paste(picture: &mut Picture, place: Crop, part: &Picture) {
         picture.pixels[start..start + row.len()].copy_from_slice(row);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::board;
+    use super::*;
+
+    const SIZE: u32 = 20;
+
+    fn error(pair: &Pair) -> f64 {
+        let (mean, exact) = (pair.mean(), board::exact(SIZE));
+        let pixels = mean.pixels.iter().flatten().zip(exact.pixels.iter().flatten());
+        let squares: f64 = pixels.map(|(a, b)| f64::from(a - b).powi(2)).sum();
+        (squares / f64::from(3 * SIZE * SIZE)).sqrt()
+    }
+
+    #[test]
+    fn the_noise_is_about_the_error() {
+        let scene = board::scene();
+        for samples in [4, 16, 32] {
+            let pair = Pair::render(&scene, (SIZE, SIZE), samples, &|_, _| {});
+            let (noise, error) = (pair.noise(None), error(&pair));
+            // Of 400 pixels a third cut no border and have none; of the others each is a number of one
+            // square's chance, so both are known to about a tenth.
+            assert!(error > 0.6 * noise && error < 1.6 * noise, "{samples}: {error}, {noise}");
+            assert!(noise < 0.2 / f64::from(samples), "{samples}: {noise}");
+        }
+    }
+
+    #[test]
+    fn more_rays_go_where_the_noise_is_until_it_is_small_enough() {
+        let scene = board::scene();
+        let mut pair = Pair::render(&scene, (SIZE, SIZE), 4, &|_, _| {});
+        let (before, first) = (pair.difference(None), error(&pair));
+        let goal = 0.25 * before;
+        assert!(pair.refine(&scene, goal, 64, &|_, _| {}));
+        let after = pair.difference(None);
+        // Where borders are, noise falls faster than the law that rays are allotted by.
+        assert!(after <= 1.1 * goal, "{before} to {after}");
+        assert!(error(&pair) < 0.5 * first);
+        assert!(pair.samples().0 >= 4 && pair.samples().1 <= 64);
+        assert!(!pair.refine(&scene, before, 64, &|_, _| {}), "there is nothing left to do");
+    }
+
+    #[test]
+    fn masks_choose_pixels() {
+        let pair = Pair::render(&board::scene(), (SIZE, SIZE), 2, &|_, _| {});
+        let count = (SIZE * SIZE) as usize;
+        let left: Vec<bool> = (0..count).map(|k| k % (SIZE as usize) < 5).collect();
+        let right: Vec<bool> = left.iter().map(|set| !set).collect();
+        let squares = 0.25 * pair.difference(Some(&left)).powi(2)
+            + 0.75 * pair.difference(Some(&right)).powi(2);
+        assert!((squares.sqrt() - pair.difference(None)).abs() < 1e-12);
+        assert_eq!(pair.difference(Some(&vec![false; count])), 0.0);
+    }
+}
