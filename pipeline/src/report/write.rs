@@ -47,7 +47,7 @@ mod tests {
     use std::fs;
 
     fn example() -> Measured {
-        let regions: [(&str, &fixture::Law); 2] =
+        let regions: [(&str, &fixture::Law<'_>); 2] =
             [("far floor", &fixture::floor), ("silhouettes", &fixture::edges)];
         fixture::measured(vec![
             fixture::page("floor", &fixture::floor, &regions),
@@ -59,6 +59,9 @@ mod tests {
     fn a_report_stands_alone_and_has_every_page_region_method_and_sentence() {
         let folder = tempfile::tempdir().unwrap();
         let measured = example();
+        if let Ok(look) = std::env::var("LOOK") {
+            write(&measured, Path::new(&look), true).unwrap();
+        }
         let paths = write(&measured, folder.path(), false).unwrap();
         let names: Vec<_> = paths.iter().map(|path| path.file_name().unwrap()).collect();
         assert_eq!(names, ["report.html", "floor.svg", "edges.svg"]);

@@ -1,9 +1,10 @@
 //! What was measured of the modeler and the filters by themselves.
 
 use super::super::measured::Table;
+use crate::report::plot::{self, Size};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use maud::{Markup, html};
+use maud::{Markup, PreEscaped, html};
 
 pub fn section(tables: &[Table]) -> Markup {
     html! {
@@ -23,12 +24,19 @@ fn svg_address(drawing: &str) -> String {
 }
 
 fn one(table: &Table) -> Markup {
+    let charts = plot::tables::charts(table);
     html! {
         div.table id=(table.name) {
             h3 { (table.title) }
             p { (table.about) }
             @if let Some(command) = table.command { p.faint { "Made again by " code { (command) } } }
-            @if let Some(drawing) = table.drawing {
+            @if !charts.is_empty() {
+                div.multiples {
+                    @for chart in &charts {
+                        (PreEscaped(chart.inline(Size::Small, &table.title)))
+                    }
+                }
+            } @else if let Some(drawing) = table.drawing {
                 img.drawing src=(svg_address(drawing)) alt=(table.title);
             }
             details {

@@ -13,11 +13,14 @@ const ACROSS: &str = "processor time";
 const UP: &str = "RMS error in linear light, where white is 1";
 const SUPERSAMPLED: &str = "supersampled";
 
+/// Noise below this part of the smallest error is not shown: there is nothing beside it.
+const NOISE_AT_LEAST: f64 = 0.1;
+
 /// Error over the whole picture.
 #[must_use]
 pub fn whole(page: &PageMeasured) -> Chart {
     let error = |trial: &Trial| Some(trial.whole);
-    let [across, up] = axes(page, &[&error]);
+    let [across, up] = axes(page, &[&error], &[page.truth.noise]);
     let title = format!("{}: error against time", page.title);
     Chart { title: Some(title), ..chart(page, &error, page.truth.noise, across, up) }
 }
@@ -29,7 +32,7 @@ pub fn regions(page: &PageMeasured) -> Vec<Chart> {
         .map(|k| move |trial: &Trial| trial.by_region.get(k).copied())
         .collect();
     let errors: Vec<&Error<'_>> = all.iter().map(|of| of as &Error<'_>).collect();
-    let [across, up] = axes(page, &errors);
+    let [across, up] = axes(page, &errors, &page.truth.noise_by_region);
     let pixels = f64::from(page.size.0) * f64::from(page.size.1);
     page.regions
         .iter()
@@ -49,14 +52,19 @@ pub fn regions(page: &PageMeasured) -> Vec<Chart> {
 
 type Error<'a> = dyn Fn(&Trial) -> Option<Difference> + 'a;
 
-fn axes(page: &PageMeasured, errors: &[&Error<'_>]) -> [Axis; 2] {
+/// Axes around the trials, and down to the noise, as far as that is worth the room.
+fn axes(page: &PageMeasured, errors: &[&Error<'_>], noise: &[f64]) -> [Axis; 2] {
     let trials = || page.trials.iter();
-    let all = errors
-        .iter()
-        .flat_map(|of| trials().filter_map(move |trial| of(trial)).map(|found| found.rmse));
+    let of_all = errors.iter().flat_map(|of| trials().filter_map(move |trial| of(trial)));
+    let mut all: Vec<f64> = of_all.map(|found| found.rmse).filter(|&error| error > 0.0).collect();
+    let least = all.iter().copied().fold(f64::INFINITY, f64::min);
+    let noise = noise.iter().copied().fold(0.0, f64::max);
+    if least.is_finite() && noise > 0.0 {
+        all.push(noise.clamp(NOISE_AT_LEAST * least, least));
+    }
     [
         Axis::around(ACROSS, Unit::Seconds, trials().map(|trial| trial.cost.cpu)),
-        Axis::around(UP, Unit::Plain, all),
+        Axis::around(UP, Unit::Plain, all.into_iter()),
     ]
 }
 
@@ -118,7 +126,7 @@ mod tests {
             named.places.iter().filter(|place| place.note.is_some()).count()
         };
         assert!(points("tent") > 0 && points("bilinear") > 0);
-        assert!(chart.front.windows(2).all(|w| w[0].0 < w[1].0 && w[0].1 > w[1].1));
+        assert!(chart.front.windows(2).all(|w| w[0].0 <= w[1].0 && w[0].1 >= w[1].1));
         let [region] = &regions(&page)[..] else { panic!("one region") };
         assert!(region.title.as_ref().unwrap().starts_with("silhouettes, 50 %"));
     }

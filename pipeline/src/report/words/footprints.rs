@@ -15,8 +15,11 @@ pub fn claims(floor: &Table) -> Vec<Claim> {
     let thin = hard(
         floor,
         Topic::Thin,
-        ["rms far", "rms thin"],
-        ["Where footprints are many texels wide", "where their short side is less than a texel"],
+        ["rms from 2 texels", "rms below 1 texel"],
+        [
+            "Where the short side of a pixel's piece of texture is two texels or more",
+            "where it is less than one texel",
+        ],
     );
     [rotated, thin].into_iter().flatten().collect()
 }
@@ -65,6 +68,6 @@ fn hard(floor: &Table, topic: Topic, columns: [&str; 2], places: [&str; 2]) -> O
             if names.len() == 1 { "is" } else { "are" }
         ),
     };
-    text += ". (One average each, on a floor in perspective; see \"The filters by themselves\".)";
+    text += ". (One average each, on a floor in perspective; see the filters by themselves.)";
     Some(Claim::general(topic, verdict, text))
 }

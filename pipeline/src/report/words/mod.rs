@@ -10,6 +10,8 @@ mod pages;
 mod pool;
 mod regions;
 mod samples;
+#[cfg(test)]
+mod tests;
 
 use super::measured::Measured;
 

@@ -3,7 +3,7 @@
 use super::super::measured::{PageMeasured, Trial};
 use super::numbers::{error, in_the_time, list};
 use super::pool::{THESIS, counts, evenly};
-use super::{AS_FAST, AS_NEAR, Claim, Topic, Verdict, as_near, nearer};
+use super::{AS_FAST, Claim, Topic, Verdict, as_near, nearer};
 use render::filter::Filter;
 
 /// Differences of the truth's two seeds at most, as a part of the smallest error.
@@ -199,10 +199,9 @@ fn together(claims: &[Claim]) -> Vec<Claim> {
             Verdict::Loses,
             format!(
                 "On {} of {all} pages ({}) something without tables is nearer than one ray with the thesis's \
-                 filter in no more time, or as near in less; \"nearer\" is by {:.0} % at least.",
+                 filter in no more time, or as near in less.",
                 beaten.len(),
-                list(&beaten),
-                100.0 * (AS_NEAR - 1.0)
+                list(&beaten)
             ),
         );
     }
