@@ -1,5 +1,6 @@
 //! What can go wrong in a job.
 
+use crate::compare::CompareError;
 use files::{Exit, Failure, FileError, JsonError};
 use render::film::memory::TextureMemoryError;
 use render::scene::SceneError;
@@ -28,6 +29,9 @@ pub enum PipelineError {
     /// The scene's textures take more memory than is allowed.
     #[error(transparent)]
     TextureMemory(#[from] TextureMemoryError),
+    /// Two pictures cannot be compared.
+    #[error(transparent)]
+    Compare(#[from] CompareError),
     /// A picture does not fit its file format.
     #[error("cannot encode {name}: {source}")]
     Encode {
@@ -108,6 +112,7 @@ impl Failure for PipelineError {
             Self::Sweep(error) => error.exit(),
             Self::Triangulate(error) => error.exit(),
             Self::Scene(error) => error.exit(),
+            Self::Compare(error) => error.exit(),
             Self::TextureMemory(_) | Self::Encode { .. } => Exit::Resource,
             Self::SameFile { .. }
             | Self::UnknownMesh { .. }

@@ -3,7 +3,12 @@
 mod cli;
 
 use clap::Parser;
+use peak_alloc::PeakAlloc;
 use std::process::ExitCode;
+
+/// Counts the memory that is held, for the report.
+#[global_allocator]
+static MEMORY: PeakAlloc = PeakAlloc;
 
 fn main() -> ExitCode {
     let arguments = cli::Arguments::parse();

@@ -4,6 +4,7 @@ mod asked;
 mod book;
 mod compare;
 mod list;
+mod report;
 mod run;
 mod textures;
 mod threads;
@@ -20,6 +21,7 @@ Examples:
   pipeline run all -o out --size 1024x1024 --keep
   pipeline run my-job.json -o out --stats
   pipeline run frontispiece --mode supersampled --size 4096x4096 -o poster
+  pipeline report glass-sphere -o report --quick
   pipeline book -o book
   pipeline textures -o textures
   pipeline compare a.png b.png --map difference.png --rmse 0.01
@@ -41,6 +43,8 @@ enum Command {
     List,
     /// Make the pictures of pages or of jobs of your own
     Run(run::RunArguments),
+    /// Measure what each way of rendering pages costs, and how wrong it is
+    Report(report::ReportArguments),
     /// Make the picture book: pages with their modes, costs and errors, as one file of HTML
     Book(book::BookArguments),
     /// Draw the textures of the examples again
@@ -54,6 +58,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
     match &arguments.command {
         Command::List => list::list(),
         Command::Run(arguments) => run::run(arguments),
+        Command::Report(arguments) => report::report(arguments),
         Command::Book(arguments) => book::book(arguments),
         Command::Textures(arguments) => textures::textures(arguments),
         Command::Compare(arguments) => compare::compare(arguments),

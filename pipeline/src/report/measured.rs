@@ -14,6 +14,27 @@ pub struct Measured {
     pub threads: usize,
     /// Whether it was made in haste: small pictures, few methods.
     pub quick: bool,
+    /// What else was measured, of the modeler and the filters by themselves.
+    pub tables: Vec<Table>,
+}
+
+/// Measurements that accompany those of the pages.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Table {
+    /// What its file is called, without the extension.
+    pub name: &'static str,
+    /// What it is about, in a line.
+    pub title: String,
+    /// What was measured, in a few sentences.
+    pub about: String,
+    /// The command that measures it again, when it was measured elsewhere than here.
+    pub command: Option<&'static str>,
+    /// The names of the columns.
+    pub columns: Vec<String>,
+    /// Rows of as many cells.
+    pub rows: Vec<Vec<String>>,
+    /// A drawing of it: an SVG document.
+    pub drawing: Option<&'static str>,
 }
 
 /// A page: its truth, its regions, and what each method made of it.
@@ -38,11 +59,18 @@ pub struct PageMeasured {
 pub struct Truth {
     /// The mean of the pictures of two seeds, in linear light.
     pub picture: Picture,
-    /// Jittered, unfiltered rays in each pixel, along each side, for each of the two seeds.
+    /// Jittered, unfiltered rays in each pixel, along each side, for each of the two seeds: at least.
     pub samples: u32,
+    /// The same where the picture is hardest: at most.
+    pub most_samples: u32,
     /// Half the root mean square difference between the pictures of the two seeds: about the error
     /// of their mean.
     pub noise: f64,
+    /// The same within each of the page's regions, in their order.
+    pub noise_by_region: Vec<f64>,
+    /// Whether the pictures of the two seeds differ by at most a fifth of the smallest error reported of
+    /// the whole picture.
+    pub settled: bool,
 }
 
 /// Pixels that have something in common.
@@ -70,7 +98,8 @@ pub struct Trial {
     pub method: Method,
     /// Its cost.
     pub cost: Cost,
-    /// Its error over the whole picture.
+    /// Its error over the whole picture. Of the root mean square, here and by region, the noise of the truth
+    /// is taken out.
     pub whole: Difference,
     /// Its error in each of the page's regions, in their order.
     pub by_region: Vec<Difference>,
@@ -85,6 +114,8 @@ pub struct Cost {
     pub wall: f64,
     /// Processor time of the same, over all threads; in seconds.
     pub cpu: f64,
+    /// Of `wall`, the time for tables and pyramids of textures.
+    pub tables: f64,
     /// Rays of all kinds, shadows too.
     pub rays: u64,
     /// Texels or table entries read.

@@ -6,6 +6,9 @@ use render::texture::Texture;
 /// Texels across the short side of a pixel's piece of texture, by its anisotropy: thin, middle, far.
 pub const SCALES: [f64; 3] = [1.0 / 32.0, 1.0 / 8.0, 1.0 / 2.0];
 
+/// Texels from which the short side of a pixel's piece of texture is thin, middling and broad.
+pub const BREADTHS: [f64; 3] = [0.0, 1.0, 2.0];
+
 /// Degrees between the texture's axes and the view.
 pub const ANGLES: [f64; 3] = [0.0, 15.0, 45.0];
 
@@ -44,6 +47,15 @@ impl Pixel {
         // From a unit above the floor; further down on the film is nearer.
         let far = 1.0 / (self.below + PITCH * y);
         self.place + self.turned.rotate(DVec2::new(PITCH * x * far, far))
+    }
+
+    /// Which of [`BREADTHS`] the short side of its piece of texture is.
+    pub fn breadth(&self, texture: &Texture) -> usize {
+        let size = DVec2::new(texture.width as f64, texture.height as f64);
+        let span = |a: DVec2, b: DVec2| ((a - b) * size).length();
+        let across = span(self.uv(-0.5, 0.0), self.uv(0.5, 0.0));
+        let short = across.min(span(self.uv(0.0, -0.5), self.uv(0.0, 0.5)));
+        BREADTHS.iter().filter(|&&from| short >= from).count() - 1
     }
 
     /// The mean of N x N bilinear samples, evenly spread.

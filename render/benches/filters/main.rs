@@ -9,7 +9,7 @@ mod floor;
 mod report;
 mod textures;
 
-use floor::{ANGLES, Pixel, SCALES};
+use floor::{ANGLES, BREADTHS, Pixel, SCALES};
 use glam::DVec3;
 use render::filter::{Filter, FilteredTexture};
 use render::footprint::Footprint;
@@ -25,6 +25,9 @@ const ROUNDS: usize = 15;
 /// Footprints of a chunk, which is done in less time than a shared machine gives at a stretch. It
 /// divides those of a scale.
 const CHUNK: usize = 32;
+
+/// Kinds of footprints: by texture, angle and breadth.
+const CELLS: usize = 4 * ANGLES.len() * BREADTHS.len();
 
 /// What is measured.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -63,8 +66,10 @@ pub struct Line {
     pub error: [f64; 2],
     /// Those against the box, by texture.
     pub by_texture: [f64; 4],
-    /// And by angle.
+    /// By angle.
     pub by_angle: [f64; 3],
+    /// And by the short side of the pixel's piece of texture.
+    pub by_breadth: [f64; 3],
     /// Bytes beside the textures.
     pub bytes: u64,
 }
@@ -181,8 +186,8 @@ fn line(
     truths: &[[DVec3; 2]],
 ) -> Line {
     let sum = |times: &[Vec<f64>]| times.iter().flatten().sum::<f64>();
-    let mut squares = [[0.0; 2]; 4 * 3];
-    let mut counts = [0; 4 * 3];
+    let mut squares = [[0.0; 2]; CELLS];
+    let mut counts = [0; CELLS];
     let mut bytes = 0;
     for (k, (_, texture)) in textures.iter().enumerate() {
         let ready = prepared(method, texture);
@@ -192,7 +197,7 @@ fn line(
                 Method::Samples(n) => pixel.samples(texture, n),
                 _ => ready.average(&footprint(method, pixel)),
             };
-            let cell = k * ANGLES.len() + pixel.angle;
+            let cell = (k * ANGLES.len() + pixel.angle) * BREADTHS.len() + pixel.breadth(texture);
             counts[cell] += 1;
             for (sum, truth) in squares[cell].iter_mut().zip(truth) {
                 *sum += (found.x - truth.x).powi(2);
@@ -200,7 +205,7 @@ fn line(
         }
     }
     let rms = |truth: usize, seen: &dyn Fn(usize) -> bool| {
-        let cells = || (0..12).filter(|&cell| seen(cell));
+        let cells = || (0..CELLS).filter(|&cell| seen(cell));
         let sum: f64 = cells().map(|cell| squares[cell][truth]).sum();
         (sum / cells().map(|cell| counts[cell]).sum::<usize>() as f64).sqrt()
     };
@@ -210,8 +215,9 @@ fn line(
         ratio: sum(own) / sum(bilinear),
         ratios: [0, 1, 2].map(|scale| sum(&own[scale..=scale]) / sum(&bilinear[scale..=scale])),
         error: [0, 1].map(|truth| rms(truth, &|_| true)),
-        by_texture: [0, 1, 2, 3].map(|texture| rms(0, &|cell| cell / 3 == texture)),
-        by_angle: [0, 1, 2].map(|angle| rms(0, &|cell| cell % 3 == angle)),
+        by_texture: [0, 1, 2, 3].map(|texture| rms(0, &|cell| cell / 9 == texture)),
+        by_angle: [0, 1, 2].map(|angle| rms(0, &|cell| cell / 3 % 3 == angle)),
+        by_breadth: [0, 1, 2].map(|breadth| rms(0, &|cell| cell % 3 == breadth)),
         bytes,
     }
 }

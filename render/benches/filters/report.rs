@@ -7,12 +7,14 @@ use std::fmt::{self, Write};
 pub fn csv(lines: &[Line]) -> String {
     let mut text = String::from(
         "method,ns,ratio,ratio thin,ratio middle,ratio far,rms box,rms tent,\
-         rms checks,rms zones,rms clouds,rms letters,rms 0 deg,rms 15 deg,rms 45 deg,bytes\n",
+         rms checks,rms zones,rms clouds,rms letters,rms 0 deg,rms 15 deg,rms 45 deg,rms below 1 texel,rms 1 to 2 texels,rms from 2 texels,\
+         bytes\n",
     );
     for line in lines {
         text += &format!("\"{}\",{:.1},{:.2}", line.method.name(), line.time, line.ratio);
         line.ratios.iter().for_each(|ratio| text += &format!(",{ratio:.2}"));
-        let errors = line.error.iter().chain(&line.by_texture).chain(&line.by_angle);
+        let errors =
+            line.error.iter().chain(&line.by_texture).chain(&line.by_angle).chain(&line.by_breadth);
         errors.for_each(|error| text += &format!(",{error:.4}"));
         text += &format!(",{}\n", line.bytes);
     }

@@ -1,0 +1,212 @@
+//! `pipeline report`: what each way of rendering a page costs, and how wrong it is.
+
+use super::asked::{Asked, asked};
+use super::{make_folder, threads};
+use clap::Args;
+use clap::builder::TypedValueParser;
+use cpu_time::ProcessTime;
+use files::exit::say;
+use files::{Output, Report};
+use pipeline::report::measure::{self, Meter};
+use pipeline::report::measured::{PageMeasured, Table, Truth};
+use pipeline::report::{self, Measured, Plan, accompanying, csv};
+use pipeline::run::Options;
+use pipeline::{Job, PipelineError};
+use render::Scene;
+use render::film::{MOST_SAMPLES, memory};
+use render::progress::Progress;
+use std::path::PathBuf;
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+/// The scenes that other renderers were measured on.
+const PEERS: [&str; 2] = ["peer-glass", "peer-tube"];
+
+/// The numbers of all pages.
+const NUMBERS: &str = "report.csv";
+
+/// What `pipeline report` is asked.
+#[derive(Debug, Args)]
+pub struct ReportArguments {
+    /// Pages by name, all of them, or job files, whose names end in .json [default: the figures of the
+    /// thesis and the two scenes that other renderers were measured on]
+    #[arg(value_name = "NAME|all|FILE.json")]
+    pages: Vec<String>,
+    /// The folder for the report; made if it is missing
+    #[arg(short, long, value_name = "DIR", default_value = "report")]
+    output: PathBuf,
+    /// Pixels across and down, of every picture [default: 128x128, with --quick 64x64]
+    #[arg(long, value_name = "WxH", value_parser = render::film::size)]
+    size: Option<(u32, u32)>,
+    /// Few methods and small pictures: two minutes for all default pages
+    #[arg(long)]
+    quick: bool,
+    /// Rays along each side of a pixel for the truth, where its noise asks for so many; 32 at least
+    /// [default: 64, with --quick 32]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(32..=MOST_SAMPLES.into()))]
+    truth: Option<u32>,
+    /// Memory for textures and their tables, in bytes or with k, M or G; beyond it nothing is read
+    #[arg(long, value_name = "BYTES", default_value = "2G", value_parser = memory::bytes)]
+    max_texture_mem: u64,
+    /// Worker threads [default: one for each core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024).map(usize::from))]
+    threads: Option<usize>,
+    /// Print nothing but errors
+    #[arg(short, long)]
+    quiet: bool,
+    /// Refuse to replace existing files
+    #[arg(long)]
+    no_clobber: bool,
+}
+
+/// Measures the pages that were named and writes what came of it.
+pub fn report(arguments: &ReportArguments) -> Result<(), Report> {
+    let jobs = jobs(&arguments.pages)?;
+    let mut plan = if arguments.quick { Plan::quick() } else { Plan::full() };
+    plan.size = arguments.size.unwrap_or(plan.size);
+    plan.most_truth_samples = arguments.truth.unwrap_or(plan.most_truth_samples);
+    let options = Options {
+        folder: arguments.output.clone(),
+        size: plan.size,
+        max_texture_bytes: arguments.max_texture_mem,
+        keep: false,
+        clobber: !arguments.no_clobber,
+    };
+    // Every scene is read before the first is measured, so that a slip in the last costs no waiting.
+    let scenes = jobs.iter().map(|asked| {
+        let scene = pipeline::run::scene(&asked.job, asked.source, &options, &|_| {})?;
+        for &filter in &plan.filters {
+            memory::check(&scene, filter, options.max_texture_bytes)?;
+        }
+        Ok(scene)
+    });
+    let scenes: Vec<Scene> = scenes.collect::<Result<_, PipelineError>>()?;
+    make_folder(&options.folder)?;
+    let tables = accompanying::measure(arguments.quick)?;
+    check_files(&jobs, &tables, &options)?;
+    let pool = threads::pool(arguments.threads)?;
+    let threads = pool.current_num_threads();
+    let mut measured = Measured { pages: Vec::new(), threads, quick: arguments.quick, tables };
+    let numbers = options.folder.join(NUMBERS);
+    for (Asked { job, .. }, scene) in jobs.iter().zip(&scenes) {
+        let talk = Talk::new(job, arguments.quiet);
+        let tell = |doing: &str, done, total| talk.tell(doing, done, total);
+        let usage = Usage::new();
+        let page = pool
+            .install(|| measure::page(&job.name, &job.title, scene, &plan, &usage, &tell))
+            .map_err(PipelineError::from)?;
+        talk.finish(&page);
+        measured.pages.push(page);
+        // After every page: if a long report is interrupted, the numbers so far are there.
+        Output::create(&numbers, true)?.commit_all(csv::trials(&measured).as_bytes())?;
+    }
+    let mut written = vec![numbers];
+    for table in &measured.tables {
+        let path = options.folder.join(format!("{}.csv", table.name));
+        Output::create(&path, options.clobber)?.commit_all(csv::table(table).as_bytes())?;
+        written.push(path);
+    }
+    written.extend(report::write(&measured, &options.folder, options.clobber)?);
+    if !arguments.quiet {
+        written.iter().for_each(|path| say(path.display()));
+    }
+    Ok(())
+}
+
+/// Checks that the files of a report may be written, and that no two pages write the same.
+fn check_files(jobs: &[Asked], tables: &[Table], options: &Options) -> Result<(), PipelineError> {
+    let pages = || jobs.iter().map(|asked| asked.job.name.as_str());
+    let mut files = vec![NUMBERS.to_string()];
+    files.extend(tables.iter().map(|table| format!("{}.csv", table.name)));
+    files.extend(report::files(pages()));
+    for file in files {
+        Output::check(&options.folder.join(file), options.clobber)?;
+    }
+    for (k, name) in pages().enumerate() {
+        if let Some(first) = jobs[..k].iter().find(|asked| asked.job.name == name) {
+            let (first, second) = (first.argument.clone(), jobs[k].argument.clone());
+            return Err(PipelineError::SameFile { first, second, file: format!("{name}.svg") });
+        }
+    }
+    Ok(())
+}
+
+/// Shows what is being measured.
+struct Talk<'a> {
+    job: &'a str,
+    quiet: bool,
+    started: Instant,
+    bar: Mutex<Option<(String, Progress)>>,
+}
+
+impl<'a> Talk<'a> {
+    fn new(job: &'a Job, quiet: bool) -> Self {
+        Self { job: &job.name, quiet, started: Instant::now(), bar: Mutex::new(None) }
+    }
+
+    fn tell(&self, doing: &str, done: usize, total: usize) {
+        let Ok(mut bar) = self.bar.lock() else { return };
+        if bar.as_ref().is_none_or(|(shown, _)| shown != doing) {
+            let label = format!("{}: {doing}", self.job);
+            *bar = Some((doing.into(), Progress::new(&label, self.quiet)));
+        }
+        if let Some((_, progress)) = bar.as_ref() {
+            progress.tell(done, total);
+        }
+    }
+
+    /// Says what was measured.
+    fn finish(self, page: &PageMeasured) {
+        drop(self.bar);
+        if self.quiet {
+            return;
+        }
+        let Truth { samples, most_samples, noise, .. } = page.truth;
+        let (methods, seconds) = (page.trials.len(), self.started.elapsed().as_secs_f64());
+        let truth =
+            format!("truth of {samples} x {samples} to {most_samples} x {most_samples} rays");
+        say(format_args!(
+            "{}: {methods} methods, {truth} twice, noise {noise:.5}  {seconds:.1} s",
+            self.job
+        ));
+    }
+}
+
+/// What this program uses.
+struct Usage {
+    started: Option<ProcessTime>,
+}
+
+impl Usage {
+    fn new() -> Self {
+        Self { started: ProcessTime::try_now().ok() }
+    }
+}
+
+impl Meter for Usage {
+    fn cpu(&self) -> Duration {
+        self.started.and_then(|started| started.try_elapsed().ok()).unwrap_or_default()
+    }
+
+    fn mark(&self) -> usize {
+        crate::MEMORY.reset_peak_usage();
+        crate::MEMORY.current_usage()
+    }
+
+    fn peak(&self) -> usize {
+        crate::MEMORY.peak_usage()
+    }
+}
+
+/// The jobs that were named; without names, the pages that show figures of the thesis, and the scenes that
+/// other renderers were measured on.
+fn jobs(names: &[String]) -> Result<Vec<Asked>, PipelineError> {
+    if !names.is_empty() {
+        return asked(names);
+    }
+    let all = asked(&["all".into()])?;
+    let default = |job: &Job| {
+        PEERS.contains(&job.name.as_str()) || job.modes.iter().any(|mode| mode.figure.is_some())
+    };
+    Ok(all.into_iter().filter(|asked| default(&asked.job)).collect())
+}

@@ -1,0 +1,44 @@
+//! The section of a page.
+
+use super::super::measured::PageMeasured;
+use super::super::plot::{Size, trials as plots};
+use super::super::words::Claim;
+use super::super::words::numbers::error;
+use super::{about_plot, chart, pictures, trials};
+use crate::PipelineError;
+use maud::{Markup, PreEscaped, html};
+
+pub fn section(page: &PageMeasured, claims: &[Claim]) -> Result<Markup, PipelineError> {
+    let own: Vec<&Claim> =
+        claims.iter().filter(|claim| claim.page.as_ref() == Some(&page.name)).collect();
+    let (width, height) = page.size;
+    let truth = &page.truth;
+    let rays = if truth.samples == truth.most_samples {
+        format!("{0} x {0}", truth.samples)
+    } else {
+        format!("{0} x {0} to {1} x {1}", truth.samples, truth.most_samples)
+    };
+    let pictures = pictures::pictures(page)?;
+    Ok(html! {
+        section.page id=(page.name) {
+            p.eyebrow { (page.name) }
+            h2 { (page.title) }
+            p.faint {
+                (width) " x " (height) " pixels; the truth is of two times " (rays)
+                " rays in a pixel, and its noise " (error(truth.noise)) "."
+            }
+            @if !own.is_empty() { ul { @for claim in own { li { (claim.text) } } } }
+            (pictures)
+            div.plots { (chart(&plots::whole(page), &about_plot(page))) }
+            @if !page.regions.is_empty() {
+                h3 { "By region" }
+                div.multiples {
+                    @for (region, chart) in page.regions.iter().zip(plots::regions(page)) {
+                        (PreEscaped(chart.inline(Size::Small, region.name)))
+                    }
+                }
+            }
+            (trials::tables(page))
+        }
+    })
+}

@@ -1,0 +1,112 @@
+//! The pictures of a page beside the truth, and maps of where they are wrong.
+
+use super::super::measured::{PageMeasured, Trial};
+use super::super::words::numbers::{error, seconds};
+use crate::PipelineError;
+use crate::compare::{Scale, map, scale};
+use crate::html::png_address;
+use maud::{Markup, html};
+use render::color::Encoding;
+use render::film::Nine;
+use render::film::encode::{Format, encode};
+use render::filter::Filter;
+use render::{Picture, Sampling};
+
+/// The errors that a map tells apart: from what no eye sees up to white for black.
+const SCALE: Scale = Scale::Log { least: 1e-3, most: 1.0 };
+
+/// A row of pictures, each above its error map.
+pub fn pictures(page: &PageMeasured) -> Result<Markup, PipelineError> {
+    let mut shown = Vec::new();
+    for (why, trial, picture) in chosen(page) {
+        let own = address(&page.name, picture)?;
+        let errors = map::map(picture, &page.truth.picture, SCALE)?;
+        let errors = png_address(&map::png(&errors).map_err(|e| encoding(&page.name, e))?);
+        shown.push((why, trial, own, errors));
+    }
+    let truth = address(&page.name, &page.truth.picture)?;
+    Ok(html! {
+        div.pictures {
+            figure {
+                img src=(truth) alt={ "The truth of " (page.name) };
+                (legend())
+                figcaption { b { "The truth" } }
+            }
+            @for (why, trial, own, errors) in &shown {
+                figure {
+                    img src=(own) alt={ (page.name) " by " (trial.method.name()) };
+                    img src=(errors) alt={ "Where " (trial.method.name()) " is wrong" };
+                    figcaption {
+                        b { (trial.method.name()) }
+                        @if !why.is_empty() { br; span.faint { (why) } }
+                        br;
+                        (error(trial.whole.rmse)) " off, " (seconds(trial.cost.cpu))
+                    }
+                }
+            }
+        }
+    })
+}
+
+/// One ray without and with the thesis's filter, its supersampling, what is the nearest without its
+/// filters in that time, and the nearest of all.
+fn chosen(page: &PageMeasured) -> Vec<(&'static str, &Trial, &Picture)> {
+    let find = |filter: Filter, sampling: Sampling| {
+        let is =
+            |trial: &&Trial| trial.method.filter == filter && trial.method.sampling == sampling;
+        page.trials.iter().find(is)
+    };
+    let nine = find(Filter::Tent, Sampling::Nine(Nine::Image))
+        .or_else(|| find(Filter::Tent, Sampling::Nine(Nine::Rays)));
+    let one = find(Filter::Tent, Sampling::regular(1));
+    let nearest = |of: &dyn Fn(&Trial) -> bool| {
+        let own = page.trials.iter().filter(|trial| of(trial));
+        own.min_by(|a, b| a.whole.rmse.total_cmp(&b.whole.rmse))
+    };
+    let time = nine.or(one).map_or(0.0, |trial| trial.cost.cpu);
+    let rival = nearest(&|trial| trial.method.filter.order().is_none() && trial.cost.cpu <= time);
+    let wished = [
+        ("as in 1993 without filtering", find(Filter::Point, Sampling::regular(1))),
+        ("prefiltered", one),
+        ("prefiltered and supersampled", nine),
+        ("nearest without tables in the time of the last", rival),
+        ("nearest of all", nearest(&|_| true)),
+    ];
+    let mut chosen: Vec<(&'static str, &Trial, &Picture)> = Vec::new();
+    for (why, trial) in wished {
+        let Some((trial, picture)) = trial.and_then(|t| Some((t, t.picture.as_ref()?))) else {
+            continue;
+        };
+        if chosen.iter().all(|(_, known, _)| known.method != trial.method) {
+            chosen.push((why, trial, picture));
+        }
+    }
+    chosen
+}
+
+fn address(name: &str, picture: &Picture) -> Result<String, PipelineError> {
+    let png = encode(picture, Format::Png, Encoding::Srgb).map_err(|e| encoding(name, e))?;
+    Ok(png_address(&png))
+}
+
+fn encoding(name: &str, source: image::ImageError) -> PipelineError {
+    PipelineError::Encode { name: name.into(), source }
+}
+
+/// The colours of the maps, with the errors that they stand for.
+fn legend() -> Markup {
+    let stops: Vec<String> = (0..=16)
+        .map(|k| {
+            let [r, g, b] = scale::color_at(f64::from(k) / 16.0);
+            format!("rgb({r} {g} {b})")
+        })
+        .collect();
+    let ground = format!("background: linear-gradient(to right, {})", stops.join(", "));
+    html! {
+        div.legend {
+            span { "Error maps, below each picture" }
+            div.scale style=(ground) {}
+            div.ticks { @for tick in SCALE.ticks() { span { (tick) } } }
+        }
+    }
+}

@@ -1,0 +1,102 @@
+//! The conclusions, and all pages at a glance.
+
+use super::super::measured::{Measured, PageMeasured, Trial};
+use super::super::words::numbers::{error, times};
+use super::super::words::{Claim, Topic, Verdict};
+use maud::{Markup, html};
+use render::Sampling;
+use render::film::Nine;
+use render::filter::Filter;
+
+const GROUPS: [(Verdict, &str); 5] = [
+    (Verdict::Use, "Which method to use"),
+    (Verdict::Wins, "Where the thesis\u{2019}s method wins"),
+    (Verdict::Loses, "Where it loses"),
+    (Verdict::Even, "Where it makes no difference"),
+    (Verdict::Doubt, "What is in doubt"),
+];
+
+pub fn section(measured: &Measured, claims: &[Claim]) -> Markup {
+    // Doubts are about pages, but whoever reads only the conclusions must read them.
+    let said = |claim: &&Claim| claim.page.is_none() || claim.topic == Topic::Noise;
+    html! {
+        section id="conclusions" {
+            h2 { "What the numbers say" }
+            p.faint {
+                "The thesis\u{2019}s method is prefiltering by repeated integration: box, tent and quadratic (n = "
+                "1, 2, 3). The tent stands for it."
+            }
+            @for (verdict, heading) in GROUPS {
+                @let own: Vec<&Claim> =
+                    claims.iter().filter(|claim| claim.verdict == verdict).filter(said).collect();
+                @if !own.is_empty() {
+                    div.verdict {
+                        h3 { (heading) }
+                        ul { @for claim in own { li { (claim.text) } } }
+                    }
+                }
+            }
+        }
+        @if !measured.pages.is_empty() { (glance(&measured.pages)) }
+    }
+}
+
+/// One row for each page.
+fn glance(pages: &[PageMeasured]) -> Markup {
+    html! {
+        section id="pages" {
+            h2 { "The pages at a glance" }
+            p.faint {
+                "Errors of one ray in each pixel with four filters, and of the thesis\u{2019}s supersampling with the "
+                "tent; in brackets the processor time by that of one bilinear ray."
+            }
+            div.wide {
+                table.glance {
+                    thead { tr {
+                        th { "Page" }
+                        @for filter in SHOWN { th { (filter) } }
+                        th { "tent, super-" br; "sampled" }
+                        th { "nearest of all" }
+                    } }
+                    tbody { @for page in pages { (row(page)) } }
+                }
+            }
+        }
+    }
+}
+
+const SHOWN: [Filter; 4] = [Filter::Point, Filter::Bilinear, Filter::Mip, Filter::Tent];
+
+fn row(page: &PageMeasured) -> Markup {
+    let find = |filter: Filter, is: &dyn Fn(Sampling) -> bool| {
+        page.trials.iter().find(|trial| trial.method.filter == filter && is(trial.method.sampling))
+    };
+    let one = |filter| find(filter, &|sampling| sampling == Sampling::regular(1));
+    let nine = |form| find(Filter::Tent, &move |sampling| sampling == Sampling::Nine(form));
+    let nearest = page.trials.iter().min_by(|a, b| a.whole.rmse.total_cmp(&b.whole.rmse));
+    let unit = one(Filter::Bilinear).map(|trial| trial.cost.cpu);
+    let cell = |trial: Option<&Trial>| {
+        html! {
+            @match trial {
+                Some(trial) => {
+                    (error(trial.whole.rmse))
+                    @if let Some(unit) = unit {
+                        " " span.faint { "(" (times(trial.cost.cpu / unit)) ")" }
+                    }
+                }
+                None => "\u{2013}",
+            }
+        }
+    };
+    html! {
+        tr {
+            td { a href={ "#" (page.name) } { (page.name) } }
+            @for filter in SHOWN { td { (cell(one(filter))) } }
+            td { (cell(nine(Nine::Image).or_else(|| nine(Nine::Rays)))) }
+            td {
+                (cell(nearest))
+                @if let Some(nearest) = nearest { br; span.faint { (nearest.method.name()) } }
+            }
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! Made-up measurements, to hold plots and sentences against.
+
+use super::measured::{Cost, Measured, Method, PageMeasured, Region, Table, Trial, Truth};
+use crate::compare::Difference;
+use render::film::Nine;
+use render::filter::Filter;
+use render::{Picture, Sampling};
+
+/// Pixels of the pictures.
+pub const SIZE: (u32, u32) = (96, 64);
+
+/// Rays along a side of a pixel.
+pub const COUNTS: [u32; 5] = [1, 2, 3, 4, 8];
+
+/// The error of a filter with so many rays along a side, and the processor time in seconds.
+pub type Law<'a> = dyn Fn(Filter, f64) -> (f64, f64) + 'a;
+
+/// What a filter leaves of the error of one bilinear ray on a floor, and what a ray with it costs.
+pub fn floor(filter: Filter, n: f64) -> (f64, f64) {
+    let (left, slope, price) = match filter {
+        Filter::Point => (1.2, 1.0, 0.9),
+        Filter::Bilinear => (1.0, 1.0, 1.0),
+        Filter::Mip => (0.30, 0.8, 1.7),
+        Filter::Box => (0.28, 0.8, 1.8),
+        Filter::Tent => (0.20, 0.8, 2.0),
+        Filter::Quadratic => (0.198, 0.8, 6.0),
+    };
+    (0.2 * left / n.powf(slope), 0.02 * price * n * n)
+}
+
+/// Errors that no filter changes.
+pub fn edges(filter: Filter, n: f64) -> (f64, f64) {
+    (0.212 / n, floor(filter, n).1)
+}
+
+/// A page with the methods that a report takes, of which each region has a law of its own.
+pub fn page(name: &str, whole: &Law<'_>, regions: &[(&'static str, &Law<'_>)]) -> PageMeasured {
+    let pixels = (SIZE.0 * SIZE.1) as usize;
+    let mut methods: Vec<(Method, f64)> = Vec::new();
+    for filter in Filter::ALL {
+        for n in COUNTS {
+            methods.push((Method { filter, sampling: Sampling::regular(n) }, f64::from(n)));
+        }
+        methods.push((Method { filter, sampling: Sampling::Nine(Nine::Image) }, 2.0));
+    }
+    let trials = methods.into_iter().enumerate().map(|(k, (method, n))| {
+        let (error, cpu) = whole(method.filter, n);
+        let by_region = regions
+            .iter()
+            .map(|(_, law)| difference(pixels / 4, law(method.filter, n).0))
+            .collect();
+        let bytes = method.filter.order().unwrap_or(0) << 23;
+        Trial {
+            cost: Cost {
+                wall: 0.5 * cpu,
+                cpu,
+                tables: 0.01,
+                rays: (n * n * pixels as f64) as u64,
+                texels: (4.0 * n * n * pixels as f64) as u64,
+                peak_bytes: (1 << 20) + bytes,
+            },
+            whole: difference(pixels, error),
+            by_region,
+            picture: (n <= 2.0).then(|| picture(error as f32, k)),
+            method,
+        }
+    });
+    let trials: Vec<Trial> = trials.collect();
+    let mask = |k: usize| (0..pixels).map(|at| at % (k + 2) == 0).collect();
+    PageMeasured {
+        name: name.into(),
+        title: format!("The page {name}"),
+        size: SIZE,
+        truth: Truth {
+            picture: picture(0.0, 0),
+            samples: 32,
+            most_samples: 64,
+            noise: 0.0005,
+            noise_by_region: vec![0.0005; regions.len()],
+            settled: true,
+        },
+        regions: regions
+            .iter()
+            .enumerate()
+            .map(|(k, (name, _))| Region { name, mask: mask(k) })
+            .collect(),
+        trials,
+    }
+}
+
+/// A report of pages.
+pub fn measured(pages: Vec<PageMeasured>) -> Measured {
+    let filters = table(
+        "filters",
+        "method,ns,rms 0 deg,rms 45 deg",
+        &["mip,67,0.079,0.093", "tent,352,0.038,0.096", "bilinear,29,0.255,0.250"],
+    );
+    Measured { pages, threads: 2, quick: false, tables: vec![filters] }
+}
+
+/// A table of cells that are set apart by commas.
+pub fn table(name: &'static str, columns: &str, rows: &[&str]) -> Table {
+    let cells = |text: &str| text.split(',').map(str::to_string).collect();
+    Table {
+        name,
+        title: format!("The table {name}"),
+        about: "What was measured.".into(),
+        command: None,
+        columns: cells(columns),
+        rows: rows.iter().map(|row| cells(row)).collect(),
+        drawing: None,
+    }
+}
+
+fn difference(pixels: usize, rmse: f64) -> Difference {
+    Difference { pixels, rmse, max: (4.0 * rmse).min(1.0), p999: 3.0 * rmse, bias: 0.0 }
+}
+
+/// Checks in perspective, with an error that grows toward the bottom.
+fn picture(error: f32, salt: usize) -> Picture {
+    let mut picture = Picture::black(SIZE.0, SIZE.1);
+    for (k, pixel) in picture.pixels.iter_mut().enumerate() {
+        let (x, y) = (k % SIZE.0 as usize, k / SIZE.0 as usize);
+        let light = if (x / 8 + y / 8) % 2 == 0 { 0.7 } else { 0.2 };
+        let wave = ((k * 7 + salt * 13) % 17) as f32 / 8.0 - 1.0;
+        let here = light + error * wave * 2.0 * y as f32 / SIZE.1 as f32;
+        *pixel = [here, here * 0.9, here * 0.8];
+    }
+    picture
+}

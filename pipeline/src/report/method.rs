@@ -1,0 +1,69 @@
+//! What a method is called.
+
+use super::measured::Method;
+use render::Sampling;
+use render::film::{Nine, Pattern, PixelFilter};
+
+impl Method {
+    /// Its filter and its rays, as tables and sentences call it: `tent, 3 x 3 rays`.
+    #[must_use]
+    pub fn name(&self) -> String {
+        format!("{}, {}", self.filter, self.rays())
+    }
+
+    /// What its pixels are made of, such as `3 x 3 rays`.
+    #[must_use]
+    pub fn rays(&self) -> String {
+        match self.sampling {
+            Sampling::Nine(Nine::Image) => "supersampled".into(),
+            Sampling::Nine(Nine::Rays) => "nine rays".into(),
+            Sampling::Grid { samples, pattern, pixel_filter } => {
+                let grid = match samples {
+                    1 => "1 ray".to_string(),
+                    n => format!("{n} x {n} rays"),
+                };
+                let jitter = if pattern == Pattern::Regular { "" } else { ", jittered" };
+                let tent =
+                    if pixel_filter == PixelFilter::Box { "" } else { ", weighed by a tent" };
+                format!("{grid}{jitter}{tent}")
+            }
+        }
+    }
+
+    /// Rays along each side of a pixel, if they are evenly spread and count the same.
+    #[must_use]
+    pub fn evenly(&self) -> Option<u32> {
+        match self.sampling {
+            sampling @ Sampling::Grid { samples, .. } => {
+                (sampling == Sampling::regular(samples)).then_some(samples)
+            }
+            Sampling::Nine(_) => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use render::filter::Filter;
+
+    #[test]
+    fn methods_are_named_by_filter_and_rays() {
+        let jitter = Sampling::Grid {
+            samples: 4,
+            pattern: Pattern::Jitter { seed: 1 },
+            pixel_filter: PixelFilter::Tent,
+        };
+        for (sampling, name, evenly) in [
+            (Sampling::regular(1), "tent, 1 ray", Some(1)),
+            (Sampling::regular(3), "tent, 3 x 3 rays", Some(3)),
+            (Sampling::Nine(Nine::Image), "tent, supersampled", None),
+            (Sampling::Nine(Nine::Rays), "tent, nine rays", None),
+            (jitter, "tent, 4 x 4 rays, jittered, weighed by a tent", None),
+        ] {
+            let method = Method { filter: Filter::Tent, sampling };
+            assert_eq!(method.name(), name);
+            assert_eq!(method.evenly(), evenly, "{name}");
+        }
+    }
+}

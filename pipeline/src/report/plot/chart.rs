@@ -1,0 +1,358 @@
+//! Curves over two axes by powers of ten.
+
+use super::axis::Axis;
+use super::look::Look;
+use super::svg::{Anchor, Svg};
+
+/// Curves over two axes by powers of ten.
+#[derive(Debug, Clone)]
+pub struct Chart {
+    /// What is written above it.
+    pub title: Option<String>,
+    /// The axis to the right.
+    pub across: Axis,
+    /// The axis upward.
+    pub up: Axis,
+    /// The curves.
+    pub series: Vec<Series>,
+    /// What lies below a value, shaded.
+    pub band: Option<Band>,
+    /// The Pareto front, from the left to the right; it goes on to both sides.
+    pub front: Vec<(f64, f64)>,
+    /// Marks that are explained beside the curves' names.
+    pub key: Vec<(Look, String)>,
+}
+
+/// A curve, or places by themselves.
+#[derive(Debug, Clone)]
+pub struct Series {
+    /// What is written where it ends; nothing if empty.
+    pub name: String,
+    /// How it looks.
+    pub look: Look,
+    /// Whether a line joins the places.
+    pub joined: bool,
+    /// Its places, in the order in which they are joined.
+    pub places: Vec<Place>,
+}
+
+/// A place of a curve. One that the axes cannot show, such as 0, is left out.
+#[derive(Debug, Clone, Default)]
+pub struct Place {
+    /// Its value to the right.
+    pub x: f64,
+    /// Its value upward.
+    pub y: f64,
+    /// What it is, for who points at it.
+    pub name: String,
+    /// A few signs beside it.
+    pub note: Option<String>,
+}
+
+/// What is shaded, from a value down.
+#[derive(Debug, Clone)]
+pub struct Band {
+    /// Where it ends above.
+    pub up_to: f64,
+    /// What is written in it.
+    pub label: String,
+}
+
+/// How large a chart is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Size {
+    /// For a desk, 780 by 480 pixels.
+    Wide,
+    /// For a telephone, 390 by 420.
+    Narrow,
+    /// One of several, 400 by 300.
+    Small,
+}
+
+/// The rectangle of the values.
+#[derive(Debug, Clone, Copy)]
+struct Frame {
+    left: f64,
+    top: f64,
+    right: f64,
+    bottom: f64,
+}
+
+/// Distance of lines of text.
+const LINE: f64 = 17.0;
+
+/// Room for the names of curves.
+const NAMES: f64 = 104.0;
+
+impl Size {
+    fn pixels(self) -> (f64, f64) {
+        match self {
+            Self::Wide => (780.0, 480.0),
+            Self::Narrow => (390.0, 420.0),
+            Self::Small => (400.0, 300.0),
+        }
+    }
+
+    fn radius(self) -> f64 {
+        if self == Self::Wide { 5.0 } else { 4.0 }
+    }
+}
+
+impl Chart {
+    /// An element for a page of HTML that has [`super::STYLE`]; `about` says what is to be seen.
+    #[must_use]
+    pub fn inline(&self, size: Size, about: &str) -> String {
+        self.drawn(size, about, "")
+    }
+
+    /// A file of its own, with its style and a ground.
+    #[must_use]
+    pub fn file(&self, about: &str) -> String {
+        self.drawn(Size::Wide, about, &format!("<style>{}</style>\n", super::STYLE))
+    }
+
+    fn drawn(&self, size: Size, about: &str, style: &str) -> String {
+        let (width, height) = size.pixels();
+        let top = if self.title.is_some() { 52.0 } else { 32.0 };
+        let named = self.series.iter().any(|series| !series.name.is_empty());
+        let right = width - if named || !self.key.is_empty() { NAMES } else { 16.0 };
+        let frame = Frame { left: 56.0, top, right, bottom: height - 46.0 };
+        let mut svg = Svg::default();
+        svg.named(about);
+        if !style.is_empty() {
+            svg.rectangle("ground", (0.0, 0.0), (width, height));
+        }
+        if let Some(title) = &self.title {
+            svg.text("title", 12.0, 22.0, Anchor::Start, title);
+        }
+        self.axes(&mut svg, frame);
+        self.shade(&mut svg, frame);
+        self.staircase(&mut svg, frame);
+        for series in &self.series {
+            self.curve(&mut svg, frame, series, size.radius());
+        }
+        self.notes(&mut svg, frame);
+        self.names(&mut svg, frame, size.radius());
+        svg.end();
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot\" role=\"img\" width=\"{width}\" \
+             height=\"{height}\" viewBox=\"0 0 {width} {height}\">\n{style}{}</svg>\n",
+            svg.0
+        )
+    }
+
+    fn axes(&self, svg: &mut Svg, frame: Frame) {
+        for tick in self.across.ticks() {
+            let Some(x) = self.across.part(tick.at).map(|part| frame.x(part)) else { continue };
+            if let Some(label) = &tick.label {
+                svg.line("grid", &[(x, frame.top), (x, frame.bottom)]);
+                svg.text("faint small", x, frame.bottom + 17.0, Anchor::Middle, label);
+            } else {
+                svg.line("rim", &[(x, frame.bottom), (x, frame.bottom + 3.0)]);
+            }
+        }
+        for tick in self.up.ticks() {
+            let Some(y) = self.up.part(tick.at).map(|part| frame.y(part)) else { continue };
+            if let Some(label) = &tick.label {
+                svg.line("grid", &[(frame.left, y), (frame.right, y)]);
+                svg.text("faint small", frame.left - 7.0, y + 4.0, Anchor::End, label);
+            } else {
+                svg.line("rim", &[(frame.left - 3.0, y), (frame.left, y)]);
+            }
+        }
+        let corners = [frame.left, frame.right].map(|x| (x, frame.bottom));
+        svg.line("rim", &[(frame.left, frame.top), corners[0], corners[1]]);
+        svg.text("faint small", 12.0, frame.top - 12.0, Anchor::Start, &self.up.label);
+        let middle = 0.5 * (frame.left + frame.right);
+        svg.text("faint small", middle, frame.bottom + 36.0, Anchor::Middle, &self.across.label);
+    }
+
+    fn shade(&self, svg: &mut Svg, frame: Frame) {
+        let Some(band) = &self.band else { return };
+        let Some(part) = self.up.part(band.up_to).filter(|&part| part > 0.0) else { return };
+        let top = frame.y(part.min(1.0));
+        svg.rectangle("band", (frame.left, top), (frame.right - frame.left, frame.bottom - top));
+        if frame.bottom - top > 14.0 {
+            let x = frame.left + 8.0;
+            svg.text("faint tiny", x, frame.bottom - 5.0, Anchor::Start, &band.label);
+        }
+    }
+
+    /// What can be had for each time: the error of the nearest that is no dearer.
+    fn staircase(&self, svg: &mut Svg, frame: Frame) {
+        let mut points: Vec<(f64, f64)> = Vec::new();
+        for (x, y) in self.front.iter().filter_map(|&(x, y)| self.place(frame, x, y)) {
+            points.push((x, points.last().map_or(frame.top, |last| last.1)));
+            points.push((x, y));
+        }
+        if let Some(&(_, y)) = points.last() {
+            points.push((frame.right, y));
+            svg.line("front", &points);
+        }
+    }
+
+    fn curve(&self, svg: &mut Svg, frame: Frame, series: &Series, radius: f64) {
+        let class = series.look.class();
+        if series.joined {
+            let points: Vec<(f64, f64)> =
+                series.places.iter().filter_map(|p| self.place(frame, p.x, p.y)).collect();
+            let dashed = if series.look.dashed { " dashed" } else { "" };
+            svg.line(&format!("line {class}{dashed}"), &points);
+        }
+        for place in &series.places {
+            let Some((x, y)) = self.place(frame, place.x, place.y) else { continue };
+            svg.named(&place.name);
+            series.look.draw(svg, x, y, radius);
+            svg.end();
+        }
+    }
+
+    /// Notes stand below to the left of their places, where below a front there is nothing; one that
+    /// would stand on another is left out.
+    fn notes(&self, svg: &mut Svg, frame: Frame) {
+        let mut taken: Vec<(f64, f64)> = Vec::new();
+        for place in self.series.iter().flat_map(|series| &series.places) {
+            let Some(note) = &place.note else { continue };
+            let Some((x, y)) = self.place(frame, place.x, place.y) else { continue };
+            let at = (x - 6.0, y + 14.0);
+            if taken
+                .iter()
+                .all(|other| (other.0 - at.0).abs() > 16.0 || (other.1 - at.1).abs() > 10.0)
+            {
+                svg.text("faint tiny halo", at.0, at.1, Anchor::End, note);
+                taken.push(at);
+            }
+        }
+    }
+
+    /// The names of the curves, one below the other in the order in which they end, each with its
+    /// mark and a fine line to its end.
+    fn names(&self, svg: &mut Svg, frame: Frame, radius: f64) {
+        let mut ends: Vec<(f64, f64, &Series)> = self
+            .series
+            .iter()
+            .filter(|series| !series.name.is_empty())
+            .filter_map(|series| {
+                let last = series.places.iter().rev();
+                let mut last = last.filter_map(|p| self.place(frame, p.x, p.y));
+                last.next().map(|(x, y)| (x, y, series))
+            })
+            .collect();
+        ends.sort_by(|a, b| a.1.total_cmp(&b.1));
+        let heights = stacked(&ends.iter().map(|end| end.1).collect::<Vec<_>>(), frame);
+        let (start, gap) = (frame.right + 14.0, radius + 6.0);
+        for ((x, y, series), height) in ends.iter().zip(&heights) {
+            let leader = [(x + radius + 2.0, *y), (frame.right, *y), (start - radius, *height)];
+            svg.line(&format!("leader {}", series.look.class()), &leader);
+            series.look.draw(svg, start, *height, radius);
+            let class = series.look.class();
+            svg.text(&class, start + gap, height + 4.5, Anchor::Start, &series.name);
+        }
+        let below = heights.last().map_or(frame.top, |last| last + 0.6 * LINE);
+        for (k, (look, words)) in self.key.iter().enumerate() {
+            let mut height = below + LINE * (k as f64 + 1.0);
+            if height > frame.bottom {
+                height = frame.top + LINE * k as f64;
+            }
+            look.draw(svg, start, height, radius - 0.5);
+            svg.text("faint tiny", start + gap, height + 3.5, Anchor::Start, words);
+        }
+    }
+
+    fn place(&self, frame: Frame, x: f64, y: f64) -> Option<(f64, f64)> {
+        let (x, y) = (self.across.part(x)?, self.up.part(y)?);
+        let inside = |part: f64| (-1e-9..=1.0 + 1e-9).contains(&part);
+        (inside(x) && inside(y)).then(|| (frame.x(x), frame.y(y)))
+    }
+}
+
+impl Frame {
+    fn x(self, part: f64) -> f64 {
+        self.left + part * (self.right - self.left)
+    }
+
+    fn y(self, part: f64) -> f64 {
+        self.bottom + part * (self.top - self.bottom)
+    }
+}
+
+/// Heights near those wished for, which ascend, a line of text apart at least.
+fn stacked(wished: &[f64], frame: Frame) -> Vec<f64> {
+    let mut heights: Vec<f64> = Vec::with_capacity(wished.len());
+    for &wish in wished {
+        let least = heights.last().map_or(f64::NEG_INFINITY, |last| last + LINE);
+        heights.push(wish.max(least));
+    }
+    let mut most = frame.bottom;
+    for height in heights.iter_mut().rev() {
+        *height = height.min(most);
+        most = *height - LINE;
+    }
+    heights
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::axis::Unit;
+    use super::*;
+
+    const FRAME: Frame = Frame { left: 0.0, top: 0.0, right: 100.0, bottom: 100.0 };
+
+    fn chart(places: &[(f64, f64)]) -> Chart {
+        let values = |k: fn(&(f64, f64)) -> f64| places.iter().map(k).collect::<Vec<_>>();
+        let axis = |v: Vec<f64>| Axis::around("a & b", Unit::Plain, v.into_iter());
+        let place = |&(x, y): &(f64, f64)| Place { x, y, name: "<p>".into(), note: None };
+        Chart {
+            title: None,
+            across: axis(values(|p| p.0)),
+            up: axis(values(|p| p.1)),
+            series: vec![Series {
+                name: "curve".into(),
+                look: Look::number(1),
+                joined: true,
+                places: places.iter().map(place).collect(),
+            }],
+            band: Some(Band { up_to: 1e-9, label: "noise".into() }),
+            front: Vec::new(),
+            key: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn names_keep_their_order_and_their_distance_within_the_frame() {
+        let heights = stacked(&[5.0, 6.0, 50.0, 98.0, 99.0], FRAME);
+        assert!(heights.windows(2).all(|w| w[1] - w[0] >= LINE - 1e-9), "{heights:?}");
+        assert_eq!(heights[0], 5.0);
+        assert_eq!(*heights.last().unwrap(), 100.0);
+    }
+
+    #[test]
+    fn a_place_is_drawn_where_its_logarithms_lie_and_others_not_at_all() {
+        let mut chart = chart(&[(0.1, 0.01), (1.0, 0.1), (10.0, 1.0)]);
+        let middle = chart.place(FRAME, 1.0, 0.1).unwrap();
+        assert!((middle.0 - 50.0).abs() < 1e-9 && (middle.1 - 50.0).abs() < 1e-9, "{middle:?}");
+        for (x, y) in [(0.0, 0.1), (1.0, f64::NAN), (1e9, 0.1), (-1.0, 0.1)] {
+            assert_eq!(chart.place(FRAME, x, y), None);
+        }
+        chart.series[0].places.push(Place { x: f64::NAN, y: 0.0, ..Place::default() });
+        let circles = chart.inline(Size::Wide, "about").matches("<circle").count();
+        // Three places, and the mark beside the name.
+        assert_eq!(circles, 4);
+    }
+
+    #[test]
+    fn a_drawing_is_sound_and_a_file_stands_alone() {
+        let chart = chart(&[(0.1, 0.01), (1.0, 0.1)]);
+        let text = chart.file("a < b");
+        assert!(text.contains("<style>") && text.contains("class=\"ground\""));
+        assert!(text.contains("a &lt; b") && text.contains("a &amp; b") && text.contains("&lt;p"));
+        assert!(!text.contains("NaN") && !text.contains("inf"));
+        for tag in ["svg", "g", "text", "title", "style"] {
+            let opened = text.matches(&format!("<{tag}>")).count()
+                + text.matches(&format!("<{tag} ")).count();
+            assert_eq!(opened, text.matches(&format!("</{tag}>")).count(), "{tag}");
+        }
+        let inline = chart.inline(Size::Small, "");
+        assert!(!inline.contains("<style>") && !inline.contains("\"ground\""));
+    }
+}

@@ -1,0 +1,118 @@
+//! How a curve looks: its colour, and a mark by which it is known without colour.
+
+use super::svg::Svg;
+use render::filter::Filter;
+
+/// The shape of a mark.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mark {
+    /// Two crossed strokes.
+    Cross,
+    /// A circle.
+    Circle,
+    /// A triangle on its side.
+    Triangle,
+    /// A square.
+    Square,
+    /// A square on its corner.
+    Diamond,
+    /// A triangle on its tip.
+    Wedge,
+}
+
+/// How a curve looks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Look {
+    /// One of the six colours of the style, from 0.
+    pub color: u8,
+    /// Its mark.
+    pub mark: Mark,
+    /// Whether the mark is empty.
+    pub hollow: bool,
+    /// Whether the line is dashed.
+    pub dashed: bool,
+}
+
+impl Look {
+    /// One of six looks, which differ in colour and mark; over again after them.
+    #[must_use]
+    pub fn number(k: usize) -> Self {
+        let marks =
+            [Mark::Cross, Mark::Circle, Mark::Triangle, Mark::Square, Mark::Diamond, Mark::Wedge];
+        let color = k % marks.len();
+        Self { color: color as u8, mark: marks[color], hollow: false, dashed: false }
+    }
+
+    /// The look of a filter, the same in all plots.
+    #[must_use]
+    pub fn filter(filter: Filter) -> Self {
+        Self::number(Filter::ALL.iter().position(|&known| known == filter).unwrap_or(0))
+    }
+
+    /// The same with an empty mark.
+    #[must_use]
+    pub fn hollow(self) -> Self {
+        Self { hollow: true, ..self }
+    }
+
+    /// The same with a dashed line.
+    #[must_use]
+    pub fn dashed(self) -> Self {
+        Self { dashed: true, ..self }
+    }
+
+    pub(super) fn class(self) -> String {
+        format!("s{}", self.color)
+    }
+
+    /// Draws the mark; the radius is in pixels.
+    pub(super) fn draw(self, svg: &mut Svg, x: f64, y: f64, radius: f64) {
+        let fill = if self.hollow { "hollow" } else { "full" };
+        let class = format!("mark {fill} {}", self.class());
+        // Marks of different shapes look equally large at these sizes.
+        let outline = |svg: &mut Svg, size: f64, corners: &[(f64, f64)]| {
+            let points: Vec<(f64, f64)> =
+                corners.iter().map(|&(a, b)| (x + size * a, y + size * b)).collect();
+            svg.polygon(&class, &points);
+        };
+        match self.mark {
+            Mark::Circle => svg.circle(&class, x, y, radius),
+            Mark::Cross => {
+                // A cross has no inside: an empty one stands in a circle.
+                let arm = if self.hollow { 0.55 } else { 0.85 } * radius;
+                if self.hollow {
+                    svg.circle(&class, x, y, radius);
+                }
+                svg.line(&class, &[(x - arm, y - arm), (x + arm, y + arm)]);
+                svg.line(&class, &[(x - arm, y + arm), (x + arm, y - arm)]);
+            }
+            Mark::Square => {
+                outline(svg, 0.88 * radius, &[(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]);
+            }
+            Mark::Diamond => {
+                outline(svg, 1.22 * radius, &[(0.0, -1.0), (1.0, 0.0), (0.0, 1.0), (-1.0, 0.0)]);
+            }
+            Mark::Triangle => {
+                outline(svg, 1.2 * radius, &[(0.0, -1.0), (0.95, 0.7), (-0.95, 0.7)]);
+            }
+            Mark::Wedge => {
+                outline(svg, 1.2 * radius, &[(0.0, 1.0), (0.95, -0.7), (-0.95, -0.7)]);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_filter_has_a_mark_and_a_colour_of_its_own() {
+        let looks = Filter::ALL.map(Look::filter);
+        for (k, a) in looks.iter().enumerate() {
+            for b in &looks[k + 1..] {
+                assert!(a.mark != b.mark && a.color != b.color, "{a:?} {b:?}");
+            }
+        }
+    }
+}

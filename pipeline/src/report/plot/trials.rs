@@ -1,0 +1,133 @@
+//! The plots of a page: error against processor time.
+
+use super::axis::{Axis, Unit};
+use super::chart::{Band, Chart, Place, Series};
+use super::look::Look;
+use crate::compare::Difference;
+use crate::report::measured::{PageMeasured, Trial};
+use crate::report::pareto;
+use crate::report::words::numbers::{error, seconds};
+use render::filter::Filter;
+
+const ACROSS: &str = "processor time";
+const UP: &str = "RMS error in linear light, where white is 1";
+const SUPERSAMPLED: &str = "supersampled";
+
+/// Noise below this part of the smallest error is not shown: there is nothing beside it.
+const NOISE_AT_LEAST: f64 = 0.1;
+
+/// Error over the whole picture.
+#[must_use]
+pub fn whole(page: &PageMeasured) -> Chart {
+    let error = |trial: &Trial| Some(trial.whole);
+    let [across, up] = axes(page, &[&error], &[page.truth.noise]);
+    let title = format!("{}: error against time", page.title);
+    Chart { title: Some(title), ..chart(page, &error, page.truth.noise, across, up) }
+}
+
+/// The same for each region, all over the same axes.
+#[must_use]
+pub fn regions(page: &PageMeasured) -> Vec<Chart> {
+    let all: Vec<_> = (0..page.regions.len())
+        .map(|k| move |trial: &Trial| trial.by_region.get(k).copied())
+        .collect();
+    let errors: Vec<&Error<'_>> = all.iter().map(|of| of as &Error<'_>).collect();
+    let [across, up] = axes(page, &errors, &page.truth.noise_by_region);
+    let pixels = f64::from(page.size.0) * f64::from(page.size.1);
+    page.regions
+        .iter()
+        .zip(&errors)
+        .enumerate()
+        .map(|(k, (region, of))| {
+            let noise = page.truth.noise_by_region.get(k).copied().unwrap_or(0.0);
+            let own = region.mask.iter().filter(|&&own| own).count() as f64;
+            let share = 100.0 * own / pixels;
+            let share = if share < 9.95 { format!("{share:.1}") } else { format!("{share:.0}") };
+            let title = format!("{}, {share} % of the pixels", region.name);
+            let chart = chart(page, of, noise, across.clone(), up.clone());
+            Chart { title: Some(title), ..chart }
+        })
+        .collect()
+}
+
+type Error<'a> = dyn Fn(&Trial) -> Option<Difference> + 'a;
+
+/// Axes around the trials, and down to the noise, as far as that is worth the room.
+fn axes(page: &PageMeasured, errors: &[&Error<'_>], noise: &[f64]) -> [Axis; 2] {
+    let trials = || page.trials.iter();
+    let of_all = errors.iter().flat_map(|of| trials().filter_map(move |trial| of(trial)));
+    let mut all: Vec<f64> = of_all.map(|found| found.rmse).filter(|&error| error > 0.0).collect();
+    let least = all.iter().copied().fold(f64::INFINITY, f64::min);
+    let noise = noise.iter().copied().fold(0.0, f64::max);
+    if least.is_finite() && noise > 0.0 {
+        all.push(noise.clamp(NOISE_AT_LEAST * least, least));
+    }
+    [
+        Axis::around(ACROSS, Unit::Seconds, trials().map(|trial| trial.cost.cpu)),
+        Axis::around(UP, Unit::Plain, all.into_iter()),
+    ]
+}
+
+fn chart(page: &PageMeasured, of: &Error<'_>, noise: f64, across: Axis, up: Axis) -> Chart {
+    let points: Vec<(f64, f64)> = page
+        .trials
+        .iter()
+        .map(|trial| (trial.cost.cpu, of(trial).map_or(f64::NAN, |found| found.rmse)))
+        .collect();
+    let front = pareto::front(&points);
+    let place = |k: usize| {
+        let (trial, (x, y)) = (&page.trials[k], points[k]);
+        let name = format!("{}: {} off, {}", trial.method.name(), error(y), seconds(x));
+        let samples = trial.method.evenly().filter(|_| front.contains(&k));
+        Place { x, y, name, note: samples.map(|n| n.to_string()) }
+    };
+    let mut series: Vec<Series> = Vec::new();
+    let mut key = Vec::new();
+    for filter in Filter::ALL {
+        let look = Look::filter(filter);
+        let own = |k: &usize| page.trials[*k].method.filter == filter;
+        let (mut even, other): (Vec<usize>, Vec<usize>) = (0..page.trials.len())
+            .filter(own)
+            .partition(|&k| page.trials[k].method.evenly().is_some());
+        even.sort_by_key(|&k| page.trials[k].method.evenly());
+        if !other.is_empty() {
+            let places = other.into_iter().map(place).collect();
+            series.push(Series { name: String::new(), look: look.hollow(), joined: false, places });
+            key = vec![(Look::filter(Filter::Tent).hollow(), SUPERSAMPLED.to_string())];
+        }
+        if !even.is_empty() {
+            let places = even.into_iter().map(place).collect();
+            series.push(Series { name: filter.to_string(), look, joined: true, places });
+        }
+    }
+    let front = front.iter().map(|&k| points[k]).collect();
+    let band = Band { up_to: noise, label: "noise of the truth".into() };
+    Chart { title: None, across, up, series, band: Some(band), front, key }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::fixture;
+
+    #[test]
+    fn a_page_has_a_line_for_each_filter_over_its_samples() {
+        let page = fixture::page("floor", &fixture::floor, &[("silhouettes", &fixture::edges)]);
+        let chart = whole(&page);
+        let joined: Vec<&Series> = chart.series.iter().filter(|series| series.joined).collect();
+        assert_eq!(joined.len(), Filter::ALL.len());
+        for series in joined {
+            assert_eq!(series.places.len(), fixture::COUNTS.len());
+            assert!(series.places.windows(2).all(|w| w[0].x < w[1].x && w[0].y > w[1].y));
+        }
+        // What is dearer and farther than another is not on the front: no quadratic, no point.
+        let points = |name: &str| {
+            let named = chart.series.iter().find(|series| series.name == name).unwrap();
+            named.places.iter().filter(|place| place.note.is_some()).count()
+        };
+        assert!(points("tent") > 0 && points("bilinear") > 0);
+        assert!(chart.front.windows(2).all(|w| w[0].0 <= w[1].0 && w[0].1 >= w[1].1));
+        let [region] = &regions(&page)[..] else { panic!("one region") };
+        assert!(region.title.as_ref().unwrap().starts_with("silhouettes, 50 %"));
+    }
+}

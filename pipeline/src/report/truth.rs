@@ -1,0 +1,207 @@
+//! The picture that all others are held against: a great many unfiltered rays.
+//!
+//! Each pixel is made of `n * n` jittered rays, which look their textures up by interpolation and average
+//! nothing: what the methods that are judged do cleverly is done here by patience. It is made twice,
+//! of two seeds. Half the difference of the two is the noise of their mean.
+//!
+//! Where that is too much, blocks of the picture are made anew of more rays, the noisiest of the most
+//! ([`blocks::allot`](super::blocks::allot)). Which blocks is decided by the pictures that are
+//! thrown away, so the new ones are as unbiased as the first.
+
+use super::blocks::{Block, allot};
+use render::film::{Crop, Pattern, PixelFilter};
+use render::filter::Filter;
+use render::{Picture, Sampling, Scene, Settings};
+
+/// Pixels along the side of a block.
+const SIDE: u32 = 16;
+
+/// The seeds of the two pictures.
+const SEEDS: [u64; 2] = [1, 2];
+
+/// Two pictures of the same, of two seeds.
+#[derive(Debug, Clone)]
+pub struct Pair {
+    pictures: [Picture; 2],
+    /// The blocks of the picture, and the rays of each along each side of a pixel.
+    blocks: Vec<(Crop, u32)>,
+}
+
+impl Pair {
+    /// Makes both of `samples * samples` rays in each pixel, at most [`render::film::MOST_SAMPLES`]
+    /// along each side. `progress` is told how much of how much is done.
+    ///
+    /// Runs on the threads of the current rayon pool; the result is the same for any number of them.
+    #[must_use]
+    pub fn render(
+        scene: &Scene,
+        (width, height): (u32, u32),
+        samples: u32,
+        progress: &(dyn Fn(usize, usize) + Sync),
+    ) -> Self {
+        let mut half = 0;
+        let pictures = SEEDS.map(|seed| {
+            let settings = settings(width, height, samples, seed);
+            let (picture, _) = render::render(scene, &settings, &|done, total| {
+                progress(half * total + done, 2 * total);
+            });
+            half += 1;
+            picture
+        });
+        let blocks = Crop::whole(width, height).tiles(SIDE).into_iter();
+        Self { pictures, blocks: blocks.map(|block| (block, samples)).collect() }
+    }
+
+    /// The mean of both.
+    #[must_use]
+    pub fn mean(&self) -> Picture {
+        let [first, second] = &self.pictures;
+        let pairs = first.pixels.iter().zip(&second.pixels);
+        let mean = |(a, b): (&[f32; 3], &[f32; 3])| std::array::from_fn(|k| 0.5 * (a[k] + b[k]));
+        Picture { pixels: pairs.map(mean).collect(), ..first.clone() }
+    }
+
+    /// The root mean square difference between the two over all channels of the pixels that `mask` has
+    /// set, or of all; 0 when there are none.
+    #[must_use]
+    pub fn difference(&self, mask: Option<&[bool]>) -> f64 {
+        let set = |k: &usize| mask.is_none_or(|mask| mask[*k]);
+        let places: Vec<usize> = (0..self.pictures[0].pixels.len()).filter(set).collect();
+        let squares: f64 = places.iter().map(|&k| self.square(k)).sum();
+        (squares / (3 * places.len()).max(1) as f64).sqrt()
+    }
+
+    /// About the root mean square error of the mean of both, likewise.
+    #[must_use]
+    pub fn noise(&self, mask: Option<&[bool]>) -> f64 {
+        0.5 * self.difference(mask)
+    }
+
+    /// The fewest and the most rays along each side of a pixel.
+    #[must_use]
+    pub fn samples(&self) -> (u32, u32) {
+        let all = || self.blocks.iter().map(|(_, samples)| *samples);
+        (all().min().unwrap_or(0), all().max().unwrap_or(0))
+    }
+
+    /// Makes blocks anew so that the root mean square difference of the whole may be expected to be
+    /// at most `goal`, of at most `most` rays along each side of a pixel. Says whether there was
+    /// anything to do.
+    pub fn refine(
+        &mut self,
+        scene: &Scene,
+        goal: f64,
+        most: u32,
+        progress: &(dyn Fn(usize, usize) + Sync),
+    ) -> bool {
+        let Picture { width, height, .. } = self.pictures[0];
+        let values = 3.0 * self.pictures[0].pixels.len() as f64;
+        let measured: Vec<Block> = self.blocks.iter().map(|block| self.measured(*block)).collect();
+        let allotted = allot(&measured, goal * goal * values, most);
+        let rays = |block: Crop, samples: u32| {
+            block.width as usize * block.height as usize * (samples * samples) as usize
+        };
+        let more = || self.blocks.iter().zip(&allotted).filter(|((_, has), gets)| *gets > has);
+        let total: usize = more().map(|((block, _), gets)| rays(*block, *gets)).sum();
+        let anew: Vec<(Crop, u32)> = more().map(|((block, _), gets)| (*block, *gets)).collect();
+        let mut done = 0;
+        for &(block, samples) in &anew {
+            for (picture, seed) in self.pictures.iter_mut().zip(SEEDS) {
+                let settings =
+                    Settings { crop: Some(block), ..settings(width, height, samples, seed) };
+                let (part, _) = render::render(scene, &settings, &|_, _| {});
+                paste(picture, block, &part);
+            }
+            done += rays(block, samples);
+            progress(done, total);
+        }
+        for ((_, samples), gets) in self.blocks.iter_mut().zip(allotted) {
+            *samples = gets;
+        }
+        !anew.is_empty()
+    }
+
+    fn measured(&self, (block, samples): (Crop, u32)) -> Block {
+        let width = self.pictures[0].width;
+        let places =
+            block.rows().flat_map(|y| block.columns().map(move |x| (y * width + x) as usize));
+        let squares = places.map(|place| self.square(place)).sum();
+        Block { squares, samples, pixels: block.width as usize * block.height as usize }
+    }
+
+    /// The sum of the squared differences of a pixel's channels.
+    fn square(&self, place: usize) -> f64 {
+        let [a, b] = &self.pictures;
+        let pairs = a.pixels[place].iter().zip(&b.pixels[place]);
+        pairs.map(|(a, b)| (f64::from(*a) - f64::from(*b)).powi(2)).sum()
+    }
+}
+
+fn settings(width: u32, height: u32, samples: u32, seed: u64) -> Settings {
+    let pattern = Pattern::Jitter { seed };
+    let sampling = Sampling::Grid { samples, pattern, pixel_filter: PixelFilter::Box };
+    Settings { sampling, ..Settings::new(width, height, Filter::Bilinear) }
+}
+
+/// Puts a part of a picture back in its place.
+fn paste(picture: &mut Picture, place: Crop, part: &Picture) {
+    for (y, row) in place.rows().zip(part.pixels.chunks_exact(place.width as usize)) {
+        let start = (y * picture.width + place.x) as usize;
+        picture.pixels[start..start + row.len()].copy_from_slice(row);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::board;
+    use super::*;
+
+    const SIZE: u32 = 20;
+
+    fn error(pair: &Pair) -> f64 {
+        let (mean, exact) = (pair.mean(), board::exact(SIZE));
+        let pixels = mean.pixels.iter().flatten().zip(exact.pixels.iter().flatten());
+        let squares: f64 = pixels.map(|(a, b)| f64::from(a - b).powi(2)).sum();
+        (squares / f64::from(3 * SIZE * SIZE)).sqrt()
+    }
+
+    #[test]
+    fn the_noise_is_about_the_error() {
+        let scene = board::scene();
+        for samples in [4, 16, 32] {
+            let pair = Pair::render(&scene, (SIZE, SIZE), samples, &|_, _| {});
+            let (noise, error) = (pair.noise(None), error(&pair));
+            // Of 400 pixels a third cut no border and have none; of the others each is a number of one
+            // square's chance, so both are known to about a tenth.
+            assert!(error > 0.6 * noise && error < 1.6 * noise, "{samples}: {error}, {noise}");
+            assert!(noise < 0.2 / f64::from(samples), "{samples}: {noise}");
+        }
+    }
+
+    #[test]
+    fn more_rays_go_where_the_noise_is_until_it_is_small_enough() {
+        let scene = board::scene();
+        let mut pair = Pair::render(&scene, (SIZE, SIZE), 4, &|_, _| {});
+        let (before, first) = (pair.difference(None), error(&pair));
+        let goal = 0.25 * before;
+        assert!(pair.refine(&scene, goal, 64, &|_, _| {}));
+        let after = pair.difference(None);
+        // Where borders are, noise falls faster than the law that rays are allotted by.
+        assert!(after <= 1.1 * goal, "{before} to {after}");
+        assert!(error(&pair) < 0.5 * first);
+        assert!(pair.samples().0 >= 4 && pair.samples().1 <= 64);
+        assert!(!pair.refine(&scene, before, 64, &|_, _| {}), "there is nothing left to do");
+    }
+
+    #[test]
+    fn masks_choose_pixels() {
+        let pair = Pair::render(&board::scene(), (SIZE, SIZE), 2, &|_, _| {});
+        let count = (SIZE * SIZE) as usize;
+        let left: Vec<bool> = (0..count).map(|k| k % (SIZE as usize) < 5).collect();
+        let right: Vec<bool> = left.iter().map(|set| !set).collect();
+        let squares = 0.25 * pair.difference(Some(&left)).powi(2)
+            + 0.75 * pair.difference(Some(&right)).powi(2);
+        assert!((squares.sqrt() - pair.difference(None)).abs() < 1e-12);
+        assert_eq!(pair.difference(Some(&vec![false; count])), 0.0);
+    }
+}

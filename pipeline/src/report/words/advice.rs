@@ -1,0 +1,133 @@
+//! Which method to use when, for a time that may be spent and for an error that is to be reached.
+
+use super::super::measured::{Method, PageMeasured, Trial};
+use super::numbers::times;
+use super::pool::{everywhere, mean, time_ratio, trial};
+use super::{AS_NEAR, Claim, Topic, Verdict, as_near};
+use render::Sampling;
+use render::filter::Filter;
+
+/// Times that may be spent, by that of one bilinear ray in each pixel.
+const BUDGETS: [f64; 5] = [1.5, 3.0, 10.0, 30.0, 100.0];
+
+/// Errors to be reached, as parts of that of one bilinear ray in each pixel, and what they are called.
+const AIMS: [(f64, &str); 4] =
+    [(0.5, "half"), (0.25, "a quarter"), (0.125, "an eighth"), (0.0625, "a sixteenth")];
+
+/// What to use.
+pub fn claims(pages: &[PageMeasured]) -> Vec<Claim> {
+    let one = Method { filter: Filter::Bilinear, sampling: Sampling::regular(1) };
+    let methods = everywhere(pages);
+    if !methods.contains(&&one) {
+        return Vec::new();
+    }
+    let mut found: Vec<(&Method, Topic, String)> = Vec::new();
+    for budget in BUDGETS {
+        let next = for_budget(pages, &methods, &one, budget);
+        found.extend(next.map(|(method, text)| (method, Topic::Budget, text)));
+    }
+    for aim in AIMS {
+        let next = for_aim(pages, &methods, &one, aim);
+        found.extend(next.map(|(method, text)| (method, Topic::Aim, text)));
+    }
+    // What holds for the greater time, or the smaller error, is said once.
+    let mut claims = Vec::new();
+    for (k, (method, topic, text)) in found.iter().enumerate() {
+        let again = found.get(k + 1).is_some_and(|next| (next.0, next.1) == (*method, *topic));
+        if !again {
+            claims.push(Claim::general(*topic, Verdict::Use, text.clone()));
+        }
+    }
+    claims
+}
+
+/// The method whose error is, in the geometric mean of the pages, the least by that of the nearest
+/// that keeps the time.
+fn for_budget<'a>(
+    pages: &[PageMeasured],
+    methods: &[&'a Method],
+    one: &Method,
+    budget: f64,
+) -> Option<(&'a Method, String)> {
+    let keeps = |page: &PageMeasured, own: &Trial| {
+        trial(page, one).is_some_and(|one| own.cost.cpu <= budget * one.cost.cpu)
+    };
+    let least = |page: &PageMeasured| {
+        let kept = page.trials.iter().filter(|own| keeps(page, own));
+        kept.map(|own| own.whole.rmse).min_by(f64::total_cmp)
+    };
+    let by_least = |page: &PageMeasured, method: &Method| {
+        let own = trial(page, method).filter(|own| keeps(page, own))?;
+        Some(own.whole.rmse / least(page)?)
+    };
+    let (method, _) = methods
+        .iter()
+        .filter_map(|&method| Some((method, mean(pages, |page| by_least(page, method))?)))
+        .min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let ratios: Option<Vec<f64>> = pages.iter().map(|page| by_least(page, method)).collect();
+    let ratios = ratios?;
+    let nearest = ratios.iter().filter(|&&ratio| as_near(ratio, 1.0)).count();
+    let worst = ratios.iter().copied().fold(1.0, f64::max);
+    let held = if worst <= AS_NEAR {
+        format!("of what is done in that time nothing is nearer{}", on_all(pages))
+    } else {
+        format!(
+            "of what is done in that time it is the nearest on {nearest} of {} pages, and nowhere more than \
+             {} times as far off as the nearest",
+            pages.len(),
+            // Rounded up, so that it holds.
+            (100.0 * worst).ceil() / 100.0
+        )
+    };
+    let text = format!(
+        "Use {} where up to {budget} times the time of one bilinear ray in each pixel may be spent: {held}.",
+        method.name()
+    );
+    Some((method, text))
+}
+
+/// The method that takes the least time, in the geometric mean of the pages, of those that reach an
+/// error on every page.
+fn for_aim<'a>(
+    pages: &[PageMeasured],
+    methods: &[&'a Method],
+    one: &Method,
+    (part, called): (f64, &str),
+) -> Option<(&'a Method, String)> {
+    let reaches = |method: &Method| {
+        pages.iter().all(|page| {
+            let errors = [method, one].map(|method| trial(page, method).map(|own| own.whole.rmse));
+            matches!(errors, [Some(own), Some(one)] if own <= part * one)
+        })
+    };
+    let fastest = |of: &dyn Fn(&Method) -> bool| {
+        methods
+            .iter()
+            .filter(|method| of(method) && reaches(method))
+            .filter_map(|&method| Some((method, time_ratio(pages, method, one)?)))
+            .min_by(|a, b| a.1.total_cmp(&b.1))
+    };
+    let (method, ratio) = fastest(&|_| true)?;
+    let rays = fastest(&|method| method.filter == Filter::Bilinear);
+    let against = match rays {
+        Some((rays, _)) if rays == method => String::new(),
+        Some((rays, own)) => format!(
+            "; bilinear rays alone take {} for it, and {} times as long as that",
+            rays.rays().trim_end_matches(" rays"),
+            times(own / ratio)
+        ),
+        None => "; no number of bilinear rays that was measured does".into(),
+    };
+    let text = format!(
+        "Use {} where the error is to be at most {called} of that of one bilinear ray: nothing faster gets there\
+         {}, and it takes {} times the time of one bilinear ray{against}.",
+        method.name(),
+        on_all(pages),
+        times(ratio)
+    );
+    Some((method, text))
+}
+
+fn on_all(pages: &[PageMeasured]) -> &'static str {
+    if pages.len() == 1 { "" } else { " on every page" }
+}

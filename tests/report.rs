@@ -1,0 +1,66 @@
+//! `pipeline report`, small and in haste.
+
+mod support;
+
+use std::fs;
+use std::path::Path;
+use support::{run, words};
+
+#[test]
+fn a_page_is_measured_by_every_method_of_a_hasty_report() {
+    let folder = tempfile::tempdir().unwrap();
+    let ask = ["report", "glass-sphere", "--quick", "--size", "16x12", "-o", "out", "-q"];
+    let ran = run("pipeline", &ask, folder.path());
+    assert!(ran.status.success(), "{}", words(&ran));
+    assert!(ran.stdout.is_empty() && ran.stderr.is_empty(), "{}", words(&ran));
+    let read = |name: &str| fs::read_to_string(folder.path().join("out").join(name)).unwrap();
+    let report = read("report.csv");
+    let rows: Vec<Vec<&str>> = report.lines().map(|line| line.split(',').collect()).collect();
+    let column = |name: &str| rows[0].iter().position(|column| *column == name).unwrap();
+    let whole: Vec<&Vec<&str>> =
+        rows[1..].iter().filter(|row| row[column("region")] == "whole").collect();
+    // Six filters by three ways to make a pixel.
+    assert_eq!(whole.len(), 18);
+    let number = |row: &[&str], name: &str| row[column(name)].parse::<f64>().unwrap();
+    for row in &rows[1..] {
+        assert_eq!(row.len(), rows[0].len());
+        assert_eq!((row[column("page")], row[column("width")]), ("glass-sphere", "16"));
+        assert!(number(row, "rmse") <= number(row, "max"), "{row:?}");
+        assert!(number(row, "wall_s") > 0.0 && number(row, "rays") >= 192.0, "{row:?}");
+    }
+    // The picture alone takes 12 bytes a pixel; a table is held while a picture is made with it.
+    let peak = |filter: &str| {
+        number(whole.iter().find(|row| row[column("filter")] == filter).unwrap(), "peak_bytes")
+    };
+    assert!(peak("point") >= 12.0 * 192.0 && peak("tent") > peak("point") + 1e5);
+    assert!(read("report.html").contains("report.csv"));
+    for file in ["glass-sphere.svg", "tables.csv", "cells.csv", "filters.csv", "mapping.csv"] {
+        assert!(!read(file).is_empty(), "{file}");
+    }
+}
+
+#[test]
+fn what_cannot_be_measured_is_said_before_anything_is_made() {
+    let folder = tempfile::tempdir().unwrap();
+    let ask = |arguments: &[&str]| {
+        let ran = run("pipeline", &[&["report", "-o", "out"], arguments].concat(), folder.path());
+        (ran.status.code().unwrap(), words(&ran))
+    };
+    for (arguments, code, expected) in [
+        (["peer-glas"].as_slice(), 2, "did you mean peer-glass?"),
+        (&["none.json"], 5, "none.json"),
+        (&["vase", "--size", "0x1"], 2, "WIDTHxHEIGHT"),
+        (&["vase", "--truth", "31"], 2, "31"),
+        (&["vase", "--max-texture-mem", "1k"], 6, "--max-texture-mem"),
+    ] {
+        let (found, words) = ask(arguments);
+        assert_eq!(found, code, "{words}");
+        assert!(words.contains(expected), "{words}");
+    }
+    fs::create_dir_all(folder.path().join("out")).unwrap();
+    fs::write(folder.path().join("out/report.html"), "mine").unwrap();
+    let (code, words) = ask(&["peer-glass", "--no-clobber"]);
+    assert_eq!(code, 5, "{words}");
+    assert_eq!(fs::read_to_string(folder.path().join("out/report.html")).unwrap(), "mine");
+    assert!(!Path::new(&folder.path().join("out/report.csv")).exists());
+}
