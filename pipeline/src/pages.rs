@@ -151,9 +151,10 @@ const FOLDER: &str = "examples/pages";
 #[must_use]
 pub fn names() -> Vec<&'static str> {
     let jobs = FILES.0.iter().map(|(path, _)| Path::new(path));
-    jobs.filter(|path| path.parent() == Some(Path::new(FOLDER)))
-        .filter_map(|path| path.file_stem()?.to_str())
-        .collect()
+    let jobs = jobs.filter(|path| path.parent() == Some(Path::new(FOLDER)));
+    let mut names: Vec<&str> = jobs.filter_map(|path| path.file_stem()?.to_str()).collect();
+    names.sort_unstable();
+    names
 }
 
 /// Where the job of a page lies among the files.

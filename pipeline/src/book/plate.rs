@@ -16,7 +16,7 @@ use render::filter::Filter;
 use render::stats::Stats;
 use render::{Picture, Sampling, Scene};
 use std::sync::{Mutex, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 /// All that the book shows of a job.
 #[derive(Debug)]
@@ -62,7 +62,7 @@ impl Plate {
         truth: u32,
     ) -> Result<Self, PipelineError> {
         let job = entry.job;
-        let (scene, meshes, shared) = scene(entry, options)?;
+        let (scene, Shared { meshes, stages: shared }) = scene(entry, options)?;
         let mut shots = Vec::new();
         for mode in &job.modes {
             shots.push(Shot::make(&scene, mode, true, options.size)?);
@@ -142,22 +142,28 @@ fn places(crops: &[Place], shots: &[Shot]) -> Vec<Place> {
     }
 }
 
-/// The scene of a job, its meshes, and what both took.
-fn scene(
-    entry: &Entry<'_>,
-    options: &run::Options,
-) -> Result<(Scene, Vec<(String, usize)>, Stages), PipelineError> {
-    let made = Mutex::new((Vec::new(), Stages::default()));
+/// What all modes of a job share.
+#[derive(Debug, Default)]
+struct Shared {
+    /// The meshes that were made, and how many triangles each has.
+    meshes: Vec<(String, usize)>,
+    /// What they and the scene took.
+    stages: Stages,
+}
+
+/// The scene of a job, and what it took.
+fn scene(entry: &Entry<'_>, options: &run::Options) -> Result<(Scene, Shared), PipelineError> {
+    let shared = Mutex::new(Shared::default());
     let started = Instant::now();
     let scene = run::scene(entry.job, entry.source, options, &|event| {
         if let Event::Mesh { name, triangles, sweep, triangulate, .. } = event {
-            let mut made = made.lock().unwrap_or_else(PoisonError::into_inner);
-            made.0.push((name.to_owned(), triangles));
-            made.1 += Stages { sweep, triangulate, ..Stages::default() };
+            let mut shared = shared.lock().unwrap_or_else(PoisonError::into_inner);
+            shared.meshes.push((name.to_owned(), triangles));
+            shared.stages += Stages { sweep, triangulate, ..Stages::default() };
         }
     })?;
-    let all: Duration = started.elapsed();
-    let (meshes, mut stages) = made.into_inner().unwrap_or_else(PoisonError::into_inner);
-    stages.read = all.saturating_sub(stages.total());
-    Ok((scene, meshes, stages))
+    let all = started.elapsed();
+    let mut shared = shared.into_inner().unwrap_or_else(PoisonError::into_inner);
+    shared.stages.read = all.saturating_sub(shared.stages.total());
+    Ok((scene, shared))
 }
