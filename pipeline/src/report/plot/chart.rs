@@ -1,6 +1,6 @@
 //! Curves over two axes by powers of ten.
 
-use super::axis::Axis;
+use super::axis::{Axis, Tick};
 use super::look::Look;
 use super::svg::{Anchor, Svg};
 
@@ -81,6 +81,9 @@ struct Frame {
 /// Distance of lines of text.
 const LINE: f64 = 17.0;
 
+/// Room for a label of the axis to the right.
+const LABEL: f64 = 48.0;
+
 /// Room for the names of curves.
 const NAMES: f64 = 104.0;
 
@@ -142,9 +145,11 @@ impl Chart {
     }
 
     fn axes(&self, svg: &mut Svg, frame: Frame) {
-        for tick in self.across.ticks() {
+        let ticks = self.across.ticks();
+        let labels = self.labels(&ticks, frame);
+        for (tick, labelled) in ticks.iter().zip(labels) {
             let Some(x) = self.across.part(tick.at).map(|part| frame.x(part)) else { continue };
-            if let Some(label) = &tick.label {
+            if let Some(label) = tick.label.as_ref().filter(|_| labelled) {
                 svg.line("grid", &[(x, frame.top), (x, frame.bottom)]);
                 svg.text("faint small", x, frame.bottom + 17.0, Anchor::Middle, label);
             } else {
@@ -167,13 +172,36 @@ impl Chart {
         svg.text("faint small", middle, frame.bottom + 36.0, Anchor::Middle, &self.across.label);
     }
 
+    /// Which labels of the axis to the right have room: powers of ten first, then what fits between.
+    fn labels(&self, ticks: &[Tick], frame: Frame) -> Vec<bool> {
+        let mut taken: Vec<f64> = Vec::new();
+        let mut shown = vec![false; ticks.len()];
+        for whole in [true, false] {
+            for (tick, shown) in ticks.iter().zip(&mut shown) {
+                let starts = |label: &String| label.starts_with('1') == whole;
+                let Some(part) = self.across.part(tick.at) else { continue };
+                let x = frame.x(part);
+                let free = taken.iter().all(|other| (x - other).abs() >= LABEL);
+                if tick.label.as_ref().is_some_and(starts) && free {
+                    taken.push(x);
+                    *shown = true;
+                }
+            }
+        }
+        shown
+    }
+
     fn shade(&self, svg: &mut Svg, frame: Frame) {
         let Some(band) = &self.band else { return };
-        let Some(part) = self.up.part(band.up_to).filter(|&part| part > 0.0) else { return };
+        let x = frame.left + 8.0;
+        let Some(part) = self.up.part(band.up_to).filter(|&part| part > 0.0) else {
+            let label = format!("{}: below", band.label);
+            svg.text("faint tiny halo", x, frame.bottom - 5.0, Anchor::Start, &label);
+            return;
+        };
         let top = frame.y(part.min(1.0));
         svg.rectangle("band", (frame.left, top), (frame.right - frame.left, frame.bottom - top));
         if frame.bottom - top > 14.0 {
-            let x = frame.left + 8.0;
             svg.text("faint tiny", x, frame.bottom - 5.0, Anchor::Start, &band.label);
         }
     }

@@ -14,7 +14,7 @@ const UP: &str = "RMS error in linear light, where white is 1";
 const SUPERSAMPLED: &str = "supersampled";
 
 /// Noise below this part of the smallest error is not shown: there is nothing beside it.
-const NOISE_AT_LEAST: f64 = 0.1;
+const NOISE_AT_LEAST: f64 = 0.08;
 
 /// Error over the whole picture.
 #[must_use]
@@ -59,8 +59,8 @@ fn axes(page: &PageMeasured, errors: &[&Error<'_>], noise: &[f64]) -> [Axis; 2] 
     let mut all: Vec<f64> = of_all.map(|found| found.rmse).filter(|&error| error > 0.0).collect();
     let least = all.iter().copied().fold(f64::INFINITY, f64::min);
     let noise = noise.iter().copied().fold(0.0, f64::max);
-    if least.is_finite() && noise > 0.0 {
-        all.push(noise.clamp(NOISE_AT_LEAST * least, least));
+    if least.is_finite() && noise >= NOISE_AT_LEAST * least {
+        all.push(noise.min(least));
     }
     [
         Axis::around(ACROSS, Unit::Seconds, trials().map(|trial| trial.cost.cpu)),
@@ -101,7 +101,7 @@ fn chart(page: &PageMeasured, of: &Error<'_>, noise: f64, across: Axis, up: Axis
         }
     }
     let front = front.iter().map(|&k| points[k]).collect();
-    let band = Band { up_to: noise, label: "noise of the truth".into() };
+    let band = Band { up_to: noise, label: format!("noise of the truth, {}", error(noise)) };
     Chart { title: None, across, up, series, band: Some(band), front, key }
 }
 

@@ -53,6 +53,8 @@ pub enum Topic {
     Beaten,
     /// What the filters do in a region.
     Region,
+    /// Mip-mapping against the tent.
+    Mip,
     /// What is left of the filter when there are many rays.
     ManyRays,
     /// The orders of repeated integration against each other.

@@ -172,8 +172,8 @@ fn together(claims: &[Claim]) -> Vec<Claim> {
             Topic::OneRay,
             Verdict::Wins,
             format!(
-                "On {} of {all} pages one ray with the thesis's filter costs less than as many bilinear rays \
-                 as it takes to be as near to the truth.",
+                "On {} of {all} pages one ray with the thesis's filter costs less than the bilinear rays that come \
+                 as near to the truth.",
                 wins.len()
             ),
         );
@@ -186,8 +186,8 @@ fn together(claims: &[Claim]) -> Vec<Claim> {
             Topic::OneRay,
             Verdict::Loses,
             format!(
-                "On {} one ray with the thesis's filter costs more than bilinear rays that are as near to \
-                 the truth, or is not as near as they are in the same time.",
+                "On {} one ray with the thesis's filter costs more than bilinear rays that come as near to the \
+                 truth, or as much as such that come nearer.",
                 list(&loses)
             ),
         );

@@ -10,7 +10,7 @@ use render::filter::Filter;
 
 /// What can be said of all pages together.
 pub fn claims(pages: &[PageMeasured]) -> Vec<Claim> {
-    [many_rays(pages), orders(pages), supersampling(pages), memory(pages)]
+    [mip(pages), many_rays(pages), orders(pages), supersampling(pages), memory(pages)]
         .into_iter()
         .flatten()
         .collect()
@@ -69,6 +69,29 @@ fn many_rays(pages: &[PageMeasured]) -> Option<Claim> {
              all pages), {cost}{ends}."
         ),
     )
+}
+
+/// The pyramid, which is no method of the thesis's, with one ray.
+fn mip(pages: &[PageMeasured]) -> Option<Claim> {
+    let (mip, tent) = (method(Filter::Mip, 1), method(Filter::Tent, 1));
+    let (own, rival) = (whole(pages, &mip)?, whole(pages, &tent)?);
+    let ratio = time_ratio(pages, &mip, &tent)?;
+    let (verdict, words) = if nearer(rival, own) {
+        (Verdict::Wins, "is farther from the truth than the tent")
+    } else if nearer(own, rival) {
+        (Verdict::Loses, "is nearer to the truth than the tent")
+    } else if AS_FAST * ratio < 1.0 {
+        (Verdict::Loses, "is as near to the truth as the tent")
+    } else {
+        (Verdict::Even, "is as near to the truth as the tent")
+    };
+    let text = format!(
+        "With one ray, mip-mapping {words} ({} and {} over all pages), {}.",
+        error(own),
+        error(rival),
+        in_the_time(ratio)
+    );
+    Some(Claim::general(Topic::Mip, verdict, text))
 }
 
 /// Box, tent and quadratic with one ray.

@@ -173,6 +173,25 @@ fn with_many_rays_the_filter_counts_as_long_as_it_does() {
 }
 
 #[test]
+fn mip_mapping_is_held_against_the_tent() {
+    for (error, price, verdict, words) in [
+        (0.06, 0.034, Verdict::Wins, "farther from the truth than the tent (0.060 and 0.040"),
+        (0.04, 0.034, Verdict::Loses, "as near to the truth as the tent"),
+        (0.04, 0.04, Verdict::Even, "as near to the truth as the tent"),
+        (0.03, 0.05, Verdict::Loses, "nearer to the truth than the tent"),
+    ] {
+        let law = |filter, n: f64| match filter {
+            Filter::Mip => (error, price * n * n),
+            filter => floor(filter, n),
+        };
+        let claims = said(vec![fixture::page("floor", &law, &[])]);
+        let (found, text) = one(&claims, Topic::Mip);
+        assert_eq!(found, verdict, "{text}");
+        assert!(text.contains(words), "{text}");
+    }
+}
+
+#[test]
 fn orders_and_supersampling_are_judged_by_their_errors() {
     let claims = said(vec![fixture::page("floor", &floor, &[])]);
     let (verdict, text) = one(&claims, Topic::Orders);
@@ -206,15 +225,15 @@ fn orders_and_supersampling_are_judged_by_their_errors() {
 fn what_is_advised_keeps_the_time_and_reaches_the_error() {
     let claims = said(vec![fixture::page("floor", &floor, &[])]);
     let budgets = about(&claims, Topic::Budget);
-    // One bilinear ray is the nearest of what takes 1.5 times its time; from twice on it is the tent.
-    assert!(budgets[0].1.starts_with("Use bilinear, 1 ray where up to 1.5 times"), "{budgets:?}");
-    assert!(budgets[1].1.starts_with("Use tent, 1 ray where up to 3 times"), "{budgets:?}");
+    // The tent costs twice as much as one bilinear ray; 2 x 2 with it, eight times.
+    assert!(budgets[0].1.starts_with("Use tent, 1 ray where up to 5 times"), "{budgets:?}");
+    assert!(budgets[1].1.starts_with("Use tent, 3 x 3 rays where up to 20 times"), "{budgets:?}");
     assert!(budgets.iter().all(|(verdict, _)| *verdict == Verdict::Use));
     let aims = about(&claims, Topic::Aim);
-    // Mip-mapping, 0.3, is the cheapest below a half and not below a quarter.
-    let expected = "Use mip, 1 ray where the error is to be at most half of that of one bilinear ray: nothing \
-                    faster gets there, and it takes 1.7 times the time of one bilinear ray; bilinear rays alone \
-                    take 2 x 2 for it, and 2.4 times as long as that.";
+    // Mip-mapping, 0.3, is the cheapest below a half; the box is as fast, and nearer.
+    let expected = "Use box, 1 ray where the error is to be at most half of that of one bilinear ray: nothing \
+                    faster gets there, and it takes 1.8 times the time of one bilinear ray; with bilinear rays \
+                    alone it takes 2 x 2 rays, in 2.2 times the time.";
     assert_eq!(aims[0].1, expected);
     assert!(aims[1].1.starts_with("Use tent, 1 ray where the error is to be at most a quarter"));
     // Where filters do nothing, bilinear rays are advised.
