@@ -27,7 +27,7 @@
 //! Of a mode, `filter` must be there; the rest is what the flags of `render` are: `samples` (1 to 256,
 //! by default 1), `pattern` (`regular` or `jitter`, with a `seed`), `pixel_filter` (`box` or `tent`), or
 //! in their place `supersample` (`image` or `rays`). `figure` says which figure of the thesis it is made after,
-//! `thesis_minutes` how long that took.
+//! by which it can be asked for; no other mode has it. `thesis_minutes` is how long that took.
 //!
 //! `caption` and `crops`, places by fractions of width and height that are worth a look pixel by pixel, are for
 //! the book.
