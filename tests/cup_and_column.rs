@@ -26,13 +26,14 @@ struct Material {
 /// What `triangulate` says of a spec in `examples/curves`, cut as the spec says.
 fn report(curve: &str, folder: &Path) -> Report {
     let spec = root().join("examples/curves").join(curve);
-    let swept = run("sweep", &[spec.to_str().unwrap(), "-o", "a.grid"], folder);
+    let swept = run("sweep", &[spec.to_str().expect("the path is UTF-8"), "-o", "a.grid"], folder);
     assert!(swept.status.success(), "{}", words(&swept));
     let arguments = ["-q", "a.grid", "-o", "a.obj", "--report", "a.json"];
     let split = run("triangulate", &arguments, folder);
     assert!(split.status.success(), "{}", words(&split));
-    let bytes = fs::read(folder.join("a.json")).unwrap();
-    Document::new("a.json", &bytes).unwrap().parse().unwrap()
+    let bytes = fs::read(folder.join("a.json")).expect("the report is there");
+    let report = Document::new("a.json", &bytes).and_then(|document| document.parse());
+    report.unwrap_or_else(|error| panic!("{error}"))
 }
 
 #[test]

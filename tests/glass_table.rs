@@ -33,18 +33,19 @@ fn triangles(said: &str) -> Vec<(String, usize)> {
 /// The steps of a pixel's tree that lead to what the sea's plane shows: for each sight of it the
 /// lines on the way, from the eye, each with the lines that tell of it.
 fn ways_to_the_sea(pixel: &str) -> Vec<Vec<String>> {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempfile::tempdir().expect("a folder is made");
     make("glass-table", SMALL, folder.path());
     let scene = support::root().join("examples/scenes/glass-table.json");
     let mesh = |name: &str| format!("{name}=out/glass-table-{name}.obj");
     let meshes = ["glass", "water", "prism"].map(mesh);
-    let mut arguments = vec![scene.to_str().unwrap(), "--size", SIZE, "--pixel", pixel];
+    let mut arguments =
+        vec![scene.to_str().expect("its name is text"), "--size", SIZE, "--pixel", pixel];
     arguments.extend(meshes.iter().flat_map(|mesh| ["--mesh", mesh]));
     let ran = run("render", &arguments, folder.path());
     assert!(ran.status.success(), "{}", words(&ran));
     let mut way: Vec<String> = Vec::new();
     let mut ways = Vec::new();
-    for line in String::from_utf8(ran.stdout).unwrap().lines() {
+    for line in String::from_utf8_lossy(&ran.stdout).lines() {
         let text = line.trim_start();
         let depth = text.split(' ').next().and_then(|word| word.parse::<usize>().ok());
         match depth {
@@ -54,7 +55,9 @@ fn ways_to_the_sea(pixel: &str) -> Vec<Vec<String>> {
             }
             _ => way.last_mut().into_iter().for_each(|step| *step += &format!("\n{text}")),
         }
-        if text.starts_with("colour handed up") && way.last().unwrap().contains("object 0, plane") {
+        if text.starts_with("colour handed up")
+            && way.last().is_some_and(|step| step.contains("object 0, plane"))
+        {
             ways.push(way.clone());
         }
     }

@@ -143,7 +143,7 @@ fn a_sky_that_is_none_is_refused_with_its_place_by_reader_and_schema_alike() {
             "by_elevation[0][0]: found -91, expected -90",
             false,
         ),
-        (json!({ "by_elevation": [[0, [0, -1, 0]]] }), "by_elevation[0][1][1]: found -1", false),
+        (json!({ "by_elevation": [[0, [0, -1, 0]]] }), "by_elevation[0][1]: found -1", false),
     ] {
         let scene = with(background);
         let message = said(&scene).unwrap_or_else(|| panic!("{scene} is taken"));

@@ -140,6 +140,24 @@ impl Job {
         Ok(Self::parse(&Document::new(&name, &bytes)?, &stem, folder)?)
     }
 
+    /// The job with only the modes of these names, in its own order; with all of them where there are
+    /// no names.
+    ///
+    /// # Errors
+    /// When it has no mode of one of the names.
+    pub fn with_modes(mut self, names: &[String]) -> Result<Self, PipelineError> {
+        let has = |name: &&String| self.modes.iter().any(|mode| mode.name == **name);
+        if let Some(name) = names.iter().find(|name| !has(name)) {
+            let known: Vec<&str> = self.modes.iter().map(|mode| mode.name.as_str()).collect();
+            let (job, name, known) = (self.name.clone(), name.clone(), known.join(", "));
+            return Err(PipelineError::UnknownMode { job, name, known });
+        }
+        let all = self.modes.len();
+        self.modes.retain(|mode| names.is_empty() || names.contains(&mode.name));
+        self.whole &= self.modes.len() == all;
+        Ok(self)
+    }
+
     /// The numbers of the figures of the thesis that it shows, ascending.
     #[must_use]
     pub fn figures(&self) -> Vec<u8> {

@@ -8,7 +8,7 @@ mod trials;
 
 use super::measured::{Measured, PageMeasured};
 use super::plot::{self, Chart, Size};
-use super::words::{AS_FAST, AS_NEAR, Claim};
+use super::words::{AS_FAST, AS_NEAR, Claim, Verdict};
 use crate::PipelineError;
 use crate::html;
 use maud::{Markup, PreEscaped, html};
@@ -68,6 +68,23 @@ fn count(n: usize, thing: &str) -> String {
     if n == 1 { format!("one {thing}") } else { format!("{n} {thing}s") }
 }
 
+/// Words as they are set: with the signs that a keyboard lacks.
+pub fn set(text: &str) -> String {
+    text.replace('\'', "\u{2019}").replace(" x ", " \u{d7} ")
+}
+
+/// A sentence, with the method that it says to use in bold.
+fn sentence(claim: &Claim) -> Markup {
+    let text = set(&claim.text);
+    let parts = text.strip_prefix("Use ").and_then(|rest| rest.split_once(" where "));
+    html! {
+        @match parts.filter(|_| claim.verdict == Verdict::Use) {
+            Some((method, when)) => { "Use " b { (method) } " where " (when) }
+            None => (text),
+        }
+    }
+}
+
 fn percent(part: f64) -> String {
     format!("{:.0} %", 100.0 * part)
 }
@@ -86,7 +103,7 @@ fn how(measured: &Measured) -> Markup {
                     "The program's own picture of jittered bilinear rays without a filter: two of them, from two "
                     "seeds"
                     @if let Some(samples) = samples {
-                        ", of at least " (samples) " x " (samples) " rays in a pixel each"
+                        ", of at least " (samples) " \u{d7} " (samples) " rays in a pixel each"
                     }
                     ", and their mean. It is a truth about textures, edges and sampling; what the renderer "
                     "itself leaves out of light, it leaves out of the truth too."

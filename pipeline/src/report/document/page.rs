@@ -14,9 +14,9 @@ pub fn section(page: &PageMeasured, claims: &[Claim]) -> Result<Markup, Pipeline
     let (width, height) = page.size;
     let truth = &page.truth;
     let rays = if truth.samples == truth.most_samples {
-        format!("{0} x {0}", truth.samples)
+        format!("{0} \u{d7} {0}", truth.samples)
     } else {
-        format!("{0} x {0} to {1} x {1}", truth.samples, truth.most_samples)
+        format!("{0} \u{d7} {0} to {1} \u{d7} {1}", truth.samples, truth.most_samples)
     };
     let pictures = pictures::pictures(page)?;
     Ok(html! {
@@ -24,10 +24,10 @@ pub fn section(page: &PageMeasured, claims: &[Claim]) -> Result<Markup, Pipeline
             p.eyebrow { (page.name) }
             h2 { (page.title) }
             p.faint {
-                (width) " x " (height) " pixels; the truth is of two times " (rays)
+                (width) " \u{d7} " (height) " pixels; the truth is of two times " (rays)
                 " rays in a pixel, and its noise " (error(truth.noise)) "."
             }
-            @if !own.is_empty() { ul { @for claim in own { li { (claim.text) } } } }
+            @if !own.is_empty() { ul { @for claim in own { li { (super::sentence(claim)) } } } }
             (pictures)
             div.plots { (chart(&plots::whole(page), &about_plot(page))) }
             @if !page.regions.is_empty() {

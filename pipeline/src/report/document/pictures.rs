@@ -37,7 +37,7 @@ pub fn pictures(page: &PageMeasured) -> Result<Markup, PipelineError> {
                     img src=(own) alt={ (page.name) " by " (trial.method.name()) };
                     img src=(errors) alt={ "Where " (trial.method.name()) " is wrong" };
                     figcaption {
-                        b { (trial.method.name()) }
+                        b { (super::set(&trial.method.name())) }
                         @if !why.is_empty() { br; span.faint { (why) } }
                         br;
                         (error(trial.whole.rmse)) " off, " (seconds(trial.cost.cpu))

@@ -32,7 +32,7 @@ pub fn section(measured: &Measured, claims: &[Claim]) -> Markup {
                 @if !own.is_empty() {
                     div.verdict {
                         h3 { (heading) }
-                        ul { @for claim in own { li { (claim.text) } } }
+                        ul { @for claim in own { li { (super::sentence(claim)) } } }
                     }
                 }
             }
@@ -95,7 +95,7 @@ fn row(page: &PageMeasured) -> Markup {
             td { (cell(nine(Nine::Image).or_else(|| nine(Nine::Rays)))) }
             td {
                 (cell(nearest))
-                @if let Some(nearest) = nearest { br; span.faint { (nearest.method.name()) } }
+                @if let Some(nearest) = nearest { br; span.faint { (super::set(&nearest.method.name())) } }
             }
         }
     }

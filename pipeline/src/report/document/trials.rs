@@ -55,7 +55,7 @@ fn row(trial: &Trial, on_front: bool) -> Markup {
     let (cost, whole) = (&trial.cost, &trial.whole);
     html! {
         tr.front[on_front] {
-            td { (trial.method.name()) }
+            td { (super::set(&trial.method.name())) }
             td { (seconds(cost.wall)) }
             td { (seconds(cost.cpu)) }
             td { (thousands(cost.rays)) }

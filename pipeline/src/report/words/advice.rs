@@ -69,7 +69,7 @@ fn for_budget<'a>(
     let nearest = ratios.iter().filter(|&&ratio| as_near(ratio, 1.0)).count();
     let worst = ratios.iter().copied().fold(1.0, f64::max);
     let held = if worst <= AS_NEAR {
-        format!("of what is done in that time nothing is nearer{}", on_all(pages))
+        format!("nothing that is done in that time is nearer{}", on_any(pages))
     } else {
         format!(
             "of what is done in that time it is the nearest on {nearest} of {} pages, and nowhere more than \
@@ -126,6 +126,10 @@ fn for_aim<'a>(
         times(ratio)
     );
     Some((method, text))
+}
+
+fn on_any(pages: &[PageMeasured]) -> &'static str {
+    if pages.len() == 1 { "" } else { " on any page" }
 }
 
 fn on_all(pages: &[PageMeasured]) -> &'static str {

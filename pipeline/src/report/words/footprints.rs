@@ -49,7 +49,10 @@ fn hard(floor: &Table, topic: Topic, columns: [&str; 2], places: [&str; 2]) -> O
     let beaten = rivals(columns[1], hard);
     let names: Vec<String> = beaten
         .iter()
-        .filter_map(|row| Some(format!("{} ({})", row[0], error(number(row, columns[1])?))))
+        .filter_map(|row| {
+            let [there, else_] = [columns[1], columns[0]].map(|column| number(row, column));
+            Some(format!("{} ({}, and {} on the others)", row[0], error(there?), error(else_?)))
+        })
         .collect();
     let mut text = format!("{} the tent is {} off", places[0], error(easy));
     let ratio = hard / easy;

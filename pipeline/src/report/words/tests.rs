@@ -232,7 +232,11 @@ fn slanted_footprints_are_judged_by_the_filters_own_table() {
                     average each, on a floor in perspective; see the filters by themselves.)";
     assert_eq!(one(&claims(&measured), Topic::Rotated), (Verdict::Loses, expected));
     for (row, verdict, words) in [
-        ("mip,67,0.079,0.080", Verdict::Loses, "there mip (0.080) is nearer"),
+        (
+            "mip,67,0.079,0.080",
+            Verdict::Loses,
+            "there mip (0.080, and 0.079 on the others) is nearer",
+        ),
         ("tent,352,0.038,0.038", Verdict::Wins, "no farther (0.038)"),
     ] {
         let name = row.split(',').next().unwrap();
