@@ -35,8 +35,8 @@ fn render(more: &[&str], folder: &Path) -> Vec<u8> {
 fn light(more: &[&str], folder: &Path) -> Vec<f64> {
     let part = ["--size", "512x512", "--crop", THROUGH_THE_GLASS, "-o", "a.png", "-q"];
     render(&[&part, more].concat(), folder);
-    let bytes = fs::read(folder.join("a.png")).unwrap();
-    let picture = image::load_from_memory(&bytes).unwrap().to_rgb8();
+    let bytes = fs::read(folder.join("a.png")).expect("the picture is there");
+    let picture = image::load_from_memory(&bytes).expect("it is a PNG").to_rgb8();
     picture.into_raw().iter().map(|&c| Encoding::Srgb.decode(f64::from(c) / 255.0)).collect()
 }
 
