@@ -13,9 +13,11 @@ use tempfile::TempDir;
 /// A folder with pictures of 12 x 16 pixels: `grey.exr`, `lighter.exr`, which is lighter by 1/8, `dot.exr`,
 /// in which the red of pixel 7,4 is more by 2, and `grey.png`; and `small.exr`.
 fn pictures() -> TempDir {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempfile::tempdir().expect("a folder is made");
     let save = |name: &str, picture: &Rgb32FImage| {
-        picture.save_with_format(folder.path().join(name), ImageFormat::OpenExr).unwrap();
+        picture
+            .save_with_format(folder.path().join(name), ImageFormat::OpenExr)
+            .expect("it is saved");
     };
     let grey = Rgb32FImage::from_pixel(12, 16, Rgb([0.25, 0.5, 0.75]));
     save("grey.exr", &grey);
@@ -26,7 +28,7 @@ fn pictures() -> TempDir {
     save("small.exr", &Rgb32FImage::new(4, 4));
     RgbImage::from_pixel(12, 16, Rgb([137, 188, 225]))
         .save(folder.path().join("grey.png"))
-        .unwrap();
+        .expect("it is saved");
     folder
 }
 
@@ -37,7 +39,7 @@ fn compare(line: &str, folder: &Path) -> Output {
 }
 
 fn data(output: &Output) -> String {
-    String::from_utf8(output.stdout.clone()).unwrap()
+    String::from_utf8(output.stdout.clone()).expect("text")
 }
 
 #[test]

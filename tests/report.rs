@@ -33,7 +33,7 @@ fn a_page_is_measured_by_every_method_of_a_hasty_report() {
         number(whole.iter().find(|row| row[column("filter")] == filter).unwrap(), "peak_bytes")
     };
     assert!(peak("point") >= 12.0 * 192.0 && peak("tent") > peak("point") + 1e5);
-    assert!(read("report.html").contains("report.csv"));
+    assert!(read("report.html").contains("glass-sphere"));
     for file in ["glass-sphere.svg", "tables.csv", "cells.csv", "filters.csv", "mapping.csv"] {
         assert!(!read(file).is_empty(), "{file}");
     }
@@ -57,6 +57,9 @@ fn what_cannot_be_measured_is_said_before_anything_is_made() {
         assert_eq!(found, code, "{words}");
         assert!(words.contains(expected), "{words}");
     }
+    let same = support::root().join("examples/pages/peer-glass.json");
+    let (code, words) = ask(&["peer-glass", same.to_str().unwrap()]);
+    assert!(code == 2 && words.contains("would both write peer-glass.svg"), "{words}");
     fs::create_dir_all(folder.path().join("out")).unwrap();
     fs::write(folder.path().join("out/report.html"), "mine").unwrap();
     let (code, words) = ask(&["peer-glass", "--no-clobber"]);

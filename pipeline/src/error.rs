@@ -74,6 +74,16 @@ pub enum PipelineError {
         /// The scene file.
         scene: String,
     },
+    /// The job has no mode of that name.
+    #[error("job {job} has no mode {name:?}; it has {known}")]
+    UnknownMode {
+        /// The job.
+        job: String,
+        /// The name given.
+        name: String,
+        /// The names there are.
+        known: String,
+    },
     /// No page shows that figure of the thesis.
     #[error("there is no figure A.{number}; there are {known}")]
     UnknownFigure {
@@ -107,6 +117,7 @@ impl Failure for PipelineError {
             Self::SameFile { .. }
             | Self::UnknownMesh { .. }
             | Self::MissingMesh { .. }
+            | Self::UnknownMode { .. }
             | Self::UnknownFigure { .. }
             | Self::UnknownPage { .. } => Exit::Use,
         }

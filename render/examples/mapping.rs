@@ -63,7 +63,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                 spread.map_or(["".into(), "".into()], |s| s.map(|e| format!("{e:.1e}")));
             writeln!(
                 csv,
-                "{},\"{}\",{},{},{},{median},{max}",
+                "\"{}\",\"{}\",{},{},{},{median},{max}",
                 line.class,
                 form.name(),
                 line.errors[k].len(),

@@ -213,7 +213,7 @@ fn impossible(tree: &IntersectionTree, node: &Node, center: DVec3, most: &mut [u
     for (branch, inside) in [(node.reflected, inside), (node.refracted, !inside)] {
         match branch {
             Branch::Cut => {}
-            Branch::Background => most[0] += usize::from(inside),
+            Branch::Background(_) => most[0] += usize::from(inside),
             Branch::Node(_) => {
                 most[1] += usize::from(!inside);
                 if let Some(next) = tree.node(branch) {

@@ -205,7 +205,7 @@ fn through_64_shells_in_each_other_index_times_offset_is_the_same() {
 fn sources(tree: &IntersectionTree, branch: Branch, weight: f64) -> [f64; 2] {
     match tree.node(branch) {
         _ if weight == 0.0 => [0.0; 2],
-        None if branch == Branch::Background => [weight, 0.0],
+        None if matches!(branch, Branch::Background(_)) => [weight, 0.0],
         None => [0.0, weight],
         Some(node) => {
             let [a, b] = sources(tree, node.reflected, weight * node.reflect_weight.x);

@@ -17,6 +17,7 @@
 //! | [`Shape`]      | the whole surface, before it is cut into cells                      |
 //! | [`cap`]        | what closes the ends                                                |
 //! | [`closing`]    | how the surface comes back to its start                             |
+//! | [`wall`]       | a one-sided surface given a thickness                               |
 //! | [`deform`]     | taper, twist and bend of the finished surface                       |
 //! | [`frame`]      | rotation-minimizing frames, and those that a direction fixes        |
 //! | [`curve`]      | cubic Bezier paths by arc length, splines, SVG                      |
@@ -62,6 +63,7 @@ pub mod shape;
 pub mod spec;
 mod sweep;
 pub mod trajectory;
+pub mod wall;
 
 pub use error::SweepError;
 pub use grid::GridMesh;

@@ -6,6 +6,7 @@ use crate::grid::file::{Encoding, Header, Patch, Writer};
 use crate::grid::{By, GridMesh, Row, Seam};
 use crate::profile::Column;
 use crate::resolution::Surface;
+use crate::wall::Wall;
 use crate::{Sweep, SweepError};
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
@@ -20,6 +21,7 @@ const BLOCK: usize = 1 << 16;
 /// A sweep cut into rows and columns.
 pub struct Rows<'a> {
     sweep: &'a Sweep,
+    /// Along the sheet; a wall goes along it twice.
     stops: Vec<Stop>,
     columns: Vec<Column>,
     /// What the grid counts columns and rows by.
@@ -27,6 +29,14 @@ pub struct Rows<'a> {
     v: Vec<f64>,
     /// How the last row leads on to the first.
     seam: (Seam, usize),
+    wall: Option<Sides<'a>>,
+}
+
+/// A wall, and how its way comes back on the other side.
+struct Sides<'a> {
+    wall: &'a Wall,
+    /// The column of the sheet at each column of the way back.
+    led: Vec<usize>,
 }
 
 /// Where the time of writing went.
@@ -43,26 +53,39 @@ impl<'a> Rows<'a> {
     pub fn of(sweep: &'a Sweep) -> Self {
         let (rows, cols) = (sweep.row_stops(), sweep.col_stops());
         let (by, shape) = (sweep.uv.by, &sweep.shape);
+        let seam = shape.seam(&cols).unwrap_or_default();
+        let v: Vec<f64> = match by {
+            By::Length => rows.iter().map(|stop| stop.at).collect(),
+            By::Parameter => rows.iter().map(|stop| shape.parameter_of(stop.at)).collect(),
+        };
+        let sides = |wall| Sides {
+            wall,
+            led: (0..cols.len()).map(|col| seam.0.leads_to(col, seam.1, cols.len())).collect(),
+        };
         Self {
             sweep,
             u: match by {
                 By::Length => cols.iter().map(|stop| stop.at).collect(),
                 By::Parameter => cols.iter().map(|&stop| shape.contour.parameter(stop)).collect(),
             },
-            v: match by {
-                By::Length => rows.iter().map(|stop| stop.at).collect(),
-                By::Parameter => rows.iter().map(|stop| shape.parameter_of(stop.at)).collect(),
+            v: match sweep.wall {
+                // Each side has half of it.
+                Some(_) => {
+                    v.iter().copied().chain(v.iter().map(|v| 1.0 + v)).map(|v| 0.5 * v).collect()
+                }
+                None => v,
             },
             stops: rows,
             columns: shape.columns(&cols),
-            seam: shape.seam(&cols).unwrap_or_default(),
+            seam,
+            wall: sweep.wall.as_ref().map(sides),
         }
     }
 
     /// The whole grid.
     pub fn grid(&self) -> Result<GridMesh, SweepError> {
         let mut grid = self.blank();
-        let count = self.stops.len() * self.columns.len();
+        let count = self.v.len() * self.columns.len();
         let (positions, normals) = (&mut grid.positions, &mut grid.normals);
         let reserved = positions.try_reserve_exact(count).and(normals.try_reserve_exact(count));
         reserved.map_err(|_| SweepError::Memory {
@@ -72,7 +95,7 @@ impl<'a> Rows<'a> {
         })?;
         positions.resize(count, DVec3::ZERO);
         normals.resize(count, Vec3::ZERO);
-        self.fill(0..self.stops.len(), positions, normals);
+        self.fill(0..self.v.len(), positions, normals);
         Ok(grid)
     }
 
@@ -83,7 +106,7 @@ impl<'a> Rows<'a> {
         encoding: Encoding,
         out: &mut impl Write,
     ) -> io::Result<Spent> {
-        let header = Header { patch, rows: self.stops.len(), ..Header::of(&self.blank()) };
+        let header = Header { patch, rows: self.v.len(), ..Header::of(&self.blank()) };
         let mut writer = Writer::new(&header, encoding, out)?;
         let cols = self.columns.len();
         let height = (BLOCK / cols).max(1);
@@ -93,8 +116,8 @@ impl<'a> Rows<'a> {
             *total += now - std::mem::replace(&mut from, now);
         };
         let (mut positions, mut normals) = (Vec::new(), Vec::new());
-        for start in (0..self.stops.len()).step_by(height) {
-            let rows = start..(start + height).min(self.stops.len());
+        for start in (0..self.v.len()).step_by(height) {
+            let rows = start..(start + height).min(self.v.len());
             positions.resize(rows.len() * cols, DVec3::ZERO);
             normals.resize(rows.len() * cols, Vec3::ZERO);
             self.fill(rows.clone(), &mut positions, &mut normals);
@@ -111,7 +134,8 @@ impl<'a> Rows<'a> {
 
     /// The grid without its points.
     fn blank(&self) -> GridMesh {
-        let (sweep, (seam_v, shift)) = (self.sweep, self.seam);
+        let sweep = self.sweep;
+        let (seam_v, shift) = if self.wall.is_some() { (Seam::Closed, 0) } else { self.seam };
         GridMesh {
             name: sweep.name.clone(),
             seam_u: if sweep.contour().closed() { Seam::Closed } else { Seam::Open },
@@ -135,11 +159,21 @@ impl<'a> Rows<'a> {
         positions
             .par_chunks_mut(cols)
             .zip(normals.par_chunks_mut(cols))
-            .zip(&self.stops[rows])
-            .for_each(|((points, normals), &stop)| self.row(stop, points, normals));
+            .zip(rows)
+            .for_each(|((points, normals), row)| self.row(row, points, normals));
     }
 
-    fn row(&self, stop: Stop, points: &mut [DVec3], normals: &mut [Vec3]) {
+    fn row(&self, row: usize, points: &mut [DVec3], normals: &mut [Vec3]) {
+        let rows = self.stops.len();
+        self.row_of_sheet(self.stops[row % rows], points, normals);
+        match &self.wall {
+            Some(sides) if row < rows => sides.wall.near(points, normals),
+            Some(sides) => sides.wall.far(points, normals, &sides.led),
+            None => {}
+        }
+    }
+
+    fn row_of_sheet(&self, stop: Stop, points: &mut [DVec3], normals: &mut [Vec3]) {
         let shape = &self.sweep.shape;
         let section = shape.section(stop);
         for ((column, point), normal) in self.columns.iter().zip(points).zip(&mut *normals) {

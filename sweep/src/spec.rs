@@ -136,7 +136,7 @@
 //!
 //! # Seam, caps, deformations, parts
 //!
-//! [`SeamKind`] closes one-sided surfaces; [`Caps`] close the ends; [`Deform`] bends, twists and tapers the finished surface; [`Parts`] are
+//! [`SeamKind`] closes one-sided surfaces, to which a `wall` gives a thickness; [`Caps`] close the ends; [`Deform`] bends, twists and tapers the finished surface; [`Parts`] are
 //! several sweeps in one object.
 //!
 //! # Corners
@@ -226,6 +226,10 @@ pub struct Spec {
     /// How it comes back to its start, where columns do not meet themselves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub seam: Option<SeamKind>,
+    /// The thickness of a wall in place of a sheet, in the unit of length; of mirrored closed surfaces.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = schema::positive)]
+    pub wall: Option<f64>,
     /// What closes the ends.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub caps: Option<Caps>,
@@ -315,7 +319,7 @@ mod tests {
         (include_str!("spec/frame.rs"), 3),
         (include_str!("spec/mesh.rs"), 1),
         (include_str!("spec/parts.rs"), 1),
-        (include_str!("spec/seam.rs"), 1),
+        (include_str!("spec/seam.rs"), 2),
     ];
 
     #[test]

@@ -10,6 +10,7 @@ use crate::rows::Rows;
 use crate::shape::Shape;
 use crate::spec::Mesh;
 use crate::trajectory::Trajectory;
+use crate::wall::{self, Wall};
 use crate::{Object, SweepError};
 use files::json::Document;
 use files::{Disk, Source};
@@ -25,6 +26,8 @@ pub const MOST_CELLS: usize = 100_000_000;
 pub struct Sweep {
     pub(crate) name: String,
     pub(crate) shape: Shape,
+    /// The thickness that the surface is given.
+    pub(crate) wall: Option<Wall>,
     pub(crate) resolution: Resolution,
     /// What a tolerance comes to.
     pub(crate) fitted: Option<Cells>,
@@ -94,7 +97,8 @@ impl Sweep {
         self.shape.at(u, v)
     }
 
-    /// Cells along the trajectory and its caps, those of no height at corners not counted.
+    /// Cells along the trajectory and its caps, those of no height at corners not counted; a wall has
+    /// twice as many.
     #[must_use]
     pub fn rows(&self) -> usize {
         match (&self.resolution, &self.fitted) {
@@ -113,7 +117,8 @@ impl Sweep {
     /// Rows and columns of points in the grid.
     #[must_use]
     pub fn points(&self) -> [usize; 2] {
-        [self.row_stops().len(), self.col_stops().len()]
+        let sides = if self.wall.is_some() { wall::SIDES } else { 1 };
+        [sides * self.row_stops().len(), self.col_stops().len()]
     }
 
     /// How well a tolerance is kept; nothing where rows and columns were asked for.

@@ -57,10 +57,11 @@ fn rays(plate: &Plate) -> String {
         kinds.iter().map(|(kind, rays)| format!("{:.0} % {kind}", part(*rays))).collect();
     let each = 1e9 * shot.stages.picture.as_secs_f64() / all.max(1) as f64;
     format!(
-        "{} rays in the mode {}, {:.0} for each pixel ({}), at {each:.0} ns each with all that is shaded.",
+        "{} rays in the mode {}, {:.0} for each pixel ({}), at {} ns each with all that is shaded.",
         millions(all),
         shot.mode.name,
         all as f64 / pixels,
         kinds.join(", "),
+        count(each.round() as u64),
     )
 }

@@ -3,9 +3,10 @@
 use super::image::{address, thumbnail};
 use super::leaf::figures_in_words;
 use super::plate::{Plate, Shot};
-use super::{Entry, Options};
+use super::{Entry, Options, number};
 use crate::PipelineError;
 use maud::{Markup, html};
+use std::time::Duration;
 
 /// Pixels along the longer side of a picture in the contents.
 const THUMBNAIL: u32 = 192;
@@ -25,6 +26,16 @@ struct Line {
     figures: Vec<u8>,
     title: String,
     thumbnail: String,
+    times: Vec<Time>,
+}
+
+/// A figure of the thesis whose time is known.
+#[derive(Debug)]
+struct Time {
+    figure: String,
+    mode: String,
+    minutes: u32,
+    now: Duration,
 }
 
 impl Front {
@@ -56,6 +67,15 @@ impl Front {
             figures: entry.job.figures(),
             title: entry.job.title.clone(),
             thumbnail: address(id, &thumbnail(picture, THUMBNAIL))?,
+            times: plate
+                .shots
+                .iter()
+                .filter_map(|shot| {
+                    let (figure, mode) = (shot.mode.figure.clone()?, shot.mode.name.clone());
+                    let now = plate.shared.total() + shot.stages.total();
+                    Some(Time { figure, mode, minutes: shot.mode.thesis_minutes?, now })
+                })
+                .collect(),
         });
         Ok(())
     }
@@ -85,8 +105,10 @@ impl Front {
                 (contents("After the thesis", &thesis))
                 (contents(if thesis.is_empty() { "Pages" } else { "Ours" }, &ours))
             }
+            (times(&thesis))
             section.reading {
                 h2 { "How to read it" }
+                div.columns {
                 p {
                     "The tabs over a picture change its mode in place; a click on it enlarges it. The frames in it "
                     "are the details below it, shown pixel by pixel."
@@ -100,6 +122,41 @@ impl Front {
                         "Numbers beside a detail are its error: root mean square in linear light, where white is 1, against a "
                         "truth of " (rays) " jittered rays in each pixel that average no textures. What the "
                         "truth itself is wrong by is not counted in it."
+                    }
+                }
+                }
+            }
+        }
+    }
+}
+
+/// The figures of the thesis beside their times of 1993.
+fn times(lines: &[&Line]) -> Markup {
+    let rows = || lines.iter().flat_map(|line| line.times.iter().map(move |time| (line, time)));
+    html! {
+        @if rows().next().is_some() {
+            section.times {
+                h2 { "Then and now" }
+                div.wide {
+                    table {
+                        thead { tr {
+                            th scope="col" { "figure" }
+                            th.mode scope="col" { "mode" }
+                            th scope="col" { "in 1993" }
+                            th scope="col" { "now" }
+                            th scope="col" { "times as fast" }
+                        } }
+                        tbody {
+                            @for (line, time) in rows() {
+                                tr {
+                                    td { a href=(format!("#{}", line.id)) { (time.figure) } }
+                                    td.mode { (time.mode) }
+                                    td { (number::minutes(time.minutes)) }
+                                    td { (number::seconds(time.now)) }
+                                    td { (number::times(60.0 * f64::from(time.minutes) / time.now.as_secs_f64())) }
+                                }
+                            }
+                        }
                     }
                 }
             }

@@ -231,7 +231,7 @@ fn strip(plate: &Plate, detail: &Detail, letter: &str) -> Result<Markup, Pipelin
             @if let Some(judged) = &detail.judged {
                 @if !judged.wide_errors.is_empty() {
                     p.faint.note {
-                        "Where a pixel spans more than two texels both ways (" (format!("{:.0}", 100.0 * judged.wide)) " % of it): "
+                        "Where a pixel spans more than two texels both ways (" (percent(judged.wide)) " of it): "
                         @for (k, (shot, value)) in shots.iter().zip(&judged.wide_errors).enumerate() {
                             @if k > 0 { ", " } (shot.mode.name) " " span.error { (error(*value)) }
                         }
@@ -241,6 +241,11 @@ fn strip(plate: &Plate, detail: &Detail, letter: &str) -> Result<Markup, Pipelin
             }
         }
     })
+}
+
+/// A part of a whole, 0 to 1.
+fn percent(part: f64) -> String {
+    if part < 0.01 { "less than 1 %".into() } else { format!("{:.0} %", 100.0 * part) }
 }
 
 /// The commands that make the pictures.

@@ -27,6 +27,9 @@ pub struct RunArguments {
     /// Pixels across and down
     #[arg(long, value_name = "WxH", default_value = "512x512", value_parser = render::film::size)]
     size: (u32, u32),
+    /// Make only the pictures of this mode, which all jobs must have; may be given several times
+    #[arg(long = "mode", value_name = "NAME")]
+    modes: Vec<String>,
     /// Memory for textures and their tables, in bytes or with k, M or G; beyond it nothing is read
     #[arg(long, value_name = "BYTES", default_value = "2G", value_parser = render::film::memory::bytes)]
     max_texture_mem: u64,
@@ -90,6 +93,7 @@ fn jobs(arguments: &RunArguments) -> Result<Vec<(Job, &'static dyn Source)>, Pip
     let mut written: BTreeMap<String, String> = BTreeMap::new();
     for Asked { job, source, figures, argument, .. } in asked(&arguments.jobs)? {
         let job = if figures.is_empty() { job } else { job.only(&figures) };
+        let job = job.with_modes(&arguments.modes)?;
         for file in job.files(arguments.keep) {
             if let Some(first) = written.get(&file) {
                 return Err(PipelineError::SameFile {

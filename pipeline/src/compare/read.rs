@@ -15,8 +15,12 @@ use std::io::Cursor;
 use std::path::Path;
 use thiserror::Error;
 
-/// Bytes that one picture may take while it is decoded: 8192 x 8192 pixels of an EXR file.
-const MOST_BYTES: u64 = 2 << 30;
+/// Bytes that one picture may take while it is read: 9800 x 9800 pixels.
+const MOST_BYTES: u64 = 4 << 30;
+
+/// What a pixel takes meanwhile: decoded with alpha as `f32` at most, as linear light with alpha, and in the
+/// [`Picture`].
+const BYTES_A_PIXEL: u64 = 16 + 16 + 12;
 
 /// Why a picture file cannot be compared.
 #[derive(Debug, Error)]
@@ -43,7 +47,7 @@ pub enum ReadError {
         width: u32,
         /// Pixels down.
         height: u32,
-        /// Bytes of the decoded picture.
+        /// Bytes that reading it takes.
         bytes: u64,
     },
     /// A pixel holds what cannot be compared.
@@ -190,11 +194,11 @@ fn open(bytes: &[u8]) -> ImageResult<Found> {
     }
     let mut limits = Limits::no_limits();
     // What the decoder works with comes on top of the picture.
-    limits.max_alloc = Some(2 * MOST_BYTES);
+    limits.max_alloc = Some(MOST_BYTES);
     reader.limits(limits);
     let decoder = reader.into_decoder()?;
     let (width, height) = decoder.dimensions();
-    let bytes = decoder.total_bytes();
+    let bytes = (u64::from(width) * u64::from(height)).saturating_mul(BYTES_A_PIXEL);
     if bytes > MOST_BYTES {
         return Ok(Found::TooLarge { width, height, bytes });
     }
@@ -295,6 +299,31 @@ mod tests {
             assert!(error.ends_with("), expected a PNG or EXR file"), "{error}");
             assert!(!error.contains('\n'), "{error}");
         }
+    }
+
+    /// The CRC of a PNG chunk, bit by bit.
+    fn crc(bytes: &[u8]) -> u32 {
+        !bytes.iter().fold(!0, |crc, &byte| {
+            (0..8).fold(crc ^ u32::from(byte), |crc, _| (crc >> 1) ^ (0xedb8_8320 * (crc & 1)))
+        })
+    }
+
+    #[test]
+    fn a_picture_is_measured_before_it_is_decoded() {
+        let mut file = bytes(GrayImage::new(1, 1), ImageFormat::Png);
+        // Width and height follow the signature and the first chunk's length and name.
+        for side in [16, 20] {
+            file[side..side + 4].copy_from_slice(&1_000_000u32.to_be_bytes());
+        }
+        let sum = crc(&file[12..29]);
+        file[29..33].copy_from_slice(&sum.to_be_bytes());
+        let error = decode("a.png", &file).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "a.png: found 1000000x1000000 pixels, which take 44000000000000 bytes to read; \
+             expected at most 4294967296"
+        );
+        assert_eq!(error.exit(), Exit::Resource);
     }
 
     #[test]

@@ -27,7 +27,7 @@
 //! Of a mode, `filter` must be there; the rest is what the flags of `render` are: `samples` (1 to 256,
 //! by default 1), `pattern` (`regular` or `jitter`, with a `seed`), `pixel_filter` (`box` or `tent`), or
 //! in their place `supersample` (`image` or `rays`). `figure` says which figure of the thesis it is made after,
-//! `thesis_minutes` how long that took.
+//! by which it can be asked for; no other mode has it. `thesis_minutes` is how long that took.
 //!
 //! `caption` and `crops`, places by fractions of width and height that are worth a look pixel by pixel, are for
 //! the book.
@@ -138,6 +138,24 @@ impl Job {
         let folder = path.parent().unwrap_or(Path::new(""));
         let stem = path.file_stem().unwrap_or_default().to_string_lossy();
         Ok(Self::parse(&Document::new(&name, &bytes)?, &stem, folder)?)
+    }
+
+    /// The job with only the modes of these names, in its own order; with all of them where there are
+    /// no names.
+    ///
+    /// # Errors
+    /// When it has no mode of one of the names.
+    pub fn with_modes(mut self, names: &[String]) -> Result<Self, PipelineError> {
+        let has = |name: &&String| self.modes.iter().any(|mode| mode.name == **name);
+        if let Some(name) = names.iter().find(|name| !has(name)) {
+            let known: Vec<&str> = self.modes.iter().map(|mode| mode.name.as_str()).collect();
+            let (job, name, known) = (self.name.clone(), name.clone(), known.join(", "));
+            return Err(PipelineError::UnknownMode { job, name, known });
+        }
+        let all = self.modes.len();
+        self.modes.retain(|mode| names.is_empty() || names.contains(&mode.name));
+        self.whole &= self.modes.len() == all;
+        Ok(self)
     }
 
     /// The numbers of the figures of the thesis that it shows, ascending.

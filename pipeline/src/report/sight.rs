@@ -101,7 +101,7 @@ impl<'a> Looker<'a> {
     /// Adds up what comes along a branch that counts for `weight`.
     fn weigh(&self, five: &Five<'_>, weight: Color, way: Way, found: &mut Found) {
         let Some(node) = five.node() else {
-            if five.branches[0] == Branch::Background {
+            if matches!(five.branches[0], Branch::Background(_)) {
                 found.all += mean(weight);
             }
             return;

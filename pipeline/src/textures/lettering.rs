@@ -8,9 +8,11 @@ use super::noise::cloud;
 use glam::{DVec2, IVec2};
 use image::RgbImage;
 
-/// Texels along a side of the picture.
-const SIZE: u32 = 512;
-/// The lines, from the top: how high the letters are, in texels, and the text, which is repeated
+/// Texels along a side of the picture: enough for a poster whose sheet is some thousand pixels wide.
+const SIZE: u32 = 1024;
+/// Points along a side of the sheet, in which it is measured.
+const SIDE: f64 = 512.0;
+/// The lines, from the top: how high the letters are, in points, and the text, which is repeated
 /// over the width.
 const LINES: [(f64, &str); 12] = [
     (26.0, "CURVES IN. PICTURE OUT."),
@@ -26,7 +28,7 @@ const LINES: [(f64, &str); 12] = [
     (11.0, "0123456789 AND THE LETTERS OF THE ALPHABET ARE DRAWN WITH ONE PEN."),
     (11.0, "IF YOU CAN READ THIS THE PICTURE IS WELL FILTERED."),
 ];
-/// From the top of the picture to the first line, and between lines, in texels.
+/// From the top of the picture to the first line, and between lines, in points.
 const TOP: f64 = 6.0;
 const LEAD: f64 = 35.5;
 
@@ -42,7 +44,7 @@ struct Sheet {
 /// A line on the sheet.
 #[derive(Debug)]
 struct Row {
-    /// Where it stands, in texels from the top.
+    /// Where it stands, in points from the top.
     base: f64,
     height: f64,
     letters: Line,
@@ -56,8 +58,8 @@ impl Sheet {
         let rows = LINES.map(|(height, text)| {
             base += 0.5 * LEAD + 0.5 * height;
             let letters = alphabet::line(&format!("{text}  "));
-            let times = (f64::from(SIZE) / (letters.width * height)).round().max(1.0);
-            let spread = f64::from(SIZE) / (times * letters.width * height);
+            let times = (SIDE / (letters.width * height)).round().max(1.0);
+            let spread = SIDE / (times * letters.width * height);
             let row = Row { base, height, letters, spread };
             base += 0.5 * LEAD - 0.5 * height + 0.38 * height;
             row
@@ -70,14 +72,13 @@ impl Sheet {
 /// Draws the sheet.
 pub fn draw() -> RgbImage {
     let sheet = Sheet::new();
-    canvas::draw(SIZE, SIZE, |texel| color_at(texel, &sheet))
+    canvas::draw(SIZE, SIZE, |texel| color_at(texel * (SIDE / f64::from(SIZE)), &sheet))
 }
 
-/// The colour at a place in texels.
+/// The colour at a place in points.
 fn color_at(p: DVec2, sheet: &Sheet) -> Color {
-    let side = f64::from(SIZE);
-    let p = p.rem_euclid(DVec2::splat(side));
-    let fibres = cloud(p * (64.0 / side), IVec2::splat(64), 5) - 0.5;
+    let p = p.rem_euclid(DVec2::splat(SIDE));
+    let fibres = cloud(p * (64.0 / SIDE), IVec2::splat(64), 5) - 0.5;
     let paper = sheet.paper * (1.0 + 0.05 * fibres);
     for (row, number) in sheet.rows.iter().zip(0..) {
         let above = row.base - p.y;
@@ -105,7 +106,7 @@ mod tests {
     fn all_lines_are_on_the_sheet_and_legible() {
         let sheet = Sheet::new();
         let last = sheet.rows.last().unwrap();
-        assert!(last.base < f64::from(SIZE) - 6.0, "{}", last.base);
+        assert!(last.base < SIDE - 6.0, "{}", last.base);
         for row in &sheet.rows {
             assert!((0.6..1.5).contains(&row.spread), "{} at {}", row.spread, row.base);
         }
@@ -114,7 +115,7 @@ mod tests {
     #[test]
     fn the_sheet_repeats_both_ways() {
         let sheet = Sheet::new();
-        let side = f64::from(SIZE);
+        let side = SIDE;
         for step in [DVec2::new(side, 0.0), DVec2::new(0.0, -side)] {
             let differs =
                 |p: DVec2| color_at(p, &sheet).distance(color_at(p + step, &sheet)) > 1e-9;

@@ -4,6 +4,7 @@
 //! |--------------------|------------------|---------------------------------------------------|
 //! | `checkerboard.png` | `checkerboard` | eight by eight checks, ivory and oxblood          |
 //! | `vase-band.png`    | `vase_band`    | the painted bands of a blue and white vase        |
+//! | `cup-band.png`     | `cup_band`       | stripes of a cream cup                            |
 //! | `floor-tiles.png`  | `floor_tiles`  | octagons of stone with small squares between them |
 //! | `granite.png`      | `granite`      | pink granite                                      |
 //! | `scales.png`       | `scales`       | heights: rows of scales, each over the one above  |
@@ -14,6 +15,8 @@
 //! | `world-chart.png`  | `world_chart`  | an old chart of the world                         |
 //! | `sea.png`          | `sea`          | the sea from above                                |
 //! | `lettering.png`    | `lettering`    | a sheet of fine lettering                         |
+//! | `hatching.png`     | `hatching`     | a fine net, its own mirror image                  |
+//! | `plate.png`        | `plate`        | a page of a book of specimens                     |
 //!
 //! `canvas` samples a colour per point into a picture; `shape` has the outlines, `noise` the
 //! irregularities and `color` the way between linear light and bytes. A picture depends on
@@ -27,13 +30,16 @@ mod canvas;
 mod checkerboard;
 mod coast;
 mod color;
+mod cup_band;
 mod drawing_board;
 mod floor_tiles;
 mod granite;
 mod graticule;
+mod hatching;
 mod lettering;
 mod net;
 mod noise;
+mod plate;
 mod ribbon;
 mod scales;
 mod sea;
@@ -80,9 +86,10 @@ impl Texture {
 }
 
 /// All textures that this folder draws.
-pub const TEXTURES: [Texture; 12] = [
+pub const TEXTURES: [Texture; 15] = [
     Texture { file: "checkerboard.png", draw: checkerboard::draw },
     Texture { file: "vase-band.png", draw: vase_band::draw },
+    Texture { file: "cup-band.png", draw: cup_band::draw },
     Texture { file: "floor-tiles.png", draw: floor_tiles::draw },
     Texture { file: "granite.png", draw: granite::draw },
     Texture { file: "scales.png", draw: scales::draw },
@@ -93,4 +100,6 @@ pub const TEXTURES: [Texture; 12] = [
     Texture { file: "world-chart.png", draw: world_chart::draw },
     Texture { file: "sea.png", draw: sea::draw },
     Texture { file: "lettering.png", draw: lettering::draw },
+    Texture { file: "hatching.png", draw: hatching::draw },
+    Texture { file: "plate.png", draw: plate::draw },
 ];

@@ -229,7 +229,7 @@ mod tests {
     use crate::color::Color;
     use crate::procedural::Procedural;
     use crate::scene::{
-        Camera, Light, Material, Names, Object, PointLight, Surface, SurfaceTexture,
+        Background, Camera, Light, Material, Names, Object, PointLight, Surface, SurfaceTexture,
     };
     use crate::shape::{Quad, Shape, Sphere};
     use crate::texture::Texture;
@@ -259,7 +259,7 @@ mod tests {
         let eye = DVec3::new(0.3, 1.5, 5.0);
         Scene {
             camera: Camera::new(eye, DVec3::Y, DVec3::Y, 0.7).unwrap(),
-            background: Color::splat(0.2),
+            background: Background::Uniform(Color::splat(0.2)),
             ambient: Color::splat(0.5),
             lights: vec![Light::Point(PointLight {
                 position: DVec3::new(3.0, 5.0, 4.0),

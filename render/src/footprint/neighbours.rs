@@ -69,6 +69,12 @@ impl<'a> Neighbourhood<'a> {
         self.trees[self.middle].node(self.middle())
     }
 
+    /// The direction in which the middle tree's branch left the scene, if it did.
+    #[must_use]
+    pub fn away(&self) -> Option<DVec3> {
+        self.trees[self.middle].away(self.middle())
+    }
+
     /// One step along all trees; neighbours that are on another path are left behind.
     #[must_use]
     pub fn step(&self, child: impl Fn(&Node) -> Branch) -> Self {
@@ -134,7 +140,7 @@ mod tests {
             geometric_normal: DVec3::Z,
             normal: DVec3::Z,
             uv,
-            reflected: Branch::Background,
+            reflected: Branch::Background(0),
             refracted: Branch::Cut,
             reflect_weight: DVec3::ZERO,
             refract_weight: DVec3::ZERO,
@@ -191,6 +197,6 @@ mod tests {
         let trees = grid(|k| u32::from(k == 0), |_, _| DVec2::ZERO);
         let next = Neighbourhood::of(trees.each_ref()).step(|node| node.reflected);
         assert_eq!(next.branches[0], Branch::Cut);
-        assert_eq!(next.middle(), Branch::Background);
+        assert_eq!(next.middle(), Branch::Background(0));
     }
 }

@@ -62,7 +62,7 @@ pub fn lines(scene: &Scene, halo: bool, seen: &Seen<'_>) -> Vec<String> {
 /// A branch without a node.
 fn nothing(branch: Branch) -> &'static str {
     match branch {
-        Branch::Background => "the background",
+        Branch::Background(_) => "the background",
         _ => "not followed: too deep, of too little weight, or the tree is full",
     }
 }
@@ -122,7 +122,7 @@ fn disagreement(scene: &Scene, around: &Neighbourhood<'_>, node: &Node) -> Strin
                     let piece = piece(scene, other);
                     format!("came to {piece}, part {}", other.part)
                 }
-                (Branch::Background, _) => "came to the background".into(),
+                (Branch::Background(_), _) => "came to the background".into(),
                 _ => "came by another path".into(),
             };
             format!("its {} neighbour {came_to}", PLACES[k])

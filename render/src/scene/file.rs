@@ -45,6 +45,9 @@
 //! other, and the camera may stand in them. A rectangle or an open mesh has none: it absorbs
 //! nothing, and a ray that passes it is still in what it was in.
 //!
+//! The background is a colour, or a sky: `"background": { "by_elevation": [[-1, 0.3], [0, 0.8], [90, [0.2,
+//! 0.35, 0.6]]] }` gives colours at degrees above the horizon, where y points up.
+//!
 //! A light is a `point` light or a `directional` one, whose `direction` is the way its light goes. A
 //! point light may fade: `"falloff": { "quadratic": 1, "reference": 4 }` is the inverse square with
 //! the light's colour at a distance of 4, in general `1 / (constant + linear x + quadratic x^2)` with
@@ -103,6 +106,7 @@
 //! of b, then the scene's own, and of surfaces at the same place the first is seen. A name may be given
 //! once in all files together, and used in any of them. A part that is reached on two ways is taken in once.
 
+mod background;
 pub mod bump;
 mod color;
 mod light;
@@ -112,6 +116,7 @@ mod part;
 pub mod solid;
 mod texture;
 
+pub use background::{BackgroundFile, SkyFile};
 pub use color::ColorFile;
 pub use light::{DirectionalLightFile, FalloffFile, LightFile, PointLightFile};
 pub use material::{MaterialFile, ThinFilmFile};
@@ -152,9 +157,10 @@ pub struct SceneFile {
     pub include: Vec<PathBuf>,
     /// Where the scene is seen from.
     pub camera: CameraFile,
-    /// What a ray sees that leaves the scene; black if left out.
+    /// What a ray sees that leaves the scene: a colour, or colours by the elevation; black if left
+    /// out.
     #[serde(default)]
-    pub background: ColorFile,
+    pub background: BackgroundFile,
     /// Light from everywhere; 0.1 if left out.
     #[serde(default = "dim")]
     pub ambient: ColorFile,

@@ -1,5 +1,6 @@
 //! The scene: what there is to see, checked and resolved. After it nothing fails on user input.
 
+pub mod background;
 pub mod camera;
 pub mod check;
 pub mod file;
@@ -12,6 +13,7 @@ pub mod ramp;
 pub mod read;
 pub mod schema;
 
+pub use background::Background;
 pub use camera::Camera;
 pub use light::{DirectionalLight, Falloff, Light, PointLight};
 pub use material::Material;
@@ -31,7 +33,7 @@ pub struct Scene {
     /// Where it is seen from.
     pub camera: Camera,
     /// What a ray sees that leaves the scene.
-    pub background: Color,
+    pub background: Background,
     /// Light from everywhere.
     pub ambient: Color,
     /// Lights.

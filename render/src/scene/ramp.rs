@@ -46,7 +46,12 @@ impl AngleRamp {
     /// The colour at an angle given by its cosine.
     #[must_use]
     pub fn at(&self, cosine: f64) -> Color {
-        let angle = cosine.clamp(-1.0, 1.0).acos().to_degrees();
+        self.at_degrees(cosine.clamp(-1.0, 1.0).acos().to_degrees())
+    }
+
+    /// The colour at an angle in degrees.
+    #[must_use]
+    pub fn at_degrees(&self, angle: f64) -> Color {
         let next = self.stops.partition_point(|(stop, _)| *stop <= angle);
         match (next.checked_sub(1).map(|before| self.stops[before]), self.stops.get(next)) {
             (Some((low, from)), Some(&(high, to))) => {

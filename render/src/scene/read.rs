@@ -1,6 +1,7 @@
 //! From a scene file to a [`Scene`]: names become indices, pictures and meshes are read, and every
 //! number is checked against its range.
 
+mod background;
 mod bumps;
 mod draft;
 mod given;
@@ -207,7 +208,7 @@ impl Draft<'_> {
         reader.within("max_depth", f64::from(file.max_depth), 0.0, f64::from(DEEPEST))?;
         Ok(Scene {
             camera: reader.camera(file)?,
-            background: reader.color("background", file.background)?,
+            background: reader.background(&file.background)?,
             ambient: reader.color("ambient", file.ambient)?,
             lights: Vec::new(),
             materials: Vec::new(),

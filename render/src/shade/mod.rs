@@ -16,7 +16,7 @@ use crate::optics;
 use crate::scene::{Material, Scene};
 use crate::shape::Charts;
 use crate::trace::medium::Media;
-use crate::trace::tree::{Branch, Node};
+use crate::trace::tree::Node;
 use crate::trace::volume::Volumes;
 use observer::{Local, Observer, Seen, Textured, Way};
 
@@ -83,10 +83,12 @@ impl Shader<'_> {
         counts: &mut ShadeCounts,
         observer: &mut O,
     ) -> Color {
-        let (local, color) = match (around.middle(), around.node()) {
-            (Branch::Background, _) => (None, self.scene.background),
-            (_, None) => (None, Color::ZERO),
-            (_, Some(node)) => {
+        let (local, color) = match around.node() {
+            None => {
+                let background = |toward| self.scene.background.toward(toward);
+                (None, around.away().map_or(Color::ZERO, background))
+            }
+            Some(node) => {
                 let local = self.local(node, around, counts);
                 let mut color = local.color;
                 if node.reflect_weight != Color::ZERO {

@@ -112,7 +112,7 @@ impl<'a> Tracer<'a> {
                 let seen = Seen { hit, point, boundary, depth, weight: weight * through };
                 self.divide(ray, media, &seen, tree, counts)
             }
-            End::Background => Branch::Background,
+            End::Background => tree.leave(ray.direction),
             End::Lost => Branch::Cut,
         };
         media.back_to(start);

@@ -26,6 +26,8 @@ pub struct IntersectionTree {
     /// something that absorbs it.
     pub through: Color,
     nodes: Vec<Node>,
+    /// Where to those rays went that left the scene, unit.
+    away: Vec<DVec3>,
     /// Room for what rays are in while the tree is made.
     pub(super) media: Media,
 }
@@ -36,8 +38,8 @@ pub enum Branch {
     /// It was not sent: too deep, or it would count for too little, or the tree was full.
     #[default]
     Cut,
-    /// It left the scene.
-    Background,
+    /// It left the scene: an index into the directions in which rays of the tree did.
+    Background(u32),
     /// It hit something: an index into the tree's nodes.
     Node(u32),
 }
@@ -83,6 +85,7 @@ impl IntersectionTree {
         self.root = Branch::Cut;
         self.through = Color::ONE;
         self.nodes.clear();
+        self.away.clear();
     }
 
     /// Whether it has [`MOST_NODES`] nodes.
@@ -102,7 +105,22 @@ impl IntersectionTree {
     pub fn node(&self, branch: Branch) -> Option<&Node> {
         match branch {
             Branch::Node(slot) => self.nodes.get(slot as usize),
-            Branch::Cut | Branch::Background => None,
+            Branch::Cut | Branch::Background(_) => None,
+        }
+    }
+
+    /// Adds a ray that left the scene in a direction, unit.
+    pub fn leave(&mut self, direction: DVec3) -> Branch {
+        self.away.push(direction);
+        Branch::Background(self.away.len() as u32 - 1)
+    }
+
+    /// The direction in which a branch left the scene.
+    #[must_use]
+    pub fn away(&self, branch: Branch) -> Option<DVec3> {
+        match branch {
+            Branch::Background(slot) => self.away.get(slot as usize).copied(),
+            Branch::Cut | Branch::Node(_) => None,
         }
     }
 

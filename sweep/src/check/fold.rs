@@ -62,6 +62,8 @@ impl Survey {
     /// Whether a row has points that run backward, for any reason.
     #[must_use]
     pub fn folds(&self, row: usize) -> bool {
+        // A wall's grid goes along its sheet twice.
+        let row = row % self.rows.len();
         self.bent[row] || self.relief[row] || self.deformed[row]
     }
 

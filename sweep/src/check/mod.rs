@@ -8,6 +8,7 @@
 //! | [`drawing`]    | curves as they were drawn: doubled points, crossings, near misses  |
 //! | [`rounding`]   | what the f32 numbers of a mesh lose                                |
 //! | [`strands`]    | parts of the surface that meet far from each other                 |
+//! | [`wall`]       | walls thicker than the surface is round                            |
 //!
 //! A finding says a number that one can act on, and where in the spec.
 
@@ -17,6 +18,7 @@ pub mod neighbors;
 pub mod resolution;
 pub mod rounding;
 pub mod strands;
+pub mod wall;
 
 use crate::cut::Stop;
 use crate::grid::{GridMesh, Seam};
@@ -111,7 +113,8 @@ pub fn check(
 pub fn of_sweep(sweep: &Sweep, grid: &GridMesh) -> Vec<Finding> {
     let survey = fold::Survey::of(sweep);
     let mut found = survey.findings();
-    found.extend(neighbors::findings(sweep, grid, &survey));
+    found.extend(neighbors::findings(sweep, &survey));
+    found.extend(wall::findings(sweep, grid));
     found.extend(resolution::findings(sweep));
     found.extend(rounding::findings(grid));
     found.extend(over_the_seam(sweep));
@@ -153,7 +156,9 @@ fn poles(grid: &GridMesh) -> usize {
 
 /// A mirrored seam takes a picture to its mirror image.
 fn over_the_seam(sweep: &Sweep) -> Option<Finding> {
-    let closing = sweep.shape.closing.filter(|closing| closing.mirrored)?;
+    // The picture of a wall goes around twice, and joins.
+    let sheet = sweep.shape.closing.filter(|_| sweep.wall.is_none());
+    let closing = sheet.filter(|closing| closing.mirrored)?;
     let middle = 0.5 * closing.offset.0 as f64 / closing.offset.1 as f64;
     Some(Finding::new(
         Severity::Remark,

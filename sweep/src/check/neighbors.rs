@@ -7,7 +7,7 @@
 use super::fold::Survey;
 use super::{Finding, Severity, ranges};
 use crate::Sweep;
-use crate::grid::{GridMesh, Seam};
+use crate::grid::Seam;
 use crate::modulation::Section;
 use rayon::prelude::*;
 
@@ -19,14 +19,16 @@ const AGAINST: f64 = -0.9;
 
 /// Rows of which some point lies behind the row before, those left out that fold by themselves.
 #[must_use]
-pub fn findings(sweep: &Sweep, grid: &GridMesh, survey: &Survey) -> Option<Finding> {
+pub fn findings(sweep: &Sweep, survey: &Survey) -> Option<Finding> {
     let (columns, rows) = sweep.lines();
+    // Of the sheet, where the grid is that of a wall around it.
+    let (seam, shift) = sweep.shape.seam(&sweep.col_stops()).unwrap_or_default();
     let sections: Vec<Section> = rows.par_iter().map(|&stop| sweep.shape.section(stop)).collect();
     let rotation = sweep.shape.trajectory.is_rotation();
     let narrow = TOUCHES * sweep.shape.contour.length();
     let crosses = |row: usize| {
         let wraps = row + 1 == rows.len();
-        if wraps && grid.seam_v == Seam::Open || survey.folds(row) {
+        if wraps && seam == Seam::Open || survey.folds(row) {
             return false;
         }
         let next = if wraps { 0 } else { row + 1 };
@@ -43,8 +45,7 @@ pub fn findings(sweep: &Sweep, grid: &GridMesh, survey: &Survey) -> Option<Findi
             return false;
         }
         columns.iter().enumerate().any(|(col, column)| {
-            let led =
-                if wraps { grid.seam_v.leads_to(col, grid.shift, columns.len()) } else { col };
+            let led = if wraps { seam.leads_to(col, shift, columns.len()) } else { col };
             let moved = there.point(&columns[led]) - here.point(column);
             moved.dot(ahead).min(moved.dot(arriving)) < -narrow
         })

@@ -183,7 +183,7 @@ fn cells(
     let col_pairs = pairs(&grid.u, grid.seam_u.joins(), col_step, &col_bends);
     seen.mirrored |= grid.seam_v == Seam::Mirror;
     seen.cells += row_pairs.len() * col_pairs.len();
-    seen.all += sweep.rows() * sweep.cols();
+    seen.all += grid.cells().iter().product::<usize>();
     let light = LIGHT.normalize();
     for (i, &([row, above], row_crease)) in row_pairs.iter().enumerate() {
         let wraps = above < row;

@@ -16,6 +16,7 @@ mod object;
 mod profile;
 mod seam;
 mod trajectory;
+mod wall;
 
 pub use object::read;
 
@@ -73,9 +74,11 @@ impl Reader<'_> {
             Some(kind) => self.closed(shape, kind)?,
             None => shape,
         };
+        let wall = self.wall(&spec, &shape)?;
         let sweep = Sweep {
             name: spec.name,
             shape,
+            wall,
             resolution: self.resolution(&spec.mesh, self.rather)?,
             fitted: None,
             uv: spec.uv,

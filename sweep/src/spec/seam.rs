@@ -25,6 +25,22 @@
 //!   "mesh": { "rows": 120, "cols": 12 }
 //! }
 //! ```
+//!
+//! A surface that closes mirrored has no inside. `"wall"` gives it one: in place of the sheet, all
+//! that is within half the wall's thickness of it, bounded by one closed surface with two sides, which
+//! a material of glass fills. The contour is closed and smooth, and there are no areas. `rows`, or the
+//! tolerance, are those of the sheet: the wall goes along it twice, first on the side of its normals.
+//!
+//! ```json
+//! {
+//!   "format": "tb-sweep", "version": 1, "name": "glass-eight",
+//!   "contour": { "free": { "closed": true, "points": [[0, 0], [0.4, 0.2], [0.4, -0.2], [0, 0],
+//!                                                     [-0.4, 0.2], [-0.4, -0.2]] } },
+//!   "trajectory": { "circle": { "radius": 1 } },
+//!   "seam": "mirror", "twist": { "total": 180 }, "wall": 0.03,
+//!   "mesh": { "rows": 120, "cols": 60 }
+//! }
+//! ```
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -31,7 +31,7 @@ impl JsonSchema for ColorFile {
     }
 }
 
-struct ColorVisitor;
+pub(super) struct ColorVisitor;
 
 impl<'de> Visitor<'de> for ColorVisitor {
     type Value = ColorFile;

@@ -52,21 +52,7 @@ impl Reader<'_> {
             (Some(_), Some(_)) => {
                 self.fault(&at, "found beside \"thin_film\", expected one of the two")
             }
-            (Some(file), None) => {
-                let mut stops = Vec::with_capacity(file.len());
-                for (k, &(angle, color)) in file.iter().enumerate() {
-                    let angle = self.within(&format!("{at}[{k}][0]"), angle, 0.0, 90.0)?;
-                    stops.push((angle, self.color(&format!("{at}[{k}][1]"), color)?));
-                }
-                match AngleRamp::new(stops) {
-                    Some(ramp) => Ok(Some(ramp)),
-                    None => self.fault(
-                        &at,
-                        "found no angles, or angles that do not ascend; expected [degrees, colour] \
-                         from 0 to 90, each angle larger than the one before",
-                    ),
-                }
-            }
+            (Some(file), None) => self.colors_by_angle(&at, file, 0.0).map(Some),
         }
     }
 

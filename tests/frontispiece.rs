@@ -1,0 +1,71 @@
+//! The frontispiece: what is seen of lettering through glass and in it.
+
+mod support;
+
+use render::color::Encoding;
+use std::fs;
+use std::path::Path;
+use support::{root, run, words};
+
+/// Where lettering is seen through the foot of the bottle: 48 x 24 pixels of 512 x 512.
+const THROUGH_THE_GLASS: &str = "216,378,48x24";
+
+fn example(path: &str) -> String {
+    root().join("examples").join(path).to_string_lossy().into_owned()
+}
+
+/// The bottle, more coarsely than on the page.
+fn make_bottle(folder: &Path) {
+    let spec = example("curves/klein-glass.json");
+    let swept = run("sweep", &["-q", &spec, "--tol", "1e-3", "-o", "a.grid"], folder);
+    assert!(swept.status.success(), "{}", words(&swept));
+    let split = run("triangulate", &["-q", "a.grid", "-o", "a.obj"], folder);
+    assert!(split.status.success(), "{}", words(&split));
+}
+
+fn render(more: &[&str], folder: &Path) -> Vec<u8> {
+    let scene = example("scenes/frontispiece.json");
+    let arguments = [&[scene.as_str(), "--mesh", "klein-glass=a.obj"], more].concat();
+    let rendered = run("render", &arguments, folder);
+    assert!(rendered.status.success(), "{}", words(&rendered));
+    rendered.stdout
+}
+
+/// Linear light of all channels of all pixels.
+fn light(more: &[&str], folder: &Path) -> Vec<f64> {
+    let part = ["--size", "512x512", "--crop", THROUGH_THE_GLASS, "-o", "a.png", "-q"];
+    render(&[&part, more].concat(), folder);
+    let bytes = fs::read(folder.join("a.png")).unwrap();
+    let picture = image::load_from_memory(&bytes).unwrap().to_rgb8();
+    picture.into_raw().iter().map(|&c| Encoding::Srgb.decode(f64::from(c) / 255.0)).collect()
+}
+
+/// Against many rays for each pixel, without a filter.
+#[test]
+fn lettering_through_glass_is_nearer_to_the_truth_when_prefiltered() {
+    let folder = tempfile::tempdir().unwrap();
+    make_bottle(folder.path());
+    let light = |more: &[&str]| light(more, folder.path());
+    let jittered = ["--filter", "point", "--samples", "8", "--pattern", "jitter", "--seed", "1"];
+    let truth = light(&jittered);
+    let error = |filter: &str| {
+        let found = light(&["--filter", filter]);
+        let squares = found.iter().zip(&truth).map(|(a, b)| (a - b).powi(2));
+        (squares.sum::<f64>() / truth.len() as f64).sqrt()
+    };
+    let (point, prefiltered) = (error("point"), error("tent"));
+    assert!(point > 0.04, "there are letters: {point}");
+    assert!(prefiltered < 0.6 * point, "{prefiltered}, and {point} without a filter");
+}
+
+#[test]
+fn the_bottle_is_a_closed_volume_of_glass() {
+    let folder = tempfile::tempdir().unwrap();
+    make_bottle(folder.path());
+    let said = String::from_utf8(render(&["--check"], folder.path())).unwrap();
+    let bottle = said.lines().find(|line| line.contains("mesh klein-glass")).unwrap();
+    assert!(bottle.contains(" closed, volume 1.18"), "{bottle}");
+    // The window and the door are there to be mirrored.
+    let hints: Vec<&str> = said.lines().filter(|line| line.starts_with("hint")).collect();
+    assert_eq!(hints, Vec::<&str>::new());
+}
