@@ -55,7 +55,7 @@ type Error<'a> = dyn Fn(&Trial) -> Option<Difference> + 'a;
 /// Axes around the trials, and down to the noise, as far as that is worth the room.
 fn axes(page: &PageMeasured, errors: &[&Error<'_>], noise: &[f64]) -> [Axis; 2] {
     let trials = || page.trials.iter();
-    let of_all = errors.iter().flat_map(|of| trials().filter_map(move |trial| of(trial)));
+    let of_all = errors.iter().flat_map(|of| trials().filter_map(of));
     let mut all: Vec<f64> = of_all.map(|found| found.rmse).filter(|&error| error > 0.0).collect();
     let least = all.iter().copied().fold(f64::INFINITY, f64::min);
     let noise = noise.iter().copied().fold(0.0, f64::max);
