@@ -1,7 +1,7 @@
 //! The section of a page.
 
 use super::super::measured::PageMeasured;
-use super::super::plot::{Size, trials as plots};
+use super::super::plot::{Chart, Size, trials as plots};
 use super::super::words::Claim;
 use super::super::words::numbers::error;
 use super::{about_plot, chart, pictures, trials};
@@ -19,6 +19,8 @@ pub fn section(page: &PageMeasured, claims: &[Claim]) -> Result<Markup, Pipeline
         format!("{0} \u{d7} {0} to {1} \u{d7} {1}", truth.samples, truth.most_samples)
     };
     let pictures = pictures::pictures(page)?;
+    // The heading names the page already, and a telephone has no room for it twice.
+    let untitled = Chart { title: None, ..plots::whole(page) };
     Ok(html! {
         section.page id=(page.name) {
             p.eyebrow { (page.name) }
@@ -29,7 +31,7 @@ pub fn section(page: &PageMeasured, claims: &[Claim]) -> Result<Markup, Pipeline
             }
             @if !own.is_empty() { ul { @for claim in own { li { (super::sentence(claim)) } } } }
             (pictures)
-            div.plots { (chart(&plots::whole(page), &about_plot(page))) }
+            div.plots { (chart(&untitled, &about_plot(page))) }
             @if !page.regions.is_empty() {
                 h3 { "By region" }
                 div.multiples {
