@@ -50,6 +50,23 @@ fn all_pages_are_the_same_bytes_on_one_thread_and_on_five() {
     }
 }
 
+#[test]
+fn a_sheet_shows_the_last_picture_of_each_page() {
+    let folder = tempfile::tempdir().unwrap();
+    let asked = ["run", "vase", "spring", "--sheet", "--size", "40x30", "-q", "-o", "out"];
+    let files = make(&asked, folder.path());
+    let picture = |name: &str| {
+        let (_, bytes) = files.iter().find(|(file, _)| file == name).expect("the file is there");
+        image::load_from_memory(bytes).unwrap().to_rgb8()
+    };
+    let sheet = picture("sheet.png");
+    assert_eq!(sheet.dimensions(), (2 * 48 + 8, 38 + 8));
+    for (k, last) in (0..).zip(["vase-supersampled.png", "spring-prefiltered.png"]) {
+        let shown = image::imageops::crop_imm(&sheet, 8 + 48 * k, 8, 40, 30).to_image();
+        assert_eq!(shown, picture(last), "{last}");
+    }
+}
+
 /// What a patch is in a report of `triangulate`.
 #[derive(Debug, PartialEq, Deserialize)]
 struct Patch {

@@ -15,6 +15,7 @@ pub mod mesh;
 pub mod pages;
 pub mod report;
 pub mod run;
+pub mod sheet;
 pub mod stages;
 pub mod textures;
 

@@ -69,6 +69,8 @@ pub enum Event<'a> {
     Picture {
         /// The mode.
         mode: &'a str,
+        /// It.
+        picture: &'a Picture,
         /// What it cost.
         stats: &'a Stats,
     },
@@ -251,7 +253,7 @@ impl Work<'_> {
         stats.read_time = read_time;
         stats.write_time = started.elapsed();
         self.took(Stages::of_mode(&stats));
-        (self.tell)(Event::Picture { mode: &mode.name, stats: &stats });
+        (self.tell)(Event::Picture { mode: &mode.name, picture: &picture, stats: &stats });
         Ok(picture)
     }
 

@@ -1,10 +1,11 @@
 //! The front of the book: its title, how to read it, and what is in it.
 
-use super::image::{address, thumbnail};
+use super::image::address;
 use super::leaf::figures_in_words;
 use super::plate::{Plate, Shot};
 use super::{Entry, Options, number};
 use crate::PipelineError;
+use crate::sheet::thumbnail;
 use maud::{Markup, html};
 use std::time::Duration;
 

@@ -22,58 +22,9 @@ pub fn address(name: &str, picture: &Picture) -> Result<String, PipelineError> {
     Ok(png_address(&png))
 }
 
-/// The same picture smaller, at most `side` pixels across and down; each pixel is the mean of the light of
-/// those that it stands for.
-#[must_use]
-pub fn thumbnail(picture: &Picture, side: u32) -> Picture {
-    let (width, height) = (picture.width, picture.height);
-    let longest = width.max(height);
-    if longest <= side {
-        return picture.clone();
-    }
-    let scaled =
-        |length: u32| (u64::from(length) * u64::from(side) / u64::from(longest)).max(1) as u32;
-    let mut small = Picture::black(scaled(width), scaled(height));
-    let span = |k: u32, parts: u32, all: u32| {
-        let edge = |k: u32| (u64::from(k) * u64::from(all) / u64::from(parts)) as usize;
-        edge(k)..edge(k + 1).max(edge(k) + 1)
-    };
-    for y in 0..small.height {
-        for x in 0..small.width {
-            let (rows, columns) = (span(y, small.height, height), span(x, small.width, width));
-            let count = (rows.len() * columns.len()) as f64;
-            let mut sum = [0.0_f64; 3];
-            for row in rows {
-                let start = row * width as usize;
-                for pixel in &picture.pixels[start + columns.start..start + columns.end] {
-                    for (sum, light) in sum.iter_mut().zip(pixel) {
-                        *sum += f64::from(*light).clamp(0.0, 1.0);
-                    }
-                }
-            }
-            let place = (y * small.width + x) as usize;
-            small.pixels[place] = sum.map(|sum| (sum / count) as f32);
-        }
-    }
-    small
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_thumbnail_keeps_the_light_and_the_shape() {
-        let mut picture = Picture::black(300, 200);
-        for (k, pixel) in picture.pixels.iter_mut().enumerate() {
-            *pixel = [(k % 2) as f32; 3];
-        }
-        let small = thumbnail(&picture, 150);
-        assert_eq!((small.width, small.height), (150, 100));
-        assert!(small.pixels.iter().all(|pixel| *pixel == [0.5; 3]));
-        assert_eq!(thumbnail(&picture, 300), picture);
-        assert_eq!(thumbnail(&Picture::black(1000, 1), 10).height, 1);
-    }
 
     #[test]
     fn the_address_is_the_picture() {

@@ -7,8 +7,10 @@ use clap::builder::TypedValueParser;
 use files::exit::say;
 use files::{Output, Report, Source};
 use pipeline::run::{Event, Options};
+use pipeline::sheet::Sheet;
 use pipeline::stages::Stages;
 use pipeline::{Job, PipelineError, run as run_job};
+use render::Picture;
 use render::progress::Progress;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -36,6 +38,9 @@ pub struct RunArguments {
     /// Write the grids and OBJ files too, as the programs would have piped them
     #[arg(long)]
     keep: bool,
+    /// Show the last picture of each job on one sheet too, small: sheet.png
+    #[arg(long)]
+    sheet: bool,
     /// Worker threads [default: one for each core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024).map(usize::from))]
     threads: Option<usize>,
@@ -60,6 +65,10 @@ pub fn run(arguments: &RunArguments) -> Result<(), Report> {
             Output::check(&arguments.output.join(file), !arguments.no_clobber)?;
         }
     }
+    let sheet_path = arguments.sheet.then(|| arguments.output.join(Sheet::FILE));
+    if let Some(path) = &sheet_path {
+        Output::check(path, !arguments.no_clobber)?;
+    }
     let pool = threads::pool(arguments.threads)?;
     let options = Options {
         folder: arguments.output.clone(),
@@ -70,13 +79,21 @@ pub fn run(arguments: &RunArguments) -> Result<(), Report> {
     };
     let mut rows: Vec<(String, Stages)> = Vec::new();
     let mut all = Stages::default();
+    let mut sheet = Sheet::default();
     for (job, source) in &jobs {
         let talk = Talk::new(job, arguments);
         let stages =
             pool.install(|| run_job(job, *source, &options, &|event| talk.hear(&event)))?;
         rows.push((job.name.clone(), stages));
-        rows.extend(talk.modes());
+        let (modes, last) = talk.heard();
+        rows.extend(modes);
+        if let Some(picture) = &last {
+            sheet.add(picture);
+        }
         all += stages;
+    }
+    if let Some(path) = &sheet_path {
+        Output::create(path, !arguments.no_clobber)?.commit_all(&sheet.png()?)?;
     }
     if jobs.len() > 1 {
         rows.push(("all".into(), all));
@@ -91,6 +108,9 @@ pub fn run(arguments: &RunArguments) -> Result<(), Report> {
 fn jobs(arguments: &RunArguments) -> Result<Vec<(Job, &'static dyn Source)>, PipelineError> {
     let mut jobs: Vec<(Job, &'static dyn Source)> = Vec::new();
     let mut written: BTreeMap<String, String> = BTreeMap::new();
+    if arguments.sheet {
+        written.insert(Sheet::FILE.into(), "--sheet".into());
+    }
     for Asked { job, source, figures, argument, .. } in asked(&arguments.jobs)? {
         let job = if figures.is_empty() { job } else { job.only(&figures) };
         let job = job.with_modes(&arguments.modes)?;
@@ -116,17 +136,26 @@ struct Talk<'a> {
     started: Instant,
     progress: Mutex<Option<(String, Progress)>>,
     modes: Mutex<Vec<(String, Stages)>>,
+    /// The last picture, where a sheet is to show it.
+    last: Mutex<Option<Picture>>,
 }
 
 impl<'a> Talk<'a> {
     fn new(job: &'a Job, arguments: &'a RunArguments) -> Self {
-        let (progress, modes) = (Mutex::new(None), Mutex::new(Vec::new()));
-        Self { job: &job.name, arguments, started: Instant::now(), progress, modes }
+        Self {
+            job: &job.name,
+            arguments,
+            started: Instant::now(),
+            progress: Mutex::default(),
+            modes: Mutex::default(),
+            last: Mutex::default(),
+        }
     }
 
-    /// What each mode took by itself, where that was asked for.
-    fn modes(self) -> Vec<(String, Stages)> {
-        self.modes.into_inner().unwrap_or_else(PoisonError::into_inner)
+    /// What each mode took by itself, and the last picture, where either was asked for.
+    fn heard(self) -> (Vec<(String, Stages)>, Option<Picture>) {
+        let modes = self.modes.into_inner().unwrap_or_else(PoisonError::into_inner);
+        (modes, self.last.into_inner().unwrap_or_else(PoisonError::into_inner))
     }
 
     fn hear(&self, event: &Event<'_>) {
@@ -139,8 +168,13 @@ impl<'a> Talk<'a> {
                     self.say(&format!("{}: note: {name}: {missed}", self.job));
                 }
             }
-            Event::Picture { mode, stats } => {
+            Event::Picture { mode, picture, stats } => {
                 self.clear();
+                if self.arguments.sheet
+                    && let Ok(mut last) = self.last.lock()
+                {
+                    *last = Some((*picture).clone());
+                }
                 if stats.not_finite > 0 {
                     let (job, count) = (self.job, stats.not_finite);
                     let words = "pixels came out not finite and are black";

@@ -1,0 +1,134 @@
+//! Many pictures on one sheet, small.
+
+use crate::PipelineError;
+use render::Picture;
+use render::color::Encoding;
+use render::film::encode::{self, Format};
+
+/// White between pictures and around them, in pixels.
+const GAP: u32 = 8;
+
+/// Side of a picture on a sheet at most, in pixels.
+const SIDE: u32 = 160;
+
+/// Pictures in a row at most.
+const ROW: usize = 6;
+
+/// A sheet of pictures, as photographers print one of each film.
+#[derive(Debug, Clone, Default)]
+pub struct Sheet {
+    pictures: Vec<Picture>,
+}
+
+impl Sheet {
+    /// What its file is called.
+    pub const FILE: &str = "sheet.png";
+
+    /// Adds a picture after the others.
+    pub fn add(&mut self, picture: &Picture) {
+        self.pictures.push(thumbnail(picture, SIDE));
+    }
+
+    /// The sheet as a PNG file.
+    ///
+    /// # Errors
+    /// When the encoder refuses it.
+    pub fn png(&self) -> Result<Vec<u8>, PipelineError> {
+        encode::encode(&self.picture(), Format::Png, Encoding::Srgb)
+            .map_err(|source| PipelineError::Encode { name: Self::FILE.into(), source })
+    }
+
+    /// The sheet: row by row from the upper left, on white.
+    #[must_use]
+    pub fn picture(&self) -> Picture {
+        let across = self.pictures.len().clamp(1, ROW) as u32;
+        let down = self.pictures.len().div_ceil(ROW) as u32;
+        let widest = self.pictures.iter().map(|picture| picture.width).max().unwrap_or(0);
+        let highest = self.pictures.iter().map(|picture| picture.height).max().unwrap_or(0);
+        let [column, row] = [widest + GAP, highest + GAP];
+        let mut sheet = Picture::black(across * column + GAP, down * row + GAP);
+        sheet.pixels.fill([1.0; 3]);
+        for (k, picture) in (0..).zip(&self.pictures) {
+            let [x, y] = [GAP + k % across * column, GAP + k / across * row];
+            for (down, pixels) in (y..).zip(picture.pixels.chunks_exact(picture.width as usize)) {
+                let start = (down * sheet.width + x) as usize;
+                sheet.pixels[start..start + pixels.len()].copy_from_slice(pixels);
+            }
+        }
+        sheet
+    }
+}
+
+/// The same picture smaller, at most `side` pixels across and down; each pixel is the mean of the light of
+/// those that it stands for.
+#[must_use]
+pub fn thumbnail(picture: &Picture, side: u32) -> Picture {
+    let (width, height) = (picture.width, picture.height);
+    let longest = width.max(height);
+    if longest <= side {
+        return picture.clone();
+    }
+    let scaled =
+        |length: u32| (u64::from(length) * u64::from(side) / u64::from(longest)).max(1) as u32;
+    let mut small = Picture::black(scaled(width), scaled(height));
+    let span = |k: u32, parts: u32, all: u32| {
+        let edge = |k: u32| (u64::from(k) * u64::from(all) / u64::from(parts)) as usize;
+        edge(k)..edge(k + 1).max(edge(k) + 1)
+    };
+    for y in 0..small.height {
+        for x in 0..small.width {
+            let (rows, columns) = (span(y, small.height, height), span(x, small.width, width));
+            let count = (rows.len() * columns.len()) as f64;
+            let mut sum = [0.0_f64; 3];
+            for row in rows {
+                let start = row * width as usize;
+                for pixel in &picture.pixels[start + columns.start..start + columns.end] {
+                    for (sum, light) in sum.iter_mut().zip(pixel) {
+                        *sum += f64::from(*light).clamp(0.0, 1.0);
+                    }
+                }
+            }
+            let place = (y * small.width + x) as usize;
+            small.pixels[place] = sum.map(|sum| (sum / count) as f32);
+        }
+    }
+    small
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_thumbnail_keeps_the_light_and_the_shape() {
+        let mut picture = Picture::black(300, 200);
+        for (k, pixel) in picture.pixels.iter_mut().enumerate() {
+            *pixel = [(k % 2) as f32; 3];
+        }
+        let small = thumbnail(&picture, 150);
+        assert_eq!((small.width, small.height), (150, 100));
+        assert!(small.pixels.iter().all(|pixel| *pixel == [0.5; 3]));
+        assert_eq!(thumbnail(&picture, 300), picture);
+        assert_eq!(thumbnail(&Picture::black(1000, 1), 10).height, 1);
+    }
+
+    #[test]
+    fn pictures_lie_in_rows_of_six_on_white() {
+        let mut sheet = Sheet::default();
+        for k in 1..=7 {
+            let mut picture = Picture::black(2, 1);
+            picture.pixels.fill([f32::from(k as u8) / 8.0; 3]);
+            sheet.add(&picture);
+        }
+        let whole = sheet.picture();
+        assert_eq!((whole.width, whole.height), (6 * 10 + 8, 2 * 9 + 8));
+        let at = |x: u32, y: u32| whole.pixels[(y * whole.width + x) as usize][0];
+        for k in 0..7 {
+            let [x, y] = [8 + k % 6 * 10, 8 + k / 6 * 9];
+            assert_eq!(at(x, y), (k + 1) as f32 / 8.0);
+            assert_eq!([at(x + 1, y), at(x + 2, y), at(x, y - 1)], [at(x, y), 1.0, 1.0]);
+        }
+        let shown = whole.pixels.iter().filter(|pixel| pixel[0] < 1.0).count();
+        assert_eq!(shown, 7 * 2);
+    }
+}
