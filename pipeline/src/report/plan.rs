@@ -45,7 +45,7 @@ impl Plan {
         }
     }
 
-    /// Few methods, small pictures, and a truth of no more than it takes.
+    /// Few methods and small pictures.
     #[must_use]
     pub fn quick() -> Self {
         let samplings =
@@ -53,7 +53,6 @@ impl Plan {
         Self {
             size: (64, 64),
             samplings,
-            most_truth_samples: 32,
             patience: Duration::from_millis(20),
             quick: true,
             ..Self::full()
