@@ -179,13 +179,17 @@ pub fn page(name: &str) -> Result<Job, PipelineError> {
     Job::read(&path(name), &FILES)
 }
 
-/// All pages: those with figures of the thesis by their numbers, then the others by their names.
+/// All pages: those with figures of the thesis by their numbers, then the others by their names, those last that
+/// show a scene of another page with meshes by tolerance.
 ///
 /// # Errors
 /// None, as long as every page is a job, which a test holds.
 pub fn in_order() -> Result<Vec<Job>, PipelineError> {
     let mut jobs = names().into_iter().map(page).collect::<Result<Vec<_>, _>>()?;
-    jobs.sort_by_key(|job| job.figures().first().copied().unwrap_or(u8::MAX));
+    jobs.sort_by_key(|job| {
+        let figure = job.figures().first().copied().unwrap_or(u8::MAX);
+        (figure, job.name.ends_with("-adaptive"))
+    });
     Ok(jobs)
 }
 

@@ -39,8 +39,8 @@ pub fn asked(arguments: &[String]) -> Result<Vec<Asked>, PipelineError> {
     let mut all: Vec<Asked> = Vec::new();
     for argument in arguments {
         if argument == "all" {
-            for name in pages::names() {
-                add(&mut all, page(name, argument, Vec::new())?);
+            for job in pages::in_order()? {
+                add(&mut all, page(&job.name, argument, Vec::new())?);
             }
         } else if Path::new(argument).extension().is_some_and(|extension| extension == "json") {
             let path = PathBuf::from(argument);
