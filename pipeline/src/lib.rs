@@ -12,12 +12,14 @@ pub mod error;
 pub mod html;
 pub mod job;
 pub mod mesh;
+pub mod number;
 pub mod pages;
 pub mod report;
 pub mod run;
 pub mod sheet;
 pub mod stages;
 pub mod textures;
+pub mod truth;
 
 pub use error::PipelineError;
 pub use job::Job;

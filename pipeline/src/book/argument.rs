@@ -1,7 +1,7 @@
 //! Why a page takes the time that it takes.
 
-use super::number::{count, millions};
 use super::plate::Plate;
+use crate::number::{count, millions};
 use crate::stages::Stages;
 
 /// The slowest stage of a page, and what it had to do: a sentence or two, from the page's own counts.

@@ -1,7 +1,7 @@
 //! A part of a page looked at pixel by pixel, in each mode and as it ought to be.
 
-use super::truth::Truth;
 use crate::job::Place;
+use crate::truth::Pair;
 use render::film::{Crop, Layer};
 use render::filter::Filter;
 use render::{Picture, Scene, Settings};
@@ -48,7 +48,7 @@ impl Detail {
         let crop = around(place, size);
         let pictures: Vec<Picture> = pictures.iter().map(|picture| cut(picture, crop)).collect();
         let judged = (samples > 0).then(|| {
-            let truth = Truth::render(scene, size, crop, samples);
+            let truth = Pair::render(scene, size, crop, samples, &|_, _| {});
             let wide = wide_pixels(scene, size, crop);
             let errors = |among: &dyn Fn(usize) -> bool| {
                 pictures.iter().filter_map(|picture| truth.error_of(picture, among)).collect()

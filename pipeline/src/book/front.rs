@@ -3,8 +3,9 @@
 use super::image::address;
 use super::leaf::figures_in_words;
 use super::plate::{Plate, Shot};
-use super::{Entry, Options, number};
+use super::{Entry, Options};
 use crate::PipelineError;
+use crate::number;
 use crate::sheet::thumbnail;
 use maud::{Markup, html};
 use std::time::Duration;
@@ -153,7 +154,7 @@ fn times(lines: &[&Line]) -> Markup {
                                     td { a href=(format!("#{}", line.id)) { (time.figure) } }
                                     td.mode { (time.mode) }
                                     td { (number::minutes(time.minutes)) }
-                                    td { (number::seconds(time.now)) }
+                                    td { (number::seconds(time.now.as_secs_f64())) }
                                     td { (number::times(60.0 * f64::from(time.minutes) / time.now.as_secs_f64())) }
                                 }
                             }

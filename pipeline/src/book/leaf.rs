@@ -3,11 +3,11 @@
 use super::argument::argument;
 use super::detail::Detail;
 use super::image::address;
-use super::number::{self, count, error, seconds};
 use super::plate::{Plate, Shot, in_details};
 use super::{Entry, Options};
 use crate::PipelineError;
 use crate::job::figure;
+use crate::number::{self, count, error, seconds};
 use crate::stages::Stages;
 use maud::{Markup, html};
 use render::Picture;
@@ -141,15 +141,15 @@ fn costs(plate: &Plate) -> Markup {
                         @if !shared.is_zero() {
                             tr {
                                 th scope="row" { (name) }
-                                td.shared colspan=(own.len()) { (seconds(shared)) @if own.len() > 1 { ", for all" } }
+                                td.shared colspan=(own.len()) { (seconds(shared.as_secs_f64())) @if own.len() > 1 { ", for all" } }
                             }
                         } @else if times.iter().any(|time| !time.is_zero()) {
-                            tr { th scope="row" { (name) } @for time in &times { td { (seconds(*time)) } } }
+                            tr { th scope="row" { (name) } @for time in &times { td { (seconds(time.as_secs_f64())) } } }
                         }
                     }
                     tr.sum {
                         th scope="row" { "together" }
-                        @for shot in &own { td { (seconds(plate.shared.total() + shot.stages.total())) } }
+                        @for shot in &own { td { (seconds((plate.shared.total() + shot.stages.total()).as_secs_f64())) } }
                     }
                     @if of_thesis {
                         tr {

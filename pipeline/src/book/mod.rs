@@ -1,7 +1,7 @@
 //! The picture book: pages with their pictures, modes, costs and errors, as one file of HTML.
 //!
 //! Each page of it is made as [`crate::run()`] makes it ([`Plate`]), and looked at closely: parts of it
-//! pixel by pixel in each mode beside what they ought to be ([`Detail`], [`Truth`]), where its time went,
+//! pixel by pixel in each mode beside what they ought to be ([`Detail`], [`crate::truth`]), where its time went,
 //! and its files. The book refers to nothing outside of it. Its pictures and errors are the same whenever
 //! it is made; its times are measured.
 
@@ -10,14 +10,11 @@ pub mod detail;
 pub mod front;
 pub mod image;
 pub mod leaf;
-pub mod number;
 pub mod plate;
 pub mod sources;
-pub mod truth;
 
 pub use detail::Detail;
 pub use plate::Plate;
-pub use truth::Truth;
 
 use crate::html::styled_page;
 use crate::{Job, PipelineError, run};

@@ -3,11 +3,11 @@
 use super::Entry;
 use super::detail::{Detail, most_different};
 use super::sources::{SourceText, texts};
-use super::truth::Truth;
 use crate::PipelineError;
 use crate::job::{Mode, Place};
 use crate::run::{self, Event};
 use crate::stages::Stages;
+use crate::truth::Pair;
 use render::accel::Structure;
 use render::color::Encoding;
 use render::film::Crop;
@@ -81,7 +81,7 @@ impl Plate {
         // A comparison of the thesis, or a page with modes of its own to compare: judged as a whole.
         if truth > 0 && job.modes.len() > 1 {
             let whole = Crop::whole(options.size.0, options.size.1);
-            let truth = Truth::render(&scene, options.size, whole, truth.div_ceil(4));
+            let truth = Pair::render(&scene, options.size, whole, truth.div_ceil(4), &|_, _| {});
             for shot in &mut shots {
                 shot.error = truth.error_of(&shot.picture, |_| true);
             }

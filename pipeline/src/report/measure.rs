@@ -5,8 +5,8 @@
 
 use super::measured::{Cost, Method, PageMeasured, Region, Trial, Truth};
 use super::plan::Plan;
+use super::refined::Refined;
 use super::regions;
-use super::truth::Pair;
 use crate::compare::{CompareError, Difference};
 use render::stats::Stats;
 use render::{Picture, Scene, Settings};
@@ -172,8 +172,8 @@ fn settle(
     plan: &Plan,
     turns: &[Turn],
     tell: Tell<'_>,
-) -> Result<(Pair, bool), CompareError> {
-    let mut pair = Pair::render(scene, plan.size, plan.truth_samples, &|done, total| {
+) -> Result<(Refined, bool), CompareError> {
+    let mut pair = Refined::render(scene, plan.size, plan.truth_samples, &|done, total| {
         tell("truth", done, total);
     });
     for _ in 0..MOST_REFINEMENTS {
@@ -191,7 +191,7 @@ fn settle(
 }
 
 /// The smallest error of all pictures, that of the truth taken out.
-fn smallest(pair: &Pair, turns: &[Turn]) -> Result<f64, CompareError> {
+fn smallest(pair: &Refined, turns: &[Turn]) -> Result<f64, CompareError> {
     let (truth, noise) = (pair.mean(), pair.noise(None));
     turns.iter().try_fold(f64::INFINITY, |smallest, turn| {
         let difference = Difference::between(&turn.picture, &truth, None)?;

@@ -18,10 +18,10 @@ mod method;
 pub mod pareto;
 pub mod plan;
 pub mod plot;
+pub mod refined;
 pub mod regions;
 mod sight;
 mod table;
-pub mod truth;
 pub mod words;
 mod write;
 

@@ -3,9 +3,9 @@
 use super::super::measured::PageMeasured;
 use super::super::plot::{Chart, Size, trials as plots};
 use super::super::words::Claim;
-use super::super::words::numbers::error;
 use super::{about_plot, chart, pictures, trials};
 use crate::PipelineError;
+use crate::number::error;
 use maud::{Markup, PreEscaped, html};
 
 pub fn section(page: &PageMeasured, claims: &[Claim]) -> Result<Markup, PipelineError> {

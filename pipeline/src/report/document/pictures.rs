@@ -1,10 +1,10 @@
 //! The pictures of a page beside the truth, and maps of where they are wrong.
 
 use super::super::measured::{PageMeasured, Trial};
-use super::super::words::numbers::{error, seconds};
 use crate::PipelineError;
 use crate::compare::{Scale, map, scale};
 use crate::html::png_address;
+use crate::number::{error, seconds};
 use maud::{Markup, html};
 use render::color::Encoding;
 use render::film::Nine;

@@ -1,8 +1,8 @@
 //! The conclusions, and all pages at a glance.
 
 use super::super::measured::{Measured, PageMeasured, Trial};
-use super::super::words::numbers::{error, times};
 use super::super::words::{Claim, Topic, Verdict};
+use crate::number::{error, times};
 use maud::{Markup, html};
 use render::Sampling;
 use render::film::Nine;

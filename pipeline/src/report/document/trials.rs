@@ -2,7 +2,7 @@
 
 use super::super::measured::{PageMeasured, Trial};
 use super::super::pareto;
-use super::super::words::numbers::{bytes, error, seconds};
+use crate::number::{bytes, error, seconds};
 use maud::{Markup, html};
 
 /// The Pareto front openly, and all methods for who asks.

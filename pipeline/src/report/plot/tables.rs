@@ -3,8 +3,8 @@
 use super::axis::{Axis, Unit};
 use super::chart::{Chart, Place, Series};
 use super::look::{Look, Mark};
+use crate::number::digits;
 use crate::report::measured::Table;
-use crate::report::words::numbers::digits;
 
 /// The plots of a table, by its name; none for one that is not known here, or has other columns.
 #[must_use]

@@ -4,9 +4,9 @@ use super::axis::{Axis, Unit};
 use super::chart::{Band, Chart, Place, Series};
 use super::look::Look;
 use crate::compare::Difference;
+use crate::number::{error, seconds};
 use crate::report::measured::{PageMeasured, Trial};
 use crate::report::pareto;
-use crate::report::words::numbers::{error, seconds};
 use render::filter::Filter;
 
 const ACROSS: &str = "processor time";

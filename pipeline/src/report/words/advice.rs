@@ -1,9 +1,10 @@
 //! Which method to use when, for a time that may be spent and for an error that is to be reached.
 
 use super::super::measured::{Method, PageMeasured, Trial};
-use super::numbers::{in_the_time, times};
+use super::numbers::in_the_time;
 use super::pool::{everywhere, mean, time_ratio, trial, whole};
 use super::{AS_FAST, AS_NEAR, Claim, Topic, Verdict, as_near};
+use crate::number::times;
 use render::Sampling;
 use render::filter::Filter;
 

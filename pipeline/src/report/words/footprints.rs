@@ -1,8 +1,9 @@
 //! Footprints that are hard for the thesis's method: at a slant, and thin.
 
 use super::super::measured::Table;
-use super::numbers::{error, list, times};
+use super::numbers::list;
 use super::{AS_NEAR, Claim, Topic, Verdict, nearer};
+use crate::number::{error, times};
 
 /// What the filters' floor set says.
 pub fn claims(floor: &Table) -> Vec<Claim> {

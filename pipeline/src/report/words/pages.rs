@@ -1,9 +1,10 @@
 //! What one ray with the thesis's filter is worth, page by page and in all.
 
 use super::super::measured::{PageMeasured, Trial};
-use super::numbers::{error, in_the_time, list};
+use super::numbers::{in_the_time, list};
 use super::pool::{THESIS, counts, evenly};
 use super::{AS_FAST, Claim, Topic, Verdict, as_near, nearer};
+use crate::number::error;
 use render::filter::Filter;
 
 /// Differences of the truth's two seeds at most, as a part of the smallest error.

@@ -1,10 +1,10 @@
 //! What the filters do in the regions of the pictures.
 
 use super::super::measured::{Method, PageMeasured};
-use super::numbers::{error, times};
 use super::pool::{THESIS, pooled, trial};
 use super::{Claim, HELPS, NO_HELP, Topic, Verdict, as_near, nearer};
 use crate::compare::Difference;
+use crate::number::{error, times};
 use render::Sampling;
 use render::filter::Filter;
 

@@ -1,9 +1,10 @@
 //! Filters against rays, and against each other, over all pages.
 
 use super::super::measured::{Method, PageMeasured};
-use super::numbers::{bytes, error, in_the_time};
+use super::numbers::in_the_time;
 use super::pool::{counts, evenly, time_ratio, whole};
 use super::{AS_FAST, Claim, Topic, Verdict, as_near, nearer};
+use crate::number::{bytes, error};
 use render::Sampling;
 use render::film::Nine;
 use render::filter::Filter;

@@ -1,4 +1,4 @@
-//! What a part of a picture ought to be, and how far others are from it.
+//! What a picture ought to be, and how far others are from it.
 //!
 //! The truth is made of many jittered rays in each pixel, which look textures up by interpolation and
 //! average nothing. It is made twice, of two seeds, and errors are measured with both at once: the mean of
@@ -13,21 +13,38 @@ use render::{Picture, Sampling, Scene, Settings, render};
 /// The seeds of the two pictures.
 const SEEDS: [u64; 2] = [1, 2];
 
-/// A part of a picture, made twice.
+/// Two pictures of the same, of two seeds.
 #[derive(Debug, Clone)]
-pub struct Truth {
-    pictures: [Picture; 2],
+pub struct Pair {
+    /// They.
+    pub pictures: [Picture; 2],
 }
 
-impl Truth {
-    /// Makes the part `crop` of a picture of `size` pixels, twice, of `samples * samples` rays in each pixel.
+impl Pair {
+    /// Makes the part `crop` of a picture of `size` pixels, twice, of `samples * samples` rays in each
+    /// pixel, at most [`render::film::MOST_SAMPLES`] along each side. `progress` is told how much of how
+    /// much is done.
+    ///
+    /// Runs on the threads of the current rayon pool; the result is the same for any number of them.
     #[must_use]
-    pub fn render(scene: &Scene, (width, height): (u32, u32), crop: Crop, samples: u32) -> Self {
+    pub fn render(
+        scene: &Scene,
+        (width, height): (u32, u32),
+        crop: Crop,
+        samples: u32,
+        progress: &(dyn Fn(usize, usize) + Sync),
+    ) -> Self {
+        let mut half = 0;
         let pictures = SEEDS.map(|seed| {
             let pattern = Pattern::Jitter { seed };
             let sampling = Sampling::Grid { samples, pattern, pixel_filter: PixelFilter::Box };
             let settings = Settings::new(width, height, Filter::Bilinear);
-            render(scene, &Settings { sampling, crop: Some(crop), ..settings }, &|_, _| {}).0
+            let settings = Settings { sampling, crop: Some(crop), ..settings };
+            let (picture, _) = render(scene, &settings, &|done, total| {
+                progress(half * total + done, 2 * total);
+            });
+            half += 1;
+            picture
         });
         Self { pictures }
     }
@@ -80,7 +97,7 @@ mod tests {
             }
             picture
         };
-        let truth = Truth { pictures: [noisy(), noisy()] };
+        let truth = Pair { pictures: [noisy(), noisy()] };
         let mut bright = Picture::black(side, side);
         bright.pixels.fill([0.52; 3]);
         let error = truth.error_of(&bright, |_| true).unwrap();

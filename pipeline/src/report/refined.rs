@@ -1,33 +1,29 @@
 //! The picture that all others are held against: a great many unfiltered rays.
 //!
-//! Each pixel is made of `n * n` jittered rays, which look their textures up by interpolation and average
-//! nothing: what the methods that are judged do cleverly is done here by patience. It is made twice,
-//! of two seeds. Half the difference of the two is the noise of their mean.
+//! Each pixel is made of `n * n` jittered rays: what the methods that are judged do cleverly is done here by
+//! patience. It is made twice, of two seeds ([`Pair`]). Half the difference of the two is the noise of their mean.
 //!
 //! Where that is too much, blocks of the picture are made anew of more rays, the noisiest of the most
 //! ([`blocks::allot`](super::blocks::allot)). Which blocks is decided by the pictures that are
 //! thrown away, so the new ones are as unbiased as the first.
 
 use super::blocks::{Block, allot};
-use render::film::{Crop, Pattern, PixelFilter};
-use render::filter::Filter;
-use render::{Picture, Sampling, Scene, Settings};
+use crate::truth::Pair;
+use render::film::Crop;
+use render::{Picture, Scene};
 
 /// Pixels along the side of a block.
 const SIDE: u32 = 16;
 
-/// The seeds of the two pictures.
-const SEEDS: [u64; 2] = [1, 2];
-
-/// Two pictures of the same, of two seeds.
+/// A pair of which parts can be made anew of more rays.
 #[derive(Debug, Clone)]
-pub struct Pair {
-    pictures: [Picture; 2],
+pub struct Refined {
+    pair: Pair,
     /// The blocks of the picture, and the rays of each along each side of a pixel.
     blocks: Vec<(Crop, u32)>,
 }
 
-impl Pair {
+impl Refined {
     /// Makes both of `samples * samples` rays in each pixel, at most [`render::film::MOST_SAMPLES`]
     /// along each side. `progress` is told how much of how much is done.
     ///
@@ -39,26 +35,16 @@ impl Pair {
         samples: u32,
         progress: &(dyn Fn(usize, usize) + Sync),
     ) -> Self {
-        let mut half = 0;
-        let pictures = SEEDS.map(|seed| {
-            let settings = settings(width, height, samples, seed);
-            let (picture, _) = render::render(scene, &settings, &|done, total| {
-                progress(half * total + done, 2 * total);
-            });
-            half += 1;
-            picture
-        });
-        let blocks = Crop::whole(width, height).tiles(SIDE).into_iter();
-        Self { pictures, blocks: blocks.map(|block| (block, samples)).collect() }
+        let whole = Crop::whole(width, height);
+        let pair = Pair::render(scene, (width, height), whole, samples, progress);
+        let blocks = whole.tiles(SIDE).into_iter();
+        Self { pair, blocks: blocks.map(|block| (block, samples)).collect() }
     }
 
     /// The mean of both.
     #[must_use]
     pub fn mean(&self) -> Picture {
-        let [first, second] = &self.pictures;
-        let pairs = first.pixels.iter().zip(&second.pixels);
-        let mean = |(a, b): (&[f32; 3], &[f32; 3])| std::array::from_fn(|k| 0.5 * (a[k] + b[k]));
-        Picture { pixels: pairs.map(mean).collect(), ..first.clone() }
+        self.pair.mean()
     }
 
     /// The root mean square difference between the two over all channels of the pixels that `mask` has
@@ -66,7 +52,7 @@ impl Pair {
     #[must_use]
     pub fn difference(&self, mask: Option<&[bool]>) -> f64 {
         let set = |k: &usize| mask.is_none_or(|mask| mask[*k]);
-        let places: Vec<usize> = (0..self.pictures[0].pixels.len()).filter(set).collect();
+        let places: Vec<usize> = (0..self.pair.pictures[0].pixels.len()).filter(set).collect();
         let squares: f64 = places.iter().map(|&k| self.square(k)).sum();
         (squares / (3 * places.len()).max(1) as f64).sqrt()
     }
@@ -94,8 +80,8 @@ impl Pair {
         most: u32,
         progress: &(dyn Fn(usize, usize) + Sync),
     ) -> bool {
-        let Picture { width, height, .. } = self.pictures[0];
-        let values = 3.0 * self.pictures[0].pixels.len() as f64;
+        let Picture { width, height, .. } = self.pair.pictures[0];
+        let values = 3.0 * self.pair.pictures[0].pixels.len() as f64;
         let measured: Vec<Block> = self.blocks.iter().map(|block| self.measured(*block)).collect();
         let allotted = allot(&measured, goal * goal * values, most);
         let rays = |block: Crop, samples: u32| {
@@ -106,11 +92,9 @@ impl Pair {
         let anew: Vec<(Crop, u32)> = more().map(|((block, _), gets)| (*block, *gets)).collect();
         let mut done = 0;
         for &(block, samples) in &anew {
-            for (picture, seed) in self.pictures.iter_mut().zip(SEEDS) {
-                let settings =
-                    Settings { crop: Some(block), ..settings(width, height, samples, seed) };
-                let (part, _) = render::render(scene, &settings, &|_, _| {});
-                paste(picture, block, &part);
+            let anew = Pair::render(scene, (width, height), block, samples, &|_, _| {});
+            for (picture, part) in self.pair.pictures.iter_mut().zip(&anew.pictures) {
+                paste(picture, block, part);
             }
             done += rays(block, samples);
             progress(done, total);
@@ -122,7 +106,7 @@ impl Pair {
     }
 
     fn measured(&self, (block, samples): (Crop, u32)) -> Block {
-        let width = self.pictures[0].width;
+        let width = self.pair.pictures[0].width;
         let places =
             block.rows().flat_map(|y| block.columns().map(move |x| (y * width + x) as usize));
         let squares = places.map(|place| self.square(place)).sum();
@@ -131,16 +115,10 @@ impl Pair {
 
     /// The sum of the squared differences of a pixel's channels.
     fn square(&self, place: usize) -> f64 {
-        let [a, b] = &self.pictures;
+        let [a, b] = &self.pair.pictures;
         let pairs = a.pixels[place].iter().zip(&b.pixels[place]);
         pairs.map(|(a, b)| (f64::from(*a) - f64::from(*b)).powi(2)).sum()
     }
-}
-
-fn settings(width: u32, height: u32, samples: u32, seed: u64) -> Settings {
-    let pattern = Pattern::Jitter { seed };
-    let sampling = Sampling::Grid { samples, pattern, pixel_filter: PixelFilter::Box };
-    Settings { sampling, ..Settings::new(width, height, Filter::Bilinear) }
 }
 
 /// Puts a part of a picture back in its place.
@@ -158,7 +136,7 @@ mod tests {
 
     const SIZE: u32 = 20;
 
-    fn error(pair: &Pair) -> f64 {
+    fn error(pair: &Refined) -> f64 {
         let (mean, exact) = (pair.mean(), board::exact(SIZE));
         let pixels = mean.pixels.iter().flatten().zip(exact.pixels.iter().flatten());
         let squares: f64 = pixels.map(|(a, b)| f64::from(a - b).powi(2)).sum();
@@ -169,7 +147,7 @@ mod tests {
     fn the_noise_is_about_the_error() {
         let scene = board::scene();
         for samples in [4, 16, 32] {
-            let pair = Pair::render(&scene, (SIZE, SIZE), samples, &|_, _| {});
+            let pair = Refined::render(&scene, (SIZE, SIZE), samples, &|_, _| {});
             let (noise, error) = (pair.noise(None), error(&pair));
             // Of 400 pixels a third cut no border and have none; of the others each is a number of one
             // square's chance, so both are known to about a tenth.
@@ -181,7 +159,7 @@ mod tests {
     #[test]
     fn more_rays_go_where_the_noise_is_until_it_is_small_enough() {
         let scene = board::scene();
-        let mut pair = Pair::render(&scene, (SIZE, SIZE), 4, &|_, _| {});
+        let mut pair = Refined::render(&scene, (SIZE, SIZE), 4, &|_, _| {});
         let (before, first) = (pair.difference(None), error(&pair));
         let goal = 0.25 * before;
         assert!(pair.refine(&scene, goal, 64, &|_, _| {}));
@@ -195,7 +173,7 @@ mod tests {
 
     #[test]
     fn masks_choose_pixels() {
-        let pair = Pair::render(&board::scene(), (SIZE, SIZE), 2, &|_, _| {});
+        let pair = Refined::render(&board::scene(), (SIZE, SIZE), 2, &|_, _| {});
         let count = (SIZE * SIZE) as usize;
         let left: Vec<bool> = (0..count).map(|k| k % (SIZE as usize) < 5).collect();
         let right: Vec<bool> = left.iter().map(|set| !set).collect();
