@@ -1,9 +1,9 @@
 //! `pipeline book`: the picture book.
 
 use super::asked::{Asked, asked};
-use super::{make_folder, threads};
+use super::make_folder;
+use super::work::Work;
 use clap::Args;
-use clap::builder::TypedValueParser;
 use files::exit::say;
 use files::{Output, Report};
 use pipeline::book::{self, Entry, Options};
@@ -28,18 +28,8 @@ pub struct BookArguments {
     /// Rays along each side of a pixel of a truth, for each of two seeds; 0 for no truths and no errors
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(0..=256))]
     truth: u32,
-    /// Memory for textures and their tables, in bytes or with k, M or G; beyond it nothing is read
-    #[arg(long, value_name = "BYTES", default_value = "2G", value_parser = render::film::memory::bytes)]
-    max_texture_mem: u64,
-    /// Worker threads [default: one for each core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024).map(usize::from))]
-    threads: Option<usize>,
-    /// Print nothing but errors
-    #[arg(short, long)]
-    quiet: bool,
-    /// Refuse to replace an existing book
-    #[arg(long)]
-    no_clobber: bool,
+    #[command(flatten)]
+    work: Work,
 }
 
 /// Makes the book.
@@ -51,10 +41,10 @@ pub fn book(arguments: &BookArguments) -> Result<(), Report> {
     };
     make_folder(&arguments.output)?;
     let path = arguments.output.join(book::FILE);
-    Output::check(&path, !arguments.no_clobber)?;
+    Output::check(&path, arguments.work.clobber())?;
     let options = Options {
         size: arguments.size,
-        max_texture_bytes: arguments.max_texture_mem,
+        max_texture_bytes: arguments.work.max_texture_mem,
         truth: arguments.truth,
     };
     let names: Vec<String> = jobs.iter().map(Asked::whole).collect();
@@ -69,17 +59,17 @@ pub fn book(arguments: &BookArguments) -> Result<(), Report> {
         })
         .collect();
     let started = Instant::now();
-    let progress = Progress::new("book", arguments.quiet);
+    let progress = Progress::new("book", arguments.work.quiet);
     let done = AtomicUsize::new(0);
-    let text = threads::pool(arguments.threads)?.install(|| {
+    let text = arguments.work.pool()?.install(|| {
         book::book(&entries, &options, &|_| {
             let done = done.fetch_add(1, Ordering::Relaxed) + 1;
             progress.tell(done, entries.len());
         })
     })?;
     drop(progress);
-    Output::create(&path, !arguments.no_clobber)?.commit_all(text.as_bytes())?;
-    if !arguments.quiet {
+    Output::create(&path, arguments.work.clobber())?.commit_all(text.as_bytes())?;
+    if !arguments.work.quiet {
         let seconds = started.elapsed().as_secs_f64();
         let megabytes = text.len() as f64 / 1e6;
         let pages = entries.len();

@@ -7,7 +7,7 @@ mod list;
 mod report;
 mod run;
 mod textures;
-mod threads;
+mod work;
 
 use clap::{Parser, Subcommand};
 use files::{FileError, Report};

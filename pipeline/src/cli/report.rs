@@ -1,9 +1,9 @@
 //! `pipeline report`: what each way of rendering a page costs, and how wrong it is.
 
 use super::asked::{Asked, asked};
-use super::{make_folder, threads};
+use super::make_folder;
+use super::work::Work;
 use clap::Args;
-use clap::builder::TypedValueParser;
 use cpu_time::ProcessTime;
 use files::exit::say;
 use files::{Output, Report};
@@ -45,18 +45,8 @@ pub struct ReportArguments {
     /// [default: 64]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(32..=MOST_SAMPLES.into()))]
     truth: Option<u32>,
-    /// Memory for textures and their tables, in bytes or with k, M or G; beyond it nothing is read
-    #[arg(long, value_name = "BYTES", default_value = "2G", value_parser = memory::bytes)]
-    max_texture_mem: u64,
-    /// Worker threads [default: one for each core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024).map(usize::from))]
-    threads: Option<usize>,
-    /// Print nothing but errors
-    #[arg(short, long)]
-    quiet: bool,
-    /// Refuse to replace existing files
-    #[arg(long)]
-    no_clobber: bool,
+    #[command(flatten)]
+    work: Work,
 }
 
 /// Measures the pages that were named and writes what came of it.
@@ -68,9 +58,9 @@ pub fn report(arguments: &ReportArguments) -> Result<(), Report> {
     let options = Options {
         folder: arguments.output.clone(),
         size: plan.size,
-        max_texture_bytes: arguments.max_texture_mem,
+        max_texture_bytes: arguments.work.max_texture_mem,
         keep: false,
-        clobber: !arguments.no_clobber,
+        clobber: arguments.work.clobber(),
     };
     // Every scene is read before the first is measured, so that a slip in the last costs no waiting.
     let scenes = jobs.iter().map(|asked| {
@@ -84,12 +74,12 @@ pub fn report(arguments: &ReportArguments) -> Result<(), Report> {
     make_folder(&options.folder)?;
     let tables = accompanying::measure(arguments.quick)?;
     check_files(&jobs, &tables, &options)?;
-    let pool = threads::pool(arguments.threads)?;
+    let pool = arguments.work.pool()?;
     let threads = pool.current_num_threads();
     let mut measured = Measured { pages: Vec::new(), threads, quick: arguments.quick, tables };
     let numbers = options.folder.join(NUMBERS);
     for (Asked { job, .. }, scene) in jobs.iter().zip(&scenes) {
-        let talk = Talk::new(job, arguments.quiet);
+        let talk = Talk::new(job, arguments.work.quiet);
         let tell = |doing: &str, done, total| talk.tell(doing, done, total);
         let usage = Usage::new();
         let page = pool
@@ -107,7 +97,7 @@ pub fn report(arguments: &ReportArguments) -> Result<(), Report> {
         written.push(path);
     }
     written.extend(report::write(&measured, &options.folder, options.clobber)?);
-    if !arguments.quiet {
+    if !arguments.work.quiet {
         written.iter().for_each(|path| say(path.display()));
     }
     Ok(())

@@ -1,9 +1,9 @@
 //! `pipeline run`: the pictures of pages and jobs.
 
 use super::asked::{Asked, asked};
-use super::{make_folder, threads};
+use super::make_folder;
+use super::work::Work;
 use clap::Args;
-use clap::builder::TypedValueParser;
 use files::exit::say;
 use files::{Output, Report, Source};
 use pipeline::run::{Event, Options};
@@ -32,27 +32,17 @@ pub struct RunArguments {
     /// Make only the pictures of this mode, which all jobs must have; may be given several times
     #[arg(long = "mode", value_name = "NAME")]
     modes: Vec<String>,
-    /// Memory for textures and their tables, in bytes or with k, M or G; beyond it nothing is read
-    #[arg(long, value_name = "BYTES", default_value = "2G", value_parser = render::film::memory::bytes)]
-    max_texture_mem: u64,
     /// Write the grids and OBJ files too, as the programs would have piped them
     #[arg(long)]
     keep: bool,
     /// Show the last picture of each job on one sheet too, small: sheet.png
     #[arg(long)]
     sheet: bool,
-    /// Worker threads [default: one for each core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024).map(usize::from))]
-    threads: Option<usize>,
     /// Print counts of rays, hits and texels and the time of each stage on standard error
     #[arg(long)]
     stats: bool,
-    /// Print nothing but errors
-    #[arg(short, long)]
-    quiet: bool,
-    /// Refuse to replace existing files
-    #[arg(long)]
-    no_clobber: bool,
+    #[command(flatten)]
+    work: Work,
 }
 
 /// Does the jobs that were named.
@@ -62,20 +52,20 @@ pub fn run(arguments: &RunArguments) -> Result<(), Report> {
     make_folder(&arguments.output)?;
     for (job, _) in &jobs {
         for file in job.files(arguments.keep) {
-            Output::check(&arguments.output.join(file), !arguments.no_clobber)?;
+            Output::check(&arguments.output.join(file), arguments.work.clobber())?;
         }
     }
     let sheet_path = arguments.sheet.then(|| arguments.output.join(Sheet::FILE));
     if let Some(path) = &sheet_path {
-        Output::check(path, !arguments.no_clobber)?;
+        Output::check(path, arguments.work.clobber())?;
     }
-    let pool = threads::pool(arguments.threads)?;
+    let pool = arguments.work.pool()?;
     let options = Options {
         folder: arguments.output.clone(),
         size: arguments.size,
-        max_texture_bytes: arguments.max_texture_mem,
+        max_texture_bytes: arguments.work.max_texture_mem,
         keep: arguments.keep,
-        clobber: !arguments.no_clobber,
+        clobber: arguments.work.clobber(),
     };
     let mut rows: Vec<(String, Stages)> = Vec::new();
     let mut all = Stages::default();
@@ -93,12 +83,12 @@ pub fn run(arguments: &RunArguments) -> Result<(), Report> {
         all += stages;
     }
     if let Some(path) = &sheet_path {
-        Output::create(path, !arguments.no_clobber)?.commit_all(&sheet.png()?)?;
+        Output::create(path, arguments.work.clobber())?.commit_all(&sheet.png()?)?;
     }
     if jobs.len() > 1 {
         rows.push(("all".into(), all));
     }
-    if !arguments.quiet {
+    if !arguments.work.quiet {
         say(Stages::table(&rows).trim_end());
     }
     Ok(())
@@ -199,7 +189,7 @@ impl<'a> Talk<'a> {
         let Ok(mut progress) = self.progress.lock() else { return };
         if progress.as_ref().is_none_or(|(shown, _)| shown != mode) {
             let label = format!("{} {mode}", self.job);
-            *progress = Some((mode.into(), Progress::new(&label, self.arguments.quiet)));
+            *progress = Some((mode.into(), Progress::new(&label, self.arguments.work.quiet)));
         }
         if let Some((_, progress)) = progress.as_ref() {
             progress.tell(done, total);
@@ -213,7 +203,7 @@ impl<'a> Talk<'a> {
     }
 
     fn say(&self, words: &str) {
-        if !self.arguments.quiet {
+        if !self.arguments.work.quiet {
             say(words.trim_end());
         }
     }

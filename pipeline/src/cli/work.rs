@@ -1,0 +1,58 @@
+//! What every command that renders is asked besides.
+
+use clap::Args;
+use clap::builder::TypedValueParser;
+use files::{Exit, Failure};
+use rayon::ThreadPool;
+use thiserror::Error;
+
+/// The threads asked for cannot be had.
+#[derive(Debug, Error)]
+#[error("cannot start {threads} threads: {source}")]
+pub struct ThreadsError {
+    threads: usize,
+    source: rayon::ThreadPoolBuildError,
+}
+
+impl Failure for ThreadsError {
+    fn exit(&self) -> Exit {
+        Exit::Resource
+    }
+}
+
+/// How a command works, whatever it makes.
+#[derive(Debug, Args)]
+pub struct Work {
+    /// Memory for textures and their tables, in bytes or with k, M or G; beyond it nothing is read
+    #[arg(long, value_name = "BYTES", default_value = "2G", value_parser = render::film::memory::bytes)]
+    pub max_texture_mem: u64,
+    /// Worker threads [default: one for each core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024).map(usize::from))]
+    threads: Option<usize>,
+    /// Print nothing but errors
+    #[arg(short, long)]
+    pub quiet: bool,
+    /// Refuse to replace existing files
+    #[arg(long)]
+    no_clobber: bool,
+}
+
+impl Work {
+    /// Whether existing files may be replaced.
+    #[must_use]
+    pub fn clobber(&self) -> bool {
+        !self.no_clobber
+    }
+
+    /// As many threads as were asked for, or one for each core.
+    ///
+    /// # Errors
+    /// When the system does not give them.
+    pub fn pool(&self) -> Result<ThreadPool, ThreadsError> {
+        let threads = self.threads.unwrap_or(0);
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .map_err(|source| ThreadsError { threads, source })
+    }
+}
