@@ -94,13 +94,13 @@ pub enum PipelineError {
     },
     /// There is no page of that name.
     #[error(
-        "there is no page {name:?}; there are {known}; figures are named by their numbers, as A.10, and a job of your own by its .json file"
+        "there is no page {name:?}{near}; `pipeline list` names those there are; a job of your own is named by its .json file"
     )]
     UnknownPage {
         /// The name given.
         name: String,
-        /// The names there are, with a suggestion.
-        known: String,
+        /// A name that is near, in words; or nothing.
+        near: String,
     },
 }
 

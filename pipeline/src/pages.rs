@@ -166,15 +166,14 @@ pub fn path(name: &str) -> PathBuf {
 /// The job of a page.
 ///
 /// # Errors
-/// When there is no page of that name; with the names there are.
+/// When there is no page of that name; with one that is near, if there is one.
 pub fn page(name: &str) -> Result<Job, PipelineError> {
     let names = names();
     if !names.contains(&name) {
-        let mut known = names.join(", ");
-        if let Some(near) = nearest(name, names.iter().copied()) {
-            known.push_str(&format!(" (did you mean {near}?)"));
-        }
-        return Err(PipelineError::UnknownPage { name: name.into(), known });
+        // They are too many for a sentence.
+        let near = nearest(name, names.iter().copied());
+        let near = near.map_or_else(String::new, |near| format!(" (did you mean {near}?)"));
+        return Err(PipelineError::UnknownPage { name: name.into(), near });
     }
     Job::read(&path(name), &FILES)
 }

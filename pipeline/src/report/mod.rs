@@ -1,7 +1,7 @@
 //! Speed against error: what each way of rendering a page costs, and how wrong it is.
 //!
 //! [`measure`] renders a page by the methods of a [`Plan`] and holds the pictures against the
-//! [`truth`], whole and by [`regions`]; [`accompanying`] measures the modeler and the filters by
+//! [`refined`] truth, whole and by [`regions`]; [`accompanying`] measures the modeler and the filters by
 //! themselves. [`Measured`] is what comes of it, and [`write()`] makes words, plots and pages of that.
 
 pub mod accompanying;

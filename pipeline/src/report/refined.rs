@@ -4,7 +4,7 @@
 //! patience. It is made twice, of two seeds ([`Pair`]). Half the difference of the two is the noise of their mean.
 //!
 //! Where that is too much, blocks of the picture are made anew of more rays, the noisiest of the most
-//! ([`blocks::allot`](super::blocks::allot)). Which blocks is decided by the pictures that are
+//! (`blocks.rs` allots them). Which blocks is decided by the pictures that are
 //! thrown away, so the new ones are as unbiased as the first.
 
 use super::blocks::{Block, allot};
