@@ -226,7 +226,8 @@ mod tests {
     fn a_near_miss_is_met_with_a_suggestion() {
         let error = page("glas-sphere").unwrap_err().to_string();
         assert!(error.contains("did you mean glass-sphere?"), "{error}");
-        assert!(page("x").unwrap_err().to_string().contains("horn, klein-bottle,"));
+        let error = page("x").unwrap_err().to_string();
+        assert!(error.starts_with("there is no page \"x\"; `pipeline list` names"), "{error}");
     }
 
     #[test]

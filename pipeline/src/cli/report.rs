@@ -42,7 +42,7 @@ pub struct ReportArguments {
     #[arg(long)]
     quick: bool,
     /// Rays along each side of a pixel for the truth, where its noise asks for so many; 32 at least
-    /// [default: 64]
+    /// [default: 256, with --quick 64]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(32..=MOST_SAMPLES.into()))]
     truth: Option<u32>,
     #[command(flatten)]

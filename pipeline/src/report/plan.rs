@@ -2,7 +2,7 @@
 
 use super::measured::Method;
 use render::Sampling;
-use render::film::Nine;
+use render::film::{MOST_SAMPLES, Nine};
 use render::filter::Filter;
 use std::time::Duration;
 
@@ -39,7 +39,7 @@ impl Plan {
             filters: Filter::ALL.into(),
             samplings: [&[one, two], thesis.as_slice(), &rest].concat(),
             truth_samples: 32,
-            most_truth_samples: 64,
+            most_truth_samples: MOST_SAMPLES,
             patience: Duration::from_millis(200),
             quick: false,
         }
@@ -53,6 +53,7 @@ impl Plan {
         Self {
             size: (64, 64),
             samplings,
+            most_truth_samples: 64,
             patience: Duration::from_millis(20),
             quick: true,
             ..Self::full()
