@@ -5,6 +5,7 @@
 use super::canvas;
 use super::coast::cosine;
 use super::color::{Color, srgb};
+use super::shape::to_multiple;
 use glam::DVec2;
 use image::RgbImage;
 
@@ -70,11 +71,6 @@ fn color_at(p: DVec2, inks: &Inks) -> Color {
         l if to_multiple(l, 10.0) < 0.24 || to_meridian(10.0) < 0.24 => inks.line,
         _ => inks.seas[usize::from(longitude.rem_euclid(60.0) < 30.0)],
     }
-}
-
-/// The distance from the nearest multiple.
-fn to_multiple(x: f64, pitch: f64) -> f64 {
-    (x - (x / pitch).round() * pitch).abs()
 }
 
 #[cfg(test)]

@@ -15,6 +15,11 @@ pub fn disc(p: DVec2, radius: f64) -> f64 {
     p.length() - radius
 }
 
+/// The parallel lines at all multiples of a pitch, across which `x` runs; nowhere negative.
+pub fn to_multiple(x: f64, pitch: f64) -> f64 {
+    (x - (x / pitch).round() * pitch).abs()
+}
+
 /// A line of some width along the outline of another shape.
 pub fn stroke(distance: f64, width: f64) -> f64 {
     distance.abs() - width / 2.0

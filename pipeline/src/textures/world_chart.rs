@@ -6,6 +6,7 @@ use super::canvas;
 use super::coast::{Coast, cosine};
 use super::color::{Color, srgb};
 use super::noise::cloud;
+use super::shape::to_multiple;
 use glam::{DVec2, IVec2};
 use image::RgbImage;
 
@@ -100,11 +101,6 @@ fn land(p: DVec2, shore: f64, inks: &Inks) -> Color {
         }
     };
     color * (0.84 + 0.16 * (shore / 1.6).min(1.0)) * (1.0 + 0.16 * mottle)
-}
-
-/// The distance from the nearest multiple.
-fn to_multiple(x: f64, pitch: f64) -> f64 {
-    (x - (x / pitch).round() * pitch).abs()
 }
 
 #[cfg(test)]
