@@ -1,7 +1,6 @@
 //! Pictures fitted to areas of a swept surface, from a spec to pixels: seams, borders, poles.
 
-#[path = "../render/tests/studio/mod.rs"]
-mod studio;
+use crate::studio;
 
 use files::json::Document;
 use glam::DVec3;

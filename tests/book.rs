@@ -1,6 +1,6 @@
 //! The picture book, and figures by their numbers.
 
-mod support;
+use crate::support;
 
 use pipeline::book::{Entry, Plate};
 use pipeline::{pages, run as jobs};

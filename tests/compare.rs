@@ -1,6 +1,6 @@
 //! `pipeline compare`: what it prints, where it ends with which code, and what it says of bad input.
 
-mod support;
+use crate::support;
 
 use image::{ImageFormat, Rgb, Rgb32FImage, RgbImage};
 use pipeline::compare::Scale;

@@ -1,7 +1,7 @@
 //! The pages after figures A.1 to A.4: as many triangles as the thesis gives, and what it says of its
 //! three ways to render them.
 
-mod support;
+use crate::support;
 
 use files::json::Document;
 use image::RgbImage;

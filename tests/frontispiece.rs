@@ -1,6 +1,6 @@
 //! The frontispiece: what is seen of lettering through glass and in it.
 
-mod support;
+use crate::support;
 
 use render::color::Encoding;
 use std::fs;

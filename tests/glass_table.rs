@@ -1,6 +1,6 @@
 //! The page after figures A.8 and A.9: what the thesis says is to be seen in it is there.
 
-mod support;
+use crate::support;
 
 use image::RgbImage;
 use render::color::Encoding;

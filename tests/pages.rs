@@ -1,6 +1,6 @@
 //! The pages that are built in, made in an empty folder.
 
-mod support;
+use crate::support;
 
 use files::json::Document;
 use pipeline::pages;

@@ -1,7 +1,7 @@
 //! The three programs piped into each other, as the README shows them.
 #![cfg(unix)]
 
-mod support;
+use crate::support;
 
 use std::fs;
 use std::path::Path;

@@ -1,6 +1,6 @@
 //! `pipeline report`, small and in haste.
 
-mod support;
+use crate::support;
 
 use std::fs;
 use std::path::Path;

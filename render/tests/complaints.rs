@@ -1,6 +1,6 @@
 //! Bad input: one sentence that says where, the right exit code, and an output left as it was.
 
-mod bench;
+use crate::bench;
 
 use bench::{Bench, MESH_WALL, TEXTURED_WALL, WALL, WALL_OBJ, checks, encoded};
 use image::{ImageFormat, Rgb32FImage};

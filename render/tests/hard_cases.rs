@@ -1,7 +1,7 @@
 //! Cases that strain the arithmetic: eyes and lights on surfaces, coincident and degenerate
 //! shapes, huge, tiny and far away scenes, seams and poles.
 
-mod studio;
+use crate::studio;
 
 use glam::DVec3;
 use render::filter::Filter;

@@ -3,7 +3,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-mod examples;
+use crate::examples;
 
 use examples::{Dice, Meshless, examples};
 use files::json::Document;

@@ -1,7 +1,7 @@
 //! Glass at the critical angle, at grazing angles, and glass that is air.
 
-mod exact;
-mod studio;
+use crate::exact;
+use crate::studio;
 
 use exact::dice::Dice;
 use glam::DVec3;

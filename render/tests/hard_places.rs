@@ -1,7 +1,7 @@
 //! Eyes and lights where they are in the way: on surfaces, at corners, inside objects, at the eye.
 
-mod exact;
-mod studio;
+use crate::exact;
+use crate::studio;
 
 use exact::dice::Dice;
 use glam::DVec3;

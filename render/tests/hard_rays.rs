@@ -1,8 +1,8 @@
 //! Rays that graze, rays that leave a surface, rays caught in mirrors and in glass: none is lost and
 //! none hits what it leaves.
 
-mod exact;
-mod studio;
+use crate::exact;
+use crate::studio;
 
 use exact::Sample;
 use exact::dice::Dice;

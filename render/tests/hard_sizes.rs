@@ -1,7 +1,7 @@
 //! Pictures of a pixel, spheres and planes as small and as large as scenes go, scenes that are all
 //! one point to their shapes.
 
-mod studio;
+use crate::studio;
 
 use render::filter::Filter;
 use render::{Picture, Scene};

@@ -1,7 +1,7 @@
 //! Textures of odd sizes, and footprints over the horizon, beside the eye, and larger than the texture.
 
-mod exact;
-mod studio;
+use crate::exact;
+use crate::studio;
 
 use exact::dice::Dice;
 use glam::DVec3;

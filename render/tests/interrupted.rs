@@ -2,7 +2,7 @@
 
 #![cfg(unix)]
 
-mod bench;
+use crate::bench;
 
 use bench::{Bench, WALL};
 use std::os::unix::process::ExitStatusExt;

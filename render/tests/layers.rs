@@ -2,7 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-mod bench;
+use crate::bench;
 
 use bench::{Bench, TEXTURED_WALL, checks, ending};
 use exr::prelude::{ReadChannels, ReadLayers};

@@ -1,6 +1,6 @@
 //! Lights against closed forms: fall-off, directions, colours by the angle; and what is refused.
 
-mod studio;
+use crate::studio;
 
 use files::json::Document;
 use render::Picture;

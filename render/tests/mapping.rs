@@ -1,6 +1,6 @@
 //! Texture coordinates on hard triangles against exact fractions: what `docs/mapping.md` says.
 
-mod exact;
+use crate::exact;
 
 use exact::classes::classes;
 use exact::{FORMS, Form, Sample};

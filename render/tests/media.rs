@@ -1,6 +1,6 @@
 //! Media in each other, against closed forms: Snell through layers, lenses, Beer's law.
 
-mod studio;
+use crate::studio;
 
 use glam::DVec3;
 use render::accel::{Accel, Structure};

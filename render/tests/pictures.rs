@@ -3,7 +3,7 @@
 //! Pictures are `f32`, so a sum of a few exact terms is off by at most 1e-6; where a tolerance is
 //! larger, the test says why.
 
-mod studio;
+use crate::studio;
 
 use render::filter::Filter;
 use render::{Picture, Scene};

@@ -1,7 +1,7 @@
 //! The print of a pixel: it says what the picture holds, and why.
 
-mod bench;
-mod studio;
+use crate::bench;
+use crate::studio;
 
 use bench::{Bench, TEXTURED_WALL, checks, ending};
 use render::color::Encoding;

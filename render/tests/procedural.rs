@@ -1,6 +1,6 @@
 //! Solid textures and bumps in whole scenes, where the answer is known.
 
-mod studio;
+use crate::studio;
 
 use image::{GrayImage, ImageFormat, Luma};
 use render::filter::Filter;

@@ -1,6 +1,6 @@
 //! What the rays of a pixel add up to, against pictures of other sizes and areas known beforehand.
 
-mod studio;
+use crate::studio;
 
 use render::film::{Nine, Pattern, PixelFilter};
 use render::filter::Filter;

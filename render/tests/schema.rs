@@ -2,7 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-mod examples;
+use crate::examples;
 
 use examples::{Meshless, examples, mutations};
 use files::json::Document;

@@ -1,6 +1,6 @@
 //! Bad shapes and placements: one sentence that says where.
 
-mod bench;
+use crate::bench;
 
 use bench::{Bench, MESH_WALL, WALL, WALL_OBJ};
 

@@ -1,6 +1,6 @@
 //! Boxes, superquadrics and placed objects: the same picture made in two ways.
 
-mod studio;
+use crate::studio;
 
 use glam::{DAffine3, DQuat, DVec3};
 use render::filter::Filter;

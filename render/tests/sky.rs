@@ -1,6 +1,6 @@
 //! The sky against closed forms: seen, mirrored, through glass; and what is refused.
 
-mod studio;
+use crate::studio;
 
 use files::json::Document;
 use render::filter::Filter;

@@ -1,6 +1,6 @@
 //! Bad solids and bumps: one sentence that says where.
 
-mod bench;
+use crate::bench;
 
 use bench::{Bench, WALL};
 

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-mod bench;
+use crate::bench;
 
 use bench::{Bench, TEXTURED_WALL, encoded, ending};
 use image::{ImageFormat, RgbImage};

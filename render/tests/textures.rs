@@ -3,7 +3,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-mod studio;
+use crate::studio;
 
 use image::{DynamicImage, ImageBuffer, ImageFormat, Luma};
 use render::color::Encoding;

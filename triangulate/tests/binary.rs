@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-mod shapes;
+use crate::shapes;
 
 use glam::DVec3;
 use shapes::{cylinder, sphere, torus};

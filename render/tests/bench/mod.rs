@@ -1,6 +1,6 @@
 //! A folder with inputs in it, and runs of the program there.
 
-#![allow(dead_code, reason = "each test program uses its part of the bench")]
+#![allow(dead_code, reason = "each test module uses its part of the bench")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use image::{DynamicImage, ImageFormat, RgbImage};

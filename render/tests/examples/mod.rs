@@ -1,6 +1,6 @@
 //! The scenes in `examples`, and what random hands make of them.
 
-#![allow(dead_code, reason = "each test program uses its part of the examples")]
+#![allow(dead_code, reason = "each test module uses its part of the examples")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use files::{FileError, Source};

@@ -1,6 +1,6 @@
 //! Scenes from texts and pictures from scenes, without a disk.
 
-#![allow(dead_code, reason = "each test program uses its part of the studio")]
+#![allow(dead_code, reason = "each test module uses its part of the studio")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 pub mod objects;

@@ -1,0 +1,36 @@
+//! Integration tests of `render`: one binary, a module for each subject.
+
+mod bench;
+mod check;
+mod cli;
+mod complaints;
+mod exact;
+mod examples;
+mod hard_cases;
+mod hard_mutations;
+mod hard_optics;
+mod hard_places;
+mod hard_rays;
+mod hard_sizes;
+mod hard_textures;
+mod include;
+mod interrupted;
+mod layers;
+mod light;
+mod mapping;
+mod media;
+mod obj;
+mod peer_scenes;
+mod pictures;
+mod pixel;
+mod procedural;
+mod sampling;
+mod schema;
+mod shape_complaints;
+mod shapes;
+mod sky;
+mod solid_complaints;
+mod structures;
+mod studio;
+mod texture_memory;
+mod textures;

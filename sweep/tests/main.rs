@@ -1,0 +1,21 @@
+//! Integration tests of `sweep`: one binary, a module for each subject.
+
+mod check;
+mod cli;
+mod corners;
+mod ends;
+mod fitting;
+mod frames;
+mod hard_closings;
+mod hard_contours;
+mod hard_cusps;
+mod hard_mutations;
+mod hard_trajectories;
+mod hard_units;
+mod normals;
+mod preview;
+mod properties;
+mod relief;
+mod resolution;
+mod schema;
+mod wall;

@@ -1,0 +1,12 @@
+//! Integration tests of `triangulate`: one binary, a module for each subject.
+
+mod areas;
+mod binary;
+mod cli;
+mod interrupted;
+mod patches;
+mod properties;
+mod seams;
+mod shapes;
+mod surfaces;
+mod truths;
