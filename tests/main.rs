@@ -17,4 +17,3 @@ mod structures;
 #[path = "../render/tests/studio/mod.rs"]
 mod studio;
 mod support;
-mod textures;

@@ -18,7 +18,6 @@ pub mod report;
 pub mod run;
 pub mod sheet;
 pub mod stages;
-pub mod textures;
 pub mod truth;
 
 pub use error::PipelineError;

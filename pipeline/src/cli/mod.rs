@@ -6,7 +6,6 @@ mod compare;
 mod list;
 mod report;
 mod run;
-mod textures;
 mod work;
 
 use clap::{Parser, Subcommand};
@@ -23,7 +22,6 @@ Examples:
   pipeline run frontispiece --mode supersampled --size 4096x4096 -o poster
   pipeline report glass-sphere -o report --quick
   pipeline book -o book
-  pipeline textures -o textures
   pipeline compare a.png b.png --map difference.png --rmse 0.01
 
 Exit codes: 1 pictures that differ by more than was allowed, 2 bad use, 3 malformed input,
@@ -47,8 +45,6 @@ enum Command {
     Report(report::ReportArguments),
     /// Make the picture book: pages with their modes, costs and errors, as one file of HTML
     Book(book::BookArguments),
-    /// Draw the textures of the examples again
-    Textures(textures::TexturesArguments),
     /// Say how far one picture is from another, in linear light
     Compare(compare::CompareArguments),
 }
@@ -60,7 +56,6 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
         Command::Run(arguments) => run::run(arguments),
         Command::Report(arguments) => report::report(arguments),
         Command::Book(arguments) => book::book(arguments),
-        Command::Textures(arguments) => textures::textures(arguments),
         Command::Compare(arguments) => compare::compare(arguments),
     }
 }

@@ -23,7 +23,7 @@
 //! nothing but this code: there is no clock, no entropy, and no arithmetic beyond `+ − × ÷ √` and
 //! rounding, which every machine does alike.
 //!
-//! `pipeline textures` writes them, with the same bytes as long as the PNG encoder stays the same.
+//! The program `draw-textures` writes all of them. Its bytes stay the same as long as the PNG encoder does.
 
 mod alphabet;
 mod canvas;
@@ -47,9 +47,24 @@ mod shape;
 mod vase_band;
 mod world_chart;
 
-use crate::PipelineError;
+use files::{Exit, Failure};
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder, RgbImage};
+use thiserror::Error;
+
+/// The PNG encoder refused a texture.
+#[derive(Debug, Error)]
+#[error("cannot encode {file}: {source}")]
+pub struct EncodeError {
+    file: &'static str,
+    source: image::ImageError,
+}
+
+impl Failure for EncodeError {
+    fn exit(&self) -> Exit {
+        Exit::Resource
+    }
+}
 
 /// A texture of the example scenes.
 #[derive(Debug, Clone, Copy)]
@@ -65,14 +80,14 @@ impl Texture {
     ///
     /// # Errors
     /// When the encoder does not take the picture.
-    pub fn png(&self) -> Result<Vec<u8>, PipelineError> {
+    pub fn png(&self) -> Result<Vec<u8>, EncodeError> {
         let picture = (self.draw)();
         let encode = |filter| {
             let mut bytes = Vec::new();
             PngEncoder::new_with_quality(&mut bytes, CompressionType::Best, filter)
                 .write_image(&picture, picture.width(), picture.height(), ExtendedColorType::Rgb8)
-                .map_err(|source| PipelineError::Encode { name: self.file.into(), source })?;
-            Ok::<_, PipelineError>(bytes)
+                .map_err(|source| EncodeError { file: self.file, source })?;
+            Ok::<_, EncodeError>(bytes)
         };
         let mut smallest = encode(FilterType::NoFilter)?;
         for filter in [FilterType::Sub, FilterType::Up, FilterType::Paeth, FilterType::Adaptive] {

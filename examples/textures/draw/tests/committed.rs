@@ -1,7 +1,7 @@
 //! The committed textures are what the program draws, and what the scenes expect of them.
 
+use draw_textures::TEXTURES;
 use image::{Rgb, RgbImage};
-use pipeline::textures::TEXTURES;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::PathBuf;
@@ -11,7 +11,7 @@ const LARGEST: u64 = 350_000;
 const TOGETHER: u64 = 1_200_000;
 
 fn path_of(file: &str) -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../examples/textures").join(file)
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("..").join(file)
 }
 
 fn committed(file: &str) -> RgbImage {
@@ -25,7 +25,7 @@ fn every_texture_is_what_the_program_draws() {
         let kept = committed(texture.file);
         assert_eq!(drawn.dimensions(), kept.dimensions(), "{}", texture.file);
         let differing = drawn.pixels().zip(kept.pixels()).filter(|(d, k)| d != k).count();
-        let remedy = "cargo run --release -p pipeline -- textures -o examples/textures";
+        let remedy = "cargo run --release -p draw-textures -- -o examples/textures";
         assert_eq!(differing, 0, "texels of {} differ; to make it anew: {remedy}", texture.file);
     }
 }
