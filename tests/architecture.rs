@@ -17,7 +17,7 @@ const CRATES: [(&str, &[&str]); 5] = [
 
 /// The rooms of `render` from the bottom up, and into which others each one looks: only at rooms
 /// above it in this list, which is below it in the house.
-const ROOMS: [(&str, &[&str]); 16] = [
+const ROOMS: [(&str, &[&str]); 17] = [
     ("color", &[]),
     ("optics", &[]),
     ("progress", &[]),
@@ -34,12 +34,13 @@ const ROOMS: [(&str, &[&str]); 16] = [
         "shade",
         &["accel", "color", "filter", "footprint", "optics", "ray", "scene", "shape", "trace"],
     ),
+    ("prepared", &["accel", "filter", "scene", "shade", "shape", "trace"]),
     ("stats", &["shade", "trace"]),
     (
         "film",
-        &["accel", "color", "filter", "footprint", "scene", "shade", "shape", "stats", "trace"],
+        &["accel", "color", "filter", "footprint", "prepared", "scene", "shade", "stats", "trace"],
     ),
-    ("inspect", &["color", "film", "footprint", "scene", "shade", "trace"]),
+    ("inspect", &["color", "film", "footprint", "prepared", "scene", "shade", "trace"]),
 ];
 
 /// The doors of `render`, which see all rooms.

@@ -58,6 +58,26 @@ fn lettering_through_glass_is_nearer_to_the_truth_when_prefiltered() {
     assert!(prefiltered < 0.6 * point, "{prefiltered}, and {point} without a filter");
 }
 
+/// Three modes: one without a filter, and two with the tent.
+#[test]
+fn the_modes_of_a_page_share_one_structure_and_the_tables_of_each_filter() {
+    let folder = tempfile::tempdir().unwrap();
+    let run =
+        run("pipeline", &["run", "frontispiece", "--size", "16x16", "--stats"], folder.path());
+    assert!(run.status.success(), "{}", words(&run));
+    let said = words(&run);
+    let built = |what: &str| -> Vec<u64> {
+        let counts = said.lines().filter_map(|line| line.strip_prefix(what));
+        counts.map(|count| count.trim().parse().expect("a count")).collect()
+    };
+    assert_eq!(built("structures built"), [1, 0, 0]);
+    let [none, some, again] = built("tables built")[..] else { panic!("three modes: {said}") };
+    assert_eq!((none, again), (0, 0));
+    assert!(some > 0);
+    let bytes = built("table bytes");
+    assert_eq!(bytes[1], bytes[2], "the third picture uses the tables of the second");
+}
+
 #[test]
 fn the_bottle_is_a_closed_volume_of_glass() {
     let folder = tempfile::tempdir().unwrap();

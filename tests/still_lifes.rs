@@ -2,6 +2,7 @@
 
 use pipeline::pages::{FILES, page};
 use pipeline::run::{Event, Options, scene};
+use render::Prepared;
 use render::film::Layer;
 use render::film::{Crop, Picture, Settings, render as expose};
 use render::filter::Filter;
@@ -83,7 +84,7 @@ fn images(scene: &Scene, numbers: &[usize]) -> Vec<usize> {
     const SIDE: u32 = 160;
     let settings =
         Settings { layers: vec![Layer::Object], ..Settings::new(SIDE, SIDE, Filter::Point) };
-    let picture = |scene: &Scene| expose(scene, &settings, &|_, _| {}).0;
+    let picture = |scene: &Scene| expose(&Prepared::new(scene), &settings, &|_, _| {}).0;
     let object = |picture: &Picture, k: usize| picture.channels[0].values[k] as usize;
     let all = picture(scene);
     let changed = |&taken: &usize| {
@@ -130,7 +131,7 @@ fn prefiltered_crops_are_nearer_to_the_truth() {
             let crop = Some(Crop { x, y, width: PART, height: PART });
             let picture = |filter, samples| {
                 let settings = Settings { crop, ..Settings::new(WHOLE, WHOLE, filter) };
-                expose(&scene, &settings.with_samples(samples), &|_, _| {}).0
+                expose(&Prepared::new(&scene), &settings.with_samples(samples), &|_, _| {}).0
             };
             let truth = picture(Filter::Bilinear, 6);
             let error = |filter| {

@@ -12,7 +12,7 @@ use render::scene::file::CameraFile;
 use render::scene::read::{self, Draft};
 use render::scene::{MeshSource, SceneError};
 use render::stats::Stats;
-use render::{Picture, Scene, Settings};
+use render::{Picture, Prepared, Scene, Settings};
 use std::cell::Cell;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -93,12 +93,13 @@ pub fn run(
     tell: &(dyn Fn(Event<'_>) + Sync),
 ) -> Result<Stages, PipelineError> {
     let work = Work { job, source, options, tell, stages: Cell::default() };
-    let started = Instant::now();
     let scene = work.scene()?;
-    let read_time = started.elapsed();
+    // Sweeping and triangulating are stages of their own.
+    let read_time = work.stages.get().read;
+    let prepared = Prepared::new(&scene);
     let mut pictures = Vec::with_capacity(job.modes.len());
     for mode in &job.modes {
-        pictures.push(work.picture(&scene, mode, read_time)?);
+        pictures.push(work.picture(&prepared, mode, read_time)?);
     }
     if let Some(strip) = job.strip_file() {
         let started = Instant::now();
@@ -241,13 +242,13 @@ impl Work<'_> {
 
     fn picture(
         &self,
-        scene: &Scene,
+        prepared: &Prepared<'_>,
         mode: &Mode,
         read_time: Duration,
     ) -> Result<Picture, PipelineError> {
         let settings = settings(mode, self.options.size);
         let progress = |done, total| (self.tell)(Event::Progress { mode: &mode.name, done, total });
-        let (picture, mut stats) = render::render(scene, &settings, &progress);
+        let (picture, mut stats) = render::render(prepared, &settings, &progress);
         let started = Instant::now();
         self.write_picture(&self.job.picture_file(mode), &picture)?;
         stats.read_time = read_time;

@@ -13,9 +13,9 @@ pub struct Stages {
     pub triangulate: Duration,
     /// Scene files and textures, decoded, and the scene put together.
     pub read: Duration,
-    /// Prefiltered tables, once for each mode.
+    /// Prefiltered tables, once for each filter.
     pub tables: Duration,
-    /// What finds the hits, once for each mode.
+    /// Structures that find the hits, once for each of them.
     pub structure: Duration,
     /// Rays and shading.
     pub picture: Duration,

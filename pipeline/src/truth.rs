@@ -8,7 +8,7 @@
 
 use render::film::{Crop, Pattern, PixelFilter};
 use render::filter::Filter;
-use render::{Picture, Sampling, Scene, Settings, render};
+use render::{Picture, Prepared, Sampling, Settings, render};
 
 /// The seeds of the two pictures.
 const SEEDS: [u64; 2] = [1, 2];
@@ -28,7 +28,7 @@ impl Pair {
     /// Runs on the threads of the current rayon pool; the result is the same for any number of them.
     #[must_use]
     pub fn render(
-        scene: &Scene,
+        scene: &Prepared<'_>,
         (width, height): (u32, u32),
         crop: Crop,
         samples: u32,

@@ -11,7 +11,7 @@ use files::{Exit, Failure, Report};
 use render::film::memory;
 use render::progress::Progress;
 use render::scene::{self, schema};
-use render::{Settings, inspect};
+use render::{Prepared, Settings, inspect};
 use std::time::Instant;
 use thiserror::Error;
 
@@ -125,10 +125,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
     let read_time = started.elapsed();
 
     let pool = work.pool()?;
+    let prepared = Prepared::new(&scene);
     if let Some(target) = target {
         let progress = Progress::new("render", work.quiet);
         let (picture, mut stats) = pool.install(|| {
-            render::render(&scene, &settings, &|done, total| progress.tell(done, total))
+            render::render(&prepared, &settings, &|done, total| progress.tell(done, total))
         });
         drop(progress);
         let started = Instant::now();
@@ -139,7 +140,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
     }
     if let Some(pixel) = sampling.pixel {
         let (encoding, all) = (output.gamma, sampling.all_samples);
-        let text = pool.install(|| inspect::pixel(&scene, &settings, pixel, encoding, all));
+        let text = pool.install(|| inspect::pixel(&prepared, &settings, pixel, encoding, all));
         output::print(&text)?;
     }
     Ok(())

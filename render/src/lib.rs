@@ -10,8 +10,8 @@
 //! finds hits. [`trace`] turns a place on the film into an intersection tree. [`footprint`] looks at
 //! a node of it and at its neighbours and says which piece of texture the pixel sees. [`filter`]
 //! averages a texture over that piece. [`procedural`] computes textures that are no pictures, and
-//! bumps. [`shade`] turns trees into colours, and [`film`] makes the picture of them.
-//! [`film::render`] does it all, and [`inspect`] prints what one pixel is made of.
+//! bumps. [`shade`] turns trees into colours. [`prepared`] keeps what all pictures of a scene share, and
+//! [`film`] makes pictures. [`film::render`] does it all, and [`inspect`] prints what one pixel is made of.
 
 pub mod accel;
 pub mod color;
@@ -20,6 +20,7 @@ pub mod filter;
 pub mod footprint;
 pub mod inspect;
 pub mod optics;
+pub mod prepared;
 pub mod procedural;
 pub mod progress;
 pub mod ray;
@@ -31,4 +32,5 @@ pub mod texture;
 pub mod trace;
 
 pub use film::{Picture, Sampling, Settings, render};
+pub use prepared::Prepared;
 pub use scene::Scene;

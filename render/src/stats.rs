@@ -30,9 +30,11 @@ pub struct Stats {
     pub solid_points: u64,
     /// Memory of what finds the hits, in bytes ([`crate::accel::Accel::bytes`]).
     pub accel_bytes: u64,
-    /// Prefiltered tables built.
+    /// Structures that find hits, built for this picture: 0 or 1. Pictures of one prepared scene share them.
+    pub structures: u64,
+    /// Prefiltered tables and pyramids built for this picture.
     pub tables: u64,
-    /// Their memory in bytes.
+    /// Memory of those that the picture uses, in bytes.
     pub table_bytes: u64,
     /// Memory of the noise lattice in bytes; 0 when nothing of the scene is made of noise.
     pub lattice_bytes: u64,
@@ -87,6 +89,7 @@ impl fmt::Display for Stats {
             ("texels read", self.texels),
             ("solid points", self.solid_points),
             ("accel bytes", self.accel_bytes),
+            ("structures built", self.structures),
             ("tables built", self.tables),
             ("table bytes", self.table_bytes),
             ("lattice bytes", self.lattice_bytes),

@@ -6,7 +6,7 @@ use crate::studio;
 use glam::DVec3;
 use render::filter::Filter;
 use render::trace::tree::MOST_NODES;
-use render::{Picture, Scene, Settings};
+use render::{Picture, Prepared, Scene, Settings};
 use studio::{FILTERS, assert_near, at, on_film, picture, pixels, png, scene};
 
 /// A few roundings to `f32` of colours up to 1.
@@ -260,7 +260,7 @@ fn behind_many_half_transparent_panes_a_picture_still_comes() {
         panes.join(",")
     );
     let settings = Settings::new(2, 2, Filter::Tent);
-    let (_, stats) = render::render(&scene(&keys, &[]), &settings, &|_, _| {});
+    let (_, stats) = render::render(&Prepared::new(&scene(&keys, &[])), &settings, &|_, _| {});
     assert_eq!(stats.hits, 4 * MOST_NODES as u64);
 }
 

@@ -12,7 +12,7 @@ use render::scene::read::{self, Draft};
 use render::scene::{MeshSource, check};
 use render::shape::Mesh;
 use render::shape::mesh::{NONE, Triangle};
-use render::{Settings, scene::SceneError};
+use render::{Prepared, Settings, scene::SceneError};
 use serde_json::{Map, Value, json};
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -201,7 +201,7 @@ fn judged(text: &[u8]) -> bool {
     match made {
         Ok(scene) => {
             let settings = Settings::new(5, 4, Filter::Tent);
-            let (picture, stats) = render::render(&scene, &settings, &|_, _| {});
+            let (picture, stats) = render::render(&Prepared::new(&scene), &settings, &|_, _| {});
             let finite = |pixel: &[f32; 3]| pixel.iter().all(|x| x.is_finite() && *x >= 0.0);
             assert!(picture.pixels.iter().all(finite), "{:?}\n{shown}", picture.pixels);
             // Only where colours that are huge by themselves are multiplied.

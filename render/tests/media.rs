@@ -9,7 +9,7 @@ use render::ray::Ray;
 use render::trace::tree::{Branch, IntersectionTree, Node};
 use render::trace::volume::Volumes;
 use render::trace::{RayCounts, Tracer};
-use render::{Picture, Scene};
+use render::{Picture, Prepared, Scene};
 use studio::{assert_near, on_film, picture, pixels, scene};
 
 /// A few roundings to `f32` of colours up to 1.
@@ -354,7 +354,7 @@ fn a_ray_that_counts_in_one_channel_is_followed() {
     let objects = [block("slab", "ink"), block("second", "ink")].join(",");
     let scene = scene(&format!(r#"{keys} {materials}, "objects": [ {objects} ]"#), &files);
     let settings = render::Settings::new(4, 4, Filter::Point);
-    let (shown, stats) = render::render(&scene, &settings, &|_, _| {});
+    let (shown, stats) = render::render(&Prepared::new(&scene), &settings, &|_, _| {});
     assert_eq!((stats.primary_rays, stats.refracted_rays), (16, 16));
     assert!(shown.pixels.iter().all(|&pixel| pixel == [0.0; 3]));
 }

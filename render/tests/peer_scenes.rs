@@ -10,7 +10,7 @@ use files::Disk;
 use files::json::Document;
 use render::filter::Filter;
 use render::scene::{MeshSource, read};
-use render::{Picture, Scene, Settings};
+use render::{Picture, Prepared, Scene, Settings};
 use std::path::Path;
 
 const SIDE: u32 = 128;
@@ -35,7 +35,7 @@ fn mean(picture: &Picture, columns: std::ops::Range<u32>, rows: std::ops::Range<
 
 fn check(scene: &Scene, samples: u32, filter: Filter, truth: f64) {
     let settings = Settings::new(SIDE, SIDE, filter).with_samples(samples);
-    let (picture, _) = render::render(scene, &settings, &|_, _| {});
+    let (picture, _) = render::render(&Prepared::new(scene), &settings, &|_, _| {});
     let quarter = SIDE / 4;
     let blocks: Vec<f64> =
         (0..4).map(|k| mean(&picture, k * quarter..(k + 1) * quarter, 3 * quarter..SIDE)).collect();

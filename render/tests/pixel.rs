@@ -7,7 +7,7 @@ use bench::{Bench, TEXTURED_WALL, checks, ending};
 use render::color::Encoding;
 use render::film::{Nine, Pattern, PixelFilter};
 use render::filter::Filter;
-use render::{Sampling, Scene, Settings, inspect};
+use render::{Prepared, Sampling, Scene, Settings, inspect};
 use studio::{at, png, scene};
 
 /// A checkered floor, a ball of glass that mirrors and lets through, and a mirror.
@@ -52,11 +52,12 @@ fn a_printed_pixel_is_the_pictures_to_the_last_bit() {
         (Filter::Tent, Sampling::Nine(Nine::Rays)),
     ] {
         let settings = Settings { sampling, ..Settings::new(24, 20, filter) };
-        let (picture, _) = render::render(&scene, &settings, &|_, _| {});
+        let (picture, _) = render::render(&Prepared::new(&scene), &settings, &|_, _| {});
         for k in 0..120u32 {
             let (x, y) = (k * 7 % 24, k / 6);
             for all in [false, true] {
-                let text = inspect::pixel(&scene, &settings, (x, y), Encoding::Srgb, all);
+                let text =
+                    inspect::pixel(&Prepared::new(&scene), &settings, (x, y), Encoding::Srgb, all);
                 let first = text.lines().next().unwrap_or_default();
                 assert!(first.starts_with(&format!("pixel {x},{y} of 24x20: linear ")), "{first}");
                 let shown = at(&picture, x, y);
@@ -131,7 +132,7 @@ fn the_printed_tree_adds_up_to_the_pixel() {
     let settings = Settings::new(24, 20, Filter::Tent);
     let mut nodes = 0;
     for (x, y) in (0..24).flat_map(|x| [(x, 5), (x, 11), (x, 15)]) {
-        let text = inspect::pixel(&scene, &settings, (x, y), Encoding::Srgb, false);
+        let text = inspect::pixel(&Prepared::new(&scene), &settings, (x, y), Encoding::Srgb, false);
         let (head, tree) = text.split_once("weight 1\n").unwrap_or_default();
         let mut lines = tree.lines().peekable();
         let root = parse(&mut lines);
@@ -146,7 +147,13 @@ fn the_printed_tree_adds_up_to_the_pixel() {
 fn names_footprints_and_reasons_are_told() {
     let scene = room();
     let print = |filter, x, y| {
-        inspect::pixel(&scene, &Settings::new(24, 20, filter), (x, y), Encoding::Srgb, false)
+        inspect::pixel(
+            &Prepared::new(&scene),
+            &Settings::new(24, 20, filter),
+            (x, y),
+            Encoding::Srgb,
+            false,
+        )
     };
     let floor = print(Filter::Tent, 3, 18);
     for part in [

@@ -5,7 +5,7 @@ use crate::studio;
 use image::{GrayImage, ImageFormat, Luma};
 use render::filter::Filter;
 use render::stats::Stats;
-use render::{Picture, Scene, Settings};
+use render::{Picture, Prepared, Scene, Settings};
 use std::io::Cursor;
 use studio::{FILTERS, assert_near, at, on_film, picture, pixels, scene};
 
@@ -22,7 +22,7 @@ fn wall(textures: &str, texture: &str) -> Scene {
 
 fn stats(scene: &Scene, filter: Filter) -> Stats {
     let settings = Settings::new(8, 6, filter);
-    render::render(scene, &settings, &|_, _| {}).1
+    render::render(&Prepared::new(scene), &settings, &|_, _| {}).1
 }
 
 #[test]

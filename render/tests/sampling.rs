@@ -4,7 +4,7 @@ use crate::studio;
 
 use render::film::{Nine, Pattern, PixelFilter};
 use render::filter::Filter;
-use render::{Picture, Sampling, Scene, Settings};
+use render::{Picture, Prepared, Sampling, Scene, Settings};
 use studio::{FILTERS, assert_near, at, pixels, png, scene};
 
 const IMAGE: Sampling = Sampling::Nine(Nine::Image);
@@ -12,7 +12,7 @@ const RAYS: Sampling = Sampling::Nine(Nine::Rays);
 
 fn exposed(scene: &Scene, side: u32, sampling: Sampling, filter: Filter) -> Picture {
     let settings = Settings { sampling, ..Settings::new(side, side, filter) };
-    render::render(scene, &settings, &|_, _| {}).0
+    render::render(&Prepared::new(scene), &settings, &|_, _| {}).0
 }
 
 /// A wall of many colours, placed so that no ray meets the edge of a texel; a lit ball and one of glass before it, seen from (0, 0, 1) at an angle

@@ -4,7 +4,7 @@ use crate::job::Place;
 use crate::truth::Pair;
 use render::film::{Crop, Layer};
 use render::filter::Filter;
-use render::{Picture, Scene, Settings};
+use render::{Picture, Prepared, Settings};
 
 /// Pixels along the side of a detail: four of them fit side by side on a desk enlarged three times, and two
 /// on a telephone enlarged twice.
@@ -43,7 +43,7 @@ impl Detail {
     /// Cuts the part around `place` out of the modes' pictures, and judges it by a truth of `samples * samples`
     /// rays in each pixel for each of two seeds, if that is not 0.
     #[must_use]
-    pub fn new(scene: &Scene, place: &Place, pictures: &[&Picture], samples: u32) -> Self {
+    pub fn new(scene: &Prepared<'_>, place: &Place, pictures: &[&Picture], samples: u32) -> Self {
         let size = pictures.first().map_or((1, 1), |picture| (picture.width, picture.height));
         let crop = around(place, size);
         let pictures: Vec<Picture> = pictures.iter().map(|picture| cut(picture, crop)).collect();
@@ -120,11 +120,12 @@ fn cut(picture: &Picture, crop: Crop) -> Picture {
 
 /// For each pixel whether what its middle ray hits first has a picture on it of which the pixel spans more
 /// than two texels both ways.
-fn wide_pixels(scene: &Scene, (width, height): (u32, u32), crop: Crop) -> Vec<bool> {
+fn wide_pixels(prepared: &Prepared<'_>, (width, height): (u32, u32), crop: Crop) -> Vec<bool> {
     let layers = vec![Layer::Object, Layer::Footprint];
     let settings = Settings::new(width, height, Filter::Tent);
     let settings = Settings { crop: Some(crop), layers, ..settings };
-    let (picture, _) = render::render(scene, &settings, &|_, _| {});
+    let (picture, _) = render::render(prepared, &settings, &|_, _| {});
+    let scene = prepared.scene();
     let channel = |name: &str| {
         let channel = picture.channels.iter().find(|channel| channel.name == name);
         channel.map_or(&[][..], |channel| channel.values.as_slice())

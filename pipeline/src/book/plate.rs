@@ -14,7 +14,7 @@ use render::film::Crop;
 use render::film::encode::{self, Format};
 use render::filter::Filter;
 use render::stats::Stats;
-use render::{Picture, Sampling, Scene};
+use render::{Picture, Prepared, Sampling, Scene};
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
@@ -63,9 +63,10 @@ impl Plate {
     ) -> Result<Self, PipelineError> {
         let job = entry.job;
         let (scene, Shared { meshes, stages: shared }) = scene(entry, options)?;
+        let prepared = Prepared::new(&scene);
         let mut shots = Vec::new();
         for mode in &job.modes {
-            shots.push(Shot::make(&scene, mode, true, options.size)?);
+            shots.push(Shot::make(&prepared, mode, true, options.size)?);
         }
         if !shots.iter().any(|shot| shot.mode.filter == Filter::Point) {
             let mode = Mode {
@@ -76,19 +77,19 @@ impl Plate {
                 figure: None,
                 thesis_minutes: None,
             };
-            shots.push(Shot::make(&scene, &mode, false, options.size)?);
+            shots.push(Shot::make(&prepared, &mode, false, options.size)?);
         }
         // A comparison of the thesis, or a page with modes of its own to compare: judged as a whole.
         if truth > 0 && job.modes.len() > 1 {
             let whole = Crop::whole(options.size.0, options.size.1);
-            let truth = Pair::render(&scene, options.size, whole, truth.div_ceil(4), &|_, _| {});
+            let truth = Pair::render(&prepared, options.size, whole, truth.div_ceil(4), &|_, _| {});
             for shot in &mut shots {
                 shot.error = truth.error_of(&shot.picture, |_| true);
             }
         }
         let places = places(&job.crops, &shots);
         let pictures: Vec<&Picture> = in_details(&shots).map(|shot| &shot.picture).collect();
-        let details = places.iter().map(|place| Detail::new(&scene, place, &pictures, truth));
+        let details = places.iter().map(|place| Detail::new(&prepared, place, &pictures, truth));
         Ok(Self { meshes, shared, details: details.collect(), shots, texts: texts(entry)? })
     }
 
@@ -105,12 +106,12 @@ impl Plate {
 
 impl Shot {
     fn make(
-        scene: &Scene,
+        prepared: &Prepared<'_>,
         mode: &Mode,
         own: bool,
         size: (u32, u32),
     ) -> Result<Self, PipelineError> {
-        let (picture, mut stats) = render::render(scene, &run::settings(mode, size), &|_, _| {});
+        let (picture, mut stats) = render::render(prepared, &run::settings(mode, size), &|_, _| {});
         let started = Instant::now();
         // As `run` would write it, so that the times are those of `run`.
         encode::encode(&picture, Format::Png, Encoding::Srgb)

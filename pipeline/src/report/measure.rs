@@ -9,7 +9,7 @@ use super::refined::Refined;
 use super::regions;
 use crate::compare::{CompareError, Difference};
 use render::stats::Stats;
-use render::{Picture, Scene, Settings};
+use render::{Picture, Prepared, Scene, Settings};
 use std::time::{Duration, Instant};
 
 /// Rounds of a method at most.
@@ -156,7 +156,8 @@ fn measure(scene: &Scene, plan: &Plan, method: Method, meter: &dyn Meter) -> Tur
         Settings { sampling: method.sampling, ..Settings::new(width, height, method.filter) };
     let held = meter.mark();
     let (cpu, started) = (meter.cpu(), Instant::now());
-    let (picture, stats) = render::render(scene, &settings, &|_, _| {});
+    // Prepared anew each time: tables and structure are part of what a method costs.
+    let (picture, stats) = render::render(&Prepared::new(scene), &settings, &|_, _| {});
     let wall = started.elapsed().as_secs_f64();
     let cpu = meter.cpu().saturating_sub(cpu).as_secs_f64();
     let peak = meter.peak().saturating_sub(held) as f64;
@@ -173,7 +174,8 @@ fn settle(
     turns: &[Turn],
     tell: Tell<'_>,
 ) -> Result<(Refined, bool), CompareError> {
-    let mut pair = Refined::render(scene, plan.size, plan.truth_samples, &|done, total| {
+    let prepared = Prepared::new(scene);
+    let mut pair = Refined::render(&prepared, plan.size, plan.truth_samples, &|done, total| {
         tell("truth", done, total);
     });
     for _ in 0..MOST_REFINEMENTS {
@@ -182,7 +184,7 @@ fn settle(
             break;
         }
         let more = |done: usize, total: usize| tell("more rays for the truth", done, total);
-        if !pair.refine(scene, goal, plan.most_truth_samples, &more) {
+        if !pair.refine(&prepared, goal, plan.most_truth_samples, &more) {
             break;
         }
     }

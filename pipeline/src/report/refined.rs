@@ -10,7 +10,7 @@
 use super::blocks::{Block, allot};
 use crate::truth::Pair;
 use render::film::Crop;
-use render::{Picture, Scene};
+use render::{Picture, Prepared};
 
 /// Pixels along the side of a block.
 const SIDE: u32 = 16;
@@ -30,7 +30,7 @@ impl Refined {
     /// Runs on the threads of the current rayon pool; the result is the same for any number of them.
     #[must_use]
     pub fn render(
-        scene: &Scene,
+        scene: &Prepared<'_>,
         (width, height): (u32, u32),
         samples: u32,
         progress: &(dyn Fn(usize, usize) + Sync),
@@ -75,7 +75,7 @@ impl Refined {
     /// anything to do.
     pub fn refine(
         &mut self,
-        scene: &Scene,
+        scene: &Prepared<'_>,
         goal: f64,
         most: u32,
         progress: &(dyn Fn(usize, usize) + Sync),
@@ -147,7 +147,7 @@ mod tests {
     fn the_noise_is_about_the_error() {
         let scene = board::scene();
         for samples in [4, 16, 32] {
-            let pair = Refined::render(&scene, (SIZE, SIZE), samples, &|_, _| {});
+            let pair = Refined::render(&Prepared::new(&scene), (SIZE, SIZE), samples, &|_, _| {});
             let (noise, error) = (pair.noise(None), error(&pair));
             // Of 400 pixels a third cut no border and have none; of the others each is a number of one
             // square's chance, so both are known to about a tenth.
@@ -159,21 +159,24 @@ mod tests {
     #[test]
     fn more_rays_go_where_the_noise_is_until_it_is_small_enough() {
         let scene = board::scene();
-        let mut pair = Refined::render(&scene, (SIZE, SIZE), 4, &|_, _| {});
+        let mut pair = Refined::render(&Prepared::new(&scene), (SIZE, SIZE), 4, &|_, _| {});
         let (before, first) = (pair.difference(None), error(&pair));
         let goal = 0.25 * before;
-        assert!(pair.refine(&scene, goal, 64, &|_, _| {}));
+        assert!(pair.refine(&Prepared::new(&scene), goal, 64, &|_, _| {}));
         let after = pair.difference(None);
         // Where borders are, noise falls faster than the law that rays are allotted by.
         assert!(after <= 1.1 * goal, "{before} to {after}");
         assert!(error(&pair) < 0.5 * first);
         assert!(pair.samples().0 >= 4 && pair.samples().1 <= 64);
-        assert!(!pair.refine(&scene, before, 64, &|_, _| {}), "there is nothing left to do");
+        assert!(
+            !pair.refine(&Prepared::new(&scene), before, 64, &|_, _| {}),
+            "there is nothing left to do"
+        );
     }
 
     #[test]
     fn masks_choose_pixels() {
-        let pair = Refined::render(&board::scene(), (SIZE, SIZE), 2, &|_, _| {});
+        let pair = Refined::render(&Prepared::new(&board::scene()), (SIZE, SIZE), 2, &|_, _| {});
         let count = (SIZE * SIZE) as usize;
         let left: Vec<bool> = (0..count).map(|k| k % (SIZE as usize) < 5).collect();
         let right: Vec<bool> = left.iter().map(|set| !set).collect();

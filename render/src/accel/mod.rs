@@ -66,6 +66,11 @@ pub enum Structure {
     None,
 }
 
+impl Structure {
+    /// Every structure, in the order of their discriminants.
+    pub const ALL: [Self; 3] = [Self::Bvh, Self::Grid, Self::None];
+}
+
 /// The shapes of a scene, ready for rays.
 #[derive(Debug)]
 pub struct Accel<'a> {

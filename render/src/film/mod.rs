@@ -21,14 +21,11 @@ pub use pattern::Pattern;
 pub use picture::Picture;
 pub use sampling::{MOST_SAMPLES, Nine, PixelFilter, Sampling};
 
-use crate::accel::{Accel, Structure};
-use crate::filter::{Filter, FilteredTexture};
-use crate::scene::Scene;
-use crate::shade::Shader;
-use crate::shape::Charts;
+use crate::accel::Structure;
+use crate::filter::Filter;
+use crate::prepared::Prepared;
 use crate::stats::Stats;
 use crate::trace::Tracer;
-use crate::trace::volume::Volumes;
 use exposure::{Exposure, Film};
 use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
@@ -100,24 +97,26 @@ pub fn size(text: &str) -> Result<(u32, u32), String> {
     Ok((width, height))
 }
 
-/// Renders a scene. `progress` is told after each tile how many of how many are done.
+/// Renders a scene. Calls `progress` after each tile with the number of tiles done and of all tiles.
 ///
-/// Runs on the threads of the current rayon pool; the result is the same for any number of them.
+/// What the scene lacks for these settings is built first and kept in `prepared`; the statistics count only
+/// what was built for this picture. Runs on the threads of the current rayon pool; the picture is the same
+/// for any number of them.
 pub fn render(
-    scene: &Scene,
+    prepared: &Prepared<'_>,
     settings: &Settings,
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> (Picture, Stats) {
-    render_in_tiles(scene, settings, TILE_SAMPLES, progress)
+    render_in_tiles(prepared, settings, TILE_SAMPLES, progress)
 }
 
 fn render_in_tiles(
-    scene: &Scene,
+    prepared: &Prepared<'_>,
     settings: &Settings,
     tile_samples: u32,
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> (Picture, Stats) {
-    with_exposure(scene, settings, |exposure, stats| {
+    with_exposure(prepared, settings, |exposure, stats| {
         let started = Instant::now();
         let sampling = settings.sampling;
         let least = if sampling.shares() { LEAST_SHARING } else { 1 };
@@ -145,12 +144,12 @@ fn render_in_tiles(
 /// It is exposed as a tile of its own, by the code that exposes all others: its colour is that of
 /// the picture to the last bit. The pixel lies in the picture.
 pub fn expose_pixel<W: Witness>(
-    scene: &Scene,
+    prepared: &Prepared<'_>,
     settings: &Settings,
     (x, y): (u32, u32),
     witness: impl FnOnce(bool) -> W,
 ) -> (Picture, W) {
-    with_exposure(scene, settings, |exposure, stats| {
+    with_exposure(prepared, settings, |exposure, stats| {
         let tile = Crop { x, y, width: 1, height: 1 };
         let mut film = Film::new(tile, &settings.layers, stats);
         let mut witness = witness(exposure.halo);
@@ -160,67 +159,31 @@ pub fn expose_pixel<W: Witness>(
     })
 }
 
-/// Gets all ready that tiles share, and the times that it took.
+/// Takes from a prepared scene what the tiles of a picture share, and begins the picture's statistics.
 fn with_exposure<T>(
-    scene: &Scene,
+    prepared: &Prepared<'_>,
     settings: &Settings,
     work: impl FnOnce(&Exposure<'_>, Stats) -> T,
 ) -> T {
-    let started = Instant::now();
-    let accel =
-        Accel::build(scene.objects.iter().map(|object| &object.shape).collect(), settings.accel);
-    let accel_time = started.elapsed();
-    let started = Instant::now();
-    let volumes = Volumes::of(scene);
-    let shader = ready_shader(scene, &accel, &volumes, settings.filter);
-    let table_time = started.elapsed();
-    let (tables, table_bytes) = (shader.tables(), shader.table_bytes());
+    let scene = prepared.scene();
+    let (shader, built) = prepared.shader(settings.accel, settings.filter);
+    let stats = Stats {
+        structures: built.structures,
+        accel_time: built.structure_time,
+        accel_bytes: shader.accel.bytes() as u64,
+        tables: built.tables,
+        table_time: built.table_time,
+        table_bytes: shader.table_bytes(),
+        lattice_bytes: scene.procedural.lattice_bytes(),
+        ..Stats::default()
+    };
     let exposure = Exposure {
-        tracer: Tracer::new(scene, &accel, &volumes),
+        tracer: Tracer::new(scene, shader.accel, shader.volumes),
         halo: settings.filter.wants_area() && shader.textures.iter().any(Option::is_some),
         shader,
         settings,
     };
-    let lattice_bytes = scene.procedural.lattice_bytes();
-    let accel_bytes = accel.bytes() as u64;
-    let stats = Stats {
-        accel_time,
-        accel_bytes,
-        table_time,
-        tables,
-        table_bytes,
-        lattice_bytes,
-        ..Stats::default()
-    };
     work(&exposure, stats)
-}
-
-/// Prepares the textures that surfaces show, and no others.
-fn ready_shader<'a>(
-    scene: &'a Scene,
-    accel: &'a Accel<'a>,
-    volumes: &'a Volumes,
-    filter: Filter,
-) -> Shader<'a> {
-    let shown = scene.shown_textures();
-    let textures = scene
-        .textures
-        .par_iter()
-        .zip(&shown)
-        .map(|(texture, &shown)| shown.then(|| FilteredTexture::new(texture, filter)))
-        .collect();
-    let charts = scene
-        .objects
-        .iter()
-        .map(|object| {
-            // Only neighbours that are averaged need to be unwrapped.
-            let textured = object.parts.iter().any(|part| part.picture().is_some());
-            let looked_at = filter.wants_area() && textured;
-            if looked_at { object.shape.charts() } else { Charts::default() }
-        })
-        .collect();
-    let around_lights = volumes.around_lights(scene, accel);
-    Shader { scene, accel, textures, charts, volumes, around_lights }
 }
 
 #[cfg(test)]
@@ -229,7 +192,8 @@ mod tests {
     use crate::color::Color;
     use crate::procedural::Procedural;
     use crate::scene::{
-        Background, Camera, Light, Material, Names, Object, PointLight, Surface, SurfaceTexture,
+        Background, Camera, Light, Material, Names, Object, PointLight, Scene, Surface,
+        SurfaceTexture,
     };
     use crate::shape::{Quad, Shape, Sphere};
     use crate::texture::Texture;
@@ -282,8 +246,9 @@ mod tests {
     #[test]
     fn the_picture_does_not_depend_on_how_it_is_cut_into_tiles() {
         let scene = scene();
+        let prepared = Prepared::new(&scene);
         for settings in every_way() {
-            let cut = |side| render_in_tiles(&scene, &settings, side, &|_, _| {}).0;
+            let cut = |side| render_in_tiles(&prepared, &settings, side, &|_, _| {}).0;
             let whole = cut(1000);
             for side in [1, 10, 64] {
                 assert!(cut(side) == whole, "{settings:?} in tiles of {side} samples");
@@ -295,7 +260,7 @@ mod tests {
     fn a_crop_is_that_part_of_the_whole() {
         let scene = scene();
         for settings in every_way() {
-            let (whole, _) = render(&scene, &settings, &|_, _| {});
+            let (whole, _) = render(&Prepared::new(&scene), &settings, &|_, _| {});
             for crop in [
                 Crop { x: 0, y: 0, width: 1, height: 1 },
                 Crop { x: 11, y: 7, width: 13, height: 9 },
@@ -303,7 +268,7 @@ mod tests {
                 Crop::whole(37, 29),
             ] {
                 let settings = Settings { crop: Some(crop), ..settings.clone() };
-                let (part, _) = render(&scene, &settings, &|_, _| {});
+                let (part, _) = render(&Prepared::new(&scene), &settings, &|_, _| {});
                 assert!(part == cut_out(&whole, crop), "{settings:?}");
             }
         }
@@ -351,9 +316,9 @@ mod tests {
     fn rays_that_count_for_little_are_left_out() {
         let settings = Settings::new(16, 16, Filter::Point);
         let mut scene = scene();
-        let (all, cost) = render(&scene, &settings, &|_, _| {});
+        let (all, cost) = render(&Prepared::new(&scene), &settings, &|_, _| {});
         scene.min_weight = 1e-3;
-        let (most, less) = render(&scene, &settings, &|_, _| {});
+        let (most, less) = render(&Prepared::new(&scene), &settings, &|_, _| {});
         assert!(less.refracted_rays < cost.refracted_rays);
         // A pixel lacks at most as many branches as it has surfaces on its way, 8 here.
         for (a, b) in all.pixels.iter().flatten().zip(most.pixels.iter().flatten()) {

@@ -53,7 +53,7 @@ pub enum Filter {
 }
 
 impl Filter {
-    /// All there are, from the simplest on.
+    /// Every filter, from the simplest on, in the order of their discriminants.
     pub const ALL: [Self; 6] =
         [Self::Point, Self::Bilinear, Self::Mip, Self::Box, Self::Tent, Self::Quadratic];
 

@@ -7,6 +7,7 @@ mod node;
 
 use crate::color::{Color, Encoding};
 use crate::film::{Settings, Witness, expose_pixel};
+use crate::prepared::Prepared;
 use crate::scene::Scene;
 use crate::shade::observer::{Observer, Seen, Way};
 use glam::DVec3;
@@ -23,14 +24,15 @@ const STEP: usize = 2;
 /// not be cropped to hold it.
 #[must_use]
 pub fn pixel(
-    scene: &Scene,
+    prepared: &Prepared<'_>,
     settings: &Settings,
     (x, y): (u32, u32),
     encoding: Encoding,
     all: bool,
 ) -> String {
+    let scene = prepared.scene();
     let settings = Settings { layers: Vec::new(), ..settings.clone() };
-    let (picture, recorder) = expose_pixel(scene, &settings, (x, y), |halo| Recorder {
+    let (picture, recorder) = expose_pixel(prepared, &settings, (x, y), |halo| Recorder {
         scene,
         settings: &settings,
         pixel: (x, y),

@@ -28,13 +28,13 @@ pub struct Shader<'a> {
     /// What finds the hits of shadow rays.
     pub accel: &'a Accel<'a>,
     /// The scene's textures, ready; those that are never seen are missing.
-    pub textures: Vec<Option<FilteredTexture<'a>>>,
-    /// How each object's texture coordinates hang together.
-    pub charts: Vec<Charts>,
+    pub textures: &'a [Option<FilteredTexture<'a>>],
+    /// How each object's texture coordinates hang together; not known if the filter looks at points only.
+    pub charts: &'a [Charts],
     /// The scene's volumes.
     pub volumes: &'a Volumes,
     /// The volumes that each light lies in.
-    pub around_lights: Vec<Media>,
+    pub around_lights: &'a [Media],
 }
 
 /// How much work shading was.
@@ -53,12 +53,6 @@ pub struct ShadeCounts {
 }
 
 impl Shader<'_> {
-    /// How many tables were built.
-    #[must_use]
-    pub fn tables(&self) -> u64 {
-        self.textures.iter().flatten().filter(|texture| texture.table_bytes() > 0).count() as u64
-    }
-
     /// Memory of all tables, in bytes.
     #[must_use]
     pub fn table_bytes(&self) -> u64 {
@@ -153,7 +147,7 @@ impl Shader<'_> {
             return sum;
         }
         let mirrored = optics::reflect(node.incident, node.normal);
-        for (light, around_light) in self.scene.lights.iter().zip(&self.around_lights) {
+        for (light, around_light) in self.scene.lights.iter().zip(self.around_lights) {
             let toward = light.toward(node.position);
             let cosine = node.normal.dot(toward);
             if cosine <= 0.0 || node.geometric_normal.dot(toward) <= 0.0 {

@@ -10,7 +10,7 @@ use files::{FileError, Source};
 use image::{ImageFormat, Rgb, RgbImage};
 use render::filter::Filter;
 use render::scene::read;
-use render::{Picture, Scene, Settings};
+use render::{Picture, Prepared, Scene, Settings};
 use std::io::{Cursor, ErrorKind};
 use std::path::Path;
 
@@ -51,7 +51,7 @@ pub fn picture(scene: &Scene, side: u32, filter: Filter) -> Picture {
 /// Its picture, `side` by `side` pixels with `samples` by `samples` rays in each.
 pub fn supersampled(scene: &Scene, side: u32, samples: u32, filter: Filter) -> Picture {
     let settings = Settings::new(side, side, filter).with_samples(samples);
-    let (picture, stats) = render::render(scene, &settings, &|_, _| {});
+    let (picture, stats) = render::render(&Prepared::new(scene), &settings, &|_, _| {});
     assert_eq!(stats.not_finite, 0);
     picture
 }
@@ -59,7 +59,7 @@ pub fn supersampled(scene: &Scene, side: u32, samples: u32, filter: Filter) -> P
 /// Its picture, of any width and height, with one ray in each pixel.
 pub fn sized(scene: &Scene, width: u32, height: u32, filter: Filter) -> Picture {
     let settings = Settings::new(width, height, filter);
-    let (picture, stats) = render::render(scene, &settings, &|_, _| {});
+    let (picture, stats) = render::render(&Prepared::new(scene), &settings, &|_, _| {});
     assert_eq!(stats.not_finite, 0);
     picture
 }
