@@ -1,10 +1,11 @@
 //! `pipeline textures`: the textures of the examples.
 
-use super::make_folder;
+use super::{OTHER_FOLDER, make_folder};
 use clap::Args;
 use files::exit::say;
-use files::{Output, Report};
+use files::{Batch, Ledger, Report};
 use pipeline::textures::{TEXTURES, Texture};
+use std::io::Write;
 use std::path::PathBuf;
 
 /// What `pipeline textures` is asked.
@@ -21,14 +22,21 @@ pub struct TexturesArguments {
 /// Draws the textures.
 pub fn textures(arguments: &TexturesArguments) -> Result<(), Report> {
     make_folder(&arguments.output)?;
-    let clobber = !arguments.no_clobber;
+    let ledger = Ledger::new(!arguments.no_clobber);
     let path = |texture: &Texture| arguments.output.join(texture.file);
     for texture in &TEXTURES {
-        Output::check(&path(texture), clobber)?;
+        ledger.claim(&path(texture), OTHER_FOLDER)?;
+    }
+    let files: Vec<PathBuf> = TEXTURES.iter().map(path).collect();
+    let batch = Batch::new(&arguments.output, "textures", &files)?;
+    if let Some(remark) = batch.remark() {
+        say(format_args!("pipeline: note: {remark}"));
     }
     for texture in &TEXTURES {
-        Output::create(&path(texture), clobber)?.commit_all(&texture.png()?)?;
+        let mut output = ledger.create(&path(texture))?;
+        output.write_all(&texture.png()?).map_err(|source| output.failed(source))?;
+        batch.replace(output)?;
         say(path(texture).display());
     }
-    Ok(())
+    Ok(batch.finish()?)
 }
