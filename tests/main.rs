@@ -3,11 +3,14 @@
 mod architecture;
 mod area_pictures;
 mod book;
+mod clashes;
 mod compare;
 mod cup_and_column;
+mod durable;
 mod frontispiece;
 mod glass_table;
 mod hard_cases;
+mod kills;
 mod pages;
 mod pipe;
 mod reliefs;

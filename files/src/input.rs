@@ -52,7 +52,7 @@ impl Source for Embedded {
 ///
 /// # Errors
 /// When it cannot be read.
-pub fn read(argument: &Path) -> Result<Vec<u8>, FileError> {
+pub(crate) fn read(argument: &Path) -> Result<Vec<u8>, FileError> {
     if !is_stdin(argument) {
         return Disk.read(argument);
     }
@@ -68,7 +68,7 @@ pub fn read(argument: &Path) -> Result<Vec<u8>, FileError> {
 ///
 /// # Errors
 /// When it cannot be opened.
-pub fn open(argument: &Path) -> Result<Box<dyn io::BufRead>, FileError> {
+pub(crate) fn open(argument: &Path) -> Result<Box<dyn io::BufRead>, FileError> {
     if is_stdin(argument) {
         return Ok(Box::new(io::stdin().lock()));
     }

@@ -1,27 +1,39 @@
 //! The edge of the four programs: what they read, what they write, how they fail.
 //!
-//! | module     | what                                                                     |
-//! |------------|--------------------------------------------------------------------------|
-//! | [`json`]   | JSON into typed values; every complaint has file, line, column and path  |
-//! | [`input`]  | bytes from a file, from standard input, or from pages built in           |
-//! | [`names`]  | JSON objects of names that a user chose, each once                       |
-//! | [`output`] | a file that is replaced only when it is whole, or standard output        |
-//! | [`stop`]   | no temporary file stays when a program is interrupted                   |
-//! | [`exit`]   | the exit codes, and the one place that prints an error                   |
+//! | module        | what                                                                  |
+//! |---------------|-----------------------------------------------------------------------|
+//! | [`json`]      | JSON into typed values; every complaint has file, line, column and path |
+//! | [`input`]     | bytes from a file, from standard input, or from pages built in        |
+//! | [`ledger`]    | what a program reads and will write: no output replaces an input      |
+//! | [`names`]     | JSON objects of names that a user chose, each once                    |
+//! | [`output`]    | a file that is replaced only when it is whole, or standard output     |
+//! | [`batch`]     | files that belong together, and a marker while some are old           |
+//! | [`extension`] | names of outputs that say what the file does not hold                 |
+//! | [`stop`]      | no temporary file stays when a program is interrupted                 |
+//! | [`exit`]      | the exit codes, and the one place that prints an error                |
 //!
 //! It knows nothing of curves, meshes or pictures, and the libraries above it never print.
 
+pub mod batch;
 pub mod exit;
+pub mod extension;
+mod identity;
 pub mod input;
 pub mod json;
+pub mod ledger;
 pub mod names;
 pub mod output;
+#[cfg(target_os = "linux")]
+mod stdout;
 pub mod stop;
+mod target;
 mod words;
 
+pub use batch::Batch;
 pub use exit::{Exit, Failure, Report};
 pub use input::{Disk, Embedded, Source};
 pub use json::JsonError;
+pub use ledger::Ledger;
 pub use output::Output;
 
 use std::io;
@@ -52,6 +64,9 @@ pub enum FileError {
         /// The file as the user named it.
         name: String,
     },
+    /// The file was named for two purposes, of which one would destroy the other.
+    #[error(transparent)]
+    Clash(#[from] ledger::Clash),
     /// The program that read our standard output has gone.
     #[error("the reader of standard output closed it")]
     ClosedPipe,
@@ -60,6 +75,7 @@ pub enum FileError {
 impl Failure for FileError {
     fn exit(&self) -> Exit {
         match self {
+            Self::Clash(error) => error.exit(),
             Self::ClosedPipe => Exit::ClosedPipe,
             _ => Exit::ReadWrite,
         }

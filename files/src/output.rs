@@ -1,16 +1,19 @@
 //! An output that replaces its file only when it is whole.
 //!
-//! The bytes go to a temporary file beside the target, which is renamed over it by
-//! [`Output::commit`]. A program that fails, or is told to stop, leaves the old file as it was.
-//! Standard output (`-`), and targets that are not regular files (`/dev/null`, `/dev/full`, a
-//! named pipe), are written directly.
+//! The bytes go to a temporary file beside the target. [`Output::commit`] syncs it, renames it over
+//! the target and syncs the folder, so that after a loss of power the file is the old or the new
+//! one. A program that fails, or is told to stop, leaves the old file as it was. A link is followed; one
+//! that leads to no file is refused. Standard output (`-`), and targets that are not regular files
+//! (`/dev/null`, `/dev/full`, a named pipe), are written directly.
 
 use crate::FileError;
+use crate::identity::folder_of;
 use crate::stop::Entry;
+use crate::target::{Target, name_of};
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
-use tempfile::NamedTempFile;
+use tempfile::TempPath;
 
 /// Bytes gathered before they are written.
 const BUFFER: usize = 1 << 16;
@@ -26,20 +29,31 @@ pub struct Output {
 enum Sink {
     Stdout(BufWriter<io::Stdout>),
     Device(BufWriter<File>),
-    /// The entry comes last, so that it outlives the temporary.
-    Replace {
-        temporary: BufWriter<NamedTempFile>,
-        target: PathBuf,
-        clobber: bool,
-        entry: Entry,
-    },
+    Replace { content: BufWriter<File>, replacement: Replacement },
+}
+
+/// A temporary file and what becomes of it. The entry comes last, so that it outlives the file.
+#[derive(Debug)]
+struct Replacement {
+    temporary: TempPath,
+    target: PathBuf,
+    clobber: bool,
+    entry: Entry,
+}
+
+/// An output whose bytes are written and, in a file, synced. Nothing is replaced yet.
+#[derive(Debug)]
+pub struct Ready {
+    name: String,
+    replacement: Option<Replacement>,
 }
 
 impl Output {
     /// Opens the output named on a command line; `-` is standard output. Nothing is replaced yet.
     ///
     /// # Errors
-    /// When the folder cannot be written, or when the file exists and `clobber` is false.
+    /// When the folder cannot be written, when the file exists and `clobber` is false, when it is a
+    /// link that leads to no file, or a standard output that was closed.
     pub fn create(argument: &Path, clobber: bool) -> Result<Self, FileError> {
         let name = name_of(argument);
         let failed = |source| write_error(name.clone(), source);
@@ -50,9 +64,11 @@ impl Output {
                 Sink::Device(BufWriter::with_capacity(BUFFER, device))
             }
             Target::File { path, replaced } => {
-                let (temporary, entry) = create_beside(&path, replaced.as_ref()).map_err(failed)?;
-                let temporary = BufWriter::with_capacity(BUFFER, temporary);
-                Sink::Replace { temporary, target: path, clobber, entry }
+                let ((file, temporary), entry) =
+                    create_beside(&path, replaced.as_ref()).map_err(failed)?;
+                let content = BufWriter::with_capacity(BUFFER, file);
+                let replacement = Replacement { temporary, target: path, clobber, entry };
+                Sink::Replace { content, replacement }
             }
         };
         Ok(Self { name, sink })
@@ -73,32 +89,31 @@ impl Output {
         }
     }
 
-    /// Makes what was written the content of the file.
+    /// Makes what was written the content of the file, also for a machine that loses its power.
     ///
     /// # Errors
     /// When the last bytes cannot be written or the file cannot be replaced; the old file stays.
     pub fn commit(self) -> Result<(), FileError> {
-        let name = self.name;
-        match self.sink {
-            Sink::Stdout(mut stdout) => stdout.flush().map_err(|source| write_error(name, source)),
-            Sink::Device(mut device) => device.flush().map_err(|source| write_error(name, source)),
-            Sink::Replace { temporary, target, clobber, entry: _entry } => {
-                let temporary = match temporary.into_inner() {
-                    Ok(file) => file,
-                    Err(failed) => return Err(write_error(name, failed.into_error())),
-                };
-                let renamed = if clobber {
-                    temporary.persist(&target)
-                } else {
-                    temporary.persist_noclobber(&target)
-                };
-                renamed.map(drop).map_err(|failed| match failed.error.kind() {
-                    // Made by another program since we looked.
-                    io::ErrorKind::AlreadyExists if !clobber => FileError::Exists { name },
-                    _ => write_error(name, failed.error),
-                })
+        self.ready()?.replace()
+    }
+
+    /// Writes the last bytes and syncs them; the old file is there until [`Ready::replace`].
+    ///
+    /// # Errors
+    /// When the last bytes cannot be written.
+    pub fn ready(self) -> Result<Ready, FileError> {
+        let Self { name, sink } = self;
+        let failed = |source| write_error(name.clone(), source);
+        let replacement = match sink {
+            Sink::Stdout(mut stdout) => stdout.flush().map(|()| None).map_err(failed)?,
+            Sink::Device(mut device) => device.flush().map(|()| None).map_err(failed)?,
+            Sink::Replace { content, replacement } => {
+                let file = content.into_inner().map_err(|error| failed(error.into_error()))?;
+                file.sync_all().map_err(failed)?;
+                Some(replacement)
             }
-        }
+        };
+        Ok(Ready { name, replacement })
     }
 
     /// The error to report for a failed write to this output.
@@ -117,41 +132,48 @@ impl Output {
     }
 }
 
-/// What an argument names.
-enum Target {
-    Stdout,
-    /// Anything that is there and is not a regular file.
-    Device(PathBuf),
-    /// A file, links followed, and what is known of the one that it replaces.
-    File {
-        path: PathBuf,
-        replaced: Option<fs::Metadata>,
-    },
-}
+impl Ready {
+    /// The file that will be replaced, links followed; none for standard output and devices.
+    #[must_use]
+    pub fn target(&self) -> Option<&Path> {
+        self.replacement.as_ref().map(|replacement| replacement.target.as_path())
+    }
 
-impl Target {
-    fn of(argument: &Path, clobber: bool) -> Result<Self, FileError> {
-        if argument.as_os_str() == "-" {
-            return Ok(Self::Stdout);
-        }
-        let refused = |kind: io::ErrorKind| write_error(name_of(argument), kind.into());
-        // A link is followed, so that the file it points at is replaced and not the link.
-        let path = fs::canonicalize(argument).unwrap_or_else(|_| argument.to_path_buf());
-        let replaced = fs::metadata(&path).ok();
-        match &replaced {
-            Some(found) if found.is_dir() => Err(refused(io::ErrorKind::IsADirectory)),
-            Some(found) if !found.is_file() => Ok(Self::Device(path)),
-            Some(_) if !clobber => Err(FileError::Exists { name: name_of(argument) }),
-            Some(found) if found.permissions().readonly() => {
-                Err(refused(io::ErrorKind::PermissionDenied))
+    /// Renames the temporary file over the target and syncs the folder.
+    ///
+    /// # Errors
+    /// When the file cannot be replaced, or the folder cannot be synced.
+    pub fn replace(self) -> Result<(), FileError> {
+        let Self { name, replacement } = self;
+        let Some(replacement) = replacement else { return Ok(()) };
+        let Replacement { temporary, target, clobber, entry: _entry } = replacement;
+        let renamed =
+            if clobber { temporary.persist(&target) } else { temporary.persist_noclobber(&target) };
+        match renamed.map_err(|failed| failed.error) {
+            // Made by another program since we looked.
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists && !clobber => {
+                Err(FileError::Exists { name })
             }
-            _ => Ok(Self::File { path, replaced }),
+            renamed => renamed
+                .and_then(|()| sync_folder(folder_of(&target)))
+                .map_err(|source| write_error(name, source)),
         }
     }
 }
 
-fn name_of(argument: &Path) -> String {
-    if argument.as_os_str() == "-" { "<stdout>".into() } else { argument.display().to_string() }
+/// Makes the names in a folder last, where the system lets a folder be synced.
+pub(crate) fn sync_folder(folder: &Path) -> io::Result<()> {
+    if cfg!(not(unix)) {
+        return Ok(());
+    }
+    let synced = File::open(folder).and_then(|folder| folder.sync_all());
+    synced.or_else(|error| match error.kind() {
+        // A folder that may be written and not read; a file system that syncs no folders.
+        io::ErrorKind::PermissionDenied
+        | io::ErrorKind::InvalidInput
+        | io::ErrorKind::Unsupported => Ok(()),
+        _ => Err(error),
+    })
 }
 
 impl Write for Output {
@@ -159,7 +181,7 @@ impl Write for Output {
         match &mut self.sink {
             Sink::Stdout(stdout) => stdout.write(bytes),
             Sink::Device(device) => device.write(bytes),
-            Sink::Replace { temporary, .. } => temporary.write(bytes),
+            Sink::Replace { content, .. } => content.write(bytes),
         }
     }
 
@@ -167,7 +189,7 @@ impl Write for Output {
         match &mut self.sink {
             Sink::Stdout(stdout) => stdout.flush(),
             Sink::Device(device) => device.flush(),
-            Sink::Replace { temporary, .. } => temporary.flush(),
+            Sink::Replace { content, .. } => content.flush(),
         }
     }
 }
@@ -177,11 +199,8 @@ impl Write for Output {
 fn create_beside(
     target: &Path,
     replaced: Option<&fs::Metadata>,
-) -> io::Result<(NamedTempFile, Entry)> {
-    let folder = match target.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    };
+) -> io::Result<((File, TempPath), Entry)> {
+    let folder = folder_of(target);
     // tempfile's own complaint about a folder would name the temporary file.
     fs::metadata(folder)?;
     let mut builder = tempfile::Builder::new();
@@ -192,16 +211,22 @@ fn create_beside(
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
     let make = || {
-        builder.tempfile_in(folder).map_err(|error| match error.kind() {
-            io::ErrorKind::Other => error,
-            kind => kind.into(),
-        })
+        // Written as a plain file: tempfile's own writer would name the temporary in its errors.
+        builder.tempfile_in(folder).map(tempfile::NamedTempFile::into_parts).map_err(plain)
     };
-    let (temporary, entry) = Entry::of(make, NamedTempFile::path)?;
+    let ((file, temporary), entry) = Entry::of(make, |(_, path)| path)?;
     if let Some(metadata) = replaced {
-        temporary.as_file().set_permissions(metadata.permissions())?;
+        file.set_permissions(metadata.permissions())?;
     }
-    Ok((temporary, entry))
+    Ok(((file, temporary), entry))
+}
+
+/// The error of the system inside one of tempfile, which names the temporary file.
+fn plain(error: io::Error) -> io::Error {
+    match error.kind() {
+        io::ErrorKind::Other => error,
+        kind => kind.into(),
+    }
 }
 
 fn write_error(name: String, source: io::Error) -> FileError {
@@ -282,5 +307,29 @@ mod tests {
         Output::create(&link, true).unwrap().commit_all(b"new").unwrap();
         assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
         assert_eq!(fs::read_to_string(&file).unwrap(), "new");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_that_leads_to_no_file_is_refused_and_stays() {
+        let folder = tempfile::tempdir().unwrap();
+        let link = folder.path().join("link");
+        std::os::unix::fs::symlink("none", &link).unwrap();
+        let error = Output::create(&link, true).unwrap_err().to_string();
+        assert!(error.contains("it is a link to none, where no file is"), "{error}");
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn a_folder_that_vanishes_is_told_by_the_name_of_the_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("sub/a.txt");
+        fs::create_dir(folder.path().join("sub")).unwrap();
+        let output = Output::create(&path, true).unwrap();
+        fs::remove_dir_all(folder.path().join("sub")).unwrap();
+        let error = output.commit_all(b"new").unwrap_err().to_string();
+        let expected = format!("cannot write {}: ", path.display());
+        assert!(error.starts_with(&expected) && !error.contains(".part"), "{error}");
     }
 }

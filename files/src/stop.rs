@@ -8,6 +8,10 @@
 //! Which temporaries are open is the one thing that a whole process shares: signals come to a
 //! process. A temporary is made and entered, or removed and struck out, under one lock, which the
 //! thread takes and never gives back; nothing comes to be while it works.
+//!
+//! A file that outgrows the limit of the system (`ulimit -f`) would end a program by SIGXFSZ as it
+//! stands. The signal is caught and nothing is done about it, so that the write fails with an error
+//! that the program reports.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -50,6 +54,9 @@ impl Drop for Entry {
 pub fn clean_up_when_stopped() {
     #[cfg(unix)]
     {
+        // Caught, the signal leaves the write to fail. What the handler sets, nobody reads.
+        let caught = std::sync::Arc::default();
+        let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, caught);
         let Ok(mut signals) = signal_hook::iterator::Signals::new(signals()) else { return };
         let wait = move || {
             if let Some(signal) = signals.forever().next() {

@@ -4,7 +4,7 @@ use crate::job::{MeshJob, Mode};
 use crate::stages::Stages;
 use crate::{Job, PipelineError, mesh};
 use files::json::Document;
-use files::{JsonError, Output, Source};
+use files::{Batch, JsonError, Output, Source};
 use render::color::Encoding;
 use render::film::encode::{self, Format};
 use render::film::memory;
@@ -85,14 +85,41 @@ pub enum Event<'a> {
 /// would have piped. Returned is where the time went.
 ///
 /// # Errors
-/// On the first thing that is wrong; files already written stay.
+/// On the first thing that is wrong; files already written stay, and so does their marker, as [`Batch`]
+/// explains.
 pub fn run(
     job: &Job,
     source: &dyn Source,
     options: &Options,
     tell: &(dyn Fn(Event<'_>) + Sync),
 ) -> Result<Stages, PipelineError> {
-    let work = Work { job, source, options, tell, stages: Cell::default() };
+    let batch = batch(job, options)?;
+    let stages = run_in(&batch, job, source, options, tell)?;
+    batch.finish()?;
+    Ok(stages)
+}
+
+/// The files of a job, which belong together; their marker is `JOB.incomplete`.
+///
+/// # Errors
+/// When a file that is no marker has its name.
+pub fn batch<'a>(job: &Job, options: &Options) -> Result<Batch<'a>, PipelineError> {
+    let files = job.files(options.keep).into_iter().map(|file| options.folder.join(file));
+    Ok(Batch::new(&options.folder, &job.name, &files.collect::<Vec<_>>())?)
+}
+
+/// Does a job as [`run()`] and replaces its files in a batch, which is not finished.
+///
+/// # Errors
+/// As [`run()`].
+pub fn run_in(
+    batch: &Batch<'_>,
+    job: &Job,
+    source: &dyn Source,
+    options: &Options,
+    tell: &(dyn Fn(Event<'_>) + Sync),
+) -> Result<Stages, PipelineError> {
+    let work = Work { job, source, options, tell, batch: Some(batch), stages: Cell::default() };
     let scene = work.scene()?;
     // Sweeping and triangulating are stages of their own.
     let read_time = work.stages.get().read;
@@ -110,7 +137,7 @@ pub fn run(
 }
 
 /// The scene of a job with its meshes in it, as [`run()`] renders it: for those who render it in ways of
-/// their own. With `keep`, grids and OBJ files are written on the way.
+/// their own. Nothing is written.
 ///
 /// # Errors
 /// When a file cannot be read or is wrong, or the textures take too much memory in one of the job's modes.
@@ -120,7 +147,7 @@ pub fn scene(
     options: &Options,
     tell: &(dyn Fn(Event<'_>) + Sync),
 ) -> Result<Scene, PipelineError> {
-    Work { job, source, options, tell, stages: Cell::default() }.scene()
+    Work { job, source, options, tell, batch: None, stages: Cell::default() }.scene()
 }
 
 /// What a mode asks of a picture of this size.
@@ -135,6 +162,8 @@ struct Work<'a> {
     source: &'a dyn Source,
     options: &'a Options,
     tell: &'a (dyn Fn(Event<'_>) + Sync),
+    /// What replaces files; none where nothing is written.
+    batch: Option<&'a Batch<'a>>,
     stages: Cell<Stages>,
 }
 
@@ -212,7 +241,7 @@ impl Work<'_> {
             })?;
         let grids = object.grids()?;
         let sweep = started.elapsed();
-        if self.options.keep {
+        if self.options.keep && self.batch.is_some() {
             self.write(&self.job.grid_file(mesh), |out| {
                 grid_file::write_all(&grids, grid_file::Encoding::Binary, out)
                     .map_err(|source| out.failed(source).into())
@@ -269,10 +298,11 @@ impl Work<'_> {
         name: &str,
         fill: impl FnOnce(&mut Output) -> Result<(), PipelineError>,
     ) -> Result<(), PipelineError> {
+        let Some(batch) = self.batch else { return Ok(()) };
         let path = self.options.folder.join(name);
         let mut output = Output::create(&path, self.options.clobber)?;
         fill(&mut output)?;
-        output.commit()?;
+        batch.replace(output)?;
         (self.tell)(Event::Written(&path));
         Ok(())
     }

@@ -26,6 +26,8 @@ Examples:
   render --emit-schema > tb-scene.schema.json
   render scene.json --crop 200,250,100x100 --layers normal,depth -o part.exr
 
+The picture is never a file that is read (the scene, its parts, meshes, materials, pictures).
+
 Exit codes: 2 bad use, 3 malformed input, 4 wrong by --check, 5 cannot read or write, 6 too large,
 70 a bug, 130 interrupted, 141 closed pipe.";
 
@@ -108,7 +110,10 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
         return check(arguments);
     }
     sampling.check()?;
-    let target = output.target(sampling.pixel.is_some())?;
+    let ledger = output.ledger();
+    let target = output.target(sampling.pixel.is_some(), &ledger)?;
+    input.expect(&ledger)?;
+    target.as_ref().map_or(Ok(()), output::OutputArguments::check_name)?;
     let (width, height) = sampling.size;
     let settings = Settings {
         sampling: sampling.sampling()?,
@@ -120,7 +125,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
 
     let started = Instant::now();
     let most = textures.max_texture_mem;
-    let scene = input.read_scene(most, |_, scene| Ok(scene))?;
+    let scene = input.read_scene(&ledger, most, |_, scene| Ok(scene))?;
     memory::check(&scene, textures.filter(), most)?;
     let read_time = started.elapsed();
 
@@ -133,7 +138,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
         });
         drop(progress);
         let started = Instant::now();
-        output.write(&target, &picture)?;
+        output.write(&target, &picture, &ledger)?;
         stats.read_time = read_time;
         stats.write_time = started.elapsed();
         work.print_stats(&stats);
@@ -148,12 +153,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
 
 /// Says what there is in the scene and what of it is wrong or suspicious.
 fn check(arguments: &Arguments) -> Result<(), Report> {
-    let Arguments { input, sampling, textures, .. } = arguments;
+    let Arguments { input, output, sampling, textures, .. } = arguments;
     let (width, height) = sampling.size;
     let aspect = f64::from(width) / f64::from(height);
     let filter = textures.filter();
     let tables = |texture: &_| filter.bytes_for(texture);
-    let report = input.read_scene(textures.max_texture_mem, |draft, scene| {
+    let report = input.read_scene(&output.ledger(), textures.max_texture_mem, |draft, scene| {
         Ok(scene::check::check(draft, &scene, aspect, &tables)?)
     })?;
     output::print(&report.to_string())?;

@@ -12,9 +12,9 @@ pub enum SweepError {
     /// The spec is well formed, but its surface does not exist.
     #[error("{0}")]
     Geometry(JsonError),
-    /// A file that the spec names cannot be read.
+    /// A file that the spec names cannot be read, with the exit code of the reason.
     #[error("{0}")]
-    Named(JsonError),
+    Named(JsonError, Exit),
     /// A file that the spec names holds more than is taken.
     #[error("{0}")]
     TooLarge(JsonError),
@@ -41,7 +41,7 @@ impl Failure for SweepError {
             Self::Malformed(_) => Exit::Malformed,
             Self::Geometry(_) => Exit::Geometry,
             Self::Resolution(_) => Exit::Use,
-            Self::Named(_) => Exit::ReadWrite,
+            Self::Named(_, exit) => *exit,
             Self::Memory { .. } | Self::TooLarge(_) => Exit::Resource,
         }
     }

@@ -2,9 +2,8 @@
 
 use clap::{Parser, ValueEnum};
 use files::exit::{Exit, Failure, Report, say};
-use files::input;
 use files::json::Document;
-use files::{Disk, Output, exit};
+use files::{Batch, Ledger, Output, exit, extension, input};
 use std::io::{self, IsTerminal, Write};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -100,7 +99,11 @@ Examples:
   sweep --format json < examples/curves/cup-handle.json | head -3
   sweep examples/curves/vase.json | triangulate --texture 2 > vase.obj
   sweep --check examples/curves/klein-bottle.json
-  sweep --preview trefoil.svg examples/curves/trefoil.json";
+  sweep --preview trefoil.svg examples/curves/trefoil.json
+
+An output is never a file that the spec is read from, and its name does not end as another format
+does: a grid is .grid (or .json with --format json), a preview .svg; other endings are free.
+The grid and the preview are replaced together.";
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum Format {
@@ -108,6 +111,16 @@ enum Format {
     Bin,
     /// One JSON array a row, for people and diffs
     Json,
+}
+
+impl Format {
+    /// What the name of a grid's file may end with.
+    fn extensions(self) -> &'static [&'static str] {
+        match self {
+            Self::Bin => &["grid"],
+            Self::Json => &["grid", "json"],
+        }
+    }
 }
 
 #[derive(Debug, Error)]
@@ -182,18 +195,28 @@ fn work(arguments: &Arguments) -> Result<(), Report> {
     }
 
     let start = Instant::now();
-    let bytes = input::read(&arguments.spec)?;
+    let ledger = Ledger::new(!arguments.no_clobber);
+    let file = output.map(|path| ledger.output(path, "name another file with -o")).transpose()?;
+    let draw_to = |path| ledger.output(path, "name another file with --preview");
+    let preview = arguments.preview.as_deref().map(draw_to).transpose()?;
+    ledger.expect(&arguments.spec, "the spec")?;
+    if let Some(output) = output {
+        extension::check(output, "a grid", arguments.format.extensions())?;
+    }
+    if let Some(preview) = &arguments.preview {
+        extension::check(preview, "an SVG drawing", &["svg"])?;
+    }
+    let bytes = ledger.argument(&arguments.spec, "the spec")?;
     let name = input::name_of(&arguments.spec);
     let folder = arguments.spec.parent().unwrap_or(Path::new(""));
     let document = Document::new(&name, &bytes)?;
-    let object = Object::read(&document, folder, &Disk, &arguments.mesh())?;
+    let object = Object::read(&document, folder, &ledger, &arguments.mesh())?;
     let read = Instant::now();
-    let create = |path| Output::create(path, !arguments.no_clobber);
-    let preview = arguments.preview.as_deref().map(create).transpose()?;
     let mut spent = Spent::default();
-    if let Some(mut file) = output.map(create).transpose()? {
+    let mut outputs = Vec::new();
+    if let Some(mut file) = file {
         spent = object.write(encoding, &mut file).map_err(|source| file.failed(source))?;
-        file.commit()?;
+        outputs.push(file);
     }
     // The grids as a whole only where they are looked at.
     let grids = if checks || preview.is_some() { object.grids()? } else { Vec::new() };
@@ -202,8 +225,14 @@ fn work(arguments: &Arguments) -> Result<(), Report> {
     } else {
         check::check(&document, &object, &grids, arguments.check_self)?
     };
-    if let Some(file) = preview {
-        file.commit_all(preview::svg(&object, &grids, &findings).as_bytes())?;
+    if let Some(mut file) = preview {
+        let svg = preview::svg(&object, &grids, &findings);
+        file.write_all(svg.as_bytes()).map_err(|source| file.failed(source))?;
+        outputs.push(file);
+    }
+    let remark = Batch::commit(outputs)?;
+    if let Some(remark) = remark.filter(|_| !arguments.quiet) {
+        say(format_args!("sweep: note: {remark}"));
     }
     if !arguments.quiet && !checks {
         object.parts().iter().for_each(note);

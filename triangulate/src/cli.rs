@@ -1,6 +1,7 @@
 //! The command line: what may be asked for, and what fits together.
 
 use clap::{Parser, ValueEnum};
+use files::extension::{self, WrongExtension};
 use files::{Exit, Failure};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -18,7 +19,9 @@ Examples:
   triangulate vase.grid -o vase.obj --mtl --map marble.png        for other renderers
 
 An output file is replaced only when the whole grid was read and found undamaged. An OBJ on
-standard output is whole when its last line is `# end V F` (numbers of v and f lines).";
+standard output is whole when its last line is `# end V F` (numbers of v and f lines).
+Mesh, material file and report are replaced together. None of them is ever a file that is read, and
+none has a name that ends as another format does (a.glb); endings of no known format are free.";
 
 /// Makes triangles of a grid that `sweep` wrote, as OBJ, STL or PLY.
 #[derive(Debug, Parser)]
@@ -89,15 +92,9 @@ pub enum UseError {
     /// A material file beside nothing.
     #[error("--mtl found {0} as the output, expected a file to lie beside: name one with -o")]
     MtlPlace(String),
-    /// A material file in the place of the mesh.
-    #[error("--mtl would write {0} over the mesh: let the name of the output end otherwise")]
-    MtlName(String),
     /// Two things on standard output.
     #[error("--report - would write into the mesh on standard output: name a file for one of them")]
     ReportPlace,
-    /// A report in the place of another output.
-    #[error("--report would write over {0}, which is another output: name another file")]
-    ReportName(String),
 }
 
 impl Failure for UseError {
@@ -133,7 +130,7 @@ impl Arguments {
         if self.areas.as_deref().is_some_and(is_stdout) && is_stdout(&self.grid) {
             return Err(UseError::AreasPlace);
         }
-        if let Some(mtl) = self.mtl() {
+        if self.mtl {
             if format != Format::Obj {
                 return Err(UseError::MtlFormat(format.name()));
             }
@@ -143,20 +140,21 @@ impl Arguments {
             if self.output.exists() && !self.output.is_file() {
                 return Err(UseError::MtlPlace(self.output.display().to_string()));
             }
-            if mtl == self.output {
-                return Err(UseError::MtlName(mtl.display().to_string()));
-            }
         }
-        if let Some(report) = &self.report {
-            if is_stdout(report) && is_stdout(&self.output) {
-                return Err(UseError::ReportPlace);
-            }
-            let others = [Some(self.output.clone()), self.mtl()];
-            if others.iter().flatten().any(|other| place(other) == place(report)) {
-                return Err(UseError::ReportName(report.display().to_string()));
-            }
+        if self.report.as_deref().is_some_and(is_stdout) && is_stdout(&self.output) {
+            return Err(UseError::ReportPlace);
         }
         Ok(())
+    }
+
+    /// Complains of a name that ends as that of another format.
+    pub fn check_names(&self) -> Result<(), WrongExtension> {
+        let format = self.format();
+        extension::check(&self.output, format.content(), &[format.extension()])?;
+        match &self.report {
+            Some(report) => extension::check(report, "a JSON report", &["json"]),
+            None => Ok(()),
+        }
     }
 
     /// The material file, if one is wanted.
@@ -192,13 +190,24 @@ impl Format {
             Self::Ply => "PLY",
         }
     }
-}
 
-/// The path of a file that need not be there, the same for all ways to write it.
-fn place(path: &Path) -> PathBuf {
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-    let folder = folder.unwrap_or(Path::new(".")).canonicalize().unwrap_or_default();
-    folder.join(path.file_name().unwrap_or_default())
+    /// What its files hold, in words.
+    fn content(self) -> &'static str {
+        match self {
+            Self::Obj => "an OBJ mesh",
+            Self::Stl => "an STL mesh",
+            Self::Ply => "a PLY mesh",
+        }
+    }
+
+    /// The extension of its files.
+    fn extension(self) -> &'static str {
+        match self {
+            Self::Obj => "obj",
+            Self::Stl => "stl",
+            Self::Ply => "ply",
+        }
+    }
 }
 
 fn is_stdout(argument: &Path) -> bool {

@@ -6,7 +6,7 @@ use clap::Parser;
 use cli::{Arguments, Format};
 use files::exit::say;
 use files::json::Document;
-use files::{Output, Report, exit, input};
+use files::{Batch, Ledger, Output, Report, exit, input};
 use std::io::{BufRead, IsTerminal, Write, stdin, stdout};
 use std::path::Path;
 use std::process::ExitCode;
@@ -29,17 +29,26 @@ fn work(arguments: &Arguments) -> Result<(), Report> {
         return Err(TriangulateError::Terminal.into());
     }
     // Before any reading, so that a folder that cannot be written is told at once.
-    let create = |path: &Path| Output::create(path, !arguments.no_clobber);
-    let mut output = create(&arguments.output)?;
-    let mtl_output = arguments.mtl().as_deref().map(create).transpose()?;
-    let report_output = arguments.report.as_deref().map(create).transpose()?;
+    let ledger = Ledger::new(!arguments.no_clobber);
+    let create = |path: &Path, flag: &str| -> Result<Output, Report> {
+        Ok(ledger.output(path, &format!("name another file with {flag}"))?)
+    };
+    let mut output = create(&arguments.output, "-o")?;
+    let mtl_output = arguments.mtl().map(|path| create(&path, "-o")).transpose()?;
+    let report_output =
+        arguments.report.as_deref().map(|path| create(path, "--report")).transpose()?;
+    ledger.expect(&arguments.grid, "the grid")?;
+    if let Some(areas) = &arguments.areas {
+        ledger.expect(areas, "the areas")?;
+    }
+    arguments.check_names()?;
     let name = input::name_of(&arguments.grid);
-    let mut reader =
-        GridReader::open(&name, input::open(&arguments.grid)?).map_err(TriangulateError::Grid)?;
+    let grid = ledger.open(&arguments.grid, "the grid")?;
+    let mut reader = GridReader::open(&name, grid).map_err(TriangulateError::Grid)?;
     let written = match &arguments.areas {
         None => write(arguments, &mut Grid::File(&mut reader), &mut output),
         Some(areas) => {
-            let grids = with_areas(areas, &mut reader)?;
+            let grids = with_areas(areas, &ledger, &mut reader)?;
             write(arguments, &mut Grid::<&[u8]>::Memory(&grids), &mut output)
         }
     };
@@ -47,15 +56,20 @@ fn work(arguments: &Arguments) -> Result<(), Report> {
         TriangulateError::Write(source) => Report::from(output.failed(source)),
         error => error.into(),
     })?;
-    // The mesh last: when it is there, so is what it names.
-    if let Some(output) = mtl_output {
-        output.commit_all(mtl(&materials, arguments.map.as_deref()).as_bytes())?;
+    let mut outputs = vec![output];
+    if let Some(mut output) = mtl_output {
+        let mtl = mtl(&materials, arguments.map.as_deref());
+        output.write_all(mtl.as_bytes()).map_err(|source| output.failed(source))?;
+        outputs.push(output);
     }
-    output.commit()?;
     if let (Some(mut output), Some(mesh)) = (report_output, mesh) {
         let report = MeshReport::of(&mesh, &counts);
         report.write(&mut output).map_err(|source| output.failed(source))?;
-        output.commit()?;
+        outputs.push(output);
+    }
+    let remark = Batch::commit(outputs)?;
+    if let Some(remark) = remark.filter(|_| !arguments.quiet) {
+        say(format_args!("triangulate: note: {remark}"));
     }
     note(arguments, &name, &counts);
     Ok(())
@@ -64,9 +78,10 @@ fn work(arguments: &Arguments) -> Result<(), Report> {
 /// All patches of a grid, with the areas of a file on them.
 fn with_areas(
     areas: &Path,
+    ledger: &Ledger,
     reader: &mut GridReader<impl BufRead>,
 ) -> Result<Vec<GridMesh>, Report> {
-    let bytes = input::read(areas)?;
+    let bytes = ledger.argument(areas, "the areas")?;
     let name = input::name_of(areas);
     let document = Document::new(&name, &bytes)?;
     let mut grids = reader.read_rest().map_err(TriangulateError::Grid)?;

@@ -228,9 +228,9 @@ fn stl_and_ply_are_chosen_by_flag_or_by_name() {
         assert_eq!(cut.status.code(), Some(3));
         assert!(fs::read(folder.path().join(&file)).unwrap() == named, "the old file stays");
     }
-    let run = triangulate(&["-o", "a.stl", "--format", "obj"], &grid, folder.path());
+    let run = triangulate(&["-o", "a", "--format", "stl"], &grid, folder.path());
     assert_eq!(run.status.code(), Some(0));
-    assert!(fs::read(folder.path().join("a.stl")).unwrap().starts_with(b"# topobook"));
+    assert!(fs::read(folder.path().join("a")).unwrap().starts_with(b"topobook"));
     let run = triangulate(&["--format", "step"], &grid, folder.path());
     assert_eq!(run.status.code(), Some(2));
     assert!(said(&run).contains("possible values: obj, stl, ply"), "{}", said(&run));
@@ -275,7 +275,7 @@ fn a_material_file_needs_an_obj_to_lie_beside() {
         (&["--mtl"][..], "found standard output as the output"),
         (&["--mtl", "-o", "."], "found . as the output"),
         (&["--mtl", "-o", "a.stl"], "--mtl is for OBJ, and the format is STL"),
-        (&["--mtl", "-o", "a.mtl"], "--mtl would write a.mtl over the mesh"),
+        (&["--mtl", "-o", "a.mtl"], "the output a.mtl is also the output a.mtl"),
         (&["--map", "a.png", "-o", "a.obj"], "--mtl"),
         (&["--mtl", "--map", "a\nb", "-o", "a.obj"], "which an MTL cannot hold"),
     ] {
@@ -316,8 +316,14 @@ fn a_report_goes_where_nothing_else_goes() {
     let grid = sheet(3, 4);
     for (arguments, expected) in [
         (&["--report", "-"][..], "--report - would write into the mesh on standard output"),
-        (&["-o", "a.obj", "--report", "./a.obj"], "--report would write over ./a.obj"),
-        (&["-o", "a.obj", "--mtl", "--report", "a.mtl"], "--report would write over a.mtl"),
+        (
+            &["-o", "a.obj", "--report", "./a.obj"],
+            "the output ./a.obj is also the output a.obj: name another file with --report",
+        ),
+        (
+            &["-o", "a.obj", "--mtl", "--report", "a.mtl"],
+            "the output a.mtl is also the output a.mtl: name another file with --report",
+        ),
     ] {
         let run = triangulate(arguments, &grid, folder.path());
         assert_eq!((run.status.code(), run.stdout.len()), (Some(2), 0), "{}", said(&run));

@@ -1,19 +1,19 @@
 //! The pages, figures and job files that a command line names.
 
-use files::{Disk, Source};
+use files::{Ledger, Source};
 use pipeline::job::figure;
 use pipeline::{Job, PipelineError, pages};
 use std::path::{Path, PathBuf};
 
 /// A job that was named.
 #[derive(Debug)]
-pub struct Asked {
+pub struct Asked<'a> {
     /// The job, whole.
     pub job: Job,
     /// Its file.
     pub path: PathBuf,
     /// Where it and its files are.
-    pub source: &'static dyn Source,
+    pub source: &'a dyn Source,
     /// Whether it is a page that is built in.
     pub built_in: bool,
     /// The figures that were asked for by number; none if the job was named itself.
@@ -22,7 +22,7 @@ pub struct Asked {
     pub argument: String,
 }
 
-impl Asked {
+impl Asked<'_> {
     /// What `pipeline run` calls the whole job.
     #[must_use]
     pub fn whole(&self) -> String {
@@ -30,13 +30,16 @@ impl Asked {
     }
 }
 
-/// The jobs that were named, in the order in which they were; what is named twice is there once, and a figure
+/// The jobs that were named, job files read through the ledger, in the order in which they were; what is named twice is there once, and a figure
 /// beside the page that shows it is no more than the page.
 ///
 /// # Errors
 /// When there is no such page or figure, or a job file is wrong.
-pub fn asked(arguments: &[String]) -> Result<Vec<Asked>, PipelineError> {
-    let mut all: Vec<Asked> = Vec::new();
+pub fn asked<'a>(
+    arguments: &[String],
+    ledger: &'a Ledger,
+) -> Result<Vec<Asked<'a>>, PipelineError> {
+    let mut all: Vec<Asked<'a>> = Vec::new();
     for argument in arguments {
         if argument == "all" {
             for job in pages::in_order()? {
@@ -44,11 +47,11 @@ pub fn asked(arguments: &[String]) -> Result<Vec<Asked>, PipelineError> {
             }
         } else if Path::new(argument).extension().is_some_and(|extension| extension == "json") {
             let path = PathBuf::from(argument);
-            let job = Job::read(&path, &Disk)?;
+            let job = Job::read(&path, ledger)?;
             let argument = argument.clone();
             add(
                 &mut all,
-                Asked { job, path, source: &Disk, built_in: false, figures: Vec::new(), argument },
+                Asked { job, path, source: ledger, built_in: false, figures: Vec::new(), argument },
             );
         } else if let Some(number) = figure::number(argument) {
             add(&mut all, page(&pages::of_figure(number)?, argument, vec![number])?);
@@ -59,7 +62,7 @@ pub fn asked(arguments: &[String]) -> Result<Vec<Asked>, PipelineError> {
     Ok(all)
 }
 
-fn page(name: &str, argument: &str, figures: Vec<u8>) -> Result<Asked, PipelineError> {
+fn page<'a>(name: &str, argument: &str, figures: Vec<u8>) -> Result<Asked<'a>, PipelineError> {
     let (job, path) = (pages::page(name)?, pages::path(name));
     Ok(Asked {
         job,
@@ -71,7 +74,7 @@ fn page(name: &str, argument: &str, figures: Vec<u8>) -> Result<Asked, PipelineE
     })
 }
 
-fn add(all: &mut Vec<Asked>, new: Asked) {
+fn add<'a>(all: &mut Vec<Asked<'a>>, new: Asked<'a>) {
     match all.iter_mut().find(|old| old.path == new.path && old.built_in == new.built_in) {
         None => all.push(new),
         Some(old) if old.figures.is_empty() || new.figures.is_empty() => old.figures.clear(),

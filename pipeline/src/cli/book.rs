@@ -1,11 +1,11 @@
 //! `pipeline book`: the picture book.
 
 use super::asked::{Asked, asked};
-use super::make_folder;
 use super::work::Work;
+use super::{OTHER_FOLDER, make_folder};
 use clap::Args;
+use files::Report;
 use files::exit::say;
-use files::{Output, Report};
 use pipeline::book::{self, Entry, Options};
 use render::progress::Progress;
 use std::path::PathBuf;
@@ -34,14 +34,15 @@ pub struct BookArguments {
 
 /// Makes the book.
 pub fn book(arguments: &BookArguments) -> Result<(), Report> {
+    let ledger = arguments.work.ledger();
     let jobs = if arguments.jobs.is_empty() {
-        asked(&["all".to_owned()])?
+        asked(&["all".to_owned()], &ledger)?
     } else {
-        asked(&arguments.jobs)?
+        asked(&arguments.jobs, &ledger)?
     };
     make_folder(&arguments.output)?;
     let path = arguments.output.join(book::FILE);
-    Output::check(&path, arguments.work.clobber())?;
+    ledger.claim(&path, OTHER_FOLDER)?;
     let options = Options {
         size: arguments.size,
         max_texture_bytes: arguments.work.max_texture_mem,
@@ -68,7 +69,7 @@ pub fn book(arguments: &BookArguments) -> Result<(), Report> {
         })
     })?;
     drop(progress);
-    Output::create(&path, arguments.work.clobber())?.commit_all(text.as_bytes())?;
+    ledger.create(&path)?.commit_all(text.as_bytes())?;
     if !arguments.work.quiet {
         let seconds = started.elapsed().as_secs_f64();
         let megabytes = text.len() as f64 / 1e6;

@@ -1,7 +1,7 @@
 //! `pipeline compare`: how far one picture is from another.
 
 use clap::Args;
-use files::{Exit, Failure, Output, Report, input};
+use files::{Exit, Failure, Ledger, Output, Report, input};
 use pipeline::compare::{CompareError, Difference, Scale, difference, map, read, ssim};
 use render::Picture;
 use render::film::Crop;
@@ -117,13 +117,14 @@ pub fn compare(arguments: &CompareArguments) -> Result<(), Report> {
     if input::is_stdin(first) && input::is_stdin(second) {
         return Err(Unequal::TwiceStdin.into());
     }
+    let ledger = Ledger::new(!arguments.no_clobber);
     if let Some(path) = &arguments.map {
         if Format::of(path) != Some(Format::Png) {
             return Err(Unequal::MapName(path.display().to_string()).into());
         }
-        Output::check(path, !arguments.no_clobber)?;
+        ledger.claim(path, "name another file with --map")?;
     }
-    let [a, b] = read::pair(first, second, arguments.crop)?;
+    let [a, b] = read::pair(&ledger, first, second, arguments.crop)?;
     let measures = Measures::of(&a, &b, arguments.crop)?;
     if arguments.ssim.is_some() && measures.ssim.is_none() {
         return Err(Unequal::NoSimilarity(a.width, a.height).into());
@@ -132,7 +133,7 @@ pub fn compare(arguments: &CompareArguments) -> Result<(), Report> {
         let name = path.display().to_string();
         let bytes = map::png(&map::map(&a, &b, arguments.map_scale)?)
             .map_err(|source| Unequal::Encode { name, source })?;
-        Output::create(path, !arguments.no_clobber)?.commit_all(&bytes)?;
+        ledger.create(path)?.commit_all(&bytes)?;
     }
     let mut out = Output::create(Path::new("-"), true)?;
     measures.write(arguments.json, &mut out).map_err(|source| out.failed(source))?;

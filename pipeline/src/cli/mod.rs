@@ -24,6 +24,11 @@ Examples:
   pipeline book -o book
   pipeline compare a.png b.png --map difference.png --rmse 0.01
 
+No output is ever a file that is read: a job, a scene and its parts, a spec, a mesh, a picture.
+Files that belong together (those of a job; with --sheet of all jobs; those of a report; textures)
+are replaced one after another. Meanwhile NAME.incomplete lists them beside them; it stays if the
+program is stopped between two of them, and goes with the next whole run.
+
 Exit codes: 1 pictures that differ by more than was allowed, 2 bad use, 3 malformed input,
 4 impossible geometry, 5 cannot read or write, 6 too large, 70 a bug, 130 interrupted, 141 closed pipe.";
 
@@ -59,6 +64,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
         Command::Compare(arguments) => compare::compare(arguments),
     }
 }
+
+/// What to do about an output that is also an input.
+const OTHER_FOLDER: &str = "choose another folder with -o";
 
 /// Makes the folder for the files of a command.
 fn make_folder(folder: &Path) -> Result<(), FileError> {

@@ -1,21 +1,22 @@
 //! `pipeline report`: what each way of rendering a page costs, and how wrong it is.
 
 use super::asked::{Asked, asked};
-use super::make_folder;
 use super::work::Work;
+use super::{OTHER_FOLDER, make_folder};
 use clap::Args;
 use cpu_time::ProcessTime;
 use files::exit::say;
-use files::{Output, Report};
+use files::{Batch, Ledger, Output, Report};
 use pipeline::report::measure::{self, Meter};
-use pipeline::report::measured::{PageMeasured, Table, Truth};
+use pipeline::report::measured::{PageMeasured, Truth};
 use pipeline::report::{self, Measured, Plan, accompanying, csv};
 use pipeline::run::Options;
 use pipeline::{Job, PipelineError};
 use render::Scene;
 use render::film::{MOST_SAMPLES, memory};
 use render::progress::Progress;
-use std::path::PathBuf;
+use std::io::Write;
+use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
@@ -51,7 +52,8 @@ pub struct ReportArguments {
 
 /// Measures the pages that were named and writes what came of it.
 pub fn report(arguments: &ReportArguments) -> Result<(), Report> {
-    let jobs = jobs(&arguments.pages)?;
+    let ledger = arguments.work.ledger();
+    let jobs = jobs(&arguments.pages, &ledger)?;
     let mut plan = if arguments.quick { Plan::quick() } else { Plan::full() };
     plan.size = arguments.size.unwrap_or(plan.size);
     plan.most_truth_samples = arguments.truth.unwrap_or(plan.most_truth_samples);
@@ -72,8 +74,22 @@ pub fn report(arguments: &ReportArguments) -> Result<(), Report> {
     });
     let scenes: Vec<Scene> = scenes.collect::<Result<_, PipelineError>>()?;
     make_folder(&options.folder)?;
+    let mut files = check_files(&jobs, &options, &ledger)?;
     let tables = accompanying::measure(arguments.quick)?;
-    check_files(&jobs, &tables, &options)?;
+    for table in &tables {
+        let file = options.folder.join(format!("{}.csv", table.name));
+        ledger.claim(&file, OTHER_FOLDER)?;
+        files.push(file);
+    }
+    let batch = Batch::new(&options.folder, "report", &files)?;
+    if let Some(remark) = batch.remark().filter(|_| !arguments.work.quiet) {
+        say(format_args!("pipeline: note: {remark}"));
+    }
+    let write = |path: &Path, text: &str, clobber| -> Result<(), PipelineError> {
+        let mut output = Output::create(path, clobber)?;
+        output.write_all(text.as_bytes()).map_err(|source| output.failed(source))?;
+        Ok(batch.replace(output)?)
+    };
     let pool = arguments.work.pool()?;
     let threads = pool.current_num_threads();
     let mut measured = Measured { pages: Vec::new(), threads, quick: arguments.quick, tables };
@@ -88,37 +104,42 @@ pub fn report(arguments: &ReportArguments) -> Result<(), Report> {
         talk.finish(&page);
         measured.pages.push(page);
         // After every page: if a long report is interrupted, the numbers so far are there.
-        Output::create(&numbers, true)?.commit_all(csv::trials(&measured).as_bytes())?;
+        write(&numbers, &csv::trials(&measured), true)?;
     }
     let mut written = vec![numbers];
     for table in &measured.tables {
         let path = options.folder.join(format!("{}.csv", table.name));
-        Output::create(&path, options.clobber)?.commit_all(csv::table(table).as_bytes())?;
+        write(&path, &csv::table(table), options.clobber)?;
         written.push(path);
     }
-    written.extend(report::write(&measured, &options.folder, options.clobber)?);
+    written.extend(report::write(&measured, &options.folder, options.clobber, &batch)?);
+    batch.finish()?;
     if !arguments.work.quiet {
         written.iter().for_each(|path| say(path.display()));
     }
     Ok(())
 }
 
-/// Checks that the files of a report may be written, and that no two pages write the same.
-fn check_files(jobs: &[Asked], tables: &[Table], options: &Options) -> Result<(), PipelineError> {
+/// The files of a report, which may be written; no two pages write the same.
+fn check_files(
+    jobs: &[Asked<'_>],
+    options: &Options,
+    ledger: &Ledger,
+) -> Result<Vec<PathBuf>, PipelineError> {
     let pages = || jobs.iter().map(|asked| asked.job.name.as_str());
     let mut files = vec![NUMBERS.to_string()];
-    files.extend(tables.iter().map(|table| format!("{}.csv", table.name)));
     files.extend(report::files(pages()));
-    for file in files {
-        Output::check(&options.folder.join(file), options.clobber)?;
-    }
     for (k, name) in pages().enumerate() {
         if let Some(first) = jobs[..k].iter().find(|asked| asked.job.name == name) {
             let (first, second) = (first.argument.clone(), jobs[k].argument.clone());
             return Err(PipelineError::SameFile { first, second, file: format!("{name}.svg") });
         }
     }
-    Ok(())
+    let files: Vec<PathBuf> = files.iter().map(|file| options.folder.join(file)).collect();
+    for file in &files {
+        ledger.claim(file, OTHER_FOLDER)?;
+    }
+    Ok(files)
 }
 
 /// Shows what is being measured.
@@ -190,11 +211,11 @@ impl Meter for Usage {
 
 /// The jobs that were named; without names, the pages that show figures of the thesis, and the scenes that
 /// other renderers were measured on.
-fn jobs(names: &[String]) -> Result<Vec<Asked>, PipelineError> {
+fn jobs<'a>(names: &[String], ledger: &'a Ledger) -> Result<Vec<Asked<'a>>, PipelineError> {
     if !names.is_empty() {
-        return asked(names);
+        return asked(names, ledger);
     }
-    let all = asked(&["all".into()])?;
+    let all = asked(&["all".into()], ledger)?;
     let default = |job: &Job| {
         PEERS.contains(&job.name.as_str()) || job.modes.iter().any(|mode| mode.figure.is_some())
     };

@@ -1,18 +1,20 @@
 //! `pipeline run`: the pictures of pages and jobs.
 
 use super::asked::{Asked, asked};
-use super::make_folder;
 use super::work::Work;
+use super::{OTHER_FOLDER, make_folder};
 use clap::Args;
 use files::exit::say;
-use files::{Output, Report, Source};
+use files::{Batch, Ledger, Report};
+use pipeline::run as of_job;
 use pipeline::run::{Event, Options};
 use pipeline::sheet::Sheet;
 use pipeline::stages::Stages;
-use pipeline::{Job, PipelineError, run as run_job};
+use pipeline::{Job, PipelineError};
 use render::Picture;
 use render::progress::Progress;
 use std::collections::BTreeMap;
+use std::io::Write;
 use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
@@ -48,16 +50,15 @@ pub struct RunArguments {
 /// Does the jobs that were named.
 pub fn run(arguments: &RunArguments) -> Result<(), Report> {
     // Every job is read before the first is done, so that a slip in a name costs no waiting.
-    let jobs = jobs(arguments)?;
+    let ledger = arguments.work.ledger();
+    let jobs = jobs(arguments, &ledger)?;
     make_folder(&arguments.output)?;
-    for (job, _) in &jobs {
-        for file in job.files(arguments.keep) {
-            Output::check(&arguments.output.join(file), arguments.work.clobber())?;
-        }
-    }
     let sheet_path = arguments.sheet.then(|| arguments.output.join(Sheet::FILE));
-    if let Some(path) = &sheet_path {
-        Output::check(path, arguments.work.clobber())?;
+    let names = jobs.iter().flat_map(|asked| asked.job.files(arguments.keep));
+    let files: Vec<PathBuf> =
+        names.map(|name| arguments.output.join(name)).chain(sheet_path.clone()).collect();
+    for file in &files {
+        ledger.claim(file, OTHER_FOLDER)?;
     }
     let pool = arguments.work.pool()?;
     let options = Options {
@@ -67,13 +68,25 @@ pub fn run(arguments: &RunArguments) -> Result<(), Report> {
         keep: arguments.keep,
         clobber: arguments.work.clobber(),
     };
+    pool.install(|| read_first(&jobs, &files, &options))?;
+    let together = arguments.sheet.then(|| Batch::new(&options.folder, "sheet", &files));
+    let together = together.transpose()?;
+    together.iter().for_each(|batch| arguments.remark(batch));
     let mut rows: Vec<(String, Stages)> = Vec::new();
     let mut all = Stages::default();
     let mut sheet = Sheet::default();
-    for (job, source) in &jobs {
+    for Asked { job, source, .. } in &jobs {
         let talk = Talk::new(job, arguments);
-        let stages =
-            pool.install(|| run_job(job, *source, &options, &|event| talk.hear(&event)))?;
+        let batch = of_job::batch(job, &options)?;
+        arguments.remark(&batch);
+        let batch = match &together {
+            Some(together) => batch.within(together),
+            None => batch,
+        };
+        let stages = pool.install(|| {
+            of_job::run_in(&batch, job, *source, &options, &|event| talk.hear(&event))
+        })?;
+        batch.finish()?;
         rows.push((job.name.clone(), stages));
         let (modes, last) = talk.heard();
         rows.extend(modes);
@@ -82,8 +95,11 @@ pub fn run(arguments: &RunArguments) -> Result<(), Report> {
         }
         all += stages;
     }
-    if let Some(path) = &sheet_path {
-        Output::create(path, arguments.work.clobber())?.commit_all(&sheet.png()?)?;
+    if let (Some(path), Some(together)) = (&sheet_path, together) {
+        let mut output = ledger.create(path)?;
+        output.write_all(&sheet.png()?).map_err(|source| output.failed(source))?;
+        together.replace(output)?;
+        together.finish()?;
     }
     if jobs.len() > 1 {
         rows.push(("all".into(), all));
@@ -94,27 +110,53 @@ pub fn run(arguments: &RunArguments) -> Result<(), Report> {
     Ok(())
 }
 
+impl RunArguments {
+    /// Says that an earlier run stopped between the files of a batch, if one did.
+    fn remark(&self, batch: &Batch<'_>) {
+        if let Some(remark) = batch.remark().filter(|_| !self.work.quiet) {
+            say(format_args!("pipeline: note: {remark}"));
+        }
+    }
+}
+
+/// Reads all that several jobs are made of, before the first replaces a file that the next one reads.
+/// A job whose grids are kept replaces files before it has read its pictures. Where no output is
+/// there yet, none can be an input.
+fn read_first(
+    jobs: &[Asked<'_>],
+    outputs: &[PathBuf],
+    options: &Options,
+) -> Result<(), PipelineError> {
+    if (jobs.len() > 1 || options.keep) && outputs.iter().any(|path| path.exists()) {
+        for Asked { job, source, .. } in jobs.iter().filter(|asked| !asked.built_in) {
+            of_job::scene(job, *source, options, &|_| {})?;
+        }
+    }
+    Ok(())
+}
+
 /// The jobs to do, each with the place where its files are; no two write the same file.
-fn jobs(arguments: &RunArguments) -> Result<Vec<(Job, &'static dyn Source)>, PipelineError> {
-    let mut jobs: Vec<(Job, &'static dyn Source)> = Vec::new();
+fn jobs<'a>(arguments: &RunArguments, ledger: &'a Ledger) -> Result<Vec<Asked<'a>>, PipelineError> {
+    let mut jobs: Vec<Asked<'a>> = Vec::new();
     let mut written: BTreeMap<String, String> = BTreeMap::new();
     if arguments.sheet {
         written.insert(Sheet::FILE.into(), "--sheet".into());
     }
-    for Asked { job, source, figures, argument, .. } in asked(&arguments.jobs)? {
+    for Asked { job, path, source, built_in, figures, argument } in asked(&arguments.jobs, ledger)?
+    {
         let job = if figures.is_empty() { job } else { job.only(&figures) };
         let job = job.with_modes(&arguments.modes)?;
         for file in job.files(arguments.keep) {
             if let Some(first) = written.get(&file) {
                 return Err(PipelineError::SameFile {
                     first: first.clone(),
-                    second: argument,
+                    second: argument.clone(),
                     file,
                 });
             }
             written.insert(file, argument.clone());
         }
-        jobs.push((job, source));
+        jobs.push(Asked { job, path, source, built_in, figures, argument });
     }
     Ok(jobs)
 }

@@ -2,7 +2,7 @@
 
 use clap::Args;
 use clap::builder::TypedValueParser;
-use files::{Exit, Failure};
+use files::{Exit, Failure, Ledger};
 use rayon::ThreadPool;
 use thiserror::Error;
 
@@ -42,6 +42,12 @@ impl Work {
     #[must_use]
     pub fn clobber(&self) -> bool {
         !self.no_clobber
+    }
+
+    /// The files of a run, with leave to replace existing ones or not.
+    #[must_use]
+    pub fn ledger(&self) -> Ledger {
+        Ledger::new(self.clobber())
     }
 
     /// As many threads as were asked for, or one for each core.

@@ -4,7 +4,7 @@
 //! is three equal channels. An EXR file is read as it is: its channels `R`, `G` and `B`, and no layers. A
 //! picture with an alpha channel must be opaque, since what lies behind it is not known.
 
-use files::{Exit, Failure, FileError, input};
+use files::{Exit, Failure, FileError, Ledger, input};
 use image::{
     DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, ImageResult, Limits,
 };
@@ -100,17 +100,22 @@ impl Failure for ReadError {
 ///
 /// # Errors
 /// When it cannot be read, is no PNG or EXR file, is broken, is not opaque or not finite.
-pub fn read(argument: &Path) -> Result<Picture, ReadError> {
+pub fn read(ledger: &Ledger, argument: &Path) -> Result<Picture, ReadError> {
     let name = input::name_of(argument);
-    decode(&name, &input::read(argument)?)
+    decode(&name, &ledger.argument(argument, "a picture")?)
 }
 
 /// Two pictures of the same size from the files named on a command line, or the same part of both.
 ///
 /// # Errors
 /// When one of them cannot be read, their sizes differ, or the part does not lie in them.
-pub fn pair(first: &Path, second: &Path, crop: Option<Crop>) -> Result<[Picture; 2], ReadError> {
-    let pictures = [read(first)?, read(second)?];
+pub fn pair(
+    ledger: &Ledger,
+    first: &Path,
+    second: &Path,
+    crop: Option<Crop>,
+) -> Result<[Picture; 2], ReadError> {
+    let pictures = [read(ledger, first)?, read(ledger, second)?];
     let sizes = pictures.each_ref().map(|picture| (picture.width, picture.height));
     let [first, second] = [first, second].map(input::name_of);
     if sizes[0] != sizes[1] {

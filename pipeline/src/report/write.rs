@@ -5,7 +5,8 @@ use super::measured::Measured;
 use super::plot;
 use super::words;
 use crate::PipelineError;
-use files::Output;
+use files::{Batch, Output};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// The page of HTML.
@@ -16,7 +17,7 @@ pub fn files<'a>(pages: impl Iterator<Item = &'a str>) -> Vec<String> {
     std::iter::once(DOCUMENT.into()).chain(pages.map(|page| format!("{page}.svg"))).collect()
 }
 
-/// Writes `report.html`, and for each page its plot as `PAGE.svg`, into a folder that is there.
+/// Writes `report.html`, and for each page its plot as `PAGE.svg`, into a folder that is there, as a part of a batch.
 /// Returns the files, in the order in which they were written.
 ///
 /// # Errors
@@ -25,6 +26,7 @@ pub fn write(
     measured: &Measured,
     folder: &Path,
     clobber: bool,
+    batch: &Batch<'_>,
 ) -> Result<Vec<PathBuf>, PipelineError> {
     let claims = words::claims(measured);
     let mut contents = vec![document::document(measured, &claims)?];
@@ -35,7 +37,9 @@ pub fn write(
     let names = files(measured.pages.iter().map(|page| page.name.as_str()));
     let paths: Vec<PathBuf> = names.iter().map(|name| folder.join(name)).collect();
     for (path, text) in paths.iter().zip(contents) {
-        Output::create(path, clobber)?.commit_all(text.as_bytes())?;
+        let mut output = Output::create(path, clobber)?;
+        output.write_all(text.as_bytes()).map_err(|source| output.failed(source))?;
+        batch.replace(output)?;
     }
     Ok(paths)
 }
@@ -45,6 +49,15 @@ mod tests {
     use super::*;
     use crate::report::fixture;
     use std::fs;
+
+    fn written(
+        measured: &Measured,
+        folder: &Path,
+        clobber: bool,
+    ) -> Result<Vec<PathBuf>, PipelineError> {
+        let batch = Batch::new(folder, "report", &[]).unwrap();
+        write(measured, folder, clobber, &batch)
+    }
 
     fn example() -> Measured {
         let regions: [(&str, &fixture::Law<'_>); 2] =
@@ -60,9 +73,9 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let measured = example();
         if let Ok(look) = std::env::var("LOOK") {
-            write(&measured, Path::new(&look), true).unwrap();
+            written(&measured, Path::new(&look), true).unwrap();
         }
-        let paths = write(&measured, folder.path(), false).unwrap();
+        let paths = written(&measured, folder.path(), false).unwrap();
         let names: Vec<_> = paths.iter().map(|path| path.file_name().unwrap()).collect();
         assert_eq!(names, ["report.html", "floor.svg", "edges.svg"]);
         let text = fs::read_to_string(&paths[0]).unwrap();
@@ -88,10 +101,10 @@ mod tests {
     fn files_are_replaced_only_if_that_is_allowed() {
         let folder = tempfile::tempdir().unwrap();
         let measured = fixture::measured(Vec::new());
-        write(&measured, folder.path(), false).unwrap();
-        assert!(write(&measured, folder.path(), false).is_err());
+        written(&measured, folder.path(), false).unwrap();
+        assert!(written(&measured, folder.path(), false).is_err());
         let before = fs::read(folder.path().join("report.html")).unwrap();
-        write(&measured, folder.path(), true).unwrap();
+        written(&measured, folder.path(), true).unwrap();
         assert_eq!(before, fs::read(folder.path().join("report.html")).unwrap());
     }
 }

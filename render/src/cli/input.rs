@@ -3,7 +3,7 @@
 use super::UseError;
 use clap::Args;
 use files::json::Document;
-use files::{Disk, Report, input};
+use files::{FileError, Ledger, Report, input};
 use render::Scene;
 use render::scene::read::{self, Draft};
 use render::scene::{MeshSource, obj};
@@ -50,28 +50,36 @@ impl InputArguments {
         Ok(())
     }
 
-    /// Reads the scene, and does `then` with it while its files are at hand.
+    /// Enters the files that will be read.
+    pub fn expect(&self, ledger: &Ledger) -> Result<(), FileError> {
+        ledger.expect(self.scene(), "the scene")?;
+        let mut meshes = self.meshes.iter();
+        meshes.try_for_each(|mesh| ledger.expect(&mesh.file, &format!("the mesh {}", mesh.name)))
+    }
+
+    /// Reads the scene through the ledger, and does `then` with it while its files are at hand.
     pub fn read_scene<T>(
         &self,
+        ledger: &Ledger,
         max_texture_bytes: u64,
         then: impl FnOnce(&Draft<'_>, Scene) -> Result<T, Report>,
     ) -> Result<T, Report> {
         let name = self.name();
-        let text = input::read(self.scene())?;
+        let text = ledger.argument(self.scene(), "the scene")?;
         let document = Document::new(&name, &text)?;
         let file = read::parse(&document)?;
         let folder = match self.scene().parent() {
             Some(folder) if !input::is_stdin(self.scene()) => folder,
             _ => Path::new(""),
         };
-        let draft = Draft::gather(&document, &file, folder, &Disk)?;
+        let draft = Draft::gather(&document, &file, folder, ledger)?;
         draft.check_mesh_names(self.meshes.iter().map(|mesh| mesh.name.as_str()))?;
         let mut given = MeshSource::new();
         for mesh in &self.meshes {
-            let bytes = input::read(&mesh.file)?;
+            let bytes = ledger.argument(&mesh.file, &format!("the mesh {}", mesh.name))?;
             given.insert(mesh.name.clone(), obj::read(&input::name_of(&mesh.file), &bytes)?);
         }
-        let scene = draft.resolve_within(&Disk, given, max_texture_bytes)?;
+        let scene = draft.resolve_within(ledger, given, max_texture_bytes)?;
         then(&draft, scene)
     }
 

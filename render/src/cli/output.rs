@@ -2,7 +2,8 @@
 
 use super::{EncodeError, UseError};
 use clap::{Args, ValueEnum};
-use files::{FileError, Output, Report, input};
+use files::extension::{self, WrongExtension};
+use files::{FileError, Ledger, Output, Report, input};
 use render::Picture;
 use render::color::Encoding;
 use render::film::Layer;
@@ -45,7 +46,7 @@ pub struct Target<'a> {
 
 impl OutputArguments {
     /// Where the picture goes, if it goes anywhere; finds out beforehand whether it can.
-    pub fn target(&self, prints: bool) -> Result<Option<Target<'_>>, Report> {
+    pub fn target(&self, prints: bool, ledger: &Ledger) -> Result<Option<Target<'_>>, Report> {
         let Some(path) = &self.output else { return Ok(None) };
         let to_stdout = input::is_stdin(path);
         if to_stdout && prints {
@@ -63,8 +64,21 @@ impl OutputArguments {
         if format == Format::Png && !self.layers.is_empty() {
             return Err(UseError::LayersInPng(path.display().to_string()).into());
         }
-        Output::check(path, !self.no_clobber)?;
+        ledger.claim(path, "name another file with -o")?;
         Ok(Some(Target { path, format }))
+    }
+
+    /// Complains of a picture whose name ends as that of another format.
+    pub fn check_name(target: &Target<'_>) -> Result<(), WrongExtension> {
+        match target.format {
+            Format::Png => extension::check(target.path, "a PNG picture", &["png"]),
+            Format::Exr => extension::check(target.path, "an EXR picture", &["exr"]),
+        }
+    }
+
+    /// The files of a run, with leave to replace an output or not.
+    pub fn ledger(&self) -> Ledger {
+        Ledger::new(!self.no_clobber)
     }
 
     /// The layers, each once, in the order of the list that the help gives.
@@ -75,9 +89,14 @@ impl OutputArguments {
         layers
     }
 
-    pub fn write(&self, target: &Target<'_>, picture: &Picture) -> Result<(), Report> {
+    pub fn write(
+        &self,
+        target: &Target<'_>,
+        picture: &Picture,
+        ledger: &Ledger,
+    ) -> Result<(), Report> {
         let bytes = encode::encode(picture, target.format, self.gamma).map_err(EncodeError)?;
-        Ok(Output::create(target.path, !self.no_clobber)?.commit_all(&bytes)?)
+        Ok(ledger.create(target.path)?.commit_all(&bytes)?)
     }
 }
 

@@ -47,9 +47,9 @@ pub enum SceneError {
     /// A file cannot be read.
     #[error(transparent)]
     File(#[from] FileError),
-    /// A file that the scene names cannot be read.
-    #[error(transparent)]
-    Named(JsonError),
+    /// A file that the scene names cannot be read, with the exit code of the reason.
+    #[error("{0}")]
+    Named(JsonError, Exit),
     /// A texture takes more memory than is allowed.
     #[error(transparent)]
     TooLarge(JsonError),
@@ -90,7 +90,7 @@ impl Failure for SceneError {
     fn exit(&self) -> Exit {
         match self {
             Self::File(error) => error.exit(),
-            Self::Named(_) => Exit::ReadWrite,
+            Self::Named(_, exit) => *exit,
             Self::TooLarge(_) => Exit::Resource,
             Self::UnknownMesh { .. } | Self::MissingMesh { .. } => Exit::Use,
             _ => Exit::Malformed,
@@ -242,8 +242,9 @@ impl Reader<'_> {
 
     /// The file that the scene names at `place`.
     fn named_file(&self, place: &str, path: &Path) -> Result<Vec<u8>, SceneError> {
-        let named =
-            |error: FileError| SceneError::Named(self.document.fault(place, error.to_string()));
+        let named = |error: FileError| {
+            SceneError::Named(self.document.fault(place, error.to_string()), error.exit())
+        };
         self.source.read(path).map_err(named)
     }
 

@@ -7,6 +7,7 @@ use crate::height::{Axis, HeightMap};
 use crate::profile::Profile;
 use crate::spec::DepthImage;
 use crate::trajectory::Trajectory;
+use files::Failure;
 use image::{ImageFormat, ImageReader};
 use std::io::Cursor;
 
@@ -60,10 +61,9 @@ impl Reader<'_> {
         let place = "depth.image.file";
         let path = self.folder.join(file);
         let name = path.display();
-        let bytes = self
-            .source
-            .read(&path)
-            .map_err(|error| SweepError::Named(self.document.fault(place, error.to_string())))?;
+        let bytes = self.source.read(&path).map_err(|error| {
+            SweepError::Named(self.document.fault(place, error.to_string()), error.exit())
+        })?;
         let reader = || ImageReader::with_format(Cursor::new(&bytes), ImageFormat::Png);
         let broken = |error: image::ImageError| {
             self.fault(place, format!("found no picture in {name} ({error}), expected a PNG file"))

@@ -3,7 +3,8 @@
 use clap::Parser;
 use draw_textures::{TEXTURES, Texture};
 use files::exit::{self, say};
-use files::{FileError, Output, Report};
+use files::{Batch, FileError, Ledger, Report};
+use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -28,14 +29,21 @@ fn draw(arguments: &Arguments) -> Result<(), Report> {
     let folder = &arguments.output;
     std::fs::create_dir_all(folder)
         .map_err(|source| FileError::Write { name: folder.display().to_string(), source })?;
-    let clobber = !arguments.no_clobber;
-    let path = |texture: &Texture| arguments.output.join(texture.file);
+    let ledger = Ledger::new(!arguments.no_clobber);
+    let path = |texture: &Texture| folder.join(texture.file);
     for texture in &TEXTURES {
-        Output::check(&path(texture), clobber)?;
+        ledger.claim(&path(texture), "choose another folder with -o")?;
+    }
+    let files: Vec<PathBuf> = TEXTURES.iter().map(path).collect();
+    let batch = Batch::new(folder, "textures", &files)?;
+    if let Some(remark) = batch.remark() {
+        say(format_args!("draw-textures: note: {remark}"));
     }
     for texture in &TEXTURES {
-        Output::create(&path(texture), clobber)?.commit_all(&texture.png()?)?;
+        let mut output = ledger.create(&path(texture))?;
+        output.write_all(&texture.png()?).map_err(|source| output.failed(source))?;
+        batch.replace(output)?;
         say(path(texture).display());
     }
-    Ok(())
+    Ok(batch.finish()?)
 }

@@ -4,7 +4,7 @@ use super::SceneError;
 use crate::scene::SurfaceTexture;
 use crate::scene::file::{Lists, MeshFile, ObjectFile, PART_FORMAT, PartFile, SceneFile, VERSION};
 use files::json::{Document, nearest};
-use files::{JsonError, Source, input};
+use files::{Failure, JsonError, Source, input};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -138,10 +138,9 @@ impl Gathering<'_> {
                     "found files included by files more than {DEEPEST_INCLUDE} deep"
                 ));
             }
-            let bytes = self
-                .source
-                .read(&path)
-                .map_err(|error| SceneError::Named(document.fault(&place, error.to_string())))?;
+            let bytes = self.source.read(&path).map_err(|error| {
+                SceneError::Named(document.fault(&place, error.to_string()), error.exit())
+            })?;
             // A folder reached by a link may give two files one path; those are not the same.
             if self.parts.iter().any(|part| part.path == path && part.bytes == bytes) {
                 continue;

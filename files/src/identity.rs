@@ -1,0 +1,142 @@
+//! Which file a path leads to, whatever the path is called.
+//!
+//! On Unix a file is its device and its number there, which links, hard links, `.` and `..` and
+//! letters of either case lead to alike. Elsewhere it is its canonical path, which hard links evade.
+
+use std::ffi::OsString;
+use std::fs::{self, Metadata};
+use std::io;
+use std::path::Path;
+
+/// What two paths share that lead to the same file.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub(crate) enum Identity {
+    /// A regular file that is there.
+    There(Number),
+    /// A name in a folder, whether there is a file of that name or not.
+    Name {
+        /// The folder.
+        folder: Number,
+        /// The name.
+        name: OsString,
+    },
+}
+
+/// What tells a file or a folder from all others.
+#[cfg(unix)]
+pub(crate) type Number = (u64, u64);
+/// What tells a file or a folder from all others.
+#[cfg(not(unix))]
+pub(crate) type Number = std::path::PathBuf;
+
+impl Identity {
+    /// What the path leads to, links followed: the file that is there, if one is, and its name,
+    /// which stays when the file is replaced. Nothing for a folder, a device or a pipe.
+    pub(crate) fn keys(path: &Path) -> Vec<Self> {
+        let there = match fs::metadata(path) {
+            Ok(found) if found.is_file() => number(path, &found),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => None,
+            _ => return Vec::new(),
+        };
+        let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
+        let (folder, name) = (folder_of(&path), path.file_name());
+        let folder = fs::metadata(folder).ok().and_then(|found| number(folder, &found));
+        let named = folder.zip(name).map(|(folder, name)| Self::Name { folder, name: name.into() });
+        there.map(Self::There).into_iter().chain(named).collect()
+    }
+
+    /// The file that standard input is read from, if it is a regular one.
+    pub(crate) fn of_stdin() -> Option<Self> {
+        #[cfg(unix)]
+        return of_descriptor(std::os::fd::AsFd::as_fd(&io::stdin()));
+        #[cfg(not(unix))]
+        None
+    }
+
+    /// The file that standard output is written to, if it is a regular one.
+    pub(crate) fn of_stdout() -> Option<Self> {
+        #[cfg(unix)]
+        return of_descriptor(std::os::fd::AsFd::as_fd(&io::stdout()));
+        #[cfg(not(unix))]
+        None
+    }
+}
+
+/// The folder that a path lies in.
+pub(crate) fn folder_of(path: &Path) -> &Path {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    folder.unwrap_or(Path::new("."))
+}
+
+/// True if the file system takes `a` and `A` for one name in this folder; true as well where that
+/// cannot be tried.
+pub(crate) fn folds_case(folder: &Path) -> bool {
+    let trial = tempfile::Builder::new().prefix(".case-").suffix(".part").tempfile_in(folder);
+    let Ok(trial) = trial else { return true };
+    let name = trial.path().file_name().unwrap_or_default().to_string_lossy();
+    folder.join(name.to_uppercase()).exists()
+}
+
+#[cfg(unix)]
+fn number(_: &Path, found: &Metadata) -> Option<Number> {
+    use std::os::unix::fs::MetadataExt;
+    Some((found.dev(), found.ino()))
+}
+
+#[cfg(not(unix))]
+fn number(path: &Path, _: &Metadata) -> Option<Number> {
+    fs::canonicalize(path).ok()
+}
+
+#[cfg(unix)]
+fn of_descriptor(descriptor: std::os::fd::BorrowedFd<'_>) -> Option<Identity> {
+    let file = fs::File::from(descriptor.try_clone_to_owned().ok()?);
+    let found = file.metadata().ok().filter(Metadata::is_file)?;
+    number(Path::new(""), &found).map(Identity::There)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_is_the_same_by_every_path() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        fs::write(path("a"), "").unwrap();
+        fs::write(path("b"), "").unwrap();
+        let a = Identity::keys(&path("a"));
+        assert_eq!(Identity::keys(&path("./a")), a);
+        assert!(Identity::keys(&path("b")).iter().all(|key| !a.contains(key)));
+        #[cfg(unix)]
+        {
+            std::os::unix::fs::symlink(path("a"), path("link")).unwrap();
+            fs::hard_link(path("a"), path("hard")).unwrap();
+            assert_eq!(Identity::keys(&path("link")), a);
+            assert!(Identity::keys(&path("hard")).iter().any(|key| a.contains(key)));
+        }
+    }
+
+    #[test]
+    fn a_file_that_is_not_there_is_a_name_in_a_folder() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        fs::create_dir(path("sub")).unwrap();
+        let new = Identity::keys(&path("new"));
+        assert_eq!((new.len(), Identity::keys(&path("sub/../new"))), (1, new.clone()));
+        assert_ne!(Identity::keys(&path("sub/new")), new);
+        fs::write(path("new"), "").unwrap();
+        assert!(Identity::keys(&path("new")).contains(&new[0]), "its name stays");
+        for nothing in ["none/new", "sub"] {
+            assert_eq!(Identity::keys(&path(nothing)), []);
+        }
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn case_is_kept_apart_where_the_file_system_does() {
+        let folder = tempfile::tempdir().unwrap();
+        assert!(!folds_case(folder.path()));
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0, "the trial is removed");
+    }
+}
