@@ -21,6 +21,14 @@ pub trait Source: Debug + Sync {
     /// # Errors
     /// When there is no such file or it cannot be read.
     fn read(&self, path: &Path) -> Result<Vec<u8>, FileError>;
+
+    /// The whole JSON file at `path`, if there is memory to make values of it.
+    ///
+    /// # Errors
+    /// As [`Source::read`], and when the budget of the process is too small.
+    fn read_json(&self, path: &Path) -> Result<Vec<u8>, FileError> {
+        room_for_values(self.read(path)?, || shown(path))
+    }
 }
 
 /// The file system; relative paths count from the working folder.
@@ -64,6 +72,25 @@ pub fn read(argument: &Path) -> Result<Vec<u8>, FileError> {
         return Disk.read(argument);
     }
     whole(io::stdin().lock(), 0, memory::of_process(), || STDIN.into())
+}
+
+/// As [`read`], for JSON: if there is memory to make values of it.
+///
+/// # Errors
+/// As [`read`], and when the budget of the process is too small.
+pub fn read_json(argument: &Path) -> Result<Vec<u8>, FileError> {
+    room_for_values(read(argument)?, || name_of(argument))
+}
+
+/// Bytes that the values of a JSON text take at most for each of its bytes. A number of one digit and
+/// its comma are 2 bytes; a value of unknown type takes 32, an array of them twice that while it grows,
+/// and so does the tree in which a complaint finds its place.
+const OF_JSON: u64 = 32;
+
+fn room_for_values(text: Vec<u8>, name: impl Fn() -> String) -> Result<Vec<u8>, FileError> {
+    let bytes = OF_JSON.saturating_mul(text.len() as u64);
+    memory::of_process().check(bytes, || format!("{}: its values", name()))?;
+    Ok(text)
 }
 
 /// The file named on a command line as a buffered reader; `-` is standard input.
@@ -142,14 +169,15 @@ fn whole(
 ) -> Result<Vec<u8>, FileError> {
     let what = || format!("reading {}", name());
     // One more than is expected, so that the end is seen without another step.
-    let mut step = usize::try_from(length).unwrap_or(usize::MAX).saturating_add(1).max(STEP);
+    let mut step = match usize::try_from(length) {
+        Ok(0) => STEP,
+        length => length.unwrap_or(usize::MAX).saturating_add(1),
+    };
     let mut reserved = budget.reserve(0, what)?;
     let mut bytes = Vec::new();
     loop {
         reserved.grow(step as u64, what)?;
-        if bytes.try_reserve(step).is_err() {
-            return Err(reserved.refused(step as u64, what).into());
-        }
+        bytes.reserve(step);
         let read = input.by_ref().take(step as u64).read_to_end(&mut bytes);
         let read = read.map_err(|source| FileError::Read { name: name(), source })?;
         if read < step {

@@ -55,12 +55,7 @@ pub struct Reserved<'a> {
 
 /// More memory is needed than is allowed.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error(
-    "{what} needs {}, and {} are allowed{}: make it smaller, or raise --max-memory",
-    Bytes(*needed),
-    Bytes(*limit),
-    Beside(*taken)
-)]
+#[error("{what} needs {}, {}", Bytes(*needed), Remedy(self))]
 pub struct MemoryError {
     /// What the memory is for, such as `a picture of 640x480 pixels`.
     pub what: String,
@@ -70,6 +65,8 @@ pub struct MemoryError {
     pub taken: u64,
     /// Bytes that are allowed in all.
     pub limit: u64,
+    /// Whether they are allowed, and the system does not give them.
+    pub refused_by_system: bool,
 }
 
 impl Failure for MemoryError {
@@ -108,11 +105,22 @@ impl Budget {
     ) -> Result<Reserved<'_>, MemoryError> {
         let more = |taken: u64| taken.checked_add(bytes).filter(|&sum| sum <= self.limit);
         match self.taken.fetch_update(Ordering::Relaxed, Ordering::Relaxed, more) {
-            Ok(_) => Ok(Reserved { budget: self, bytes }),
-            Err(taken) => {
-                Err(MemoryError { what: what(), needed: bytes, taken, limit: self.limit })
+            Ok(_) if given(bytes) => Ok(Reserved { budget: self, bytes }),
+            Ok(taken) => {
+                drop(Reserved { budget: self, bytes });
+                Err(self.error(bytes, taken, what(), true))
             }
+            Err(taken) => Err(self.error(bytes, taken, what(), false)),
         }
+    }
+
+    fn error(&self, needed: u64, taken: u64, what: String, refused_by_system: bool) -> MemoryError {
+        MemoryError { what, needed, taken, limit: self.limit, refused_by_system }
+    }
+
+    /// Gives back bytes of [`Reserved::into_bytes`].
+    pub fn give_back(&self, bytes: u64) {
+        drop(Reserved { budget: self, bytes });
     }
 
     /// Finds out whether `bytes` could be reserved now.
@@ -138,25 +146,35 @@ impl Reserved<'_> {
         self.bytes -= given;
     }
 
+    /// Leaves the bytes taken; [`Budget::give_back`] takes their number.
+    #[must_use]
+    pub fn into_bytes(mut self) -> u64 {
+        std::mem::take(&mut self.bytes)
+    }
+
     /// Takes `more` bytes for `what`.
     ///
     /// # Errors
     /// As [`Budget::reserve`]; what was taken before stays taken.
     pub fn grow(&mut self, more: u64, what: impl FnOnce() -> String) -> Result<(), MemoryError> {
-        let mut reserved = self.budget.reserve(more, what)?;
-        self.bytes += std::mem::take(&mut reserved.bytes);
+        self.bytes += self.budget.reserve(more, what)?.into_bytes();
         Ok(())
     }
 }
 
-impl Reserved<'_> {
-    /// What is said where the budget would allow memory and the system does not give it.
-    #[must_use]
-    pub fn refused(&self, needed: u64, what: impl FnOnce() -> String) -> MemoryError {
-        let taken = self.budget.taken.load(Ordering::Relaxed);
-        MemoryError { what: what(), needed, taken, limit: self.budget.limit }
-    }
+/// Whether the system gives this many bytes in one piece. They are given back at once; without this
+/// question a process whose address space is limited would abort where it takes them.
+fn given(bytes: u64) -> bool {
+    let Ok(bytes) = usize::try_from(bytes) else { return false };
+    let mut trial: Vec<u8> = Vec::new();
+    let given = bytes < SMALL || trial.try_reserve_exact(bytes).is_ok();
+    // The compiler leaves out memory that nobody looks at.
+    std::hint::black_box(&trial);
+    given
 }
+
+/// Bytes that are not worth a question to the system.
+const SMALL: usize = 1 << 20;
 
 impl Drop for Reserved<'_> {
     fn drop(&mut self) {
@@ -180,12 +198,20 @@ impl fmt::Display for Bytes {
     }
 }
 
-/// What is taken already, in words; nothing where nothing is.
-struct Beside(u64);
+/// Why the bytes are not there, and what to do.
+struct Remedy<'a>(&'a MemoryError);
 
-impl fmt::Display for Beside {
+impl fmt::Display for Remedy<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.0 == 0 { Ok(()) } else { write!(f, ", of which {} are taken", Bytes(self.0)) }
+        let MemoryError { taken, limit, refused_by_system, .. } = *self.0;
+        if refused_by_system {
+            return f.write_str("which the system does not give: make it smaller");
+        }
+        write!(f, "and {} are allowed", Bytes(limit))?;
+        if taken > 0 {
+            write!(f, ", of which {} are taken", Bytes(taken))?;
+        }
+        f.write_str(": make it smaller, or raise --max-memory")
     }
 }
 
@@ -258,6 +284,11 @@ mod tests {
              smaller, or raise --max-memory"
         );
         assert_eq!(error.exit(), Exit::Resource);
+        let endless = Budget::new(u64::MAX).reserve(1 << 60, || "a grid".into()).unwrap_err();
+        assert_eq!(
+            endless.to_string(),
+            "a grid needs 1073741824.0 GB, which the system does not give: make it smaller"
+        );
         let error = Budget::new(7).reserve(u64::MAX, || "a mesh".into()).unwrap_err().to_string();
         assert!(error.contains("and 7 bytes are allowed: make"), "{error}");
     }

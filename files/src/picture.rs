@@ -25,6 +25,9 @@ pub use image::ImageFormat as Format;
 /// Bytes that profiles and texts of a PNG may take, unpacked, beyond those that the file has.
 const MOST_BESIDE: u64 = 16 << 20;
 
+/// Bytes that the decoder of a PNG takes for each pixel of a row: two rows of four 16-bit samples.
+const ROW: u64 = 16;
+
 /// Bytes a pixel that decoders work with besides the picture: the coefficients of a progressive JPEG
 /// of four components, as 16-bit numbers.
 const DECODER: u64 = 8;
@@ -58,9 +61,7 @@ pub fn decode<'b>(
 ) -> Result<(DynamicImage, Reserved<'b>), PictureError> {
     let format = format_of(bytes, formats)?;
     let work = || decode_unguarded(bytes, format, &each, budget, &name);
-    guard::guarded(work).unwrap_or_else(|| {
-        Err(PictureError::Broken("the decoder stumbled over it; the file is damaged".into()))
-    })
+    guard::guarded(work).unwrap_or_else(|| Err(damaged()))
 }
 
 /// The format of a file by its first bytes, if it is one of `formats`.
@@ -90,33 +91,49 @@ fn decode_unguarded<'b>(
             format!("{} with {} channels", size_of(data.width, data.height), data.channels)
         })?;
     }
-    let beside = MOST_BESIDE + bytes.len() as u64;
-    let row = match format {
-        ImageFormat::Png => png_width(bytes).saturating_mul(16),
-        _ => 0,
-    };
-    unpacking.grow(beside.saturating_add(row), || format!("{}: a picture", name()))?;
-    let mut limits = Limits::no_limits();
-    limits.max_alloc = Some(beside.saturating_add(row));
-    let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
-    reader.limits(limits);
-    let decoder = reader.into_decoder().map_err(broken)?;
+    if format == ImageFormat::Png {
+        let row = || format!("{}: a row of {} pixels", name(), png_width(bytes));
+        unpacking.grow(png_width(bytes).saturating_mul(ROW), row)?;
+    }
+    let decoder = opened(bytes, format, budget.left())?;
     let ((width, height), kind) = (decoder.dimensions(), decoder.color_type());
     let pixels = u64::from(width) * u64::from(height);
-    let wanted = pixels.saturating_mul(each(kind).saturating_add(if format == ImageFormat::Jpeg {
-        DECODER
-    } else {
-        0
-    }));
-    let what = || size_of(width.into(), height.into());
-    let reserved = budget.reserve(wanted, what)?;
-    // The decoder makes its picture in one piece, which aborts where the system has none.
-    let whole = usize::try_from(decoder.total_bytes()).unwrap_or(usize::MAX);
-    if Vec::<u8>::new().try_reserve_exact(whole).is_err() {
-        return Err(reserved.refused(wanted, what).into());
-    }
+    let working = if format == ImageFormat::Jpeg { DECODER } else { 0 };
+    let wanted = pixels.saturating_mul(each(kind).saturating_add(working));
+    let mut reserved = budget.reserve(wanted, || size_of(width.into(), height.into()))?;
     let picture = DynamicImage::from_decoder(decoder).map_err(broken)?;
+    reserved.shrink(pixels.saturating_mul(each(kind)));
     Ok((picture, reserved))
+}
+
+/// The decoder of a file, which has read all that stands before the pixels.
+fn opened(
+    bytes: &[u8],
+    format: ImageFormat,
+    left: u64,
+) -> Result<impl ImageDecoder + use<'_>, PictureError> {
+    let mut limits = Limits::no_limits();
+    // These few bytes are not counted in the budget; in a small one they may be no more than it.
+    let row = png_width(bytes).saturating_mul(ROW);
+    limits.max_alloc = Some((MOST_BESIDE + bytes.len() as u64).min(left).saturating_add(row));
+    let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
+    reader.limits(limits);
+    reader.into_decoder().map_err(broken)
+}
+
+/// Pixels of the picture in a file across and down, by its header.
+///
+/// # Errors
+/// When there is no header of these formats. It does not panic.
+pub fn size(bytes: &[u8], formats: &[ImageFormat]) -> Result<(u32, u32), PictureError> {
+    let format = format_of(bytes, formats)?;
+    let work = || Ok(opened(bytes, format, MOST_BESIDE)?.dimensions());
+    guard::guarded(work).unwrap_or_else(|| Err(damaged()))
+}
+
+/// What is said where a decoder panics.
+fn damaged() -> PictureError {
+    PictureError::Broken("the decoder stumbled over it; the file is damaged".into())
 }
 
 /// The width that the header of a PNG claims, in pixels; 0 where there is no header.

@@ -17,11 +17,20 @@ pub(crate) use plain::plain;
 /// gives the place by line and column; the text only helps to recognize it.
 const LONGEST_QUOTE: usize = 60;
 
+/// Characters of a line at most, with all that is quoted in it.
+const LONGEST_LINE: usize = 1000;
+
 /// A name or a value as messages show it: on one line, with characters that are not seen spelled out,
 /// and cut in the middle where it is longer than 120 characters.
 #[must_use]
 pub fn shown(text: &str) -> impl Display {
     cut(text, 2 * LONGEST_QUOTE)
+}
+
+/// A line of a list or a report: as [`shown`], cut where it is longer than 1000 characters.
+#[must_use]
+pub fn line(text: &str) -> impl Display {
+    cut(text, LONGEST_LINE)
 }
 
 /// As [`shown`], for text of at most `longest` characters; of longer text the first half of them and

@@ -6,15 +6,16 @@ use super::work::Work;
 use clap::Args;
 use cpu_time::ProcessTime;
 use files::exit::say;
+use files::memory::of_process;
 use files::{Output, Report};
 use pipeline::report::measure::{self, Meter};
 use pipeline::report::measured::{PageMeasured, Table, Truth};
 use pipeline::report::{self, Measured, Plan, accompanying, csv};
 use pipeline::run::Options;
 use pipeline::{Job, PipelineError};
-use render::Scene;
 use render::film::{MOST_SAMPLES, memory};
 use render::progress::Progress;
+use render::{Scene, Settings};
 use std::path::PathBuf;
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
@@ -51,6 +52,7 @@ pub struct ReportArguments {
 
 /// Measures the pages that were named and writes what came of it.
 pub fn report(arguments: &ReportArguments) -> Result<(), Report> {
+    arguments.work.limit_memory();
     let jobs = jobs(&arguments.pages)?;
     let mut plan = if arguments.quick { Plan::quick() } else { Plan::full() };
     plan.size = arguments.size.unwrap_or(plan.size);
@@ -58,7 +60,6 @@ pub fn report(arguments: &ReportArguments) -> Result<(), Report> {
     let options = Options {
         folder: arguments.output.clone(),
         size: plan.size,
-        max_texture_bytes: arguments.work.max_texture_mem,
         keep: false,
         clobber: arguments.work.clobber(),
     };
@@ -66,7 +67,8 @@ pub fn report(arguments: &ReportArguments) -> Result<(), Report> {
     let scenes = jobs.iter().map(|asked| {
         let scene = pipeline::run::scene(&asked.job, asked.source, &options, &|_| {})?;
         for &filter in &plan.filters {
-            memory::check(&scene, filter, options.max_texture_bytes)?;
+            let settings = Settings::new(options.size.0, options.size.1, filter);
+            memory::reserve(&scene, &settings, None, of_process()).map(drop)?;
         }
         Ok(scene)
     });

@@ -47,6 +47,7 @@ pub struct RunArguments {
 
 /// Does the jobs that were named.
 pub fn run(arguments: &RunArguments) -> Result<(), Report> {
+    arguments.work.limit_memory();
     // Every job is read before the first is done, so that a slip in a name costs no waiting.
     let jobs = jobs(arguments)?;
     make_folder(&arguments.output)?;
@@ -63,7 +64,6 @@ pub fn run(arguments: &RunArguments) -> Result<(), Report> {
     let options = Options {
         folder: arguments.output.clone(),
         size: arguments.size,
-        max_texture_bytes: arguments.work.max_texture_mem,
         keep: arguments.keep,
         clobber: arguments.work.clobber(),
     };

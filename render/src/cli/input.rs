@@ -3,6 +3,7 @@
 use super::UseError;
 use clap::Args;
 use files::json::Document;
+use files::memory::of_process;
 use files::{Disk, Report, input};
 use render::Scene;
 use render::scene::read::{self, Draft};
@@ -53,11 +54,10 @@ impl InputArguments {
     /// Reads the scene, and does `then` with it while its files are at hand.
     pub fn read_scene<T>(
         &self,
-        max_texture_bytes: u64,
         then: impl FnOnce(&Draft<'_>, Scene) -> Result<T, Report>,
     ) -> Result<T, Report> {
         let name = self.name();
-        let text = input::read(self.scene())?;
+        let text = input::read_json(self.scene())?;
         let document = Document::new(&name, &text)?;
         let file = read::parse(&document)?;
         let folder = match self.scene().parent() {
@@ -66,12 +66,15 @@ impl InputArguments {
         };
         let draft = Draft::gather(&document, &file, folder, &Disk)?;
         draft.check_mesh_names(self.meshes.iter().map(|mesh| mesh.name.as_str()))?;
-        let mut given = MeshSource::new();
+        let (mut given, mut kept) = (MeshSource::new(), Vec::new());
         for mesh in &self.meshes {
             let bytes = input::read(&mesh.file)?;
-            given.insert(mesh.name.clone(), obj::read(&input::name_of(&mesh.file), &bytes)?);
+            let name = input::name_of(&mesh.file);
+            kept.push(of_process().reserve(obj::needed(&bytes), || format!("mesh {name}"))?);
+            given.insert(mesh.name.clone(), obj::read(&name, &bytes)?);
         }
-        let scene = draft.resolve_within(&Disk, given, max_texture_bytes)?;
+        let scene = draft.resolve(&Disk, given)?;
+        drop(kept);
         then(&draft, scene)
     }
 

@@ -2,7 +2,7 @@
 
 use super::{EncodeError, UseError};
 use clap::{Args, ValueEnum};
-use files::{FileError, Output, Report, input};
+use files::{FileError, Output, Report, input, words};
 use render::Picture;
 use render::color::Encoding;
 use render::film::Layer;
@@ -43,6 +43,13 @@ pub struct Target<'a> {
     format: Format,
 }
 
+impl Target<'_> {
+    /// The kind of file.
+    pub fn format(&self) -> Format {
+        self.format
+    }
+}
+
 impl OutputArguments {
     /// Where the picture goes, if it goes anywhere; finds out beforehand whether it can.
     pub fn target(&self, prints: bool) -> Result<Option<Target<'_>>, Report> {
@@ -81,9 +88,9 @@ impl OutputArguments {
     }
 }
 
-/// Prints text on standard output.
+/// Prints text on standard output; what would steer a terminal is spelled out.
 pub fn print(text: &str) -> Result<(), FileError> {
-    Output::create(Path::new("-"), true)?.commit_all(text.as_bytes())
+    Output::create(Path::new("-"), true)?.commit_all(words::printed(text).as_bytes())
 }
 
 fn gamma_argument(text: &str) -> Result<Encoding, String> {

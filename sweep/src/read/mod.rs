@@ -89,7 +89,7 @@ impl Reader<'_> {
         if let Some(fault) = sweep.resolution_fault() {
             return Err(self.of_mesh(self.rather, fault));
         }
-        let sweep = sweep.fitted();
+        let sweep = sweep.fitted()?;
         self.areas(&sweep.areas, &sweep).map(|()| sweep)
     }
 
