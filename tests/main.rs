@@ -8,6 +8,7 @@ mod cup_and_column;
 mod frontispiece;
 mod glass_table;
 mod hard_cases;
+mod hostile;
 mod pages;
 mod pipe;
 mod reliefs;

@@ -32,7 +32,7 @@ const SENTENCES: [(&str, &str); 16] = [
 ];
 
 /// Pieces that stand for what was found.
-const FOUND: [(&str, &str); 8] = [
+const FOUND: [(&str, &str); 13] = [
     ("invalid type: ", "found "),
     ("invalid value: ", "found "),
     ("found floating point `", "found the number `"),
@@ -40,11 +40,16 @@ const FOUND: [(&str, &str); 8] = [
     ("found boolean `", "found `"),
     ("found string ", "found the string "),
     ("found map", "found an object"),
+    ("found unit variant", "found a name alone"),
+    ("found newtype variant", "found an object"),
+    ("found tuple variant", "found an object"),
+    ("found struct variant", "found an object"),
+    ("found unit value", "found null"),
     ("found sequence", "found an array"),
 ];
 
 /// Pieces that stand for what was expected.
-const EXPECTED: [(&str, &str); 9] = [
+const EXPECTED: [(&str, &str); 11] = [
     ("expected f64", "expected a number"),
     ("expected f32", "expected a number"),
     ("expected usize", "expected a whole number of at least 0"),
@@ -52,8 +57,26 @@ const EXPECTED: [(&str, &str); 9] = [
     ("expected u32", "expected a whole number of at least 0"),
     ("expected u16", "expected a whole number from 0 to 65535"),
     ("expected u8", "expected a whole number from 0 to 255"),
+    ("expected i64", "expected a whole number"),
+    ("expected i32", "expected a whole number"),
     ("expected a boolean", "expected true or false"),
     ("expected a sequence", "expected an array"),
+];
+
+/// Beginnings of what serde expects of a type, behind which it calls the type's name in Rust.
+const KINDS: [(&str, &str); 12] = [
+    ("expected struct", "expected an object"),
+    ("expected newtype", "expected an object with the value of this key"),
+    ("expected tuple", "expected an array"),
+    ("expected a tuple of size", "expected an array"),
+    ("expected enum", "expected a name, or an object with one key"),
+    ("expected string or map", "expected a name, or an object with one key"),
+    ("expected unit", "expected the name alone"),
+    ("expected a map", "expected an object"),
+    ("expected map", "expected an object"),
+    ("expected option", "expected a value, or null"),
+    ("expected variant identifier", "expected a name"),
+    ("expected field identifier", "expected a key"),
 ];
 
 /// serde's message in plain words, with a suggestion for a near miss.
@@ -66,7 +89,11 @@ pub(crate) fn plain(message: &str) -> String {
     if let Some(length) = found.strip_prefix("invalid length ") {
         let fixed = ["an array of length ", "a tuple of size "];
         let count = fixed.iter().find_map(|serdes| expected.strip_prefix(serdes));
-        return format!("found {length} values, expected {}", count.unwrap_or(expected));
+        let kind = KINDS.iter().find(|(serdes, _)| {
+            serdes.strip_prefix("expected ").is_some_and(|serdes| expected.starts_with(serdes))
+        });
+        let kind = kind.and_then(|(_, words)| words.strip_prefix("expected "));
+        return format!("found {length} values, expected {}", count.or(kind).unwrap_or(expected));
     }
     let mut text = shortened(found);
     for (serdes, words) in FOUND {
@@ -87,7 +114,9 @@ pub(crate) fn plain(message: &str) -> String {
     if !expected.is_empty() {
         let expected = format!("expected {expected}");
         let words = EXPECTED.iter().find(|(serdes, _)| *serdes == expected);
-        text.push_str(&format!(", {}", words.map_or(expected.as_str(), |(_, words)| words)));
+        let kind = KINDS.iter().find(|(serdes, _)| expected.starts_with(serdes));
+        let words = words.or(kind).map_or(expected.as_str(), |(_, words)| words);
+        text.push_str(&format!(", {words}"));
     }
     if message.starts_with("unknown ") {
         let mut names = message.split('`').skip(1).step_by(2);
@@ -150,7 +179,7 @@ mod tests {
         }
         let error = serde_json::from_str::<Counts>("[]").unwrap_err().to_string();
         let words = plain(error.rsplit_once(" at line ").unwrap().0);
-        assert_eq!(words, "found 0 values, expected struct Counts with 1 element");
+        assert_eq!(words, "found 0 values, expected an object");
         for text in ["{\"rows\": -1}", "{\"rows\": 1.5}"] {
             let error = serde_json::from_str::<Counts>(text).unwrap_err().to_string();
             let words = plain(error.rsplit_once(" at line ").unwrap().0);

@@ -5,7 +5,7 @@ use super::make_folder;
 use super::work::Work;
 use clap::Args;
 use files::exit::say;
-use files::{Output, Report, Source};
+use files::{Output, Report, Source, input};
 use pipeline::run::{Event, Options};
 use pipeline::sheet::Sheet;
 use pipeline::stages::Stages;
@@ -180,7 +180,7 @@ impl<'a> Talk<'a> {
             Event::Written(path) => {
                 self.clear();
                 let seconds = self.started.elapsed().as_secs_f64();
-                self.say(&format!("{}  {seconds:.2} s", path.display()));
+                self.say(&format!("{}  {seconds:.2} s", input::name_of(path)));
             }
         }
     }
