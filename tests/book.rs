@@ -134,13 +134,8 @@ fn a_figure_by_its_number_is_the_mode_of_its_page() {
 /// to the truth than one of them.
 #[test]
 fn prefiltered_details_are_nearer_to_the_truth_than_point_sampled_ones() {
-    let options = jobs::Options {
-        folder: PathBuf::new(),
-        size: (256, 256),
-        max_texture_bytes: 1 << 30,
-        keep: false,
-        clobber: false,
-    };
+    let options =
+        jobs::Options { folder: PathBuf::new(), size: (256, 256), keep: false, clobber: false };
     let mut judged = 0;
     for name in ["glass-sphere", "vase"] {
         let (job, path) = (pages::page(name).unwrap(), pages::path(name));

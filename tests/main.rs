@@ -10,6 +10,7 @@ mod durable;
 mod frontispiece;
 mod glass_table;
 mod hard_cases;
+mod hostile;
 mod kills;
 mod pages;
 mod pipe;

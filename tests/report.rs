@@ -51,7 +51,7 @@ fn what_cannot_be_measured_is_said_before_anything_is_made() {
         (&["none.json"], 5, "none.json"),
         (&["vase", "--size", "0x1"], 2, "WIDTHxHEIGHT"),
         (&["vase", "--truth", "31"], 2, "31"),
-        (&["vase", "--max-texture-mem", "1k"], 6, "--max-texture-mem"),
+        (&["vase", "--max-memory", "1k"], 6, "--max-memory"),
     ] {
         let (found, words) = ask(arguments);
         assert_eq!(found, code, "{words}");

@@ -7,20 +7,14 @@ use render::film::Layer;
 use render::film::{Crop, Picture, Settings, render as expose};
 use render::filter::Filter;
 use render::scene::{Object, Scene};
-use render::texture::USUAL_MEMORY;
 use std::collections::BTreeMap;
 use std::sync::Mutex;
 
 /// The scene of a page, and how many triangles each of its meshes has.
 fn made(name: &str) -> (Scene, BTreeMap<String, usize>) {
     let folder = tempfile::tempdir().expect("a folder is made");
-    let options = Options {
-        folder: folder.path().into(),
-        size: (512, 512),
-        keep: false,
-        clobber: false,
-        max_texture_bytes: USUAL_MEMORY,
-    };
+    let options =
+        Options { folder: folder.path().into(), size: (512, 512), keep: false, clobber: false };
     let counts = Mutex::new(BTreeMap::new());
     let scene = scene(&page(name).expect("the page is there"), &FILES, &options, &|event| {
         if let Event::Mesh { name, triangles, .. } = event {

@@ -6,7 +6,6 @@ use rayon::prelude::*;
 use render::Sampling;
 use render::accel::Structure;
 use render::filter::Filter;
-use render::texture::USUAL_MEMORY;
 use std::fs;
 use std::path::Path;
 
@@ -35,13 +34,8 @@ fn tree_grids_and_brute_force_make_the_same_pages() {
             mode("bvh", Structure::Bvh),
             mode("grid", Structure::Grid),
         ];
-        let options = Options {
-            folder: folder.path().into(),
-            size: SIZE,
-            keep: false,
-            clobber: true,
-            max_texture_bytes: USUAL_MEMORY,
-        };
+        let options =
+            Options { folder: folder.path().into(), size: SIZE, keep: false, clobber: true };
         run(&job, &files::Disk, &options, &|_| {}).unwrap();
         let made =
             |name: &str| fs::read(folder.path().join(format!("{}-{name}.png", job.name))).unwrap();

@@ -1,6 +1,6 @@
 //! How a program ends: its exit code, and the one line it prints when it fails.
 
-use crate::stop;
+use crate::{stop, words};
 use std::error::Error;
 use std::fmt::Display;
 use std::io::{self, Write};
@@ -83,28 +83,23 @@ pub fn run(program: &str, work: impl FnOnce() -> Result<(), Report>) -> ExitCode
     ExitCode::from(exit as u8)
 }
 
-/// Prints words for people on standard error, and a newline.
+/// Prints words for people on standard error, and a newline. Characters that would steer a terminal
+/// are spelled out ([`words::printed`]); line ends are kept.
 ///
 /// Where they cannot be printed they are lost, and the program goes on: what it was asked for is
 /// not these words.
 pub fn say(words: impl Display) {
     // One write, so that programs that share a terminal do not mix their lines.
-    let _ = io::stderr().write_all(format!("{words}\n").as_bytes());
+    let text = words::printed(&format!("{words}\n")).into_owned();
+    let _ = io::stderr().write_all(text.as_bytes());
 }
 
-/// The text with its control characters spelled out.
+/// A message on one line of bounded length, whatever is quoted in it.
 ///
-/// Messages quote names and keys from files, which may hold newlines and commands to a terminal.
+/// Messages quote names and keys from files, which may hold newlines, commands to a terminal, and
+/// megabytes.
 fn one_line(text: &str) -> String {
-    let mut line = String::with_capacity(text.len());
-    for c in text.chars() {
-        if c.is_control() {
-            line.extend(c.escape_default());
-        } else {
-            line.push(c);
-        }
-    }
-    line
+    words::line(text).to_string()
 }
 
 #[cfg(test)]
@@ -114,5 +109,12 @@ mod tests {
     #[test]
     fn a_message_stays_on_its_line() {
         assert_eq!(one_line("key `a\nb\u{1b}[2J`: Väse"), "key `a\\nb\\u{1b}[2J`: Väse");
+    }
+
+    #[test]
+    fn a_message_is_not_as_long_as_what_it_quotes() {
+        let line = one_line(&format!("found {}, expected less", "x".repeat(100_000)));
+        assert!(line.starts_with("found xxx") && line.ends_with(", expected less"), "{line}");
+        assert!(line.len() < 1000, "{}", line.len());
     }
 }

@@ -1,7 +1,13 @@
 //! Bytes from a file, from standard input, or from files built into the program.
+//!
+//! Files are regular ones: a named pipe could wait for ever, and a device never end. Only `-` is read
+//! from wherever it comes. What is read is counted in the memory budget of the process while it grows,
+//! so that a file that never ends is refused.
 
-use crate::FileError;
+use crate::memory::{self, Budget};
+use crate::{FileError, words};
 use std::fmt::Debug;
+use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
 
@@ -15,6 +21,14 @@ pub trait Source: Debug + Sync {
     /// # Errors
     /// When there is no such file or it cannot be read.
     fn read(&self, path: &Path) -> Result<Vec<u8>, FileError>;
+
+    /// The whole JSON file at `path`, if there is memory to make values of it.
+    ///
+    /// # Errors
+    /// As [`Source::read`], and when the budget of the process is too small.
+    fn read_json(&self, path: &Path) -> Result<Vec<u8>, FileError> {
+        room_for_values(self.read(path)?, || shown(path))
+    }
 }
 
 /// The file system; relative paths count from the working folder.
@@ -23,7 +37,8 @@ pub struct Disk;
 
 impl Source for Disk {
     fn read(&self, path: &Path) -> Result<Vec<u8>, FileError> {
-        std::fs::read(path).map_err(|source| read_error(path, source))
+        let (file, length) = regular(path)?;
+        whole(file, length, memory::of_process(), || shown(path))
     }
 }
 
@@ -56,12 +71,26 @@ pub(crate) fn read(argument: &Path) -> Result<Vec<u8>, FileError> {
     if !is_stdin(argument) {
         return Disk.read(argument);
     }
-    let mut bytes = Vec::new();
-    io::stdin()
-        .lock()
-        .read_to_end(&mut bytes)
-        .map_err(|source| FileError::Read { name: STDIN.into(), source })?;
-    Ok(bytes)
+    whole(io::stdin().lock(), 0, memory::of_process(), || STDIN.into())
+}
+
+/// As [`read`], for JSON: if there is memory to make values of it.
+///
+/// # Errors
+/// As [`read`], and when the budget of the process is too small.
+pub fn read_json(argument: &Path) -> Result<Vec<u8>, FileError> {
+    room_for_values(read(argument)?, || name_of(argument))
+}
+
+/// Bytes that the values of a JSON text take at most for each of its bytes. A number of one digit and
+/// its comma are 2 bytes; a value of unknown type takes 32, an array of them twice that while it grows,
+/// and so does the tree in which a complaint finds its place.
+const OF_JSON: u64 = 32;
+
+fn room_for_values(text: Vec<u8>, name: impl Fn() -> String) -> Result<Vec<u8>, FileError> {
+    let bytes = OF_JSON.saturating_mul(text.len() as u64);
+    memory::of_process().check(bytes, || format!("{}: its values", name()))?;
+    Ok(text)
 }
 
 /// The file named on a command line as a buffered reader; `-` is standard input.
@@ -72,7 +101,7 @@ pub(crate) fn open(argument: &Path) -> Result<Box<dyn io::BufRead>, FileError> {
     if is_stdin(argument) {
         return Ok(Box::new(io::stdin().lock()));
     }
-    let file = std::fs::File::open(argument).map_err(|source| read_error(argument, source))?;
+    let (file, _) = regular(argument)?;
     Ok(Box::new(io::BufReader::with_capacity(1 << 16, file)))
 }
 
@@ -85,12 +114,81 @@ pub fn is_stdin(argument: &Path) -> bool {
 /// How messages name the file of a command line: as the user wrote it, or `<stdin>`.
 #[must_use]
 pub fn name_of(argument: &Path) -> String {
-    if is_stdin(argument) { STDIN.into() } else { argument.display().to_string() }
+    if is_stdin(argument) { STDIN.into() } else { shown(argument) }
+}
+
+/// A path in a message.
+fn shown(path: &Path) -> String {
+    words::shown(&path.to_string_lossy()).to_string()
 }
 
 fn read_error(path: &Path, source: io::Error) -> FileError {
-    FileError::Read { name: path.display().to_string(), source }
+    FileError::Read { name: shown(path), source }
 }
+
+/// The regular file at `path`, opened, and its length in bytes. Its kind is looked at first, since
+/// opening a pipe waits for its other end.
+fn regular(path: &Path) -> Result<(File, u64), FileError> {
+    let failed = |source| read_error(path, source);
+    let look = |found: std::fs::Metadata| match kind(&found) {
+        None => Ok(found.len()),
+        Some(found) => Err(FileError::NotRegular { name: shown(path), found }),
+    };
+    look(std::fs::metadata(path).map_err(failed)?)?;
+    let file = File::open(path).map_err(failed)?;
+    // Another file may have come to the name meanwhile.
+    let length = look(file.metadata().map_err(failed)?)?;
+    Ok((file, length))
+}
+
+/// What a path leads to in words, where it is no regular file.
+fn kind(found: &std::fs::Metadata) -> Option<&'static str> {
+    if found.is_file() {
+        return None;
+    }
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::FileTypeExt;
+        if found.file_type().is_fifo() {
+            return Some("a pipe");
+        }
+        if found.file_type().is_socket() {
+            return Some("a socket");
+        }
+    }
+    Some(if found.is_dir() { "a folder" } else { "a device" })
+}
+
+/// All bytes of `input`, which are about `length`. Memory is asked for before it is taken, and only
+/// for bytes that came.
+fn whole(
+    mut input: impl Read,
+    length: u64,
+    budget: &Budget,
+    name: impl Fn() -> String,
+) -> Result<Vec<u8>, FileError> {
+    let what = || format!("reading {}", name());
+    // One more than is expected, so that the end is seen without another step.
+    let mut step = match usize::try_from(length) {
+        Ok(0) => STEP,
+        length => length.unwrap_or(usize::MAX).saturating_add(1),
+    };
+    let mut reserved = budget.reserve(0, what)?;
+    let mut bytes = Vec::new();
+    loop {
+        reserved.grow(step as u64, what)?;
+        bytes.reserve(step);
+        let read = input.by_ref().take(step as u64).read_to_end(&mut bytes);
+        let read = read.map_err(|source| FileError::Read { name: name(), source })?;
+        if read < step {
+            return Ok(bytes);
+        }
+        step = bytes.len().max(STEP);
+    }
+}
+
+/// Bytes that are read at first where nothing tells how many there are.
+const STEP: usize = 1 << 16;
 
 /// The path without `.` and with each `..` taken against the name before it.
 #[must_use]
@@ -125,5 +223,68 @@ mod tests {
     fn a_missing_file_is_named() {
         let error = read(Path::new("no/such/file.json")).unwrap_err();
         assert!(error.to_string().contains("no/such/file.json"), "{error}");
+    }
+
+    #[test]
+    fn a_folder_is_said_to_be_one() {
+        let error = Disk.read(Path::new("src")).unwrap_err().to_string();
+        assert_eq!(error, "src is a folder, expected a regular file (only - may be a pipe)");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_device_that_never_ends_is_refused_before_it_is_read() {
+        for read in [Disk.read(Path::new("/dev/zero")), read(Path::new("/dev/zero"))] {
+            let error = read.unwrap_err().to_string();
+            assert!(error.starts_with("/dev/zero is a device, expected a regular"), "{error}");
+        }
+        assert!(open(Path::new("/dev/zero")).is_err());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_named_pipe_is_refused_before_it_is_opened() {
+        let folder = tempfile::tempdir().unwrap();
+        let pipe = folder.path().join("pipe");
+        let made = std::process::Command::new("mkfifo").arg(&pipe).status().unwrap();
+        assert!(made.success());
+        // A link leads to the pipe as well.
+        let link = folder.path().join("link");
+        std::os::unix::fs::symlink(&pipe, &link).unwrap();
+        for path in [pipe, link] {
+            for error in [Disk.read(&path).unwrap_err(), open(&path).err().unwrap()] {
+                assert!(error.to_string().contains("is a pipe, expected a regular"), "{error}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_stream_without_an_end_is_refused_by_the_budget() {
+        let budget = Budget::new(1 << 20);
+        let error = whole(io::repeat(0), 0, &budget, || "<stdin>".into()).unwrap_err();
+        assert!(error.to_string().starts_with("reading <stdin> needs "), "{error}");
+        assert_eq!(crate::Failure::exit(&error), crate::Exit::Resource);
+        assert_eq!(budget.left(), 1 << 20);
+    }
+
+    #[test]
+    fn a_file_longer_than_the_budget_is_refused_before_it_is_read() {
+        struct Unread;
+        impl Read for Unread {
+            fn read(&mut self, _: &mut [u8]) -> io::Result<usize> {
+                unreachable!("it is too long")
+            }
+        }
+        let error = whole(Unread, 1 << 40, &Budget::new(1 << 30), || "a.obj".into()).unwrap_err();
+        assert!(error.to_string().starts_with("reading a.obj needs 1024.0 GB"), "{error}");
+    }
+
+    #[test]
+    fn all_bytes_come_whatever_length_was_announced() {
+        let bytes: Vec<u8> = (0..300_000u32).map(|k| k as u8).collect();
+        for length in [0, 7, 299_999, 300_000, 300_001, 1 << 20] {
+            let read = whole(&bytes[..], length, &Budget::new(1 << 30), String::new).unwrap();
+            assert_eq!(read, bytes, "{length}");
+        }
     }
 }

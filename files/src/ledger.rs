@@ -126,6 +126,15 @@ impl Ledger {
         input::read(argument)
     }
 
+    /// As [`Ledger::argument`], for JSON: if there is memory to make values of it.
+    ///
+    /// # Errors
+    /// As [`Ledger::argument`], and when the budget of the process is too small.
+    pub fn argument_json(&self, argument: &Path, role: &str) -> Result<Vec<u8>, FileError> {
+        self.refuse(argument, role)?;
+        input::read_json(argument)
+    }
+
     /// The file named on a command line as a buffered reader; `-` is standard input. `role` says
     /// what it is: "the grid".
     ///

@@ -11,8 +11,12 @@
 //! | [`extension`] | names of outputs that say what the file does not hold                 |
 //! | [`stop`]      | no temporary file stays when a program is interrupted                 |
 //! | [`exit`]      | the exit codes, and the one place that prints an error                |
+//! | [`memory`]    | a budget of bytes, which are asked for before they are taken          |
+//! | [`picture`]   | the bytes of a picture file into a picture, which never panics        |
+//! | [`words`]     | what messages show of names and values                                |
 //!
-//! It knows nothing of curves, meshes or pictures, and the libraries above it never print.
+//! It knows nothing of curves or meshes, of pictures only how to decode them, and the libraries above
+//! it never print.
 
 pub mod batch;
 pub mod exit;
@@ -21,19 +25,22 @@ mod identity;
 pub mod input;
 pub mod json;
 pub mod ledger;
+pub mod memory;
 pub mod names;
 pub mod output;
+pub mod picture;
 #[cfg(target_os = "linux")]
 mod stdout;
 pub mod stop;
 mod target;
-mod words;
+pub mod words;
 
 pub use batch::Batch;
 pub use exit::{Exit, Failure, Report};
 pub use input::{Disk, Embedded, Source};
 pub use json::JsonError;
 pub use ledger::Ledger;
+pub use memory::{Budget, MemoryError};
 pub use output::Output;
 
 use std::io;
@@ -50,6 +57,17 @@ pub enum FileError {
         /// What the system said.
         source: io::Error,
     },
+    /// The path leads to something else than a regular file.
+    #[error("{name} is {found}, expected a regular file (only - may be a pipe)")]
+    NotRegular {
+        /// The file as the user named it.
+        name: String,
+        /// What it is.
+        found: &'static str,
+    },
+    /// The file takes more memory than is allowed.
+    #[error(transparent)]
+    Memory(#[from] MemoryError),
     /// The file, or standard output, could not be written.
     #[error("cannot write {name}: {source}")]
     Write {
@@ -77,6 +95,7 @@ impl Failure for FileError {
         match self {
             Self::Clash(error) => error.exit(),
             Self::ClosedPipe => Exit::ClosedPipe,
+            Self::Memory(error) => error.exit(),
             _ => Exit::ReadWrite,
         }
     }

@@ -1,115 +1,109 @@
-//! What serde says of a wrong value, in words for people who write JSON and not Rust.
+//! What messages show of names and values: nothing that steers a terminal, and not all of it where it
+//! is long.
 //!
-//! serde has no error codes, so its sentences are rewritten piece by piece; a piece that is not
-//! known here stays as it is, and is still a sentence.
+//! Names come from files of strangers. [`shown`] is for a name or a value inside a sentence or a list:
+//! it stays on its line, and is cut. [`printed`] is for text of several lines that is printed whole.
+//! Both spell out control characters, and characters that are not seen or turn the direction of the
+//! text around: `\u{202e}` is shown as those eight letters.
 
-/// Quoted text longer than this many characters is cut in the middle of a message. The place is
-/// given by line and column; the text only helps to recognize it.
+mod plain;
+
+use std::borrow::Cow;
+use std::fmt::{self, Display, Write};
+
+pub(crate) use plain::plain;
+
+/// Quoted text longer than twice this many characters is cut in the middle of a message. A message
+/// gives the place by line and column; the text only helps to recognize it.
 const LONGEST_QUOTE: usize = 60;
 
-/// Sentences that are replaced whole.
-const SENTENCES: [(&str, &str); 16] = [
-    ("EOF while parsing a list", "found the end of the text inside an array, expected `]`"),
-    ("EOF while parsing an object", "found the end of the text inside an object, expected `}`"),
-    ("EOF while parsing a string", "found the end of the text inside a string, expected `\"`"),
-    ("EOF while parsing a value", "found the end of the text, expected a value"),
-    (
-        "control character (\\u0000-\\u001F) found while parsing a string",
-        "found a control character inside a string, expected \\u and its number in its place",
-    ),
-    ("expected ident", "found a word that is none of JSON's, expected true, false or null"),
-    ("expected value", "expected a value"),
-    (
-        "invalid escape",
-        "found a backslash before what is no escape, expected `\\\\` for a backslash",
-    ),
-    ("invalid number", "found a number that is not written as JSON has it"),
-    ("key must be a string", "expected a key in double quotes"),
-    ("lone leading surrogate in hex escape", "found half of a pair of \\u escapes, expected both"),
-    ("number out of range", "found a number out of range"),
-    ("recursion limit exceeded", "found brackets in brackets more than a hundred deep"),
-    ("unexpected end of hex escape", "found half of a pair of \\u escapes, expected both"),
-    ("trailing characters", "found more text behind the end of the JSON, expected nothing"),
-    ("trailing comma", "found a comma behind the last value, expected none"),
-];
+/// Characters of a line at most, with all that is quoted in it.
+const LONGEST_LINE: usize = 1000;
 
-/// Pieces that stand for what was found.
-const FOUND: [(&str, &str); 8] = [
-    ("invalid type: ", "found "),
-    ("invalid value: ", "found "),
-    ("found floating point `", "found the number `"),
-    ("found integer `", "found the number `"),
-    ("found boolean `", "found `"),
-    ("found string ", "found the string "),
-    ("found map", "found an object"),
-    ("found sequence", "found an array"),
-];
-
-/// Pieces that stand for what was expected.
-const EXPECTED: [(&str, &str); 9] = [
-    ("expected f64", "expected a number"),
-    ("expected f32", "expected a number"),
-    ("expected usize", "expected a whole number of at least 0"),
-    ("expected u64", "expected a whole number of at least 0"),
-    ("expected u32", "expected a whole number of at least 0"),
-    ("expected u16", "expected a whole number from 0 to 65535"),
-    ("expected u8", "expected a whole number from 0 to 255"),
-    ("expected a boolean", "expected true or false"),
-    ("expected a sequence", "expected an array"),
-];
-
-/// serde's message in plain words, with a suggestion for a near miss.
-pub fn plain(message: &str) -> String {
-    if let Some((_, words)) = SENTENCES.iter().find(|(serdes, _)| *serdes == message) {
-        return (*words).into();
-    }
-    // Only what serde says itself is rewritten, never the user's text between quotes.
-    let (found, expected) = message.rsplit_once(", expected ").unwrap_or((message, ""));
-    if let Some(length) = found.strip_prefix("invalid length ") {
-        let fixed = ["an array of length ", "a tuple of size "];
-        let count = fixed.iter().find_map(|serdes| expected.strip_prefix(serdes));
-        return format!("found {length} values, expected {}", count.unwrap_or(expected));
-    }
-    let mut text = shortened(found);
-    for (serdes, words) in FOUND {
-        if let Some(rest) = text.strip_prefix(serdes) {
-            text = format!("{words}{rest}");
-        }
-    }
-    for (serdes, words) in [
-        ("unknown field", "unknown key"),
-        ("missing field", "missing key"),
-        ("duplicate field", "duplicate key"),
-        ("unknown variant", "found"),
-    ] {
-        if let Some(rest) = text.strip_prefix(serdes) {
-            text = format!("{words}{rest}");
-        }
-    }
-    if !expected.is_empty() {
-        let expected = format!("expected {expected}");
-        let words = EXPECTED.iter().find(|(serdes, _)| *serdes == expected);
-        text.push_str(&format!(", {}", words.map_or(expected.as_str(), |(_, words)| words)));
-    }
-    if message.starts_with("unknown ") {
-        let mut names = message.split('`').skip(1).step_by(2);
-        if let Some(found) = names.next()
-            && let Some(near) = nearest(found, names)
-        {
-            text.push_str(&format!(" (did you mean `{near}`?)"));
-        }
-    }
-    text
+/// A name or a value as messages show it: on one line, with characters that are not seen spelled out,
+/// and cut in the middle where it is longer than 120 characters.
+#[must_use]
+pub fn shown(text: &str) -> impl Display {
+    cut(text, 2 * LONGEST_QUOTE)
 }
 
-/// The text, or its beginning and its end where it is very long.
-pub fn shortened(text: &str) -> String {
-    let count = text.chars().count();
-    if count <= 2 * LONGEST_QUOTE {
-        return text.into();
+/// A line of a list or a report: as [`shown`], cut where it is longer than 1000 characters.
+#[must_use]
+pub fn line(text: &str) -> impl Display {
+    cut(text, LONGEST_LINE)
+}
+
+/// As [`shown`], for text of at most `longest` characters; of longer text the first half of them and
+/// the last sixth are shown.
+#[must_use]
+pub fn cut(text: &str, longest: usize) -> impl Display {
+    Shown { text, longest }
+}
+
+struct Shown<'a> {
+    text: &'a str,
+    longest: usize,
+}
+
+impl Display for Shown<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { text, longest } = *self;
+        // A character has a byte at least: most texts need not be counted.
+        if text.len() <= longest || text.chars().count() <= longest {
+            return spell(text, f);
+        }
+        let place = |k: usize| text.char_indices().nth(k).map_or(text.len(), |(at, _)| at);
+        let place_back = |k: usize| text.char_indices().nth_back(k).map_or(0, |(at, _)| at);
+        spell(&text[..place(longest / 2)], f)?;
+        f.write_str(" ... ")?;
+        spell(&text[place_back(longest / 6 - 1)..], f)
     }
-    let head = text.chars().take(LONGEST_QUOTE);
-    head.chain(" ... ".chars()).chain(text.chars().skip(count - LONGEST_QUOTE / 3)).collect()
+}
+
+fn spell(text: &str, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    text.chars().try_for_each(|c| match unseen(c) {
+        true => write!(f, "{}", c.escape_default()),
+        false => f.write_char(c),
+    })
+}
+
+/// Text of several lines as it is printed: line ends and tabs stay, all else that is not seen is
+/// spelled out.
+#[must_use]
+pub fn printed(text: &str) -> Cow<'_, str> {
+    let spelled = |c: char| unseen(c) && c != '\n' && c != '\t';
+    if !text.contains(spelled) {
+        return Cow::Borrowed(text);
+    }
+    let mut safe = String::with_capacity(text.len() + 16);
+    for c in text.chars() {
+        if spelled(c) {
+            safe.extend(c.escape_default());
+        } else {
+            safe.push(c);
+        }
+    }
+    Cow::Owned(safe)
+}
+
+/// Whether a character steers what shows it and is not seen itself: control characters (C0, C1,
+/// delete), line and paragraph separators, and the format characters of Unicode, among them the marks
+/// that turn the direction of text.
+#[must_use]
+pub fn unseen(c: char) -> bool {
+    c.is_control()
+        || matches!(c,
+            '\u{ad}' | '\u{600}'..='\u{605}' | '\u{61c}' | '\u{6dd}' | '\u{70f}' | '\u{180e}'
+            | '\u{890}'..='\u{891}' | '\u{8e2}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}'
+            | '\u{2060}'..='\u{206f}' | '\u{3164}' | '\u{115f}'..='\u{1160}' | '\u{ffa0}'
+            | '\u{feff}' | '\u{fff9}'..='\u{fffb}' | '\u{110bd}' | '\u{110cd}'
+            | '\u{13430}'..='\u{1343f}' | '\u{1bca0}'..='\u{1bca3}' | '\u{1d173}'..='\u{1d17a}'
+            | '\u{e0000}'..='\u{e0fff}')
+}
+
+/// The text, or its beginning and its end where it is long.
+pub(crate) fn shortened(text: &str) -> String {
+    shown(text).to_string()
 }
 
 /// The candidate that a slip of the fingers would turn into `found`, if there is one.
@@ -129,59 +123,33 @@ pub fn nearest<'a>(found: &str, candidates: impl Iterator<Item = &'a str>) -> Op
 #[cfg(test)]
 mod tests {
     use super::*;
-    use serde::Deserialize;
-
-    /// What is said of a text that is not a list of points.
-    fn complaint(text: &str) -> String {
-        let error = serde_json::from_str::<Vec<[f64; 2]>>(text).unwrap_err().to_string();
-        plain(error.rsplit_once(" at line ").unwrap().0)
-    }
 
     #[test]
-    fn wrong_values_are_called_as_json_calls_them() {
-        for (text, expected) in [
-            ("{}", "found an object, expected an array"),
-            ("[1]", "found the number `1`, expected an array of length 2"),
-            ("[[true, 0]]", "found `true`, expected a number"),
-            ("[[null, 0]]", "found null, expected a number"),
-            ("[[[], 0]]", "found an array, expected a number"),
-            ("[[1]]", "found 1 values, expected 2"),
-            ("[[1, 2]", "found the end of the text inside an array, expected `]`"),
-            ("[[\"integer `\", 2]]", "found the string \"integer `\", expected a number"),
-            ("[nul]", "found a word that is none of JSON's, expected true, false or null"),
-            ("[[1, 1e999]]", "found a number out of range"),
-            ("[[1, 2],]", "found a comma behind the last value, expected none"),
+    fn a_name_stays_on_its_line_and_steers_nothing() {
+        for (name, expected) in [
+            ("Väse 3", "Väse 3"),
+            ("a\nb\t\u{1b}[2J", "a\\nb\\t\\u{1b}[2J"),
+            ("\u{9b}31m\u{7f}", "\\u{9b}31m\\u{7f}"),
+            ("exe\u{202e}gnp", "exe\\u{202e}gnp"),
+            ("\u{2066}a\u{2069}\u{200f}\u{feff}", "\\u{2066}a\\u{2069}\\u{200f}\\u{feff}"),
+            ("a\u{2028}b\u{2029}c\u{200b}", "a\\u{2028}b\\u{2029}c\\u{200b}"),
+            ("\u{e0041}", "\\u{e0041}"),
         ] {
-            assert_eq!(complaint(text), expected, "{text}");
+            assert_eq!(shown(name).to_string(), expected);
         }
-        let deep = "[".repeat(300);
-        assert!(serde_json::from_str::<serde_json::Value>(&deep).is_err_and(|error| {
-            plain(error.to_string().rsplit_once(" at line ").unwrap().0)
-                .starts_with("found brackets")
-        }));
     }
 
     #[test]
-    fn a_page_of_text_is_not_said_back() {
-        let text = complaint(&format!("[[\"{}\", 1]]", "blah ".repeat(1000)));
-        assert!(text.chars().count() < 160 && text.ends_with(", expected a number"), "{text}");
+    fn a_long_name_is_cut_and_a_short_one_is_not() {
+        let exact = "ä".repeat(120);
+        assert_eq!(shown(&exact).to_string(), exact);
+        let long = shown(&"ä".repeat(100_000)).to_string();
+        assert_eq!(long, format!("{} ... {}", "ä".repeat(60), "ä".repeat(20)));
     }
 
     #[test]
-    fn numbers_that_are_counts_are_called_whole() {
-        #[derive(Debug, Deserialize)]
-        struct Counts {
-            #[expect(dead_code, reason = "only its reading is tested")]
-            rows: u64,
-        }
-        let error = serde_json::from_str::<Counts>("[]").unwrap_err().to_string();
-        let words = plain(error.rsplit_once(" at line ").unwrap().0);
-        assert_eq!(words, "found 0 values, expected struct Counts with 1 element");
-        for text in ["{\"rows\": -1}", "{\"rows\": 1.5}"] {
-            let error = serde_json::from_str::<Counts>(text).unwrap_err().to_string();
-            let words = plain(error.rsplit_once(" at line ").unwrap().0);
-            assert!(words.starts_with("found the number `"), "{words}");
-            assert!(words.ends_with(", expected a whole number of at least 0"), "{words}");
-        }
+    fn text_of_lines_keeps_them() {
+        assert_eq!(printed("a\n\tb\n"), "a\n\tb\n");
+        assert_eq!(printed("a\r\u{1b}[2J\n\u{202e}b"), "a\\r\\u{1b}[2J\n\\u{202e}b");
     }
 }

@@ -1,8 +1,7 @@
 //! What can go wrong in a job.
 
 use crate::compare::CompareError;
-use files::{Exit, Failure, FileError, JsonError};
-use render::film::memory::TextureMemoryError;
+use files::{Exit, Failure, FileError, JsonError, MemoryError};
 use render::scene::SceneError;
 use sweep::SweepError;
 use thiserror::Error;
@@ -26,9 +25,9 @@ pub enum PipelineError {
     /// The scene is wrong.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// The scene's textures take more memory than is allowed.
+    /// A mesh, a scene or a picture takes more memory than is allowed.
     #[error(transparent)]
-    TextureMemory(#[from] TextureMemoryError),
+    Memory(#[from] MemoryError),
     /// Two pictures cannot be compared.
     #[error(transparent)]
     Compare(#[from] CompareError),
@@ -113,7 +112,7 @@ impl Failure for PipelineError {
             Self::Triangulate(error) => error.exit(),
             Self::Scene(error) => error.exit(),
             Self::Compare(error) => error.exit(),
-            Self::TextureMemory(_) | Self::Encode { .. } => Exit::Resource,
+            Self::Memory(_) | Self::Encode { .. } => Exit::Resource,
             Self::SameFile { .. }
             | Self::UnknownMesh { .. }
             | Self::MissingMesh { .. }

@@ -4,7 +4,9 @@ use crate::job::{MeshJob, Mode};
 use crate::stages::Stages;
 use crate::{Job, PipelineError, mesh};
 use files::json::Document;
-use files::{Batch, JsonError, Output, Source};
+use files::memory::{Reserved, of_process};
+use files::words::shown;
+use files::{Batch, JsonError, MemoryError, Output, Source, input};
 use render::color::Encoding;
 use render::film::encode::{self, Format};
 use render::film::memory;
@@ -20,7 +22,7 @@ use std::time::{Duration, Instant};
 use sweep::grid::file as grid_file;
 use sweep::spec::{self, Camera};
 use sweep::{Object, SweepError};
-use triangulate::TriangulateError;
+use triangulate::{TriMesh, TriangulateError};
 
 /// White between the pictures of a strip, in pixels.
 const GAP: u32 = 8;
@@ -32,8 +34,6 @@ pub struct Options {
     pub folder: PathBuf,
     /// Pixels across and down.
     pub size: (u32, u32),
-    /// Memory for textures and their tables, in bytes.
-    pub max_texture_bytes: u64,
     /// Whether grids and OBJ files are written too.
     pub keep: bool,
     /// Whether files that exist are replaced.
@@ -123,6 +123,7 @@ pub fn run_in(
     let scene = work.scene()?;
     // Sweeping and triangulating are stages of their own.
     let read_time = work.stages.get().read;
+    let _reserved = work.reserve_pictures()?;
     let prepared = Prepared::new(&scene);
     let mut pictures = Vec::with_capacity(job.modes.len());
     for mode in &job.modes {
@@ -168,6 +169,17 @@ struct Work<'a> {
 }
 
 impl Work<'_> {
+    /// Takes the memory for the pictures of all modes, which are kept for the strip, and for it.
+    fn reserve_pictures(&self) -> Result<Reserved<'static>, MemoryError> {
+        let (width, height) = self.options.size;
+        let count = self.job.modes.len() as u64;
+        let strip = memory::of_pixel(0, Some(Format::Png));
+        let pixel = count * (memory::of_pixel(0, None) + strip);
+        let bytes = (u64::from(width) * u64::from(height)).saturating_mul(pixel);
+        let what = || format!("{count} pictures of {width}x{height} pixels side by side");
+        of_process().reserve(bytes, what)
+    }
+
     fn took(&self, more: Stages) {
         let mut stages = self.stages.get();
         stages += more;
@@ -178,7 +190,7 @@ impl Work<'_> {
     fn scene(&self) -> Result<Scene, PipelineError> {
         let started = Instant::now();
         let path = &self.job.scene;
-        let (name, bytes) = (path.display().to_string(), self.source.read(path)?);
+        let (name, bytes) = (input::name_of(path), self.source.read_json(path)?);
         let document = Document::new(&name, &bytes)?;
         let file = read::parse(&document)?;
         let folder = path.parent().unwrap_or(Path::new(""));
@@ -190,12 +202,10 @@ impl Work<'_> {
         for mesh in &self.job.meshes {
             meshes.insert(mesh.name.clone(), self.mesh(mesh, &file.camera)?);
         }
-        let most = self.options.max_texture_bytes;
-        let scene = draft
-            .resolve_within(self.source, meshes, most)
-            .map_err(|error| self.of_meshes(error))?;
+        let scene = draft.resolve(self.source, meshes).map_err(|error| self.of_meshes(error))?;
         for mode in &self.job.modes {
-            memory::check(&scene, mode.filter, most)?;
+            let settings = settings(mode, self.options.size);
+            memory::reserve(&scene, &settings, Some(Format::Png), of_process()).map(drop)?;
         }
         // The meshes are made in between, and have stages of their own.
         let read = started.elapsed().saturating_sub(self.stages.get().total());
@@ -223,7 +233,7 @@ impl Work<'_> {
         camera: &CameraFile,
     ) -> Result<render::shape::Mesh, PipelineError> {
         let started = Instant::now();
-        let (name, bytes) = (mesh.spec.display().to_string(), self.source.read(&mesh.spec)?);
+        let (name, bytes) = (input::name_of(&mesh.spec), self.source.read_json(&mesh.spec)?);
         let folder = mesh.spec.parent().unwrap_or(Path::new(""));
         // A scene does not move its meshes: what its camera sees of them, the spec's would.
         let CameraFile { eye, target, up, fov_deg } = *camera;
@@ -239,6 +249,14 @@ impl Work<'_> {
                 }
                 other => PipelineError::from(other),
             })?;
+        let points = object.parts().iter().map(|part| {
+            let [rows, cols] = part.points();
+            (rows as u64).saturating_mul(cols as u64)
+        });
+        let points: u64 = points.sum();
+        // The grid, its triangles, and the copy of them that is rendered.
+        let bytes = points.saturating_mul(36).saturating_add(TriMesh::bytes_for(2 * points));
+        of_process().check(bytes, || format!("mesh {} of {points} points", shown(&mesh.name)))?;
         let grids = object.grids()?;
         let sweep = started.elapsed();
         if self.options.keep && self.batch.is_some() {

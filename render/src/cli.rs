@@ -7,8 +7,9 @@ mod textures;
 mod work;
 
 use clap::Parser;
+use files::memory::of_process;
 use files::{Exit, Failure, Report};
-use render::film::memory;
+use render::film::{Crop, memory};
 use render::progress::Progress;
 use render::scene::{self, schema};
 use render::{Prepared, Settings, inspect};
@@ -105,6 +106,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
     if input.emit_schema {
         return Ok(output::print(&format!("{:#}\n", schema::of_scene()))?);
     }
+    files::memory::allow(work.max_memory);
     input.check()?;
     if input.check {
         return check(arguments);
@@ -124,9 +126,17 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
     };
 
     let started = Instant::now();
-    let most = textures.max_texture_mem;
-    let scene = input.read_scene(&ledger, most, |_, scene| Ok(scene))?;
-    memory::check(&scene, textures.filter(), most)?;
+    let scene = input.read_scene(&ledger, |_, scene| Ok(scene))?;
+    // A pixel alone is a picture of its own.
+    let of_pixel =
+        |(x, y)| Settings { crop: Some(Crop { x, y, width: 1, height: 1 }), ..settings.clone() };
+    let _memory = match (&target, sampling.pixel) {
+        (None, Some(pixel)) => memory::reserve(&scene, &of_pixel(pixel), None, of_process())?,
+        (target, _) => {
+            let format = target.as_ref().map(output::Target::format);
+            memory::reserve(&scene, &settings, format, of_process())?
+        }
+    };
     let read_time = started.elapsed();
 
     let pool = work.pool()?;
@@ -158,7 +168,7 @@ fn check(arguments: &Arguments) -> Result<(), Report> {
     let aspect = f64::from(width) / f64::from(height);
     let filter = textures.filter();
     let tables = |texture: &_| filter.bytes_for(texture);
-    let report = input.read_scene(&output.ledger(), textures.max_texture_mem, |draft, scene| {
+    let report = input.read_scene(&output.ledger(), |draft, scene| {
         Ok(scene::check::check(draft, &scene, aspect, &tables)?)
     })?;
     output::print(&report.to_string())?;

@@ -22,7 +22,12 @@ impl Progress {
     #[must_use]
     pub fn new(label: &str, quiet: bool) -> Self {
         let shown = !quiet && std::io::stderr().is_terminal();
-        Self { label: label.into(), started: Instant::now(), shown, bar: OnceLock::new() }
+        Self {
+            label: files::words::shown(label).to_string(),
+            started: Instant::now(),
+            shown,
+            bar: OnceLock::new(),
+        }
     }
 
     /// Says that `done` of `total` is done.

@@ -31,12 +31,6 @@ pub struct Texture {
     pub white: u16,
 }
 
-/// Memory for textures and their tables, in bytes, unless a picture is asked for with more or less.
-///
-/// 2 GiB hold a square picture of 6800 texels with the tables of the tent, or one of 8192 with those
-/// of the box, and leave the smaller half of a common machine alone.
-pub const USUAL_MEMORY: u64 = 2 << 30;
-
 /// What lies beyond the edges of a texture.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -96,14 +90,13 @@ impl Texture {
         Some(Self { name: String::new(), width, height, wrap, texels, white })
     }
 
-    /// Memory in bytes while a picture of this kind becomes a texture: as decoded, as codes, and as
+    /// Bytes a pixel while a picture of this kind becomes a texture: as decoded, as codes, and as
     /// texels, all at once. What the decoder itself works with is not in it.
     #[must_use]
-    pub fn decoding_bytes(width: u32, height: u32, kind: ColorType) -> u64 {
+    pub fn decoding_bytes(kind: ColorType) -> u64 {
         let wide = kind.bytes_per_pixel() / kind.channel_count() > 1;
         let codes = if wide { 6 } else { 3 };
-        let each = u64::from(kind.bytes_per_pixel()) + codes + size_of::<[u16; 3]>() as u64;
-        (u64::from(width) * u64::from(height)).saturating_mul(each)
+        u64::from(kind.bytes_per_pixel()) + codes + size_of::<[u16; 3]>() as u64
     }
 
     /// Memory of the texels in bytes.

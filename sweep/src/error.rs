@@ -1,6 +1,6 @@
 //! Why a sweep cannot be made.
 
-use files::{Exit, Failure, JsonError};
+use files::{Exit, Failure, JsonError, MemoryError};
 use thiserror::Error;
 
 /// What is wrong with a spec or with the resolution asked for.
@@ -21,18 +21,9 @@ pub enum SweepError {
     /// The rows or columns asked for beside the spec cannot be made.
     #[error("{0}")]
     Resolution(String),
-    /// The system does not give the memory for the grid.
-    #[error(
-        "{name}: found no memory for {points} points ({bytes} bytes): ask for fewer rows or cols"
-    )]
-    Memory {
-        /// The object's name.
-        name: String,
-        /// Points of the grid.
-        points: usize,
-        /// What they take.
-        bytes: usize,
-    },
+    /// The grid takes more memory than is allowed.
+    #[error(transparent)]
+    Memory(#[from] MemoryError),
 }
 
 impl Failure for SweepError {
@@ -42,7 +33,7 @@ impl Failure for SweepError {
             Self::Geometry(_) => Exit::Geometry,
             Self::Resolution(_) => Exit::Use,
             Self::Named(_, exit) => *exit,
-            Self::Memory { .. } | Self::TooLarge(_) => Exit::Resource,
+            Self::Memory(_) | Self::TooLarge(_) => Exit::Resource,
         }
     }
 }

@@ -3,7 +3,7 @@
 use clap::{Parser, ValueEnum};
 use files::exit::{Exit, Failure, Report, say};
 use files::json::Document;
-use files::{Batch, Ledger, Output, exit, extension, input};
+use files::{Batch, Ledger, Output, exit, extension, input, memory, words};
 use std::io::{self, IsTerminal, Write};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -69,6 +69,10 @@ struct Arguments {
     #[arg(long, value_name = "N", conflicts_with_all = ["rows", "cols"])]
     max_quads: Option<usize>,
 
+    /// Memory to take at most, in bytes or with k, M or G; what needs more is refused before it is
+    /// begun [default: 90 % of what is free]
+    #[arg(long, value_name = "BYTES", value_parser = files::memory::bytes)]
+    max_memory: Option<u64>,
     /// Threads to use, up to 1024; all cores by default
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
@@ -195,6 +199,7 @@ fn work(arguments: &Arguments) -> Result<(), Report> {
     }
 
     let start = Instant::now();
+    memory::allow(arguments.max_memory);
     let ledger = Ledger::new(!arguments.no_clobber);
     let file = output.map(|path| ledger.output(path, "name another file with -o")).transpose()?;
     let draw_to = |path| ledger.output(path, "name another file with --preview");
@@ -206,7 +211,7 @@ fn work(arguments: &Arguments) -> Result<(), Report> {
     if let Some(preview) = &arguments.preview {
         extension::check(preview, "an SVG drawing", &["svg"])?;
     }
-    let bytes = ledger.argument(&arguments.spec, "the spec")?;
+    let bytes = ledger.argument_json(&arguments.spec, "the spec")?;
     let name = input::name_of(&arguments.spec);
     let folder = arguments.spec.parent().unwrap_or(Path::new(""));
     let document = Document::new(&name, &bytes)?;
@@ -256,7 +261,7 @@ fn tell(
 ) -> Result<(), Report> {
     let parts = object.parts().iter().zip(grids).map(|(part, grid)| check::summary(part, grid));
     let lines = parts.chain(findings.iter().map(Finding::to_string));
-    let text: String = lines.map(|line| format!("{line}\n")).collect();
+    let text: String = lines.map(|line| format!("{}\n", words::line(&line))).collect();
     Output::create(Path::new("-"), true)?.commit_all(text.as_bytes())?;
     let wrong = findings.iter().filter(|finding| finding.severity == Severity::Wrong).count();
     match NonZeroUsize::new(wrong) {
@@ -277,15 +282,15 @@ fn note(sweep: &Sweep) {
     let folds = Survey::of(sweep).findings().into_iter();
     let folds = folds.filter(|finding| finding.severity == Severity::Wrong);
     for finding in folds.chain(aliases(sweep)) {
-        say(format_args!("sweep: note: {}: {}", sweep.name(), finding.message));
+        say(format_args!("sweep: note: {}: {}", words::shown(sweep.name()), finding.message));
     }
     if let Some(missed) = sweep.missed() {
-        say(format_args!("sweep: note: {}: {missed}", sweep.name()));
+        say(format_args!("sweep: note: {}: {missed}", words::shown(sweep.name())));
     }
 }
 
 fn stats(sweep: &Sweep) {
-    say(format_args!("object      {}", sweep.name()));
+    say(format_args!("object      {}", words::shown(sweep.name())));
     say(format_args!("cells       {} x {} (rows x cols)", sweep.rows(), sweep.cols()));
     let [rows, cols] = sweep.points();
     say(format_args!("points      {rows} x {cols}, {}", rows * cols));

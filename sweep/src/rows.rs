@@ -3,11 +3,12 @@
 use crate::check::fold::Survey;
 use crate::cut::Stop;
 use crate::grid::file::{Encoding, Header, Patch, Writer};
-use crate::grid::{By, GridMesh, Row, Seam};
+use crate::grid::{self, By, GridMesh, Row, Seam};
 use crate::profile::Column;
 use crate::resolution::Surface;
 use crate::wall::Wall;
 use crate::{Sweep, SweepError};
+use files::{memory, words};
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 use std::io::{self, Write};
@@ -85,17 +86,14 @@ impl<'a> Rows<'a> {
     /// The whole grid.
     pub fn grid(&self) -> Result<GridMesh, SweepError> {
         let mut grid = self.blank();
-        let count = self.v.len() * self.columns.len();
-        let (positions, normals) = (&mut grid.positions, &mut grid.normals);
-        let reserved = positions.try_reserve_exact(count).and(normals.try_reserve_exact(count));
-        reserved.map_err(|_| SweepError::Memory {
-            name: self.sweep.name.clone(),
-            points: count,
-            bytes: count * (size_of::<DVec3>() + size_of::<Vec3>()),
+        let (rows, cols) = (self.v.len(), self.columns.len());
+        let count = rows * cols;
+        let _reserved = memory::of_process().reserve(grid::bytes(rows, cols), || {
+            format!("{}: a grid of {rows} x {cols} points", words::shown(&self.sweep.name))
         })?;
-        positions.resize(count, DVec3::ZERO);
-        normals.resize(count, Vec3::ZERO);
-        self.fill(0..self.v.len(), positions, normals);
+        grid.positions.resize(count, DVec3::ZERO);
+        grid.normals.resize(count, Vec3::ZERO);
+        self.fill(0..rows, &mut grid.positions, &mut grid.normals);
         Ok(grid)
     }
 

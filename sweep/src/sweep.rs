@@ -13,13 +13,16 @@ use crate::trajectory::Trajectory;
 use crate::wall::{self, Wall};
 use crate::{Object, SweepError};
 use files::json::Document;
-use files::{Disk, Source};
+use files::{Disk, Source, memory, words};
 use glam::DVec3;
 use rayon::prelude::*;
 use std::path::Path;
 
 /// Cells of one grid at most: 3.6 GB of points and normals, and twice that when it is one cell wide.
 pub const MOST_CELLS: usize = 100_000_000;
+
+/// Bytes a cell that the search for a tolerance takes: what two trials measured of it.
+const OF_SEARCH: u64 = 128;
 
 /// A surface and a resolution.
 #[derive(Debug, Clone)]
@@ -171,7 +174,7 @@ impl Sweep {
         if let Some((key, message)) = sweep.resolution_fault() {
             return Err(SweepError::Resolution(format!("{key}: {message}")));
         }
-        let sweep = sweep.fitted();
+        let sweep = sweep.fitted()?;
         let cells = [sweep.rows(), sweep.cols()];
         match sweep.areas.iter().find_map(|area| area.fault(cells)) {
             Some((key, message)) => Err(SweepError::Resolution(format!("areas, {key}: {message}"))),
@@ -180,10 +183,18 @@ impl Sweep {
     }
 
     /// This with the cells that its tolerance asks for.
-    pub(crate) fn fitted(self) -> Self {
-        let Resolution::Tolerance(tolerance) = &self.resolution else { return self };
+    ///
+    /// # Errors
+    /// When there is no memory for the search among as many cells as are allowed.
+    pub(crate) fn fitted(self) -> Result<Self, SweepError> {
+        let Resolution::Tolerance(tolerance) = &self.resolution else { return Ok(self) };
+        let most = tolerance.max_quads;
+        let _reserved = memory::of_process()
+            .reserve(OF_SEARCH.saturating_mul(most as u64), || {
+                format!("{}: a search for at most {most} cells", words::shown(&self.name))
+            })?;
         let cells = self.search(tolerance).run();
-        Self { fitted: Some(cells), ..self }
+        Ok(Self { fitted: Some(cells), ..self })
     }
 
     /// How near the triangles of [`Sweep::grid`] come to the surface; `tolerance` says in which unit.

@@ -247,7 +247,7 @@ fn judged(text: &str) -> bool {
         Err(error) => {
             let message = error.to_string();
             // A place: the file, a line and a column, and mostly a path.
-            let placed = matches!(error, SweepError::Memory { .. })
+            let placed = matches!(error, SweepError::Memory(_))
                 || message.strip_prefix("spec.json:").is_some_and(|rest| {
                     rest.split(':').take(2).all(|number| number.parse::<u32>().is_ok())
                 });

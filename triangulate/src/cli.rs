@@ -55,6 +55,10 @@ pub struct Arguments {
     /// Keeps the mesh in memory
     #[arg(long, value_name = "FILE.json")]
     pub report: Option<PathBuf>,
+    /// Memory to take at most, in bytes or with k, M or G; what needs more is refused before it is
+    /// begun [default: 90 % of what is free]
+    #[arg(long, value_name = "BYTES", value_parser = files::memory::bytes)]
+    pub max_memory: Option<u64>,
     /// Say nothing but errors
     #[arg(short, long)]
     pub quiet: bool,

@@ -1,6 +1,6 @@
 //! Why a grid does not become triangles.
 
-use files::{Exit, Failure, FileError};
+use files::{Exit, Failure, FileError, MemoryError};
 use glam::DVec3;
 use std::io;
 use sweep::grid::file::GridError;
@@ -15,6 +15,9 @@ pub enum TriangulateError {
     /// A file could not be opened or replaced.
     #[error(transparent)]
     File(#[from] FileError),
+    /// The mesh takes more memory than is allowed.
+    #[error(transparent)]
+    Memory(#[from] MemoryError),
     /// The mesh could not be written.
     #[error("cannot write the mesh: {0}")]
     Write(#[source] io::Error),
@@ -127,6 +130,7 @@ impl Failure for TriangulateError {
         match self {
             Self::Grid(error) => error.exit(),
             Self::File(error) => error.exit(),
+            Self::Memory(error) => error.exit(),
             Self::Write(error) if error.kind() == io::ErrorKind::BrokenPipe => Exit::ClosedPipe,
             Self::Write(_) => Exit::ReadWrite,
             Self::Terminal => Exit::Use,

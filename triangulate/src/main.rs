@@ -6,7 +6,8 @@ use clap::Parser;
 use cli::{Arguments, Format};
 use files::exit::say;
 use files::json::Document;
-use files::{Batch, Ledger, Output, Report, exit, input};
+use files::memory::{Reserved, of_process};
+use files::{Batch, Ledger, MemoryError, Output, Report, exit, input};
 use std::io::{BufRead, IsTerminal, Write, stdin, stdout};
 use std::path::Path;
 use std::process::ExitCode;
@@ -24,6 +25,7 @@ fn main() -> ExitCode {
 }
 
 fn work(arguments: &Arguments) -> Result<(), Report> {
+    files::memory::allow(arguments.max_memory);
     arguments.check(stdout().is_terminal())?;
     if input::is_stdin(&arguments.grid) && stdin().is_terminal() {
         return Err(TriangulateError::Terminal.into());
@@ -81,7 +83,7 @@ fn with_areas(
     ledger: &Ledger,
     reader: &mut GridReader<impl BufRead>,
 ) -> Result<Vec<GridMesh>, Report> {
-    let bytes = ledger.argument(areas, "the areas")?;
+    let bytes = ledger.argument_json(areas, "the areas")?;
     let name = input::name_of(areas);
     let document = Document::new(&name, &bytes)?;
     let mut grids = reader.read_rest().map_err(TriangulateError::Grid)?;
@@ -110,6 +112,21 @@ impl<R: BufRead> Grid<'_, R> {
     }
 }
 
+impl<R: BufRead> Grid<'_, R> {
+    /// Takes the memory for a mesh of the first patch, or of all that are in memory.
+    fn reserve_mesh(&self) -> Result<Reserved<'static>, MemoryError> {
+        let points = match self {
+            Self::File(reader) => {
+                let header = reader.header();
+                (header.rows as u64).saturating_mul(header.cols() as u64)
+            }
+            Self::Memory(grids) => grids.iter().map(|grid| grid.positions.len() as u64).sum(),
+        };
+        let what = || format!("a mesh of {points} points");
+        of_process().reserve(TriMesh::bytes_for(points), what)
+    }
+}
+
 /// What is known once the mesh is written.
 struct Written {
     /// The mesh, where it was needed whole.
@@ -126,6 +143,8 @@ fn write(
     out: &mut impl Write,
 ) -> Result<Written, TriangulateError> {
     let (options, format) = (arguments.options(), arguments.format());
+    let whole = format != Format::Obj || arguments.report.is_some();
+    let _reserved = if whole { Some(grid.reserve_mesh()?) } else { None };
     if format == Format::Obj {
         let writer = ObjWriter::with_materials(arguments.mtl_name().as_deref(), out);
         let (writer, mesh, counts) = if arguments.report.is_some() {

@@ -21,6 +21,7 @@
 
 use crate::triangulator::{Counts, Sink};
 use crate::{Material, Triangle};
+use files::words::unseen;
 use std::collections::BTreeSet;
 use std::io::{self, Write};
 use sweep::grid::file::Header;
@@ -163,12 +164,12 @@ impl Backward {
     }
 }
 
-/// The name as one word that no OBJ reader takes apart: blanks, control characters, comment signs
-/// and line continuations become `_`.
+/// The name as one word that no OBJ reader takes apart: blanks, characters that are not seen, comment
+/// signs and line continuations become `_`.
 #[must_use]
 pub fn object_name(name: &str) -> String {
     let safe = |c: char| {
-        if c.is_whitespace() || c.is_control() || matches!(c, '#' | '\\') { '_' } else { c }
+        if c.is_whitespace() || unseen(c) || matches!(c, '#' | '\\') { '_' } else { c }
     };
     if name.is_empty() { "unnamed".into() } else { name.chars().map(safe).collect() }
 }
@@ -180,6 +181,7 @@ mod tests {
     #[test]
     fn a_name_becomes_one_word() {
         assert_eq!(object_name("my vase\t#2\n\\"), "my_vase__2__");
+        assert_eq!(object_name("a\u{1b}[2J\u{202e}b"), "a_[2J_b");
         assert_eq!(object_name(""), "unnamed");
         assert_eq!(object_name("Väse"), "Väse");
     }

@@ -66,6 +66,15 @@ pub struct Run {
 }
 
 impl TriMesh {
+    /// Bytes of the mesh of a grid of so many points at most, while it grows: three arrays of vertices and
+    /// two triangles a cell, in lists that grow by doubling.
+    #[must_use]
+    pub fn bytes_for(points: u64) -> u64 {
+        const VERTEX: u64 = (3 + 2 + 3) * size_of::<f32>() as u64;
+        const CELL: u64 = 2 * size_of::<Triangle>() as u64;
+        points.saturating_mul(2 * (VERTEX + CELL))
+    }
+
     /// The materials of triangles, in the order in which triangles first have them.
     #[must_use]
     pub fn materials(&self) -> Vec<Material> {

@@ -48,8 +48,6 @@ pub struct Entry<'a> {
 pub struct Options {
     /// Pixels across and down of each picture.
     pub size: (u32, u32),
-    /// Memory for textures and their tables, in bytes.
-    pub max_texture_bytes: u64,
     /// Rays along each side of a pixel of a truth, for each of two seeds; 0 for no truths and no errors.
     pub truth: u32,
 }
@@ -73,7 +71,6 @@ pub fn book(
     let run_options = run::Options {
         folder: Default::default(),
         size: options.size,
-        max_texture_bytes: options.max_texture_bytes,
         keep: false,
         clobber: false,
     };

@@ -4,8 +4,10 @@ use super::asked::{Asked, asked};
 use super::work::Work;
 use super::{OTHER_FOLDER, make_folder};
 use clap::Args;
+use files::MemoryError;
 use files::Report;
 use files::exit::say;
+use files::memory::{Reserved, of_process};
 use pipeline::book::{self, Entry, Options};
 use render::progress::Progress;
 use std::path::PathBuf;
@@ -32,8 +34,19 @@ pub struct BookArguments {
     work: Work,
 }
 
+/// Takes the memory for the page: its pictures as PNG files, in base64, and in the text of the page, which
+/// grows by doubling.
+fn reserve_page(jobs: &[Asked], size: (u32, u32)) -> Result<Reserved<'static>, MemoryError> {
+    const OF_PIXEL: u64 = 3 + 4 + 2 * 4;
+    let pictures: u64 = jobs.iter().map(|asked| asked.job.modes.len() as u64).sum();
+    let pixels = u64::from(size.0) * u64::from(size.1) * pictures;
+    let what = || format!("a page with {pictures} pictures of {}x{} pixels", size.0, size.1);
+    of_process().reserve(pixels.saturating_mul(OF_PIXEL), what)
+}
+
 /// Makes the book.
 pub fn book(arguments: &BookArguments) -> Result<(), Report> {
+    arguments.work.limit_memory();
     let ledger = arguments.work.ledger();
     let jobs = if arguments.jobs.is_empty() {
         asked(&["all".to_owned()], &ledger)?
@@ -43,11 +56,7 @@ pub fn book(arguments: &BookArguments) -> Result<(), Report> {
     make_folder(&arguments.output)?;
     let path = arguments.output.join(book::FILE);
     ledger.claim(&path, OTHER_FOLDER)?;
-    let options = Options {
-        size: arguments.size,
-        max_texture_bytes: arguments.work.max_texture_mem,
-        truth: arguments.truth,
-    };
+    let options = Options { size: arguments.size, truth: arguments.truth };
     let names: Vec<String> = jobs.iter().map(Asked::whole).collect();
     let entries: Vec<Entry<'_>> = jobs
         .iter()
@@ -59,6 +68,7 @@ pub fn book(arguments: &BookArguments) -> Result<(), Report> {
             argument,
         })
         .collect();
+    let _reserved = reserve_page(&jobs, arguments.size)?;
     let started = Instant::now();
     let progress = Progress::new("book", arguments.work.quiet);
     let done = AtomicUsize::new(0);

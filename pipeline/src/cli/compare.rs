@@ -55,6 +55,10 @@ pub struct CompareArguments {
     /// Print the numbers as JSON
     #[arg(long)]
     json: bool,
+    /// Memory to take at most, in bytes or with k, M or G; what needs more is refused before it is
+    /// begun [default: 90 % of what is free]
+    #[arg(long, value_name = "BYTES", value_parser = files::memory::bytes)]
+    max_memory: Option<u64>,
     /// Refuse to replace an existing map
     #[arg(long)]
     no_clobber: bool,
@@ -97,6 +101,10 @@ impl Failure for Unequal {
     }
 }
 
+/// Bytes a pixel while pictures are compared: both of them, their differences, sorted once, and the sums of
+/// the similarity.
+const OF_PIXEL: u64 = 2 * 12 + 2 * 8 + 10 * 8;
+
 /// What was measured, in the order in which it is printed.
 #[derive(Debug, Serialize)]
 struct Measures {
@@ -113,6 +121,7 @@ struct Measures {
 
 /// Compares two pictures, draws the map, prints the numbers and holds them against the limits.
 pub fn compare(arguments: &CompareArguments) -> Result<(), Report> {
+    files::memory::allow(arguments.max_memory);
     let (first, second) = (&arguments.first, &arguments.second);
     if input::is_stdin(first) && input::is_stdin(second) {
         return Err(Unequal::TwiceStdin.into());
@@ -125,6 +134,10 @@ pub fn compare(arguments: &CompareArguments) -> Result<(), Report> {
         ledger.claim(path, "name another file with --map")?;
     }
     let [a, b] = read::pair(&ledger, first, second, arguments.crop)?;
+    let pixels = a.pixels.len() as u64;
+    let (width, height) = (a.width, a.height);
+    let what = || format!("comparing pictures of {width}x{height} pixels");
+    let _reserved = files::memory::of_process().reserve(pixels.saturating_mul(OF_PIXEL), what)?;
     let measures = Measures::of(&a, &b, arguments.crop)?;
     if arguments.ssim.is_some() && measures.ssim.is_none() {
         return Err(Unequal::NoSimilarity(a.width, a.height).into());

@@ -20,5 +20,5 @@ pub fn list() -> Result<(), Report> {
     for [name, numbers, title] in &rows {
         text.push_str(&format!("{name:<names$}  {numbers:<figures$}  {title}\n"));
     }
-    Ok(Output::create(Path::new("-"), true)?.commit_all(text.as_bytes())?)
+    Ok(Output::create(Path::new("-"), true)?.commit_all(files::words::printed(&text).as_bytes())?)
 }

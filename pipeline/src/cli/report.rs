@@ -6,15 +6,16 @@ use super::{OTHER_FOLDER, make_folder};
 use clap::Args;
 use cpu_time::ProcessTime;
 use files::exit::say;
+use files::memory::of_process;
 use files::{Batch, Ledger, Output, Report};
 use pipeline::report::measure::{self, Meter};
 use pipeline::report::measured::{PageMeasured, Truth};
 use pipeline::report::{self, Measured, Plan, accompanying, csv};
 use pipeline::run::Options;
 use pipeline::{Job, PipelineError};
-use render::Scene;
 use render::film::{MOST_SAMPLES, memory};
 use render::progress::Progress;
+use render::{Scene, Settings};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -52,6 +53,7 @@ pub struct ReportArguments {
 
 /// Measures the pages that were named and writes what came of it.
 pub fn report(arguments: &ReportArguments) -> Result<(), Report> {
+    arguments.work.limit_memory();
     let ledger = arguments.work.ledger();
     let jobs = jobs(&arguments.pages, &ledger)?;
     let mut plan = if arguments.quick { Plan::quick() } else { Plan::full() };
@@ -60,7 +62,6 @@ pub fn report(arguments: &ReportArguments) -> Result<(), Report> {
     let options = Options {
         folder: arguments.output.clone(),
         size: plan.size,
-        max_texture_bytes: arguments.work.max_texture_mem,
         keep: false,
         clobber: arguments.work.clobber(),
     };
@@ -68,7 +69,8 @@ pub fn report(arguments: &ReportArguments) -> Result<(), Report> {
     let scenes = jobs.iter().map(|asked| {
         let scene = pipeline::run::scene(&asked.job, asked.source, &options, &|_| {})?;
         for &filter in &plan.filters {
-            memory::check(&scene, filter, options.max_texture_bytes)?;
+            let settings = Settings::new(options.size.0, options.size.1, filter);
+            memory::reserve(&scene, &settings, None, of_process()).map(drop)?;
         }
         Ok(scene)
     });

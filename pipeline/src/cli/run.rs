@@ -5,7 +5,7 @@ use super::work::Work;
 use super::{OTHER_FOLDER, make_folder};
 use clap::Args;
 use files::exit::say;
-use files::{Batch, Ledger, Report};
+use files::{Batch, Ledger, Report, input};
 use pipeline::run as of_job;
 use pipeline::run::{Event, Options};
 use pipeline::sheet::Sheet;
@@ -49,6 +49,7 @@ pub struct RunArguments {
 
 /// Does the jobs that were named.
 pub fn run(arguments: &RunArguments) -> Result<(), Report> {
+    arguments.work.limit_memory();
     // Every job is read before the first is done, so that a slip in a name costs no waiting.
     let ledger = arguments.work.ledger();
     let jobs = jobs(arguments, &ledger)?;
@@ -64,7 +65,6 @@ pub fn run(arguments: &RunArguments) -> Result<(), Report> {
     let options = Options {
         folder: arguments.output.clone(),
         size: arguments.size,
-        max_texture_bytes: arguments.work.max_texture_mem,
         keep: arguments.keep,
         clobber: arguments.work.clobber(),
     };
@@ -222,7 +222,7 @@ impl<'a> Talk<'a> {
             Event::Written(path) => {
                 self.clear();
                 let seconds = self.started.elapsed().as_secs_f64();
-                self.say(&format!("{}  {seconds:.2} s", path.display()));
+                self.say(&format!("{}  {seconds:.2} s", input::name_of(path)));
             }
         }
     }

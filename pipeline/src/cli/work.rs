@@ -23,9 +23,10 @@ impl Failure for ThreadsError {
 /// How a command works, whatever it makes.
 #[derive(Debug, Args)]
 pub struct Work {
-    /// Memory for textures and their tables, in bytes or with k, M or G; beyond it nothing is read
-    #[arg(long, value_name = "BYTES", default_value = "2G", value_parser = render::film::memory::bytes)]
-    pub max_texture_mem: u64,
+    /// Memory to take at most, in bytes or with k, M or G; what needs more is refused before it is
+    /// begun [default: 90 % of what is free]
+    #[arg(long, value_name = "BYTES", value_parser = files::memory::bytes)]
+    max_memory: Option<u64>,
     /// Worker threads [default: one for each core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024).map(usize::from))]
     threads: Option<usize>,
@@ -38,6 +39,11 @@ pub struct Work {
 }
 
 impl Work {
+    /// Sets the limit of memory of this process; called before anything is read.
+    pub fn limit_memory(&self) {
+        files::memory::allow(self.max_memory);
+    }
+
     /// Whether existing files may be replaced.
     #[must_use]
     pub fn clobber(&self) -> bool {

@@ -4,23 +4,20 @@
 //! is three equal channels. An EXR file is read as it is: its channels `R`, `G` and `B`, and no layers. A
 //! picture with an alpha channel must be opaque, since what lies behind it is not known.
 
-use files::{Exit, Failure, FileError, Ledger, input};
-use image::{
-    DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, ImageResult, Limits,
-};
+use files::memory::of_process;
+use files::picture::{self, Format, PictureError};
+use files::{Exit, Failure, FileError, Ledger, MemoryError, input};
+use image::{ColorType, DynamicImage};
 use render::Picture;
 use render::color::Encoding;
 use render::film::Crop;
-use std::io::Cursor;
 use std::path::Path;
 use thiserror::Error;
 
-/// Bytes that one picture may take while it is read: 9800 x 9800 pixels.
-const MOST_BYTES: u64 = 4 << 30;
-
-/// What a pixel takes meanwhile: decoded with alpha as `f32` at most, as linear light with alpha, and in the
-/// [`Picture`].
-const BYTES_A_PIXEL: u64 = 16 + 16 + 12;
+/// Bytes a pixel while a picture is read: decoded, as linear light with alpha, and in the [`Picture`].
+fn each(kind: ColorType) -> u64 {
+    u64::from(kind.bytes_per_pixel()) + 16 + 12
+}
 
 /// Why a picture file cannot be compared.
 #[derive(Debug, Error)]
@@ -36,20 +33,9 @@ pub enum ReadError {
         /// What was found, in words.
         found: String,
     },
-    /// It takes too much memory.
-    #[error(
-        "{name}: found {width}x{height} pixels, which take {bytes} bytes to read; expected at most {MOST_BYTES}"
-    )]
-    TooLarge {
-        /// The file.
-        name: String,
-        /// Pixels across.
-        width: u32,
-        /// Pixels down.
-        height: u32,
-        /// Bytes that reading it takes.
-        bytes: u64,
-    },
+    /// It takes more memory than is allowed.
+    #[error(transparent)]
+    Memory(#[from] MemoryError),
     /// A pixel holds what cannot be compared.
     #[error("{name}: found {found} in pixel {},{}, expected {expected}", place.0, place.1)]
     Pixel {
@@ -89,7 +75,7 @@ impl Failure for ReadError {
         match self {
             Self::File(error) => error.exit(),
             Self::NoPicture { .. } | Self::Pixel { .. } => Exit::Malformed,
-            Self::TooLarge { .. } => Exit::Resource,
+            Self::Memory(error) => error.exit(),
             Self::Sizes { .. } | Self::Crop { .. } => Exit::Use,
         }
     }
@@ -146,15 +132,12 @@ pub fn part(whole: &Picture, crop: &Crop) -> Picture {
 /// # Errors
 /// As [`read`], but for reading.
 pub fn decode(name: &str, bytes: &[u8]) -> Result<Picture, ReadError> {
-    let no_picture =
-        |error: ImageError| ReadError::NoPicture { name: name.into(), found: error.to_string() };
-    let decoded = match open(bytes).map_err(no_picture)? {
-        Found::Picture(decoded) => decoded,
-        Found::Nothing(found) => return Err(ReadError::NoPicture { name: name.into(), found }),
-        Found::TooLarge { width, height, bytes } => {
-            return Err(ReadError::TooLarge { name: name.into(), width, height, bytes });
-        }
-    };
+    let (decoded, _reserved) =
+        picture::decode(bytes, &[Format::Png, Format::OpenExr], each, of_process(), || name.into())
+            .map_err(|error| match error {
+                PictureError::Memory(error) => ReadError::Memory(error),
+                error => ReadError::NoPicture { name: name.into(), found: error.to_string() },
+            })?;
     let (width, height) = (decoded.width(), decoded.height());
     let fault = |index: usize, found: String, expected: &'static str| {
         let place = super::error::place(width, index);
@@ -173,41 +156,6 @@ pub fn decode(name: &str, bytes: &[u8]) -> Result<Picture, ReadError> {
         *to = light;
     }
     Ok(picture)
-}
-
-/// What is in the bytes of a file.
-enum Found {
-    Picture(DynamicImage),
-    /// A format that we do not read, or none.
-    Nothing(String),
-    /// Not begun: it would take too much memory.
-    TooLarge {
-        width: u32,
-        height: u32,
-        bytes: u64,
-    },
-}
-
-/// Decodes a file, whose size is looked at first.
-fn open(bytes: &[u8]) -> ImageResult<Found> {
-    let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format()?;
-    match reader.format() {
-        Some(ImageFormat::Png | ImageFormat::OpenExr) => {}
-        Some(other) => return Ok(Found::Nothing(format!("a {} file", other.to_mime_type()))),
-        None if bytes.is_empty() => return Ok(Found::Nothing("an empty file".into())),
-        None => return Ok(Found::Nothing("its first bytes are of no known format".into())),
-    }
-    let mut limits = Limits::no_limits();
-    // What the decoder works with comes on top of the picture.
-    limits.max_alloc = Some(MOST_BYTES);
-    reader.limits(limits);
-    let decoder = reader.into_decoder()?;
-    let (width, height) = decoder.dimensions();
-    let bytes = (u64::from(width) * u64::from(height)).saturating_mul(BYTES_A_PIXEL);
-    if bytes > MOST_BYTES {
-        return Ok(Found::TooLarge { width, height, bytes });
-    }
-    DynamicImage::from_decoder(decoder).map(Found::Picture)
 }
 
 /// Linear red, green, blue and alpha of each pixel.
@@ -231,8 +179,11 @@ fn linear(decoded: DynamicImage) -> Vec<[f32; 4]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use image::{GrayAlphaImage, GrayImage, ImageBuffer, Luma, Rgb, Rgb32FImage, Rgba};
+    use image::{
+        GrayAlphaImage, GrayImage, ImageBuffer, ImageFormat, Luma, Rgb, Rgb32FImage, Rgba,
+    };
     use render::film::encode::{self, Format};
+    use std::io::Cursor;
 
     fn bytes(picture: impl Into<DynamicImage>, format: ImageFormat) -> Vec<u8> {
         let mut bytes = Cursor::new(Vec::new());
@@ -323,11 +274,9 @@ mod tests {
         let sum = crc(&file[12..29]);
         file[29..33].copy_from_slice(&sum.to_be_bytes());
         let error = decode("a.png", &file).unwrap_err();
-        assert_eq!(
-            error.to_string(),
-            "a.png: found 1000000x1000000 pixels, which take 44000000000000 bytes to read; \
-             expected at most 4294967296"
-        );
+        let said = error.to_string();
+        assert!(said.starts_with("a.png: a picture of 1000000x1000000 pixels needs "), "{said}");
+        assert!(said.ends_with("or raise --max-memory"), "{said}");
         assert_eq!(error.exit(), Exit::Resource);
     }
 

@@ -4,6 +4,7 @@
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
+use files::words::printed;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 const STYLE: &str = include_str!("style.css");
@@ -17,7 +18,7 @@ pub fn page(title: &str, body: &Markup) -> String {
 /// The same with more rules of style after those that all pages have.
 #[must_use]
 pub fn styled_page(title: &str, style: &str, body: &Markup) -> String {
-    html! {
+    let text = html! {
         (DOCTYPE)
         html lang="en" {
             head {
@@ -30,7 +31,9 @@ pub fn styled_page(title: &str, style: &str, body: &Markup) -> String {
             body { (body) }
         }
     }
-    .into_string()
+    .into_string();
+    // Titles and texts of jobs are those of strangers, and may turn the direction of what follows.
+    printed(&text).into_owned()
 }
 
 /// The address of a PNG file that is the file itself.

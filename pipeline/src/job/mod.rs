@@ -133,7 +133,7 @@ impl Job {
     /// # Errors
     /// When it cannot be read or is not a job of this version.
     pub fn read(path: &Path, source: &dyn Source) -> Result<Self, PipelineError> {
-        let bytes = source.read(path)?;
+        let bytes = source.read_json(path)?;
         let name = path.display().to_string();
         let folder = path.parent().unwrap_or(Path::new(""));
         let stem = path.file_stem().unwrap_or_default().to_string_lossy();

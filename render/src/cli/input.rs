@@ -3,6 +3,7 @@
 use super::UseError;
 use clap::Args;
 use files::json::Document;
+use files::memory::of_process;
 use files::{FileError, Ledger, Report, input};
 use render::Scene;
 use render::scene::read::{self, Draft};
@@ -61,11 +62,10 @@ impl InputArguments {
     pub fn read_scene<T>(
         &self,
         ledger: &Ledger,
-        max_texture_bytes: u64,
         then: impl FnOnce(&Draft<'_>, Scene) -> Result<T, Report>,
     ) -> Result<T, Report> {
         let name = self.name();
-        let text = ledger.argument(self.scene(), "the scene")?;
+        let text = ledger.argument_json(self.scene(), "the scene")?;
         let document = Document::new(&name, &text)?;
         let file = read::parse(&document)?;
         let folder = match self.scene().parent() {
@@ -74,12 +74,15 @@ impl InputArguments {
         };
         let draft = Draft::gather(&document, &file, folder, ledger)?;
         draft.check_mesh_names(self.meshes.iter().map(|mesh| mesh.name.as_str()))?;
-        let mut given = MeshSource::new();
+        let (mut given, mut kept) = (MeshSource::new(), Vec::new());
         for mesh in &self.meshes {
             let bytes = ledger.argument(&mesh.file, &format!("the mesh {}", mesh.name))?;
-            given.insert(mesh.name.clone(), obj::read(&input::name_of(&mesh.file), &bytes)?);
+            let name = input::name_of(&mesh.file);
+            kept.push(of_process().reserve(obj::needed(&bytes), || format!("mesh {name}"))?);
+            given.insert(mesh.name.clone(), obj::read(&name, &bytes)?);
         }
-        let scene = draft.resolve_within(ledger, given, max_texture_bytes)?;
+        let scene = draft.resolve(ledger, given)?;
+        drop(kept);
         then(&draft, scene)
     }
 

@@ -3,7 +3,7 @@
 use super::{EncodeError, UseError};
 use clap::{Args, ValueEnum};
 use files::extension::{self, WrongExtension};
-use files::{FileError, Ledger, Output, Report, input};
+use files::{FileError, Ledger, Output, Report, input, words};
 use render::Picture;
 use render::color::Encoding;
 use render::film::Layer;
@@ -42,6 +42,13 @@ enum FormatName {
 pub struct Target<'a> {
     path: &'a Path,
     format: Format,
+}
+
+impl Target<'_> {
+    /// The kind of file.
+    pub fn format(&self) -> Format {
+        self.format
+    }
 }
 
 impl OutputArguments {
@@ -100,9 +107,9 @@ impl OutputArguments {
     }
 }
 
-/// Prints text on standard output.
+/// Prints text on standard output; what would steer a terminal is spelled out.
 pub fn print(text: &str) -> Result<(), FileError> {
-    Output::create(Path::new("-"), true)?.commit_all(text.as_bytes())
+    Output::create(Path::new("-"), true)?.commit_all(words::printed(text).as_bytes())
 }
 
 fn gamma_argument(text: &str) -> Result<Encoding, String> {

@@ -8,9 +8,6 @@ pub struct TextureArguments {
     /// How textures are averaged
     #[arg(long, default_value = "tent")]
     filter: FilterName,
-    /// Memory for textures and their tables, in bytes or with k, M or G; beyond it nothing is read
-    #[arg(long, value_name = "BYTES", default_value = "2G", value_parser = render::film::memory::bytes)]
-    pub max_texture_mem: u64,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]

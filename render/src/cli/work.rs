@@ -15,6 +15,10 @@ pub struct WorkArguments {
     /// Worker threads, 1 to 1024 [default: one for each core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024).map(usize::from))]
     threads: Option<usize>,
+    /// Memory to take at most, in bytes or with k, M or G; what needs more is refused before it is
+    /// begun [default: 90 % of what is free]
+    #[arg(long, value_name = "BYTES", value_parser = files::memory::bytes)]
+    pub max_memory: Option<u64>,
     /// Print counts of rays, hits and texels and the time of each stage on standard error
     #[arg(long, value_name = "AS", num_args = 0..=1, require_equals = true, default_missing_value = "text")]
     stats: Option<StatsForm>,

@@ -1,92 +1,82 @@
-//! Whether the textures of a picture fit the memory that they may take.
+//! The memory that a picture takes, worked out from sizes before anything of it is made.
 
-use crate::filter::Filter;
+use super::encode::Format;
+use super::{Crop, Layer, Settings};
 use crate::scene::Scene;
-use files::{Exit, Failure};
-use thiserror::Error;
+use files::memory::{Budget, MemoryError, Reserved};
 
-/// Texels and tables take more memory than is allowed.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error(
-    "texture {name}: with the {filter} filter its {width} x {height} texels take {bytes} bytes, and all textures {sum}; expected at most {limit} (--max-texture-mem)"
-)]
-pub struct TextureMemoryError {
-    /// The texture whose table is too large, or the last of several that are together.
-    pub name: String,
-    /// The filter's name.
-    pub filter: String,
-    /// Texels across.
-    pub width: usize,
-    /// Texels down.
-    pub height: usize,
-    /// Its texels and table.
-    pub bytes: u64,
-    /// Those of all textures up to it.
-    pub sum: u64,
-    /// What is allowed.
-    pub limit: u64,
-}
+/// Bytes a triangle: as a mesh with vertices of its own (88), in what finds hits (a tree measures 130 and
+/// takes as much again while it is built), and in charts, which textured meshes have.
+const OF_TRIANGLE: u64 = 600;
 
-impl Failure for TextureMemoryError {
-    fn exit(&self) -> Exit {
-        Exit::Resource
-    }
-}
-
-/// Checks, before anything is built, that the texels of all textures and the tables or pyramids of
-/// those that are shown take at most `limit` bytes.
+/// Takes the memory for a scene that was read and for its picture: textures, their tables or pyramids
+/// where some surface shows them, meshes and what finds hits, the pixels with all layers, and the file
+/// of the given format, if one is made.
+///
+/// Work for single rays and tiles is not in it; it is small.
 ///
 /// # Errors
-/// With the first texture that does not fit.
-pub fn check(scene: &Scene, filter: Filter, limit: u64) -> Result<(), TextureMemoryError> {
-    let mut sum = scene.texture_bytes();
+/// With the first of these for which there is no memory beside the others.
+pub fn reserve<'b>(
+    scene: &Scene,
+    settings: &Settings,
+    format: Option<Format>,
+    budget: &'b Budget,
+) -> Result<Reserved<'b>, MemoryError> {
+    let filter = settings.filter;
+    let mut reserved = budget.reserve(scene.texture_bytes(), || "the scene's textures".into())?;
     for (texture, shown) in scene.textures.iter().zip(scene.shown_textures()) {
         let table = if shown { filter.bytes_for(texture) } else { 0 };
-        sum = sum.saturating_add(table);
-        if sum > limit {
-            return Err(TextureMemoryError {
-                name: texture.name.clone(),
-                filter: filter.to_string(),
-                width: texture.width,
-                height: texture.height,
-                bytes: texture.bytes().saturating_add(table),
-                sum,
-                limit,
-            });
-        }
+        reserved.grow(table, || {
+            let (width, height) = (texture.width, texture.height);
+            let name = files::words::shown(&texture.name);
+            format!("texture {name}: what the {filter} filter makes of its {width}x{height} texels")
+        })?;
     }
-    Ok(())
+    reserved.grow(scene.procedural.lattice_bytes(), || "noise".into())?;
+    let triangles = scene.triangles();
+    let meshes = || format!("the scene with its {triangles} triangles");
+    reserved.grow(triangles.saturating_mul(OF_TRIANGLE), meshes)?;
+    let crop = Crop::of(settings);
+    let pixels = u64::from(crop.width) * u64::from(crop.height);
+    let channels = settings.layers.iter().map(|layer| layer.channels().len()).sum();
+    let picture = pixels.saturating_mul(of_pixel(channels, format));
+    reserved.grow(picture, || of_size(&crop, &settings.layers))?;
+    Ok(reserved)
 }
 
-/// Reads a number of bytes, such as `500000`, `64k`, `512M` or `2G`; the letters stand for powers
-/// of 1024.
-///
-/// # Errors
-/// On anything else, and beyond 64 bits.
-pub fn bytes(text: &str) -> Result<u64, String> {
-    let (digits, shift) = match text.char_indices().last() {
-        Some((at, 'k' | 'K')) => (&text[..at], 10),
-        Some((at, 'm' | 'M')) => (&text[..at], 20),
-        Some((at, 'g' | 'G')) => (&text[..at], 30),
-        _ => (text, 0),
-    };
-    let plain = !digits.is_empty() && digits.bytes().all(|digit| digit.is_ascii_digit());
-    let number = digits.parse::<u64>().ok().filter(|_| plain);
-    number
-        .and_then(|number| number.checked_mul(1 << shift))
-        .ok_or_else(|| "expected a number of bytes, or one with k, M or G such as 512M".into())
+/// Bytes a pixel with this many numbers besides its colour, the making of its file included.
+#[must_use]
+pub fn of_pixel(channels: usize, format: Option<Format>) -> u64 {
+    let linear = 12 + 4 * channels as u64;
+    match format {
+        None => linear,
+        // Bytes of three channels, once as a picture and at most twice as a growing file.
+        Some(Format::Png) => linear + 3 * 3,
+        // The channels sorted, and a file that compression may not make smaller.
+        Some(Format::Exr) => 3 * linear,
+    }
+}
+
+/// A picture in words.
+fn of_size(crop: &Crop, layers: &[Layer]) -> String {
+    let size = format!("a picture of {}x{} pixels", crop.width, crop.height);
+    match layers.len() {
+        0 => size,
+        1 => format!("{size} with a layer"),
+        count => format!("{size} with {count} layers"),
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::bytes;
+    use super::*;
 
     #[test]
-    fn sizes_of_memory_have_letters() {
-        let sizes = ["0", "17", "3k", "2M", "1G"].map(|text| bytes(text).unwrap());
-        assert_eq!(sizes, [0, 17, 3 << 10, 2 << 20, 1 << 30]);
-        for bad in ["", "k", "-1", "+1", "1.5G", "1T", "99999999999G", "2 G", "G2"] {
-            assert!(bytes(bad).is_err(), "{bad}");
-        }
+    fn a_pixel_with_all_layers_has_twelve_numbers() {
+        let channels: usize = Layer::ALL.iter().map(|layer| layer.channels().len()).sum();
+        assert_eq!(of_pixel(channels, None), 12 * 4);
+        assert_eq!(of_pixel(channels, Some(Format::Exr)), 3 * 48);
+        assert_eq!(of_pixel(0, Some(Format::Png)), 21);
     }
 }

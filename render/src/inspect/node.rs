@@ -73,7 +73,8 @@ fn piece(scene: &Scene, node: &Node) -> String {
     let kind = scene.objects[index].shape.kind();
     match scene.names.objects.get(index) {
         Some(Some(name)) => {
-            format!("object {index}, {kind} {name:?}, triangle {}", node.piece.triangle)
+            let name = files::words::shown(name);
+            format!("object {index}, {kind} \"{name}\", triangle {}", node.piece.triangle)
         }
         _ if kind == "mesh" => format!("object {index}, {kind}, triangle {}", node.piece.triangle),
         _ => format!("object {index}, {kind}"),
@@ -81,7 +82,9 @@ fn piece(scene: &Scene, node: &Node) -> String {
 }
 
 fn named(names: &[String], index: usize) -> String {
-    names.get(index).map_or_else(|| index.to_string(), |name| format!("{name:?}"))
+    names
+        .get(index)
+        .map_or_else(|| index.to_string(), |name| format!("\"{}\"", files::words::shown(name)))
 }
 
 /// What a node sees of its texture, and why it is a point if it is one.

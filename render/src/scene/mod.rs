@@ -61,6 +61,16 @@ impl Scene {
         self.textures.iter().map(Texture::bytes).sum()
     }
 
+    /// Triangles of all meshes.
+    #[must_use]
+    pub fn triangles(&self) -> u64 {
+        let meshes = self.objects.iter().filter_map(|object| match &object.shape {
+            Shape::Mesh(mesh) => Some(mesh.triangles.len() as u64),
+            _ => None,
+        });
+        meshes.sum()
+    }
+
     /// Which textures some surface shows.
     #[must_use]
     pub fn shown_textures(&self) -> Vec<bool> {

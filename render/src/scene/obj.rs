@@ -9,7 +9,7 @@
 mod reader;
 
 use crate::shape::Mesh;
-use crate::shape::mesh::MeshError;
+use crate::shape::mesh::{MeshError, Triangle};
 use files::{Exit, Failure};
 use reader::Reader;
 use thiserror::Error;
@@ -111,6 +111,23 @@ pub fn read(file: &str, bytes: &[u8]) -> Result<Mesh, ObjError> {
     Ok(mesh)
 }
 
+/// Bytes that a mesh of this text takes at most while it is read: its vertices and triangles by the
+/// number of lines that begin them, twice, since lists grow by doubling.
+#[must_use]
+pub fn needed(bytes: &[u8]) -> u64 {
+    const VERTEX: u64 = size_of::<[f32; 3]>() as u64 + 1;
+    // A quadrangle is two triangles.
+    const FACE: u64 = 2 * size_of::<Triangle>() as u64;
+    const NAME: u64 = size_of::<String>() as u64 + 32;
+    let lines = bytes.split(|&byte| byte == b'\n').map(|line| match line.trim_ascii_start() {
+        [b'f', ..] => FACE,
+        [b'v', ..] => VERTEX,
+        [b'u', ..] => NAME + line.len() as u64,
+        _ => 0,
+    });
+    2 * lines.sum::<u64>()
+}
+
 /// The texture id and the surface id in a name like `tex2_surf0`, if it is one.
 #[must_use]
 pub fn ids(name: &str) -> Option<[&str; 2]> {
@@ -132,13 +149,11 @@ fn closing_comment<'a>(file: &str, text: &'a str) -> Result<Option<&'a str>, Obj
     Err(ObjError::NotFinished { file: file.into(), found })
 }
 
-/// The line, or its beginning where it is long.
+/// The line, or its beginning where it is long; what is not seen of it is spelled out.
 pub(super) fn shortened(line: &str) -> String {
-    let mut text: String = line.chars().take(60).collect();
-    if text.len() < line.len() {
-        text.push_str("...");
-    }
-    text
+    let start: String = line.chars().take(60).collect();
+    let end = if start.len() < line.len() { "..." } else { "" };
+    format!("{}{end}", files::words::shown(&start))
 }
 
 #[cfg(test)]

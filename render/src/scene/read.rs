@@ -24,14 +24,12 @@ use crate::color::Color;
 use crate::procedural::{NoiseLattice, Procedural};
 use crate::shape::Mesh;
 use crate::shape::mesh::MeshError;
-use crate::texture::USUAL_MEMORY;
 use draft::Indices;
 use files::json::Document;
-use files::{Exit, Failure, FileError, JsonError, Source};
+use files::{Budget, Exit, Failure, FileError, JsonError, MemoryError, Source, memory};
 use given::Given;
 use glam::DVec3;
 use libraries::Libraries;
-use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
@@ -50,9 +48,12 @@ pub enum SceneError {
     /// A file that the scene names cannot be read, with the exit code of the reason.
     #[error("{0}")]
     Named(JsonError, Exit),
-    /// A texture takes more memory than is allowed.
+    /// A file that the scene names takes more memory than is allowed.
     #[error(transparent)]
     TooLarge(JsonError),
+    /// The scene takes more memory than is allowed.
+    #[error(transparent)]
+    Memory(#[from] MemoryError),
     /// A mesh file is wrong.
     #[error(transparent)]
     Obj(#[from] ObjError),
@@ -92,6 +93,7 @@ impl Failure for SceneError {
             Self::File(error) => error.exit(),
             Self::Named(_, exit) => *exit,
             Self::TooLarge(_) => Exit::Resource,
+            Self::Memory(error) => error.exit(),
             Self::UnknownMesh { .. } | Self::MissingMesh { .. } => Exit::Use,
             _ => Exit::Malformed,
         }
@@ -132,11 +134,11 @@ impl Draft<'_> {
     /// # Errors
     /// On the first thing that is wrong, with its place.
     pub fn resolve(&self, source: &dyn Source, given: MeshSource) -> Result<Scene, SceneError> {
-        self.resolve_within(source, given, USUAL_MEMORY)
+        self.resolve_within(source, given, memory::of_process())
     }
 
-    /// The same with this much memory for textures, in bytes, in place of [`USUAL_MEMORY`]. Pictures
-    /// are measured before they are decoded.
+    /// As [`Draft::resolve`], with memory from `budget` in place of that of the process. Pictures and
+    /// meshes are measured before they are decoded.
     ///
     /// # Errors
     /// As above.
@@ -144,13 +146,13 @@ impl Draft<'_> {
         &self,
         source: &dyn Source,
         given: MeshSource,
-        max_texture_bytes: u64,
+        budget: &Budget,
     ) -> Result<Scene, SceneError> {
         self.check_mesh_names(given.keys().map(String::as_str))?;
         let sheets = self.sheets()?;
         let indices = Indices::of(&sheets)?;
         let lattice = OnceLock::new();
-        let memory = Memory { limit: max_texture_bytes, kept: Cell::new(0) };
+        let memory = Memory::new(budget);
         let readers: Vec<Reader<'_>> = sheets
             .iter()
             .map(|sheet| Reader {
@@ -203,7 +205,7 @@ impl Draft<'_> {
             source: &files::Embedded(&[]),
             indices: &indices,
             lattice: &OnceLock::new(),
-            memory: &Memory { limit: 0, kept: Cell::new(0) },
+            memory: &Memory::new(memory::of_process()),
         };
         reader.within("max_depth", f64::from(file.max_depth), 0.0, f64::from(DEEPEST))?;
         Ok(Scene {
@@ -232,7 +234,7 @@ struct Reader<'a> {
     indices: &'a Indices<'a>,
     /// What noise is made of, once something asks for it.
     lattice: &'a OnceLock<Arc<NoiseLattice>>,
-    memory: &'a Memory,
+    memory: &'a Memory<'a>,
 }
 
 impl Reader<'_> {
@@ -242,10 +244,7 @@ impl Reader<'_> {
 
     /// The file that the scene names at `place`.
     fn named_file(&self, place: &str, path: &Path) -> Result<Vec<u8>, SceneError> {
-        let named = |error: FileError| {
-            SceneError::Named(self.document.fault(place, error.to_string()), error.exit())
-        };
-        self.source.read(path).map_err(named)
+        self.source.read(path).map_err(|error| named(self.document, place, &error))
     }
 
     /// The value, if it lies in the closed range.
@@ -308,6 +307,16 @@ impl Reader<'_> {
                 "found an eye at its target, or an up along the view; expected three directions apart",
             ),
         }
+    }
+}
+
+/// What is said of a file that `document` names at `place` and that cannot be read.
+fn named(document: &Document<'_>, place: &str, error: &FileError) -> SceneError {
+    let fault = document.fault(place, error.to_string());
+    if matches!(error, FileError::Memory(_)) {
+        SceneError::TooLarge(fault)
+    } else {
+        SceneError::Named(fault, error.exit())
     }
 }
 

@@ -131,3 +131,9 @@ impl GridMesh {
         self.u.len()
     }
 }
+/// Bytes of the points and normals of a grid.
+#[must_use]
+pub fn bytes(rows: usize, cols: usize) -> u64 {
+    const POINT: u64 = (size_of::<DVec3>() + size_of::<Vec3>()) as u64;
+    (rows as u64).saturating_mul(cols as u64).saturating_mul(POINT)
+}

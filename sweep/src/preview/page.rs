@@ -1,5 +1,6 @@
 //! A page of SVG: shapes and words, by pixel coordinates with y down.
 
+use files::words::unseen;
 use glam::{DVec2, DVec3};
 use std::fmt::Write;
 
@@ -215,8 +216,8 @@ fn escaped(text: &str) -> String {
             '<' => out.push_str("&lt;"),
             '>' => out.push_str("&gt;"),
             '"' => out.push_str("&quot;"),
-            // XML knows no control characters, and not these two.
-            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => out.push('\u{fffd}'),
+            // XML knows no control characters, and not these two; others turn text around.
+            c if unseen(c) || matches!(c, '\u{fffe}' | '\u{ffff}') => out.push('\u{fffd}'),
             c => out.push(c),
         }
     }

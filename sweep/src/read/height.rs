@@ -7,15 +7,21 @@ use crate::height::{Axis, HeightMap};
 use crate::profile::Profile;
 use crate::spec::DepthImage;
 use crate::trajectory::Trajectory;
-use files::Failure;
-use image::{ImageFormat, ImageReader};
-use std::io::Cursor;
+use files::picture::{self, Format, PictureError};
+use files::{Failure, FileError, input, memory};
+use image::ColorType;
 
 /// Texels of a picture at most, each of which takes 8 bytes.
 const MOST_TEXELS: u64 = 1 << 24;
 
 /// Repeats at most, so that a texel is still a place that a double tells from the next.
 const MOST_REPEATS: f64 = 1e6;
+
+/// Bytes a texel while heights are made: as decoded, as three 16-bit codes, as a number, and as a column
+/// and a row of coefficients at most.
+fn each(kind: ColorType) -> u64 {
+    u64::from(kind.bytes_per_pixel()) + 6 + 8 + 16
+}
 
 impl Reader<'_> {
     /// The heights on a surface.
@@ -60,22 +66,33 @@ impl Reader<'_> {
     fn greys(&self, file: &str) -> Result<([usize; 2], Vec<f64>), SweepError> {
         let place = "depth.image.file";
         let path = self.folder.join(file);
-        let name = path.display();
+        let name = input::name_of(&path);
         let bytes = self.source.read(&path).map_err(|error| {
-            SweepError::Named(self.document.fault(place, error.to_string()), error.exit())
+            let fault = self.document.fault(place, error.to_string());
+            match error {
+                FileError::Memory(_) => SweepError::TooLarge(fault),
+                error => SweepError::Named(fault, error.exit()),
+            }
         })?;
-        let reader = || ImageReader::with_format(Cursor::new(&bytes), ImageFormat::Png);
-        let broken = |error: image::ImageError| {
-            self.fault(place, format!("found no picture in {name} ({error}), expected a PNG file"))
+        let broken = |error: PictureError| match error {
+            PictureError::Memory(error) => {
+                SweepError::TooLarge(self.document.fault(place, error.to_string()))
+            }
+            error => self
+                .fault(place, format!("found no picture in {name} ({error}), expected a PNG file")),
         };
-        let (width, height) = reader().into_dimensions().map_err(broken)?;
+        let (width, height) = picture::size(&bytes, &[Format::Png]).map_err(broken)?;
         if u64::from(width) * u64::from(height) > MOST_TEXELS {
             let message = format!(
                 "found {width} x {height} texels in {name}, expected at most {MOST_TEXELS}"
             );
             return Err(SweepError::TooLarge(self.document.fault(place, message)));
         }
-        let picture = reader().decode().map_err(broken)?.into_rgb16();
+        let budget = memory::of_process();
+        let (picture, _reserved) =
+            picture::decode(&bytes, &[Format::Png], each, budget, || name.clone())
+                .map_err(broken)?;
+        let picture = picture.into_rgb16();
         if let Some((x, y, _)) =
             picture.enumerate_pixels().find(|(.., p)| p.0[0] != p.0[1] || p.0[1] != p.0[2])
         {

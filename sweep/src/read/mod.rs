@@ -49,6 +49,9 @@ struct Reader<'a> {
     prefix: String,
 }
 
+/// Bytes of a name at most.
+const LONGEST_NAME: usize = 1000;
+
 impl Reader<'_> {
     fn sweep(&self, spec: Spec) -> Result<Sweep, SweepError> {
         self.header(&spec)?;
@@ -89,7 +92,7 @@ impl Reader<'_> {
         if let Some(fault) = sweep.resolution_fault() {
             return Err(self.of_mesh(self.rather, fault));
         }
-        let sweep = sweep.fitted();
+        let sweep = sweep.fitted()?;
         self.areas(&sweep.areas, &sweep).map(|()| sweep)
     }
 
@@ -110,6 +113,11 @@ impl Reader<'_> {
         let blank = |c: char| c.is_whitespace() || c.is_control();
         if name.is_empty() || name.contains(blank) {
             return Err(self.fault("name", format!("found {name:?}, expected one word")));
+        }
+        // A name is in the header of a grid, whose length readers bound.
+        if name.len() > LONGEST_NAME {
+            let message = format!("found {} bytes, expected at most {LONGEST_NAME}", name.len());
+            return Err(self.fault("name", message));
         }
         Ok(())
     }

@@ -27,6 +27,7 @@ pub mod unused;
 use super::Scene;
 use super::read::{Draft, SceneError};
 use crate::texture::Texture;
+use files::words;
 use std::cmp::Reverse;
 use std::fmt::{self, Display};
 use subject::Subject;
@@ -94,8 +95,10 @@ impl Report {
 
 impl Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.inventory.iter().try_for_each(|line| writeln!(f, "{line}"))?;
-        self.findings.iter().try_for_each(|finding| writeln!(f, "{finding}"))
+        let findings = self.findings.iter().map(Finding::to_string);
+        // Names are those of files: none of them may begin a line or fill a page.
+        let mut lines = self.inventory.iter().cloned().chain(findings);
+        lines.try_for_each(|line| writeln!(f, "{}", words::line(&line)))
     }
 }
 

@@ -60,7 +60,8 @@ impl Reader<'_> {
             self.within(&format!("{at}.repeat[{k}]"), repeat, 1e-6, 1e6)?;
         }
         let place = format!("{at}.file");
-        let picture = self.picture(&place, &self.folder.join(&file.file))?.into_luma16();
+        let (picture, _reserved) = self.picture(&place, &self.folder.join(&file.file))?;
+        let picture = picture.into_luma16();
         let values = picture.pixels().map(|pixel| f64::from(pixel.0[0]) / f64::from(u16::MAX));
         let width = picture.width() as usize;
         match Heights::new(values.collect(), width, file.repeat.into(), file.mirror) {

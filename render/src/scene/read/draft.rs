@@ -1,10 +1,10 @@
 //! A scene's texts: its own, and those of the parts that it includes.
 
-use super::SceneError;
+use super::{SceneError, named};
 use crate::scene::SurfaceTexture;
 use crate::scene::file::{Lists, MeshFile, ObjectFile, PART_FORMAT, PartFile, SceneFile, VERSION};
 use files::json::{Document, nearest};
-use files::{Failure, JsonError, Source, input};
+use files::{JsonError, Source, input};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -129,7 +129,7 @@ impl Gathering<'_> {
             let place = format!("include[{k}]");
             let refuse = |message: String| Err(SceneError::Json(document.fault(&place, message)));
             let path = input::normalized(&folder.join(path));
-            let name = path.display().to_string();
+            let name = input::name_of(&path);
             if self.way.contains(&path) {
                 return refuse(format!("found {name}, which includes itself; expected no circle"));
             }
@@ -138,9 +138,8 @@ impl Gathering<'_> {
                     "found files included by files more than {DEEPEST_INCLUDE} deep"
                 ));
             }
-            let bytes = self.source.read(&path).map_err(|error| {
-                SceneError::Named(document.fault(&place, error.to_string()), error.exit())
-            })?;
+            let bytes =
+                self.source.read_json(&path).map_err(|error| named(document, &place, &error))?;
             // A folder reached by a link may give two files one path; those are not the same.
             if self.parts.iter().any(|part| part.path == path && part.bytes == bytes) {
                 continue;

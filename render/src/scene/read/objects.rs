@@ -138,7 +138,9 @@ impl Reader<'_> {
             (None, Some(path)) => {
                 let path = self.folder.join(path);
                 let bytes = self.named_file(&format!("{at}.file"), &path)?;
-                obj::read(&path.display().to_string(), &bytes)?
+                let name = files::input::name_of(&path);
+                self.memory.keep(obj::needed(&bytes), || format!("mesh {name}"))?;
+                obj::read(&name, &bytes)?
             }
             (None, None) => {
                 return Err(SceneError::MissingMesh {

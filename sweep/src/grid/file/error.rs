@@ -2,7 +2,7 @@
 
 use super::Patch;
 use files::input::STDIN;
-use files::{Exit, Failure, JsonError};
+use files::{Exit, Failure, JsonError, MemoryError};
 use std::io;
 use thiserror::Error;
 
@@ -17,6 +17,9 @@ pub enum GridError {
         /// What the system said.
         source: io::Error,
     },
+    /// The rows take more memory than is allowed.
+    #[error(transparent)]
+    Memory(#[from] MemoryError),
     /// There is not one byte.
     #[error("{name} is empty, expected a grid: {} wrote nothing", writer_of(name))]
     Empty {
@@ -174,6 +177,7 @@ impl Failure for GridError {
     fn exit(&self) -> Exit {
         match self {
             Self::Read { .. } => Exit::ReadWrite,
+            Self::Memory(error) => error.exit(),
             _ => Exit::Malformed,
         }
     }

@@ -2,7 +2,8 @@
 
 use super::{Encoding, Footer, GridError, Header, Patch, binary, header, text};
 use crate::GridMesh;
-use crate::grid::Row;
+use crate::grid::{self, Row};
+use files::memory;
 use glam::{DVec3, Vec3};
 use std::io::{self, BufRead, Read};
 
@@ -61,6 +62,12 @@ pub fn read_all(name: &str, input: impl BufRead) -> Result<Vec<GridMesh>, GridEr
 /// The patch that a reader stands at.
 fn rest_of(reader: &mut GridReader<impl BufRead>) -> Result<GridMesh, GridError> {
     let (mut v, mut positions, mut normals) = (Vec::new(), Vec::new(), Vec::new());
+    // Asked for what the header promises; taken for what comes, which doubling makes up to twice that.
+    let (rows, cols) = (reader.header.rows, reader.header.cols());
+    let _reserved = memory::of_process()
+        .reserve(grid::bytes(rows, cols).saturating_mul(2), || {
+            format!("{}: a grid of {rows} x {cols} points", reader.label)
+        })?;
     while let Some(row) = reader.next_row()? {
         v.push(row.v);
         positions.extend_from_slice(row.positions);

@@ -1,0 +1,30 @@
+//! What the decoder of an EXR file unpacks, by its header.
+
+use exr::meta::MetaData;
+
+/// The layer of a file that takes most memory.
+pub(super) struct Unpacked {
+    /// Pixels of the data window across.
+    pub width: u64,
+    /// Pixels of the data window down.
+    pub height: u64,
+    /// Channels, read or not.
+    pub channels: usize,
+    /// Bytes of all its pixels.
+    pub bytes: u64,
+}
+
+/// The largest layer of the file; an error is the decoder's sentence.
+///
+/// Blocks are unpacked one after another, and one block may be all of the layer. Compressed samples of
+/// B44 and PXR24 pass through a second buffer of the same size.
+pub(super) fn unpacked(file: &[u8]) -> Result<Unpacked, String> {
+    let meta = MetaData::read_from_buffered(file, false).map_err(|error| error.to_string())?;
+    let layers = meta.headers.iter().map(|header| {
+        let (width, height) = (header.layer_size.width() as u64, header.layer_size.height() as u64);
+        let pixel = header.channels.bytes_per_pixel as u64;
+        let bytes = width.saturating_mul(height).saturating_mul(pixel).saturating_mul(2);
+        Unpacked { width, height, channels: header.channels.list.len(), bytes }
+    });
+    layers.max_by_key(|layer| layer.bytes).ok_or_else(|| "no layers".into())
+}
