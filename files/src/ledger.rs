@@ -219,7 +219,7 @@ fn spelling_of(key: &Identity) -> Option<(Number, String)> {
     match key {
         Identity::There(_) => None,
         Identity::Name { folder, name } => {
-            Some((folder.clone(), name.to_string_lossy().to_lowercase()))
+            Some((*folder, name.to_string_lossy().to_lowercase()))
         }
     }
 }
