@@ -1,5 +1,7 @@
 //! Integration tests of `render`: one binary, a module for each subject.
 
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
 mod bench;
 mod check;
 mod cli;

@@ -1,5 +1,7 @@
 //! Integration tests of `triangulate`: one binary, a module for each subject.
 
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
 mod areas;
 mod binary;
 mod cli;
