@@ -248,6 +248,31 @@ fn libraries_do_not_print() {
     }
 }
 
+/// Clashes are found because every file of a program goes through its ledger.
+#[test]
+fn programs_open_files_only_through_the_ledger() {
+    let doors = ["Disk", "File::", "fs::read", "fs::write", "OpenOptions", "Output::check"];
+    let programs = ["sweep/src/main.rs", "triangulate/src/main.rs", "triangulate/src/cli.rs"];
+    let programs = programs.map(String::from).into_iter();
+    let cli = |file: &String| file.contains("/cli.rs") || file.contains("/cli/");
+    let rooms = ["render/src", "pipeline/src"].into_iter().flat_map(rust_files).filter(cli);
+    for file in programs.chain(rooms) {
+        let code = without_tests(&code(&read(&file)));
+        for door in doors {
+            let past = code.match_indices(door).any(|(at, _)| {
+                !code[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_')
+            });
+            assert!(!past, "{file}: found {door}, expected the ledger");
+        }
+        // Standard output clashes with no file, and the numbers of a report are claimed before.
+        for (at, _) in code.match_indices("Output::create(") {
+            let rest = &code[at + "Output::create(".len()..];
+            let allowed = rest.starts_with("Path::new(") || file == "pipeline/src/cli/report.rs";
+            assert!(allowed, "{file}: found an output that is not claimed");
+        }
+    }
+}
+
 /// The module of a file under `src`: `filter/axis.rs` is `filter::axis`, `filter/mod.rs` `filter`.
 fn module_of(file: &str) -> Vec<String> {
     let path = file.trim_end_matches(".rs").trim_end_matches("/mod");

@@ -1,5 +1,7 @@
 //! No output destroys an input, by whatever name it is called; nor does its name lie.
 
+#![cfg(unix)]
+
 use crate::support::{programs, root, run, words};
 use std::fs;
 use std::path::Path;
@@ -55,7 +57,7 @@ fn inputs() -> TempDir {
         ("part.json", PART),
         ("job.json", JOB),
         ("areas.json", AREAS),
-        ("rod.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n"),
+        ("rod.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl red\nf 1/1 2/1 3/1\n"),
         ("rod.mtl", "newmtl red\nKd 1 0 0\nmap_Kd painted.png\n"),
     ] {
         fs::write(path(name), text).unwrap();
