@@ -76,6 +76,14 @@ impl Child {
         Ok(answer)
     }
 
+    /// Starts the process, if there is none.
+    ///
+    /// # Errors
+    /// When it cannot be started.
+    pub fn start(&mut self) -> Result<(), FuzzError> {
+        self.running().map(|_| ())
+    }
+
     fn running(&mut self) -> Result<&mut Running, FuzzError> {
         Ok(match self.0.take() {
             Some(running) => self.0.insert(running),

@@ -162,7 +162,7 @@ fn single(arguments: &Arguments, bytes: &[u8], what: &str) -> Result<usize, Fuzz
     let cost = format!("{:.3} s, {} MB", time.as_secs_f64(), memory >> 20);
     let (words, faults) = match verdict {
         Verdict::Accepted => ("accepted".into(), 0),
-        Verdict::Refused => ("refused".into(), 0),
+        Verdict::Refused(message) => (format!("refused: {message}"), 0),
         Verdict::Fault(fault) => (format!("{}: {}", fault.kind, fault.text), 1),
     };
     print(&format!("{what}: {words} ({cost})\n"))?;

@@ -95,7 +95,11 @@ impl Reply {
         let memory = words.next()?.parse().ok()?;
         let verdict = match first {
             "ok" => Verdict::Accepted,
-            "no" => Verdict::Refused,
+            "no" => {
+                // A kind stands here of faults only.
+                words.next()?;
+                Verdict::Refused(words.next()?.into())
+            }
             "bad" => {
                 let kind = Kind::named(words.next()?)?;
                 Verdict::Fault(Fault { kind, text: words.next()?.into() })
@@ -114,7 +118,7 @@ impl Display for Reply {
                 let cost = format!("{} {memory}", time.as_micros());
                 match verdict {
                     Verdict::Accepted => write!(f, "ok {cost}"),
-                    Verdict::Refused => write!(f, "no {cost}"),
+                    Verdict::Refused(message) => write!(f, "no {cost} - {message}"),
                     Verdict::Fault(fault) => write!(f, "bad {cost} {} {}", fault.kind, fault.text),
                 }
             }
@@ -136,7 +140,8 @@ mod tests {
             assert_eq!(Request::read(&request.to_string()), Some(request));
         }
         let fault = Fault::new(Kind::Panic, "a.rs:7: index 3\nof 2");
-        for verdict in [Verdict::Accepted, Verdict::Refused, Verdict::Fault(fault)] {
+        let refused = Verdict::Refused("found no v".into());
+        for verdict in [Verdict::Accepted, refused, Verdict::Fault(fault)] {
             let answer = Answer { verdict, time: Duration::from_micros(81), memory: 5 };
             let reply = Reply::Answer(answer);
             assert_eq!(Reply::read(&reply.to_string()), Some(reply));

@@ -3,9 +3,11 @@
 use crate::child::Child;
 use crate::cli::FuzzError;
 use crate::minimize;
+use crate::mutate::grid;
 use crate::protocol::Answer;
 use crate::reader::Reader;
 use crate::schedule::{Schedule, Until};
+use crate::seeds::png;
 use crate::tally::Tally;
 use crate::verdict::Verdict;
 use std::sync::{Mutex, PoisonError};
@@ -24,6 +26,7 @@ pub fn run(readers: &[Reader], seed: u64, until: Until, jobs: usize) -> Result<T
         loop {
             let next = schedule.lock().unwrap_or_else(PoisonError::into_inner).next();
             let Some(run) = next else { return Ok(()) };
+            child.start()?;
             let started = Instant::now();
             let mut answers: Vec<(u64, Answer)> = Vec::new();
             let tell = &mut |case, answer| answers.push((case, answer));
@@ -53,7 +56,9 @@ pub fn run(readers: &[Reader], seed: u64, until: Until, jobs: usize) -> Result<T
 pub fn minimized(reader: Reader, input: &[u8], signature: &str) -> Result<Vec<u8>, FuzzError> {
     let mut child = Child::default();
     let mut failed = None;
-    let kept = minimize::minimized(input, &mut |bytes| match child.input(reader, bytes) {
+    let kept = minimize::minimized(input, &mut |bytes| match child
+        .input(reader, &mended(reader, bytes))
+    {
         Ok(answer) => matches!(answer.verdict, Verdict::Fault(fault)
             if fault.signature() == signature),
         Err(error) => {
@@ -61,5 +66,16 @@ pub fn minimized(reader: Reader, input: &[u8], signature: &str) -> Result<Vec<u8
             false
         }
     });
-    failed.map_or(Ok(kept), Err)
+    failed.map_or_else(|| Ok(mended(reader, &kept)), Err)
+}
+
+/// The input with right checksums, where its format has some and it can be taken apart.
+fn mended(reader: Reader, bytes: &[u8]) -> Vec<u8> {
+    let file = match reader {
+        Reader::Grid | Reader::GridText => grid::file(&grid::patches(bytes)),
+        Reader::Png | Reader::Depth => png::file(&png::chunks(bytes)),
+        _ => return bytes.to_vec(),
+    };
+    // What cannot be taken apart, and what is wrong just there, stays as it is.
+    if file.len() == bytes.len() { file } else { bytes.to_vec() }
 }

@@ -50,7 +50,7 @@ impl Tally {
         row.time += answer.time;
         match &answer.verdict {
             Verdict::Accepted => row.accepted += 1,
-            Verdict::Refused => row.refused += 1,
+            Verdict::Refused(_) => row.refused += 1,
             Verdict::Fault(fault) => {
                 row.faults += 1;
                 let group = self.groups.entry((reader, fault.signature()));
@@ -133,7 +133,7 @@ mod tests {
         add(4, fault("a.rs:7: index 5"));
         add(5, fault("b.rs:1: no"));
         add(6, Verdict::Accepted);
-        add(7, Verdict::Refused);
+        add(7, Verdict::Refused("found no v".into()));
         let groups = tally.groups();
         let found: Vec<(u64, u64)> = groups.iter().map(|group| (group.case, group.count)).collect();
         assert_eq!(found, [(4, 2), (5, 1)]);

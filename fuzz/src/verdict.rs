@@ -24,9 +24,12 @@ pub enum Stop {
 /// What a reader says of an input.
 pub type Tried = Result<(), Stop>;
 
-/// The refusal with the message of an error.
+/// The refusal with the message of an error as a program prints it: with its control characters
+/// spelled out.
 pub fn refused(error: impl Error) -> Stop {
-    Stop::Refused(error.to_string())
+    let spelled =
+        |c: char| if c.is_control() { c.escape_default().collect() } else { c.to_string() };
+    Stop::Refused(error.to_string().chars().map(spelled).collect())
 }
 
 /// The finding that a later program refuses what an earlier one made.
@@ -118,6 +121,11 @@ impl Fault {
                 return format!("{} {}", self.kind, text.split(": ").next().unwrap_or(""));
             }
             Kind::Slow | Kind::Memory | Kind::Stalled => String::new(),
+            // What is wrong with the wording, whatever the message says.
+            Kind::Message => {
+                let what = text.split(" in: ").next().unwrap_or_default();
+                return format!("{} {}", self.kind, what.replace(|c: char| c.is_ascii_digit(), ""));
+            }
             _ => without_quotes(&text),
         };
         let words = text.split(|c: char| !c.is_alphabetic()).filter(|word| word.len() > 2);
@@ -131,8 +139,8 @@ impl Fault {
 pub enum Verdict {
     /// It was read, and what follows was done.
     Accepted,
-    /// It was refused with a sentence.
-    Refused,
+    /// It was refused with this sentence.
+    Refused(String),
     /// Something is wrong.
     Fault(Fault),
 }
@@ -151,8 +159,25 @@ pub fn wording_fault(message: &str) -> Option<String> {
         return Some(format!("{length} characters"));
     }
     let own = without_quotes(message);
+    if let Some(name) = debug_name(&own) {
+        return Some(format!("the value of the Rust type {name}"));
+    }
     let mut words = RUST_WORDS.into_iter().filter(|word| contains_word(&own, word));
     words.next().map(|word| format!("the word {:?} of Rust", word.trim()))
+}
+
+/// A name such as `ChunkType` before a brace, a parenthesis or `::`, as values are printed for programmers.
+fn debug_name(text: &str) -> Option<&str> {
+    let marks = [" {", "{", "(", "::"];
+    let ends = marks.iter().flat_map(|mark| text.match_indices(mark)).map(|(at, _)| &text[..at]);
+    ends.filter_map(|before| before.rsplit(|c: char| !c.is_alphanumeric() && c != '_').next()).find(
+        |name| {
+            let mut letters = name.chars();
+            letters.next().is_some_and(|c| c.is_ascii_uppercase())
+                && name.contains(|c: char| c.is_ascii_lowercase())
+                && letters.any(|c| c.is_ascii_uppercase())
+        },
+    )
 }
 
 /// True for characters that change the direction of the text behind them.
@@ -203,6 +228,8 @@ mod tests {
     fn words_of_rust_control_characters_and_long_messages_are_faults() {
         for bad in [
             "expected struct Spec",
+            "found ChunkType { a: 1 }",
+            "found BadLength(3)",
             "expected f64",
             "a\nb",
             "a\u{202e}b",

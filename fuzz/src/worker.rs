@@ -86,7 +86,7 @@ impl Worker {
             _ if time > MOST_TIME => fault(Kind::Slow, &format!("{:.1} s", time.as_secs_f64())),
             Ok(Err(Stop::Refused(message))) => match wording_fault(&message) {
                 Some(what) => fault(Kind::Message, &format!("found {what} in: {message}")),
-                None => Verdict::Refused,
+                None => Verdict::Refused(message),
             },
             Ok(Ok(())) => Verdict::Accepted,
         };

@@ -17,7 +17,7 @@ struct Attribute {
 #[must_use]
 pub fn mutated(seed: &[u8], dice: &mut Dice, other: &[u8]) -> Vec<u8> {
     let mut file = seed.to_vec();
-    for _ in 0..=dice.below(3) {
+    for _ in 0..=dice.below(2) {
         change(&mut file, dice, other);
     }
     file

@@ -15,7 +15,7 @@ const NAMES: [&[u8; 4]; 16] = [
 pub fn mutated(seed: &[u8], dice: &mut Dice, other: &[u8]) -> Vec<u8> {
     let mut chunks = png::chunks(seed);
     let others = png::chunks(other);
-    for _ in 0..=dice.below(3) {
+    for _ in 0..=dice.below(2) {
         change(&mut chunks, dice, &others);
     }
     let mut file = png::file(&chunks);
@@ -32,7 +32,8 @@ fn change(chunks: &mut Vec<Chunk>, dice: &mut Dice, others: &[Chunk]) {
     let (a, b) = (dice.below(chunks.len()), dice.below(chunks.len()));
     match dice.below(12) {
         0..3 => header(&mut chunks[0].data, dice),
-        3..8 => {
+        3..7 => rows(&mut chunks[a], dice),
+        7 => {
             let other = dice.one(others).data.clone();
             bytes::mutate(&mut chunks[a].data, dice, &other);
         }
@@ -46,6 +47,18 @@ fn change(chunks: &mut Vec<Chunk>, dice: &mut Dice, others: &[Chunk]) {
             let name = **dice.one(&NAMES);
             let data: Vec<u8> = (0..dice.below(40)).map(|_| dice.next() as u8).collect();
             chunks.insert(b, Chunk::new(&name, data));
+        }
+    }
+}
+
+/// Changes bytes of rows that are stored as they are, and no length.
+fn rows(chunk: &mut Chunk, dice: &mut Dice) {
+    // The zlib header and that of the first block, in the first of the chunks.
+    let start = if chunk.name == *b"IDAT" { 7 } else { 0 };
+    for _ in 0..=dice.below(4) {
+        let at = start + dice.below(chunk.data.len().saturating_sub(start));
+        if let Some(byte) = chunk.data.get_mut(at) {
+            *byte = *dice.one(&[0, 1, 2, 4, 9, 127, 255, *byte ^ 1, *byte ^ 128]);
         }
     }
 }

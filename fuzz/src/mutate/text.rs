@@ -51,22 +51,22 @@ pub fn mutate(text: &mut Vec<u8>, dice: &mut Dice, words: &[&str], other: &[u8])
         text.truncate(LONGEST);
     }
     match dice.below(12) {
-        0..3 => number(text, dice),
-        3 => scaled(text, dice),
-        4 if !words.is_empty() => {
+        0..2 => number(text, dice),
+        2..5 => scaled(text, dice),
+        5 if !words.is_empty() => {
             let word = dice.one(words);
             let at = dice.below(text.len() + 1);
             text.splice(at..at, word.bytes());
         }
-        5 if !words.is_empty() => {
+        6 if !words.is_empty() => {
             let tokens = tokens(text, |byte| !byte.is_ascii_whitespace());
             if !tokens.is_empty() {
                 let token = dice.one(&tokens).clone();
                 text.splice(token, dice.one(words).bytes());
             }
         }
-        6..10 => lines(text, dice, other),
-        10 => text.truncate(dice.below(text.len())),
+        7..11 => lines(text, dice, other),
+        11 if dice.once_in(3) => text.truncate(dice.below(text.len())),
         _ => bytes::mutate(text, dice, other),
     }
 }

@@ -11,8 +11,8 @@ use render::film::encode::{self, Format};
 /// Where a picture lies that is tried. Its format is told by its first bytes.
 const PATH: &str = "examples/textures/tried.png";
 
-/// A scene that shows it.
-const SCENE: &str = r#"{"format": "tb-scene", "version": 1,
+/// A scene that shows it, also as a bump, for which it must be a PNG file.
+const BUMPY: &str = r#"{"format": "tb-scene", "version": 1,
     "camera": {"eye": [0, 2, 5], "target": [0, 0.3, 0], "up": [0, 1, 0], "fov_deg": 40},
     "background": 0.5, "ambient": 0.3,
     "lights": [{"directional": {"direction": [1, -2, -1], "color": 1}}],
@@ -21,15 +21,30 @@ const SCENE: &str = r#"{"format": "tb-scene", "version": 1,
     "objects": [{"sphere": {"center": [1, 0, 0], "radius": 1, "material": "m", "texture": "t"}},
         {"sphere": {"center": [-1, 0, 0], "radius": 1, "material": "b"}}]}"#;
 
+/// A scene that shows it as a texture alone.
+const SMOOTH: &str = r#"{"format": "tb-scene", "version": 1,
+    "camera": {"eye": [0, 2, 5], "target": [0, 0.3, 0], "up": [0, 1, 0], "fov_deg": 40},
+    "background": 0.5, "ambient": 1,
+    "textures": {"t": {"image": "../textures/tried.png"}}, "materials": {"m": {}},
+    "objects": [{"sphere": {"center": [1, 0, 0], "radius": 1, "material": "m", "texture": "t"}}]}"#;
+
 /// Pixels of a picture at most that is compared with itself.
 const MOST_PIXELS: usize = 1 << 16;
 
-/// Shows a picture on a sphere and compares it.
+/// Shows a JPEG file on a sphere.
+///
+/// # Errors
+/// When it is refused, or the picture that shows it is wrong.
+pub fn read_jpeg(bytes: &[u8], shelf: &Shelf) -> Tried {
+    scene::read(SMOOTH.as_bytes(), &shelf.with(PATH, bytes))
+}
+
+/// Shows a PNG file on a sphere, as its bumps too, and compares it.
 ///
 /// # Errors
 /// When both refuse it, or one of them goes wrong.
-pub fn read(bytes: &[u8], shelf: &Shelf) -> Tried {
-    let shown = scene::read(SCENE.as_bytes(), &shelf.with(PATH, bytes));
+pub fn read_png(bytes: &[u8], shelf: &Shelf) -> Tried {
+    let shown = scene::read(BUMPY.as_bytes(), &shelf.with(PATH, bytes));
     match (shown, compare(bytes)) {
         (Err(Stop::Broken(what)), _) | (_, Err(Stop::Broken(what))) => Err(Stop::Broken(what)),
         (Ok(()), _) | (_, Ok(())) => Ok(()),

@@ -12,7 +12,7 @@ const SIDE: u32 = 16;
 const CELLS: u64 = 24;
 
 /// Cells that a seed spec allows for a tolerance.
-const MAX_QUADS: u64 = 1000;
+const MAX_QUADS: u64 = 300;
 
 /// The same picture with few texels.
 ///
@@ -21,7 +21,7 @@ const MAX_QUADS: u64 = 1000;
 pub fn picture(bytes: &[u8]) -> ImageResult<Vec<u8>> {
     let whole = image::load_from_memory(bytes)?;
     let mut small = Cursor::new(Vec::new());
-    whole.resize_exact(SIDE, SIDE, FilterType::Triangle).write_to(&mut small, ImageFormat::Png)?;
+    whole.resize_exact(SIDE, SIDE, FilterType::Nearest).write_to(&mut small, ImageFormat::Png)?;
     Ok(small.into_inner())
 }
 
