@@ -110,6 +110,6 @@ mod tests {
                 .is_ok_and(|value| value.to_string().contains('8'))
         };
         let left = minimized(input, &mut |bytes| wrong(bytes));
-        assert_eq!(left, b"8", "{}", String::from_utf8_lossy(&left));
+        assert_eq!(String::from_utf8(left).unwrap(), "{\"\":[{\"\":[8]}]}");
     }
 }

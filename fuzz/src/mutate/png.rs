@@ -94,7 +94,8 @@ mod tests {
         let seeds = png::seeds();
         let right = (0..200).filter(|&case| {
             let mut dice = Dice::of_case(2, "png", case);
-            let file = mutated(dice.clone().one(&seeds), &mut dice, &seeds[0]);
+            let seed = &seeds[dice.below(seeds.len())];
+            let file = mutated(seed, &mut dice, &seeds[0]);
             png::file(&png::chunks(&file)) == file
         });
         assert!(right.count() > 150);
