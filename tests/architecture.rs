@@ -7,12 +7,13 @@ use source::{code, has_word, paths, read, root, rust_files, spans, without_tests
 use std::collections::BTreeSet;
 
 /// The crates, and which of ours each may import.
-const CRATES: [(&str, &[&str]); 5] = [
+const CRATES: [(&str, &[&str]); 6] = [
     ("files", &[]),
     ("sweep", &["files"]),
     ("triangulate", &["files", "sweep"]),
     ("render", &["files"]),
     ("pipeline", &["files", "sweep", "triangulate", "render"]),
+    ("fuzz", &["files", "sweep", "triangulate", "render", "pipeline"]),
 ];
 
 /// The rooms of `render` from the bottom up, and into which others each one looks: only at rooms
@@ -127,7 +128,7 @@ fn no_file_is_long() {
 /// Cargo compiles only what `tests/main.rs` names: a file that is not a module there would never run.
 #[test]
 fn every_test_file_is_a_module_of_the_test_binary() {
-    for folder in ["tests", "render/tests", "sweep/tests", "triangulate/tests"] {
+    for folder in ["tests", "fuzz/tests", "render/tests", "sweep/tests", "triangulate/tests"] {
         let main = code(&read(&format!("{folder}/main.rs")));
         for file in rust_files(folder) {
             let name = file.strip_prefix(folder).unwrap().trim_start_matches('/');
@@ -259,9 +260,9 @@ fn programs_open_files_only_through_the_ledger() {
     for file in programs.chain(rooms) {
         let code = without_tests(&code(&read(&file)));
         for door in doors {
-            let past = code.match_indices(door).any(|(at, _)| {
-                !code[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_')
-            });
+            let past = code
+                .match_indices(door)
+                .any(|(at, _)| !code[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_'));
             assert!(!past, "{file}: found {door}, expected the ledger");
         }
         // Standard output clashes with no file, and the numbers of a report are claimed before.

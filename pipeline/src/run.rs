@@ -10,6 +10,7 @@ use files::{Batch, JsonError, MemoryError, Output, Source, input};
 use render::color::Encoding;
 use render::film::encode::{self, Format};
 use render::film::memory;
+use render::filter::Filter;
 use render::scene::file::CameraFile;
 use render::scene::read::{self, Draft};
 use render::scene::{MeshSource, SceneError};
@@ -203,9 +204,13 @@ impl Work<'_> {
             meshes.insert(mesh.name.clone(), self.mesh(mesh, &file.camera)?);
         }
         let scene = draft.resolve(self.source, meshes).map_err(|error| self.of_meshes(error))?;
+        // Whether each picture fits beside the tables that the modes before it leave.
+        let mut kept: Vec<(Filter, Reserved<'_>)> = Vec::new();
         for mode in &self.job.modes {
+            kept.retain(|(filter, _)| *filter != mode.filter);
             let settings = settings(mode, self.options.size);
             memory::reserve(&scene, &settings, Some(Format::Png), of_process()).map(drop)?;
+            kept.push((mode.filter, memory::reserve_tables(&scene, mode.filter, of_process())?));
         }
         // The meshes are made in between, and have stages of their own.
         let read = started.elapsed().saturating_sub(self.stages.get().total());

@@ -2,6 +2,7 @@
 
 use super::encode::Format;
 use super::{Crop, Layer, Settings};
+use crate::filter::Filter;
 use crate::scene::Scene;
 use files::memory::{Budget, MemoryError, Reserved};
 
@@ -23,16 +24,8 @@ pub fn reserve<'b>(
     format: Option<Format>,
     budget: &'b Budget,
 ) -> Result<Reserved<'b>, MemoryError> {
-    let filter = settings.filter;
     let mut reserved = budget.reserve(scene.texture_bytes(), || "the scene's textures".into())?;
-    for (texture, shown) in scene.textures.iter().zip(scene.shown_textures()) {
-        let table = if shown { filter.bytes_for(texture) } else { 0 };
-        reserved.grow(table, || {
-            let (width, height) = (texture.width, texture.height);
-            let name = files::words::shown(&texture.name);
-            format!("texture {name}: what the {filter} filter makes of its {width}x{height} texels")
-        })?;
-    }
+    add_tables(&mut reserved, scene, settings.filter)?;
     reserved.grow(scene.procedural.lattice_bytes(), || "noise".into())?;
     let triangles = scene.triangles();
     let meshes = || format!("the scene with its {triangles} triangles");
@@ -43,6 +36,38 @@ pub fn reserve<'b>(
     let picture = pixels.saturating_mul(of_pixel(channels, format));
     reserved.grow(picture, || of_size(&crop, &settings.layers))?;
     Ok(reserved)
+}
+
+/// Takes the memory for the tables or pyramids of one filter, which a prepared scene keeps for the
+/// pictures that follow.
+///
+/// # Errors
+/// With the first texture for whose table there is no memory.
+pub fn reserve_tables<'b>(
+    scene: &Scene,
+    filter: Filter,
+    budget: &'b Budget,
+) -> Result<Reserved<'b>, MemoryError> {
+    let mut reserved = budget.reserve(0, String::new)?;
+    add_tables(&mut reserved, scene, filter)?;
+    Ok(reserved)
+}
+
+/// Takes the memory for the tables or pyramids of one filter: of the textures that some surface shows.
+fn add_tables(
+    reserved: &mut Reserved<'_>,
+    scene: &Scene,
+    filter: Filter,
+) -> Result<(), MemoryError> {
+    for (texture, shown) in scene.textures.iter().zip(scene.shown_textures()) {
+        let table = if shown { filter.bytes_for(texture) } else { 0 };
+        reserved.grow(table, || {
+            let (width, height) = (texture.width, texture.height);
+            let name = files::words::shown(&texture.name);
+            format!("texture {name}: what the {filter} filter makes of its {width}x{height} texels")
+        })?;
+    }
+    Ok(())
 }
 
 /// Bytes a pixel with this many numbers besides its colour, the making of its file included.

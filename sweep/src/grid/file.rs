@@ -44,6 +44,7 @@
 //! has given `None`, and all grids once [`GridReader::next_patch`] has given `false`.
 
 mod binary;
+mod edges;
 mod error;
 mod header;
 mod reader;

@@ -67,11 +67,23 @@ pub(super) fn check_parameter(found: f64, before: Option<f64>, seam: Seam) -> Re
         (None, _) if found == 0.0 => return Ok(()),
         (None, _) => "0, where every grid starts".into(),
         (Some(before), Seam::Open) if found >= before && found <= 1.0 => return Ok(()),
-        (Some(before), Seam::Open) => format!("a number from {before} (the one before it) to 1"),
+        (Some(before), Seam::Open) => {
+            format!("a number from {} (the one before it) to 1", number(before))
+        }
         (Some(before), _) if found >= before && found < 1.0 => return Ok(()),
         (Some(before), _) => {
-            format!("a number from {before} (the one before it) to below 1, where it closes")
+            format!(
+                "a number from {} (the one before it) to below 1, where it closes",
+                number(before)
+            )
         }
     };
-    Err(format!("found {found}, expected {expected}"))
+    Err(format!("found {}, expected {expected}", number(found)))
+}
+
+/// A number as one writes it: very large and very small ones with a power, in place of hundreds of
+/// zeros.
+pub(super) fn number(value: f64) -> String {
+    let usual = value == 0.0 || (1e-5..1e16).contains(&value.abs());
+    if usual { value.to_string() } else { format!("{value:?}") }
 }

@@ -2,7 +2,7 @@
 
 use super::{Encoding, GridError, stranger};
 use crate::GridMesh;
-use crate::grid::row::{Fault, check_parameter};
+use crate::grid::row::{self, Fault, check_parameter};
 use crate::grid::{Fold, PlacedArea, Seam, Tolerance, UvLayout, area, seam};
 use files::JsonError;
 use files::json::Document;
@@ -241,7 +241,7 @@ impl Header {
         }
         for (i, found) in self.uv.repeat.iter().enumerate() {
             if !(found.is_finite() && *found > 0.0) {
-                let message = format!("found {found}, expected a positive number");
+                let message = format!("found {}, expected a positive number", row::number(*found));
                 return Err(Fault { place: format!("uv.repeat[{i}]"), message });
             }
         }

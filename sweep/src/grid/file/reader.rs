@@ -1,5 +1,6 @@
 //! Reading grids row by row, trusting nothing.
 
+use super::edges::Edges;
 use super::{Encoding, Footer, GridError, Header, Patch, binary, header, text};
 use crate::GridMesh;
 use crate::grid::{self, Row};
@@ -25,6 +26,7 @@ pub struct GridReader<R> {
     /// Rows given so far.
     given: usize,
     finished: bool,
+    edges: Edges,
     bytes: Vec<u8>,
     row: RowBuffer,
 }
@@ -113,6 +115,7 @@ impl<R: BufRead> GridReader<R> {
             crc,
             given: 0,
             finished: false,
+            edges: Edges::default(),
             bytes: Vec::new(),
             row: RowBuffer::default(),
         };
@@ -148,7 +151,7 @@ impl<R: BufRead> GridReader<R> {
         (self.header, self.encoding) = (header, encoding);
         self.crc = crc32fast::Hasher::new();
         self.crc.update(&bytes);
-        (self.given, self.finished) = (0, false);
+        (self.given, self.finished, self.edges) = (0, false, Edges::default());
         self.follows(due)?;
         Ok(true)
     }
@@ -204,6 +207,10 @@ impl<R: BufRead> GridReader<R> {
         }
         if self.given == self.header.rows {
             self.read_footer()?;
+            if let Err(fault) = self.edges.finish(self.header.seam_v, &self.header.areas) {
+                self.given = self.given.saturating_sub(1);
+                return Err(self.row_error(fault.place, fault.message));
+            }
             self.finished = true;
             return Ok(None);
         }
@@ -218,7 +225,10 @@ impl<R: BufRead> GridReader<R> {
             return Err(self.row_error("flags".into(), message));
         }
         let row = Row { v: self.row.v, positions: &self.row.positions, normals: &self.row.normals };
-        if let Err(fault) = row.check(self.header.seam_v, before) {
+        let areas = &self.header.areas;
+        if let Err(fault) =
+            row.check(self.header.seam_v, before).and_then(|()| self.edges.row(row.v, areas))
+        {
             return Err(self.row_error(fault.place, fault.message));
         }
         self.given += 1;

@@ -1,7 +1,7 @@
 //! Grids written and read back, whole, cut, damaged and made up.
 
 use super::*;
-use crate::grid::{Across, Fold, Seam, Tolerance, UvLayout};
+use crate::grid::{Across, Area, Fold, Seam, Tolerance, UvLayout};
 use files::{Exit, Failure};
 use glam::DVec3;
 use proptest::prelude::*;
@@ -224,6 +224,49 @@ fn the_header_is_checked() {
         let message = with(from, to);
         assert!(message.contains(expected), "{message}");
     }
+}
+
+/// Found by the fuzzer: such a grid was read, and no writer took it.
+#[test]
+fn an_area_that_the_rows_do_not_have_is_refused() {
+    let area = Area { rows: [0, 2], cols: [0, 3], texture: None, surface: None, repeat: [1.0; 2] };
+    let grid = GridMesh { areas: vec![area], ..small() };
+    for encoding in ENCODINGS {
+        assert_eq!(read("a.grid", &bytes_of(&grid, encoding)[..]).unwrap(), grid);
+    }
+    let text = String::from_utf8(bytes_of(&grid, Encoding::Json)).unwrap();
+    let with = |from: &str, to: &str| {
+        assert!(text.contains(from), "{from}");
+        complaint(resigned(&text.replacen(from, to, 1)).as_bytes())
+    };
+    assert_eq!(
+        with("\"v\":[0.0,1.0]", "\"v\":[0.0,0.5]"),
+        "grid.tbg: row 3 of 3: areas[0].v[1]: found 0.5, expected 1.0, where that row lies"
+    );
+    // Two rows at one place are the edge of one cell.
+    assert_eq!(
+        with("[0.3333333333333333,0,", "[0.0,0,"),
+        "grid.tbg: row 3 of 3: areas[0].area.rows: found [0, 2], expected two rising numbers from 0 to 1, \
+         the cells that there are"
+    );
+}
+
+/// Found by the fuzzer: hundreds of zeros, and words of Rust.
+#[test]
+fn numbers_of_a_text_grid_are_complained_of_in_short_words() {
+    let text = String::from_utf8(bytes_of(&small(), Encoding::Json)).unwrap();
+    let tiny = complaint(text.replacen("[0.0,0,[[", "[1e-320,0,[[", 1).as_bytes());
+    assert_eq!(tiny, "grid.tbg: row 1 of 3: v: found 1e-320, expected 0, where every grid starts");
+    let pair = complaint(text.replacen("[0.0,-0.0,1.0]", "[0.0,1.0]", 1).as_bytes());
+    assert!(pair.contains("[2][0]: found 2 values, expected 3 (row 1 of 3)"), "{pair}");
+}
+
+/// A text grid with a checksum that fits.
+fn resigned(text: &str) -> String {
+    let end = 1 + text.trim_end().rfind('\n').unwrap();
+    let crc = crc32fast::hash(&text.as_bytes()[..end]);
+    let rows = text.lines().count() - 2;
+    format!("{}{{\"rows\":{rows},\"crc32\":{crc}}}\n", &text[..end])
 }
 
 #[test]

@@ -39,8 +39,12 @@ pub(super) fn decode(
     cols: usize,
     row: &mut RowBuffer,
 ) -> Result<(), JsonError> {
-    let found: (f64, u8, Vec<DVec3>, Vec<Vec3>) = parse(name, line, bytes)?;
-    (row.v, row.flags, row.positions, row.normals) = found;
+    // Arrays and not vectors, of which messages would speak in the words of Rust.
+    let (v, flags, positions, normals): (_, _, Vec<[f64; 3]>, Vec<[f32; 3]>) =
+        parse(name, line, bytes)?;
+    (row.v, row.flags) = (v, flags);
+    row.positions = positions.into_iter().map(DVec3::from).collect();
+    row.normals = normals.into_iter().map(Vec3::from).collect();
     for (path, what, count) in
         [("[2]", "positions", row.positions.len()), ("[3]", "normals", row.normals.len())]
     {

@@ -1,0 +1,64 @@
+//! `fuzz`: mutated inputs for every reader of the workspace.
+//!
+//! The parent process hands out cases, and child processes of the same program try them: what ends a
+//! process (a stack that overflows, memory that is not there) or stalls it ends or stalls a child. A case
+//! depends on the seed, the reader and its number alone, so it can be tried again.
+//!
+//! | module       | what                                                             |
+//! |--------------|------------------------------------------------------------------|
+//! | [`cli`]      | the flags                                                        |
+//! | [`dice`]     | random numbers of a case                                         |
+//! | [`seeds`]    | what mutation starts from                                        |
+//! | [`mutate`]   | what mutation does                                               |
+//! | [`reader`]   | the readers, and what is done with an input                      |
+//! | [`verdict`]  | what counts as a fault                                           |
+//! | [`worker`]   | the child's side: tries inputs, and measures them                |
+//! | [`watch`]    | ends a child that takes too long                                 |
+//! | [`child`]    | the parent's side of one child                                   |
+//! | [`protocol`] | the lines that pass between the two                              |
+//! | [`schedule`] | which cases come next                                            |
+//! | [`run`]      | all children, until the cases or the seconds are used up         |
+//! | [`tally`]    | what was found, as a table                                       |
+//! | [`minimize`] | the smallest input with the same fault                           |
+
+mod child;
+mod cli;
+mod dice;
+mod minimize;
+mod mutate;
+mod protocol;
+mod reader;
+mod run;
+mod schedule;
+mod seeds;
+mod tally;
+mod verdict;
+mod watch;
+mod worker;
+
+use clap::Parser;
+use files::exit::say;
+use peak_alloc::PeakAlloc;
+use std::process::ExitCode;
+
+/// Counts the memory that a case takes.
+#[global_allocator]
+static MEMORY: PeakAlloc = PeakAlloc;
+
+/// The exit code when something was found.
+const FOUND: u8 = 1;
+
+/// The exit code when the fuzzer itself could not work.
+const FAILED: u8 = 5;
+
+fn main() -> ExitCode {
+    let arguments = cli::Arguments::parse();
+    match cli::run(&arguments) {
+        Ok(0) => ExitCode::SUCCESS,
+        Ok(_) => ExitCode::from(FOUND),
+        Err(error) => {
+            say(format_args!("fuzz: {error}"));
+            ExitCode::from(FAILED)
+        }
+    }
+}

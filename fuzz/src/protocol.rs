@@ -1,0 +1,152 @@
+//! The lines between parent and child.
+//!
+//! The parent asks for a run of cases, or for one input whose bytes follow the line. The child says
+//! `at N` before it tries case N and an answer behind it; so the parent knows which case ended a child.
+
+use crate::reader::Reader;
+use crate::verdict::{Fault, Kind, Verdict};
+use std::fmt::{self, Display};
+use std::time::Duration;
+
+/// What the parent asks of a child.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Request {
+    /// `count` cases from `from` on.
+    Cases {
+        /// The reader.
+        reader: Reader,
+        /// The seed of the run.
+        seed: u64,
+        /// The first case.
+        from: u64,
+        /// How many.
+        count: u64,
+    },
+    /// One input of `length` bytes, which follow.
+    Input {
+        /// The reader.
+        reader: Reader,
+        /// Its bytes.
+        length: usize,
+    },
+}
+
+impl Request {
+    /// The request in a line.
+    #[must_use]
+    pub fn read(line: &str) -> Option<Self> {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        match words[..] {
+            ["cases", reader, seed, from, count] => Some(Self::Cases {
+                reader: reader.parse().ok()?,
+                seed: seed.parse().ok()?,
+                from: from.parse().ok()?,
+                count: count.parse().ok()?,
+            }),
+            ["input", reader, length] => {
+                Some(Self::Input { reader: reader.parse().ok()?, length: length.parse().ok()? })
+            }
+            _ => None,
+        }
+    }
+}
+
+impl Display for Request {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Cases { reader, seed, from, count } => {
+                write!(f, "cases {reader} {seed} {from} {count}")
+            }
+            Self::Input { reader, length } => write!(f, "input {reader} {length}"),
+        }
+    }
+}
+
+/// What a child says.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Reply {
+    /// It begins with this case.
+    At(u64),
+    /// What came of it.
+    Answer(Answer),
+}
+
+/// What came of an input.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Answer {
+    /// Whether it was taken.
+    pub verdict: Verdict,
+    /// Processor time.
+    pub time: Duration,
+    /// The most memory held at once, in bytes.
+    pub memory: u64,
+}
+
+impl Reply {
+    /// The reply in a line.
+    #[must_use]
+    pub fn read(line: &str) -> Option<Self> {
+        let mut words = line.trim_end_matches('\n').splitn(5, ' ');
+        let first = words.next()?;
+        if first == "at" {
+            return Some(Self::At(words.next()?.parse().ok()?));
+        }
+        let time = Duration::from_micros(words.next()?.parse().ok()?);
+        let memory = words.next()?.parse().ok()?;
+        let verdict = match first {
+            "ok" => Verdict::Accepted,
+            "no" => {
+                // A kind stands here of faults only.
+                words.next()?;
+                Verdict::Refused(words.next()?.into())
+            }
+            "bad" => {
+                let kind = Kind::named(words.next()?)?;
+                Verdict::Fault(Fault { kind, text: words.next()?.into() })
+            }
+            _ => return None,
+        };
+        Some(Self::Answer(Answer { verdict, time, memory }))
+    }
+}
+
+impl Display for Reply {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::At(case) => write!(f, "at {case}"),
+            Self::Answer(Answer { verdict, time, memory }) => {
+                let cost = format!("{} {memory}", time.as_micros());
+                match verdict {
+                    Verdict::Accepted => write!(f, "ok {cost}"),
+                    Verdict::Refused(message) => write!(f, "no {cost} - {message}"),
+                    Verdict::Fault(fault) => write!(f, "bad {cost} {} {}", fault.kind, fault.text),
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn requests_and_replies_are_read_back() {
+        let reader = Reader::GridText;
+        for request in [
+            Request::Cases { reader, seed: u64::MAX, from: 7, count: 100 },
+            Request::Input { reader, length: 9 },
+        ] {
+            assert_eq!(Request::read(&request.to_string()), Some(request));
+        }
+        let fault = Fault::new(Kind::Panic, "a.rs:7: index 3\nof 2");
+        let refused = Verdict::Refused("found no v".into());
+        for verdict in [Verdict::Accepted, refused, Verdict::Fault(fault)] {
+            let answer = Answer { verdict, time: Duration::from_micros(81), memory: 5 };
+            let reply = Reply::Answer(answer);
+            assert_eq!(Reply::read(&reply.to_string()), Some(reply));
+        }
+        assert_eq!(Reply::read("at 12\n"), Some(Reply::At(12)));
+        assert_eq!(Reply::read("nonsense"), None);
+    }
+}

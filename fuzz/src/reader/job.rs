@@ -1,0 +1,39 @@
+//! Jobs, with the specs and scenes that they name.
+
+use super::scene::picture;
+use crate::seeds::shelf::Shelf;
+use crate::seeds::{PAGES, small};
+use crate::verdict::{Tried, refused};
+use files::Source;
+use pipeline::Job;
+use pipeline::run::{self, Options};
+use std::path::{Path, PathBuf};
+
+/// Where a job lies that is tried.
+const PATH: &str = "examples/pages/tried.json";
+
+/// Modes of a job at most that are rendered.
+const MOST_MODES: usize = 2;
+
+/// Reads a job, makes its meshes and its scene, and renders it in some of its modes.
+///
+/// # Errors
+/// When it is refused, or a picture is wrong.
+pub fn read(bytes: &[u8], shelf: &Shelf) -> Tried {
+    debug_assert!(Path::new(PATH).starts_with(PAGES));
+    let source = shelf.with(PATH, bytes);
+    let job = Job::read(Path::new(PATH), &source).map_err(refused)?;
+    if small::asks_for_much(bytes) {
+        return Ok(());
+    }
+    make(&job, &source)
+}
+
+fn make(job: &Job, source: &dyn Source) -> Tried {
+    let options = Options { folder: PathBuf::new(), size: (6, 5), keep: false, clobber: false };
+    let scene = run::scene(job, source, &options, &|_| {}).map_err(refused)?;
+    for mode in job.modes.iter().take(MOST_MODES) {
+        picture(scene.clone(), mode.filter)?;
+    }
+    Ok(())
+}

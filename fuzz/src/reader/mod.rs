@@ -1,0 +1,242 @@
+//! The readers that are tried, one file for each kind of work behind them.
+//!
+//! A reader has a name, seeds, a mutator, and what is done with an input. To add one, add a member to
+//! [`Reader`] and to its functions here, and its work to a file of this folder.
+
+pub mod areas;
+pub mod grid;
+pub mod job;
+pub mod mesh;
+pub mod picture;
+pub mod scene;
+pub mod seeds;
+pub mod spec;
+pub mod trap;
+pub mod words;
+
+use crate::dice::Dice;
+use crate::seeds::{Corpus, SeedError};
+use crate::verdict::Tried;
+use seeds::Seeds;
+use std::collections::BTreeMap;
+use std::fmt::{self, Display};
+use std::str::FromStr;
+
+/// A reader.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Reader {
+    /// A spec of `sweep`.
+    Spec,
+    /// A path of SVG in a spec.
+    Svg,
+    /// A picture of depths that a spec names.
+    Depth,
+    /// A grid of binary rows.
+    Grid,
+    /// A grid of rows as text.
+    GridText,
+    /// A file of areas.
+    Areas,
+    /// A mesh.
+    Obj,
+    /// A material library.
+    Mtl,
+    /// A scene.
+    Scene,
+    /// A part that a scene includes.
+    Part,
+    /// A job of `pipeline`.
+    Job,
+    /// A PNG file, as a texture, as a bump and in a comparison.
+    Png,
+    /// A JPEG file, as a texture.
+    Jpeg,
+    /// An EXR file in a comparison.
+    Exr,
+    /// Sizes, bytes and other words of command lines.
+    Words,
+    /// Fails in every manner on purpose; it tests the fuzzer and is never chosen by itself.
+    Trap,
+}
+
+impl Reader {
+    /// All that are tried when none is named.
+    pub const ALL: [Self; 15] = [
+        Self::Spec,
+        Self::Svg,
+        Self::Depth,
+        Self::Grid,
+        Self::GridText,
+        Self::Areas,
+        Self::Obj,
+        Self::Mtl,
+        Self::Scene,
+        Self::Part,
+        Self::Job,
+        Self::Png,
+        Self::Jpeg,
+        Self::Exr,
+        Self::Words,
+    ];
+
+    /// Its name on the command line.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Spec => "spec",
+            Self::Svg => "svg",
+            Self::Depth => "depth",
+            Self::Grid => "grid",
+            Self::GridText => "grid-text",
+            Self::Areas => "areas",
+            Self::Obj => "obj",
+            Self::Mtl => "mtl",
+            Self::Scene => "scene",
+            Self::Part => "part",
+            Self::Job => "job",
+            Self::Png => "png",
+            Self::Jpeg => "jpeg",
+            Self::Exr => "exr",
+            Self::Words => "words",
+            Self::Trap => "trap",
+        }
+    }
+
+    /// The ending of files of its kind.
+    #[must_use]
+    pub fn ending(self) -> &'static str {
+        match self {
+            Self::Spec | Self::Areas | Self::Scene | Self::Part | Self::Job => "json",
+            Self::Svg | Self::Words | Self::Trap => "txt",
+            Self::Grid | Self::GridText => "grid",
+            Self::Obj => "obj",
+            Self::Mtl => "mtl",
+            Self::Depth | Self::Png => "png",
+            Self::Jpeg => "jpg",
+            Self::Exr => "exr",
+        }
+    }
+}
+
+impl Display for Reader {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl FromStr for Reader {
+    type Err = String;
+
+    fn from_str(name: &str) -> Result<Self, String> {
+        Self::ALL
+            .into_iter()
+            .chain([Self::Trap])
+            .find(|reader| reader.name() == name)
+            .ok_or_else(|| format!("expected one of {}", Self::ALL.map(Self::name).join(", ")))
+    }
+}
+
+/// All readers with their seeds.
+#[derive(Debug)]
+pub struct Bench {
+    corpus: Corpus,
+    seeds: BTreeMap<Reader, Seeds>,
+}
+
+impl Bench {
+    /// Loads the seeds.
+    ///
+    /// # Errors
+    /// When a seed cannot be read.
+    pub fn load() -> Result<Self, SeedError> {
+        let corpus = Corpus::load()?;
+        let of = |reader: Reader| Seeds::of(reader, &corpus).map(|seeds| (reader, seeds));
+        let all = Reader::ALL.into_iter().chain([Reader::Trap]);
+        let seeds = all.map(of).collect::<Result<_, _>>()?;
+        Ok(Self { corpus, seeds })
+    }
+
+    /// The input of a case. It depends on the seed, the reader and the case alone.
+    #[must_use]
+    pub fn input(&self, reader: Reader, seed: u64, case: u64) -> Vec<u8> {
+        let mut dice = Dice::of_case(seed, reader.name(), case);
+        self.seeds[&reader].input(&mut dice)
+    }
+
+    /// The seeds of a reader as files.
+    #[must_use]
+    pub fn seeds(&self, reader: Reader) -> Vec<Vec<u8>> {
+        self.seeds[&reader].files()
+    }
+
+    /// Reads an input and does some of the work behind it.
+    ///
+    /// # Errors
+    /// With the reader's message when it refuses the input, or with what is wrong with the result.
+    pub fn read(&self, reader: Reader, bytes: &[u8]) -> Tried {
+        let corpus = &self.corpus;
+        match reader {
+            Reader::Spec => spec::read(bytes, &corpus.shelf),
+            Reader::Svg => spec::read_path(bytes, &corpus.shelf),
+            Reader::Depth => spec::read_depths(bytes, &corpus.shelf),
+            Reader::Grid | Reader::GridText => grid::read(bytes),
+            Reader::Areas => areas::read(bytes, &corpus.grids),
+            Reader::Obj => mesh::read_obj(bytes, &corpus.shelf),
+            Reader::Mtl => mesh::read_mtl(bytes, &corpus.shelf),
+            Reader::Scene => scene::read(bytes, &corpus.shelf),
+            Reader::Part => scene::read_part(bytes, &corpus.shelf),
+            Reader::Job => job::read(bytes, &corpus.shelf),
+            Reader::Png => picture::read_png(bytes, &corpus.shelf),
+            Reader::Jpeg => picture::read_jpeg(bytes, &corpus.shelf),
+            Reader::Exr => picture::compare(bytes),
+            Reader::Words => words::read(bytes),
+            Reader::Trap => trap::read(bytes),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::verdict::Stop;
+
+    #[test]
+    fn every_reader_takes_its_own_seeds() {
+        let bench = Bench::load().unwrap();
+        for reader in Reader::ALL {
+            let seeds = bench.seeds(reader);
+            let mut taken = 0;
+            let mut refusals = Vec::new();
+            for seed in &seeds {
+                match bench.read(reader, seed) {
+                    Ok(()) => taken += 1,
+                    Err(Stop::Refused(message)) => refusals.push(message),
+                    Err(Stop::Broken(message)) => panic!("{reader}: {message}"),
+                }
+            }
+            // Some are meant to be refused: pictures with alpha, say.
+            assert!(!seeds.is_empty() && 4 * taken >= 3 * seeds.len(), "{reader}: {refusals:#?}");
+        }
+    }
+
+    #[test]
+    fn a_case_is_the_same_input_each_time_and_two_cases_differ() {
+        let [first, second] = [Bench::load().unwrap(), Bench::load().unwrap()];
+        for reader in Reader::ALL {
+            let inputs = |bench: &Bench| -> Vec<Vec<u8>> {
+                (0..20).map(|case| bench.input(reader, 5, case)).collect()
+            };
+            let mut made = inputs(&first);
+            assert_eq!(made, inputs(&second), "{reader}");
+            made.sort();
+            made.dedup();
+            assert!(made.len() > 10, "{reader}");
+        }
+    }
+
+    #[test]
+    fn the_names_of_readers_are_read_back() {
+        assert!(Reader::ALL.into_iter().all(|reader| reader.name().parse() == Ok(reader)));
+        assert!("sep".parse::<Reader>().is_err());
+    }
+}

@@ -1,0 +1,123 @@
+//! Scenes and the parts that they include.
+
+use super::spec::said;
+use crate::seeds::SCENES;
+use crate::seeds::shelf::Shelf;
+use crate::verdict::{Tried, broken, hold, refused};
+use files::json::Document;
+use files::{Budget, Source};
+use render::color::Encoding;
+use render::film::{Layer, memory};
+use render::filter::Filter;
+use render::scene::file::ObjectFile;
+use render::scene::read::{self, Draft};
+use render::scene::{MeshSource, check};
+use render::shape::Mesh;
+use render::shape::mesh::{NONE, Triangle};
+use render::{Prepared, Scene, Settings, inspect};
+
+/// Where a part lies that is tried.
+const PART: &str = "examples/scenes/tried.json";
+
+/// A scene that includes it.
+const WHOLE: &str = r#"{"format": "tb-scene", "version": 1,
+    "camera": {"eye": [0, 2, 7], "target": [0, 0, 0], "up": [0, 1, 0], "fov_deg": 40},
+    "background": 0.5, "ambient": 0.3, "include": ["tried.json"], "objects": []}"#;
+
+/// Memory for meshes, textures, tables and the picture, in bytes.
+const MEMORY: u64 = 256 << 20;
+
+/// Pixels of a picture across and down.
+const SIZE: (u32, u32) = (6, 5);
+
+/// Levels of a tree of rays at most: glass without absorption doubles the rays at each of them.
+const DEEPEST: u32 = 5;
+
+/// Objects of a scene at most that is rendered.
+const MOST_OBJECTS: usize = 3000;
+
+/// Reads a scene, checks and renders it.
+///
+/// # Errors
+/// When it is refused, or its picture is wrong.
+pub fn read(bytes: &[u8], source: &dyn Source) -> Tried {
+    read_with(bytes, source, &[])
+}
+
+/// Reads a part by a scene that includes it.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_part(bytes: &[u8], shelf: &Shelf) -> Tried {
+    read(WHOLE.as_bytes(), &shelf.with(PART, bytes))
+}
+
+/// Reads a scene whose meshes are given: those in `given`, and for all others without a file a
+/// tetrahedron.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_with(bytes: &[u8], source: &dyn Source, given: &[(&str, Mesh)]) -> Tried {
+    let document = Document::new("scene.json", bytes).map_err(refused)?;
+    let file = read::parse(&document).map_err(refused)?;
+    let draft = Draft::gather(&document, &file, SCENES.as_ref(), source).map_err(refused)?;
+    let mut meshes = MeshSource::new();
+    for sheet in draft.sheets().map_err(refused)? {
+        for object in sheet.lists.objects {
+            if let ObjectFile::Mesh(mesh) = object
+                && (mesh.file.is_none() || given.iter().any(|(name, _)| *name == mesh.name))
+            {
+                let found = given.iter().find(|(name, _)| *name == mesh.name);
+                let shape = found.map_or_else(tetrahedron, |(_, mesh)| mesh.clone());
+                meshes.insert(mesh.name.clone(), shape);
+            }
+        }
+    }
+    let scene = draft.resolve_within(source, meshes, &Budget::new(MEMORY)).map_err(refused)?;
+    // What is tried depends on the input alone.
+    let filter = Filter::ALL[crc32fast::hash(bytes) as usize % Filter::ALL.len()];
+    let tables = |texture: &_| filter.bytes_for(texture);
+    let report = check::check(&draft, &scene, 1.2, &tables)
+        .map_err(|error| broken("--check refuses what was read")(&error))?;
+    report.to_string().lines().try_for_each(|line| said(line.into()))?;
+    picture(scene, filter)
+}
+
+/// Renders a scene, and holds what is true of every picture.
+///
+/// # Errors
+/// When its textures take much memory, as a refusal; or when a pixel is no light.
+pub fn picture(mut scene: Scene, filter: Filter) -> Tried {
+    if scene.objects.len() > MOST_OBJECTS {
+        return Ok(());
+    }
+    scene.max_depth = scene.max_depth.min(DEEPEST);
+    let layers = if filter == Filter::Box { Layer::ALL.to_vec() } else { Vec::new() };
+    let settings = Settings { layers, ..Settings::new(SIZE.0, SIZE.1, filter) };
+    let budget = Budget::new(MEMORY);
+    let _memory = memory::reserve(&scene, &settings, None, &budget).map_err(refused)?;
+    let prepared = Prepared::new(&scene);
+    let (picture, _) = render::render(&prepared, &settings, &|_, _| {});
+    let light = |pixel: &[f32; 3]| pixel.iter().all(|x| x.is_finite() && *x >= 0.0);
+    hold(picture.pixels.iter().all(light), "a pixel is no light")?;
+    if filter == Filter::Tent {
+        let text = inspect::pixel(&prepared, &settings, (3, 2), Encoding::Srgb, true);
+        text.lines()
+            .filter(|line| !line.trim().is_empty())
+            .try_for_each(|line| said(line.into()))?;
+    }
+    Ok(())
+}
+
+/// A mesh for every name without a file.
+fn tetrahedron() -> Mesh {
+    let corner =
+        |position: [u32; 3]| Triangle { position, uv: position, normal: [NONE; 3], surface: 0 };
+    Mesh {
+        positions: vec![[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [0., 0., 1.]],
+        uvs: vec![[0., 0.], [1., 0.], [0., 1.], [1., 1.]],
+        normals: vec![],
+        triangles: [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]].map(corner).to_vec(),
+        surfaces: vec!["tex2_surf0".into()],
+    }
+}

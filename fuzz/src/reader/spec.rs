@@ -1,0 +1,100 @@
+//! Specs, and the paths and pictures in them.
+
+use super::grid;
+use crate::seeds::shelf::Shelf;
+use crate::seeds::{CURVES, small};
+use crate::verdict::{Stop, Tried, broken, hold, refused, wording_fault};
+use files::Source;
+use files::json::Document;
+use serde_json::json;
+use sweep::spec::Mesh;
+use sweep::{GridMesh, Object, Sweep, check, preview};
+
+/// Cells of a spec at most that is swept.
+const MOST_CELLS: usize = 20_000;
+
+/// Cells at most among which touching strands are looked for.
+const MOST_STRANDS: usize = 1000;
+
+/// Where a picture of depths lies that is tried.
+const PICTURE: &str = "examples/textures/tried.png";
+
+/// Reads a spec, sweeps it and checks it.
+///
+/// # Errors
+/// When it is refused, or its surface is wrong.
+pub fn read(bytes: &[u8], source: &dyn Source) -> Tried {
+    let document = Document::new("spec.json", bytes).map_err(refused)?;
+    if small::asks_for_much(bytes) {
+        return Ok(());
+    }
+    let object =
+        Object::read(&document, CURVES.as_ref(), source, &Mesh::default()).map_err(refused)?;
+    let of = |sweep: &Sweep| sweep.rows().saturating_mul(sweep.cols());
+    let cells = object.parts().iter().map(of).fold(0, usize::saturating_add);
+    if cells > MOST_CELLS {
+        return Ok(());
+    }
+    let grids = object.grids().map_err(refused)?;
+    grids.iter().try_for_each(sound)?;
+    let findings = check::check(&document, &object, &grids, cells < MOST_STRANDS)
+        .map_err(|error| broken("--check refuses what was read")(&error))?;
+    let parts = object.parts().iter().zip(&grids).map(|(part, grid)| check::summary(part, grid));
+    parts.chain(findings.iter().map(ToString::to_string)).try_for_each(said)?;
+    let page = preview::svg(&object, &grids, &findings);
+    let bad = |c: char| c.is_control() && c != '\n';
+    hold(!page.contains(bad), "the preview holds a control character")?;
+    hold(!page.contains("NaN") && !page.contains("inf\""), "the preview holds no number")?;
+    grid::follow(&grids)
+}
+
+/// Reads a path of SVG as a contour and as a flat trajectory.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_path(path: &[u8], source: &dyn Source) -> Tried {
+    let path = String::from_utf8_lossy(path);
+    let head = |contour: serde_json::Value, trajectory: serde_json::Value| {
+        json!({"format": "tb-sweep", "version": 1, "name": "path", "contour": contour,
+            "trajectory": trajectory, "mesh": {"rows": 12, "cols": 24}})
+    };
+    let line = json!({"line": [[0, 0, 0], [0, 3, 0]]});
+    let flat = json!({"flat": {"curve": {"svg": path}}});
+    let contour = read(head(json!({"svg": path}), line).to_string().as_bytes(), source);
+    let trajectory = read(head(json!({"circle": 0.01}), flat).to_string().as_bytes(), source);
+    match (contour, trajectory) {
+        (Err(Stop::Broken(what)), _) | (_, Err(Stop::Broken(what))) => Err(Stop::Broken(what)),
+        (Ok(()), _) | (_, Ok(())) => Ok(()),
+        (refusal, _) => refusal,
+    }
+}
+
+/// Reads a picture of depths that a spec names.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_depths(picture: &[u8], shelf: &Shelf) -> Tried {
+    let spec = json!({"format": "tb-sweep", "version": 1, "name": "relief",
+        "contour": {"circle": 0.6}, "trajectory": {"line": [[0, 0, 0], [0, 2, 0]]},
+        "depth": {"mode": "factor", "image": {"file": "../textures/tried.png", "amp": 0.06,
+            "repeat": [3, 2], "zero": 0}},
+        "mesh": {"rows": 12, "cols": 12}});
+    read(spec.to_string().as_bytes(), &shelf.with(PICTURE, picture))
+}
+
+/// Holds what is true of every grid.
+fn sound(grid: &GridMesh) -> Tried {
+    hold(grid.positions.iter().all(|point| point.is_finite()), "a point is not finite")?;
+    let unit = |normal: &glam::Vec3| (normal.length() - 1.0).abs() < 1e-5;
+    hold(grid.normals.iter().all(unit), "a normal is not of unit length")?;
+    let rises = |values: &[f64]| values.windows(2).all(|pair| pair[0] <= pair[1]);
+    hold(rises(&grid.u) && rises(&grid.v), "u or v falls")
+}
+
+/// Holds a line that `--check` prints against what a message may be.
+pub fn said(line: String) -> Tried {
+    match wording_fault(&line) {
+        Some(_) => Err(Stop::Refused(line)),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,30 @@
+//! Numbers and names of command lines.
+
+use crate::verdict::{Stop, Tried};
+use files::memory::bytes;
+use pipeline::compare::Scale;
+use render::film::Layer;
+use render::film::size;
+
+/// Reads a word as everything that a command line may take it for.
+///
+/// # Errors
+/// When nothing takes it, with the message of the size.
+pub fn read(word: &[u8]) -> Tried {
+    let word = String::from_utf8_lossy(word);
+    let word = word.as_ref();
+    let refusals = [
+        size(word).err(),
+        bytes(word).err(),
+        word.parse::<Layer>().err(),
+        word.parse::<Scale>().err(),
+    ];
+    if refusals.iter().any(Option::is_none) {
+        return Ok(());
+    }
+    // Only one message can be looked at; which one depends on the word.
+    match refusals.into_iter().flatten().nth(word.len() % 4) {
+        Some(message) => Err(Stop::Refused(message)),
+        None => Ok(()),
+    }
+}

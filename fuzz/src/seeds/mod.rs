@@ -1,0 +1,174 @@
+//! The inputs that mutation starts from.
+//!
+//! They are the files of `examples/` and of `fuzz/seeds/`, made small: grids have few cells and
+//! pictures few texels, so that a case takes no longer than a millisecond. Grids, meshes and
+//! pictures are made from the examples when a worker starts. The same files give the same seeds in the
+//! same order.
+
+pub mod exr;
+pub mod png;
+pub mod shelf;
+pub mod small;
+
+use crate::verdict::{Stop, refused};
+use files::json::Document;
+use serde_json::Value;
+use shelf::Shelf;
+use std::path::{Path, PathBuf};
+use sweep::spec::Mesh;
+use sweep::{GridMesh, Object};
+use thiserror::Error;
+
+/// The folder of scenes on the shelf; scenes and parts that are tried lie here.
+pub const SCENES: &str = "examples/scenes";
+/// The folder of specs on the shelf.
+pub const CURVES: &str = "examples/curves";
+/// The folder of jobs on the shelf.
+pub const PAGES: &str = "examples/pages";
+
+/// Why there are no seeds.
+#[derive(Debug, Error)]
+pub enum SeedError {
+    /// A folder or file cannot be read.
+    #[error("cannot read {path}: {source}")]
+    Read {
+        /// The folder or file.
+        path: String,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// A file is not what its folder says.
+    #[error("seed {path}: {found}")]
+    Wrong {
+        /// The file.
+        path: String,
+        /// What is wrong with it.
+        found: String,
+    },
+}
+
+/// All seeds, and the files that they name.
+#[derive(Debug)]
+pub struct Corpus {
+    /// The examples, made small.
+    pub shelf: Shelf,
+    /// Specs whose meshes have few cells.
+    pub specs: Vec<Value>,
+    /// Scenes.
+    pub scenes: Vec<Value>,
+    /// Jobs.
+    pub jobs: Vec<Value>,
+    /// The grids of some specs.
+    pub grids: Vec<Vec<GridMesh>>,
+}
+
+impl Corpus {
+    /// Reads the examples and makes them small.
+    ///
+    /// # Errors
+    /// When a folder is missing or one of its files is broken.
+    pub fn load() -> Result<Self, SeedError> {
+        let mut shelf = Shelf::default();
+        for (path, bytes) in folder(&root().join("examples/textures"), "png")? {
+            let small = small::picture(&bytes).map_err(|error| wrong(&path, &error))?;
+            shelf.put(on_shelf("examples/textures", &path), small);
+        }
+        let mut specs = Vec::new();
+        for (path, mut spec) in values("examples/curves", "spec")? {
+            small::bound(&mut spec);
+            shelf.put(on_shelf(CURVES, &path), spec.to_string().into_bytes());
+            specs.push(spec);
+        }
+        let mut scenes = Vec::new();
+        for (path, scene) in values("examples/scenes", "scene")? {
+            shelf.put(on_shelf(SCENES, &path), scene.to_string().into_bytes());
+            scenes.push(scene);
+        }
+        let mut jobs = Vec::new();
+        for (path, mut job) in values("examples/pages", "job")? {
+            small::bound_job(&mut job);
+            shelf.put(on_shelf(PAGES, &path), job.to_string().into_bytes());
+            jobs.push(job);
+        }
+        let grids = specs.iter().filter_map(|spec| grids_of(spec, &shelf).ok()).collect();
+        let mut corpus = Self { shelf, specs, scenes, jobs, grids };
+        let tube = corpus.obj(0).unwrap_or_default();
+        corpus.shelf.put("examples/meshes/tube.obj", tube);
+        Ok(corpus)
+    }
+
+    /// The OBJ file of one of the grids.
+    #[must_use]
+    pub fn obj(&self, number: usize) -> Option<Vec<u8>> {
+        let mut bytes = Vec::new();
+        let options = triangulate::Options::default();
+        triangulate::write_grids_obj(self.grids.get(number)?, &options, &mut bytes).ok()?;
+        Some(bytes)
+    }
+}
+
+/// The files of `fuzz/seeds/` for a reader, in the order of their names; none without such a folder.
+///
+/// # Errors
+/// When one of them cannot be read.
+pub fn extra(reader: &str) -> Result<Vec<Vec<u8>>, SeedError> {
+    let path = root().join("fuzz/seeds").join(reader);
+    if !path.is_dir() {
+        return Ok(Vec::new());
+    }
+    Ok(folder(&path, "")?.into_iter().map(|(_, bytes)| bytes).collect())
+}
+
+/// The grids of a spec with very few cells.
+fn grids_of(spec: &Value, shelf: &Shelf) -> Result<Vec<GridMesh>, Stop> {
+    let mut spec = spec.clone();
+    small::bound_to(&mut spec, 10, 200);
+    let text = spec.to_string();
+    let document = Document::new("spec.json", text.as_bytes()).map_err(refused)?;
+    let object = Object::read(&document, CURVES.as_ref(), shelf, &Mesh::default());
+    object.and_then(|object| object.grids()).map_err(refused)
+}
+
+/// The root of the repository.
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+fn on_shelf(folder: &str, path: &Path) -> PathBuf {
+    Path::new(folder).join(path.file_name().unwrap_or_default())
+}
+
+fn wrong(path: &Path, found: &dyn std::error::Error) -> SeedError {
+    SeedError::Wrong { path: path.display().to_string(), found: found.to_string() }
+}
+
+/// The JSON files of a folder of the examples, and behind them those of `fuzz/seeds/`.
+fn values(examples: &str, reader: &str) -> Result<Vec<(PathBuf, Value)>, SeedError> {
+    let mut files = folder(&root().join(examples), "json")?;
+    let extra = root().join("fuzz/seeds").join(reader);
+    if extra.is_dir() {
+        files.extend(folder(&extra, "json")?);
+    }
+    let parse = |(path, bytes): (PathBuf, Vec<u8>)| {
+        let value = serde_json::from_slice(&bytes).map_err(|error| wrong(&path, &error))?;
+        Ok((path, value))
+    };
+    files.into_iter().map(parse).collect()
+}
+
+/// The files of a folder whose names end in `ending`, in the order of their names.
+fn folder(path: &Path, ending: &str) -> Result<Vec<(PathBuf, Vec<u8>)>, SeedError> {
+    let error = |source| SeedError::Read { path: path.display().to_string(), source };
+    let entries = std::fs::read_dir(path).map_err(error)?;
+    let mut paths = entries
+        .map(|entry| entry.map(|entry| entry.path()))
+        .collect::<Result<Vec<_>, _>>()
+        .map_err(error)?;
+    paths.retain(|path| path.to_string_lossy().ends_with(ending));
+    paths.sort();
+    let read = |path: PathBuf| match std::fs::read(&path) {
+        Ok(bytes) => Ok((path, bytes)),
+        Err(source) => Err(SeedError::Read { path: path.display().to_string(), source }),
+    };
+    paths.into_iter().map(read).collect()
+}

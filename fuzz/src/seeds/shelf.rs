@@ -1,0 +1,65 @@
+//! Files in memory: what the inputs name, and the input itself.
+
+use files::{FileError, Source};
+use std::collections::BTreeMap;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+/// Files by their paths from the root of the repository.
+#[derive(Debug, Default)]
+pub struct Shelf(BTreeMap<PathBuf, Vec<u8>>);
+
+impl Shelf {
+    /// Puts a file on the shelf, in place of one with the same path.
+    pub fn put(&mut self, path: impl Into<PathBuf>, bytes: Vec<u8>) {
+        self.0.insert(path.into(), bytes);
+    }
+
+    /// The shelf with one more file on it.
+    #[must_use]
+    pub fn with<'a>(&'a self, path: &'a str, bytes: &'a [u8]) -> Over<'a> {
+        Over { shelf: self, path: Path::new(path), bytes }
+    }
+}
+
+/// A shelf with one more file on it, which hides one of the same path.
+#[derive(Debug)]
+pub struct Over<'a> {
+    shelf: &'a Shelf,
+    path: &'a Path,
+    bytes: &'a [u8],
+}
+
+impl Source for Over<'_> {
+    fn read(&self, path: &Path) -> Result<Vec<u8>, FileError> {
+        let wanted = files::input::normalized(path);
+        if wanted == self.path {
+            return Ok(self.bytes.to_vec());
+        }
+        self.shelf.0.get(&wanted).cloned().ok_or_else(|| FileError::Read {
+            name: path.display().to_string(),
+            source: ErrorKind::NotFound.into(),
+        })
+    }
+}
+
+impl Source for Shelf {
+    fn read(&self, path: &Path) -> Result<Vec<u8>, FileError> {
+        self.with("", &[]).read(path)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_laid_over_hides_the_one_below() {
+        let mut shelf = Shelf::default();
+        shelf.put("a/b.png", b"below".to_vec());
+        let read = |source: &dyn Source| source.read(Path::new("a/c/../b.png")).unwrap();
+        assert_eq!(read(&shelf), b"below");
+        assert_eq!(read(&shelf.with("a/b.png", b"over")), b"over");
+        assert!(shelf.read(Path::new("a/d.png")).is_err());
+    }
+}
