@@ -258,9 +258,9 @@ fn programs_open_files_only_through_the_ledger() {
     for file in programs.chain(rooms) {
         let code = without_tests(&code(&read(&file)));
         for door in doors {
-            let past = code.match_indices(door).any(|(at, _)| {
-                !code[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_')
-            });
+            let past = code
+                .match_indices(door)
+                .any(|(at, _)| !code[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_'));
             assert!(!past, "{file}: found {door}, expected the ledger");
         }
         // Standard output clashes with no file, and the numbers of a report are claimed before.
