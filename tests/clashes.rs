@@ -1,6 +1,7 @@
 //! No output destroys an input, by whatever name it is called; nor does its name lie.
 
 #![cfg(unix)]
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use crate::support::{programs, root, run, words};
 use std::fs;
