@@ -1,6 +1,7 @@
 //! No output destroys an input, by whatever name it is called; nor does its name lie.
 
 #![cfg(unix)]
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use crate::support::{programs, root, run, words};
 use std::fs;
@@ -218,8 +219,8 @@ fn pipeline_refuses_to_write_over_what_it_reads() {
     refused(
         &folder,
         &[
-            ("pipeline run checks.json --size 8x8 -o .", folder_clash),
-            ("pipeline run kept.json --size 8x8 --keep -o .", folder_clash),
+            ("pipeline run -q checks.json --size 8x8 -o .", folder_clash),
+            ("pipeline run -q kept.json --size 8x8 --keep -o .", folder_clash),
             ("pipeline run -q job.json second.json --size 8x8 -o .", folder_clash),
             ("pipeline run -q second.json job.json --size 8x8 -o .", folder_clash),
             ("pipeline report table.json --quick --size 4x4 -o .", folder_clash),

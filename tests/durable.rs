@@ -1,6 +1,8 @@
 //! What is written lasts, and what cannot be written is told.
 
 #![cfg(target_os = "linux")]
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+#![allow(clippy::print_stderr, reason = "a test that is skipped says so")]
 
 use crate::support::{programs, root, words};
 use std::fs::{self, File};

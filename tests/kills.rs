@@ -7,6 +7,8 @@
 //! part of a run.
 
 #![cfg(unix)]
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+#![allow(clippy::print_stdout, reason = "the seed and the counts are what a run is for")]
 
 use crate::support::{programs, root};
 use std::fs;
@@ -91,7 +93,7 @@ fn inputs(folder: &Path) {
     finish(&["triangulate", "in.grid", "-o", "in.obj"], folder);
 }
 
-/// Moments from a seed: SplitMix64.
+/// Moments from a seed, by `SplitMix64`.
 struct Moments(u64);
 
 impl Moments {

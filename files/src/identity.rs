@@ -22,12 +22,9 @@ pub(crate) enum Identity {
     },
 }
 
-/// What tells a file or a folder from all others.
-#[cfg(unix)]
-pub(crate) type Number = (u64, u64);
-/// What tells a file or a folder from all others.
-#[cfg(not(unix))]
-pub(crate) type Number = std::path::PathBuf;
+/// What tells a file or a folder from all others: a device and a number there, or else a path.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub(crate) struct Number(#[cfg(unix)] (u64, u64), #[cfg(not(unix))] std::path::PathBuf);
 
 impl Identity {
     /// What the path leads to, links followed: the file that is there, if one is, and its name,
@@ -80,12 +77,12 @@ pub(crate) fn folds_case(folder: &Path) -> bool {
 #[cfg(unix)]
 fn number(_: &Path, found: &Metadata) -> Option<Number> {
     use std::os::unix::fs::MetadataExt;
-    Some((found.dev(), found.ino()))
+    Some(Number((found.dev(), found.ino())))
 }
 
 #[cfg(not(unix))]
 fn number(path: &Path, _: &Metadata) -> Option<Number> {
-    fs::canonicalize(path).ok()
+    fs::canonicalize(path).ok().map(Number)
 }
 
 #[cfg(unix)]
