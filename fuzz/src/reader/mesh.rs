@@ -4,6 +4,7 @@ use super::scene;
 use crate::seeds::shelf::Shelf;
 use crate::verdict::{Tried, refused};
 use render::scene::{mtl, obj};
+use render::shape::mesh::NONE;
 
 /// A scene with one mesh.
 const SCENE: &str = r#"{"format": "tb-scene", "version": 1,
@@ -40,7 +41,9 @@ pub fn read_obj(bytes: &[u8], shelf: &Shelf) -> Tried {
     if mesh.triangles.len() > MOST || mesh.positions.len() > MOST {
         return Ok(());
     }
-    scene::read_with(SCENE.as_bytes(), shelf, &[("tried", mesh)])
+    let textured = mesh.triangles.iter().all(|triangle| !triangle.uv.contains(&NONE));
+    let scene = if textured { SCENE.into() } else { SCENE.replace(", \"texture\": \"net\"", "") };
+    scene::read_with(scene.as_bytes(), shelf, &[("tried", mesh)])
 }
 
 /// Reads a library and renders a mesh with it.

@@ -17,7 +17,7 @@ const BUMPY: &str = r#"{"format": "tb-scene", "version": 1,
     "background": 0.5, "ambient": 0.3,
     "lights": [{"directional": {"direction": [1, -2, -1], "color": 1}}],
     "textures": {"t": {"image": "../textures/tried.png"}},
-    "materials": {"m": {}, "b": {"bump": {"image": {"file": "../textures/tried.png", "strength": 1}}}},
+    "materials": {"m": {}, "b": {"bump": {"image": {"file": "../textures/tried.png"}, "strength": 0.1}}},
     "objects": [{"sphere": {"center": [1, 0, 0], "radius": 1, "material": "m", "texture": "t"}},
         {"sphere": {"center": [-1, 0, 0], "radius": 1, "material": "b"}}]}"#;
 

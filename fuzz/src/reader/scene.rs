@@ -9,12 +9,13 @@ use files::{Budget, Source};
 use render::color::Encoding;
 use render::film::{Layer, memory};
 use render::filter::Filter;
-use render::scene::file::ObjectFile;
+use render::scene::file::{MeshFile, ObjectFile};
 use render::scene::read::{self, Draft};
 use render::scene::{MeshSource, check};
 use render::shape::Mesh;
 use render::shape::mesh::{NONE, Triangle};
 use render::{Prepared, Scene, Settings, inspect};
+use std::collections::BTreeMap;
 
 /// Where a part lies that is tried.
 const PART: &str = "examples/scenes/tried.json";
@@ -68,7 +69,7 @@ pub fn read_with(bytes: &[u8], source: &dyn Source, given: &[(&str, Mesh)]) -> T
                 && (mesh.file.is_none() || given.iter().any(|(name, _)| *name == mesh.name))
             {
                 let found = given.iter().find(|(name, _)| *name == mesh.name);
-                let shape = found.map_or_else(tetrahedron, |(_, mesh)| mesh.clone());
+                let shape = found.map_or_else(|| tetrahedron(mesh), |(_, mesh)| mesh.clone());
                 meshes.insert(mesh.name.clone(), shape);
             }
         }
@@ -109,15 +110,24 @@ pub fn picture(mut scene: Scene, filter: Filter) -> Tried {
     Ok(())
 }
 
-/// A mesh for every name without a file.
-fn tetrahedron() -> Mesh {
-    let corner =
-        |position: [u32; 3]| Triangle { position, uv: position, normal: [NONE; 3], surface: 0 };
+/// A mesh for a name without a file, whose two surfaces the scene binds.
+fn tetrahedron(file: &MeshFile) -> Mesh {
+    let id = |bound: &BTreeMap<String, String>, first: bool| {
+        let mut ids = bound.keys().filter(|key| key.parse::<u32>().is_ok());
+        let id = if first { ids.next() } else { ids.next_back() };
+        id.cloned().unwrap_or_else(|| "0".into())
+    };
+    let surface =
+        |first| format!("tex{}_surf{}", id(&file.textures, first), id(&file.materials, first));
+    let corner = |position: [u32; 3]| {
+        let surface = u32::from(position[0] == 1);
+        Triangle { position, uv: position, normal: [NONE; 3], surface }
+    };
     Mesh {
         positions: vec![[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [0., 0., 1.]],
         uvs: vec![[0., 0.], [1., 0.], [0., 1.], [1., 1.]],
         normals: vec![],
         triangles: [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]].map(corner).to_vec(),
-        surfaces: vec!["tex2_surf0".into()],
+        surfaces: vec![surface(true), surface(false)],
     }
 }
