@@ -218,7 +218,9 @@ fn keys_of_output(argument: &Path) -> Vec<Identity> {
 fn spelling_of(key: &Identity) -> Option<(Number, String)> {
     match key {
         Identity::There(_) => None,
-        Identity::Name { folder, name } => Some((*folder, name.to_string_lossy().to_lowercase())),
+        Identity::Name { folder, name } => {
+            Some((folder.clone(), name.to_string_lossy().to_lowercase()))
+        }
     }
 }
 
