@@ -6,6 +6,7 @@
 //! | [`input`]  | bytes from a file, from standard input, or from pages built in           |
 //! | [`names`]  | JSON objects of names that a user chose, each once                       |
 //! | [`output`] | a file that is replaced only when it is whole, or standard output        |
+//! | [`progress`] | a bar on standard error, for work that takes longer than a second        |
 //! | [`stop`]   | no temporary file stays when a program is interrupted                   |
 //! | [`exit`]   | the exit codes, and the one place that prints an error                   |
 //!
@@ -16,6 +17,7 @@ pub mod input;
 pub mod json;
 pub mod names;
 pub mod output;
+pub mod progress;
 pub mod stop;
 mod words;
 

@@ -4,7 +4,7 @@ use crate::job::{MeshJob, Mode};
 use crate::stages::Stages;
 use crate::{Job, PipelineError, mesh};
 use files::json::Document;
-use files::{JsonError, Output, Source};
+use files::{Output, Source};
 use render::color::Encoding;
 use render::film::encode::{self, Format};
 use render::film::memory;
@@ -204,9 +204,7 @@ impl Work<'_> {
         let object =
             Object::read(&document, folder, self.source, &seen).map_err(|error| match error {
                 // It is about what the job says in place of the spec.
-                SweepError::Resolution(message) => {
-                    JsonError { message, ..mesh.mesh_place.clone() }.into()
-                }
+                SweepError::Resolution(message) => mesh.resolution_fault(message).into(),
                 other => PipelineError::from(other),
             })?;
         let grids = object.grids()?;

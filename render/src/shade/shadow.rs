@@ -49,7 +49,7 @@ impl Shader<'_> {
                 return true;
             }
             blocked = transparency(scene, area) == 0.0;
-            if !blocked && !crossed.contains(&area) {
+            if !blocked {
                 crossed.push(area);
             }
             !blocked
@@ -59,6 +59,7 @@ impl Shader<'_> {
         }
         // In the scene's order, so that the product does not depend on the order of the hits.
         crossed.sort_unstable();
+        crossed.dedup();
         let dimmed: f64 = crossed.into_iter().map(|area| transparency(scene, area)).product();
         if self.volumes.absorb() && dimmed > 0.0 {
             dimmed * self.absorbed(&ray, distance, around_light)
