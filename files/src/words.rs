@@ -7,6 +7,10 @@
 /// given by line and column; the text only helps to recognize it.
 const LONGEST_QUOTE: usize = 60;
 
+/// Names longer than this many characters are not held against others: the time taken is the product of
+/// both lengths, for each name that is known.
+const LONGEST_SLIP: usize = 200;
+
 /// Sentences that are replaced whole.
 const SENTENCES: [(&str, &str); 16] = [
     ("EOF while parsing a list", "found the end of the text inside an array, expected `]`"),
@@ -116,6 +120,9 @@ pub fn shortened(text: &str) -> String {
 #[must_use]
 pub fn nearest<'a>(found: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let length = found.chars().count();
+    if length > LONGEST_SLIP {
+        return None;
+    }
     let allowed = 1 + length / 4;
     candidates
         // The distance takes the product of both lengths in time, and is at least their difference.

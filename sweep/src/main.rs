@@ -4,6 +4,7 @@ use clap::{Parser, ValueEnum};
 use files::exit::{Exit, Failure, Report, say};
 use files::input;
 use files::json::Document;
+use files::progress::Progress;
 use files::{Disk, Output, exit};
 use std::io::{self, IsTerminal, Write};
 use std::num::NonZeroUsize;
@@ -200,7 +201,9 @@ fn work(arguments: &Arguments) -> Result<(), Report> {
     let findings = if grids.is_empty() {
         Vec::new()
     } else {
-        check::check(&document, &object, &grids, arguments.check_self)?
+        let progress = Progress::new("check", arguments.quiet);
+        let tell = |done, total| progress.tell(done, total);
+        check::check(&document, &object, &grids, arguments.check_self.then_some(&tell))?
     };
     if let Some(file) = preview {
         file.commit_all(preview::svg(&object, &grids, &findings).as_bytes())?;

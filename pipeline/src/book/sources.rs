@@ -92,11 +92,61 @@ fn plain(path: &Path) -> PathBuf {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Job;
+    use files::FileError;
+    use std::collections::BTreeMap;
+    use std::sync::atomic::{AtomicUsize, Ordering};
 
     #[test]
     fn steps_that_undo_each_other_are_not_shown() {
         let shown = |path: &str| plain(Path::new(path)).display().to_string();
         assert_eq!(shown("examples/pages/../curves/a.json"), "examples/curves/a.json");
         assert_eq!(shown("../../b/../a.json"), "../../a.json");
+    }
+
+    /// Files that count how often any is read.
+    #[derive(Debug, Default)]
+    struct Counted {
+        files: BTreeMap<PathBuf, String>,
+        reads: AtomicUsize,
+    }
+
+    impl Source for Counted {
+        fn read(&self, path: &Path) -> Result<Vec<u8>, FileError> {
+            self.reads.fetch_add(1, Ordering::Relaxed);
+            Ok(self.files[&files::input::normalized(path)].clone().into_bytes())
+        }
+    }
+
+    #[test]
+    fn parts_that_include_each_other_crosswise_are_read_and_shown_once_each() {
+        const LEVELS: usize = 12;
+        let mut source = Counted::default();
+        let next = |level: usize| {
+            ["a", "b", "c"].map(|other| format!("\"../{other}/{level}.json\"")).join(", ")
+        };
+        let mut file = |path: &str, text: String| {
+            source.files.insert(path.into(), text);
+        };
+        for level in 0..LEVELS {
+            let include = if level + 1 < LEVELS { next(level + 1) } else { String::new() };
+            let head = r#""format": "tb-scene-part", "version": 1"#;
+            for folder in ["a", "b", "c"] {
+                let text = format!(r#"{{ {head}, "include": [{include}] }}"#);
+                file(&format!("{folder}/{level}.json"), text);
+            }
+        }
+        let camera = r#""camera": { "eye": [0, 0, 1], "target": [0, 0, 0], "fov_deg": 60 }"#;
+        let head = r#""format": "tb-scene", "version": 1"#;
+        let scene = format!(r#"{{ {head}, {camera}, "include": [{}] }}"#, next(0));
+        file("s/scene.json", scene);
+        let job = r#"{ "format": "tb-job", "version": 1, "scene": "scene.json" }"#;
+        file("s/job.json", job.into());
+        let path = Path::new("s/job.json");
+        let job = Job::read(path, &source).unwrap();
+        let before = source.reads.load(Ordering::Relaxed);
+        let entry = Entry { job: &job, path, source: &source, argument: "s/job.json" };
+        assert_eq!(texts(&entry).unwrap().len(), 3 * LEVELS + 2);
+        assert_eq!(source.reads.load(Ordering::Relaxed) - before, 3 * LEVELS + 2);
     }
 }

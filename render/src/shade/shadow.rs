@@ -99,10 +99,10 @@ impl Shader<'_> {
             // What the way to the light leaves, the light enters.
             let boundary = media.boundary(own, !leaves, &scene.materials);
             pass(boundary.before, far - near);
-            media.cross(own, !leaves);
+            media.cross(own, !leaves, &scene.materials);
             far = near;
         }
-        pass(media.current(&scene.materials), far);
+        pass(media.current(), far);
         left
     }
 }
