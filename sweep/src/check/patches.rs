@@ -3,8 +3,8 @@
 //! Boxes along the axes of space overlap in thousands where cells are long, thin and askew. A box that
 //! is turned along its patch is as thin as the patch is, and so meets its neighbours only: after
 //! Gottschalk, Lin and Manocha, *OBBTree: A Hierarchical Structure for Rapid Interference Detection*,
-//! SIGGRAPH 1996. Two boxes are told apart by the six axes of both; the nine others of the paper would
-//! tell a few more apart at twice the cost. Patches are rectangles of cells, halved across their longer
+//! SIGGRAPH 1996. Two boxes are told apart by the axes of both, and where these do not, by the directions
+//! across an axis of each, which part long thin boxes that pass each other. Patches are rectangles of cells, halved across their longer
 //! side, so that the tree needs no sorting and is `log2 n` deep.
 
 use super::strands::Triangle;
@@ -270,16 +270,14 @@ impl Turned {
         })
     }
 
-    /// Whether a plane across an axis of one of both parts them.
+    /// Whether a plane parts the boxes: across an axis of one, or along an axis of each.
     fn misses(&self, other: &Self) -> bool {
         let apart = other.middle - self.middle;
-        let parts = |one: &Self, other: &Self| {
-            (0..3).any(|k| {
-                let reach: f64 =
-                    (0..3).map(|j| other.half[j] * other.axes[j].dot(one.axes[k]).abs()).sum();
-                apart.dot(one.axes[k]).abs() > one.half[k] + reach
-            })
+        let reach = |one: &Self, axis: DVec3| -> f64 {
+            (0..3).map(|k| one.half[k] * one.axes[k].dot(axis).abs()).sum()
         };
-        parts(self, other) || parts(other, self)
+        let parts = |axis: DVec3| apart.dot(axis).abs() > reach(self, axis) + reach(other, axis);
+        self.axes.iter().chain(&other.axes).any(|&axis| parts(axis))
+            || self.axes.iter().any(|a| other.axes.iter().any(|b| parts(a.cross(*b))))
     }
 }
