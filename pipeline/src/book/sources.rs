@@ -138,7 +138,7 @@ mod tests {
         }
         let camera = r#""camera": { "eye": [0, 0, 1], "target": [0, 0, 0], "fov_deg": 60 }"#;
         let head = r#""format": "tb-scene", "version": 1"#;
-        let scene = format!(r#"{{ {head}, {camera}, "include": [{}] }}"#, next(0));
+        let scene = format!(r#"{{ {head}, {camera}, "include": [{}], "objects": [] }}"#, next(0));
         file("s/scene.json", scene);
         let job = r#"{ "format": "tb-job", "version": 1, "scene": "scene.json" }"#;
         file("s/job.json", job.into());

@@ -167,11 +167,13 @@ impl Search {
                 self.looks += tree.search(
                     |other| touch(other, &bounds[at]),
                     |other| {
-                        let may = other as usize <= at || self.may_try();
-                        if may && other as usize > at {
+                        if !self.may_try() {
+                            return ControlFlow::Break(());
+                        }
+                        if other as usize > at {
                             met.push(group[other as usize]);
                         }
-                        if may { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+                        ControlFlow::Continue(())
                     },
                 );
                 for other in met {
