@@ -9,6 +9,7 @@
 //! | [`output`]    | a file that is replaced only when it is whole, or standard output     |
 //! | [`batch`]     | files that belong together, and a marker while some are old           |
 //! | [`extension`] | names of outputs that say what the file does not hold                 |
+//! | [`progress`]  | a bar on standard error, for work that takes longer than a second     |
 //! | [`stop`]      | no temporary file stays when a program is interrupted                 |
 //! | [`exit`]      | the exit codes, and the one place that prints an error                |
 //! | [`memory`]    | a budget of bytes, which are asked for before they are taken          |
@@ -29,6 +30,7 @@ pub mod memory;
 pub mod names;
 pub mod output;
 pub mod picture;
+pub mod progress;
 #[cfg(target_os = "linux")]
 mod stdout;
 pub mod stop;

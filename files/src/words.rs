@@ -20,6 +20,10 @@ const LONGEST_QUOTE: usize = 60;
 /// Characters of a line at most, with all that is quoted in it.
 const LONGEST_LINE: usize = 1000;
 
+/// Names longer than this many characters are not held against others: the time taken is the product of
+/// both lengths, for each name that is known.
+const LONGEST_SLIP: usize = 200;
+
 /// A name or a value as messages show it: on one line, with characters that are not seen spelled out,
 /// and cut in the middle where it is longer than 120 characters.
 #[must_use]
@@ -110,6 +114,9 @@ pub(crate) fn shortened(text: &str) -> String {
 #[must_use]
 pub fn nearest<'a>(found: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let length = found.chars().count();
+    if length > LONGEST_SLIP {
+        return None;
+    }
     let allowed = 1 + length / 4;
     candidates
         // The distance takes the product of both lengths in time, and is at least their difference.

@@ -6,7 +6,7 @@ use crate::{Job, PipelineError, mesh};
 use files::json::Document;
 use files::memory::{Reserved, of_process};
 use files::words::shown;
-use files::{Batch, JsonError, MemoryError, Output, Source, input};
+use files::{Batch, MemoryError, Output, Source, input};
 use render::color::Encoding;
 use render::film::encode::{self, Format};
 use render::film::memory;
@@ -249,9 +249,7 @@ impl Work<'_> {
         let object =
             Object::read(&document, folder, self.source, &seen).map_err(|error| match error {
                 // It is about what the job says in place of the spec.
-                SweepError::Resolution(message) => {
-                    JsonError { message, ..mesh.mesh_place.clone() }.into()
-                }
+                SweepError::Resolution(message) => mesh.resolution_fault(message).into(),
                 other => PipelineError::from(other),
             })?;
         let points = object.parts().iter().map(|part| {

@@ -28,6 +28,7 @@ mod peer_scenes;
 mod pictures;
 mod pixel;
 mod procedural;
+mod proportional;
 mod sampling;
 mod schema;
 mod shape_complaints;

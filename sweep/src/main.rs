@@ -3,6 +3,7 @@
 use clap::{Parser, ValueEnum};
 use files::exit::{Exit, Failure, Report, say};
 use files::json::Document;
+use files::progress::Progress;
 use files::{Batch, Ledger, Output, exit, extension, input, memory, words};
 use std::io::{self, IsTerminal, Write};
 use std::num::NonZeroUsize;
@@ -228,7 +229,9 @@ fn work(arguments: &Arguments) -> Result<(), Report> {
     let findings = if grids.is_empty() {
         Vec::new()
     } else {
-        check::check(&document, &object, &grids, arguments.check_self)?
+        let progress = Progress::new("check", arguments.quiet);
+        let tell = |done, total| progress.tell(done, total);
+        check::check(&document, &object, &grids, arguments.check_self.then_some(&tell))?
     };
     if let Some(mut file) = preview {
         let svg = preview::svg(&object, &grids, &findings);

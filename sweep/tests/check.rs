@@ -31,7 +31,7 @@ fn found(keys: &Value) -> Vec<Finding> {
     let text = ring(keys);
     let document = Document::new("ring.json", text.as_bytes()).unwrap();
     let object = read(&document).unwrap_or_else(|error| panic!("{error}"));
-    check::check(&document, &object, &object.grids().unwrap(), true).unwrap()
+    check::check(&document, &object, &object.grids().unwrap(), Some(&|_, _| {})).unwrap()
 }
 
 /// The one finding about a spec.

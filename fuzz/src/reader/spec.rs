@@ -37,8 +37,9 @@ pub fn read(bytes: &[u8], source: &dyn Source) -> Tried {
     }
     let grids = object.grids().map_err(refused)?;
     grids.iter().try_for_each(sound)?;
-    let findings = check::check(&document, &object, &grids, cells < MOST_STRANDS)
-        .map_err(|error| broken("--check refuses what was read")(&error))?;
+    let findings =
+        check::check(&document, &object, &grids, (cells < MOST_STRANDS).then_some(&|_, _| {}))
+            .map_err(|error| broken("--check refuses what was read")(&error))?;
     let parts = object.parts().iter().zip(&grids).map(|(part, grid)| check::summary(part, grid));
     parts.chain(findings.iter().map(ToString::to_string)).try_for_each(said)?;
     let page = preview::svg(&object, &grids, &findings);

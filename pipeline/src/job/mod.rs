@@ -39,6 +39,7 @@ use mode::ModeFile;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use sweep::spec;
 use triangulate::Options;
 
@@ -81,8 +82,29 @@ pub struct MeshJob {
     pub options: Options,
     /// What of its resolution is said here, in place of what the spec says.
     pub mesh: spec::Mesh,
-    /// Where that is said: a complaint whose words are still missing.
-    pub(crate) mesh_place: JsonError,
+    /// The text of the job, which says so.
+    said: Arc<JobText>,
+}
+
+/// The text of a job file, kept for complaints that only its meshes bring up.
+#[derive(Debug)]
+struct JobText {
+    /// The file as the user named it.
+    file: String,
+    bytes: Vec<u8>,
+}
+
+impl MeshJob {
+    /// A complaint about what the job says of this mesh's resolution.
+    ///
+    /// The text is parsed for the position here and not for each mesh of a job.
+    pub(crate) fn resolution_fault(&self, message: String) -> JsonError {
+        let path = format!("meshes.{}.mesh", self.name);
+        match Document::new(&self.said.file, &self.said.bytes) {
+            Ok(document) => document.fault(&path, message),
+            Err(error) => error,
+        }
+    }
 }
 
 /// A place in a picture.
@@ -137,7 +159,7 @@ impl Job {
         let name = path.display().to_string();
         let folder = path.parent().unwrap_or(Path::new(""));
         let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-        Ok(Self::parse(&Document::new(&name, &bytes)?, &stem, folder)?)
+        Ok(Self::parse(&name, &bytes, &stem, folder)?)
     }
 
     /// The job with only the modes of these names, in its own order; with all of them where there are
@@ -206,8 +228,10 @@ impl Job {
         format!("{}-{}.obj", self.name, mesh.name)
     }
 
-    /// The job in a document; its paths count from `folder`.
-    fn parse(document: &Document<'_>, name: &str, folder: &Path) -> Result<Self, JsonError> {
+    /// The job in the bytes of a file; its paths count from `folder`.
+    fn parse(file: &str, bytes: &[u8], name: &str, folder: &Path) -> Result<Self, JsonError> {
+        let document = &Document::new(file, bytes)?;
+        let said = Arc::new(JobText { file: file.into(), bytes: bytes.into() });
         document.expect("tb-job", 1)?;
         let file: JobFile = document.parse()?;
         for mesh in file.meshes.keys() {
@@ -220,7 +244,7 @@ impl Job {
             }
         }
         let meshes = file.meshes.into_iter().map(|(name, mesh)| MeshJob {
-            mesh_place: document.fault(&format!("meshes.{name}.mesh"), ""),
+            said: Arc::clone(&said),
             name,
             spec: folder.join(mesh.spec),
             options: Options { texture: mesh.texture, surface: mesh.surface },
@@ -257,8 +281,7 @@ mod tests {
     use render::filter::Filter;
 
     fn parse(text: &str) -> Result<Job, JsonError> {
-        let document = Document::new("a.json", text.as_bytes())?;
-        Job::parse(&document, "a", Path::new("jobs"))
+        Job::parse("a.json", text.as_bytes(), "a", Path::new("jobs"))
     }
 
     #[test]

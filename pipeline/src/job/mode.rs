@@ -8,6 +8,7 @@ use render::accel::Structure;
 use render::film::{MOST_SAMPLES, Nine, Pattern, PixelFilter};
 use render::filter::Filter;
 use serde::Deserialize;
+use std::collections::HashSet;
 
 /// A way to render a scene.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -83,10 +84,11 @@ pub(super) fn modes(
         return Err(document.fault("modes", "found no modes, expected at least one"));
     }
     let mut checked: Vec<Mode> = Vec::with_capacity(modes.len());
+    let mut names = HashSet::new();
     for (k, mode) in modes.into_iter().enumerate() {
         let name_path = format!("modes[{k}].name");
         check_word(document, &name_path, &mode.name)?;
-        if checked.iter().any(|other| other.name == mode.name) {
+        if !names.insert(mode.name.clone()) {
             let message = format!("found {:?} twice, expected a name for each mode", mode.name);
             return Err(document.fault(&name_path, message));
         }

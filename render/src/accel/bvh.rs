@@ -1,7 +1,7 @@
-//! A bounding volume hierarchy, built by obvhs and walked here.
+//! A bounding volume hierarchy, built by [`super::build`] and walked here.
 //!
-//! The library builds a binary tree (PLOC with reinsertion). For the walk the boxes of two siblings
-//! lie in one cache line as `f32`, counted from the middle of the tree, and are tested together.
+//! For the walk the boxes of two siblings lie in one cache line as `f32`, counted from the middle of
+//! the tree, and are tested together.
 //!
 //! **Nothing missed.** [`SlabRay::crosses`] decides in `f64` which boxes a ray crosses. The test in
 //! `f32` lets through all of those: the ray is first moved to where it enters the whole tree, so
@@ -10,13 +10,9 @@
 //! moving it by the widening, 2 for its distance from a plane, 4 for the product with the inverse:
 //! 8 of about 17 that are given. Those of `f64` are added as parts of their scale.
 
+use super::build::{Bounds, Builder, Part};
 use super::slabs::SlabRay;
-use glam::{DVec3, Vec3A, Vec4, Vec4Swizzles};
-use obvhs::aabb::Aabb;
-use obvhs::bvh2::Bvh2;
-use obvhs::bvh2::leaf_collapser::collapse;
-use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
-use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
+use glam::{DVec3, Vec4, Vec4Swizzles};
 
 /// How many nodes may wait at once before the walk recurses.
 ///
@@ -34,6 +30,7 @@ pub struct Bvh {
     half: f64,
     root: Child,
     pairs: Vec<Pair>,
+    looks: u64,
 }
 
 /// Two siblings: along each axis the lower sides of both boxes and then the upper ones.
@@ -108,28 +105,20 @@ impl Bvh {
         let bounds = boxes.iter().copied().reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])?;
         let middle = 0.5 * (bounds[0] + bounds[1]);
         let half = (bounds[0] - middle).abs().max((bounds[1] - middle).abs()).max_element();
-        let boxes: Vec<Aabb> = boxes
+        let boxes: Vec<Bounds> = boxes
             .iter()
-            .map(|[low, high]| Aabb {
-                min: round_down(*low - middle),
-                max: round_up(*high - middle),
-            })
+            .map(|[low, high]| Bounds::around([*low - middle, *high - middle]))
             .collect();
-        let indices = (0..boxes.len() as u32).collect();
-        let mut tree = PlocBuilder::with_capacity(boxes.len()).build(
-            PlocSearchDistance::Medium,
-            &boxes,
-            indices,
-            SortPrecision::U64,
-            3,
-        );
-        // obvhs's own figures for its "medium" build.
-        let mut optimizer = ReinsertionOptimizer::default();
-        optimizer.run(&mut tree, 0.05, None);
-        collapse(&mut tree, 4, 3.0);
-        optimizer.run(&mut tree, 0.1, None);
-        let (root, pairs, order) = laid_out(&tree);
-        Some((Self { bounds, middle, half, root, pairs }, order))
+        let whole = Bounds::around(bounds.map(|corner| corner - middle));
+        let mut builder = Builder::new(&boxes);
+        let (root, pairs, order) = laid_out(&mut builder, whole, boxes.len());
+        Some((Self { bounds, middle, half, root, pairs, looks: builder.looks }, order))
+    }
+
+    /// How many boxes were looked at to build the tree, each time counted.
+    #[must_use]
+    pub fn looks(&self) -> u64 {
+        self.looks
     }
 
     /// Memory in bytes.
@@ -211,44 +200,49 @@ impl Bvh {
     }
 }
 
+/// A part of the boxes that is still to be divided.
+struct Open {
+    /// Where its boxes are in the order.
+    boxes: std::ops::Range<usize>,
+    bounds: Bounds,
+    depth: usize,
+    /// The pair and the side that lead to the part; nothing for the whole.
+    parent: Option<(usize, usize)>,
+}
+
 /// The nodes in pairs, parents first, and the boxes' numbers in the order of the leaves.
-fn laid_out(tree: &Bvh2) -> (Child, Vec<Pair>, Vec<u32>) {
-    let mut pairs: Vec<Pair> = Vec::with_capacity(tree.nodes.len() / 2);
-    let mut order = Vec::with_capacity(tree.primitive_indices.len());
+fn laid_out(
+    builder: &mut Builder<'_>,
+    whole: Bounds,
+    count: usize,
+) -> (Child, Vec<Pair>, Vec<u32>) {
+    let mut pairs: Vec<Pair> = Vec::new();
+    let mut order: Vec<u32> = (0..count as u32).collect();
     let mut root = Child::default();
-    // Nodes, and which child of which pair they are.
-    let mut open = vec![(0u32, None)];
-    while let Some((number, parent)) = open.pop() {
-        let node = &tree.nodes[number as usize];
-        let first = node.first_index;
-        let child = if node.is_leaf() {
-            let slots = first as usize..(first + node.prim_count) as usize;
-            let start = order.len() as u32;
-            order.extend(&tree.primitive_indices[slots]);
-            Child { first: start, count: node.prim_count }
-        } else {
-            let [a, b] = [first, first + 1].map(|child| tree.nodes[child as usize].aabb);
-            let sides = |axis: usize| Vec4::new(a.min[axis], b.min[axis], a.max[axis], b.max[axis]);
-            let place = pairs.len();
-            let children = [Child::default(); 2];
-            pairs.push(Pair { x: sides(0), y: sides(1), z: sides(2), children });
-            open.extend([(first + 1, Some((place, 1))), (first, Some((place, 0)))]);
-            Child { first: place as u32, count: 0 }
+    let mut open = vec![Open { boxes: 0..count, bounds: whole, depth: 0, parent: None }];
+    while let Some(Open { boxes, bounds, depth, parent }) = open.pop() {
+        let child = match builder.divide(&mut order[boxes.clone()], &bounds, depth) {
+            Part::Leaf => Child { first: boxes.start as u32, count: boxes.len() as u32 },
+            Part::Cut(at, [a, b]) => {
+                let sides =
+                    |axis: usize| Vec4::new(a.low[axis], b.low[axis], a.high[axis], b.high[axis]);
+                let pair = pairs.len();
+                let children = [Child::default(); 2];
+                pairs.push(Pair { x: sides(0), y: sides(1), z: sides(2), children });
+                let depth = depth + 1;
+                let at = boxes.start + at;
+                let part =
+                    |boxes, bounds, side| Open { boxes, bounds, depth, parent: Some((pair, side)) };
+                // The first part is divided next, so that it lies beside its parent.
+                open.push(part(at..boxes.end, b, 1));
+                open.push(part(boxes.start..at, a, 0));
+                Child { first: pair as u32, count: 0 }
+            }
         };
         match parent {
-            Some((pair, which)) => pairs[pair].children[which] = child,
+            Some((pair, side)) => pairs[pair].children[side] = child,
             None => root = child,
         }
     }
     (root, pairs, order)
-}
-
-fn round_down(v: DVec3) -> Vec3A {
-    let down = |x: f64| if f64::from(x as f32) <= x { x as f32 } else { (x as f32).next_down() };
-    Vec3A::new(down(v.x), down(v.y), down(v.z))
-}
-
-fn round_up(v: DVec3) -> Vec3A {
-    let up = |x: f64| if f64::from(x as f32) >= x { x as f32 } else { (x as f32).next_up() };
-    Vec3A::new(up(v.x), up(v.y), up(v.z))
 }

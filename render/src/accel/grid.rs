@@ -63,6 +63,8 @@ pub struct Grid {
     sides: Vec<u8>,
     /// Rays whose [`SlabRay::scale`] is larger try every piece.
     reach: f64,
+    /// How many boxes were looked at, for each voxel that one is listed in.
+    looks: u64,
 }
 
 /// How a box is cut into voxels.
@@ -97,6 +99,12 @@ impl Grids {
         size_of_val(&*self.grids) + self.grids.iter().map(lists).sum::<usize>()
     }
 
+    /// How many boxes were looked at to build the grids, each time counted.
+    #[must_use]
+    pub fn looks(&self) -> u64 {
+        self.grids.iter().map(|grid| grid.looks).sum()
+    }
+
     /// Gives `visit` every box that the ray may meet within `t_max`, each once, the nearer ones of
     /// an object first; `visit` takes the current `t_max` and returns the one to go on with.
     pub fn walk(&self, ray: &SlabRay, mut t_max: f64, mut visit: impl FnMut(u32, f64) -> f64) {
@@ -114,8 +122,10 @@ impl Grid {
         });
         let most = own.len().saturating_mul(MOST_ENTRIES).min(u32::MAX as usize);
         let mut wanted = density * own.len() as f64;
+        let mut looks = 0;
         let cut = loop {
             let cut = Cut::new(bounds, wanted);
+            looks += own.len() as u64;
             let entries = own.iter().fold(0usize, |sum, piece| {
                 sum.saturating_add(
                     cut.voxels(piece).iter().map(|[a, b]| (b - a + 1) as usize).product(),
@@ -145,7 +155,8 @@ impl Grid {
                 next[voxel] += 1;
             });
         }
-        Self { bounds, cut, pieces, starts, listed, sides, reach: cut.reach() }
+        looks += 2 * entries as u64;
+        Self { bounds, cut, pieces, starts, listed, sides, reach: cut.reach(), looks }
     }
 
     fn walk(&self, ray: &SlabRay, mut t_max: f64, visit: &mut impl FnMut(u32, f64) -> f64) -> f64 {

@@ -18,6 +18,7 @@
 //! An eye on a surface sees past it by the same rule.
 
 mod brute;
+mod build;
 mod bvh;
 mod grid;
 mod slabs;
@@ -116,10 +117,15 @@ impl<'a> Accel<'a> {
                 _ => shape.bounds(),
             };
             match shape {
-                Shape::Mesh(mesh) => bounded.extend((0..mesh.triangles.len() as u32).map(|n| {
-                    let piece = Piece { triangle: n, ..piece };
-                    (Leaf { piece, corners: mesh.corners(n) }, mesh.bounds(n))
-                })),
+                Shape::Mesh(mesh) => {
+                    let triangles = (0..mesh.triangles.len() as u32)
+                        .map(|n| (Piece { triangle: n, ..piece }, mesh.corners(n)))
+                        .filter(|(_, corners)| !triangle::is_segment(corners))
+                        .map(|(piece, corners)| {
+                            (Leaf { piece, corners }, triangle::bounds(&corners))
+                        });
+                    bounded.extend(triangles);
+                }
                 _ => match bounds[object] {
                     Some(bounds) => bounded.push((leaf, bounds)),
                     None => apart.push(piece),
@@ -169,6 +175,16 @@ impl<'a> Accel<'a> {
             Index::All(_) => 0,
         };
         index + size_of_val(&*self.leaves)
+    }
+
+    /// How many boxes were looked at to build the structure, each time counted.
+    #[must_use]
+    pub fn looks(&self) -> u64 {
+        match &self.index {
+            Index::Tree(tree) => tree.as_ref().map_or(0, Bvh::looks),
+            Index::Grids(grids) => grids.looks(),
+            Index::All(_) => 0,
+        }
     }
 
     /// The hit that is seen: the nearest, and of equally near ones the first by [`Piece`].

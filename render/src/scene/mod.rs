@@ -109,7 +109,7 @@ pub struct Surface {
 }
 
 /// A texture of a surface; an index into one of the scene's lists.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum SurfaceTexture {
     /// A picture on it, of the scene's `textures`: averaged over what a pixel sees.
     Picture(usize),

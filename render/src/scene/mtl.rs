@@ -16,6 +16,7 @@ use super::Material;
 use super::obj::{ObjError, shortened};
 use super::schema::LARGEST;
 use crate::color::Color;
+use std::collections::HashSet;
 
 /// A material of a library.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,6 +36,7 @@ pub struct Entry {
 pub fn read(file: &str, bytes: &[u8]) -> Result<Vec<Entry>, ObjError> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let mut entries: Vec<Entry> = Vec::new();
+    let mut names = HashSet::new();
     for (number, line) in bytes.split(|&byte| byte == b'\n').enumerate() {
         let number = number + 1;
         let line = std::str::from_utf8(line)
@@ -49,7 +51,7 @@ pub fn read(file: &str, bytes: &[u8]) -> Result<Vec<Entry>, ObjError> {
         let (keyword, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
         let rest = rest.trim();
         if keyword == "newmtl" {
-            if rest.is_empty() || entries.iter().any(|entry| entry.name == rest) {
+            if rest.is_empty() || !names.insert(rest) {
                 return Err(wrong("`newmtl` and a name, each name once"));
             }
             entries.push(Entry { name: rest.into(), material: plain(), picture: None });

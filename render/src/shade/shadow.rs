@@ -49,7 +49,7 @@ impl Shader<'_> {
                 return true;
             }
             blocked = transparency(scene, area) == 0.0;
-            if !blocked && !crossed.contains(&area) {
+            if !blocked {
                 crossed.push(area);
             }
             !blocked
@@ -59,6 +59,7 @@ impl Shader<'_> {
         }
         // In the scene's order, so that the product does not depend on the order of the hits.
         crossed.sort_unstable();
+        crossed.dedup();
         let dimmed: f64 = crossed.into_iter().map(|area| transparency(scene, area)).product();
         if self.volumes.absorb() && dimmed > 0.0 {
             dimmed * self.absorbed(&ray, distance, around_light)
@@ -81,7 +82,8 @@ impl Shader<'_> {
                 crossings.push((start, own, leaves));
             }
             step = Ray::leaving(hit.piece, point.position, ray.direction);
-            if crossings.len() == MOST_CROSSINGS {
+            if crossings.len() == MOST_STEPS {
+                self.cross_the_rest(&step, start, distance, &mut crossings);
                 break;
             }
         }
@@ -98,13 +100,36 @@ impl Shader<'_> {
             // What the way to the light leaves, the light enters.
             let boundary = media.boundary(own, !leaves, &scene.materials);
             pass(boundary.before, far - near);
-            media.cross(own, !leaves);
+            media.cross(own, !leaves, &scene.materials);
             far = near;
         }
-        pass(media.current(&scene.materials), far);
+        pass(media.current(), far);
         left
     }
+
+    /// Adds the boundaries of volumes on a ray that begins `start` from the point, up to the light.
+    fn cross_the_rest(&self, ray: &Ray, start: f64, distance: f64, crossings: &mut Vec<Crossing>) {
+        let Self { scene, accel, volumes, .. } = *self;
+        let mut hits: Vec<Hit> = Vec::new();
+        accel.all_before(ray, distance - start, |hit| {
+            hits.push(hit);
+            true
+        });
+        hits.sort_by(|a, b| a.t.total_cmp(&b.t).then(a.piece.cmp(&b.piece)));
+        let boundaries = hits.iter().filter_map(|hit| {
+            let own = volumes.medium(scene, hit.piece.object, accel.part(hit))?;
+            let normal = accel.surface_point(ray, hit).geometric_normal;
+            Some((start + hit.t, own, ray.direction.dot(normal) > 0.0))
+        });
+        crossings.extend(boundaries.take(MOST_CROSSINGS - MOST_STEPS));
+    }
 }
+
+/// A way to a light is followed from boundary to boundary so far; the rest is found at once.
+///
+/// In volumes inside each other each step looks at all of them again. Larger, and thousands of such
+/// volumes take long; smaller, and boundaries in one place are no longer told apart from one as often.
+const MOST_STEPS: usize = 1 << 6;
 
 /// Boundaries between a point and a light that are told apart at most: a bound on the work.
 const MOST_CROSSINGS: usize = 1 << 12;

@@ -81,6 +81,16 @@ impl ShearedRay {
     }
 }
 
+/// Whether two of a triangle's corners are equal.
+///
+/// No ray meets such a triangle: two of its edge functions are exact opposites and the third is
+/// exactly zero, so that [`ShearedRay::intersect`] misses. Of three different corners in a line that
+/// does not hold: rounding leaves an area that a ray may meet.
+#[must_use]
+pub fn is_segment([a, b, c]: &[[f32; 3]; 3]) -> bool {
+    a == b || b == c || c == a
+}
+
 /// Lower and upper corner of a triangle's box.
 #[must_use]
 pub fn bounds(corners: &[[f32; 3]; 3]) -> [DVec3; 2] {
@@ -105,6 +115,24 @@ mod tests {
     }
 
     proptest! {
+        /// What is left out of every structure is what no ray meets.
+        #[test]
+        fn no_ray_meets_a_triangle_of_two_corners(
+            a in prop::array::uniform3(any::<f32>()), b in prop::array::uniform3(-1.0..1.0f32),
+            eye in prop::array::uniform3(-2.0..2.0f64), toward in prop::array::uniform3(-1.0..1.0f64),
+            at_corner in any::<bool>(), which in 0usize..3, near in any::<bool>(),
+        ) {
+            let a = if near { a.map(|x| if x.is_finite() { x.fract() } else { 0.0 }) } else { a };
+            let mut corners = [a; 3];
+            corners[which] = b;
+            prop_assert!(is_segment(&corners));
+            let eye = DVec3::from(eye);
+            let aimed = DVec3::from(b.map(f64::from)) - eye;
+            let direction = if at_corner { aimed } else { DVec3::from(toward) };
+            let ray = ShearedRay::new(eye, direction.normalize_or(DVec3::X));
+            prop_assert_eq!(ray.intersect(&corners, f64::INFINITY), None);
+        }
+
         /// A ray aimed at a corner or an edge of a closed fan never slips through.
         #[test]
         fn no_ray_slips_through_a_fan(

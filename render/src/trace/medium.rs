@@ -9,8 +9,9 @@
 //! Whether a ray enters or leaves is read off the side that it meets, and not off the list: so a
 //! crossing that was missed (at an edge, within rounding) is set right at the next one.
 
+use super::ranked::{Rank, Ranked};
 use crate::scene::Material;
-use std::iter::once;
+use std::sync::Arc;
 
 /// The inside of an object.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -21,23 +22,32 @@ pub struct Medium {
     pub material: u32,
 }
 
-/// The volumes that a ray is in, in the order in which it entered them.
+/// The volumes that a ray is in.
 ///
-/// Lists of the rays that led to a ray lie before its own, so that following one and coming back
-/// asks for no memory.
+/// What a ray enters and leaves is written down, so that following one and coming back takes as many
+/// steps as it crossed boundaries, however many volumes there are.
 #[derive(Debug, Clone, Default)]
 pub struct Media {
-    lists: Vec<Medium>,
-    /// Where the list of this ray begins.
-    begin: usize,
+    inside: Ranked,
+    /// What the ray started in, shared with all that start there; nothing for free space.
+    start: Option<Arc<Ranked>>,
+    changes: Vec<Change>,
+    /// The order of the volume that is entered next.
+    next: u64,
 }
 
-/// A state of [`Media`] to come back to.
+/// A step to be taken back.
 #[derive(Debug, Clone, Copy)]
-pub struct Mark {
-    begin: usize,
-    end: usize,
+enum Change {
+    /// The volume of an object was entered.
+    Entered(u32),
+    /// A volume was left.
+    Left(Rank, Medium),
 }
+
+/// A state of [`Media`] to come back to: how many changes led to it.
+#[derive(Debug, Clone, Copy)]
+pub struct Mark(usize);
 
 /// A surface between two media, as a ray meets it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -62,55 +72,79 @@ impl Boundary {
 }
 
 impl Media {
-    /// The volumes, in the order in which they were entered.
+    /// The media of a place that lies in these volumes, entered in this order.
     #[must_use]
-    pub fn entered(&self) -> &[Medium] {
-        &self.lists[self.begin..]
+    pub fn within(volumes: impl IntoIterator<Item = Medium>, materials: &[Material]) -> Self {
+        let mut media = Self::default();
+        for own in volumes {
+            media.cross(own, false, materials);
+        }
+        media.changes.clear();
+        media.start = (!media.inside.is_empty()).then(|| Arc::new(media.inside.clone()));
+        media
     }
 
-    /// Makes these the same volumes as `other`, and keeps the memory.
+    /// How many volumes there are.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.inside.len()
+    }
+
+    /// Makes these the same volumes as `other`, which is of [`Media::within`], and keeps the memory.
+    /// Nothing is copied where the last ray started in the same.
     pub fn start_in(&mut self, other: &Self) {
-        self.lists.clear();
-        self.lists.extend(other.entered());
-        self.begin = 0;
+        self.back_to(Mark(0));
+        let same = match (&self.start, &other.start) {
+            (None, None) => true,
+            (Some(own), Some(other)) => Arc::ptr_eq(own, other),
+            _ => false,
+        };
+        if !same {
+            self.inside.clone_from(&other.inside);
+            self.start.clone_from(&other.start);
+        }
+        self.next = other.next;
     }
 
     /// The state now.
     #[must_use]
     pub fn mark(&self) -> Mark {
-        Mark { begin: self.begin, end: self.lists.len() }
+        Mark(self.changes.len())
     }
 
     /// Goes back to an earlier state.
     pub fn back_to(&mut self, mark: Mark) {
-        self.begin = mark.begin;
-        self.lists.truncate(mark.end);
+        for change in self.changes.drain(mark.0..).rev() {
+            match change {
+                Change::Entered(object) => {
+                    self.inside.remove(object);
+                }
+                Change::Left(rank, medium) => self.inside.insert(rank, medium),
+            }
+        }
     }
 
     /// The material that the ray is in; nothing for free space.
     #[must_use]
-    pub fn current(&self, materials: &[Material]) -> Option<u32> {
-        there(self.entered().iter().copied(), materials).map(|medium| medium.material)
+    pub fn current(&self) -> Option<u32> {
+        self.inside.first().map(|(_, medium)| medium.material)
     }
 
     /// The boundary of a closed volume, met from its inside or from outside.
     #[must_use]
     pub fn boundary(&self, own: Medium, inside: bool, materials: &[Material]) -> Boundary {
-        if self.entered().is_empty() {
+        if self.inside.is_empty() {
             // Nearly all rays are in free space.
-            return self.sheet(own.material, inside, materials);
+            return self.sheet(own.material, inside);
         }
-        let others = || self.entered().iter().copied().filter(|other| other.object != own.object);
-        let outer = there(others(), materials);
+        let outer = self.inside.first_but(own.object);
         // Left, it is where it was entered; if that was missed, it was entered last.
-        let inner = if inside && self.entered().iter().any(|m| m.object == own.object) {
-            let place = |m: &Medium| if m.object == own.object { own } else { *m };
-            there(self.entered().iter().map(place), materials)
-        } else {
-            there(others().chain(once(own)), materials)
-        };
-        let seen = inner == Some(own);
-        let [inner, outer] = [inner, outer].map(|side| side.map(|medium| medium.material));
+        let entered = if inside { self.inside.rank_of(own.object) } else { None };
+        let order = entered.map_or(u64::MAX, |rank| rank.order);
+        let rank = Rank { priority: materials[own.material as usize].priority, order };
+        let seen = outer.is_none_or(|(other, _)| other < rank);
+        let outer = outer.map(|(_, medium)| medium.material);
+        let inner = if seen { Some(own.material) } else { outer };
         if inside {
             Boundary { before: inner, behind: outer, seen }
         } else {
@@ -121,31 +155,24 @@ impl Media {
     /// The surface of an object that has no inside: what is behind it lasts no longer than the
     /// surface itself. `inside` says that its back was met.
     #[must_use]
-    pub fn sheet(&self, material: u32, inside: bool, materials: &[Material]) -> Boundary {
-        let (own, outer) = (Some(material), self.current(materials));
+    pub fn sheet(&self, material: u32, inside: bool) -> Boundary {
+        let (own, outer) = (Some(material), self.current());
         let (before, behind) = if inside { (own, outer) } else { (outer, own) };
         Boundary { before, behind, seen: true }
     }
 
     /// Crosses the boundary of a volume.
-    pub fn cross(&mut self, own: Medium, inside: bool) {
-        let before = self.begin..self.lists.len();
-        self.begin = before.end;
-        for place in before {
-            let other = self.lists[place];
-            if other.object != own.object {
-                self.lists.push(other);
-            }
+    pub fn cross(&mut self, own: Medium, inside: bool, materials: &[Material]) {
+        if let Some((rank, medium)) = self.inside.remove(own.object) {
+            self.changes.push(Change::Left(rank, medium));
         }
         if !inside {
-            self.lists.push(own);
+            let priority = materials[own.material as usize].priority;
+            self.inside.insert(Rank { priority, order: self.next }, own);
+            self.next += 1;
+            self.changes.push(Change::Entered(own.object));
         }
     }
-}
-
-/// Of volumes that overlap the one that is there: of the highest priority, the last.
-fn there(media: impl Iterator<Item = Medium>, materials: &[Material]) -> Option<Medium> {
-    media.max_by_key(|medium| materials[medium.material as usize].priority)
 }
 
 #[cfg(test)]
@@ -170,7 +197,7 @@ mod tests {
         let mut media = Media::default();
         let step = |&(own, inside)| {
             let boundary = media.boundary(own, inside, materials);
-            media.cross(own, inside);
+            media.cross(own, inside, materials);
             (boundary.eta(materials), boundary.seen)
         };
         crossings.iter().map(step).collect()
@@ -224,29 +251,66 @@ mod tests {
         let marks: Vec<Mark> = (0..1000)
             .map(|object| {
                 let mark = media.mark();
-                media.cross(Medium { object, ..WATER }, false);
+                media.cross(Medium { object, ..WATER }, false, &materials);
                 mark
             })
             .collect();
         for (object, &mark) in (0..1000).zip(&marks).rev() {
-            assert_eq!(media.entered().len(), object as usize + 1);
+            assert_eq!(media.count(), object as usize + 1);
             let boundary = media.boundary(Medium { object, ..WATER }, true, &materials);
             let behind = (object > 0).then_some(1);
             assert_eq!(boundary, Boundary { before: Some(1), behind, seen: true });
             media.back_to(mark);
         }
-        assert_eq!(media.current(&materials), None);
+        assert_eq!(media.current(), None);
+    }
+
+    #[test]
+    fn a_ray_starts_in_what_is_around_its_start_whatever_was_followed_before() {
+        let materials = materials([0; 3]);
+        let around = Media::within([GLASS, WATER], &materials);
+        let mut media = Media::default();
+        for _ in 0..2 {
+            media.start_in(&around);
+            assert_eq!((media.count(), media.current()), (2, Some(1)));
+            media.cross(WATER, true, &materials);
+            media.cross(AIR, false, &materials);
+            assert_eq!((media.count(), media.current()), (2, Some(2)));
+        }
+        media.start_in(&Media::default());
+        assert_eq!((media.count(), media.current()), (0, None));
+    }
+
+    #[test]
+    fn what_is_written_down_is_in_proportion_to_the_boundaries_crossed() {
+        let materials = materials([0; 3]);
+        let changes = |count: u32| {
+            let around =
+                Media::within((0..count).map(|object| Medium { object, ..AIR }), &materials);
+            let mut media = Media::default();
+            media.start_in(&around);
+            let start = media.mark();
+            for object in 0..count {
+                media.cross(Medium { object, ..AIR }, true, &materials);
+            }
+            let changes = media.changes.len();
+            assert_eq!(media.count(), 0);
+            media.back_to(start);
+            assert_eq!(media.count(), count as usize);
+            changes
+        };
+        assert_eq!((changes(1000), changes(2000)), (1000, 2000));
     }
 
     #[test]
     fn a_sheet_lies_in_what_is_around_it() {
         let materials = materials([0; 3]);
         let mut media = Media::default();
-        assert_eq!(media.sheet(0, false, &materials).eta(&materials), 1.0 / 1.5);
-        media.cross(WATER, false);
-        assert_eq!(media.sheet(0, true, &materials).eta(&materials), 1.5 / 1.33);
-        assert_eq!(media.sheet(2, false, &materials).eta(&materials), 1.33);
-        media.cross(AIR, false);
-        assert_eq!(media.current(&materials), Some(2));
+        assert_eq!(media.sheet(0, false).eta(&materials), 1.0 / 1.5);
+        media.cross(WATER, false, &materials);
+        assert_eq!(media.sheet(0, true).eta(&materials), 1.5 / 1.33);
+        assert_eq!(media.sheet(2, false).eta(&materials), 1.33);
+        media.cross(AIR, false, &materials);
+        assert_eq!(media.current(), Some(2));
     }
 }

@@ -5,6 +5,7 @@
 //! and shading waits until its neighbours have theirs.
 
 pub mod medium;
+mod ranked;
 pub mod rows;
 mod split;
 pub mod tree;
@@ -202,7 +203,7 @@ impl<'a> Tracer<'a> {
             let passed = Ray::leaving(hit.piece, point.position, direction);
             let share = weight * refract_weight;
             if let Some(own) = self.volumes.medium(self.scene, hit.piece.object, point.part) {
-                media.cross(own, inside);
+                media.cross(own, inside, &self.scene.materials);
             }
             let (branch, way) = self.follow(&passed, media, depth + 1, share, tree, counts);
             let node = tree.node_mut(slot);
@@ -221,17 +222,17 @@ impl<'a> Tracer<'a> {
         let mut ray = *ray;
         for _ in 0..MOST_HIDDEN {
             let Some(hit) = self.accel.nearest(&ray) else {
-                let medium = media.current(&scene.materials);
+                let medium = media.current();
                 return (End::Background, through * self.transmittance(medium, f64::INFINITY));
             };
             let point = self.accel.surface_point(&ray, &hit);
             let inside = ray.direction.dot(point.geometric_normal) > 0.0;
             let Some(own) = volumes.medium(scene, hit.piece.object, point.part) else {
                 // A sheet has no inside that the way could lie in.
-                let medium = media.current(&scene.materials);
+                let medium = media.current();
                 through *= self.transmittance(medium, hit.t);
                 let surface = scene.objects[hit.piece.object as usize].parts[point.part as usize];
-                let boundary = media.sheet(surface.material as u32, inside, &scene.materials);
+                let boundary = media.sheet(surface.material as u32, inside);
                 return (End::Surface(hit, point, boundary), through);
             };
             let boundary = media.boundary(own, inside, &scene.materials);
@@ -239,7 +240,7 @@ impl<'a> Tracer<'a> {
             if boundary.seen {
                 return (End::Surface(hit, point, boundary), through);
             }
-            media.cross(own, inside);
+            media.cross(own, inside, &scene.materials);
             ray = Ray::leaving(hit.piece, point.position, ray.direction);
         }
         (End::Lost, through)

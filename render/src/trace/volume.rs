@@ -6,6 +6,7 @@ use crate::ray::Ray;
 use crate::scene::{Light, Object, Scene};
 use crate::shape::Shape;
 use glam::DVec3;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A direction that no edge of a scene is likely to lie in: a ray that meets an edge may count
 /// both of its triangles.
@@ -61,23 +62,25 @@ impl Volumes {
     pub fn around(&self, scene: &Scene, accel: &Accel<'_>, place: DVec3) -> Media {
         let ray = Ray::from_eye(place, ASKEW.normalize());
         // For each volume that is met: its boundary, how much more often from its inside, and where.
-        let mut met: Vec<(Medium, i32, f64)> = Vec::new();
+        let mut met: BTreeMap<u32, (Medium, i32, f64)> = BTreeMap::new();
         if self.volumes.contains(&true) {
             accel.all_before(&ray, f64::INFINITY, |hit| {
                 if let Some(own) = self.medium(scene, hit.piece.object, accel.part(&hit)) {
                     let normal = accel.surface_point(&ray, &hit).geometric_normal;
                     let side = if normal.dot(ray.direction) > 0.0 { 1 } else { -1 };
-                    match met.iter_mut().find(|(medium, ..)| medium.object == own.object) {
-                        Some((_, sides, far)) => (*sides, *far) = (*sides + side, far.max(hit.t)),
-                        None => met.push((own, side, hit.t)),
-                    }
+                    let (_, sides, far) = met.entry(own.object).or_insert((own, 0, hit.t));
+                    (*sides, *far) = (*sides + side, far.max(hit.t));
                 }
                 true
             });
-            met.retain(|(_, sides, _)| *sides > 0);
-            met.extend(self.endless(scene, place).map(|own| (own, 1, f64::INFINITY)));
         }
-        self.ordered(met)
+        let mut around: Vec<(Medium, f64)> = met
+            .into_values()
+            .filter(|(_, sides, _)| *sides > 0)
+            .map(|(own, _, far)| (own, far))
+            .collect();
+        around.extend(self.endless(scene, place).map(|own| (own, f64::INFINITY)));
+        ordered(around, scene)
     }
 
     /// The volumes that one is in that is endlessly far away in a direction.
@@ -87,7 +90,7 @@ impl Volumes {
             _ => false,
         };
         let media = self.all(scene).filter(|own| behind(&scene.objects[own.object as usize]));
-        self.ordered(media.map(|own| (own, 1, f64::INFINITY)).collect())
+        ordered(media.map(|own| (own, f64::INFINITY)).collect(), scene)
     }
 
     /// What each light lies in; only needed, and only known, where light is absorbed.
@@ -113,17 +116,12 @@ impl Volumes {
     fn all<'s>(&'s self, scene: &'s Scene) -> impl Iterator<Item = Medium> + 's {
         (0..scene.objects.len() as u32).filter_map(|object| self.medium(scene, object, 0))
     }
+}
 
-    /// What is left last comes first; a half space that is met is also endless, and counts as that.
-    fn ordered(&self, mut media: Vec<(Medium, i32, f64)>) -> Media {
-        media
-            .sort_by(|(a, _, near), (b, _, far)| far.total_cmp(near).then(a.object.cmp(&b.object)));
-        let mut around = Media::default();
-        for (own, ..) in media {
-            if around.entered().iter().all(|medium| medium.object != own.object) {
-                around.cross(own, false);
-            }
-        }
-        around
-    }
+/// What is left last comes first; a half space that is met is also endless, and counts as that.
+fn ordered(mut media: Vec<(Medium, f64)>, scene: &Scene) -> Media {
+    media.sort_by(|(a, near), (b, far)| far.total_cmp(near).then(a.object.cmp(&b.object)));
+    let mut known = BTreeSet::new();
+    let each_once = media.into_iter().map(|(own, _)| own).filter(|own| known.insert(own.object));
+    Media::within(each_once, &scene.materials)
 }

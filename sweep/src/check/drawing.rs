@@ -1,5 +1,6 @@
 //! Curves as they were drawn: what was dropped, closed or turned round, and what they nearly are.
 
+use super::chain::{Crossings, crossings};
 use super::{Finding, Severity, short};
 use crate::Sweep;
 use crate::curve::vector::extent;
@@ -160,9 +161,13 @@ fn shape(path: &str, cubics: &[Cubic<DVec2>], closed: bool, found: &mut Vec<Find
         points.extend((0..pieces).map(|i| cubic.point(i as f64 / pieces as f64)));
     }
     points.push(curve.point(curve.end()));
-    let (crossings, first) = crossings(&points, closed);
+    let Crossings { count: crossings, first, more, .. } = crossings(&points, closed);
     if let Some(at) = first {
-        let times = if crossings == 1 { "once".into() } else { format!("{crossings} times") };
+        let times = match (crossings, more) {
+            (1, false) => "once".into(),
+            (_, false) => format!("{crossings} times"),
+            (_, true) => format!("at least {crossings} times"),
+        };
         let message = format!(
             "the contour crosses itself {times}, first at ({}, {}): the surface crosses itself there",
             short(at.x),
@@ -190,33 +195,6 @@ fn shape(path: &str, cubics: &[Cubic<DVec2>], closed: bool, found: &mut Vec<Find
     }
 }
 
-/// How often a chain of straight pieces crosses itself, and where first; touching is no crossing.
-fn crossings(points: &[DVec2], closed: bool) -> (usize, Option<DVec2>) {
-    let pieces: Vec<[DVec2; 2]> = points.windows(2).map(|pair| [pair[0], pair[1]]).collect();
-    let (mut count, mut first) = (0, None);
-    for (i, &[a, b]) in pieces.iter().enumerate() {
-        let (low, high) = (a.min(b), a.max(b));
-        for (j, &[c, d]) in pieces.iter().enumerate().skip(i + 2) {
-            if closed && i == 0 && j + 1 == pieces.len() {
-                continue;
-            }
-            if c.min(d).cmpgt(high).any() || c.max(d).cmplt(low).any() {
-                continue;
-            }
-            let of = |p: DVec2, q: DVec2, r: DVec2| (q - p).perp_dot(r - p);
-            let (at_c, at_d) = (of(a, b, c), of(a, b, d));
-            // A piece that starts on another one crosses it there, if the one before came from
-            // the other side; each such place is met by one of the two pieces alone.
-            let passes = |x: f64, y: f64| (x < 0.0 && y >= 0.0) || (x >= 0.0 && y < 0.0);
-            if passes(at_c, at_d) && passes(of(c, d, a), of(c, d, b)) {
-                count += 1;
-                first.get_or_insert(c.lerp(d, at_c / (at_c - at_d)));
-            }
-        }
-    }
-    (count, first)
-}
-
 /// Open curves whose ends all but meet.
 fn nearly_closed(sweep: &Sweep) -> Vec<Finding> {
     let close = |path: &str, gap: f64, size: f64| {
@@ -241,29 +219,4 @@ fn nearly_closed(sweep: &Sweep) -> Vec<Finding> {
         found.extend(close("trajectory", from.distance(to), sweep.shape.trajectory.length()));
     }
     found
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn crossings_are_counted_once() {
-        let p = DVec2::new;
-        let bow = [p(0.0, 0.0), p(2.0, 2.0), p(2.0, 0.0), p(0.0, 2.0), p(0.0, 0.0)];
-        assert_eq!(crossings(&bow, true), (1, Some(p(1.0, 1.0))));
-        // The same with a point where it crosses.
-        let cut = [
-            p(0.0, 0.0),
-            p(1.0, 1.0),
-            p(2.0, 2.0),
-            p(2.0, 0.0),
-            p(1.0, 1.0),
-            p(0.0, 2.0),
-            p(0.0, 0.0),
-        ];
-        assert_eq!(crossings(&cut, true).0, 1);
-        let square = [p(0.0, 0.0), p(1.0, 0.0), p(1.0, 1.0), p(0.0, 1.0), p(0.0, 0.0)];
-        assert_eq!(crossings(&square, true), (0, None));
-    }
 }

@@ -4,7 +4,9 @@
 //! |----------------|--------------------------------------------------------------------|
 //! | [`fold`]       | where the surface folds back on itself                             |
 //! | [`neighbors`]  | rows that cross the next one                                       |
+//! | [`patches`]    | a tree over the triangles of a surface, for [`strands`]            |
 //! | [`resolution`] | counts that were raised, and cells too coarse for what they show   |
+//! | [`chain`]      | where a chain of straight pieces crosses itself, for [`drawing`]   |
 //! | [`drawing`]    | curves as they were drawn: doubled points, crossings, near misses  |
 //! | [`rounding`]   | what the f32 numbers of a mesh lose                                |
 //! | [`strands`]    | parts of the surface that meet far from each other                 |
@@ -12,9 +14,11 @@
 //!
 //! A finding says a number that one can act on, and where in the spec.
 
+pub mod chain;
 pub mod drawing;
 pub mod fold;
 pub mod neighbors;
+pub mod patches;
 pub mod resolution;
 pub mod rounding;
 pub mod strands;
@@ -74,8 +78,8 @@ impl Display for Finding {
 
 /// Everything that can be said of an object, by parts and from the worst to the least.
 ///
-/// `document` is what the object was read from, and `grids` are its own; with `strands` also parts
-/// of a surface that meet far from each other are looked for, which takes longest.
+/// `document` is what the object was read from, and `grids` are its own. With `strands` also parts of a
+/// surface that meet far from each other are looked for, which takes longest; it hears of the progress.
 ///
 /// # Errors
 /// When the document is not the object's.
@@ -83,7 +87,7 @@ pub fn check(
     document: &Document<'_>,
     object: &Object,
     grids: &[GridMesh],
-    strands: bool,
+    strands: Option<strands::Tell<'_>>,
 ) -> Result<Vec<Finding>, SweepError> {
     let specs = match document.parse::<Parts>() {
         Ok(whole) => whole.parts,
@@ -94,8 +98,8 @@ pub fn check(
     for (i, ((sweep, grid), spec)) in object.parts().iter().zip(grids).zip(&specs).enumerate() {
         let mut found = drawing::findings(spec, sweep);
         found.extend(of_sweep(sweep, grid));
-        if strands {
-            found.extend(strands::findings(grid));
+        if let Some(tell) = strands {
+            found.extend(strands::findings(grid, tell));
         }
         found.sort_by_key(|finding| std::cmp::Reverse(finding.severity));
         if several {

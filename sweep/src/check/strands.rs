@@ -1,37 +1,67 @@
 //! Parts of a surface that meet far from each other.
 //!
-//! Triangles that share no corner are tested in pairs, by the edges of each against the other. A
-//! uniform grid of boxes finds the pairs; a pair that shares several boxes is tested in the one that
-//! holds the lower corner of what their bounds share. Triangles in one plane do not count.
+//! Triangles that share no corner are tested in pairs, by the edges of each against the other. A tree
+//! of turned boxes ([`super::patches`]) finds the pairs, each once. Triangles in one plane do not
+//! count.
 
+use super::patches::Patches;
 use super::{Finding, Severity, short};
 use crate::grid::GridMesh;
 use glam::DVec3;
 use rayon::prelude::*;
 use std::collections::HashMap;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Entries in boxes, by triangle, at most; with more the boxes are made larger.
-const MOST_ENTRIES: f64 = 24.0;
+/// Pairs of triangles tried for one leaf at most.
+///
+/// Larger, and a surface whose triangles all lie through each other takes long; smaller, and the count
+/// that is said of such a surface is lower than the truth, which is said too.
+const MOST_TRIED: u64 = 1 << 15;
 
-struct Triangle {
-    corners: [DVec3; 3],
-    ids: [u32; 3],
+/// The search tells its progress after so many leaves.
+const TELL_AFTER: usize = 1 << 12;
+
+/// Hears of progress: how much is done, and of how much.
+pub type Tell<'a> = &'a (dyn Fn(usize, usize) + Sync);
+
+/// A triangle of a cell.
+#[derive(Debug)]
+pub struct Triangle {
+    /// Its corners.
+    pub corners: [DVec3; 3],
+    /// Numbers of its corners; corners at one place have one number.
+    pub ids: [u32; 3],
     /// Its cell by row and column.
-    cell: [u32; 2],
+    pub cell: [u32; 2],
+    /// Whether it is the half of its cell at the end of the row.
+    pub upper: bool,
 }
 
-/// The places where a surface meets itself.
+/// Pairs of triangles that cross and share no corner.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Crossings {
+    /// How many there are.
+    pub count: u64,
+    /// The first by the numbers of its triangles, the smaller number first.
+    pub first: Option<[usize; 2]>,
+    /// Whether there may be more than were counted.
+    pub more: bool,
+    /// How many boxes and pairs were looked at.
+    pub looks: u64,
+}
+
+/// The places where a surface meets itself; `tell` hears of the progress.
 #[must_use]
-pub fn findings(grid: &GridMesh) -> Option<Finding> {
+pub fn findings(grid: &GridMesh, tell: Tell<'_>) -> Option<Finding> {
     let triangles = triangles(grid);
-    let pairs = pairs(&triangles);
-    let &[a, b] = pairs.first()?;
-    let [first, second] = [a, b].map(|i| &triangles[i]);
+    let found = crossings(&triangles, tell);
+    let [first, second] = found.first?.map(|i| &triangles[i]);
     let middle = first.corners.iter().sum::<DVec3>() / 3.0;
+    let least = if found.more { "at least " } else { "" };
     let message = format!(
-        "the surface meets itself: {} pairs of triangles cross, the first at row {} col {} and row {} \
-         col {}, near ({}, {}, {})",
-        pairs.len(),
+        "the surface meets itself: {least}{} pairs of triangles cross, the first at row {} col {} and \
+         row {} col {}, near ({}, {}, {})",
+        found.count,
         first.cell[0],
         first.cell[1],
         second.cell[0],
@@ -65,11 +95,12 @@ fn triangles(grid: &GridMesh) -> Vec<Triangle> {
                 false => (row + 1) * cols + col,
             };
             let [a, b, c, d] = [row * cols + col, row * cols + next, above(next), above(col)];
-            for corners in [[a, b, c], [a, c, d]] {
+            for (corners, upper) in [([a, b, c], false), ([a, c, d], true)] {
                 let ids = corners.map(|i| welded[i]);
                 if ids[0] != ids[1] && ids[1] != ids[2] && ids[2] != ids[0] {
                     let corners = corners.map(|i| grid.positions[i]);
-                    triangles.push(Triangle { corners, ids, cell: [row as u32, col as u32] });
+                    let cell = [row as u32, col as u32];
+                    triangles.push(Triangle { corners, ids, cell, upper });
                 }
             }
         }
@@ -82,66 +113,70 @@ fn bounds(corners: &[DVec3; 3]) -> [DVec3; 2] {
     [a.min(b).min(c), a.max(b).max(c)]
 }
 
-/// Pairs of triangles that cross and share no corner, in rising order.
-fn pairs(triangles: &[Triangle]) -> Vec<[usize; 2]> {
-    if triangles.is_empty() {
-        return Vec::new();
-    }
-    let boxes: Vec<[DVec3; 2]> = triangles.iter().map(|one| bounds(&one.corners)).collect();
-    let low = boxes.iter().fold(DVec3::INFINITY, |low, one| low.min(one[0]));
-    let high = boxes.iter().fold(DVec3::NEG_INFINITY, |high, one| high.max(one[1]));
-    let mean =
-        boxes.iter().map(|one| (one[1] - one[0]).max_element()).sum::<f64>() / boxes.len() as f64;
-    let whole = (high - low).max_element();
-    // No more boxes along an edge than 20 bits hold.
-    let mut edge = (1.5 * mean).max(whole / 1e6);
-    let span = |one: &[DVec3; 2], edge: f64| {
-        one.map(|p| ((p - low) / edge).to_array().map(|x| x.floor() as i64))
-    };
-    let entries = |edge: f64| -> f64 {
-        let count = |one: &[DVec3; 2]| {
-            let [from, to] = span(one, edge);
-            (0..3).map(|axis| (to[axis] - from[axis] + 1) as f64).product::<f64>()
-        };
-        boxes.iter().map(count).sum()
-    };
-    while entries(edge) > MOST_ENTRIES * boxes.len() as f64 {
-        edge *= 2.0;
-    }
-    let key = |[x, y, z]: [i64; 3]| (x << 42) | (y << 21) | z;
-    let mut filled: Vec<(i64, u32)> = Vec::new();
-    for (i, one) in boxes.iter().enumerate() {
-        let [from, to] = span(one, edge);
-        for x in from[0]..=to[0] {
-            for y in from[1]..=to[1] {
-                filled.extend((from[2]..=to[2]).map(|z| (key([x, y, z]), i as u32)));
+/// All pairs of triangles that cross and share no corner.
+#[must_use]
+pub fn crossings(triangles: &[Triangle], tell: Tell<'_>) -> Crossings {
+    let patches = Patches::new(triangles);
+    let leaves = patches.leaves();
+    let done = AtomicUsize::new(0);
+    leaves
+        .par_chunks(TELL_AFTER)
+        .map(|some| {
+            let found = some.iter().map(|&leaf| of_leaf(triangles, &patches, leaf));
+            let found = found.fold(Crossings::default(), Crossings::and);
+            tell(done.fetch_add(some.len(), Ordering::Relaxed) + some.len(), leaves.len());
+            found
+        })
+        .reduce(Crossings::default, Crossings::and)
+}
+
+/// Pairs of a triangle of a leaf and one of the leaf itself or of a later one.
+fn of_leaf(triangles: &[Triangle], patches: &Patches, leaf: u32) -> Crossings {
+    let mut found = Crossings::default();
+    let own = patches.triangles(leaf);
+    let mut tried = 0;
+    found.looks = patches.near(leaf, |other| {
+        for (place, &i) in own.iter().enumerate() {
+            // In the leaf itself each pair once.
+            let later = if other == leaf { place + 1 } else { 0 };
+            for &j in &patches.triangles(other)[later..] {
+                tried += 1;
+                if tried > MOST_TRIED {
+                    found.more = true;
+                } else if cross(&triangles[i as usize], &triangles[j as usize]) {
+                    let pair = [i.min(j) as usize, i.max(j) as usize];
+                    found.count += 1;
+                    found.first = Some(found.first.map_or(pair, |first| first.min(pair)));
+                }
             }
         }
+    });
+    found.looks += tried;
+    found
+}
+
+impl Crossings {
+    /// Those of two searches together.
+    fn and(self, other: Self) -> Self {
+        let first = match (self.first, other.first) {
+            (Some(a), Some(b)) => Some(a.min(b)),
+            (a, b) => a.or(b),
+        };
+        Self {
+            count: self.count + other.count,
+            first,
+            more: self.more || other.more,
+            looks: self.looks + other.looks,
+        }
     }
-    filled.par_sort_unstable();
-    let groups: Vec<&[(i64, u32)]> = filled.chunk_by(|a, b| a.0 == b.0).collect();
-    let cross = |&[i, j]: &[usize; 2], at: i64| {
-        let (a, b) = (&boxes[i], &boxes[j]);
-        let (from, to) = (a[0].max(b[0]), a[1].min(b[1]));
-        let (first, second) = (&triangles[i], &triangles[j]);
-        from.cmple(to).all()
-            && key(span(&[from, to], edge)[0]) == at
-            && !first.ids.iter().any(|id| second.ids.contains(id))
-            && crosses(&first.corners, &second.corners)
-    };
-    let mut pairs: Vec<[usize; 2]> = groups
-        .par_iter()
-        .flat_map_iter(|group| {
-            let pair = move |(n, &(at, i)): (usize, &(i64, u32))| {
-                group[n + 1..].iter().map(move |&(_, j)| ([i as usize, j as usize], at))
-            };
-            group.iter().enumerate().flat_map(pair)
-        })
-        .filter(|(pair, at)| cross(pair, *at))
-        .map(|(pair, _)| pair)
-        .collect();
-    pairs.par_sort_unstable();
-    pairs
+}
+
+/// Whether two triangles cross and share no corner.
+fn cross(a: &Triangle, b: &Triangle) -> bool {
+    let ([a_low, a_high], [b_low, b_high]) = (bounds(&a.corners), bounds(&b.corners));
+    a_low.max(b_low).cmple(a_high.min(b_high)).all()
+        && !a.ids.iter().any(|id| b.ids.contains(id))
+        && crosses(&a.corners, &b.corners)
 }
 
 /// Whether an edge of one triangle passes through the other.
@@ -168,6 +203,7 @@ fn pierces(from: DVec3, to: DVec3, [a, b, c]: &[DVec3; 3]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::TAU;
 
     #[test]
     fn the_boxes_find_the_pairs_that_trying_all_finds() {
@@ -183,7 +219,8 @@ mod tests {
                     at + (off - 0.5) * size
                 };
                 let ids = [0, 1, 2].map(|k| (3 * i + k) as u32);
-                Triangle { corners: [corner(1), corner(2), corner(4)], ids, cell: [0, 0] }
+                let cell = [(i / 20) as u32, (i % 20) as u32];
+                Triangle { corners: [corner(1), corner(2), corner(4)], ids, cell, upper: false }
             })
             .collect();
         let mut all = Vec::new();
@@ -195,7 +232,43 @@ mod tests {
             }
         }
         assert!(all.len() > 100, "{}", all.len());
-        assert_eq!(pairs(&triangles), all);
+        let found = crossings(&triangles, &|_, _| {});
+        assert_eq!((found.count, found.first, found.more), (all.len() as u64, Some(all[0]), false));
+    }
+
+    /// A tube around a bent line, cut into so many cells, with its two ends through each other.
+    fn tube(rows: usize, cols: usize) -> Vec<Triangle> {
+        let point = |row: usize, col: usize| {
+            let (along, around) = (row as f64 / rows as f64, TAU * col as f64 / cols as f64);
+            let turn = 1.1 * TAU * along;
+            let out = DVec3::new(turn.cos(), turn.sin(), 0.0);
+            (2.0 + 0.3 * around.cos()) * out + (0.3 * around.sin() + 0.05 * turn) * DVec3::Z
+        };
+        let number = |row: usize, col: usize| (row * cols + col % cols) as u32;
+        let mut triangles = Vec::new();
+        for row in 0..rows {
+            for col in 0..cols {
+                let [a, b] = [[row, col], [row, col + 1]];
+                let [c, d] = [[row + 1, col + 1], [row + 1, col]];
+                for (three, upper) in [([a, b, c], false), ([a, c, d], true)] {
+                    let corners = three.map(|[row, col]| point(row, col % cols));
+                    let ids = three.map(|[row, col]| number(row, col));
+                    let cell = [row as u32, col as u32];
+                    triangles.push(Triangle { corners, ids, cell, upper });
+                }
+            }
+        }
+        triangles
+    }
+
+    #[test]
+    fn long_thin_cells_take_work_in_proportion_to_their_number() {
+        for cut in [|n| tube(n, 6), |n| tube(6, n), |n| tube(n / 32, 128)] {
+            let [one, two] = [1000, 2000].map(|n| crossings(&cut(n), &|_, _| {}));
+            assert!(one.count > 0 && two.count > 0, "{one:?} {two:?}");
+            let each = [one.looks as f64 / 1000.0, two.looks as f64 / 2000.0];
+            assert!(each[1] < 1.25 * each[0], "{one:?} {two:?}");
+        }
     }
 
     #[test]

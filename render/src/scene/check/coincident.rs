@@ -1,18 +1,55 @@
 //! Surfaces in the same place, of which only one is seen.
+//!
+//! Equal parallelograms are looked at once, however many there are. Others are compared when their
+//! planes are near each other, which sorting tells, and their boxes touch, which a tree tells. So the
+//! work grows with the number of objects and of coincidences, and [`MOST_TRIED`] bounds the latter.
 
+use super::boxes::{Boxes, touch};
+use super::planes::{self, NEAR};
 use super::solid::as_dvec3;
 use super::subject::{Item, Subject};
 use super::{Finding, Severity, count};
 use crate::shape::{Mesh, Quad, Shape};
 use glam::DVec3;
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
 
-/// Points of one surface are computed this near to another that coincides with it, in parts of the
-/// largest coordinate: what a ray takes for the same place.
-const NEAR: f64 = 64.0 * f64::EPSILON;
+/// So many pairs are named; all others are counted.
+const MOST_NAMED: usize = 20;
+
+/// For each flat object at most so many others are tried, on the average.
+///
+/// Larger, and a scene of thousands of surfaces through each other takes long; smaller, and the count
+/// that is said of such a scene is lower than the truth, which is said too.
+const MOST_TRIED: u64 = 256;
+
+/// What is found, and what finding it took.
+#[derive(Debug, Default)]
+pub struct Coincidences {
+    /// The first in the scene's order, and a remark that counts the others.
+    pub findings: Vec<Finding>,
+    /// How many pairs of objects coincide.
+    pub pairs: u64,
+    /// How many boxes and pairs were looked at.
+    pub looks: u64,
+}
+
+/// Two objects that coincide: the later flat one, then the other one, or a mesh with its triangles.
+struct Pair {
+    quad: usize,
+    with: With,
+}
+
+/// What a flat object coincides with, in the order in which findings name them.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum With {
+    Flat(usize),
+    Triangles { item: usize, count: usize },
+}
 
 /// Every flat object against every other and against the triangles of every mesh.
 #[must_use]
-pub fn findings(subject: &Subject<'_>) -> Vec<Finding> {
+pub fn findings(subject: &Subject<'_>) -> Coincidences {
     let flat: Vec<(&Item<'_>, &Quad)> = subject
         .items
         .iter()
@@ -21,34 +58,190 @@ pub fn findings(subject: &Subject<'_>) -> Vec<Finding> {
             _ => None,
         })
         .collect();
-    let mut found = Vec::new();
-    for (k, &(item, quad)) in flat.iter().enumerate() {
-        for &(other, before) in &flat[..k] {
-            if coplanar(quad, before) && overlap(quad, before) {
-                let first = format!("{} ({})", other.path, other.kind);
-                found.push(pair(
-                    subject,
-                    item,
-                    other,
-                    &format!("it lies in {first}, which is seen"),
-                ));
+    let quads: Vec<&Quad> = flat.iter().map(|(_, quad)| *quad).collect();
+    let mut search = Search::new(quads.len());
+    search.among(&quads);
+    for (number, item) in subject.items.iter().enumerate() {
+        if let Some(mesh) = item.mesh() {
+            search.on_mesh(&quads, number, mesh);
+        }
+    }
+    let Search { mut named, pairs, looks, .. } = search;
+    named.sort_by_key(|pair| (pair.quad, pair.with));
+    named.truncate(MOST_NAMED);
+    let mut findings: Vec<Finding> = named
+        .iter()
+        .map(|found| {
+            let (item, _) = flat[found.quad];
+            match found.with {
+                With::Flat(other) => {
+                    let (other, _) = flat[other];
+                    let what = format!("it lies in {} ({}), which is seen", other.path, other.kind);
+                    pair(subject, item, other, &what)
+                }
+                With::Triangles { item: other, count: triangles } => {
+                    let what = format!(
+                        "{} exactly on {} ({})",
+                        count(triangles, "triangle lies", "triangles lie"),
+                        item.path,
+                        item.kind
+                    );
+                    pair(subject, &subject.items[other], item, &what)
+                }
+            }
+        })
+        .collect();
+    let others = pairs - findings.len() as u64;
+    if others > 0 {
+        let least = if search.exhausted { "at least " } else { "" };
+        let message = format!(
+            "surfaces lie in each other in {least}{others} more pairs than are named here: of each \
+             only the first in the scene is seen"
+        );
+        findings.push(Finding::new(Severity::Remark, "objects", message));
+    }
+    Coincidences { findings, pairs, looks }
+}
+
+/// The pairs found so far.
+struct Search {
+    /// The first ones for each flat object, enough to name the first of all.
+    named: Vec<Pair>,
+    pairs: u64,
+    looks: u64,
+    /// How many may still be tried.
+    left: u64,
+    exhausted: bool,
+}
+
+impl Search {
+    fn new(count: usize) -> Self {
+        let left = MOST_TRIED * (count as u64 + (1 << 12));
+        Self { named: Vec::new(), pairs: 0, looks: 0, left, exhausted: false }
+    }
+
+    fn found(&mut self, quad: usize, with: With) {
+        self.pairs += 1;
+        self.name(quad, with);
+    }
+
+    /// Keeps a pair while it may be among the first.
+    fn name(&mut self, quad: usize, with: With) {
+        self.named.push(Pair { quad, with });
+        if self.named.len() >= 4 * MOST_NAMED {
+            self.named.sort_by_key(|pair| (pair.quad, pair.with));
+            self.named.truncate(MOST_NAMED);
+        }
+    }
+
+    /// Takes one pair for tried; false when no more may be.
+    fn may_try(&mut self) -> bool {
+        self.looks += 1;
+        self.exhausted |= self.left == 0;
+        self.left = self.left.saturating_sub(1);
+        !self.exhausted
+    }
+
+    /// Flat objects that lie in each other.
+    fn among(&mut self, quads: &[&Quad]) {
+        // Equal ones stand for each other: their places in the list, ascending.
+        let mut equal: BTreeMap<planes::Bits, Vec<usize>> = BTreeMap::new();
+        for (k, quad) in quads.iter().enumerate() {
+            equal.entry(planes::bits(quad)).or_default().push(k);
+        }
+        let classes: Vec<Vec<usize>> = equal.into_values().collect();
+        for class in &classes {
+            // Each lies in itself, and so in its equals, unless its arithmetic fails.
+            let quad = quads[class[0]];
+            if class.len() > 1 && coplanar(quad, quad) && overlap(quad, quad) {
+                self.within(class);
             }
         }
-        for other in &subject.items {
-            let Some(mesh) = other.mesh() else { continue };
-            let triangles = standing(mesh, quad);
-            if triangles > 0 {
-                let message = format!(
-                    "{} exactly on {} ({})",
-                    count(triangles, "triangle lies", "triangles lie"),
-                    item.path,
-                    item.kind
+        let first: Vec<&Quad> = classes.iter().map(|class| quads[class[0]]).collect();
+        self.looks += (quads.len() + first.len()) as u64;
+        for group in planes::near_each_other(&first) {
+            let bounds: Vec<_> = group.iter().map(|&k| planes::bounds(first[k])).collect();
+            let tree = Boxes::new(bounds.clone());
+            for (at, &one) in group.iter().enumerate() {
+                let mut met = Vec::new();
+                self.looks += tree.search(
+                    |other| touch(other, &bounds[at]),
+                    |other| {
+                        if !self.may_try() {
+                            return ControlFlow::Break(());
+                        }
+                        if other as usize > at {
+                            met.push(group[other as usize]);
+                        }
+                        ControlFlow::Continue(())
+                    },
                 );
-                found.push(pair(subject, other, item, &message));
+                for other in met {
+                    self.between(quads, &classes[one], &classes[other]);
+                }
             }
         }
     }
-    found
+
+    /// Pairs of equal objects.
+    fn within(&mut self, class: &[usize]) {
+        let count = class.len() as u64;
+        self.pairs += count * (count - 1) / 2;
+        let firsts = class.iter().take(MOST_NAMED + 1).enumerate();
+        for (place, &later) in firsts {
+            class[..place].iter().for_each(|&earlier| self.name(later, With::Flat(earlier)));
+        }
+    }
+
+    /// Pairs of one class of equal objects and another.
+    fn between(&mut self, quads: &[&Quad], one: &[usize], other: &[usize]) {
+        // The later one is held against the earlier one, as far as rounding tells them apart.
+        let (late, early) = (one[0].max(other[0]), one[0].min(other[0]));
+        if !(coplanar(quads[late], quads[early]) && overlap(quads[late], quads[early])) {
+            return;
+        }
+        self.pairs += one.len() as u64 * other.len() as u64;
+        for &a in one.iter().take(MOST_NAMED + 1) {
+            for &b in other.iter().take(MOST_NAMED + 1) {
+                self.name(a.max(b), With::Flat(a.min(b)));
+            }
+        }
+    }
+
+    /// Triangles of a mesh that lie in flat objects.
+    fn on_mesh(&mut self, quads: &[&Quad], item: usize, mesh: &Mesh) {
+        if quads.is_empty() {
+            return;
+        }
+        let numbers = 0..mesh.triangles.len() as u32;
+        let corners = |n: u32| mesh.corners(n).map(as_dvec3);
+        let bounds = |n| {
+            let [a, b, c] = corners(n);
+            [a.min(b).min(c), a.max(b).max(c)]
+        };
+        let tree = Boxes::new(numbers.map(bounds).collect());
+        let mut left = MOST_TRIED * (quads.len() as u64 + (1 << 12)) + mesh.triangles.len() as u64;
+        for (k, quad) in quads.iter().enumerate() {
+            let plane = planes::Slab::of(quad);
+            let mut count = 0;
+            self.looks += tree.search(
+                |bounds| plane.meets(bounds),
+                |n| {
+                    self.looks += 1;
+                    if left == 0 {
+                        self.exhausted = true;
+                        return ControlFlow::Break(());
+                    }
+                    left -= 1;
+                    count += usize::from(stands(quad, corners(n)));
+                    ControlFlow::Continue(())
+                },
+            );
+            if count > 0 {
+                self.found(k, With::Triangles { item, count });
+            }
+        }
+    }
 }
 
 /// What to say of two surfaces that coincide; worse when light should go from one to the other.
@@ -64,14 +257,11 @@ fn pair(subject: &Subject<'_>, item: &Item<'_>, other: &Item<'_>, what: &str) ->
     Finding::new(Severity::Remark, &item.path, message)
 }
 
-fn normal(quad: &Quad) -> DVec3 {
-    quad.surface_point(quad.corner()).geometric_normal
-}
-
 fn coplanar(a: &Quad, b: &Quad) -> bool {
     let size = a.corner().abs().max_element() + b.corner().abs().max_element();
-    let apart = (b.corner() - a.corner()).dot(normal(a)).abs();
-    normal(a).cross(normal(b)).length() < NEAR && apart <= NEAR * size
+    let normal = planes::normal(a);
+    let apart = (b.corner() - a.corner()).dot(normal).abs();
+    normal.cross(planes::normal(b)).length() < NEAR && apart <= NEAR * size
 }
 
 /// Whether two parallelograms in one plane share an area: no side of either has all of the other
@@ -80,7 +270,7 @@ fn overlap(a: &Quad, b: &Quad) -> bool {
     let (Some(a_corners), Some(b_corners)) = (a.corners(), b.corners()) else {
         return true;
     };
-    let across = normal(a);
+    let across = planes::normal(a);
     let apart = |from: &[DVec3; 4], other: &[DVec3; 4]| {
         (0..4).any(|k| {
             let axis = (from[(k + 1) % 4] - from[k]).cross(across);
@@ -99,21 +289,18 @@ fn overlap(a: &Quad, b: &Quad) -> bool {
     !apart(&a_corners, &b_corners) && !apart(&b_corners, &a_corners)
 }
 
-/// How many triangles of a mesh lie in a quad.
-fn standing(mesh: &Mesh, quad: &Quad) -> usize {
-    let (corner, up) = (quad.corner(), normal(quad));
+/// Whether a triangle lies in a flat object.
+fn stands(quad: &Quad, [a, b, c]: [DVec3; 3]) -> bool {
+    let (corner, up) = (quad.corner(), planes::normal(quad));
     let near = |p: DVec3| {
         let size = p.abs().max_element() + corner.abs().max_element();
         (p - corner).dot(up).abs() <= NEAR * size
     };
-    let within = |[a, b, c]: [DVec3; 3]| {
-        quad.bounds().is_none_or(|[low, high]| {
-            let middle = (a + b + c) / 3.0;
-            let foot = middle - (middle - corner).dot(up) * up;
-            let slack = NEAR * (foot.abs().max_element() + 1.0);
-            (foot + slack).cmpge(low).all() && (foot - slack).cmple(high).all()
-        })
-    };
-    let triangles = (0..mesh.triangles.len() as u32).map(|n| mesh.corners(n).map(as_dvec3));
-    triangles.filter(|&corners| corners.into_iter().all(near) && within(corners)).count()
+    let within = quad.bounds().is_none_or(|[low, high]| {
+        let middle = (a + b + c) / 3.0;
+        let foot = middle - (middle - corner).dot(up) * up;
+        let slack = NEAR * (foot.abs().max_element() + 1.0);
+        (foot + slack).cmpge(low).all() && (foot - slack).cmple(high).all()
+    });
+    within && [a, b, c].into_iter().all(near)
 }

@@ -44,12 +44,19 @@ fn open_or_inward(item: &Item<'_>) -> Option<Finding> {
     if skin.volume < 0.0 { said(Severity::Wrong, message.into()) } else { None }
 }
 
-/// Lines of sight to the corners and the middle of each transparent box, and how many surfaces of
-/// transparent boxes they cross at least.
+/// Lines of sight are held against boxes so many times, or [`LINES`] times for each box if that is
+/// more. Larger, and scenes of thousands of transparent objects take long; smaller, and the deepest
+/// line of such a scene is missed more often.
+const MOST_HELD: usize = 1 << 22;
+
+/// Lines of sight at least, of scenes with so many objects.
+const LINES: usize = 64;
+
+/// Lines of sight to the middle of transparent boxes, and how many surfaces of transparent boxes they
+/// cross at least. Of very many boxes only some, evenly chosen, are looked at.
 fn too_deep(subject: &Subject<'_>) -> Option<Finding> {
-    let clear: Vec<_> = subject.items.iter().filter(|item| subject.is_clear(item)).collect();
+    let clear = subject.items.iter().filter(|item| subject.is_clear(item));
     let boxes: Vec<([DVec3; 2], usize)> = clear
-        .iter()
         .filter_map(|item| {
             let surfaces = if matches!(item.object.shape, Shape::Quad(_)) { 1 } else { 2 };
             Some((solid::bounds(item)?, surfaces))
@@ -61,13 +68,20 @@ fn too_deep(subject: &Subject<'_>) -> Option<Finding> {
         let met = boxes.iter().filter(|(bounds, _)| meets(eye, direction, *bounds));
         met.map(|(_, surfaces)| surfaces).sum()
     };
-    let most = boxes.iter().map(|([low, high], _)| crossed(low.midpoint(*high))).max()?;
+    let looked_at = boxes.iter().step_by(step(boxes.len()));
+    let most = looked_at.map(|([low, high], _)| crossed(low.midpoint(*high))).max()?;
     let deepest = subject.scene.max_depth as usize;
     let message = format!(
         "a line of sight goes through {most} transparent surfaces or more, and a ray is followed \
          through {deepest} only: behind them is black"
     );
     (most > deepest).then(|| Finding::new(Severity::Hint, "max_depth", message))
+}
+
+/// Of so many boxes every how many a line of sight is looked at.
+fn step(count: usize) -> usize {
+    let lines = (MOST_HELD / count.max(1)).max(LINES);
+    count.div_ceil(lines).max(1)
 }
 
 /// Whether a line from `eye` meets a box, by its slabs.
@@ -85,4 +99,20 @@ fn meets(eye: DVec3, direction: DVec3, [low, high]: [DVec3; 2]) -> bool {
         far = far.min(a.max(b));
     }
     near <= far
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_of_sight_are_all_looked_at_of_few_boxes_and_bounded_of_many() {
+        let held = |count: usize| count * count.div_ceil(step(count));
+        assert_eq!((step(0), step(1), step(2000)), (1, 1, 1));
+        for count in [10_000, 100_000, 1_000_000] {
+            assert!(held(count) <= MOST_HELD.max(LINES * count), "{count}");
+        }
+        let many = 1_000_000;
+        assert!(held(2 * many) <= 2 * held(many) + 2 * many);
+    }
 }

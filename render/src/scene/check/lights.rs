@@ -1,34 +1,71 @@
 //! Lights that light little or nothing.
 
+use super::boxes::{Boxes, touch};
 use super::solid;
-use super::subject::Subject;
+use super::subject::{Item, Subject};
 use super::{Finding, Severity};
 use crate::scene::{Light, PointLight};
 use glam::DVec3;
+use std::ops::ControlFlow;
 
 /// What the places of the lights show.
 #[must_use]
 pub fn findings(subject: &Subject<'_>) -> Vec<Finding> {
     let lights = subject.scene.lights.iter().zip(&subject.lights);
+    let rooms = Rooms::of(subject);
     let mut found: Vec<Finding> =
-        lights.filter_map(|(light, path)| shut_in(subject, light, path)).collect();
+        lights.filter_map(|(light, path)| rooms.shut_in(light, path)).collect();
     found.extend(dark(subject));
     found
 }
 
-/// A light inside an opaque object that the eye is outside of.
-fn shut_in(subject: &Subject<'_>, light: &Light, path: &str) -> Option<Finding> {
-    let Light::Point(PointLight { position, .. }) = *light else { return None };
-    let around = subject.items.iter().find(|item| {
-        !subject.is_clear(item)
-            && solid::contains(item, position) == Some(true)
-            && solid::contains(item, subject.eye()) == Some(false)
-    })?;
-    let message = format!(
-        "the light is inside {} ({}), which is closed and opaque: outside it lights nothing",
-        around.path, around.kind
-    );
-    Some(Finding::new(Severity::Hint, path, message))
+/// The opaque objects that a light can be shut in.
+struct Rooms<'a> {
+    items: Vec<&'a Item<'a>>,
+    tree: Boxes,
+    eye: DVec3,
+}
+
+impl<'a> Rooms<'a> {
+    fn of(subject: &'a Subject<'_>) -> Self {
+        let mut items = Vec::new();
+        let mut bounds = Vec::new();
+        for item in subject.items.iter().filter(|item| !subject.is_clear(item)) {
+            if let Some([low, high]) = solid::bounds(item) {
+                // A little wider, so that rounding keeps no light out.
+                let slack = 1e-9 * (low.abs().max(high.abs()).max_element() + 1.0);
+                items.push(item);
+                bounds.push([low - slack, high + slack]);
+            }
+        }
+        Self { items, tree: Boxes::new(bounds), eye: subject.eye() }
+    }
+
+    /// A light inside an opaque object that the eye is outside of; of several the first is named.
+    fn shut_in(&self, light: &Light, path: &str) -> Option<Finding> {
+        let Light::Point(PointLight { position, .. }) = *light else { return None };
+        let mut around: Option<u32> = None;
+        self.tree.search(
+            |bounds| touch(bounds, &[position; 2]),
+            |number| {
+                let item = self.items[number as usize];
+                let first = around.is_none_or(|around| number < around);
+                if first
+                    && solid::contains(item, position) == Some(true)
+                    && solid::contains(item, self.eye) == Some(false)
+                {
+                    around = Some(number);
+                }
+                ControlFlow::Continue(())
+            },
+        );
+        let around = self.items[around? as usize];
+        let message = format!(
+            "the light is inside {} ({}), which is closed and opaque: outside it lights nothing",
+            around.path, around.kind
+        );
+        Some(Finding::new(Severity::Hint, path, message))
+    }
 }
 
 /// Neither lights nor ambient light, so that all surfaces are black.

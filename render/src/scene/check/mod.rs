@@ -10,16 +10,20 @@
 //! | [`meshes`]     | triangles, normals and rims                                               |
 //! | [`glass`]      | what light goes through                                                   |
 //! | [`coincident`] | surfaces in the same place                                                |
+//! | [`boxes`]      | which of many boxes a search meets                                        |
+//! | [`planes`]     | which flat objects may lie in one plane                                   |
 //! | [`solid`]      | what those need to know of a shape: its box, its inside, its surface      |
 //!
 //! Nothing here changes a scene, and no picture needs it.
 
+pub mod boxes;
 pub mod camera;
 pub mod coincident;
 pub mod glass;
 pub mod inventory;
 pub mod lights;
 pub mod meshes;
+pub mod planes;
 pub mod solid;
 pub mod subject;
 pub mod unused;
@@ -119,7 +123,7 @@ pub fn check(
     findings.extend(meshes::findings(&subject));
     findings.extend(glass::findings(&subject));
     findings.extend(lights::findings(&subject));
-    findings.extend(coincident::findings(&subject));
+    findings.extend(coincident::findings(&subject).findings);
     findings.extend(unused::findings(&subject));
     findings.sort_by_key(|finding| Reverse(finding.severity));
     Ok(Report { inventory: inventory::lines(&subject, table_bytes), findings })

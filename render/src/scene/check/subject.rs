@@ -6,6 +6,7 @@ use crate::scene::read::{Draft, Sheet};
 use crate::scene::{Material, Object, Scene, SurfaceTexture};
 use crate::shape::{Mesh, Shape};
 use glam::DVec3;
+use std::collections::HashMap;
 
 /// What the checks look at.
 #[derive(Debug)]
@@ -24,6 +25,8 @@ pub struct Subject<'a> {
     pub materials: Vec<[String; 2]>,
     /// Its textures with their names and paths, pictures and solids each in the scene's order.
     pub textures: Vec<(SurfaceTexture, [String; 2])>,
+    /// Where each texture stands in `textures`.
+    texture_places: HashMap<SurfaceTexture, usize>,
 }
 
 /// An object with its place.
@@ -51,6 +54,7 @@ impl<'a> Subject<'a> {
             lights: Vec::new(),
             materials: Vec::new(),
             textures: Vec::new(),
+            texture_places: HashMap::new(),
         };
         let mut objects = scene.objects.iter();
         let (mut pictures, mut solids) = (0.., 0..);
@@ -78,6 +82,8 @@ impl<'a> Subject<'a> {
                 subject.items.push(Item { path, kind, object, skin });
             }
         }
+        let textures = subject.textures.iter().enumerate();
+        subject.texture_places = textures.map(|(place, (texture, _))| (*texture, place)).collect();
         subject
     }
 
@@ -96,7 +102,7 @@ impl<'a> Subject<'a> {
     /// The name of a texture; one that no file names is of a material library.
     #[must_use]
     pub fn texture_name(&self, texture: SurfaceTexture) -> &str {
-        let known = self.textures.iter().find(|(other, _)| *other == texture);
+        let known = self.texture_places.get(&texture).map(|&place| &self.textures[place]);
         known.map_or("of its mtl", |(_, [name, _])| name)
     }
 

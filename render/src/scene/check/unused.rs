@@ -2,25 +2,32 @@
 
 use super::subject::Subject;
 use super::{Finding, Severity};
+use std::collections::HashMap;
 
 /// One remark for each name that no surface has.
 #[must_use]
 pub fn findings(subject: &Subject<'_>) -> Vec<Finding> {
-    let parts = || subject.items.iter().flat_map(|item| &item.object.parts);
-    let materials = subject.materials.iter().enumerate().filter_map(|(index, [_, path])| {
-        let used = parts().any(|part| part.material == index);
+    let mut used = vec![false; subject.scene.materials.len()];
+    // For each texture of a surface whether some material shows it.
+    let mut shown = HashMap::new();
+    for part in subject.items.iter().flat_map(|item| &item.object.parts) {
+        used[part.material] = true;
+        if let Some(texture) = part.texture {
+            let shows = subject.scene.materials[part.material].shows_color();
+            *shown.entry(texture).or_insert(false) |= shows;
+        }
+    }
+    let materials = subject.materials.iter().zip(used).filter_map(|([_, path], used)| {
         (!used).then(|| Finding::new(Severity::Remark, path, "no surface is made of this material"))
     });
     let textures = subject.textures.iter().filter_map(|(texture, [_, path])| {
-        let bound = || parts().filter(|part| part.texture == Some(*texture));
-        let shows = |material: usize| subject.scene.materials[material].shows_color();
-        if bound().next().is_none() {
-            return Some(Finding::new(Severity::Remark, path, "no surface has this texture"));
-        }
         let message = "it is only on materials without ambient and diffuse light, which do not \
                        show it";
-        let hidden = !bound().any(|part| shows(part.material));
-        hidden.then(|| Finding::new(Severity::Hint, path, message))
+        match shown.get(texture) {
+            None => Some(Finding::new(Severity::Remark, path, "no surface has this texture")),
+            Some(false) => Some(Finding::new(Severity::Hint, path, message)),
+            Some(true) => None,
+        }
     });
     materials.chain(textures).collect()
 }

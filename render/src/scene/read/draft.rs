@@ -5,7 +5,7 @@ use crate::scene::SurfaceTexture;
 use crate::scene::file::{Lists, MeshFile, ObjectFile, PART_FORMAT, PartFile, SceneFile, VERSION};
 use files::json::{Document, nearest};
 use files::{JsonError, Source, input};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 use std::path::{Path, PathBuf};
 
 /// Parts may include parts this deep.
@@ -58,7 +58,8 @@ impl<'a> Draft<'a> {
         folder: &'a Path,
         source: &dyn Source,
     ) -> Result<Self, SceneError> {
-        let mut gathering = Gathering { source, parts: Vec::new(), way: Vec::new() };
+        let mut gathering =
+            Gathering { source, parts: Vec::new(), read: HashSet::new(), way: Vec::new() };
         gathering.include(document, &file.include, folder)?;
         Ok(Self { document, file, folder, parts: gathering.parts })
     }
@@ -86,8 +87,9 @@ impl<'a> Draft<'a> {
     ) -> Result<(), SceneError> {
         let lists = self.parts.iter().map(|part| part.file.lists()).chain([self.file.lists()]);
         let names: Vec<&str> = lists.flat_map(meshes).map(|mesh| mesh.name.as_str()).collect();
+        let known: HashSet<&str> = names.iter().copied().collect();
         for name in given {
-            if !names.contains(&name) {
+            if !known.contains(name) {
                 let mut known = if names.is_empty() { "none".into() } else { names.join(", ") };
                 if let Some(near) = nearest(name, names.iter().copied()) {
                     known.push_str(&format!(" (did you mean {near}?)"));
@@ -114,6 +116,8 @@ fn folder_of(path: &Path) -> &Path {
 struct Gathering<'a> {
     source: &'a dyn Source,
     parts: Vec<Part>,
+    /// The paths of all parts read so far.
+    read: HashSet<PathBuf>,
     /// The parts whose includes are being read, each included by the one before.
     way: Vec<PathBuf>,
 }
@@ -138,15 +142,15 @@ impl Gathering<'_> {
                     "found files included by files more than {DEEPEST_INCLUDE} deep"
                 ));
             }
-            let bytes =
-                self.source.read_json(&path).map_err(|error| named(document, &place, &error))?;
-            // A folder reached by a link may give two files one path; those are not the same.
-            if self.parts.iter().any(|part| part.path == path && part.bytes == bytes) {
+            // Each part is read once, however many files include it.
+            if !self.read.insert(path.clone()) {
                 continue;
             }
-            if self.parts.len() >= MOST_PARTS {
+            if self.read.len() > MOST_PARTS {
                 return refuse(format!("found more files than {MOST_PARTS} included"));
             }
+            let bytes =
+                self.source.read_json(&path).map_err(|error| named(document, &place, &error))?;
             let part = Document::new(&name, &bytes)?;
             part.expect(PART_FORMAT, u64::from(VERSION))?;
             let file: PartFile = part.parse()?;

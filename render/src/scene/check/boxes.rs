@@ -1,0 +1,131 @@
+//! Finds boxes among many: a tree that is halved by count, along the longest axis of the middles.
+//!
+//! The tree has `log2 n` levels whatever the boxes are, so building takes O(n log n). What a search
+//! costs depends on how many boxes it meets; it counts the boxes that it looks at, so that whoever
+//! searches can stop.
+
+use glam::DVec3;
+use std::ops::ControlFlow;
+
+/// Lower and upper corner.
+pub type Bounds = [DVec3; 2];
+
+/// Boxes in a tree.
+#[derive(Debug)]
+pub struct Boxes {
+    /// The boxes' numbers, in the order of the tree.
+    order: Vec<u32>,
+    boxes: Vec<Bounds>,
+    /// The box around each part of the order, in the order in which a search comes to them.
+    parts: Vec<Bounds>,
+}
+
+/// A leaf has at most so many boxes.
+const LEAF: usize = 4;
+
+impl Boxes {
+    /// A tree over boxes.
+    #[must_use]
+    pub fn new(boxes: Vec<Bounds>) -> Self {
+        let mut order: Vec<u32> = (0..boxes.len() as u32).collect();
+        let mut parts = Vec::new();
+        divide(&boxes, &mut order, &mut parts);
+        Self { order, boxes, parts }
+    }
+
+    /// Gives `see` the number of every box for which `meets` holds, until it breaks. `meets` must hold
+    /// for a box around one for which it holds. Returns how many boxes were looked at.
+    pub fn search(
+        &self,
+        meets: impl Fn(&Bounds) -> bool,
+        mut see: impl FnMut(u32) -> ControlFlow<()>,
+    ) -> u64 {
+        let mut looks = 0;
+        let mut open = vec![(0..self.order.len(), 0)];
+        while let Some((range, part)) = open.pop() {
+            looks += 1;
+            if range.is_empty() || !meets(&self.parts[part]) {
+                continue;
+            }
+            if range.len() > LEAF {
+                let half = range.start + range.len() / 2;
+                let second = part + 1 + parts_of(half - range.start);
+                open.push((half..range.end, second));
+                open.push((range.start..half, part + 1));
+                continue;
+            }
+            for &number in &self.order[range] {
+                looks += 1;
+                if meets(&self.boxes[number as usize]) && see(number).is_break() {
+                    return looks;
+                }
+            }
+        }
+        looks
+    }
+}
+
+/// How many parts a tree over so many boxes has.
+fn parts_of(count: usize) -> usize {
+    if count <= LEAF { 1 } else { 1 + parts_of(count / 2) + parts_of(count - count / 2) }
+}
+
+fn divide(boxes: &[Bounds], order: &mut [u32], parts: &mut Vec<Bounds>) {
+    let around = |all: Bounds, other: Bounds| [all[0].min(other[0]), all[1].max(other[1])];
+    let none = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+    let own = order.iter().map(|&k| boxes[k as usize]);
+    parts.push(own.clone().fold(none, around));
+    if order.len() <= LEAF {
+        return;
+    }
+    let middle = |[low, high]: Bounds| low.midpoint(high);
+    let [low, high] = own.map(|b| [middle(b); 2]).fold(none, around);
+    let size = (high - low).to_array();
+    let axis = (0..3).max_by(|&a, &b| size[a].total_cmp(&size[b])).unwrap_or(0);
+    let half = order.len() / 2;
+    let key = |k: &u32| middle(boxes[*k as usize])[axis];
+    order.select_nth_unstable_by(half, |a, b| key(a).total_cmp(&key(b)).then(a.cmp(b)));
+    let (first, second) = order.split_at_mut(half);
+    divide(boxes, first, parts);
+    divide(boxes, second, parts);
+}
+
+/// Whether two boxes share a point.
+#[must_use]
+pub fn touch(a: &Bounds, b: &Bounds) -> bool {
+    a[0].cmple(b[1]).all() && b[0].cmple(a[1]).all()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_search_finds_what_trying_all_finds_and_looks_at_few() {
+        let part = |i: usize, golden: f64| (i as f64 * golden).fract();
+        for count in [0, 1, 4, 5, 1000, 1001] {
+            let boxes: Vec<Bounds> = (0..count)
+                .map(|i| {
+                    let low = DVec3::new(part(i, 0.618_034), part(i, 0.754_877), part(i, 0.569_84));
+                    [low, low + 0.05 * part(i, 0.819_17)]
+                })
+                .collect();
+            let tree = Boxes::new(boxes.clone());
+            for k in 0..20 {
+                let wanted = [DVec3::splat(0.05 * k as f64), DVec3::splat(0.05 * k as f64 + 0.04)];
+                let mut found = Vec::new();
+                let looks = tree.search(
+                    |other| touch(other, &wanted),
+                    |number| {
+                        found.push(number as usize);
+                        ControlFlow::Continue(())
+                    },
+                );
+                found.sort_unstable();
+                let all: Vec<usize> = (0..count).filter(|&i| touch(&boxes[i], &wanted)).collect();
+                assert_eq!(found, all);
+                assert!(looks < 250, "{looks}");
+            }
+        }
+    }
+}

@@ -1,0 +1,172 @@
+//! Where a chain of straight pieces crosses itself.
+//!
+//! Boxes around stretches of the chain, each halved down to single pieces, tell which pieces may cross:
+//! neighbours on the chain are near each other, so that the boxes are small where the chain is cut fine.
+
+use glam::DVec2;
+
+/// For each piece so many others are tried at most.
+///
+/// Larger, and a drawing of thousands of strokes through each other takes long; smaller, and the count
+/// that is said of such a drawing is lower than the truth, which is said too.
+const MOST_TRIED: u64 = 1 << 12;
+
+/// How often a chain crosses itself.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Crossings {
+    /// How many crossings there are.
+    pub count: usize,
+    /// Where the first one on the chain is.
+    pub first: Option<DVec2>,
+    /// Whether there may be more than were counted.
+    pub more: bool,
+    /// How many boxes and pieces were looked at.
+    pub looks: u64,
+}
+
+type Bounds = [DVec2; 2];
+
+/// The crossings of a chain through these points; touching is no crossing.
+#[must_use]
+pub fn crossings(points: &[DVec2], closed: bool) -> Crossings {
+    let mut found = Crossings::default();
+    let pieces = points.len().saturating_sub(1);
+    if pieces == 0 {
+        return found;
+    }
+    let mut parts = Vec::new();
+    divide(points, 0, pieces, &mut parts);
+    let mut open = Vec::new();
+    for i in 0..pieces {
+        let [a, b] = [points[i], points[i + 1]];
+        let own = [a.min(b), a.max(b)];
+        let mut tried = 0;
+        open.push((0, pieces, 0));
+        while let Some((from, to, part)) = open.pop() {
+            found.looks += 1;
+            let [low, high] = parts[part];
+            if to < i + 3 || low.cmpgt(own[1]).any() || high.cmplt(own[0]).any() {
+                continue;
+            }
+            if to - from > 1 {
+                let half = from + (to - from) / 2;
+                // The earlier half is looked at first, since the first crossing is wanted.
+                open.push((half, to, part + 2 * (half - from)));
+                open.push((from, half, part + 1));
+                continue;
+            }
+            tried += 1;
+            if tried > MOST_TRIED {
+                found.more = true;
+                open.clear();
+                break;
+            }
+            if closed && i == 0 && to == pieces {
+                continue;
+            }
+            let [c, d] = [points[from], points[from + 1]];
+            if let Some(at) = crossing([a, b], [c, d]) {
+                found.count += 1;
+                found.first.get_or_insert(at);
+            }
+        }
+    }
+    found
+}
+
+/// The boxes around a stretch of pieces and its halves, each before those of its halves: of `n` pieces
+/// there are `2 n - 1`.
+fn divide(points: &[DVec2], from: usize, to: usize, parts: &mut Vec<Bounds>) -> Bounds {
+    let place = parts.len();
+    parts.push([DVec2::ZERO; 2]);
+    let bounds = if to - from > 1 {
+        let half = from + (to - from) / 2;
+        let a = divide(points, from, half, parts);
+        let b = divide(points, half, to, parts);
+        [a[0].min(b[0]), a[1].max(b[1])]
+    } else {
+        let [a, b] = [points[from], points[to]];
+        [a.min(b), a.max(b)]
+    };
+    parts[place] = bounds;
+    bounds
+}
+
+/// Where one straight piece crosses a later one.
+fn crossing([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> Option<DVec2> {
+    let of = |p: DVec2, q: DVec2, r: DVec2| (q - p).perp_dot(r - p);
+    let (at_c, at_d) = (of(a, b, c), of(a, b, d));
+    // A piece that starts on another one crosses it there, if the one before came from the other
+    // side; each such place is met by one of the two pieces alone.
+    let passes = |x: f64, y: f64| (x < 0.0 && y >= 0.0) || (x >= 0.0 && y < 0.0);
+    (passes(at_c, at_d) && passes(of(c, d, a), of(c, d, b)))
+        .then(|| c.lerp(d, at_c / (at_c - at_d)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn crossings_are_counted_once() {
+        let p = DVec2::new;
+        let said = |points: &[DVec2], closed: bool| {
+            let found = crossings(points, closed);
+            (found.count, found.first)
+        };
+        let bow = [p(0.0, 0.0), p(2.0, 2.0), p(2.0, 0.0), p(0.0, 2.0), p(0.0, 0.0)];
+        assert_eq!(said(&bow, true), (1, Some(p(1.0, 1.0))));
+        // The same with a point where it crosses.
+        let cut = [
+            p(0.0, 0.0),
+            p(1.0, 1.0),
+            p(2.0, 2.0),
+            p(2.0, 0.0),
+            p(1.0, 1.0),
+            p(0.0, 2.0),
+            p(0.0, 0.0),
+        ];
+        assert_eq!(said(&cut, true).0, 1);
+        let square = [p(0.0, 0.0), p(1.0, 0.0), p(1.0, 1.0), p(0.0, 1.0), p(0.0, 0.0)];
+        assert_eq!(said(&square, true), (0, None));
+    }
+
+    #[test]
+    fn the_boxes_find_the_crossings_that_trying_all_finds() {
+        let part = |i: usize, golden: f64| (i as f64 * golden).fract();
+        for count in [1, 2, 3, 50, 333] {
+            let points: Vec<DVec2> =
+                (0..=count).map(|i| DVec2::new(part(i, 0.618_034), part(i, 0.754_877))).collect();
+            let (mut all, mut first) = (0, None);
+            for i in 0..count {
+                for j in i + 2..count {
+                    let pieces = [i, j].map(|k| [points[k], points[k + 1]]);
+                    if let Some(at) = crossing(pieces[0], pieces[1]) {
+                        all += 1;
+                        first.get_or_insert(at);
+                    }
+                }
+            }
+            let found = crossings(&points, false);
+            assert_eq!((found.count, found.first, found.more), (all, first, false));
+        }
+    }
+
+    #[test]
+    fn a_long_chain_takes_work_in_proportion_to_its_pieces() {
+        let spiral = |count: usize| -> Vec<DVec2> {
+            let turn = |i: usize| 40.0 * i as f64 / count as f64;
+            (0..=count).map(|i| (1.0 + turn(i)) * DVec2::from_angle(turn(i))).collect()
+        };
+        let [one, two] =
+            [20_000, 40_000].map(|count| crossings(&spiral(count), false).looks as f64);
+        assert!(two < 2.3 * one, "{one} {two}");
+        // All strokes through one point: what is tried of each is bounded.
+        let star = |count: usize| -> Vec<DVec2> {
+            let angle = |i: usize| 3.0 * i as f64 + i as f64 * 1e-4;
+            (0..=count).map(|i| DVec2::from_angle(angle(i))).collect()
+        };
+        let found = crossings(&star(10_000), false);
+        assert!(found.more && found.looks < 10_000 * 4 * MOST_TRIED);
+    }
+}
