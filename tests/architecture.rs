@@ -18,10 +18,9 @@ const CRATES: [(&str, &[&str]); 6] = [
 
 /// The rooms of `render` from the bottom up, and into which others each one looks: only at rooms
 /// above it in this list, which is below it in the house.
-const ROOMS: [(&str, &[&str]); 17] = [
+const ROOMS: [(&str, &[&str]); 16] = [
     ("color", &[]),
     ("optics", &[]),
-    ("progress", &[]),
     ("ray", &[]),
     ("shape", &[]),
     ("texture", &["color"]),

@@ -8,9 +8,9 @@ mod work;
 
 use clap::Parser;
 use files::memory::of_process;
+use files::progress::Progress;
 use files::{Exit, Failure, Report};
 use render::film::{Crop, memory};
-use render::progress::Progress;
 use render::scene::{self, schema};
 use render::{Prepared, Settings, inspect};
 use std::time::Instant;

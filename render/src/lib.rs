@@ -22,7 +22,6 @@ pub mod inspect;
 pub mod optics;
 pub mod prepared;
 pub mod procedural;
-pub mod progress;
 pub mod ray;
 pub mod scene;
 pub mod shade;

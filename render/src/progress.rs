@@ -1,3 +1,0 @@
-//! The progress bar of the programs, which the crates share.
-
-pub use files::progress::Progress;
