@@ -4,6 +4,7 @@
 //! from wherever it comes. What is read is counted in the memory budget of the process while it grows,
 //! so that a file that never ends is refused.
 
+use crate::json::BYTES_OF_A_BYTE;
 use crate::memory::{self, Budget};
 use crate::{FileError, words};
 use std::fmt::Debug;
@@ -82,13 +83,8 @@ pub fn read_json(argument: &Path) -> Result<Vec<u8>, FileError> {
     room_for_values(read(argument)?, || name_of(argument))
 }
 
-/// Bytes that the values of a JSON text take at most for each of its bytes. A number of one digit and
-/// its comma are 2 bytes; a value of unknown type takes 32, an array of them twice that while it grows,
-/// and so does the tree in which a complaint finds its place.
-const OF_JSON: u64 = 32;
-
 fn room_for_values(text: Vec<u8>, name: impl Fn() -> String) -> Result<Vec<u8>, FileError> {
-    let bytes = OF_JSON.saturating_mul(text.len() as u64);
+    let bytes = BYTES_OF_A_BYTE.saturating_mul(text.len() as u64);
     memory::of_process().check(bytes, || format!("{}: its values", name()))?;
     Ok(text)
 }

@@ -14,6 +14,10 @@ pub(super) struct Unpacked {
     pub bytes: u64,
 }
 
+/// Bytes that compression makes of one byte at most. A deflated stream of zeros gives 1032; the Huffman
+/// code of PIZ gives some hundreds, the other methods fewer.
+const MOST_EXPANDED: u64 = 2000;
+
 /// The largest layer of the file; an error is the decoder's sentence.
 ///
 /// Blocks are unpacked one after another, and one block may be all of the layer. Compressed samples of
@@ -26,5 +30,11 @@ pub(super) fn unpacked(file: &[u8]) -> Result<Unpacked, String> {
         let bytes = width.saturating_mul(height).saturating_mul(pixel).saturating_mul(2);
         Unpacked { width, height, channels: header.channels.list.len(), bytes }
     });
-    layers.max_by_key(|layer| layer.bytes).ok_or_else(|| "no layers".into())
+    let largest = layers.max_by_key(|layer| layer.bytes).ok_or("no layers")?;
+    if largest.bytes / 2 > MOST_EXPANDED.saturating_mul(file.len() as u64) {
+        let Unpacked { width, height, channels, .. } = largest;
+        let claim = format!("a data window of {width}x{height} pixels with {channels} channels");
+        return Err(format!("{claim}, which no file of {} bytes holds", file.len()));
+    }
+    Ok(largest)
 }

@@ -4,8 +4,8 @@ use super::{Encoding, GridError, stranger};
 use crate::GridMesh;
 use crate::grid::row::{self, Fault, check_parameter};
 use crate::grid::{Fold, PlacedArea, Seam, Tolerance, UvLayout, area, seam};
-use files::JsonError;
-use files::json::Document;
+use files::json::{BYTES_OF_A_BYTE, Document};
+use files::{JsonError, memory};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::io::{self, BufRead, Read};
@@ -297,6 +297,8 @@ pub(super) fn read(
     }
     let mut limited = input.by_ref().take(MAX_LINE as u64 - 1);
     limited.read_until(b'\n', &mut bytes).map_err(read_error)?;
+    let needed = BYTES_OF_A_BYTE.saturating_mul(bytes.len() as u64);
+    memory::of_process().check(needed, || format!("{name}: its header line"))?;
     let whole = bytes.ends_with(b"\n");
     if !whole && bytes.len() == MAX_LINE {
         let expected = "the header line of a grid";
