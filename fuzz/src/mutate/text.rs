@@ -105,6 +105,13 @@ fn lines(text: &mut Vec<u8>, dice: &mut Dice, other: &[u8]) {
         return;
     }
     let (a, b) = (dice.below(lines.len()), dice.below(lines.len()));
+    if dice.once_in(100) {
+        // Work that grows faster than the input shows in many equal lines.
+        let many = (LONGEST - text.len().min(LONGEST)) / lines[a].len().max(8);
+        lines.splice(b..b, std::iter::repeat_n(lines[a], many).collect::<Vec<_>>());
+        *text = lines.concat();
+        return;
+    }
     match dice.below(6) {
         0 => drop(lines.remove(a)),
         1 => lines.insert(b, lines[a]),

@@ -70,10 +70,10 @@ pub fn follow(grids: &[GridMesh]) -> Tried {
 }
 
 /// The triangles with their points: the reader of OBJ files leaves out points of no triangle.
-fn corners(mesh: &Mesh) -> Vec<([[f32; 3]; 3], [u32; 3], [u32; 3], usize)> {
+fn corners(mesh: &Mesh) -> Vec<([[f32; 3]; 3], Triangle)> {
     let of = |triangle: &Triangle| {
         let points = triangle.position.map(|index| mesh.positions[index as usize]);
-        (points, triangle.uv, triangle.normal, triangle.surface as usize)
+        (points, Triangle { position: [0; 3], ..*triangle })
     };
     mesh.triangles.iter().map(of).collect()
 }
