@@ -1,4 +1,4 @@
-//! The pictures of a page beside the truth, and maps of where they are wrong.
+//! Shows the pictures of a page beside the truth, with maps of their errors.
 
 use super::super::measured::{PageMeasured, Trial};
 use crate::PipelineError;
@@ -12,10 +12,10 @@ use render::film::encode::{Format, encode};
 use render::filter::Filter;
 use render::{Picture, Sampling};
 
-/// The errors that a map tells apart: from what no eye sees up to white for black.
+/// The range of errors in the maps: from invisible differences up to white in place of black.
 const SCALE: Scale = Scale::Log { least: 1e-3, most: 1.0 };
 
-/// A row of pictures, each above its error map.
+/// Returns a row of pictures, each above its error map.
 pub fn pictures(page: &PageMeasured) -> Result<Markup, PipelineError> {
     let mut shown = Vec::new();
     for (why, trial, picture) in chosen(page) {
@@ -48,8 +48,10 @@ pub fn pictures(page: &PageMeasured) -> Result<Markup, PipelineError> {
     })
 }
 
-/// One ray without and with the thesis's filter, its supersampling, what is the nearest without its
-/// filters in that time, and the nearest of all.
+/// Returns the pictures to show: one ray without and with the thesis's filter, the thesis's
+/// supersampling, the method nearest to the truth without tables in no more time than the
+/// supersampling, and the nearest of all. Without supersampling, the time of one filtered ray is the
+/// limit.
 fn chosen(page: &PageMeasured) -> Vec<(&'static str, &Trial, &Picture)> {
     let find = |filter: Filter, sampling: Sampling| {
         let is =
@@ -93,7 +95,7 @@ fn encoding(name: &str, source: image::ImageError) -> PipelineError {
     PipelineError::Encode { name: name.into(), source }
 }
 
-/// The colours of the maps, with the errors that they stand for.
+/// Returns the colours of the maps, with the errors that they stand for.
 fn legend() -> Markup {
     let stops: Vec<String> = (0..=16)
         .map(|k| {
