@@ -26,8 +26,9 @@ pub struct Areas {
 struct Fitted {
     rows: [usize; 2],
     cols: [usize; 2],
-    /// `u` at the first and the last edge of the area, then `v`; in [0, 1].
+    /// `u` at the first and the last edge of the area, in [0, 1].
     u: [f64; 2],
+    /// `v` at the first and the last edge of the area, in [0, 1].
     v: [f64; 2],
     layout: UvLayout,
     material: Material,
