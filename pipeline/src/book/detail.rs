@@ -65,7 +65,7 @@ impl Detail {
     }
 }
 
-/// Returns the place where two pictures of the same size differ most.
+/// Returns the position where two pictures of the same size differ most.
 #[must_use]
 pub fn most_different(title: &str, first: &Picture, second: &Picture) -> Place {
     let (width, height) = (first.width, first.height);
@@ -97,7 +97,7 @@ pub fn most_different(title: &str, first: &Picture, second: &Picture) -> Place {
     Place { title: title.into(), at }
 }
 
-/// Returns the pixels around a place, moved so that all lie in the picture.
+/// Returns the pixels around a position, shifted so that all lie in the picture.
 fn around(place: &Place, (width, height): (u32, u32)) -> Crop {
     let start = |at: f64, side: u32, all: u32| {
         let start = (at * f64::from(all) - 0.5 * f64::from(side)).round();

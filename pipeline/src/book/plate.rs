@@ -130,7 +130,7 @@ pub fn in_details(shots: &[Shot]) -> impl Iterator<Item = &Shot> {
     shots.iter().filter(is_first).chain(shots.iter().filter(move |shot| !is_first(shot)))
 }
 
-/// Returns the places of the job, or else the place where its modes differ most.
+/// Returns the positions that the job names, or else the position where its modes differ most.
 fn places(crops: &[Place], shots: &[Shot]) -> Vec<Place> {
     if !crops.is_empty() {
         return crops.to_vec();

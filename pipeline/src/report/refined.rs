@@ -1,8 +1,8 @@
 //! Renders the truth, the picture with which all others are compared, with a great many unfiltered
 //! rays.
 //!
-//! Each pixel is made of `n * n` jittered rays. The truth needs none of the filters that are judged;
-//! many rays take their place. It is rendered twice, with two seeds ([`Pair`]). Half the difference
+//! Each pixel is made of `n * n` jittered rays. The truth uses none of the filters that are judged, but
+//! many rays instead. The truth is rendered twice, with two seeds ([`Pair`]). Half the difference
 //! between the two pictures is the noise of their mean.
 //!
 //! Where the noise is too large, blocks of the picture are rendered again with more rays, the noisiest

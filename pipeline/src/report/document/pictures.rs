@@ -12,7 +12,7 @@ use render::film::encode::{Format, encode};
 use render::filter::Filter;
 use render::{Picture, Sampling};
 
-/// The range of errors in the maps: from invisible differences up to white in place of black.
+/// The range of errors in the maps: from invisible differences up to white instead of black.
 const SCALE: Scale = Scale::Log { least: 1e-3, most: 1.0 };
 
 /// Returns a row of pictures, each above its error map.

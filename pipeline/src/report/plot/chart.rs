@@ -23,20 +23,20 @@ pub struct Chart {
     pub key: Vec<(Look, String)>,
 }
 
-/// A curve, or separate places.
+/// A curve, or separate points.
 #[derive(Debug, Clone)]
 pub struct Series {
     /// The name written at the end of the curve; empty for none.
     pub name: String,
     /// The look of line and marks.
     pub look: Look,
-    /// Whether a line joins the places.
+    /// Whether a line joins the points.
     pub joined: bool,
-    /// The places, in the order in which the line joins them.
+    /// The points, in the order in which the line joins them.
     pub places: Vec<Place>,
 }
 
-/// A place of a curve. A place that the axes cannot show, such as one at 0, is left out.
+/// A point of a curve. A point that the axes cannot show, such as one at 0, is left out.
 #[derive(Debug, Clone, Default)]
 pub struct Place {
     /// Value on the horizontal axis.
@@ -45,7 +45,7 @@ pub struct Place {
     pub y: f64,
     /// A description that appears under the mouse.
     pub name: String,
-    /// A short note beside the place.
+    /// A short note beside the point.
     pub note: Option<String>,
 }
 
@@ -235,7 +235,7 @@ impl Chart {
         }
     }
 
-    /// Draws notes to the lower left of their places, since below a front there is nothing. A note that
+    /// Draws notes to the lower left of their points, since below a front there is nothing. A note that
     /// would overlap another is left out.
     fn notes(&self, svg: &mut Svg, frame: Frame) {
         let mut taken: Vec<(f64, f64)> = Vec::new();
@@ -364,7 +364,7 @@ mod tests {
         }
         chart.series[0].places.push(Place { x: f64::NAN, y: 0.0, ..Place::default() });
         let circles = chart.inline(Size::Wide, "about").matches("<circle").count();
-        // Three places, and the mark beside the name.
+        // Three points, and the mark beside the name.
         assert_eq!(circles, 4);
     }
 

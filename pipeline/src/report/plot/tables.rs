@@ -21,7 +21,7 @@ pub fn charts(table: &Table) -> Vec<Chart> {
     .collect()
 }
 
-/// Makes a chart of curves, with axes that fit all places.
+/// Makes a chart of curves, with axes that fit all points.
 fn chart(title: &str, across: (&str, Unit), up: (&str, Unit), series: Vec<Series>) -> Chart {
     let axis = |(label, unit): (&str, Unit), of: fn(&Place) -> f64| {
         Axis::around(label, unit, series.iter().flat_map(|own| &own.places).map(of))
@@ -31,7 +31,7 @@ fn chart(title: &str, across: (&str, Unit), up: (&str, Unit), series: Vec<Series
     Chart { title, across, up, series, band: None, front: Vec::new(), key: Vec::new() }
 }
 
-/// Returns the places of rows. The name of each place begins with the row's first cell.
+/// Returns the points of rows. The name of each point begins with the row's first cell.
 fn places<'a>(
     table: &Table,
     rows: impl Iterator<Item = &'a Vec<String>>,

@@ -31,7 +31,7 @@ fn one_ray_is_worth_the_rays_that_are_as_near() {
     let expected = "On floor the tent with one ray (0.040) is nearer to the truth than 4 x 4 bilinear \
                     rays (0.050), but not as near as 8 x 8 (0.025); it is done in 1/32 of the time of those.";
     assert_eq!(text, expected);
-    // Exactly as near as 4 x 4.
+    // The tent is exactly as near as 4 x 4 bilinear rays.
     let law = |filter, n: f64| match filter {
         Filter::Tent => (0.05, 0.32 / 7.0 * n * n),
         filter => floor(filter, n),
