@@ -28,9 +28,9 @@ pub(crate) enum Identity {
 pub(crate) struct Number(#[cfg(unix)] (u64, u64), #[cfg(not(unix))] std::path::PathBuf);
 
 impl Identity {
-    /// Returns the identifiers of a path, with links followed: that of the file, if it exists, and that
-    /// of its name, which stays valid when the file is replaced. The list is empty for a folder, a
-    /// device or a pipe.
+    /// Returns the identifiers of a path, with links followed. The first is that of the file, if it
+    /// exists. The second is that of the file's name, which stays valid when the file is replaced. The
+    /// list is empty for a folder, a device or a pipe.
     pub(crate) fn keys(path: &Path) -> Vec<Self> {
         let there = match fs::metadata(path) {
             Ok(found) if found.is_file() => number(path, &found),

@@ -85,8 +85,8 @@ impl Station {
         Ok(())
     }
 
-    /// Returns the first row as it follows the last row across the seam: at `v = 1`, with its columns
-    /// in the order of the last row's, and with normals negated at a mirrored seam. Points keep their
+    /// Returns the first row as it follows the last row across the seam, at `v = 1`. Its columns have
+    /// the order of the last row's. Its normals are negated at a mirrored seam. Points keep their
     /// numbers, and so do normals that are not negated.
     pub fn over_seam(self, header: &Header) -> Self {
         let cols = self.points.len();

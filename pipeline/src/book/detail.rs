@@ -118,8 +118,8 @@ fn cut(picture: &Picture, crop: Crop) -> Picture {
     part
 }
 
-/// Returns for each pixel whether it is wide: the ray through its middle first hits an object with a
-/// texture, of which the pixel spans more than two texels in both directions.
+/// Returns for each pixel whether it is wide. The ray through the middle of a wide pixel first hits an
+/// object with a texture, and there the pixel spans more than two texels in both directions.
 fn wide_pixels(prepared: &Prepared<'_>, (width, height): (u32, u32), crop: Crop) -> Vec<bool> {
     let layers = vec![Layer::Object, Layer::Footprint];
     let settings = Settings::new(width, height, Filter::Tent);

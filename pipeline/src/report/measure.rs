@@ -84,8 +84,8 @@ pub fn page(
 
 /// Returns the difference from the truth with the truth's own noise subtracted from the mean square.
 ///
-/// For any picture m and truths A and B of two seeds, the mean of (m - A)(m - B) is free of the noise
-/// of A and B, which is independent. (m - (A + B)/2)^2 - (A - B)^2/4 is the same number.
+/// Take a picture m and truths A and B of two seeds, whose noise is independent. The mean of (m - A)(m
+/// - B) is then free of this noise. (m - (A + B)/2)^2 - (A - B)^2/4 is the same number.
 fn without_noise(difference: Difference, noise: f64) -> Difference {
     let square = difference.rmse.powi(2) - noise.powi(2);
     Difference { rmse: square.max(0.0).sqrt(), ..difference }

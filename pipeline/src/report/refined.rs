@@ -49,8 +49,8 @@ impl Refined {
         self.pair.mean()
     }
 
-    /// Returns the root mean square difference between both pictures, in linear light, over all
-    /// channels of the pixels for which `mask` is true, or of all pixels. 0 if there are no such
+    /// Returns the root mean square difference between both pictures, in linear light. The mean is over
+    /// all channels of the pixels for which `mask` is true, or of all pixels. 0 if there are no such
     /// pixels.
     #[must_use]
     pub fn difference(&self, mask: Option<&[bool]>) -> f64 {
@@ -74,9 +74,9 @@ impl Refined {
         (all().min().unwrap_or(0), all().max().unwrap_or(0))
     }
 
-    /// Renders blocks again, with at most `most` rays along each side of a pixel, so that the expected
-    /// root mean square difference of the whole is at most `goal`. Returns whether any block was
-    /// rendered.
+    /// Renders blocks again with more rays, so that the expected root mean square difference of the
+    /// whole is at most `goal`. A pixel gets at most `most` rays along each side. Returns whether any
+    /// block was rendered.
     pub fn refine(
         &mut self,
         scene: &Prepared<'_>,

@@ -5,8 +5,8 @@
 //!
 //! - `silhouettes`: among the first hits of the pixel and its eight neighbours in the picture there is
 //!   more than one object, or both an object and a miss. These pixels are in no other region.
-//! - `far floor`: the first hit is on a plane, a rectangle or a side of a box that shows a texture, and
-//!   the minor axis of the pixel's footprint there is longer than [`MINIFIED`] texels.
+//! - `far floor`: the first hit is on a plane, a rectangle or a side of a box that shows a texture. The
+//!   minor axis of the pixel's footprint there is longer than [`MINIFIED`] texels.
 //! - `in mirrors`: more than half of the pixel's weight comes from textures by rays that were only
 //!   mirrored.
 //! - `through glass`: more than half of the pixel's weight comes from textures by rays that have passed

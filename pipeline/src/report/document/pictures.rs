@@ -48,10 +48,10 @@ pub fn pictures(page: &PageMeasured) -> Result<Markup, PipelineError> {
     })
 }
 
-/// Returns the pictures to show: one ray without and with the thesis's filter, the thesis's
-/// supersampling, the method nearest to the truth without tables in no more time than the
-/// supersampling, and the nearest of all. Without supersampling, the time of one filtered ray is the
-/// limit.
+/// Returns the pictures to show. The first three are one ray without and with the thesis's filter, and
+/// the thesis's supersampling. Next comes the method without tables that is nearest to the truth in no
+/// more time than the supersampling, or than one filtered ray if there is no supersampling. The last is
+/// the nearest of all.
 fn chosen(page: &PageMeasured) -> Vec<(&'static str, &Trial, &Picture)> {
     let find = |filter: Filter, sampling: Sampling| {
         let is =
