@@ -52,7 +52,7 @@ pub enum TriangulateError {
         /// Number of points on a station.
         cols: usize,
     },
-    /// A grid in memory whose seam contradicts its shift or its number of columns.
+    /// A grid in memory with a seam or a shift that no surface has.
     #[error("{object}: {fault}")]
     Seam {
         /// The object's name.

@@ -91,9 +91,9 @@ pub struct Counts {
     /// no width there.
     pub slivers: u64,
     /// The largest distance by which rounding to f32 moved a coordinate, as a fraction of the object's
-    /// size (the diagonal of its box). About 1e-8 for an object about the origin; the fraction grows
-    /// with the object's distance from the origin in sizes. Infinite for an object that is one point
-    /// and was moved.
+    /// size (the diagonal of its box). About 1e-8 for an object about the origin. For an object far from
+    /// the origin, the fraction grows with the ratio of its distance to its size. Infinite for an object
+    /// that is one point and was moved.
     pub moved: f64,
     /// The largest distance by which rounding moved a point, in the grid's unit.
     pub displacement: f64,
@@ -153,7 +153,7 @@ const MAX_REPEAT: f64 = 1e30;
 pub struct Triangulator<S> {
     header: Header,
     teller: Teller<S>,
-    /// The first row as it follows the last row, if the trajectory is closed.
+    /// The first row as it follows the last row, if the last row leads back to it.
     first: Option<Station>,
     before: Option<Station>,
     /// A station that is no longer needed; its memory is reused.
