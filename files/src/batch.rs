@@ -1,7 +1,8 @@
-//! Outputs that belong together, and a marker while they are neither all old nor all new.
+//! Replaces files that belong together, and marks the time during which some are old and some new.
 //!
-//! Each file is replaced whole, but several cannot be replaced at once. So before the first of them
-//! is replaced a batch leaves a marker beside them, `NAME.incomplete`, a text that lists the files:
+//! Each file is replaced whole, but several files cannot be replaced at once. So before a batch
+//! replaces the first file, it writes a marker beside the files, `NAME.incomplete`. The marker is a
+//! text that lists the files:
 //!
 //! ```text
 //! topobook: these files belong together and are being replaced one after another
@@ -10,9 +11,10 @@
 //! new "vase-point.png"
 //! ```
 //!
-//! A file with a line `new` has been replaced, and the others may be old. The marker goes when all are
-//! new. If a program is killed, interrupted or fails in between, the marker stays, and the next run
-//! of the same outputs can tell ([`Batch::remark`]). A batch of one file needs no marker.
+//! A file with a line `new` has been replaced; the others may be old. The marker is removed when all
+//! files are new. When a program fails, is killed or is interrupted in between, the marker stays, and
+//! the next run with the same outputs can report it ([`Batch::remark`]). A batch of one file needs no
+//! marker.
 
 use crate::identity::folder_of;
 use crate::output::{Ready, sync_folder};
@@ -27,32 +29,32 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 const HEADER: &str =
     "topobook: these files belong together and are being replaced one after another";
 
-/// Files that are replaced one after another.
+/// Files that belong together and are replaced one after another.
 #[derive(Debug)]
 pub struct Batch<'a> {
     marker: PathBuf,
-    /// A batch that these files belong to as well.
+    /// A larger batch to which these files also belong.
     larger: Option<&'a Batch<'a>>,
-    /// How the marker names the files of this batch.
+    /// The names of this batch's files in the marker.
     files: BTreeSet<String>,
-    /// The files in a marker that an earlier run left, of those that are there.
+    /// The existing files that the marker of an earlier run lists.
     earlier: Option<BTreeSet<String>>,
     progress: Mutex<Progress>,
 }
 
 #[derive(Debug, Default)]
 struct Progress {
-    /// The marker of this batch, once a file is about to be replaced.
+    /// The marker of this batch, open for appending; set before the first file is replaced.
     marker: Option<File>,
     replaced: BTreeSet<String>,
 }
 
 impl<'a> Batch<'a> {
-    /// A batch of these files, links followed or not, with its marker at `folder/NAME.incomplete`.
-    /// Nothing is written yet.
+    /// Makes a batch of `files` with its marker at `folder/NAME.incomplete`. A file may be given by a
+    /// link or by the path that the link leads to. Nothing is written yet.
     ///
     /// # Errors
-    /// When a file that is no marker has its name.
+    /// When a file that is not a marker has the marker's name.
     pub fn new(folder: &Path, name: &str, files: &[PathBuf]) -> Result<Self, FileError> {
         let marker = folder.join(format!("{name}.incomplete"));
         let earlier = match fs::read_to_string(&marker) {
@@ -67,18 +69,18 @@ impl<'a> Batch<'a> {
         Ok(Self { marker, larger: None, files, earlier, progress: Mutex::default() })
     }
 
-    /// This batch as a part of a larger one, whose marker tells of these files, too.
+    /// Makes this batch a part of a larger one, whose marker also lists these files.
     #[must_use]
     pub fn within(self, larger: &'a Self) -> Self {
         Self { larger: Some(larger), ..self }
     }
 
-    /// Replaces the files of outputs that belong together, one right after another, once all are
-    /// written and synced. The marker, if there are several files, lies beside the first and has its
-    /// name. Returns the remark of [`Batch::remark`].
+    /// Replaces the files of outputs that belong together. All outputs are written and synced first,
+    /// and then the files are replaced one right after another. If there are several files, the marker
+    /// lies beside the first and is named after it. Returns the remark of [`Batch::remark`].
     ///
     /// # Errors
-    /// When one of them cannot be written, or the marker.
+    /// When one of the outputs, or the marker, cannot be written.
     pub fn commit(outputs: Vec<Output>) -> Result<Option<String>, FileError> {
         let ready: Vec<Ready> = outputs.into_iter().map(Output::ready).collect::<Result<_, _>>()?;
         let files: Vec<PathBuf> = ready.iter().filter_map(Ready::target).map(Into::into).collect();
@@ -93,7 +95,7 @@ impl<'a> Batch<'a> {
         Ok(remark)
     }
 
-    /// What to tell the user if an earlier run stopped between these files.
+    /// Returns a message for the user if an earlier run stopped between these files.
     #[must_use]
     pub fn remark(&self) -> Option<String> {
         let earlier = self.earlier.as_ref()?;
@@ -112,12 +114,12 @@ impl<'a> Batch<'a> {
     /// Syncs an output and replaces its file.
     ///
     /// # Errors
-    /// When it cannot be written, or the marker.
+    /// When the output or the marker cannot be written.
     pub fn replace(&self, output: Output) -> Result<(), FileError> {
         self.replace_ready(output.ready()?)
     }
 
-    /// Ends the batch. The marker goes if all files that it lists are new.
+    /// Ends the batch. Removes the marker if all files that it lists are new.
     ///
     /// # Errors
     /// When the marker cannot be removed.
@@ -158,7 +160,7 @@ impl<'a> Batch<'a> {
         Ok(())
     }
 
-    /// Notes in the marker that a file is new.
+    /// Adds a line to the marker: this file is new.
     fn record(&self, target: &Path) -> Result<(), FileError> {
         if let Some(larger) = self.larger {
             larger.record(target)?;
@@ -173,7 +175,8 @@ impl<'a> Batch<'a> {
         Ok(())
     }
 
-    /// How the marker names a target, which may be the file that a link of the batch leads to.
+    /// Returns the marker's name of a target. The target may be the file that a link of the batch leads
+    /// to.
     fn name_of(&self, target: &Path) -> String {
         let folder = folder_of(&self.marker);
         let leads = |name: &str| fs::canonicalize(folder.join(name)).is_ok_and(|f| f == target);
@@ -185,7 +188,7 @@ impl<'a> Batch<'a> {
         name.unwrap_or_else(|| name_in(folder, target))
     }
 
-    /// Writes the marker, or adds the files of this batch to that of an earlier run.
+    /// Writes the marker, or adds the files of this batch to the marker of an earlier run.
     fn mark(&self) -> Result<File, FileError> {
         let known = self.earlier.as_ref();
         let new = self.files.iter().filter(|file| known.is_none_or(|known| !known.contains(*file)));
@@ -207,21 +210,22 @@ impl<'a> Batch<'a> {
     }
 }
 
-/// The files in a marker's text, of those that are there: one that is not cannot be old.
+/// Returns the files that a marker's text lists, of those that exist. A file that does not exist cannot
+/// be old.
 fn listed(text: &str, folder: &Path) -> BTreeSet<String> {
     let names = text.lines().filter_map(|line| line.strip_prefix("file "));
     let names = names.filter_map(|name| serde_json::from_str(name).ok());
     names.filter(|name: &String| folder.join(name).exists()).collect()
 }
 
-/// A file's name in this folder, or its path if it lies in another.
+/// Returns a file's name if the file lies in this folder, and its path otherwise.
 fn name_in(folder: &Path, file: &Path) -> String {
     let inside = folder_of(file) == folder;
     let name = if inside { file.file_name().map(Path::new) } else { None };
     name.unwrap_or(file).display().to_string()
 }
 
-/// A name in one line, as JSON has it.
+/// Returns a name as a JSON string, which is one line.
 fn quoted(name: &str) -> String {
     serde_json::Value::from(name).to_string()
 }

@@ -1,10 +1,11 @@
-//! Names of outputs that say what the file does not hold.
+//! Refuses output names whose extension contradicts the content.
 
 use crate::{Exit, Failure};
 use std::path::Path;
 use thiserror::Error;
 
-/// Extensions of formats that a user would expect to find inside: ours, and those of other tools.
+/// Extensions of known formats, our own and those of other tools. Users expect a file with such an
+/// extension to hold that format.
 const KNOWN: [&str; 42] = [
     "grid", "json", "obj", "mtl", "stl", "ply", "png", "exr", "svg", "html", "csv", // ours
     "glb", "gltf", "fbx", "dae", "3ds", "3mf", "blend", "usd", "usda", "usdc", "usdz", "abc",
@@ -13,7 +14,7 @@ const KNOWN: [&str; 42] = [
     "zip", "gz", "zst", // packed
 ];
 
-/// An output whose name promises another format than it gets.
+/// An output whose extension promises another format than the content.
 #[derive(Debug, Error)]
 #[error("{name} would hold {content}, which its extension denies: expected {expected}")]
 pub struct WrongExtension {
@@ -28,12 +29,13 @@ impl Failure for WrongExtension {
     }
 }
 
-/// Checks that the extension of an output does not contradict its content. `content` is in words
-/// ("an OBJ mesh") and `extensions` are those that it may have. Without an extension, or with one
-/// that belongs to no known format, any content is taken; so is standard output (`-`).
+/// Checks that the extension of an output does not contradict its content. `content` describes the
+/// content ("an OBJ mesh") and `extensions` lists the extensions that it may have, in lowercase and
+/// without a dot. An output without an extension, or with an unknown one, may hold any content. So may
+/// standard output (`-`).
 ///
 /// # Errors
-/// When the extension is known and not one of `extensions`, in letters of either case.
+/// When the extension is known and not one of `extensions`; case is ignored.
 pub fn check(
     output: &Path,
     content: &'static str,

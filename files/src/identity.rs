@@ -1,19 +1,20 @@
-//! Which file a path leads to, whatever the path is called.
+//! Identifies the file that a path leads to, independent of the path.
 //!
-//! On Unix a file is its device and its number there, which links, hard links, `.` and `..` and
-//! letters of either case lead to alike. Elsewhere it is its canonical path, which hard links evade.
+//! On Unix a file is identified by its device and its inode number. Symbolic links, hard links, `.` and
+//! `..`, and either case of letters lead to the same pair. On other systems a file is identified by its
+//! canonical path, which differs between hard links.
 
 use std::ffi::OsString;
 use std::fs::{self, Metadata};
 use std::io;
 use std::path::Path;
 
-/// What two paths share that lead to the same file.
+/// An identifier that is equal for two paths to the same file.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub(crate) enum Identity {
-    /// A regular file that is there.
+    /// A regular file that exists.
     There(Number),
-    /// A name in a folder, whether there is a file of that name or not.
+    /// A name in a folder, whether or not a file of that name exists.
     Name {
         /// The folder.
         folder: Number,
@@ -22,13 +23,14 @@ pub(crate) enum Identity {
     },
 }
 
-/// What tells a file or a folder from all others: a device and a number there, or else a path.
+/// Identifies a file or a folder: by device and inode number on Unix, by canonical path elsewhere.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub(crate) struct Number(#[cfg(unix)] (u64, u64), #[cfg(not(unix))] std::path::PathBuf);
 
 impl Identity {
-    /// What the path leads to, links followed: the file that is there, if one is, and its name,
-    /// which stays when the file is replaced. Nothing for a folder, a device or a pipe.
+    /// Returns the identifiers of a path, with links followed. The first is that of the file, if it
+    /// exists. The second is that of the file's name, which stays valid when the file is replaced. The
+    /// list is empty for a folder, a device or a pipe.
     pub(crate) fn keys(path: &Path) -> Vec<Self> {
         let there = match fs::metadata(path) {
             Ok(found) if found.is_file() => number(path, &found),
@@ -42,7 +44,7 @@ impl Identity {
         there.map(Self::There).into_iter().chain(named).collect()
     }
 
-    /// The file that standard input is read from, if it is a regular one.
+    /// Returns the file that standard input is read from, if it is a regular file.
     pub(crate) fn of_stdin() -> Option<Self> {
         #[cfg(unix)]
         return of_descriptor(std::os::fd::AsFd::as_fd(&io::stdin()));
@@ -50,7 +52,7 @@ impl Identity {
         None
     }
 
-    /// The file that standard output is written to, if it is a regular one.
+    /// Returns the file that standard output is written to, if it is a regular file.
     pub(crate) fn of_stdout() -> Option<Self> {
         #[cfg(unix)]
         return of_descriptor(std::os::fd::AsFd::as_fd(&io::stdout()));
@@ -59,14 +61,14 @@ impl Identity {
     }
 }
 
-/// The folder that a path lies in.
+/// Returns the folder that a path lies in, `.` for a bare name.
 pub(crate) fn folder_of(path: &Path) -> &Path {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
     folder.unwrap_or(Path::new("."))
 }
 
-/// True if the file system takes `a` and `A` for one name in this folder; true as well where that
-/// cannot be tried.
+/// Returns true if the file system treats `a` and `A` as one name in this folder, and also if this
+/// cannot be tested.
 pub(crate) fn folds_case(folder: &Path) -> bool {
     let trial = tempfile::Builder::new().prefix(".case-").suffix(".part").tempfile_in(folder);
     let Ok(trial) = trial else { return true };

@@ -1,9 +1,9 @@
-//! JSON into typed values, with the place of every complaint.
+//! Reads JSON into typed values, and gives every complaint its position in the text.
 //!
-//! A [`Document`] is a text and the name of its file. [`Document::parse`] reads it into a value;
-//! unknown keys, wrong types and syntax errors come back with line, column and path, and a near
-//! miss in a key is met with a suggestion. Checks that only the reader of the value can make (a
-//! radius must be positive) go through [`Document::fault`], which finds the place from the path.
+//! A [`Document`] is a text and the name of its file. [`Document::parse`] reads the text into a value.
+//! Complaints about unknown keys, wrong types and syntax errors carry line, column and path. For a
+//! misspelt key, the complaint suggests a known one. Checks that only the reader of the value can make
+//! (a radius must be positive) go through [`Document::fault`], which finds the position from the path.
 
 pub use crate::words::nearest;
 
@@ -21,7 +21,7 @@ use thiserror::Error;
 /// grows, and a tree in which a complaint finds its place as much again. 43 were measured.
 pub const BYTES_OF_A_BYTE: u64 = 48;
 
-/// What is wrong in a JSON text, and where.
+/// An error in a JSON text, with its position.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{file}:{line}:{column}: {}{message}", if path.is_empty() { String::new() } else { format!("{path}: ") })]
 pub struct JsonError {
@@ -46,13 +46,13 @@ impl Failure for JsonError {
 /// A JSON text and the name of its file.
 #[derive(Debug, Clone, Copy)]
 pub struct Document<'a> {
-    /// The file as the user named it; appears in every message.
+    /// The file as the user named it; part of every message.
     pub file: &'a str,
     text: &'a str,
 }
 
 impl<'a> Document<'a> {
-    /// A document of the bytes of a file; a byte order mark is passed over.
+    /// Makes a document from the bytes of a file. A byte order mark is skipped.
     ///
     /// # Errors
     /// When the bytes are not UTF-8 text, or are empty.
@@ -75,7 +75,7 @@ impl<'a> Document<'a> {
         Ok(Self { file, text })
     }
 
-    /// The value of the whole text.
+    /// Parses the whole text as a value.
     ///
     /// # Errors
     /// On a syntax error, an unknown key, a missing key or a value of the wrong type.
@@ -89,13 +89,14 @@ impl<'a> Document<'a> {
         Ok(value)
     }
 
-    /// Checks the keys `format` and `version`, whatever else the text holds.
+    /// Checks the keys `format` and `version` and ignores all other keys.
     ///
-    /// Asked first, it says that a file is of another kind, where [`Document::parse`] would take its
-    /// keys for misspelt ones. Text in which they are not found passes: parsing says what it lacks.
+    /// Call this before [`Document::parse`], so that a file of another kind is reported as such.
+    /// Otherwise the parser would take its keys for misspelt ones. A text without these keys passes,
+    /// and [`Document::parse`] reports the missing keys.
     ///
     /// # Errors
-    /// When one of them has another value.
+    /// When one of the two keys has another value.
     pub fn expect(&self, format: &str, version: u64) -> Result<(), JsonError> {
         let Ok(Head { format: found_format, version: found_version }) = self.parse() else {
             return Ok(());
@@ -111,10 +112,10 @@ impl<'a> Document<'a> {
         Ok(())
     }
 
-    /// A complaint about the value at `path`: `message` says what was found and expected.
+    /// Makes a complaint about the value at `path`. `message` says what was found and expected.
     ///
-    /// A path that leads nowhere (a key that is missing) gives the place of the deepest value on
-    /// the way.
+    /// Where `path` leads to a missing key, the position is that of the deepest value on the path that
+    /// exists.
     #[must_use]
     pub fn fault(&self, path: &str, message: impl Into<String>) -> JsonError {
         let offset = offset_of(self.text, path).unwrap_or(0);
@@ -133,12 +134,12 @@ impl<'a> Document<'a> {
         let message = error.to_string();
         let message = message.rsplit_once(" at line ").map_or(message.as_str(), |(text, _)| text);
         let message = match message {
-            // What serde says of a fourth number in a point of three.
+            // serde's message when, for example, a point of three numbers has a fourth.
             "trailing characters" if !path.is_empty() => "found more values than expected".into(),
             _ => words::plain(message),
         };
-        // serde's column is where reading stopped; the value itself is a better place, if the
-        // text is whole enough to find it.
+        // serde's column is where reading stopped. The position of the value itself is better, provided
+        // the text is complete enough to find it.
         if !path.is_empty() && (error.is_data() || message.starts_with("found more")) {
             let fault = self.fault(&path, message.as_str());
             if (fault.line, fault.column) != (1, 1) {
@@ -155,14 +156,14 @@ impl<'a> Document<'a> {
     }
 }
 
-/// What every file of ours begins with.
+/// The keys that begin every file of this project.
 #[derive(Deserialize)]
 struct Head {
     format: Option<serde_json::Value>,
     version: Option<serde_json::Value>,
 }
 
-/// The path as `a.b[2].c`, without the marker serde gives a place it could not name.
+/// Returns the path as `a.b[2].c`, up to the first segment that serde could not name.
 fn path_text(path: &Path) -> String {
     let known = path.iter().take_while(|segment| !matches!(segment, Segment::Unknown));
     let mut text = String::new();
@@ -184,7 +185,7 @@ fn push_key(text: &mut String, key: &str) {
     text.push_str(key);
 }
 
-/// The byte offset of the value at `path`, or of the deepest value on the way to it.
+/// Returns the byte offset of the value at `path`, or of the deepest value on the path that exists.
 fn offset_of(text: &str, path: &str) -> Option<usize> {
     let parsed = parse_to_ast(text, &CollectOptions::default(), &ParseOptions::default()).ok()?;
     let root = parsed.value?;

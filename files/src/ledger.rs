@@ -1,9 +1,9 @@
-//! What a program reads and what it will write, so that no output replaces an input.
+//! Records the inputs and outputs of a program, so that no output replaces an input.
 //!
-//! A program makes one ledger and goes through it for every file. [`Ledger::claim`] enters an output
-//! before any work; reading enters an input. Whichever comes second is refused if it is the first
-//! by another name, and nothing has been replaced by then. Files that other files name are
-//! read through the ledger as well, since it is a [`Source`].
+//! A program makes one ledger and uses it for every file. [`Ledger::claim`] enters an output before any
+//! work is done; reading a file enters an input. If an output and an input are one file under two
+//! names, the one entered second is refused. At that time no file has been replaced. Files named by
+//! other files are also read through the ledger, since it is a [`Source`].
 
 use crate::identity::{Identity, Number, folder_of, folds_case};
 use crate::{Disk, Exit, Failure, FileError, Output, Source, input};
@@ -22,14 +22,14 @@ pub struct Ledger {
 
 #[derive(Debug, Default)]
 struct Entries {
-    /// How messages name each input.
+    /// The names of inputs in messages.
     inputs: HashMap<Identity, String>,
     outputs: HashMap<Identity, Claim>,
-    /// Names of outputs in small letters, with their spelling.
+    /// Lowercase names of outputs in their folders, with the claim of the spelling used.
     spellings: HashMap<(Number, String), Claim>,
 }
 
-/// An output, and what to do if it clashes.
+/// An output, and the remedy if it clashes with another file.
 #[derive(Debug, Clone)]
 struct Claim {
     name: String,
@@ -44,9 +44,9 @@ pub enum Clash {
     Input {
         /// The output as the user named it.
         output: String,
-        /// The input as the user or a file named it, and what it is where that is known.
+        /// The input as the user or a file named it, with its role if known.
         input: String,
-        /// What to do about it.
+        /// The remedy.
         change: String,
     },
     /// Two outputs of which the second would replace the first.
@@ -56,7 +56,7 @@ pub enum Clash {
         first: String,
         /// The output claimed after it.
         second: String,
-        /// What to do about it.
+        /// The remedy.
         change: String,
     },
 }
@@ -68,35 +68,35 @@ impl Failure for Clash {
 }
 
 impl Ledger {
-    /// An empty ledger; `clobber` says whether outputs may replace files that exist.
+    /// Makes an empty ledger. `clobber` says whether outputs may replace existing files.
     #[must_use]
     pub fn new(clobber: bool) -> Self {
         Self { clobber, entries: Mutex::default() }
     }
 
-    /// Enters an output and finds out whether it can be written. `change` is what to do if it is
-    /// also another file of this run: "name another file with -o".
+    /// Enters an output and checks that it can be written. `change` is the remedy if the output is also
+    /// another file of this run: "name another file with -o".
     ///
     /// # Errors
-    /// When it is an input or another output, and as [`Output::check`].
+    /// When the file is an input or another output; otherwise see [`Output::check`].
     pub fn claim(&self, argument: &Path, change: &str) -> Result<(), FileError> {
         self.enter(argument, change)?;
         Output::check(argument, self.clobber)
     }
 
-    /// Enters an output and opens it at once.
+    /// Enters an output and opens it at once. `change` is the remedy, as in [`Ledger::claim`].
     ///
     /// # Errors
-    /// When it is an input or another output, and as [`Output::create`].
+    /// When the file is an input or another output; otherwise see [`Output::create`].
     pub fn output(&self, argument: &Path, change: &str) -> Result<Output, FileError> {
         self.enter(argument, change)?;
         Output::create(argument, self.clobber)
     }
 
-    /// Opens an output that was claimed before.
+    /// Opens an output that was claimed before. An output that was not claimed is entered first.
     ///
     /// # Errors
-    /// As [`Output::create`]; as [`Ledger::claim`], if it was not.
+    /// See [`Output::create`]; for an output that was not claimed, also see [`Ledger::claim`].
     pub fn create(&self, argument: &Path) -> Result<Output, FileError> {
         let claimed = {
             let entries = self.entries();
@@ -108,38 +108,38 @@ impl Ledger {
         self.output(argument, "name another file")
     }
 
-    /// Enters a file named on a command line that will be read. `role` says what it is: "the spec".
+    /// Enters a file named on a command line that will be read. `role` describes the file: "the spec".
     ///
     /// # Errors
-    /// When it is an output.
+    /// When the file is an output.
     pub fn expect(&self, argument: &Path, role: &str) -> Result<(), FileError> {
         Ok(self.refuse(argument, role)?)
     }
 
-    /// The whole file named on a command line; `-` is standard input. `role` says what it is:
+    /// Reads the whole file named on a command line; `-` is standard input. `role` describes the file:
     /// "the spec".
     ///
     /// # Errors
-    /// When it is an output or cannot be read.
+    /// When the file is an output or cannot be read.
     pub fn argument(&self, argument: &Path, role: &str) -> Result<Vec<u8>, FileError> {
         self.refuse(argument, role)?;
         input::read(argument)
     }
 
-    /// As [`Ledger::argument`], for JSON: if there is memory to make values of it.
+    /// Reads a JSON file as [`Ledger::argument`] does, provided there is memory for its parsed values.
     ///
     /// # Errors
-    /// As [`Ledger::argument`], and when the budget of the process is too small.
+    /// See [`Ledger::argument`]; also when the memory budget of the process is too small.
     pub fn argument_json(&self, argument: &Path, role: &str) -> Result<Vec<u8>, FileError> {
         self.refuse(argument, role)?;
         input::read_json(argument)
     }
 
-    /// The file named on a command line as a buffered reader; `-` is standard input. `role` says
-    /// what it is: "the grid".
+    /// Opens the file named on a command line as a buffered reader; `-` is standard input. `role`
+    /// describes the file: "the grid".
     ///
     /// # Errors
-    /// When it is an output or cannot be opened.
+    /// When the file is an output or cannot be opened.
     pub fn open(&self, argument: &Path, role: &str) -> Result<Box<dyn BufRead>, FileError> {
         self.refuse(argument, role)?;
         input::open(argument)
@@ -178,7 +178,7 @@ impl Ledger {
         Ok(())
     }
 
-    /// Enters an input, unless it is an output.
+    /// Enters an input, or fails if the file is an output.
     fn refuse(&self, argument: &Path, role: &str) -> Result<(), Clash> {
         let keys = match input::is_stdin(argument) {
             true => Identity::of_stdin().into_iter().collect(),
@@ -214,7 +214,8 @@ fn keys_of_output(argument: &Path) -> Vec<Identity> {
     }
 }
 
-/// Where a name lies and its small letters, which two names share that differ by case alone.
+/// Returns the folder of a name and its lowercase form. Two names that differ only in case have equal
+/// results.
 fn spelling_of(key: &Identity) -> Option<(Number, String)> {
     match key {
         Identity::There(_) => None,

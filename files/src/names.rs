@@ -1,4 +1,4 @@
-//! JSON objects whose keys are names that a user chose.
+//! Reads JSON objects whose keys are names that a user chose.
 
 use serde::Deserialize;
 use serde::de::{self, Deserializer, MapAccess, Visitor};
@@ -6,10 +6,10 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::marker::PhantomData;
 
-/// A map in which a name that comes twice is refused; serde's own would keep the last.
+/// Reads a map and refuses a name that occurs twice. The maps of serde would keep the last value.
 ///
 /// # Errors
-/// On the second of two equal names.
+/// When a name occurs for the second time.
 pub fn each_name_once<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
     deserializer: D,
 ) -> Result<BTreeMap<String, T>, D::Error> {

@@ -1,32 +1,32 @@
-//! What an output's argument names: standard output, a device, or a file to be replaced.
+//! Finds what an output's argument names: standard output, a device, or a file to be replaced.
 
 use crate::FileError;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// What an argument names.
+/// The target of an output's argument.
 #[derive(Debug)]
 pub(crate) enum Target {
-    /// `-`, standard output.
+    /// Standard output, named `-`.
     Stdout,
-    /// Anything that is there and is not a regular file.
+    /// An existing path that is not a regular file.
     Device(PathBuf),
-    /// A file, links followed, and what is known of the one that it replaces.
+    /// A regular file, with links followed.
     File {
-        /// Its path.
+        /// The path of the file.
         path: PathBuf,
-        /// The file that is there.
+        /// Metadata of the existing file at this path, if any.
         replaced: Option<fs::Metadata>,
     },
 }
 
 impl Target {
-    /// Looks at what is there. A link stands for the file that it leads to.
+    /// Finds the target of an argument. A link stands for the file that it leads to.
     ///
     /// # Errors
-    /// When it is a folder, a link that leads to nothing, read-only, or a file that exists where
-    /// `clobber` is false; when it is a standard output that was closed.
+    /// When the target is a folder, a link that leads to nothing, a read-only file, an existing file
+    /// while `clobber` is false, or a standard output that was closed.
     pub(crate) fn of(argument: &Path, clobber: bool) -> Result<Self, FileError> {
         let refused = |source| FileError::Write { name: name_of(argument), source };
         if argument.as_os_str() == "-" {
@@ -40,7 +40,7 @@ impl Target {
         let replaced = fs::metadata(path).ok();
         match &replaced {
             Some(found) if found.is_dir() => Err(refused(io::ErrorKind::IsADirectory.into())),
-            // A file without a path, as some of /proc are, cannot be replaced by a rename.
+            // A file without a path, such as some in /proc, cannot be replaced by a rename.
             Some(found) if !found.is_file() || resolved.is_err() => Ok(Self::Device(path.into())),
             Some(_) if !clobber => Err(FileError::Exists { name: name_of(argument) }),
             Some(found) if found.permissions().readonly() => {
@@ -58,7 +58,7 @@ impl Target {
     }
 }
 
-/// How messages name an output.
+/// Returns the name of an output in messages.
 pub(crate) fn name_of(argument: &Path) -> String {
     if argument.as_os_str() == "-" { "<stdout>".into() } else { argument.display().to_string() }
 }

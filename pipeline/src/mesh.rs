@@ -1,11 +1,11 @@
-//! The triangles that `triangulate` made as the mesh that `render` takes.
+//! Converts the triangles of `triangulate` to the mesh of `render`.
 
 use render::shape::Mesh;
 use render::shape::mesh::Triangle;
 use triangulate::TriMesh;
 
-/// The same mesh that `render` reads from the OBJ that `triangulate` writes: the same numbers in
-/// the same order.
+/// Returns the mesh that `render` would read from the OBJ that `triangulate` writes: the same numbers
+/// in the same order.
 #[must_use]
 pub fn for_render(mesh: TriMesh) -> Mesh {
     let surfaces = mesh.materials().into_iter().map(triangulate::Material::name).collect();

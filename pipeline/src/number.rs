@@ -1,6 +1,6 @@
-//! Numbers as one reads them.
+//! Formats numbers for people.
 
-/// A count with a comma at each thousand.
+/// Formats a count with a comma at each thousand.
 #[must_use]
 pub fn count(value: u64) -> String {
     let digits = value.to_string();
@@ -14,7 +14,8 @@ pub fn count(value: u64) -> String {
     text
 }
 
-/// A count in millions with two digits, or in full below a million.
+/// Formats a count in millions: with one decimal below 9.95 million, whole above; in full below a
+/// million.
 #[must_use]
 pub fn millions(value: u64) -> String {
     let millions = value as f64 / 1e6;
@@ -25,13 +26,14 @@ pub fn millions(value: u64) -> String {
     }
 }
 
-/// A number above 0 to so many digits, without a power of ten from 1e-5 to 1e6.
+/// Formats a number with `digits` significant digits. Magnitudes from 1e-5 to below 1e6 are written
+/// without an exponent. Zero and numbers that are not finite are written as they are.
 #[must_use]
 pub fn digits(value: f64, digits: usize) -> String {
     if value == 0.0 || !value.is_finite() {
         return format!("{}", value + 0.0);
     }
-    // Rounded first: 0.0996 has its two digits where 0.10 has them.
+    // Rounding comes first, so that 0.0996 is written 0.10 with two digits.
     let rounded: f64 = format!("{value:.*e}", digits.max(1) - 1).parse().unwrap_or(value);
     let power = rounded.abs().log10().floor() as i32;
     if (-5..6).contains(&power) {
@@ -42,13 +44,13 @@ pub fn digits(value: f64, digits: usize) -> String {
     }
 }
 
-/// An error to two digits, such as `0.21` or `0.0083`.
+/// Formats an error with two significant digits, such as `0.21` or `0.0083`.
 #[must_use]
 pub fn error(value: f64) -> String {
     digits(value, 2)
 }
 
-/// Seconds in the unit that suits their size, to two digits; whole above 100.
+/// Formats seconds as s or ms with two significant digits; from 100 s on as whole seconds.
 #[must_use]
 pub fn seconds(value: f64) -> String {
     match value {
@@ -58,7 +60,7 @@ pub fn seconds(value: f64) -> String {
     }
 }
 
-/// What the thesis calls minutes and hours.
+/// Formats the minutes of the thesis as min, or as h from one hour on.
 #[must_use]
 pub fn minutes(minutes: u32) -> String {
     match minutes {
@@ -67,7 +69,7 @@ pub fn minutes(minutes: u32) -> String {
     }
 }
 
-/// Bytes as MiB or KiB.
+/// Formats a number of bytes as MiB, or as KiB below 0.1 MiB.
 #[must_use]
 pub fn bytes(value: u64) -> String {
     let mib = value as f64 / f64::from(1 << 20);
@@ -78,7 +80,8 @@ pub fn bytes(value: u64) -> String {
     }
 }
 
-/// A factor to two digits: with its fraction below 10, with a comma at each thousand.
+/// Formats a ratio with two significant digits: as a decimal below 10, else whole with a comma at each
+/// thousand.
 #[must_use]
 pub fn times(ratio: f64) -> String {
     if ratio < 9.95 {

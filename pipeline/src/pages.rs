@@ -1,7 +1,7 @@
 //! The pages built into the program: jobs with their specs, scenes and textures.
 //!
-//! They are the files of `examples/`, under the same paths, so that they work in an empty folder
-//! and can be read as models for one's own.
+//! The files are those of `examples/`, under the same paths. So the pages work in an empty folder, and
+//! the files can be read as models for one's own jobs.
 
 use crate::job::figure::listed;
 use crate::{Job, PipelineError};
@@ -18,7 +18,7 @@ macro_rules! examples {
     };
 }
 
-/// The files built in.
+/// The files built into the program.
 pub const FILES: Embedded = Embedded(examples![
     "curves/bent-tower.json",
     "curves/bumpy-vase.json",
@@ -144,10 +144,10 @@ pub const FILES: Embedded = Embedded(examples![
     "textures/world-chart.png",
 ]);
 
-/// Where the jobs lie among the files.
+/// The folder of the jobs among the files.
 const FOLDER: &str = "examples/pages";
 
-/// The names of the pages, in alphabetical order.
+/// Returns the names of the pages in alphabetical order.
 #[must_use]
 pub fn names() -> Vec<&'static str> {
     let jobs = FILES.0.iter().map(|(path, _)| Path::new(path));
@@ -157,20 +157,20 @@ pub fn names() -> Vec<&'static str> {
     names
 }
 
-/// Where the job of a page lies among the files.
+/// Returns the path of a page's job among the files.
 #[must_use]
 pub fn path(name: &str) -> PathBuf {
     [FOLDER, &format!("{name}.json")].iter().collect()
 }
 
-/// The job of a page.
+/// Returns the job of a page.
 ///
 /// # Errors
-/// When there is no page of that name; with one that is near, if there is one.
+/// When there is no page of that name. The error suggests a page with a similar name, if there is one.
 pub fn page(name: &str) -> Result<Job, PipelineError> {
     let names = names();
     if !names.contains(&name) {
-        // They are too many for a sentence.
+        // A sentence cannot list all names.
         let near = nearest(name, names.iter().copied());
         let near = near.map_or_else(String::new, |near| format!(" (did you mean {near}?)"));
         return Err(PipelineError::UnknownPage { name: name.into(), near });
@@ -178,11 +178,12 @@ pub fn page(name: &str) -> Result<Job, PipelineError> {
     Job::read(&path(name), &FILES)
 }
 
-/// All pages: those with figures of the thesis by their numbers, then the others by their names, those last that
-/// show a scene of another page with meshes by tolerance.
+/// Returns all pages. Pages with figures of the thesis come first, by figure number, then the others by
+/// name. Pages that show another page's scene with meshes made by tolerance (`-adaptive`) come last
+/// among the others.
 ///
 /// # Errors
-/// None, as long as every page is a job, which a test holds.
+/// None, as long as every page is a valid job, which a test checks.
 pub fn in_order() -> Result<Vec<Job>, PipelineError> {
     let mut jobs = names().into_iter().map(page).collect::<Result<Vec<_>, _>>()?;
     jobs.sort_by_key(|job| {
@@ -192,10 +193,10 @@ pub fn in_order() -> Result<Vec<Job>, PipelineError> {
     Ok(jobs)
 }
 
-/// The name of the page that shows a figure of the thesis.
+/// Returns the name of the page that shows a figure of the thesis.
 ///
 /// # Errors
-/// When no page does; with the figures that there are.
+/// When no page shows the figure. The error lists the figures that exist.
 pub fn of_figure(number: u8) -> Result<String, PipelineError> {
     let jobs = in_order()?;
     if let Some(job) = jobs.iter().find(|job| job.figures().contains(&number)) {

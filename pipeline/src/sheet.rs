@@ -1,44 +1,44 @@
-//! Many pictures on one sheet, small.
+//! Puts many small pictures on one sheet.
 
 use crate::PipelineError;
 use render::Picture;
 use render::color::Encoding;
 use render::film::encode::{self, Format};
 
-/// White between pictures and around them, in pixels.
+/// Width of the white gap between and around pictures, in pixels.
 const GAP: u32 = 8;
 
-/// Side of a picture on a sheet at most, in pixels.
+/// Longest side of a picture on a sheet, in pixels.
 const SIDE: u32 = 160;
 
-/// Pictures in a row at most.
+/// Largest number of pictures in a row.
 const ROW: usize = 6;
 
-/// A sheet of pictures, as photographers print one of each film.
+/// A contact sheet of small pictures.
 #[derive(Debug, Clone, Default)]
 pub struct Sheet {
     pictures: Vec<Picture>,
 }
 
 impl Sheet {
-    /// What its file is called.
+    /// The file name of the sheet.
     pub const FILE: &str = "sheet.png";
 
-    /// Adds a picture after the others.
+    /// Adds a picture, scaled down, after the others.
     pub fn add(&mut self, picture: &Picture) {
         self.pictures.push(thumbnail(picture, SIDE));
     }
 
-    /// The sheet as a PNG file.
+    /// Returns the sheet as a PNG file.
     ///
     /// # Errors
-    /// When the encoder refuses it.
+    /// When the encoder refuses the sheet.
     pub fn png(&self) -> Result<Vec<u8>, PipelineError> {
         encode::encode(&self.picture(), Format::Png, Encoding::Srgb)
             .map_err(|source| PipelineError::Encode { name: Self::FILE.into(), source })
     }
 
-    /// The sheet: row by row from the upper left, on white.
+    /// Returns the sheet: pictures row by row from the upper left, on white, in linear RGB.
     #[must_use]
     pub fn picture(&self) -> Picture {
         let across = self.pictures.len().clamp(1, ROW) as u32;
@@ -59,8 +59,9 @@ impl Sheet {
     }
 }
 
-/// The same picture smaller, at most `side` pixels across and down; each pixel is the mean of the light of
-/// those that it stands for.
+/// Returns the picture scaled down to at most `side` pixels across and down; a smaller picture is
+/// returned unchanged. Each pixel is the mean, in linear RGB clamped to [0, 1], of the pixels that it
+/// covers.
 #[must_use]
 pub fn thumbnail(picture: &Picture, side: u32) -> Picture {
     let (width, height) = (picture.width, picture.height);

@@ -1,34 +1,34 @@
-//! Where the time of a job goes.
+//! Measures the time that each stage of a job takes.
 
 use render::stats::Stats;
 use std::ops::AddAssign;
 use std::time::Duration;
 
-/// Wall-clock time of each stage of the road from specs to picture files.
+/// Wall-clock time of each stage between specs and picture files.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Stages {
     /// Specs to grids.
     pub sweep: Duration,
-    /// Grids to triangles, with normals and texture coordinates as `render` takes them.
+    /// Grids to triangles with normals and texture coordinates, in the form that `render` takes.
     pub triangulate: Duration,
-    /// Scene files and textures, decoded, and the scene put together.
+    /// Reading and decoding scene files and textures, and building the scene.
     pub read: Duration,
     /// Prefiltered tables, once for each filter.
     pub tables: Duration,
-    /// Structures that find the hits, once for each of them.
+    /// Acceleration structures for ray hits, once for each structure.
     pub structure: Duration,
     /// Rays and shading.
     pub picture: Duration,
-    /// Pictures to PNG, and to their files.
+    /// Encoding pictures as PNG and writing the files.
     pub write: Duration,
 }
 
 impl Stages {
-    /// What the stages are called, in the order of the road.
+    /// The names of the stages, in the order in which they run.
     pub const NAMES: [&str; 7] =
         ["sweep", "triangulate", "read", "tables", "structure", "picture", "write"];
 
-    /// What a mode cost by itself, without the reading that all modes share.
+    /// Returns the times of one mode, without the stages that all modes share.
     #[must_use]
     pub fn of_mode(stats: &Stats) -> Self {
         Self {
@@ -40,20 +40,21 @@ impl Stages {
         }
     }
 
-    /// The times, in the order of [`Stages::NAMES`].
+    /// Returns the times in the order of [`Stages::NAMES`].
     #[must_use]
     pub fn times(&self) -> [Duration; 7] {
         let Self { sweep, triangulate, read, tables, structure, picture, write } = *self;
         [sweep, triangulate, read, tables, structure, picture, write]
     }
 
-    /// All of it.
+    /// Returns the sum of all times.
     #[must_use]
     pub fn total(&self) -> Duration {
         self.times().iter().sum()
     }
 
-    /// The stage that took longest (the first of equals), and its part of the whole, 0 to 1.
+    /// Returns the name of the slowest stage (the first of equals) and its fraction of the total, in
+    /// [0, 1].
     #[must_use]
     pub fn slowest(&self) -> (&'static str, f64) {
         let mut slowest = (Self::NAMES[0], Duration::ZERO);
@@ -66,7 +67,7 @@ impl Stages {
         (slowest.0, if total > 0.0 { slowest.1.as_secs_f64() / total } else { 0.0 })
     }
 
-    /// Rows of seconds under the names of the stages, a line each, for people.
+    /// Returns a text table of the times in seconds: one line for each row, one column for each stage.
     #[must_use]
     pub fn table(rows: &[(String, Self)]) -> String {
         let wide = rows.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0).max(7);
@@ -80,7 +81,7 @@ impl Stages {
             text.push_str(&format!("{row:<wide$}"));
             let all = stages.times().into_iter().chain([stages.total()]);
             for (name, time) in Self::NAMES.into_iter().chain(["all"]).zip(all) {
-                // A stage that there was nothing to do for has no number.
+                // A stage without work is shown as `-`.
                 let seconds = match time {
                     Duration::ZERO => "-".into(),
                     time => format!("{:.2}", time.as_secs_f64()),

@@ -1,10 +1,10 @@
-//! What a picture ought to be, and how far others are from it.
+//! Renders reference pictures ("truths") and measures the errors of other pictures against them.
 //!
-//! The truth is made of many jittered rays in each pixel, which look textures up by interpolation and
-//! average nothing. It is made twice, of two seeds, and errors are measured with both at once: the mean of
-//! `(x - a)(x - b)` is the mean square of `x - truth`, as the noise of `a` and that of `b` have nothing to do
-//! with each other. So even a few rays measure without bias, where against one picture of them, or against
-//! the mean of both, their own noise would be counted as an error of `x`.
+//! The truth is rendered with many jittered rays in each pixel, which interpolate textures without a
+//! filter. It consists of two pictures `a` and `b` of two seeds, whose noise is independent. Therefore
+//! the mean of `(x - a)(x - b)` is the mean square of `x - truth` for any picture `x`, and even a few
+//! rays give an unbiased measure. Against `a` alone, or against the mean of both, the noise of the
+//! truth would be counted as an error of `x`.
 
 use render::film::{Crop, Pattern, PixelFilter};
 use render::filter::Filter;
@@ -13,19 +13,19 @@ use render::{Picture, Prepared, Sampling, Settings, render};
 /// The seeds of the two pictures.
 const SEEDS: [u64; 2] = [1, 2];
 
-/// Two pictures of the same, of two seeds.
+/// Two pictures of one scene, rendered with two seeds.
 #[derive(Debug, Clone)]
 pub struct Pair {
-    /// They.
+    /// Pixels of both pictures, row by row, linear RGB.
     pub pictures: [Picture; 2],
 }
 
 impl Pair {
-    /// Makes the part `crop` of a picture of `size` pixels, twice, of `samples * samples` rays in each
-    /// pixel, at most [`render::film::MOST_SAMPLES`] along each side. `progress` is told how much of how
-    /// much is done.
+    /// Renders the part `crop` of a picture of `width` x `height` pixels twice. Each pixel gets
+    /// `samples * samples` rays, with `samples` at most [`render::film::MOST_SAMPLES`]. `progress` is
+    /// called with the work done so far and the total.
     ///
-    /// Runs on the threads of the current rayon pool; the result is the same for any number of them.
+    /// Runs on the threads of the current rayon pool. The result is the same for any number of threads.
     #[must_use]
     pub fn render(
         scene: &Prepared<'_>,
@@ -49,7 +49,7 @@ impl Pair {
         Self { pictures }
     }
 
-    /// The mean of both.
+    /// Returns the mean of both pictures.
     #[must_use]
     pub fn mean(&self) -> Picture {
         let [first, second] = &self.pictures;
@@ -58,9 +58,9 @@ impl Pair {
         Picture { pixels: pairs.map(mean).collect(), ..first.clone() }
     }
 
-    /// The root mean square error of a picture of the same size, over the channels of the pixels that
-    /// `among` says, in linear light where white is 1; nothing if there are none. 0 where the error is below
-    /// what can be told from noise.
+    /// Returns the root mean square error of a picture of the same size, in linear light where white is
+    /// 1. The mean is over the three channels of the pixels whose index `among` accepts. Returns `None`
+    /// if `among` accepts no pixel, and 0 where noise hides the error.
     #[must_use]
     pub fn error_of(&self, picture: &Picture, among: impl Fn(usize) -> bool) -> Option<f64> {
         let [first, second] = &self.pictures;
@@ -83,8 +83,9 @@ mod tests {
     use proptest::prelude::Rng;
     use proptest::test_runner::{RngAlgorithm, TestRng};
 
-    /// Noise of standard deviation 0.1 around 0.5, and a picture that is 0.02 too bright: held against either
-    /// picture, or the mean of both, the error would be five or four times as large.
+    /// Noise of standard deviation 0.1 around 0.5, and a picture that is 0.02 too bright. Against
+    /// either noisy picture, or against the mean of both, the error would come out four or five times
+    /// as large.
     #[test]
     fn noise_of_the_truth_is_not_counted() {
         let mut random = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
@@ -107,7 +108,7 @@ mod tests {
         assert!(naive > 3.0 * error);
         assert_eq!(truth.error_of(&bright, |_| false), None);
         let half = truth.error_of(&truth.mean(), |place| place < 5000).unwrap();
-        // Their mean lies between them, where the products are below 0.
+        // The mean lies between the two pictures, so no product is above 0.
         assert_eq!(half, 0.0);
     }
 }

@@ -1,4 +1,4 @@
-//! Texture areas for a grid that has none, or not these: a file of JSON, `tb-areas` version 1.
+//! Reads texture areas that replace or add to those of a grid, from a JSON file: `tb-areas` version 1.
 //!
 //! ```json
 //! {
@@ -11,8 +11,8 @@
 //! }
 //! ```
 //!
-//! The areas are those of a spec ([`Area`]); they lie on those that the grid has. `patch` names the
-//! patch that they are on, and may be left out where there is one.
+//! The areas have the keys of a spec's areas ([`Area`]) and lie on top of those that the grid has.
+//! `patch` names the patch that they belong to. It may be left out when the object has one patch.
 
 use files::JsonError;
 use files::json::Document;
@@ -32,10 +32,11 @@ struct AreaFile {
     areas: Vec<Area>,
 }
 
-/// Adds the areas of a file to the patch that it names.
+/// Adds the areas of a file to the patch that the file names.
 ///
 /// # Errors
-/// When it is no such file, names no patch of the object, or an area is not on it.
+/// When the document is not a `tb-areas` file, names no patch of the object, or holds an area that does
+/// not lie on the patch.
 pub fn add(document: &Document<'_>, grids: &mut [GridMesh]) -> Result<(), JsonError> {
     document.expect("tb-areas", 1)?;
     let file: AreaFile = document.parse()?;

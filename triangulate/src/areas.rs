@@ -1,4 +1,4 @@
-//! Which picture each cell of a band between two rows shows, and how.
+//! Finds the area and the picture coordinates of each cell of a band between two rows.
 
 use crate::picture;
 use crate::{Material, Options};
@@ -6,35 +6,37 @@ use std::collections::HashMap;
 use sweep::grid::file::Header;
 use sweep::grid::{UvLayout, area};
 
-/// The areas of a patch, and what they do to the cells of the band at hand.
+/// The areas of a patch, and the area of each cell of the current band.
 ///
-/// Areas are numbered from 1 here; 0 is the rest of the patch.
+/// Areas are numbered from 1; number 0 is the part of the patch outside all areas.
 #[derive(Debug)]
 pub struct Areas {
     all: Vec<Fitted>,
-    /// The cell along the contour that follows each column, those of no width counted with their
-    /// neighbour.
+    /// For each column, the number of the cell that follows it along the contour. A cell of no width
+    /// has the number of the cell after it.
     cells: Vec<usize>,
-    /// The area of each cell, by the column before it.
+    /// The area of each cell, indexed by the column before the cell.
     owners: Vec<u32>,
-    /// The band's cell along the trajectory.
+    /// The number of the band along the trajectory; bands of no height are not counted.
     row: usize,
 }
 
-/// An area with all that its picture needs.
+/// An area with the ranges and the material of its picture.
 #[derive(Debug)]
 struct Fitted {
     rows: [usize; 2],
     cols: [usize; 2],
-    /// `u` and `v` at its ends.
+    /// `u` at the first and the last edge of the area, in [0, 1].
     u: [f64; 2],
+    /// `v` at the first and the last edge of the area, in [0, 1].
     v: [f64; 2],
     layout: UvLayout,
     material: Material,
 }
 
 impl Areas {
-    /// The areas of a header; `u` are the places of its columns, and 1 over the seam.
+    /// Collects the areas of a header. `u` holds the parameter of each column, and 1 after the last
+    /// column of a closed contour.
     pub fn new(header: &Header, options: &Options, u: &[f64]) -> Self {
         let material = options.material(header);
         let edges = area::edges(&header.u, header.seam_u);
@@ -73,12 +75,13 @@ impl Areas {
         }
     }
 
-    /// Whether there is nothing but the patch itself.
+    /// Returns whether the patch has no areas.
     pub fn none(&self) -> bool {
         self.all.len() == 1
     }
 
-    /// Goes on to the band between rows at `v`; one of no height has no number.
+    /// Moves on to the band between rows at the two parameters `v`. A band of no height has no number
+    /// of its own.
     pub fn next_band(&mut self, v: [f64; 2]) {
         if self.none() {
             return;
@@ -100,20 +103,21 @@ impl Areas {
         }
     }
 
-    /// The area of the cell behind a column.
+    /// Returns the area of the cell after a column.
     pub fn owner(&self, col: usize) -> u32 {
         self.owners[col]
     }
 
-    /// What an area is bound to.
+    /// Returns the material of an area.
     pub fn material(&self, owner: u32) -> Material {
         self.all[owner as usize].material
     }
 
-    /// Picture coordinates of surface parameters in an area.
+    /// Returns the picture coordinates of the surface parameters `u` and `v` in an area, one unit to a
+    /// repeat.
     pub fn coordinates(&self, owner: u32, u: f64, v: f64) -> [f32; 2] {
         let area = &self.all[owner as usize];
-        // The rest is not fitted, so that its numbers are those of a patch without areas.
+        // Area 0 is not rescaled, so its coordinates equal those of a patch without areas.
         if owner == 0 {
             return picture::coordinates(&area.layout, u, v);
         }
@@ -121,8 +125,9 @@ impl Areas {
         picture::coordinates(&area.layout, within(u, area.u), within(v, area.v))
     }
 
-    /// The order in which a band tells its triangles: by material, so that it changes as seldom as
-    /// can be; first the one that was told last, then as triangles have them.
+    /// Returns the order in which a band writes its triangles: grouped by material, so that the
+    /// material changes as seldom as possible. `told`, the material written last, comes first; the
+    /// others follow in the order of `owners`.
     pub fn ranks(&self, told: Material, owners: &[u32]) -> HashMap<Material, usize> {
         let mut ranks = HashMap::new();
         let materials = owners.iter().map(|&owner| self.material(owner));

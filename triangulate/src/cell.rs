@@ -9,25 +9,26 @@ use glam::DVec3;
 use sweep::grid::Seam;
 use sweep::grid::file::Header;
 
-/// A sink, and how much it was told.
+/// A sink and the counts of what has been passed to it.
 #[derive(Debug)]
 pub struct Teller<S> {
     pub sink: S,
     pub counts: Counts,
     pub picture: Picture,
-    /// The material last told.
+    /// The material passed to the sink last.
     pub material: Material,
-    /// Triangles of the band at hand, each with its area.
+    /// Triangles of the current band, each with the number of its area.
     triangles: Vec<(u32, Triangle)>,
 }
 
-/// How the columns lie on the picture.
+/// The picture coordinates of the columns.
 #[derive(Debug)]
 pub struct Picture {
     pub areas: Areas,
-    /// `u` by column, and 1 over the seam of a closed contour.
+    /// `u` of each column, and 1 after the last column of a closed contour; in [0, 1].
     u: Vec<f64>,
-    /// For each of them, the first with the same `u`: the columns of a crease are one here.
+    /// For each entry of `u`, the first index with the same `u`. The two columns of a crease share one
+    /// index.
     same: Vec<usize>,
 }
 
@@ -37,9 +38,9 @@ pub struct Picture {
 pub struct Cell<'a> {
     pub lower: &'a mut Station,
     pub upper: &'a mut Station,
-    /// The column of its left side.
+    /// The column on the cell's left side.
     pub left: usize,
-    /// The column of its right side: the next one, or the first over a seam.
+    /// The column on the cell's right side: the next column, or column 0 across a seam.
     pub right: usize,
 }
 
@@ -59,14 +60,15 @@ impl Picture {
         Self { areas: Areas::new(header, options, &u), u, same }
     }
 
-    /// Columns of the picture: those of the grid, and one more over a seam.
+    /// Returns the number of columns of the picture: those of the grid, and one more for a closed
+    /// contour.
     pub fn cols(&self) -> usize {
         self.u.len()
     }
 }
 
 impl<S: Sink> Teller<S> {
-    /// A teller of a patch; `material` is what the sink was told of it.
+    /// Makes a teller for a patch. `material` is the material passed to the sink for this patch.
     pub fn new(sink: S, counts: Counts, picture: Picture, material: Material) -> Self {
         Self { sink, counts, picture, material, triangles: Vec::new() }
     }
@@ -76,7 +78,7 @@ impl<S: Sink> Teller<S> {
         counted(&mut self.counts.positions)
     }
 
-    /// Tells the triangles of the band, all of a material together.
+    /// Passes the triangles of the band to the sink, grouped by material.
     pub fn band_done(&mut self) {
         let areas = &self.picture.areas;
         if !areas.none() {
@@ -95,7 +97,7 @@ impl<S: Sink> Teller<S> {
         self.triangles.clear();
     }
 
-    /// Takes the triangles of a cell; their vertices are told to the sink when they are new.
+    /// Collects the triangles of a cell, and passes their new vertices to the sink.
     pub fn cell(&mut self, cell: &mut Cell<'_>) {
         let owner = self.picture.areas.owner(cell.left);
         let corners = cell.each(|station, col| station.points[col]);
@@ -136,7 +138,7 @@ impl<S: Sink> Teller<S> {
         self.counts.quads += u64::from(self.triangles.len() - before == 2);
     }
 
-    /// The picture coordinates of a corner, in the area of its cell.
+    /// Returns the number of the picture coordinates of a corner, in area `owner`.
     fn uv(&mut self, cell: &mut Cell<'_>, owner: u32, corner: usize) -> u32 {
         let col = self.picture.same[cell.picture_col(corner)];
         let station = cell.station(corner);
@@ -151,8 +153,8 @@ impl<S: Sink> Teller<S> {
         number
     }
 
-    /// The normal of a corner; the one of the column to the left or the row below where it is the
-    /// same.
+    /// Returns the number of the normal of a corner. An equal normal in the column to the left, or in
+    /// the row below, shares its number.
     fn normal(&mut self, cell: &mut Cell<'_>, corner: usize) -> u32 {
         let col = cell.col(corner);
         let station = cell.station(corner);
@@ -171,7 +173,8 @@ impl<S: Sink> Teller<S> {
         number
     }
 
-    /// Picture coordinates and normal in the middle of a side that is one point in space.
+    /// Returns the numbers of the picture coordinates and the normal in the middle of a side whose two
+    /// ends are one point in space.
     fn half_way(&mut self, cell: &mut Cell<'_>, owner: u32, side: usize) -> (u32, u32) {
         let ends = SIDES[side];
         let [u, v] = {
@@ -189,7 +192,7 @@ impl<S: Sink> Teller<S> {
             Some(middle) => self.tell_normal(middle.to_array().map(|x| x as f32 + 0.0)),
             None => {
                 let normal = self.normal(cell, ends[0]);
-                // Told or shared now, it is there for the next row to share.
+                // The normal of the second end has a number from here on, so the next row can share it.
                 self.normal(cell, ends[1]);
                 normal
             }
@@ -209,7 +212,7 @@ impl<S: Sink> Teller<S> {
 }
 
 impl Cell<'_> {
-    /// Something of each corner.
+    /// Applies `of` to the station and the column of each corner.
     fn each<T>(&self, of: impl Fn(&Station, usize) -> T) -> [T; 4] {
         [0, 1, 2, 3].map(|corner| self.of(corner, &of))
     }
@@ -226,7 +229,8 @@ impl Cell<'_> {
         if on_right(corner) { self.right } else { self.left }
     }
 
-    /// The column on the picture, which does not lead back to the first one over a seam.
+    /// Returns the column of a corner on the picture. Across a seam this is one past the last column,
+    /// not column 0.
     fn picture_col(&self, corner: usize) -> usize {
         self.left + usize::from(on_right(corner))
     }
@@ -240,8 +244,8 @@ fn on_right(corner: usize) -> bool {
     matches!(corner, 1 | 2)
 }
 
-/// The wanted diagonal, or the other one where that leaves fewer triangles without area: each of
-/// them is a slit in the mesh.
+/// Returns the wanted diagonal, or the other one where that leaves fewer triangles without area. Each
+/// triangle without area is a slit in the mesh.
 fn least_flat(corners: &diagonal::Corners, wanted: Diagonal) -> Diagonal {
     let lost = |cut: Diagonal| {
         let flat = |[a, b, c]: &[usize; 3]| is_flat(corners[*a], corners[*b], corners[*c]);
@@ -251,9 +255,9 @@ fn least_flat(corners: &diagonal::Corners, wanted: Diagonal) -> Diagonal {
     if of_wanted > 0 && lost(wanted.other()) < of_wanted { wanted.other() } else { wanted }
 }
 
-/// The number of the next of a kind.
+/// Returns the number of the next vertex of a kind, and counts it.
 fn counted(count: &mut u32) -> u32 {
-    // Below 2^32 for every grid that the triangulator takes.
+    // The count stays below 2^32 for every grid that the triangulator accepts.
     let number = *count;
     *count = count.wrapping_add(1);
     number

@@ -1,19 +1,20 @@
-//! Which way a cell is cut in two.
+//! Chooses the diagonal that cuts a cell into two triangles.
 //!
-//! A diagonal is a straight line between two points of the surface, and the surface's normals at its
-//! ends say how far from it the surface runs. For a curve with end points `P`, `Q` and unit normals
-//! `m`, `n` there, cubic interpolation puts the middle of the curve `(Q - P).(n - m) / 8` off the
-//! chord (positive where the surface bulges outward). The diagonal that is less far off is taken: it
-//! is nearer to the true surface in the middle of the cell, without asking for a point of it.
+//! A diagonal is a straight line between two points of the surface. The surface normals at its ends
+//! tell how far from the diagonal the surface runs. Take a curve with end points `P`, `Q` and unit
+//! normals `m`, `n` there. Cubic interpolation puts the middle of this curve `(Q - P).(n - m) / 8` off
+//! the chord (positive where the surface bulges outward). The diagonal with the smaller distance is
+//! taken, since it is nearer to the true surface in the middle of the cell. No further point of the
+//! surface is needed.
 //!
-//! On flat or symmetrical cells both are equally far off; then the shorter one is taken, which
-//! gives the better shaped triangles, and else the one from the cell's first corner. The
-//! answer depends on the cell alone, so it is the same in every run.
+//! On flat or symmetrical cells both distances are equal. Then the shorter diagonal is taken, which
+//! gives the better shaped triangles. If the lengths are equal too, the diagonal from the cell's first
+//! corner is taken. The answer depends on the cell alone, so it is the same in every run.
 //!
-//! Limits: the estimate is of second order, and a cell that spans a whole wave of a relief is cut
-//! by chance. Cells that are folded or bow-tied are cut like any other.
+//! Limits: the estimate is of second order. A cell that spans a whole wave of a relief is cut by
+//! chance. Cells that are folded or bow-tied are cut like any other.
 
-/// Corners of a cell, counter-clockwise seen from outside.
+/// Corners of a cell, counter-clockwise seen from outside, in the order `A`, `B`, `C`, `D`.
 ///
 /// ```text
 ///   D --- C     row + 1
@@ -26,14 +27,14 @@ pub type Corners = [[f32; 3]; 4];
 /// One of a cell's two diagonals.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Diagonal {
-    /// From `A` to `C`: triangles `ABC` and `ACD`.
+    /// The diagonal from `A` to `C`: triangles `ABC` and `ACD`.
     Ac,
-    /// From `B` to `D`: triangles `ABD` and `BCD`.
+    /// The diagonal from `B` to `D`: triangles `ABD` and `BCD`.
     Bd,
 }
 
 impl Diagonal {
-    /// Which corners its two triangles have.
+    /// Returns the corner numbers of the two triangles, 0 to 3 for `A` to `D`, counter-clockwise.
     #[must_use]
     pub fn triangles(self) -> [[usize; 3]; 2] {
         match self {
@@ -42,7 +43,7 @@ impl Diagonal {
         }
     }
 
-    /// The other one.
+    /// Returns the other diagonal of the cell.
     #[must_use]
     pub fn other(self) -> Self {
         match self {
@@ -52,16 +53,17 @@ impl Diagonal {
     }
 }
 
-/// How much nearer to the surface, as a part of its length, the second diagonal must be before it
-/// is taken. Normals of f32 carry errors of 1e-7, and symmetrical cells would be cut at random if
-/// that decided; at 1e-6 the chosen diagonal is at most an eighth of a millionth of its length
-/// farther from the surface than the other.
+/// Amount by which the second diagonal must be nearer to the surface before it is taken, as a fraction
+/// of its length. The compared estimates lack the factor 1/8. Normals of f32 carry errors of 1e-7, so a
+/// smaller value would cut symmetrical cells at random. At 1e-6 the chosen diagonal is at most an
+/// eighth of a millionth of its length farther from the surface than the other.
 const NEARER: f64 = 1e-6;
-/// How much shorter, as a part of the squared length, the second diagonal must be. Vertices rounded
-/// to f32 make equal lengths differ by a part in 1e5 where a cell is a hundredth of the object.
+/// Amount by which the second diagonal must be shorter, as a fraction of the squared length. Where a
+/// cell is a hundredth of the object, rounding to f32 makes equal squared lengths differ by a part in
+/// 1e5.
 const SHORTER: f64 = 1e-5;
 
-/// The diagonal nearer to the surface that has these unit normals at the corners.
+/// Returns the diagonal that is nearer to the surface with the unit vectors `normals` at `corners`.
 #[must_use]
 pub fn choose(corners: &Corners, normals: &Corners) -> Diagonal {
     let chord = |from: usize, to: usize| {
@@ -79,7 +81,7 @@ pub fn choose(corners: &Corners, normals: &Corners) -> Diagonal {
     if second { Diagonal::Bd } else { Diagonal::Ac }
 }
 
-/// True when a triangle has no area: two corners are one point, or all three lie on a line.
+/// Returns true when a triangle has no area: two corners are one point, or all three lie on a line.
 ///
 /// The products of f32 differences are taken in f64, where almost all of them are exact.
 #[must_use]

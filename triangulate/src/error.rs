@@ -1,4 +1,4 @@
-//! Why a grid does not become triangles.
+//! Reasons why a grid cannot be turned into triangles.
 
 use files::{Exit, Failure, FileError, MemoryError};
 use glam::DVec3;
@@ -6,10 +6,10 @@ use std::io;
 use sweep::grid::file::GridError;
 use thiserror::Error;
 
-/// A grid that could not be made into triangles, or triangles that could not be written.
+/// A grid that could not be turned into triangles, or triangles that could not be written.
 #[derive(Debug, Error)]
 pub enum TriangulateError {
-    /// The grid file is cut, damaged or none.
+    /// The grid file is cut short, damaged, or not a grid file.
     #[error(transparent)]
     Grid(#[from] GridError),
     /// A file could not be opened or replaced.
@@ -21,13 +21,13 @@ pub enum TriangulateError {
     /// The mesh could not be written.
     #[error("cannot write the mesh: {0}")]
     Write(#[source] io::Error),
-    /// The grid was to come through a pipe, and there is none.
+    /// The grid was expected on standard input, but standard input is a terminal.
     #[error(
         "found a terminal on standard input, expected a grid: name a grid file, or write \
          `sweep SPEC.json | triangulate`"
     )]
     Terminal,
-    /// The grid is too long for the mesh's 32 bit numbering.
+    /// The grid has more points than the mesh can number with 32 bits.
     #[error(
         "{object}: found {rows} x {cols} points, expected at most {limit}: a mesh numbers its vertices with \
          32 bits"
@@ -35,24 +35,24 @@ pub enum TriangulateError {
     TooMany {
         /// The object's name.
         object: String,
-        /// Stations.
+        /// Number of stations.
         rows: usize,
-        /// Points on a station.
+        /// Number of points on a station.
         cols: usize,
-        /// The most that can be numbered.
+        /// The largest number of points that can be numbered.
         limit: u64,
     },
-    /// Too few points for a surface.
+    /// The grid has too few points for a surface.
     #[error("{object}: found {rows} rows of {cols} columns, expected at least 2 of each")]
     TooFew {
         /// The object's name.
         object: String,
-        /// Stations.
+        /// Number of stations.
         rows: usize,
-        /// Points on a station.
+        /// Number of points on a station.
         cols: usize,
     },
-    /// A grid in memory that leads back to its start as none can.
+    /// A grid in memory with a seam or a shift that no surface has.
     #[error("{object}: {fault}")]
     Seam {
         /// The object's name.
@@ -60,15 +60,15 @@ pub enum TriangulateError {
         /// What was found and what was expected.
         fault: String,
     },
-    /// A grid in memory with an area that is not on it.
+    /// A grid in memory with an area that does not lie on it.
     #[error("{object}: {fault}")]
     Area {
         /// The object's name.
         object: String,
-        /// The place, what was found and what was expected.
+        /// The key of the area, what was found and what was expected.
         fault: String,
     },
-    /// A number that a mesh of f32 does not hold.
+    /// A number that does not fit in f32, the number type of a mesh.
     #[error(
         "{object}: row {row}, column {col}: found the {what} ({:?}, {:?}, {:?}), expected numbers within 3.4e38, \
          which is what an OBJ holds", found.x, found.y, found.z
@@ -80,17 +80,17 @@ pub enum TriangulateError {
         row: usize,
         /// The column, from 1.
         col: usize,
-        /// Position or normal.
+        /// `position` or `normal`.
         what: &'static str,
-        /// Its value.
+        /// Its three coordinates.
         found: DVec3,
     },
-    /// The picture repeats more often than f32 can count.
+    /// The picture repeats more than 1e30 times, far below the end of f32.
     #[error("{object}: found a picture that repeats {found:?} times, expected at most 1e30 times")]
     Repeat {
         /// The object's name.
         object: String,
-        /// The larger of the two numbers.
+        /// The larger of the two repeat counts, across and up.
         found: f64,
     },
     /// A grid in memory whose arrays do not fit each other.
@@ -100,14 +100,14 @@ pub enum TriangulateError {
     Arrays {
         /// The object's name.
         object: String,
-        /// Length of the positions.
+        /// Number of positions.
         positions: usize,
-        /// Length of the normals.
+        /// Number of normals.
         normals: usize,
         /// Rows times columns.
         expected: usize,
     },
-    /// Rows that do not fit the header.
+    /// Rows that do not match the header.
     #[error(
         "{object}: found row {row} with {cols} points, expected {rows} rows of {expected} points"
     )]
@@ -116,11 +116,11 @@ pub enum TriangulateError {
         object: String,
         /// The row, from 1.
         row: usize,
-        /// Points on it.
+        /// Number of points on the row.
         cols: usize,
-        /// Rows according to the header.
+        /// Number of rows according to the header.
         rows: usize,
-        /// Points on a station according to the header.
+        /// Number of points on a row according to the header.
         expected: usize,
     },
 }

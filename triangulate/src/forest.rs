@@ -1,15 +1,16 @@
-//! Things joined into groups, each either the same way round as its group or turned.
+//! Groups of members, each of which has either the orientation of its group or the opposite one.
 //!
-//! The disjoint sets of Galler and Fischer with path halving, each link with a parity. Without
-//! parities it tells what hangs together; with them, whether a surface can be given one side.
+//! The method is the disjoint sets of Galler and Fischer with path halving, with one parity bit on each
+//! link. Without parities it finds connected components. With parities it finds whether a surface is
+//! orientable.
 
-/// Disjoint groups of `0..count`.
+/// Disjoint groups of the members `0..count`.
 #[derive(Debug)]
 pub struct Forest {
     links: Vec<Link>,
 }
 
-/// The way to another member of the group; the root's leads to itself.
+/// A link to another member of the group. The root's link leads to itself.
 #[derive(Debug, Clone, Copy)]
 struct Link {
     to: usize,
@@ -17,12 +18,12 @@ struct Link {
 }
 
 impl Forest {
-    /// Everything by itself.
+    /// Returns `count` groups of one member each.
     pub fn new(count: usize) -> Self {
         Self { links: (0..count).map(|to| Link { to, turned: false }).collect() }
     }
 
-    /// The member that stands for the group of `of`, and whether `of` is turned against it.
+    /// Returns the root of the group of `of`, and whether `of` is turned against the root.
     pub fn root(&mut self, mut of: usize) -> (usize, bool) {
         let mut turned = false;
         loop {
@@ -30,7 +31,7 @@ impl Forest {
             if up == of {
                 return (of, turned);
             }
-            // Past one link, so that the way is half as long next time.
+            // Links to the grandparent: the next search takes half as many steps.
             let Link { to: top, turned: second } = self.links[up];
             self.links[of] = Link { to: top, turned: first ^ second };
             turned ^= first ^ second;
@@ -38,8 +39,8 @@ impl Forest {
         }
     }
 
-    /// Joins two groups so that `a` and `b` are turned against each other or not. False when they
-    /// were in one group already, the other way.
+    /// Joins the groups of `a` and `b` so that the two are turned against each other exactly if
+    /// `turned`. Returns false when both were in one group already with the opposite relation.
     pub fn join(&mut self, a: usize, b: usize, turned: bool) -> bool {
         let ((a, a_turned), (b, b_turned)) = (self.root(a), self.root(b));
         let turned = turned ^ a_turned ^ b_turned;
@@ -49,7 +50,7 @@ impl Forest {
         a != b || !turned
     }
 
-    /// How many groups there are.
+    /// Returns the number of groups.
     pub fn groups(&self) -> usize {
         self.links.iter().enumerate().filter(|(member, link)| link.to == *member).count()
     }

@@ -1,48 +1,48 @@
-//! A contour x trajectory grid to triangles with texture ids, in memory or as OBJ, STL or PLY.
+//! Turns a contour x trajectory grid into triangles with texture ids, in memory or as OBJ, STL or PLY.
 //!
-//! Each cell of the grid becomes two triangles, counter-clockwise seen from outside. Rows come in
-//! and go out one at a time, so that writing an OBJ takes the memory of three rows whatever the
-//! length of the grid. What goes out is the same either way: the [`TriMesh`] of [`mesh`] has
-//! the numbers and the order of triangles that [`write_obj`] writes, to the bit. STL and PLY
-//! begin with counts, so they are written from a whole [`TriMesh`].
+//! Each cell of the grid becomes two triangles, counter-clockwise seen from outside. Rows are read and
+//! written one at a time, so writing an OBJ takes the memory of three rows, however long the grid is.
+//! Both outputs agree to the bit: the [`TriMesh`] of [`mesh`] has the numbers and the order of
+//! triangles that [`write_obj`] writes. STL and PLY files begin with counts, so these two are written
+//! from a whole [`TriMesh`].
 //!
-//! What makes a mesh of a grid:
+//! Rules by which a grid becomes a mesh:
 //!
-//! - *One vertex where the surface has one point.* A seam that closes leads back to the first row or
-//!   column, shifted or mirrored as the grid says, and a point equal to its neighbour in the grid shares its vertex: at a pole a
-//!   whole row or column does, at a crease two columns do. Texture coordinates are not shared over a
-//!   seam; they run on to `u = 1` and `v = 1`, so that no triangle has the whole picture squeezed
-//!   into it.
-//! - *Two sides of one row* where a seam is mirrored: the surface comes back with its other side out,
-//!   so the first row has a second set of normals there, turned over. Seen from one side, its
-//!   triangles on either hand of that seam run round opposite ways, as on every such surface.
-//! - *No triangle without area.* The cell between the two columns of a crease gives none, a cell at
-//!   a pole gives one. [`Counts`] says how many were left out.
-//! - *Half a cell at a pole.* All of a picture's edge meets there; each triangle takes the middle of
-//!   its share of it, and likewise the normal in the middle.
-//! - *The diagonal* is the one that lies closer to the surface ([`diagonal`]).
-//! - *Rounding to f32 happens here, once*, and zero is always `+0`: OBJ holds no more, and `render`
-//!   intersects exactly these vertices.
+//! - *One vertex where the surface has one point.* A closed seam leads back to the first row or column,
+//!   shifted or mirrored as the grid says. A point equal to its neighbour in the grid shares the
+//!   neighbour's vertex: a whole row or column at a pole, two columns at a crease. Texture coordinates
+//!   are not shared over a seam. They run on to `u = 1` and `v = 1`, so no triangle has the whole
+//!   picture squeezed into it.
+//! - *Two sides of one row* at a mirrored seam. The surface arrives there with its other side out, so
+//!   the first row has a second set of normals, negated. Seen from one side, the triangles before and
+//!   after that seam have opposite winding, as on every one-sided surface.
+//! - *No triangle without area.* The cell between the two columns of a crease gives no triangle, and a
+//!   cell at a pole gives one. [`Counts`] holds the number of triangles left out.
+//! - *Half a cell at a pole.* A whole edge of the picture meets in the pole. Each triangle there takes
+//!   the picture coordinates in the middle of its share of that edge, and the normal in the middle.
+//! - *The diagonal* of a cell is the one that lies closer to the surface ([`diagonal`]).
+//! - *Rounding to f32 happens here, once*, and zero is always `+0`. OBJ holds no more digits, and
+//!   `render` intersects exactly these vertices.
 //!
-//! A grid file may hold several patches, an object's sweeps. Each is triangulated by itself, its
-//! vertices numbered on, and nothing is welded between them.
+//! A grid file may hold several patches: the sweeps of one object. Each patch is triangulated by
+//! itself. Its vertices are numbered on from the patch before, and no vertex is shared between patches.
 //!
-//! A patch may have areas with pictures of their own ([`Area`](sweep::grid::Area)). Where two meet, points and normals are
-//! shared and picture coordinates are not; a row's triangles are told by material, so that an OBJ
-//! says `usemtl` once for each in a row, and is still written row by row.
+//! A patch may have areas with pictures of their own ([`Area`](sweep::grid::Area)). Where two areas
+//! meet, they share points and normals but not picture coordinates. The triangles of a row are ordered
+//! by material. So an OBJ has one `usemtl` for each material of a row, and is still written row by row.
 //!
-//! Only neighbours in the grid are compared: where a surface touches itself elsewhere it
-//! stays two surfaces. A cell is not made convex, and a mesh is not thinned.
+//! Limits: only neighbours in the grid are compared, so where a surface touches itself elsewhere it
+//! stays two surfaces. Cells are not made convex, and meshes are not simplified.
 //!
 //! | module           | what                                                         |
 //! |------------------|--------------------------------------------------------------|
-//! | [`triangulator`] | rows in, vertices and triangles out; the [`Sink`] they go to |
-//! | [`diagonal`]     | which way a cell is cut                                      |
+//! | [`triangulator`] | rows to vertices and triangles, and the [`Sink`] they go to  |
+//! | [`diagonal`]     | the choice of a cell's diagonal                              |
 //! | [`tri_mesh`]     | the mesh in memory, and its [`TriMesh::validate`]            |
 //! | [`obj`]          | the mesh as OBJ                                              |
-//! | [`topology`]     | what a mesh is like as a surface: Euler number, rims, sides  |
-//! | [`report`]       | that and its measures, as JSON                               |
-//! | [`area_file`]    | texture areas for a grid of others                           |
+//! | [`topology`]     | Euler number, boundary loops, orientability of a mesh        |
+//! | [`report`]       | topology and measures of a mesh, as JSON                     |
+//! | [`area_file`]    | a file of texture areas for a grid                           |
 //! | [`mtl`]          | the material file beside an OBJ                              |
 //! | [`stl`]          | the mesh as binary STL                                       |
 //! | [`split`]        | vertices that carry position, normal and picture coordinates |
@@ -83,28 +83,28 @@ use std::io::{BufRead, Write};
 use sweep::GridMesh;
 use sweep::grid::file::{GridReader, Header};
 
-/// The triangles of a grid, in memory.
+/// Makes the triangles of a grid, in memory.
 ///
 /// # Errors
-/// When the grid's arrays do not fit each other, or hold a number that f32 does not.
+/// When the grid's arrays do not fit each other, or hold a number that does not fit in f32.
 pub fn mesh(grid: &GridMesh, options: &Options) -> Result<TriMesh, TriangulateError> {
     mesh_all(std::slice::from_ref(grid), options)
 }
 
-/// The triangles of all patches of an object, in memory.
+/// Makes the triangles of all patches of an object, in memory.
 ///
 /// # Errors
-/// As [`mesh`].
+/// See [`mesh`].
 pub fn mesh_all(grids: &[GridMesh], options: &Options) -> Result<TriMesh, TriangulateError> {
     let (mesh, _) = run_grids(grids, options, TriMesh::default())?;
     Ok(mesh)
 }
 
-/// The triangles of a grid in memory, as OBJ: the same bytes that [`write_obj`] makes of the file
-/// of that grid.
+/// Writes the triangles of a grid in memory as OBJ: the same bytes that [`write_obj`] writes for the
+/// file of that grid.
 ///
 /// # Errors
-/// As [`mesh`], and when `out` fails.
+/// See [`mesh`]; also when `out` fails.
 pub fn write_grid_obj(
     grid: &GridMesh,
     options: &Options,
@@ -113,11 +113,11 @@ pub fn write_grid_obj(
     write_grids_obj(std::slice::from_ref(grid), options, out)
 }
 
-/// The triangles of all patches of an object in memory, as OBJ: the same bytes that [`write_obj`]
-/// makes of their file.
+/// Writes the triangles of all patches of an object in memory as OBJ: the same bytes that [`write_obj`]
+/// writes for the file of those patches.
 ///
 /// # Errors
-/// As [`write_grid_obj`].
+/// See [`write_grid_obj`].
 pub fn write_grids_obj(
     grids: &[GridMesh],
     options: &Options,
@@ -128,12 +128,12 @@ pub fn write_grids_obj(
     Ok(counts)
 }
 
-/// The triangles of a grid file with all its patches, row by row, as OBJ.
+/// Writes the triangles of a grid file with all its patches as OBJ, row by row.
 ///
 /// The closing comment is written only when the last footer was read and found right.
 ///
 /// # Errors
-/// When the grid is cut short or damaged, holds a number that f32 does not, or `out` fails.
+/// When the grid is cut short or damaged, holds a number that does not fit in f32, or `out` fails.
 pub fn write_obj(
     reader: &mut GridReader<impl BufRead>,
     options: &Options,
@@ -144,10 +144,10 @@ pub fn write_obj(
     Ok(counts)
 }
 
-/// The triangles of a grid file with all its patches, in memory.
+/// Makes the triangles of a grid file with all its patches, in memory.
 ///
 /// # Errors
-/// When the grid is cut short or damaged, or holds a number that f32 does not.
+/// When the grid is cut short or damaged, or holds a number that does not fit in f32.
 pub fn read_mesh(
     reader: &mut GridReader<impl BufRead>,
     options: &Options,
@@ -155,10 +155,10 @@ pub fn read_mesh(
     run_rows(reader, options, TriMesh::default())
 }
 
-/// Tells a sink the triangles of a grid file with all its patches, row by row.
+/// Passes the triangles of a grid file with all its patches to a sink, row by row.
 ///
 /// # Errors
-/// When the grid is cut short or damaged, holds a number that f32 does not, or the sink fails.
+/// When the grid is cut short or damaged, holds a number that does not fit in f32, or the sink fails.
 pub fn run_rows<S: Sink>(
     reader: &mut GridReader<impl BufRead>,
     options: &Options,
@@ -178,10 +178,10 @@ pub fn run_rows<S: Sink>(
     }
 }
 
-/// Tells a sink the triangles of grids in memory, the patches of one object.
+/// Passes the triangles of grids in memory, the patches of one object, to a sink.
 ///
 /// # Errors
-/// As [`mesh`], and when the sink fails.
+/// See [`mesh`]; also when the sink fails.
 pub fn run_grids<S: Sink>(
     grids: &[GridMesh],
     options: &Options,

@@ -1,28 +1,29 @@
-//! What triangles are bound to.
+//! The material ids that triangles are bound to.
 
 use sweep::grid::file::Header;
 
-/// A texture id and a surface id, under which a scene, or a material file, binds a picture and a
-/// material.
+/// A texture id and a surface id. A scene or a material file binds a picture and a material to these
+/// ids.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 pub struct Material {
-    /// The texture id; 0 is none.
+    /// The texture id; 0 means no texture.
     pub texture: u32,
     /// The surface id.
     pub surface: u32,
 }
 
-/// Ids for all patches, in place of their own.
+/// Ids that replace those of all patches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Options {
-    /// The texture id.
+    /// The texture id, if it replaces that of each patch.
     pub texture: Option<u32>,
-    /// The surface id.
+    /// The surface id, if it replaces that of each patch.
     pub surface: Option<u32>,
 }
 
 impl Options {
-    /// The material of a patch: these ids, or else its own, or else 0.
+    /// Returns the material of a patch: for each id the value in these options, or else that of the
+    /// header, or else 0.
     #[must_use]
     pub fn material(&self, header: &Header) -> Material {
         Material {
@@ -33,7 +34,7 @@ impl Options {
 }
 
 impl Material {
-    /// Its name in an OBJ and in a material file.
+    /// Returns the name of the material in an OBJ and in a material file, such as `tex2_surf0`.
     #[must_use]
     pub fn name(self) -> String {
         format!("tex{}_surf{}", self.texture, self.surface)

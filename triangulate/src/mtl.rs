@@ -8,19 +8,19 @@
 //! ...                                 and so on for each material of the mesh
 //! ```
 //!
-//! It is for viewers and for other renderers; ours binds ids to textures and materials in its
-//! scene.
+//! The file serves viewers and other renderers. `render` binds ids to textures and materials in its
+//! scene instead.
 
 use crate::Material;
 
-/// The first line of an MTL of ours.
+/// The first line of an MTL that `triangulate` writes.
 pub const FIRST_LINE: &str = "# topobook triangulate MTL 1";
 
-/// The text of a material file with the materials of an object; `map` is the picture on all of
-/// them, as readers of the MTL shall find it: most look beside the MTL.
+/// Returns the text of a material file with `materials`, in their order. `map` is the picture on all of
+/// them, as a path that readers of the MTL can follow: most resolve it from the folder of the MTL.
 #[must_use]
 pub fn mtl(materials: &[Material], map: Option<&str>) -> String {
-    // White where a picture gives the colour, which readers multiply by it.
+    // White under a picture, because readers multiply the picture's colour by it.
     let (grey, map) = match map {
         Some(map) => (1.0, format!("map_Kd {map}\n")),
         None => (0.8, String::new()),
@@ -32,8 +32,8 @@ pub fn mtl(materials: &[Material], map: Option<&str>) -> String {
     text
 }
 
-/// Whether a picture can be named so in an MTL: one line, of which nothing is taken for a comment,
-/// an option or a blank to be dropped.
+/// Returns whether an MTL can name a picture by `name`. The name must be one line with no part that a
+/// reader takes for a comment, an option, or a blank to be dropped.
 #[must_use]
 pub fn is_map_name(name: &str) -> bool {
     let harmless = |c: char| !c.is_control() && c != '#';

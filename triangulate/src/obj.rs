@@ -13,11 +13,11 @@
 //! # end 960 1856                      the number of v lines and of f lines
 //! ```
 //!
-//! An object that is several sweeps has an `o` for each; indices run on. Where the material changes
-//! there is another `usemtl`. The last line says that nothing is missing: a program that died upstream leaves an OBJ without
-//! it. Indices count from 1. There are neither groups nor smoothing groups, as every
-//! corner has its normal. Numbers are the shortest decimals that read back to the same f32, without
-//! exponents; zero is always written `0`.
+//! An object of several sweeps has an `o` line for each; indices run on from one to the next. Each
+//! change of material has a `usemtl` line. The last line shows that the file is complete: when an
+//! upstream program dies, the OBJ ends without it. Indices count from 1. There are no groups and no
+//! smoothing groups, because every corner has its normal. Numbers are the shortest decimals that read
+//! back to the same f32, without exponents. Zero is always written `0`.
 
 use crate::triangulator::{Counts, Sink};
 use crate::{Material, Triangle};
@@ -26,38 +26,39 @@ use std::collections::BTreeSet;
 use std::io::{self, Write};
 use sweep::grid::file::Header;
 
-/// The first line of an OBJ of ours. A file that starts with it ends with `# end V F`, or is cut.
+/// The first line of an OBJ that `triangulate` writes. A file with this first line is complete only if
+/// it ends with `# end V F`.
 pub const FIRST_LINE: &str = "# topobook triangulate OBJ 1";
 
-/// Writes a mesh as OBJ while it is made.
+/// Writes a mesh as OBJ while the mesh is made.
 #[derive(Debug)]
 pub struct ObjWriter<W> {
     out: W,
-    /// What was said since the last row.
+    /// Text written since the last completed row.
     text: Vec<u8>,
     materials: BTreeSet<Material>,
 }
 
 impl<W: Write> ObjWriter<W> {
-    /// A writer to `out`, which gets one write a row and need not be buffered.
+    /// Makes a writer to `out`. The writer makes one write for each row, so `out` need not be buffered.
     pub fn new(out: W) -> Self {
         Self::with_materials(None, out)
     }
 
-    /// As [`ObjWriter::new`], for an OBJ that names a material file, as its readers shall find it:
-    /// they look beside the OBJ. The name becomes one word, as [`object_name`] has it.
+    /// Makes a writer of an OBJ that names the material file `file`. Readers resolve the path from the
+    /// folder of the OBJ. The path becomes one word, as in [`object_name`].
     pub fn with_materials(file: Option<&str>, out: W) -> Self {
         let library = file.map_or(String::new(), |file| format!("mtllib {}\n", object_name(file)));
         let text = format!("{FIRST_LINE}\n{library}").into_bytes();
         Self { out, text, materials: BTreeSet::new() }
     }
 
-    /// The materials named so far, in order.
+    /// Returns the materials named so far, sorted by ids.
     pub fn materials(&self) -> Vec<Material> {
         self.materials.iter().copied().collect()
     }
 
-    /// Writes the closing comment. Without this call the file stays marked as cut.
+    /// Writes the closing comment. Without this call the file counts as cut short.
     ///
     /// # Errors
     /// When the output fails.
@@ -123,28 +124,30 @@ impl<W: Write> Sink for ObjWriter<W> {
     }
 }
 
-/// Appends the shortest decimal that reads back to `number`, which is finite, without exponent.
+/// Appends the shortest decimal without exponent that reads back to `number`, which must be finite.
 fn push_number(text: &mut Vec<u8>, number: f32) {
     let mut buffer = zmij::Buffer::new();
     let digits = buffer.format_finite(number).as_bytes();
     if digits.contains(&b'e') {
-        // Very large and very small: the same digits, and the zeros that place them.
+        // Very large and very small numbers: the standard library writes the same digits with the zeros
+        // that place them.
         let _ = write!(text, "{number}");
     } else {
         text.extend_from_slice(digits.strip_suffix(b".0").unwrap_or(digits));
     }
 }
 
-/// The longest `f` line: nine indices of ten digits, each with a character before it; `f`, newline.
+/// The length of the longest `f` line: nine indices of ten digits, each with a character before it,
+/// plus `f` and a newline.
 const LONGEST_FACE: usize = 9 * 11 + 2;
 
-/// A line that is written from its end, as the digits of a number come.
+/// A line that is filled from its end, since the digits of a number are found last digit first.
 ///
-/// `f` lines are most of a mesh; one copy for each instead of one for each index is a fifth of the
-/// time.
+/// `f` lines are most of a mesh. One copy for each line, instead of one for each index, saves a fifth
+/// of the time.
 struct Backward {
     bytes: [u8; LONGEST_FACE],
-    /// Where the line starts.
+    /// The start of the line in `bytes`.
     start: usize,
 }
 
@@ -154,7 +157,7 @@ impl Backward {
         self.bytes[self.start] = byte;
     }
 
-    /// Puts `index`, as OBJ counts, from 1.
+    /// Writes `index` as OBJ counts, from 1.
     fn push_index(&mut self, index: u32) {
         let mut rest = u64::from(index) + 1;
         while rest > 0 {
@@ -164,8 +167,8 @@ impl Backward {
     }
 }
 
-/// The name as one word that no OBJ reader takes apart: blanks, characters that are not seen, comment
-/// signs and line continuations become `_`.
+/// Returns the name as one word that no OBJ reader splits. Blanks, invisible characters, comment signs
+/// and line continuations become `_`; an empty name becomes `unnamed`.
 #[must_use]
 pub fn object_name(name: &str) -> String {
     let safe = |c: char| {
@@ -204,8 +207,9 @@ mod tests {
         ] {
             assert_eq!(written(number), expected);
         }
-        // As many digits as the standard library's, which are the fewest; of two decimals that are
-        // equally near, either may be taken. A step that is prime to 2^32 meets all exponents.
+        // As many digits as the standard library writes, which is the fewest. Of two decimals that are
+        // equally near, either may be taken. The step is odd, so prime to 2^32, and meets all
+        // exponents.
         for i in 0..200_000_u32 {
             let number = f32::from_bits(i.wrapping_mul(2_654_435_761));
             if number.is_finite() {

@@ -1,11 +1,12 @@
-//! Where a point of the grid lies on the picture.
+//! Converts surface parameters of the grid to picture coordinates.
 
 use sweep::grid::{Across, UvLayout};
 
-/// Picture coordinates of the surface parameters, rounded to f32.
+/// Returns the picture coordinates `[s, t]` of the surface parameters `u` and `v`, both in [0, 1],
+/// rounded to f32.
 ///
-/// They are not wrapped: with two repeats they run from 0 to 2, so that a triangle that spans the
-/// end of a repeat is not torn.
+/// Coordinates are not wrapped. With two repeats they run from 0 to 2, so that a triangle over the end
+/// of a repeat is not torn.
 pub fn coordinates(layout: &UvLayout, u: f64, v: f64) -> [f32; 2] {
     let [s, t] = match layout.across {
         Across::Contour => [u, v],

@@ -20,16 +20,17 @@
 //! end_header
 //! ```
 //!
-//! Then come the vertices, 32 bytes each, and the faces, 13 bytes each: a 3 and three indices from
-//! 0, counter-clockwise seen from outside. The header is ASCII: other characters of the
-//! object's name become `_`. With several materials a face has two more properties, `texture` and
-//! `surface`, u32 each behind the indices. With several patches there is a `comment object` for each.
+//! After the header come the vertices, 32 bytes each, and the faces, 13 bytes each: the byte 3 and
+//! three u32 indices from 0, counter-clockwise seen from outside. The header is ASCII; other characters
+//! of the object's name become `_`. With several materials a face has two more properties, `texture`
+//! and `surface`, each a u32 after the indices. With several patches there is a `comment object` for
+//! each.
 
 use crate::split::{SplitMesh, SplitVertex};
 use crate::{Material, TriMesh};
 use std::io::{self, BufWriter, Write};
 
-/// The first comment of a PLY of ours.
+/// The first comment of a PLY that `triangulate` writes.
 pub const FIRST_COMMENT: &str = "topobook triangulate PLY 1";
 
 /// Writes a mesh as binary PLY to `out`, which need not be buffered.
@@ -38,7 +39,7 @@ pub const FIRST_COMMENT: &str = "topobook triangulate PLY 1";
 /// When the output fails.
 ///
 /// # Panics
-/// As [`SplitMesh::of`].
+/// See [`SplitMesh::of`].
 pub fn write_ply(mesh: &TriMesh, out: impl Write) -> io::Result<()> {
     let split = SplitMesh::of(mesh);
     let mut out = BufWriter::new(out);
@@ -110,7 +111,7 @@ mod tests {
         write_ply(&mesh, &mut bytes).unwrap();
         bytes.truncate(bytes.len() - 32 - 13);
         let text = String::from_utf8(bytes).unwrap();
-        // The lines of the module's page, without the words beside them.
+        // The lines on the module's page, without the remarks beside them.
         let page = include_str!("ply.rs").lines().filter_map(|line| line.strip_prefix("//! "));
         let lines = page.skip_while(|line| *line != "ply").take_while(|line| *line != "```");
         let lines = lines.map(|line| line.split("  ").next().unwrap_or_default());

@@ -1,4 +1,4 @@
-//! What a mesh is like, for people and for programs: a JSON report.
+//! Measures a mesh and reports the result as JSON.
 //!
 //! ```json
 //! {
@@ -37,15 +37,16 @@
 //! }
 //! ```
 //!
-//! `vertices` to `closed` are those of [`Topology`]; `unused_vertices` are positions that are
-//! written and that no triangle uses; `quads` are cells of the grid that became two triangles.
-//! `edge_ratio` is the longest edge over the shortest. The aspect of a triangle is its longest edge over
-//! the height on that edge: 1.155 for an equal-sided one, and `worst_aspect` the largest there is.
-//! `folds` and `tolerance` are what the grid says of itself ([`Fold`], [`Tolerance`]), of all patches
-//! together the worst; null where it says nothing. Lengths are in the grid's unit, measured in f64 between the
-//! points as written, in f32. `displacement` is the farthest that rounding to f32 moved a point.
-//! Extremes are null where there is nothing to measure. All but `patches` is of the mesh as a whole,
-//! named for its first patch; patches that touch are not joined there.
+//! The values from `vertices` to `closed` are those of [`Topology`]. `unused_vertices` is the number of
+//! positions that are written but used by no triangle. `quads` is the number of grid cells that became
+//! two triangles. `edge_ratio` is the longest edge over the shortest. The aspect of a triangle is its
+//! longest edge over the height on that edge, 1.155 for an equilateral triangle; `worst_aspect` is the
+//! largest aspect in the mesh. `folds` and `tolerance` are copied from the grid ([`Fold`],
+//! [`Tolerance`]) and combined to the worst of all patches; both are null where the grid holds none.
+//! Lengths are in the grid's unit, measured in f64 between the points as written in f32. `displacement`
+//! is the largest distance by which rounding to f32 moved a point. Extremes are null where there is
+//! nothing to measure. All values but `patches` describe the whole mesh, which has the name of its
+//! first patch. Patches that touch are not joined in the topology.
 
 use crate::topology::{Topology, edges_of, sides};
 use crate::{Counts, Material, TriMesh};
@@ -54,132 +55,132 @@ use serde::Serialize;
 use std::io::{self, Write};
 use sweep::grid::{Fold, Tolerance};
 
-/// What a mesh is like.
+/// The report of a mesh.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MeshReport {
-    /// What the file is: `tb-mesh-report`.
+    /// The name of the file format: `tb-mesh-report`.
     pub format: &'static str,
     /// The version of the format: 1.
     pub version: u32,
     /// The object's name.
     pub object: String,
-    /// What triangles are bound to, in the order in which they first are.
+    /// The materials of the triangles, ordered by the first triangle of each material.
     pub materials: Vec<MaterialReport>,
-    /// Positions that triangles use.
+    /// Number of positions that triangles use.
     pub vertices: usize,
-    /// Positions that none uses.
+    /// Number of positions that no triangle uses.
     pub unused_vertices: usize,
-    /// Edges.
+    /// Number of edges.
     pub edges: usize,
-    /// Triangles.
+    /// Number of triangles.
     pub faces: usize,
-    /// Cells that became two triangles.
+    /// Number of grid cells that became two triangles.
     pub quads: u64,
     /// Vertices - edges + faces.
     pub euler: i64,
-    /// Rims.
+    /// Number of boundary loops.
     pub boundary_loops: usize,
-    /// Whether it has two sides.
+    /// Whether triangles can be turned over so that all neighbours have the same winding.
     pub orientable: bool,
-    /// Whether neighbouring triangles face the same side as they are.
+    /// Whether all neighbouring triangles have the same winding already.
     pub oriented: bool,
-    /// Whether it is a surface around every point.
+    /// Whether the mesh is a surface around every point.
     pub manifold: bool,
-    /// Whether it has no rim.
+    /// Whether the mesh has triangles and no boundary.
     pub closed: bool,
-    /// Lengths of edges.
+    /// Shortest and longest edge, in the grid's unit.
     pub edge_length: Option<Extremes>,
-    /// Areas of triangles.
+    /// Smallest and largest area of a triangle, in the grid's unit squared.
     pub triangle_area: Option<Extremes>,
     /// The longest edge over the shortest.
     pub edge_ratio: Option<f64>,
-    /// The largest of longest edge over height on it.
+    /// The largest aspect of a triangle: its longest edge over the height on that edge.
     pub worst_aspect: Option<f64>,
-    /// Where the surface folds back on itself.
+    /// The worst fold of all patches, if their grids say so.
     pub folds: Option<Fold>,
-    /// How near to the surface the mesh is.
+    /// The worst tolerance of all patches, if their grids say so.
     pub tolerance: Option<Tolerance>,
-    /// Triangles of the grid that are not in the mesh.
+    /// Numbers of triangles left out of the mesh.
     pub left_out: LeftOut,
-    /// The farthest that rounding to f32 moved a point.
+    /// The largest distance by which rounding to f32 moved a point, in the grid's unit.
     pub displacement: f64,
-    /// The box around all positions.
+    /// The box around all positions, in the grid's unit.
     #[serde(rename = "box")]
     pub bounds: Option<Bounds>,
-    /// The patches, each by itself.
+    /// The reports of the patches, in order.
     pub patches: Vec<PatchReport>,
 }
 
-/// A material and how much has it.
+/// A material and the number of triangles that have it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct MaterialReport {
-    /// The texture id; 0 is none.
+    /// The texture id; 0 means no texture.
     pub texture: u32,
     /// The surface id.
     pub surface: u32,
-    /// Triangles.
+    /// Number of triangles.
     pub faces: usize,
 }
 
-/// What a patch is like.
+/// The report of one patch.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PatchReport {
-    /// Its name.
+    /// The name of the patch.
     pub object: String,
-    /// Positions that its triangles use.
+    /// Number of positions that the patch's triangles use.
     pub vertices: usize,
-    /// Edges.
+    /// Number of edges.
     pub edges: usize,
-    /// Triangles.
+    /// Number of triangles.
     pub faces: usize,
     /// Vertices - edges + faces.
     pub euler: i64,
-    /// Rims.
+    /// Number of boundary loops.
     pub boundary_loops: usize,
-    /// Whether it has two sides.
+    /// Whether the patch has two sides.
     pub orientable: bool,
-    /// Whether it is a surface around every point.
+    /// Whether the patch is a surface around every point.
     pub manifold: bool,
-    /// Whether it has no rim.
+    /// Whether the patch has triangles and no boundary.
     pub closed: bool,
-    /// Where it folds back on itself.
+    /// How far the patch folds back on itself, if its grid says so.
     pub folds: Option<Fold>,
-    /// How near to the surface it is.
+    /// How near the patch is to the exact surface, if its grid says so.
     pub tolerance: Option<Tolerance>,
 }
 
-/// The smallest and the largest of something.
+/// The smallest and the largest of several numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Extremes {
-    /// The smallest.
+    /// The smallest number.
     pub min: f64,
-    /// The largest.
+    /// The largest number.
     pub max: f64,
 }
 
-/// How many triangles were left out.
+/// Numbers of triangles left out of the mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct LeftOut {
-    /// Because two corners are one point, as at poles and creases.
+    /// Left out because two corners are one point, as at poles and creases.
     pub collapsed: u64,
-    /// Because all three corners lie on a line.
+    /// Left out because all three corners lie on a line.
     pub slivers: u64,
 }
 
-/// A box along the axes.
+/// A box with sides parallel to the axes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Bounds {
-    /// Its lowest corner.
+    /// Smallest x, y and z.
     pub low: [f32; 3],
-    /// Its highest corner.
+    /// Largest x, y and z.
     pub high: [f32; 3],
 }
 
 impl MeshReport {
-    /// Looks at a mesh; `counts` are those of its making.
+    /// Measures a mesh. `counts` are those returned when the mesh was made.
     ///
     /// # Panics
-    /// When an index of the mesh points nowhere; [`TriMesh::validate`] tells.
+    /// When an index of the mesh is out of range (see [`TriMesh::validate`]).
     #[must_use]
     pub fn of(mesh: &TriMesh, counts: &Counts) -> Self {
         let sides = sides(mesh);
@@ -337,7 +338,7 @@ mod tests {
         assert_eq!(json["object"], "a \"b\"");
         assert_eq!(json["edge_length"], serde_json::json!({ "min": 3.0, "max": 5.0 }));
         assert_eq!(json["triangle_area"], serde_json::json!({ "min": 6.0, "max": 6.0 }));
-        // Sides 3, 4 and 5: the height on the longest is 12 / 5.
+        // Sides 3, 4 and 5: the height on the longest side is 12 / 5.
         let ratios = [&json["edge_ratio"], &json["worst_aspect"]].map(|x| x.as_f64().unwrap());
         assert!((ratios[0] - 5.0 / 3.0).abs() < 1e-12 && (ratios[1] - 25.0 / 12.0).abs() < 1e-12);
         assert_eq!((&json["quads"], &json["folds"]["worst"]), (&7.into(), &(-0.5).into()));
@@ -350,7 +351,7 @@ mod tests {
         let page = include_str!("report.rs").lines().map_while(|line| line.strip_prefix("//!"));
         let page = page.skip_while(|line| *line != " ```json").skip(1);
         let page: String = page.take_while(|line| *line != " ```").collect();
-        // Of the patch, what it says of itself is left out on the page.
+        // The page above leaves `folds` and `tolerance` of the patch null.
         let mut json = json;
         for key in ["folds", "tolerance"] {
             json["patches"][0][key] = Value::Null;

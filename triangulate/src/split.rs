@@ -1,46 +1,45 @@
-//! Vertices that carry everything: position, normal and picture coordinates under one index.
+//! Vertices that carry position, normal and picture coordinates under one index.
 //!
-//! OBJ and [`TriMesh`] share the three separately; most other formats know only whole vertices. A
-//! position is split where picture coordinates or normals differ: along a seam, a crease, and at a
-//! pole into one vertex for each triangle. It is not split where they only have
-//! different numbers and the same value.
+//! OBJ and [`TriMesh`] number the three separately; most other formats know only whole vertices. A
+//! position is split where picture coordinates or normals differ: along a seam, along a crease, and at
+//! a pole into one vertex for each triangle. It is not split where two numbers stand for equal values.
 
 use crate::TriMesh;
 use std::collections::HashMap;
 
-/// The triangles of a mesh over whole vertices.
+/// The triangles of a mesh with whole vertices.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SplitMesh {
-    /// Vertices in the order in which triangles first use them; none is unused.
+    /// Vertices in the order in which triangles first use them; every vertex is used.
     pub vertices: Vec<SplitVertex>,
-    /// Three indices each, from 0, in the order and with the winding of the mesh.
+    /// Three vertex indices for each triangle, from 0, in the order and with the winding of the mesh.
     pub triangles: Vec<[u32; 3]>,
 }
 
-/// All that is known of a vertex.
+/// Position, normal and picture coordinates of a vertex.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SplitVertex {
     /// The point, in the grid's unit.
     pub position: [f32; 3],
     /// Unit normal, outward.
     pub normal: [f32; 3],
-    /// Picture coordinates.
+    /// Picture coordinates from the lower left corner; one unit is one repeat of the picture.
     pub uv: [f32; 2],
 }
 
-/// What makes a vertex: the number of its position, and the bits of the rest.
+/// The key of a vertex: the number of its position, and the bits of its normal and picture coordinates.
 type Key = (u32, [u32; 3], [u32; 2]);
 
 impl SplitMesh {
     /// Splits the vertices of a mesh.
     ///
     /// # Panics
-    /// When an index of the mesh points nowhere, as [`TriMesh::validate`] tells, or there are more
+    /// When an index of the mesh is out of range (see [`TriMesh::validate`]), or when there are more
     /// than 2^32 vertices, which no grid makes.
     #[must_use]
     pub fn of(mesh: &TriMesh) -> Self {
         let mut split = Self::default();
-        // Only looked up, never walked through: its order decides nothing.
+        // The map is only looked up and never iterated, so its order does not affect the result.
         let mut known: HashMap<Key, u32> = HashMap::with_capacity(mesh.positions.len());
         split.triangles.reserve_exact(mesh.triangles.len());
         for triangle in &mesh.triangles {
@@ -66,7 +65,8 @@ mod tests {
     use super::*;
     use crate::Triangle;
 
-    /// Two triangles of a square; the second has numbers of its own for what the first has too.
+    /// Two triangles of a square. The second triangle has its own number for each normal and pair of
+    /// picture coordinates, also where the values are equal.
     fn square(uvs: Vec<[f32; 2]>, normals: Vec<[f32; 3]>) -> TriMesh {
         TriMesh {
             positions: vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]],

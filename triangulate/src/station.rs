@@ -1,50 +1,52 @@
-//! A row on its way into the mesh.
+//! A row of the grid while its vertices are numbered.
 
 use crate::TriangulateError;
 use glam::DVec3;
 use sweep::grid::file::Header;
 use sweep::grid::{Row, Seam};
 
-/// The number of a vertex that was not told to the sink yet.
+/// The number of a vertex that has not been passed to the sink.
 pub const UNTOLD: u32 = u32::MAX;
 
-/// A row, rounded, and the numbers of its vertices.
+/// A row, rounded to f32, with the numbers of its vertices.
 #[derive(Debug, Default)]
 pub struct Station {
-    /// Where on the trajectory; 1 where the trajectory comes back to its first row.
+    /// Parameter along the trajectory, in [0, 1]; 1 for the first row at the end of a seam.
     pub v: f64,
     /// Points, by column.
     pub points: Vec<[f32; 3]>,
     /// Normals, by column.
     pub normals: Vec<[f32; 3]>,
-    /// Numbers of the points, by column.
+    /// Numbers of the points, by column. A number is an index into the mesh's positions.
     pub position: Vec<u32>,
-    /// Numbers of the normals, by column. These and the picture coordinates are told when a
-    /// triangle first needs them, since those at a pole are never needed.
+    /// Numbers of the normals, by column. Normals and picture coordinates are numbered when a triangle
+    /// first needs them, since some of them at a pole are never needed.
     pub normal: Vec<u32>,
-    /// Numbers of the picture coordinates, by column, and one more for `u = 1` over a seam: the two
-    /// last told, as two cells of a band meet at a point.
+    /// Numbers of the picture coordinates, by column, with one more entry for `u = 1` at a seam. Each
+    /// entry keeps the last two, since two cells of a band meet at a point.
     pub uv: Vec<[ToldUv; 2]>,
 }
 
-/// Picture coordinates of a point, which are others in each area that meets there.
+/// Number of the picture coordinates of a point in one area. Each area that meets at the point has its
+/// own.
 #[derive(Debug, Clone, Copy)]
 pub struct ToldUv {
-    /// The area.
+    /// The number of the area.
     pub owner: u32,
-    /// Their number.
+    /// The index of the picture coordinates in the mesh, or [`UNTOLD`].
     pub number: u32,
 }
 
 impl ToldUv {
-    /// None told yet.
+    /// No picture coordinates passed to the sink yet.
     pub const NONE: Self = Self { owner: 0, number: UNTOLD };
 }
 
 impl Station {
-    /// Takes over a row, the `number`th (from 1) of `object`, with no vertex told.
+    /// Fills the station with row `number` (from 1) of `object`. No vertex is numbered yet. `uv_slots`
+    /// is the number of picture columns.
     ///
-    /// The rounding to f32 is here and nowhere else.
+    /// Coordinates are rounded to f32 here and nowhere else.
     pub fn take(
         &mut self,
         row: &Row<'_>,
@@ -83,15 +85,15 @@ impl Station {
         Ok(())
     }
 
-    /// The first row as the last one leads on to it: at `v = 1`, with its columns in the order of
-    /// the last row's, and turned over where the seam is mirrored. Points are the same vertices;
-    /// so are normals that keep their side.
+    /// Returns the first row as it follows the last row across the seam, at `v = 1`. Its columns have
+    /// the order of the last row's. Its normals are negated at a mirrored seam. Points keep their
+    /// numbers, and so do normals that are not negated.
     pub fn over_seam(self, header: &Header) -> Self {
         let cols = self.points.len();
         let from: Vec<usize> =
             (0..cols).map(|col| header.seam_v.leads_to(col, header.shift, cols)).collect();
         let mirrored = header.seam_v == Seam::Mirror;
-        // Taken from zero, 0 becomes +0.
+        // Subtracting from zero makes 0 into +0.
         let turned = |n: [f32; 3]| if mirrored { n.map(|x| 0.0 - x) } else { n };
         let normal = |&col: &usize| if mirrored { UNTOLD } else { self.normal[col] };
         Self {
@@ -105,7 +107,8 @@ impl Station {
     }
 }
 
-/// The nearest f32 numbers; adding zero makes -0 into +0, so that equal points have equal bits.
+/// Rounds to the nearest f32 numbers. Adding zero makes -0 into +0, so that equal points have equal
+/// bits.
 fn rounded(p: DVec3) -> [f32; 3] {
     [p.x as f32 + 0.0, p.y as f32 + 0.0, p.z as f32 + 0.0]
 }

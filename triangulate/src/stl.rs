@@ -9,15 +9,16 @@
 //!   u16        0
 //! ```
 //!
-//! All numbers are little-endian. A triangle has its own normal, perpendicular to it; the mesh's
-//! normals, picture coordinates and ids have no place in an STL. Lengths stay in the grid's
-//! unit, which printers take for millimetres.
+//! All numbers are little-endian. A triangle has its own normal, perpendicular to its plane. An STL
+//! cannot hold the mesh's normals, picture coordinates and ids. Lengths stay in the grid's unit, which
+//! printers take for millimetres.
 
 use crate::TriMesh;
 use glam::DVec3;
 use std::io::{self, BufWriter, Write};
 
-/// What the header starts with. An STL whose header starts with `solid` is taken for text.
+/// The first words of the header. A header must not start with `solid`, since readers take such a file
+/// for text.
 pub const FIRST_WORDS: &str = "topobook triangulate STL 1";
 /// The length of the header in bytes.
 const HEADER: usize = 80;
@@ -25,11 +26,11 @@ const HEADER: usize = 80;
 /// Writes a mesh as binary STL to `out`, which need not be buffered.
 ///
 /// # Errors
-/// When the output fails, or the mesh has more triangles than an STL can count: 2^32 - 1, which
+/// When the output fails, or the mesh has more than the 2^32 - 1 triangles that an STL can count, which
 /// no grid makes.
 ///
 /// # Panics
-/// When an index of the mesh points nowhere; [`TriMesh::validate`] tells.
+/// When an index of the mesh is out of range (see [`TriMesh::validate`]).
 pub fn write_stl(mesh: &TriMesh, out: impl Write) -> io::Result<()> {
     let count = u32::try_from(mesh.triangles.len()).map_err(|_| {
         io::Error::other(format!(
@@ -53,7 +54,8 @@ pub fn write_stl(mesh: &TriMesh, out: impl Write) -> io::Result<()> {
     out.flush()
 }
 
-/// The first words and as much of the name as there is room for.
+/// Returns the first words and as much of the name as fits, padded with zeros. The name is cut between
+/// characters.
 fn header(name: &str) -> [u8; HEADER] {
     let mut header = [0; HEADER];
     let words = format!("{FIRST_WORDS} {name}");
@@ -63,10 +65,10 @@ fn header(name: &str) -> [u8; HEADER] {
     header
 }
 
-/// The unit vector that a triangle faces along; zero for one without area.
+/// Returns the unit normal of a triangle; zero for a triangle without area.
 ///
-/// The products of f32 differences are taken in f64: there, triangles of any f32 numbers neither
-/// vanish nor overflow.
+/// The products of f32 differences are taken in f64. There they neither vanish nor overflow, for
+/// triangles of any f32 numbers.
 fn unit_normal(corners: [[f32; 3]; 3]) -> [f32; 3] {
     let [a, b, c] = corners.map(|point| DVec3::from(point.map(f64::from)));
     let normal = (b - a).cross(c - a).normalize_or_zero();

@@ -1,72 +1,72 @@
-//! What a mesh is like as a surface, whatever its shape.
+//! Topology of a mesh: the properties of its surface that do not depend on its shape.
 //!
-//! Positions are the vertices: where two positions have the same numbers and different indices,
-//! the surface is not joined there. All answers come from the edges, sorted:
+//! Vertices are positions. Two positions with equal coordinates and different indices are two vertices,
+//! and the surface is not joined there. All answers come from the sorted edges:
 //!
-//! - *Orientable*: neighbours over an edge of two triangles must run along it in opposite directions,
-//!   or one of them be turned over. That is spread over all such edges; the surface is orientable
-//!   when nothing comes back turned. So it does not matter how the triangles are turned now:
-//!   [`Topology::oriented`] tells that.
-//! - *Manifold*: no edge has three triangles, and around each vertex its triangles are one fan, open
-//!   or closed. Two corners of a vertex belong to one fan when their triangles share an edge there;
-//!   there must be as many fans as vertices.
-//! - *Boundary loops*: edges of one triangle, joined end to end through the fan between them. So
-//!   two triangles that touch at a point have two loops. Where an edge has three triangles, fans
-//!   end without a boundary, and these are chains rather than loops.
+//! - *Orientable*: two triangles that share an edge must run along it in opposite directions, or one of
+//!   the two must be turned over. This condition is spread over all edges of two triangles. The surface
+//!   is orientable when no triangle must both be turned and not be turned. The present winding of the
+//!   triangles does not matter; [`Topology::oriented`] describes the present winding.
+//! - *Manifold*: no edge has three triangles, and the triangles around each vertex form one fan, open
+//!   or closed. Two corners at a vertex belong to one fan when their triangles share an edge there. The
+//!   number of fans must equal the number of vertices.
+//! - *Boundary loops*: edges of one triangle, joined end to end through the fan between them. So two
+//!   triangles that touch in one point have two loops. Where an edge has three triangles, fans end
+//!   without a boundary edge, and the joined edges are chains rather than loops.
 //!
-//! Source: any text on combinatorial surfaces. Triangles are taken to have three different
-//! corners, as those of a grid do.
+//! Source: any text on combinatorial surfaces. Triangles are assumed to have three different corners,
+//! as those of a grid do.
 
 use crate::TriMesh;
 use crate::forest::Forest;
 
-/// What a mesh is like as a surface.
+/// Topology of a mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Topology {
-    /// Positions that triangles use.
+    /// Number of positions that triangles use.
     pub vertices: usize,
-    /// Different pairs of them along the sides of triangles.
+    /// Number of different pairs of positions along the sides of triangles.
     pub edges: usize,
-    /// Triangles.
+    /// Number of triangles.
     pub faces: usize,
-    /// Rims: 0 for a closed surface, 2 for a tube.
+    /// Number of boundary loops: 0 for a closed surface, 2 for a tube.
     pub boundary_loops: usize,
-    /// Whether its triangles can be turned so that all neighbours agree.
+    /// Whether triangles can be turned over so that all neighbours have the same winding.
     pub orientable: bool,
-    /// Whether they agree as they are.
+    /// Whether all neighbours have the same winding already.
     pub oriented: bool,
-    /// Whether it looks like a disk, or half a disk, around every point.
+    /// Whether the surface is a disk, or half a disk, around every point.
     pub manifold: bool,
-    /// Whether there are triangles, and none has a side without a neighbour.
+    /// Whether there are triangles and every side has a neighbour.
     pub closed: bool,
 }
 
 /// A side of a triangle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Side {
-    /// The positions at its ends, the lower number first.
+    /// The positions at the two ends, the lower index first.
     pub ends: [u32; 2],
-    /// Its number among all sides, three to a triangle: it leads from the corner of that number to
-    /// the next one of the triangle.
+    /// The number of the side among all sides, three to a triangle. It is also the number of the corner
+    /// at which the side starts; the side ends at the next corner of the triangle.
     number: usize,
-    /// Whether it leads from the higher position to the lower.
+    /// Whether the side leads from the higher position index to the lower.
     downward: bool,
 }
 
 impl Topology {
-    /// Looks at a mesh.
+    /// Computes the topology of a mesh.
     #[must_use]
     pub fn of(mesh: &TriMesh) -> Self {
         Self::of_sides(mesh, &sides(mesh))
     }
 
-    /// Vertices - edges + faces: 2 for a sphere, 0 for a torus, a tube, a Klein bottle.
+    /// Returns vertices - edges + faces: 2 for a sphere, 0 for a torus, a tube, a Klein bottle.
     #[must_use]
     pub fn euler(&self) -> i64 {
         self.vertices as i64 - self.edges as i64 + self.faces as i64
     }
 
-    /// Looks at the [`sides`] of a mesh.
+    /// Computes the topology from the [`sides`] of a mesh.
     pub(crate) fn of_sides(mesh: &TriMesh, sides: &[Side]) -> Self {
         let (faces, corners) = (mesh.triangles.len(), sides.len());
         let (mut turns, mut fans) = (Forest::new(faces), Forest::new(corners));
@@ -107,7 +107,7 @@ impl Topology {
 }
 
 impl Side {
-    /// The numbers of its corners, that of the lower position first.
+    /// Returns the numbers of the two corners of the side, that of the lower position first.
     fn corners(self) -> [usize; 2] {
         let first = self.number;
         let next = if first % 3 == 2 { first - 2 } else { first + 1 };
@@ -115,7 +115,7 @@ impl Side {
     }
 }
 
-/// All sides of all triangles, those of an edge side by side.
+/// Returns the sides of all triangles, sorted so that the sides of one edge are adjacent.
 pub(crate) fn sides(mesh: &TriMesh) -> Vec<Side> {
     let of_one = |(index, [a, b, c]): (usize, [u32; 3])| {
         [(0, a, b), (1, b, c), (2, c, a)].map(|(side, from, to)| Side {
@@ -130,12 +130,12 @@ pub(crate) fn sides(mesh: &TriMesh) -> Vec<Side> {
     sides
 }
 
-/// Sorted sides edge by edge.
+/// Splits sorted sides into groups, one for each edge.
 pub(crate) fn edges_of(sides: &[Side]) -> impl Iterator<Item = &[Side]> {
     sides.chunk_by(|a, b| a.ends == b.ends)
 }
 
-/// How many positions triangles use.
+/// Returns the number of positions that triangles use.
 fn used(mesh: &TriMesh) -> usize {
     let mut used = vec![false; mesh.positions.len()];
     for index in mesh.triangles.iter().flat_map(|triangle| triangle.position) {
@@ -144,7 +144,7 @@ fn used(mesh: &TriMesh) -> usize {
     used.into_iter().filter(|&used| used).count()
 }
 
-/// How many loops the sides on the boundary make, joined where they are ends of one fan.
+/// Returns the number of loops of the boundary sides. Sides are joined when they end in one fan.
 fn loops(boundary: &[Side], fans: &mut Forest) -> usize {
     let ends =
         |(index, side): (usize, &Side)| side.corners().map(|corner| (fans.root(corner).0, index));

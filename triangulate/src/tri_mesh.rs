@@ -1,4 +1,4 @@
-//! Triangles in memory.
+//! The triangle mesh in memory.
 
 use crate::Material;
 use crate::obj::object_name;
@@ -8,66 +8,66 @@ use std::ops::Range;
 use sweep::grid::file::Header;
 use sweep::grid::{Fold, Tolerance};
 
-/// A mesh of triangles; flat arrays that indices point into, as in OBJ, but from 0.
+/// A mesh of triangles: flat arrays with indices into them as in OBJ, but counted from 0.
 ///
-/// Positions, texture coordinates and normals are shared separately: a vertex on a seam is one
-/// position with two texture coordinates, on a crease one position with two normals. The patches of
-/// an object share nothing.
+/// Positions, texture coordinates and normals have separate indices. A vertex on a seam is one position
+/// with two texture coordinates; a vertex on a crease is one position with two normals. The patches of
+/// an object share no vertices.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct TriMesh {
-    /// The object's name, one word: that of its first patch.
+    /// The object's name, one word: the name of its first patch.
     pub name: String,
-    /// The patches in their order. Without any, all triangles are one.
+    /// The patches in their order. An empty list means one patch of all triangles.
     pub patches: Vec<Patch>,
-    /// Where the material changes, in the order of triangles. Those before the first of these have
-    /// no texture and surface 0.
+    /// The runs of one material, in the order of triangles. Triangles before the first run have no
+    /// texture and surface 0.
     pub runs: Vec<Run>,
     /// Points in the grid's unit.
     pub positions: Vec<[f32; 3]>,
-    /// Picture coordinates from the lower left corner, one picture to the unit; they repeat.
+    /// Picture coordinates from the lower left corner; one unit is one repeat of the picture.
     pub uvs: Vec<[f32; 2]>,
     /// Unit normals, outward.
     pub normals: Vec<[f32; 3]>,
-    /// Triangles in the order of patches, then rows; of a row by material, then columns.
+    /// Triangles ordered by patch, then by row, then by material, then by column.
     pub triangles: Vec<Triangle>,
 }
 
-/// A triangle, counter-clockwise seen from outside: three indices, from 0, into each array.
+/// A triangle, counter-clockwise seen from outside: three indices into each array, from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Triangle {
-    /// Into the positions.
+    /// Indices into the positions.
     pub position: [u32; 3],
-    /// Into the picture coordinates.
+    /// Indices into the picture coordinates.
     pub uv: [u32; 3],
-    /// Into the normals.
+    /// Indices into the normals.
     pub normal: [u32; 3],
 }
 
-/// A patch of a mesh: the triangles from one number to that of the next patch.
+/// A patch of a mesh: the triangles from index `first` up to the `first` of the next patch.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Patch {
-    /// Its name, one word.
+    /// The name of the patch, one word.
     pub name: String,
-    /// The number of its first triangle.
+    /// The index of the first triangle of the patch, from 0.
     pub first: usize,
-    /// Where it folds back on itself, if its grid says so.
+    /// How far the patch folds back on itself, if its grid says so.
     pub fold: Option<Fold>,
-    /// How near to the surface it is, if its grid says so.
+    /// How near the patch is to the exact surface, if its grid says so.
     pub tolerance: Option<Tolerance>,
 }
 
-/// Triangles of one material: those from one number to that of the next run.
+/// Triangles of one material: those from index `first` up to the `first` of the next run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Run {
-    /// What they are bound to.
+    /// The material that the triangles are bound to.
     pub material: Material,
-    /// The number of the first one.
+    /// The index of the first triangle of the run, from 0.
     pub first: usize,
 }
 
 impl TriMesh {
-    /// Bytes of the mesh of a grid of so many points at most, while it grows: three arrays of vertices and
-    /// two triangles a cell, in lists that grow by doubling.
+    /// Returns an upper bound of the bytes for the mesh of a grid of `points` points. The mesh has
+    /// three arrays of vertices and two triangles to a cell, in lists that grow by doubling.
     #[must_use]
     pub fn bytes_for(points: u64) -> u64 {
         const VERTEX: u64 = (3 + 2 + 3) * size_of::<f32>() as u64;
@@ -75,7 +75,7 @@ impl TriMesh {
         points.saturating_mul(2 * (VERTEX + CELL))
     }
 
-    /// The materials of triangles, in the order in which triangles first have them.
+    /// Returns the materials of all triangles, ordered by the first triangle of each material.
     #[must_use]
     pub fn materials(&self) -> Vec<Material> {
         let mut known = HashSet::new();
@@ -88,7 +88,7 @@ impl TriMesh {
         materials
     }
 
-    /// For each triangle, which of [`TriMesh::materials`] it has.
+    /// Returns for each triangle the index of its material in [`TriMesh::materials`].
     #[must_use]
     pub fn material_numbers(&self) -> Vec<u32> {
         let materials = self.materials();
@@ -99,10 +99,11 @@ impl TriMesh {
         self.runs().flat_map(of_run).collect()
     }
 
-    /// The triangles of a patch, with all vertices, as a mesh of one patch.
+    /// Returns the triangles of patch `number`, from 0, with the vertices of all patches, as a mesh of
+    /// one patch.
     ///
     /// # Panics
-    /// When there is no patch of this number, from 0.
+    /// When there is no patch `number`.
     #[must_use]
     pub fn of_patch(&self, number: usize) -> Self {
         let patch = self.patches[number].clone();
@@ -123,7 +124,7 @@ impl TriMesh {
         }
     }
 
-    /// The materials one after another, each with the numbers of its triangles.
+    /// Returns the runs one after another, each as a material and a range of triangle indices.
     fn runs(&self) -> impl Iterator<Item = (Material, Range<usize>)> {
         let ends = self.runs.iter().map(|run| run.first).chain([self.triangles.len()]);
         let materials = self.runs.iter().map(|run| (run.material, run.first));

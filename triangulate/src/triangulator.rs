@@ -1,4 +1,4 @@
-//! Rows in, vertices and triangles out.
+//! Turns rows into vertices and triangles.
 
 use crate::cell::{Cell, Picture, Teller};
 use crate::station::Station;
@@ -8,33 +8,33 @@ use std::io;
 use sweep::grid::file::Header;
 use sweep::grid::{Row, Seam};
 
-/// What the parts of a mesh are told to, one by one.
+/// Receives the parts of a mesh one by one.
 ///
-/// Positions, picture coordinates and normals are numbered from 0 in the order they are told,
-/// each kind by itself; a triangle only names numbers told before it.
+/// Positions, picture coordinates and normals are numbered from 0 in the order they arrive, each kind
+/// separately. A triangle refers only to numbers that arrived before it.
 pub trait Sink {
-    /// What is told from here on is this patch.
+    /// Starts a patch. All parts up to the next call belong to this patch.
     fn patch(&mut self, header: &Header);
-    /// Triangles told from here on are bound to this.
+    /// Sets the material of the triangles that follow.
     fn material(&mut self, material: Material);
-    /// The next position.
+    /// Takes the next position, in the grid's unit.
     fn position(&mut self, position: [f32; 3]);
-    /// The next picture coordinates.
+    /// Takes the next picture coordinates.
     fn uv(&mut self, uv: [f32; 2]);
-    /// The next normal.
+    /// Takes the next normal, a unit vector.
     fn normal(&mut self, normal: [f32; 3]);
-    /// The next triangle.
+    /// Takes the next triangle.
     fn triangle(&mut self, triangle: &Triangle);
-    /// A row and its triangles are complete: the time to pass them on.
+    /// Called when a row and its triangles are complete, so that the sink can pass them on.
     ///
     /// # Errors
-    /// When they cannot be passed on.
+    /// When the sink cannot pass the row on.
     fn row_done(&mut self) -> io::Result<()> {
         Ok(())
     }
 }
 
-/// Two sinks that are told the same.
+/// Two sinks that receive the same calls.
 impl<A: Sink, B: Sink> Sink for (A, B) {
     fn patch(&mut self, header: &Header) {
         self.0.patch(header);
@@ -72,43 +72,45 @@ impl<A: Sink, B: Sink> Sink for (A, B) {
     }
 }
 
-/// How much a mesh has of everything.
+/// Counts and rounding errors of a mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Counts {
-    /// Different positions.
+    /// Number of different positions.
     pub positions: u32,
-    /// Different picture coordinates.
+    /// Number of different picture coordinates.
     pub uvs: u32,
-    /// Different normals.
+    /// Number of different normals.
     pub normals: u32,
-    /// Triangles.
+    /// Number of triangles.
     pub triangles: u64,
-    /// Cells that became two triangles.
+    /// Number of cells that became two triangles.
     pub quads: u64,
-    /// Triangles left out because two corners are one point, as at poles and creases.
+    /// Number of triangles left out because two corners are one point, as at poles and creases.
     pub collapsed: u64,
-    /// Triangles left out because their three corners lie on a line. The mesh has a slit there,
-    /// of no width.
+    /// Number of triangles left out because their three corners lie on a line. The mesh has a slit of
+    /// no width there.
     pub slivers: u64,
-    /// How far rounding to f32 moved a coordinate, at most, as a fraction of the object's size (the
-    /// diagonal of its box): some 1e-8 for an object about the origin, and more by as much as
-    /// it lies farther away than it is large. Infinite for an object that is one point.
+    /// The largest distance by which rounding to f32 moved a coordinate, as a fraction of the object's
+    /// size (the diagonal of its box). About 1e-8 for an object about the origin. For an object far from
+    /// the origin, the fraction grows with the ratio of its distance to its size. Infinite for an object
+    /// that is one point and was moved.
     pub moved: f64,
-    /// How far it moved a point, at most, in the grid's unit.
+    /// The largest distance by which rounding moved a point, in the grid's unit.
     pub displacement: f64,
-    /// How far it moved a point, as a part of the distance from the surface that was asked of the grid:
-    /// above 1 it took away what was kept. 0 where none was asked.
+    /// The largest distance by which rounding moved a point, as a fraction of the distance from the
+    /// surface that was asked of the grid. Above 1, rounding exceeds the tolerance. 0 where no
+    /// tolerance was asked.
     pub tolerance_used: f64,
 }
 
-/// What rounding does to an object.
+/// The box of an object and the rounding errors in it.
 #[derive(Debug)]
 struct Rounding {
     low: DVec3,
     high: DVec3,
-    /// The farthest that a coordinate was moved.
+    /// The largest distance by which a coordinate was moved, in the grid's unit.
     moved: f64,
-    /// The square of the farthest that a point was moved.
+    /// The square of the largest distance by which a point was moved.
     displacement_sq: f64,
 }
 
@@ -127,53 +129,55 @@ impl Rounding {
         }
     }
 
-    /// As a fraction of the object's size.
+    /// Returns the largest move of a coordinate as a fraction of the object's size.
     fn fraction(&self) -> f64 {
         if self.moved == 0.0 { 0.0 } else { self.moved / (self.high - self.low).length() }
     }
 }
 
-/// The numbers there are for vertices of each kind.
+/// The largest number of vertices of each kind.
 const NUMBERS: u64 = u32::MAX as u64;
-/// The most numbers that a point takes. A pole gives a cell at most one more normal and one more
-/// pair of picture coordinates than it has points.
+/// The most numbers that a point takes, of one kind. A pole gives a cell at most one more normal and
+/// one more pair of picture coordinates than the cell has points.
 const NUMBERS_OF_POINT: u64 = 2;
-/// The same where a cell may share no picture coordinates with its neighbours.
+/// The most numbers that a point takes where a cell may share no picture coordinates with its
+/// neighbours.
 const NUMBERS_IN_AREAS: u64 = 4;
-/// The most repeats of a picture; far below the end of f32.
+/// The largest number of repeats of a picture; far below the largest f32.
 const MAX_REPEAT: f64 = 1e30;
 
-/// Makes triangles of rows as they come.
+/// Makes triangles of rows as they arrive.
 ///
-/// It holds the row at hand, the one before, and the first one if the last leads back to it.
+/// Holds the current row, the row before, and the first row if the last row leads back to it.
 #[derive(Debug)]
 pub struct Triangulator<S> {
     header: Header,
     teller: Teller<S>,
-    /// The first row as the last one leads on to it, if it does.
+    /// The first row as it follows the last row, if the last row leads back to it.
     first: Option<Station>,
     before: Option<Station>,
-    /// A station no longer needed, whose memory is used again.
+    /// A station that is no longer needed; its memory is reused.
     spare: Station,
     rounding: Rounding,
-    /// Rows taken so far.
+    /// Number of rows taken so far.
     rows: usize,
 }
 
 impl<S: Sink> Triangulator<S> {
-    /// A triangulator of rows that fit `header`, of an object's first patch.
+    /// Makes a triangulator of rows that fit `header`, for the first patch of an object.
     ///
     /// # Errors
-    /// As [`Triangulator::following`].
+    /// See [`Triangulator::following`].
     pub fn new(header: Header, options: &Options, sink: S) -> Result<Self, TriangulateError> {
         Self::following(Counts::default(), header, options, sink)
     }
 
-    /// The same for a patch that follows others, which have made so many `counts` of everything:
-    /// its vertices are numbered on.
+    /// Makes a triangulator for a patch that follows others. `counts` are those of the patches before;
+    /// vertices are numbered on from there.
     ///
     /// # Errors
-    /// When the grid has fewer points than a surface, or more than can be numbered.
+    /// When the grid has too few points for a surface, or more than can be numbered; when its seam is
+    /// invalid, or its picture repeats too often.
     pub fn following(
         counts: Counts,
         header: Header,
@@ -188,7 +192,7 @@ impl<S: Sink> Triangulator<S> {
         if let Some(fault) = header.seam_fault() {
             return Err(TriangulateError::Seam { object, fault });
         }
-        // Counted with the row and the column that seams add to the picture.
+        // The limit includes the row and the column that seams add to the picture.
         let taken = counts.positions.max(counts.uvs).max(counts.normals);
         let of_point = if header.areas.is_empty() { NUMBERS_OF_POINT } else { NUMBERS_IN_AREAS };
         let limit = (NUMBERS - u64::from(taken)) / of_point;
@@ -213,11 +217,12 @@ impl<S: Sink> Triangulator<S> {
         })
     }
 
-    /// Takes the next row, and tells its vertices and the triangles between it and the one before.
+    /// Takes the next row, and passes its vertices and the triangles between it and the row before to
+    /// the sink.
     ///
     /// # Errors
-    /// When the row has another number of points than the header says, is one too many, holds a
-    /// number that f32 does not, or the sink fails.
+    /// When the row has another number of points than the header says, is one too many, holds a number
+    /// that does not fit in f32, or the sink fails.
     pub fn row(&mut self, row: Row<'_>) -> Result<(), TriangulateError> {
         let counts = [row.positions.len(), row.normals.len()];
         if self.rows == self.header.rows || counts != [self.header.cols(); 2] {
@@ -240,7 +245,7 @@ impl<S: Sink> Triangulator<S> {
         self.teller.sink.row_done().map_err(TriangulateError::Write)
     }
 
-    /// Closes the seam, if there is one, and gives the sink back.
+    /// Closes the seam, if there is one, and returns the sink with the counts of all patches so far.
     ///
     /// # Errors
     /// When rows are missing, or the sink fails.
@@ -265,8 +270,8 @@ impl<S: Sink> Triangulator<S> {
         Ok((self.teller.sink, counts))
     }
 
-    /// Numbers the points of a row. A point that equals its neighbour to the left, below, or over a
-    /// seam is that vertex; any other is a new one.
+    /// Numbers the points of a row. A point that equals its neighbour to the left, below, or across a
+    /// seam takes the neighbour's number. Any other point is a new vertex.
     fn number_positions(&mut self, station: &mut Station) {
         let cols = station.points.len();
         let over_seam = self.first.as_ref().filter(|_| self.rows == self.header.rows);
@@ -289,7 +294,7 @@ impl<S: Sink> Triangulator<S> {
         }
     }
 
-    /// The error for a next row of `cols` points that does not fit the header.
+    /// Returns the error for a next row of `cols` points that does not fit the header.
     fn misfit(&self, cols: usize) -> TriangulateError {
         TriangulateError::Rows {
             object: self.header.name.clone(),
@@ -300,7 +305,7 @@ impl<S: Sink> Triangulator<S> {
         }
     }
 
-    /// Tells the triangles between two rows.
+    /// Passes the triangles between two rows to the sink.
     fn band(&mut self, lower: &mut Station, upper: &mut Station) {
         let cols = self.header.cols();
         self.teller.picture.areas.next_band([lower.v, upper.v]);

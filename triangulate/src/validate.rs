@@ -1,21 +1,22 @@
-//! What is wrong with a mesh, as a list.
+//! Validates a mesh and lists what is wrong with it.
 
 use crate::TriMesh;
 use crate::diagonal::is_flat;
 
-/// Complaints of one kind that are spelled out; the rest are counted.
+/// Complaints of one kind that are written out; the rest are counted.
 const SPELLED_OUT: usize = 3;
-/// How far the length of a normal may be from 1: the rounding of a dozen f32 operations.
+/// Largest allowed difference between the length of a normal and 1: the rounding of a dozen f32
+/// operations.
 const UNIT: f32 = 1e-5;
 
 impl TriMesh {
-    /// Complaints about the mesh; an empty list when there are none.
+    /// Returns complaints about the mesh; the list is empty when there are none.
     ///
-    /// Looked for are indices that point nowhere, numbers that are not finite, normals that are
-    /// not of unit length, triangles without area, and directed edges used twice. The last holds
-    /// two triangles side by side that face opposite ways, and three at one edge; so a mesh of a
-    /// one-sided surface must fail it. Edges used once, as on the rim of an open surface, are
-    /// in order.
+    /// The checks find indices out of range, numbers that are not finite, normals that are not of unit
+    /// length, triangles without area, and directed edges used twice. A directed edge is used twice
+    /// where two neighbouring triangles face opposite ways, and where an edge has three triangles. So a
+    /// mesh of a one-sided surface must fail this check. Edges used once, as on the boundary of an open
+    /// surface, are valid.
     #[must_use]
     pub fn validate(&self) -> Vec<String> {
         let mut complaints = Complaints::default();
@@ -56,7 +57,7 @@ impl TriMesh {
         }
         complaints.close("normals that are not of unit length");
 
-        // What follows looks the points up.
+        // The checks below look up positions, so every index must be in range.
         if wild {
             return complaints.all;
         }
@@ -78,7 +79,7 @@ impl TriMesh {
         complaints.all
     }
 
-    /// The three edges of each triangle, as the pairs of positions they lead from and to.
+    /// Returns the three edges of each triangle as pairs of position indices, start and end.
     #[must_use]
     pub fn directed_edges(&self) -> Vec<[u32; 2]> {
         let of_one = |[a, b, c]: [u32; 3]| [[a, b], [b, c], [c, a]];
@@ -86,11 +87,11 @@ impl TriMesh {
     }
 }
 
-/// Complaints, few of each kind.
+/// A list of complaints with at most [`SPELLED_OUT`] of each kind.
 #[derive(Default)]
 struct Complaints {
     all: Vec<String>,
-    /// Of the kind now looked for.
+    /// Complaints of the current kind so far.
     found: usize,
 }
 
@@ -102,7 +103,7 @@ impl Complaints {
         }
     }
 
-    /// Ends a kind, and says whether there were any.
+    /// Ends a kind of complaint, and returns whether there were any of that kind.
     fn close(&mut self, kind: &str) -> bool {
         if self.found > SPELLED_OUT {
             self.all.push(format!("and {} more {kind}", self.found - SPELLED_OUT));

@@ -1,10 +1,11 @@
-//! Why a page takes the time that it takes.
+//! Explains why a page takes its time.
 
 use super::plate::Plate;
 use crate::number::{count, millions};
 use crate::stages::Stages;
 
-/// The slowest stage of a page, and what it had to do: a sentence or two, from the page's own counts.
+/// Returns the slowest stage of a page and the work it did: a sentence or two, with the page's own
+/// counts.
 #[must_use]
 pub fn argument(plate: &Plate) -> String {
     let (stage, part) = plate.total().slowest();
@@ -35,7 +36,7 @@ pub fn argument(plate: &Plate) -> String {
     format!("Slowest is the stage “{stage}”, {:.0} %: {why}", 100.0 * part)
 }
 
-/// What the rays of the costliest mode were for.
+/// Returns a sentence on the kinds of rays in the slowest mode.
 fn rays(plate: &Plate) -> String {
     let slowest =
         plate.shots.iter().filter(|shot| shot.own).max_by_key(|shot| Stages::total(&shot.stages));

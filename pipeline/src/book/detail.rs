@@ -1,4 +1,4 @@
-//! A part of a page looked at pixel by pixel, in each mode and as it ought to be.
+//! Parts of a page, shown pixel by pixel in each mode and beside the truth.
 
 use crate::job::Place;
 use crate::truth::Pair;
@@ -6,42 +6,42 @@ use render::film::{Crop, Layer};
 use render::filter::Filter;
 use render::{Picture, Prepared, Settings};
 
-/// Pixels along the side of a detail: four of them fit side by side on a desk enlarged three times, and two
-/// on a telephone enlarged twice.
+/// Side of a detail in pixels. Four details enlarged three times fit side by side on a desktop screen,
+/// and two enlarged twice on a telephone.
 pub const SIDE: u32 = 84;
 
-/// Texels that a pixel spans in both directions where it is judged by itself.
+/// Number of texels that a pixel must span in both directions to count as wide.
 const WIDE: f64 = 2.0;
 
 /// A part of a page.
 #[derive(Debug)]
 pub struct Detail {
-    /// What is seen there.
+    /// Description of what the part shows.
     pub title: String,
-    /// Which pixels.
+    /// The pixels of the part.
     pub crop: Crop,
-    /// The part of each mode's picture, in their order.
+    /// The part of each mode's picture, in the order of modes.
     pub pictures: Vec<Picture>,
-    /// What was measured of them, unless that was not wanted.
+    /// Errors of the parts, if they were measured.
     pub judged: Option<Judged>,
 }
 
-/// How wrong the parts are.
+/// Errors of the parts.
 #[derive(Debug)]
 pub struct Judged {
-    /// What they ought to be.
+    /// The part as it should be: the mean of both pictures of the truth.
     pub truth: Picture,
-    /// Root mean square error of each mode in linear light.
+    /// Root mean square error of each mode in linear light, where white is 1.
     pub errors: Vec<f64>,
-    /// Which part of the pixels span more than two texels both ways, 0 to 1.
+    /// Fraction of pixels that span more than two texels in both directions, in [0, 1].
     pub wide: f64,
-    /// The errors over these alone; empty if there are none.
+    /// Errors over these wide pixels alone; empty if there are none.
     pub wide_errors: Vec<f64>,
 }
 
 impl Detail {
-    /// Cuts the part around `place` out of the modes' pictures, and judges it by a truth of `samples * samples`
-    /// rays in each pixel for each of two seeds, if that is not 0.
+    /// Cuts the part around `place` out of the modes' pictures. Measures the part against a truth of
+    /// `samples * samples` rays in each pixel, for each of two seeds, unless `samples` is 0.
     #[must_use]
     pub fn new(scene: &Prepared<'_>, place: &Place, pictures: &[&Picture], samples: u32) -> Self {
         let size = pictures.first().map_or((1, 1), |picture| (picture.width, picture.height));
@@ -65,7 +65,7 @@ impl Detail {
     }
 }
 
-/// The place where two pictures of the same size differ most.
+/// Returns the position where two pictures of the same size differ most.
 #[must_use]
 pub fn most_different(title: &str, first: &Picture, second: &Picture) -> Place {
     let (width, height) = (first.width, first.height);
@@ -75,7 +75,7 @@ pub fn most_different(title: &str, first: &Picture, second: &Picture) -> Place {
         pairs.map(|(a, b)| f64::from(a - b).powi(2)).sum::<f64>()
     };
     let (wide, high) = (SIDE.min(width), SIDE.min(height));
-    // Half of a detail at a time is near enough.
+    // Candidates are half a detail apart, which is precise enough.
     let steps = |all: u32, side: u32| (0..=all - side).step_by((side as usize / 2).max(1));
     let mut most = (-1.0, 0, 0);
     for y in steps(height, high) {
@@ -97,7 +97,7 @@ pub fn most_different(title: &str, first: &Picture, second: &Picture) -> Place {
     Place { title: title.into(), at }
 }
 
-/// The pixels around a place, all in the picture.
+/// Returns the pixels around a position, shifted so that all lie in the picture.
 fn around(place: &Place, (width, height): (u32, u32)) -> Crop {
     let start = |at: f64, side: u32, all: u32| {
         let start = (at * f64::from(all) - 0.5 * f64::from(side)).round();
@@ -108,7 +108,7 @@ fn around(place: &Place, (width, height): (u32, u32)) -> Crop {
     Crop { x: start(x, wide, width), y: start(y, high, height), width: wide, height: high }
 }
 
-/// A part of a picture.
+/// Cuts a part out of a picture.
 fn cut(picture: &Picture, crop: Crop) -> Picture {
     let mut part = Picture::black(crop.width, crop.height);
     let rows = picture.pixels.chunks_exact(picture.width as usize).skip(crop.y as usize);
@@ -118,8 +118,8 @@ fn cut(picture: &Picture, crop: Crop) -> Picture {
     part
 }
 
-/// For each pixel whether what its middle ray hits first has a picture on it of which the pixel spans more
-/// than two texels both ways.
+/// Returns for each pixel whether it is wide. The ray through the middle of a wide pixel first hits an
+/// object with a texture, and there the pixel spans more than two texels in both directions.
 fn wide_pixels(prepared: &Prepared<'_>, (width, height): (u32, u32), crop: Crop) -> Vec<bool> {
     let layers = vec![Layer::Object, Layer::Footprint];
     let settings = Settings::new(width, height, Filter::Tent);
@@ -134,7 +134,8 @@ fn wide_pixels(prepared: &Prepared<'_>, (width, height): (u32, u32), crop: Crop)
     let hits = channel("object.id").iter().zip(spans);
     hits.map(|(object, (across, up))| {
         let parts = scene.objects.get(*object as usize).map(|object| object.parts.as_slice());
-        // Of an object with several pictures the coarsest counts: which one was hit is not told.
+        // Of an object with several textures the coarsest counts, since the layers do not tell which
+        // one was hit.
         let sizes = parts.into_iter().flatten().filter_map(|part| {
             let texture = &scene.textures[part.picture()?];
             let across = f64::from(*across) * texture.width as f64;

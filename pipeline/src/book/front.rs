@@ -1,4 +1,4 @@
-//! The front of the book: its title, how to read it, and what is in it.
+//! The front of the book: its title, a guide for readers, and the contents.
 
 use super::image::address;
 use super::leaf::figures_in_words;
@@ -10,10 +10,10 @@ use crate::sheet::thumbnail;
 use maud::{Markup, html};
 use std::time::Duration;
 
-/// Pixels along the longer side of a picture in the contents.
+/// Longer side of a picture in the contents, in pixels.
 const THUMBNAIL: u32 = 192;
 
-/// What is on the front.
+/// The front of the book.
 #[derive(Debug)]
 pub struct Front {
     truth: u32,
@@ -31,7 +31,7 @@ struct Line {
     times: Vec<Time>,
 }
 
-/// A figure of the thesis whose time is known.
+/// A figure whose time the thesis reports.
 #[derive(Debug)]
 struct Time {
     figure: String,
@@ -41,16 +41,16 @@ struct Time {
 }
 
 impl Front {
-    /// A front without pages.
+    /// Makes a front without pages.
     #[must_use]
     pub fn new(options: &Options) -> Self {
         Self { truth: options.truth, frontispiece: None, contents: Vec::new() }
     }
 
-    /// Takes a page into the contents; as `frontispiece` its picture is shown large too.
+    /// Adds a page to the contents. With `frontispiece` the picture is also shown large on the front.
     ///
     /// # Errors
-    /// When a picture does not fit a PNG.
+    /// When a picture cannot be encoded as PNG.
     pub fn take(
         &mut self,
         entry: &Entry<'_>,
@@ -82,7 +82,7 @@ impl Front {
         Ok(())
     }
 
-    /// The front as HTML.
+    /// Returns the front as HTML.
     #[must_use]
     pub fn print(&self) -> Markup {
         let (thesis, ours): (Vec<&Line>, Vec<&Line>) =
@@ -132,7 +132,7 @@ impl Front {
     }
 }
 
-/// The figures of the thesis beside their times of 1993.
+/// Returns a table of the thesis's figures with their times in 1993 and now.
 fn times(lines: &[&Line]) -> Markup {
     let rows = || lines.iter().flat_map(|line| line.times.iter().map(move |time| (line, time)));
     html! {

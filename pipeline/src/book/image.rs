@@ -1,4 +1,4 @@
-//! Pictures as a page holds them.
+//! Embeds pictures in a page.
 
 use crate::PipelineError;
 use crate::html::png_address;
@@ -8,10 +8,10 @@ use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use render::Picture;
 use render::color::Encoding;
 
-/// A picture as the address of a PNG that is the file itself, compressed as well as the encoder can.
+/// Returns a picture as a data URL that contains the PNG file, compressed as well as the encoder can.
 ///
 /// # Errors
-/// When the encoder refuses it.
+/// When the encoder refuses the picture.
 pub fn address(name: &str, picture: &Picture) -> Result<String, PipelineError> {
     let byte = |light: &f32| Encoding::Srgb.to_byte(f64::from(*light));
     let bytes: Vec<u8> = picture.pixels.as_flattened().iter().map(byte).collect();

@@ -12,13 +12,13 @@ use crate::stages::Stages;
 use maud::{Markup, html};
 use render::Picture;
 
-/// How the details are numbered.
+/// Letters that number the details.
 const LETTERS: [&str; 8] = ["a", "b", "c", "d", "e", "f", "g", "h"];
 
-/// The page of a job.
+/// Returns the page of a job.
 ///
 /// # Errors
-/// When a picture does not fit a PNG.
+/// When a picture cannot be encoded as PNG.
 pub fn leaf(
     entry: &Entry<'_>,
     plate: &Plate,
@@ -53,7 +53,7 @@ pub fn leaf(
     })
 }
 
-/// Figures as a heading names them; their numbers ascend.
+/// Returns the heading of a list of figures, whose numbers must ascend.
 #[must_use]
 pub fn figures_in_words(figures: &[u8]) -> String {
     let word = if figures.len() == 1 { "Figure" } else { "Figures" };
@@ -64,7 +64,7 @@ fn letter(k: usize) -> &'static str {
     LETTERS.get(k).copied().unwrap_or("…")
 }
 
-/// The whole pictures, one over the other; the last is seen first.
+/// Returns the whole pictures stacked in one view with tabs. The last picture is visible first.
 fn views(plate: &Plate, id: &str) -> Result<Markup, PipelineError> {
     let own: Vec<&Shot> = plate.shots.iter().filter(|shot| shot.own).collect();
     let mut pictures = Vec::new();
@@ -104,7 +104,7 @@ fn views(plate: &Plate, id: &str) -> Result<Markup, PipelineError> {
     })
 }
 
-/// Where a detail lies in the whole.
+/// Returns the frame that shows the position of a detail in the whole picture.
 fn frame(detail: &Detail, whole: &Picture, letter: &str) -> Markup {
     let percent = |part: u32, all: u32| format!("{:.3}%", 100.0 * f64::from(part) / f64::from(all));
     let style = format!(
@@ -117,7 +117,7 @@ fn frame(detail: &Detail, whole: &Picture, letter: &str) -> Markup {
     html! { span.frame style=(style) { span { (letter) } } }
 }
 
-/// What each mode cost and how wrong it is.
+/// Returns the table of each mode's costs and error.
 fn costs(plate: &Plate) -> Markup {
     let own: Vec<&Shot> = plate.shots.iter().filter(|shot| shot.own).collect();
     let all = |shot: &Shot| (plate.shared.total() + shot.stages.total()).as_secs_f64();
@@ -194,7 +194,7 @@ fn meshes(plate: &Plate) -> String {
     }
 }
 
-/// A detail in each mode, side by side.
+/// Returns a detail in each mode, side by side.
 fn strip(plate: &Plate, detail: &Detail, letter: &str) -> Result<Markup, PipelineError> {
     let shots: Vec<&Shot> = in_details(&plate.shots).collect();
     let mut pictures = Vec::new();
@@ -243,12 +243,12 @@ fn strip(plate: &Plate, detail: &Detail, letter: &str) -> Result<Markup, Pipelin
     })
 }
 
-/// A part of a whole, 0 to 1.
+/// Formats a fraction in [0, 1] as a percentage.
 fn percent(part: f64) -> String {
     if part < 0.01 { "less than 1 %".into() } else { format!("{:.0} %", 100.0 * part) }
 }
 
-/// The commands that make the pictures.
+/// Returns the commands that make the pictures.
 fn command(entry: &Entry<'_>, plate: &Plate, options: &Options) -> Markup {
     let size = match options.size {
         (512, 512) => String::new(),

@@ -1,9 +1,9 @@
-//! The picture book: pages with their pictures, modes, costs and errors, as one file of HTML.
+//! The picture book: pages with their pictures, modes, costs and errors, as one HTML file.
 //!
-//! Each page of it is made as [`crate::run()`] makes it ([`Plate`]), and looked at closely: parts of it
-//! pixel by pixel in each mode beside what they ought to be ([`Detail`], [`crate::truth`]), where its time went,
-//! and its files. The book refers to nothing outside of it. Its pictures and errors are the same whenever
-//! it is made; its times are measured.
+//! Each page is rendered as [`crate::run()`] renders it ([`Plate`]). The book shows parts of each
+//! picture pixel by pixel, in each mode and beside the truth ([`Detail`], [`crate::truth`]). It also
+//! shows the time of each stage and the files of the job. The book refers to nothing outside itself.
+//! Its pictures and errors are the same in every run; its times are measured.
 
 pub mod argument;
 pub mod detail;
@@ -24,10 +24,10 @@ use std::path::Path;
 
 const STYLE: &str = include_str!("style.css");
 
-/// What the file is called.
+/// The file name of the book.
 pub const FILE: &str = "book.html";
 
-/// The page that is the book's first picture, if it is in it.
+/// The name of the page whose picture opens the book, if the book has that page.
 const FRONTISPIECE: &str = "frontispiece";
 
 /// A job for the book.
@@ -35,28 +35,29 @@ const FRONTISPIECE: &str = "frontispiece";
 pub struct Entry<'a> {
     /// The job.
     pub job: &'a Job,
-    /// Its file.
+    /// The path of the job's file.
     pub path: &'a Path,
-    /// Where it and its files are.
+    /// The source of the job's file and of the files that it names.
     pub source: &'a dyn Source,
-    /// What `pipeline run` calls it.
+    /// The argument that names the job on the command line of `pipeline run`.
     pub argument: &'a str,
 }
 
-/// How the book is made.
+/// Options of the book.
 #[derive(Debug, Clone)]
 pub struct Options {
-    /// Pixels across and down of each picture.
+    /// Width and height of each picture, in pixels.
     pub size: (u32, u32),
-    /// Rays along each side of a pixel of a truth, for each of two seeds; 0 for no truths and no errors.
+    /// Rays along each side of a pixel of a truth, for each of two seeds. 0 leaves out truths and
+    /// errors.
     pub truth: u32,
 }
 
-/// Makes the book: the figures of the thesis in their order, then the others as they come. `tell` is told of each
-/// page that is made.
+/// Makes the book. Pages with figures of the thesis come first, by figure number, then the
+/// frontispiece, then the others in the order of `entries`. `tell` is called after each page.
 ///
 /// # Errors
-/// On the first thing that is wrong with a job or one of its files.
+/// On the first error in a job or in one of its files.
 pub fn book(
     entries: &[Entry<'_>],
     options: &Options,
@@ -90,7 +91,7 @@ pub fn book(
     Ok(styled_page("Topobook: the picture book", STYLE, &body))
 }
 
-/// A name as part of an anchor: letters, digits and hyphens.
+/// Returns a name as part of an anchor, with hyphens for all characters but ASCII letters and digits.
 fn word(name: &str) -> String {
     name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect()
 }

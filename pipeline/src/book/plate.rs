@@ -1,4 +1,4 @@
-//! A page of the book, made and measured.
+//! Renders and measures a page of the book.
 
 use super::Entry;
 use super::detail::{Detail, most_different};
@@ -18,41 +18,42 @@ use render::{Picture, Prepared, Sampling, Scene};
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
-/// All that the book shows of a job.
+/// The pictures, measures and texts of a job that the book shows.
 #[derive(Debug)]
 pub struct Plate {
-    /// The meshes that were made, and how many triangles each has.
+    /// Each mesh of the job: its name and its number of triangles.
     pub meshes: Vec<(String, usize)>,
-    /// What meshes and scene took, which all modes share.
+    /// Times of meshes and scene, which all modes share.
     pub shared: Stages,
-    /// The modes, those of the job first.
+    /// The pictures of the modes, those of the job first.
     pub shots: Vec<Shot>,
-    /// Parts pixel by pixel.
+    /// Parts of the pictures, shown pixel by pixel.
     pub details: Vec<Detail>,
-    /// The job, its scene and its specs.
+    /// Texts of the job, its scene and its specs.
     pub texts: Vec<SourceText>,
 }
 
-/// A picture in a mode.
+/// A picture in one mode.
 #[derive(Debug)]
 pub struct Shot {
     /// The mode.
     pub mode: Mode,
-    /// Whether it is of the job, and not made only to be compared with.
+    /// Whether the mode belongs to the job. False for a picture made only for comparison.
     pub own: bool,
     /// The picture.
     pub picture: Picture,
-    /// Its rays and texels.
+    /// Counts of rays and texels.
     pub stats: Stats,
-    /// What it took by itself.
+    /// Times of this mode, without the stages that all modes share.
     pub stages: Stages,
-    /// Root mean square error of the whole in linear light, where it was measured.
+    /// Root mean square error of the whole picture in linear light, where it was measured.
     pub error: Option<f64>,
 }
 
 impl Plate {
-    /// Makes the pictures of a job, and measures them by truths of `truth * truth` rays in each pixel of a detail
-    /// for each of two seeds, of a quarter along each side for whole pictures; by none if it is 0.
+    /// Renders the pictures of a job and measures them. The truth of a detail has `truth * truth` rays
+    /// in each pixel, for each of two seeds. The truth of a whole picture has a quarter of that number
+    /// along each side. With `truth` 0 nothing is measured.
     ///
     /// # Errors
     /// When a file cannot be read or is wrong.
@@ -79,7 +80,7 @@ impl Plate {
             };
             shots.push(Shot::make(&prepared, &mode, false, options.size)?);
         }
-        // A comparison of the thesis, or a page with modes of its own to compare: judged as a whole.
+        // A job with several modes is a comparison, so whole pictures are measured too.
         if truth > 0 && job.modes.len() > 1 {
             let whole = Crop::whole(options.size.0, options.size.1);
             let truth = Pair::render(&prepared, options.size, whole, truth.div_ceil(4), &|_, _| {});
@@ -93,7 +94,7 @@ impl Plate {
         Ok(Self { meshes, shared, details: details.collect(), shots, texts: texts(entry)? })
     }
 
-    /// What the job took in all: meshes, scene and its own modes.
+    /// Returns the times of the whole job: meshes, scene and the job's own modes.
     #[must_use]
     pub fn total(&self) -> Stages {
         let mut total = self.shared;
@@ -113,7 +114,7 @@ impl Shot {
     ) -> Result<Self, PipelineError> {
         let (picture, mut stats) = render::render(prepared, &run::settings(mode, size), &|_, _| {});
         let started = Instant::now();
-        // As `run` would write it, so that the times are those of `run`.
+        // The picture is encoded as `run` encodes it, so that the times equal those of `run`.
         encode::encode(&picture, Format::Png, Encoding::Srgb)
             .map_err(|source| PipelineError::Encode { name: mode.name.clone(), source })?;
         stats.write_time = started.elapsed();
@@ -122,13 +123,14 @@ impl Shot {
     }
 }
 
-/// The shots that details show: the point sampled first, to which the others are compared.
+/// Returns the shots in the order of details. A point-sampled shot that was added for comparison comes
+/// first.
 pub fn in_details(shots: &[Shot]) -> impl Iterator<Item = &Shot> {
     let is_first = |shot: &&Shot| shot.mode.filter == Filter::Point && !shot.own;
     shots.iter().filter(is_first).chain(shots.iter().filter(move |shot| !is_first(shot)))
 }
 
-/// The places of the job, or the one where its modes differ most.
+/// Returns the positions that the job names, or else the position where its modes differ most.
 fn places(crops: &[Place], shots: &[Shot]) -> Vec<Place> {
     if !crops.is_empty() {
         return crops.to_vec();
@@ -143,16 +145,16 @@ fn places(crops: &[Place], shots: &[Shot]) -> Vec<Place> {
     }
 }
 
-/// What all modes of a job share.
+/// Results that all modes of a job share.
 #[derive(Debug, Default)]
 struct Shared {
-    /// The meshes that were made, and how many triangles each has.
+    /// Each mesh: its name and its number of triangles.
     meshes: Vec<(String, usize)>,
-    /// What they and the scene took.
+    /// Times of the meshes and the scene.
     stages: Stages,
 }
 
-/// The scene of a job, and what it took.
+/// Makes the scene of a job and measures the time.
 fn scene(entry: &Entry<'_>, options: &run::Options) -> Result<(Scene, Shared), PipelineError> {
     let shared = Mutex::new(Shared::default());
     let started = Instant::now();

@@ -1,36 +1,37 @@
-//! Errors of a picture, in linear light.
+//! Errors between two pictures, in linear light.
 
 use super::error::{CompareError, check_finite, check_sizes, place};
 use render::Picture;
 use serde::Serialize;
 
-/// How far the pixels of one picture, or of a part of it, are from those of another, in linear light
-/// where white is 1.
+/// Differences between the pixels of two pictures, or of a part of both, in linear light where white is
+/// 1.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Difference {
-    /// Pixels compared.
+    /// Number of pixels compared.
     pub pixels: usize,
     /// Root mean square over all pixels and the three channels.
     pub rmse: f64,
     /// The largest difference in any channel of any pixel.
     pub max: f64,
-    /// What the largest difference among the channels of a pixel does not exceed in 99.9 % of the pixels:
-    /// by nearest rank, the value number `ceil(0.999 * pixels)` of all in rising order. With fewer than
-    /// 1000 pixels that is the largest.
+    /// The 99.9th percentile of the pixels' errors, where the error of a pixel is its largest
+    /// difference in a channel. By nearest rank: the value number `ceil(0.999 * pixels)` in rising
+    /// order. With fewer than 1000 pixels this is the largest error.
     pub p999: f64,
-    /// The mean of first minus second over pixels and channels: brighter if above 0.
+    /// The mean of first minus second over pixels and channels. Above 0 where the first picture is
+    /// brighter.
     pub bias: f64,
 }
 
 impl Difference {
-    /// How far `first` is from `second`, over the pixels that `mask` has set, or over all of them.
+    /// Compares `first` with `second` over the pixels for which `mask` is true, or over all pixels.
     ///
-    /// Sums are compensated and taken row by row from the top: the result is the same for any number
-    /// of threads, and its relative error some units in the last place.
+    /// Sums are compensated and added row by row from the top. So the result is the same for any number
+    /// of threads, and its relative error is a few units in the last place.
     ///
     /// # Errors
-    /// When the sizes differ, also that of the mask, when no pixel is left, or when one that is
-    /// compared is not finite.
+    /// When the sizes differ (that of the mask too), when no pixel is left, or when a compared pixel is
+    /// not finite.
     pub fn between(
         first: &Picture,
         second: &Picture,
@@ -71,8 +72,8 @@ impl Difference {
     }
 }
 
-/// The place of the pixel with the largest difference in a channel, column and row from 0; of several
-/// equal ones the first, row by row. Nothing for equal pictures.
+/// Returns the column and row, from 0, of the pixel with the largest difference in a channel. Of
+/// several equal ones it is the first, row by row. Returns `None` for equal pictures.
 ///
 /// # Errors
 /// When the sizes differ or there are no pixels.
@@ -88,24 +89,24 @@ pub fn farthest(first: &Picture, second: &Picture) -> Result<Option<(u32, u32)>,
     Ok(found.map(|index| place(first.width, index)))
 }
 
-/// First minus second in each channel.
+/// Returns first minus second in each channel.
 fn channels((first, second): (&[f32; 3], &[f32; 3])) -> [f64; 3] {
     std::array::from_fn(|k| f64::from(first[k]) - f64::from(second[k]))
 }
 
-/// The error of a pixel: the largest difference among its channels.
+/// Returns the error of a pixel: the largest absolute difference among its channels.
 pub(super) fn magnitude(pair: (&[f32; 3], &[f32; 3])) -> f64 {
     channels(pair).iter().fold(0.0, |most, difference| difference.abs().max(most))
 }
 
-/// The 99.9th percentile of at least one value, by nearest rank.
+/// Returns the 99.9th percentile of at least one value, by nearest rank.
 fn permille_999(values: &mut [f64]) -> f64 {
     // ceil(0.999 n) = n - floor(n / 1000), counted from 1.
     let rank = values.len() - values.len() / 1000;
     *values.select_nth_unstable_by(rank - 1, f64::total_cmp).1
 }
 
-/// A sum that keeps what rounding loses (Neumaier 1974).
+/// A compensated sum, which keeps the rounding errors in `lost` (Neumaier 1974).
 #[derive(Debug, Clone, Copy, Default)]
 struct Sum {
     sum: f64,
@@ -170,9 +171,10 @@ mod tests {
 
     #[test]
     fn the_percentile_is_a_nearest_rank() {
-        // Pixel k is off by k: of 2000 pixels, number 1998 in rising order from 0 is off by 1997.
+        // Pixel k has the error k. Of 2000 pixels, number 1998 in rising order, counted from 1, has the
+        // error 1997.
         for (count, expected) in [(1u32, 0), (999, 998), (1000, 998), (1999, 1997), (2000, 1997)] {
-            // 7919 is prime and none of the counts a multiple: every k comes once, out of order.
+            // 7919 is prime and divides none of the counts, so every k occurs once, out of order.
             let pixels = (0..count).map(|k| [(k * 7919 % count) as f32, 0.0, 0.0]).collect();
             let found = between(&picture(count, pixels), &Picture::black(count, 1));
             assert_eq!(found.p999, f64::from(expected), "{count} pixels");
@@ -223,14 +225,14 @@ mod tests {
         fn it_is_a_distance([a, b, c] in pictures()) {
             let [ab, ba, bc, ac] = [(&a, &b), (&b, &a), (&b, &c), (&a, &c)].map(|(x, y)| between(x, y));
             prop_assert_eq!(ab, Difference { bias: -ba.bias, ..ba });
-            // Both norms have the inequality; 1e-12 is for their rounding.
+            // Both norms satisfy the triangle inequality; 1e-12 allows for their rounding.
             prop_assert!(ac.rmse <= ab.rmse + bc.rmse + 1e-12);
             prop_assert!(ac.max <= ab.max + bc.max + 1e-12);
             prop_assert!((ac.bias - ab.bias - bc.bias).abs() < 1e-12);
             prop_assert!(ab.bias.abs() <= ab.rmse + 1e-12 && ab.rmse <= ab.max + 1e-12);
         }
 
-        /// The squares of both halves add up to those of the whole, each by its pixels.
+        /// The sums of squares of both halves add up to that of the whole.
         #[test]
         fn masks_divide_the_whole(
             [a, b, _] in pictures(), mask in prop::collection::vec(any::<bool>(), 24),

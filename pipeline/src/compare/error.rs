@@ -1,29 +1,29 @@
-//! What keeps two pictures from being compared.
+//! Reasons why two pictures cannot be compared.
 
 use files::{Exit, Failure};
 use render::Picture;
 use thiserror::Error;
 
-/// Why two pictures in memory cannot be compared.
+/// A reason why two pictures in memory cannot be compared.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum CompareError {
-    /// They are not equally large.
+    /// The pictures differ in size.
     #[error("the first picture is {}x{} and the second {}x{}: expected the same size", first.0, first.1, second.0, second.1)]
     Sizes {
-        /// Pixels of the first across and down.
+        /// Width and height of the first picture, in pixels.
         first: (u32, u32),
-        /// Pixels of the second across and down.
+        /// Width and height of the second picture, in pixels.
         second: (u32, u32),
     },
-    /// A mask is not of the pictures' size.
+    /// The mask is not of the pictures' size.
     #[error("found a mask of {found} pixels, expected {expected}")]
     Mask {
-        /// Pixels of the mask.
+        /// Number of pixels of the mask.
         found: usize,
-        /// Pixels of each picture.
+        /// Number of pixels of each picture.
         expected: usize,
     },
-    /// There is nothing to be compared: no mean can be taken.
+    /// There are no pixels to compare, so no mean can be taken.
     #[error("found no pixels to compare, expected at least one")]
     NoPixels,
     /// A pixel is NaN or infinite.
@@ -33,9 +33,9 @@ pub enum CompareError {
         picture: &'static str,
         /// Column and row, from 0.
         place: (u32, u32),
-        /// 0 red, 1 green, 2 blue.
+        /// The channel: 0 red, 1 green, 2 blue.
         channel: usize,
-        /// What stands there.
+        /// The value of the channel.
         value: f32,
     },
 }
@@ -49,7 +49,7 @@ impl Failure for CompareError {
     }
 }
 
-/// Checks that two pictures have the same size, and at least a pixel.
+/// Checks that two pictures have the same size and at least one pixel.
 pub(super) fn check_sizes(first: &Picture, second: &Picture) -> Result<(), CompareError> {
     let sizes = [first, second].map(|picture| (picture.width, picture.height));
     if sizes[0] != sizes[1] {
@@ -61,7 +61,7 @@ pub(super) fn check_sizes(first: &Picture, second: &Picture) -> Result<(), Compa
     Ok(())
 }
 
-/// Checks that a pixel of one of the pictures is three finite numbers.
+/// Checks that the three channels of a pixel are finite.
 pub(super) fn check_finite(
     picture: &'static str,
     width: u32,
@@ -79,7 +79,7 @@ pub(super) fn check_finite(
     }
 }
 
-/// Column and row of a pixel by its index.
+/// Returns column and row, from 0, of the pixel with an index.
 pub(super) fn place(width: u32, index: usize) -> (u32, u32) {
     let width = width as usize;
     ((index % width) as u32, (index / width) as u32)

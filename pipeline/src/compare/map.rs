@@ -1,4 +1,4 @@
-//! A picture of where two pictures differ.
+//! Makes a map of the errors between two pictures.
 
 use super::Scale;
 use super::difference::magnitude;
@@ -7,11 +7,11 @@ use image::{ImageError, ImageFormat, Rgb, RgbImage};
 use render::Picture;
 use std::io::Cursor;
 
-/// The error map: each pixel has the colour of the largest difference among its channels, in linear
-/// light. Codes are sRGB.
+/// Returns the error map. The colour of each pixel stands for the largest absolute difference among its
+/// channels, in linear light where white is 1. Codes are sRGB.
 ///
 /// # Errors
-/// When the sizes differ, there are no pixels, or one is not finite.
+/// When the sizes differ, there are no pixels, or a pixel is not finite.
 pub fn map(first: &Picture, second: &Picture, scale: Scale) -> Result<RgbImage, CompareError> {
     check_sizes(first, second)?;
     let mut map = RgbImage::new(first.width, first.height);
@@ -24,7 +24,7 @@ pub fn map(first: &Picture, second: &Picture, scale: Scale) -> Result<RgbImage, 
     Ok(map)
 }
 
-/// The bytes of a map as a PNG file.
+/// Returns a map as the bytes of a PNG file.
 ///
 /// # Errors
 /// When the map is too large for the format.

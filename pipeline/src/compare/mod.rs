@@ -1,4 +1,4 @@
-//! How far one picture is from another: in numbers, and as a map.
+//! Compares two pictures: differences in numbers, and an error map.
 
 pub mod difference;
 pub mod error;

@@ -1,18 +1,18 @@
-//! Which colour stands for which error.
+//! Maps errors to colours.
 
 use colorous::INFERNO;
 use std::str::FromStr;
 
-/// The errors that a map tells apart, from the first colour to the last; those beyond have the colours
-/// at its ends.
+/// The range of errors that a map distinguishes, from the first colour to the last. Errors outside it
+/// have the colours at its ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Scale {
-    /// From 0 to `most`, evenly.
+    /// Errors from 0 to `most`, in even steps.
     Linear {
         /// The error that has the last colour, above 0.
         most: f64,
     },
-    /// From `least` to `most`, equal ratios evenly.
+    /// Errors from `least` to `most`, in even ratios.
     Log {
         /// The error that has the first colour, above 0.
         least: f64,
@@ -21,8 +21,8 @@ pub enum Scale {
     },
 }
 
-/// Four decades up to white: from a third of the light of the first 8-bit code above black, which no PNG
-/// shows, to an error as large as the range of codes.
+/// Four decades up to an error of 1, the range of the codes. The least error is a third of the light of
+/// the first 8-bit code above black, which no PNG shows.
 impl Default for Scale {
     fn default() -> Self {
         Self::Log { least: 1e-4, most: 1.0 }
@@ -30,18 +30,19 @@ impl Default for Scale {
 }
 
 impl Scale {
-    /// Where an error lies between the first colour, 0, and the last, 1.
+    /// Returns the position of an error between the first colour, 0, and the last, 1. Errors outside
+    /// the scale have the position of the nearer end.
     #[must_use]
     pub fn position(self, error: f64) -> f64 {
         let position = match self {
             Self::Linear { most } => error / most,
             Self::Log { least, most } => (error / least).ln() / (most / least).ln(),
         };
-        // The logarithm of 0 is below everything.
+        // The logarithm of 0 is minus infinity, which is clamped to 0.
         position.clamp(0.0, 1.0)
     }
 
-    /// The error at a position from 0 to 1.
+    /// Returns the error at a position in [0, 1].
     #[must_use]
     pub fn error(self, position: f64) -> f64 {
         match self {
@@ -50,21 +51,23 @@ impl Scale {
         }
     }
 
-    /// The colour of an error, as sRGB codes: from black over violet, red and orange to a pale yellow,
-    /// lighter with every step (inferno, by van der Walt and Smith), so that it is read in grey as well.
+    /// Returns the colour of an error, as sRGB codes. The colours run from black over violet, red and
+    /// orange to a pale yellow. They get lighter with every step (inferno, by van der Walt and Smith),
+    /// so the map can also be read in grey.
     #[must_use]
     pub fn color(self, error: f64) -> [u8; 3] {
         color_at(self.position(error))
     }
 
-    /// Errors to be named beside a legend, rising: the decades of a logarithmic scale with its ends, or
-    /// five even steps.
+    /// Returns errors to label in a legend, in rising order: the ends and the decades between them of a
+    /// logarithmic scale, or five even steps of a linear one.
     #[must_use]
     pub fn ticks(self) -> Vec<f64> {
         match self {
             Self::Linear { most } => (0..=4).map(|k| most * f64::from(k) / 4.0).collect(),
             Self::Log { least, most } => {
-                // So that the logarithm of 1e-4 is -4 whichever way it is rounded.
+                // The offsets keep -4 a whole number here, in whichever direction the logarithm of 1e-4
+                // is rounded.
                 let [low, high] = [least.log10() + 1e-9, most.log10() - 1e-9];
                 let decades = low.ceil() as i32..=high.floor() as i32;
                 let between = decades.map(|power| format!("1e{power}").parse().unwrap_or(least));
@@ -74,7 +77,7 @@ impl Scale {
     }
 }
 
-/// The colour at a position from 0 to 1, as sRGB codes.
+/// Returns the colour at a position in [0, 1], as sRGB codes. Positions outside are clamped.
 #[must_use]
 pub fn color_at(position: f64) -> [u8; 3] {
     let color = INFERNO.eval_continuous(position.clamp(0.0, 1.0));

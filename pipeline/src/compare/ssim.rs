@@ -1,39 +1,39 @@
-//! The structural similarity of two pictures (Wang, Bovik, Sheikh and Simoncelli 2004).
+//! Computes the structural similarity of two pictures (Wang, Bovik, Sheikh and Simoncelli 2004).
 //!
-//! What is compared is luma: the weighted sum of the sRGB codes, as a screen shows them, since the
-//! measure stands for what an eye sees and was fitted to codes. (Its authors take the luminance of
-//! 8-bit pictures; here codes are not rounded.) Light beyond white counts as white.
+//! The measure compares luma: the weighted sum of the sRGB codes, as a screen shows them. It models
+//! what an eye sees and was fitted to codes. (Its authors take the luminance of 8-bit pictures; here
+//! codes are not rounded.) Light beyond white counts as white.
 //!
 //! Means, variances and the covariance are weighted by a Gaussian window of 11 x 11 pixels. As in the
-//! authors' own program only windows that lie whole in the picture count, and the picture is not made
-//! smaller before. It is done here because crates that offer SSIM take other windows (`image-compare`
-//! squares of 8 x 8 pixels) or measure something newer (`dssim-core` and `ssimulacra2` at several
-//! scales), whose numbers stand beside no paper's.
+//! authors' own program, only windows that lie entirely in the picture count, and pictures are not
+//! downsampled first. This module exists because crates that offer SSIM use other windows
+//! (`image-compare`: squares of 8 x 8 pixels) or newer measures (`dssim-core` and `ssimulacra2`, at
+//! several scales). Their numbers cannot be compared with published ones.
 
 use super::error::{CompareError, check_finite, check_sizes};
 use render::Picture;
 use render::color::Encoding;
 
-/// Pixels along the side of the window.
+/// Side of the window in pixels.
 pub const WINDOW: usize = 11;
 
-/// The window's standard deviation in pixels.
+/// Standard deviation of the window in pixels.
 const SIGMA: f64 = 1.5;
 
-/// Keeps dark places from being divided by nothing: `(K1 L)^2` with `K1 = 0.01` and a range `L` of 1.
+/// Stabilises the division in dark areas: `(K1 L)^2` with `K1 = 0.01` and a range `L` of 1.
 const C1: f64 = 0.01 * 0.01;
 
-/// The same for even places: `(K2 L)^2` with `K2 = 0.03`.
+/// Stabilises the division in even areas: `(K2 L)^2` with `K2 = 0.03` and a range `L` of 1.
 const C2: f64 = 0.03 * 0.03;
 
 /// Weights of red, green and blue codes in luma (ITU-R BT.709).
 const LUMA: [f64; 3] = [0.2126, 0.7152, 0.0722];
 
-/// The mean structural similarity of two pictures, at most 1, which equal pictures have. Nothing for
-/// pictures in which no window of [`WINDOW`] pixels fits.
+/// Returns the mean structural similarity of two pictures, at most 1. Equal pictures have 1. Returns
+/// `None` for pictures in which no window of [`WINDOW`] pixels fits.
 ///
 /// # Errors
-/// When the sizes differ, there are no pixels, or one is not finite.
+/// When the sizes differ, there are no pixels, or a pixel is not finite.
 pub fn ssim(first: &Picture, second: &Picture) -> Result<Option<f64>, CompareError> {
     check_sizes(first, second)?;
     let (x, y) = (luma("first", first)?, luma("second", second)?);
@@ -61,7 +61,7 @@ pub fn ssim(first: &Picture, second: &Picture) -> Result<Option<f64>, CompareErr
     Ok(Some(sum / windows as f64))
 }
 
-/// The luma of each pixel, in `[0, 1]`.
+/// Returns the luma of each pixel, in `[0, 1]`.
 fn luma(name: &'static str, picture: &Picture) -> Result<Vec<f64>, CompareError> {
     let pixels = picture.pixels.iter().enumerate();
     pixels
@@ -73,8 +73,8 @@ fn luma(name: &'static str, picture: &Picture) -> Result<Vec<f64>, CompareError>
         .collect()
 }
 
-/// The weighted mean in every window that lies in the picture, row by row. The window is a product of
-/// two, so rows come first and columns after.
+/// Returns the weighted mean in every window that lies in the picture, row by row. The window is a
+/// product of two one-dimensional weights, so rows are averaged first and columns second.
 fn blurred(values: &[f64], width: usize, height: usize) -> Vec<f64> {
     let weights = weights();
     let (across, down) = (width + 1 - WINDOW, height + 1 - WINDOW);
@@ -88,7 +88,7 @@ fn blurred(values: &[f64], width: usize, height: usize) -> Vec<f64> {
         .collect()
 }
 
-/// The Gaussian along one axis; sums to 1.
+/// Returns the weights of the Gaussian along one axis; their sum is 1.
 fn weights() -> [f64; WINDOW] {
     let middle = (WINDOW / 2) as f64;
     let bell: [f64; WINDOW] =
@@ -110,7 +110,7 @@ mod tests {
         picture
     }
 
-    /// Codes without an order that one sees, from 0 to 1.
+    /// Codes in [0, 1] without a visible pattern.
     fn noise(seed: u32) -> impl Fn(u32, u32) -> f64 {
         move |x, y| {
             let mixed = (x * 7919 + y * 104_729 + seed).wrapping_mul(2_654_435_761);
@@ -122,7 +122,7 @@ mod tests {
         ssim(first, second).unwrap().unwrap()
     }
 
-    /// The measure as its paper writes it, window by window, with the variances as sums of squares of
+    /// The measure as its paper writes it, window by window, with variances as sums of squared
     /// deviations (equations 13 to 17).
     fn by_the_paper(first: &Picture, second: &Picture) -> f64 {
         let (x, y) = (luma("first", first).unwrap(), luma("second", second).unwrap());
@@ -157,7 +157,7 @@ mod tests {
         let first = codes(23, 17, noise(1));
         for second in [codes(23, 17, noise(2)), codes(23, 17, |x, y| 0.5 * noise(1)(x, y) + 0.2)] {
             let (ours, papers) = (of(&first, &second), by_the_paper(&first, &second));
-            // Variances as differences of squares lose some 1e-16 beside 9e-4.
+            // Variances as differences of squares lose about 1e-16 beside 9e-4.
             assert!((ours - papers).abs() < 1e-12, "{ours} {papers}");
             assert!(ours < 0.99);
         }

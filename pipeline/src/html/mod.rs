@@ -1,6 +1,6 @@
-//! Pages of HTML that stand alone: style and pictures within, no other file and no network.
+//! Writes self-contained HTML pages: style and pictures are inside, with no other file and no network.
 //!
-//! They follow the reader's choice of light or dark, and fit a telephone and a desk.
+//! Pages follow the reader's choice of light or dark, and fit both a telephone and a desktop screen.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -9,13 +9,13 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 const STYLE: &str = include_str!("style.css");
 
-/// A whole page with a title and a body.
+/// Returns a whole page with a title and a body.
 #[must_use]
 pub fn page(title: &str, body: &Markup) -> String {
     styled_page(title, "", body)
 }
 
-/// The same with more rules of style after those that all pages have.
+/// Returns a whole page whose `style` rules follow those that all pages have.
 #[must_use]
 pub fn styled_page(title: &str, style: &str, body: &Markup) -> String {
     let text = html! {
@@ -32,11 +32,12 @@ pub fn styled_page(title: &str, style: &str, body: &Markup) -> String {
         }
     }
     .into_string();
-    // Titles and texts of jobs are those of strangers, and may turn the direction of what follows.
+    // Titles and texts of jobs come from strangers. They may hold characters that change the writing
+    // direction of the text after them.
     printed(&text).into_owned()
 }
 
-/// The address of a PNG file that is the file itself.
+/// Returns a data URL that contains a PNG file.
 #[must_use]
 pub fn png_address(png: &[u8]) -> String {
     format!("data:image/png;base64,{}", STANDARD.encode(png))

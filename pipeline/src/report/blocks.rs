@@ -1,25 +1,28 @@
-//! How many rays each block of a picture gets, so that the noise of the whole is small enough for the
-//! fewest rays.
+//! Distributes rays over the blocks of a picture, so that the fewest rays make the noise of the whole
+//! picture small enough.
 
-/// Noise measured in a block.
+/// The noise measured in a block.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Block {
-    /// The sum of the squared differences between two pictures over its pixels and channels.
+    /// Sum of the squared differences between two pictures over the pixels and channels of the block,
+    /// in linear light.
     pub squares: f64,
-    /// Rays along each side of a pixel that each picture was made of.
+    /// Rays along each side of a pixel, in each of the two pictures.
     pub samples: u32,
-    /// Pixels.
+    /// Number of pixels.
     pub pixels: usize,
 }
 
 impl Block {
-    /// The squares to be expected with other samples: they fall as the number of rays grows, or faster.
+    /// Returns the expected squares with other samples. Squares fall in inverse proportion to the
+    /// number of rays in a pixel, or faster.
     fn squares_with(&self, samples: u32) -> f64 {
         self.squares * (f64::from(self.samples) / f64::from(samples)).powi(2)
     }
 
-    /// The samples it gets when an additional ray is worth `price`: rays go as the standard deviation of
-    /// one of them.
+    /// Returns the rays along each side of a pixel when an additional ray is worth `price`. The number
+    /// of rays in the pixel is proportional to the standard deviation of a single ray. Never fewer than
+    /// the block has; otherwise at most `most`.
     fn samples_at(&self, price: f64, most: u32) -> u32 {
         let deviation = f64::from(self.samples) * (self.squares / self.pixels as f64).sqrt();
         let wanted = (deviation * price).sqrt().ceil().min(f64::from(most));
@@ -27,9 +30,9 @@ impl Block {
     }
 }
 
-/// For each block the rays along each side of a pixel, never fewer than it has and at most `most`,
-/// for which the squares of all together are expected to be at most `goal`. When that cannot be had,
-/// what comes nearest.
+/// Returns for each block the rays along each side of a pixel, so that the expected squares of all
+/// blocks together are at most `goal`. A block never gets fewer rays than it has, and at most `most`.
+/// If `goal` cannot be reached, the result comes as near as possible.
 #[must_use]
 pub fn allot(blocks: &[Block], goal: f64, most: u32) -> Vec<u32> {
     let at = |price: f64| -> Vec<u32> {
@@ -41,7 +44,7 @@ pub fn allot(blocks: &[Block], goal: f64, most: u32) -> Vec<u32> {
     if squares(&at(0.0)) <= goal {
         return at(0.0);
     }
-    // The price of the goal lies between these; 64 halvings find it to the last bit.
+    // The logarithm of the price lies between these bounds. 64 halvings find it to the last bit.
     let (mut low, mut high) = (-20.0_f64, 60.0_f64);
     for _ in 0..64 {
         let middle = 0.5 * (low + high);
@@ -71,11 +74,12 @@ mod tests {
             blocks.iter().zip(samples).map(|(block, &n)| block.squares_with(n)).sum()
         };
         assert!(left(&samples) <= 1.0, "{samples:?}");
-        // One step back along every side misses it: no more is given than is needed, up to rounding.
+        // One step back along every side misses the goal: no more rays are given than needed, up to
+        // rounding.
         let fewer: Vec<u32> = samples.iter().map(|n| (n - 1).max(8)).collect();
         assert!(left(&fewer) > 1.0, "{samples:?}");
-        // Noise twice as large gets rays as many times: 2 along both sides together. Blocks alike in a
-        // pixel get alike, and silence nothing.
+        // Twice the noise gets twice the rays, counted over both sides of a pixel. Blocks with equal
+        // noise in each pixel get equal rays, and a block without noise gets none.
         assert!((f64::from(samples[0]).powi(2) / f64::from(samples[1]).powi(2) - 2.0).abs() < 0.3);
         assert!(samples[3] > samples[1] && samples[2] == 8, "{samples:?}");
     }

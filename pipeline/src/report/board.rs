@@ -1,4 +1,4 @@
-//! A scene whose pixels are known: checks that are looked at straight from above.
+//! A scene whose pixels are known exactly: checks seen vertically from above.
 
 use crate::pages;
 use files::json::Document;
@@ -6,16 +6,16 @@ use render::scene::{MeshSource, read};
 use render::{Picture, Scene};
 use std::path::Path;
 
-/// The board is seen from this height; its checks are half a unit wide.
+/// Height of the eye above the board, in scene units. The checks are half a unit wide.
 const HEIGHT: f64 = 10.0;
 
-/// Width and height of what is seen: pixels cut checks in ever other places.
+/// Side of the visible square, in scene units. The value makes pixels cut checks at varying positions.
 const SEEN: f64 = 7.3;
 
-/// Where the middle of the picture is.
+/// The point of the board in the middle of the picture: x and z.
 const MIDDLE: [f64; 2] = [0.13, -0.21];
 
-/// The board, by the texture of the scenes that other renderers were measured on.
+/// Returns the board with the texture of the scenes on which other renderers were measured.
 pub fn scene() -> Scene {
     let fov = 2.0 * (0.5 * SEEN / HEIGHT).atan().to_degrees();
     let [x, z] = MIDDLE;
@@ -34,17 +34,18 @@ pub fn scene() -> Scene {
     read::resolve(&document, &file, folder, &pages::FILES, MeshSource::new()).unwrap()
 }
 
-/// The picture of the board without any noise, of `side * side` pixels.
+/// Returns the picture of the board without any noise, `side * side` pixels, linear RGB.
 ///
-/// Interpolated checks are a mean plus a product of two waves, one along each axis; so a pixel is the mean
-/// plus the product of the waves' averages over its sides, which are summed up finely.
+/// Interpolated checks are a mean plus a product of two waves, one along each axis. So a pixel is the
+/// mean plus the product of the two waves' averages over the pixel's sides. Fine sums compute these
+/// averages.
 pub fn exact(side: u32) -> Picture {
     let [dark, light] = [26.0 / 255.0, 230.0 / 255.0];
     let averages = |middle: f64| -> Vec<f64> {
         let pixel = SEEN / f64::from(side);
         let average = |k: u32| {
             let start = middle - 0.5 * SEEN + f64::from(k) * pixel;
-            // The middles of so many parts: their sum is exact but for the parts where the wave bends.
+            // The sum over the middles of the parts is exact, except for parts in which the wave bends.
             let parts = 20_000;
             let wave = |i: u32| wave(start + (f64::from(i) + 0.5) * pixel / f64::from(parts));
             (0..parts).map(wave).sum::<f64>() / f64::from(parts)
@@ -62,8 +63,9 @@ pub fn exact(side: u32) -> Picture {
     picture
 }
 
-/// 1 between 0 and half a unit, -1 in the next, and between the texels at a border, of which 128 are a unit
-/// long, straight from one to the other.
+/// Returns 1 for x between 0 and half a unit, -1 in the next half unit, and so on. At a border the wave
+/// runs straight from one value to the other, between the middles of the two texels beside the border.
+/// A unit has 128 texels.
 fn wave(x: f64) -> f64 {
     let border = (2.0 * x).round() * 0.5;
     let away = (x - border) * 128.0;

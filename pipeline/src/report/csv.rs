@@ -1,4 +1,4 @@
-//! The numbers of a report as comma separated values.
+//! Writes the numbers of a report as comma separated values, and reads tables back.
 
 use super::measured::{Measured, PageMeasured, Table, Trial};
 use crate::compare::Difference;
@@ -28,11 +28,13 @@ const COLUMNS: [&str; 20] = [
     "threads",
 ];
 
-/// One row for each page, method and region, that of the whole picture first (`whole`).
+/// Returns one row for each page, method and region; the region of the whole picture (`whole`) comes
+/// first.
 ///
-/// Errors are in linear light, where white is 1. `truth_noise` is about the error of the truth itself, in the
-/// same part of the picture; it is taken out of `rmse`. `settled` says whether that is a tenth of the
-/// error at most: then the two pictures of which the truth is the mean differ by a fifth of it.
+/// Errors are in linear light, where white is 1. `truth_noise` is about the error of the truth itself
+/// in the same region; it is subtracted from `rmse`, as squares. `settled` says whether `truth_noise`
+/// is at most a tenth of `rmse`. In that case the two pictures whose mean is the truth differ by at
+/// most a fifth of `rmse`.
 #[must_use]
 pub fn trials(measured: &Measured) -> String {
     let mut text = line(COLUMNS.iter().copied());
@@ -84,8 +86,8 @@ fn row(
     line(cells.iter().map(String::as_str))
 }
 
-/// How a pixel is made of rays, as the flags of `render` say it: `3` for `--samples 3`, or the name of the
-/// thesis's supersampling.
+/// Returns the rays of a pixel in the words of the flags of `render`: `3` for `--samples 3`, or the
+/// name of the thesis's supersampling.
 fn rays(sampling: Sampling) -> String {
     match sampling {
         Sampling::Nine(Nine::Image) => "supersample=image".into(),
@@ -103,14 +105,14 @@ fn rays(sampling: Sampling) -> String {
     }
 }
 
-/// A table by itself, with the names of its columns.
+/// Returns one table, with the names of its columns in the first line.
 #[must_use]
 pub fn table(table: &Table) -> String {
     let rows = std::iter::once(&table.columns).chain(&table.rows);
     rows.map(|row| line(row.iter().map(String::as_str))).collect()
 }
 
-/// Cells with commas or quotation marks stand in quotation marks.
+/// Returns a line of cells. Cells with commas, quotation marks or line breaks are quoted.
 fn line<'a>(cells: impl Iterator<Item = &'a str>) -> String {
     let quoted = |cell: &str| {
         if cell.contains([',', '"', '\n']) {
@@ -122,7 +124,7 @@ fn line<'a>(cells: impl Iterator<Item = &'a str>) -> String {
     cells.map(quoted).collect::<Vec<String>>().join(",") + "\n"
 }
 
-/// The columns and rows of a text of comma separated values, without line breaks in cells.
+/// Reads the columns and rows of a text of comma separated values. Cells must not contain line breaks.
 #[must_use]
 pub fn read(text: &str) -> (Vec<String>, Vec<Vec<String>>) {
     let mut rows = text.lines().filter(|line| !line.is_empty()).map(cells);

@@ -1,4 +1,4 @@
-//! Made-up measurements, to hold plots and sentences against.
+//! Made-up measurements for tests of plots and sentences.
 
 use super::measured::{Cost, Measured, Method, PageMeasured, Region, Table, Trial, Truth};
 use crate::compare::Difference;
@@ -6,16 +6,18 @@ use render::film::Nine;
 use render::filter::Filter;
 use render::{Picture, Sampling};
 
-/// Pixels of the pictures.
+/// Width and height of the pictures, in pixels.
 pub const SIZE: (u32, u32) = (96, 64);
 
-/// Rays along a side of a pixel.
+/// Rays along each side of a pixel.
 pub const COUNTS: [u32; 5] = [1, 2, 3, 4, 8];
 
-/// The error of a filter with so many rays along a side, and the processor time in seconds.
+/// Returns the error of a filter and its processor time in seconds, for a number of rays along each
+/// side of a pixel.
 pub type Law<'a> = dyn Fn(Filter, f64) -> (f64, f64) + 'a;
 
-/// What a filter leaves of the error of one bilinear ray on a floor, and what a ray with it costs.
+/// The law of a floor: the error that each filter leaves, relative to one bilinear ray, and the time of
+/// its rays.
 pub fn floor(filter: Filter, n: f64) -> (f64, f64) {
     let (left, slope, price) = match filter {
         Filter::Point => (1.2, 1.0, 0.9),
@@ -28,12 +30,13 @@ pub fn floor(filter: Filter, n: f64) -> (f64, f64) {
     (0.2 * left / n.powf(slope), 0.02 * price * n * n)
 }
 
-/// Errors that no filter changes.
+/// The law of edges: errors that no filter changes.
 pub fn edges(filter: Filter, n: f64) -> (f64, f64) {
     (0.212 / n, floor(filter, n).1)
 }
 
-/// A page with the methods that a report takes, of which each region has a law of its own.
+/// Makes a page with the methods of a report. The whole page has the law `whole`, and each region its
+/// own.
 pub fn page(name: &str, whole: &Law<'_>, regions: &[(&'static str, &Law<'_>)]) -> PageMeasured {
     let pixels = (SIZE.0 * SIZE.1) as usize;
     let mut methods: Vec<(Method, f64)> = Vec::new();
@@ -88,7 +91,7 @@ pub fn page(name: &str, whole: &Law<'_>, regions: &[(&'static str, &Law<'_>)]) -
     }
 }
 
-/// A report of pages.
+/// Makes a report of pages.
 pub fn measured(pages: Vec<PageMeasured>) -> Measured {
     let filters = table(
         "filters",
@@ -98,7 +101,7 @@ pub fn measured(pages: Vec<PageMeasured>) -> Measured {
     Measured { pages, threads: 2, quick: false, tables: vec![filters] }
 }
 
-/// A table of cells that are set apart by commas.
+/// Makes a table from rows of cells separated by commas.
 pub fn table(name: &'static str, columns: &str, rows: &[&str]) -> Table {
     let cells = |text: &str| text.split(',').map(str::to_string).collect();
     Table {
@@ -116,7 +119,7 @@ fn difference(pixels: usize, rmse: f64) -> Difference {
     Difference { pixels, rmse, max: (4.0 * rmse).min(1.0), p999: 3.0 * rmse, bias: 0.0 }
 }
 
-/// Checks in perspective, with an error that grows toward the bottom.
+/// Returns checks with an error that grows toward the bottom.
 fn picture(error: f32, salt: usize) -> Picture {
     let mut picture = Picture::black(SIZE.0, SIZE.1);
     for (k, pixel) in picture.pixels.iter_mut().enumerate() {

@@ -1,7 +1,7 @@
-//! Renders a page by every method, in turn, and holds the pictures against the truth.
+//! Renders a page by every method, in turn, and compares the pictures with the truth.
 //!
-//! What else the machine does comes and goes: so the methods take turns, round after round, and of
-//! each the median of its rounds counts. Those that take long have one round.
+//! The load of the machine varies. So the methods take turns, round after round, and the median of a
+//! method's rounds counts. Slow methods have only one round.
 
 use super::measured::{Cost, Method, PageMeasured, Region, Trial, Truth};
 use super::plan::Plan;
@@ -12,35 +12,37 @@ use render::stats::Stats;
 use render::{Picture, Prepared, Scene, Settings};
 use std::time::{Duration, Instant};
 
-/// Rounds of a method at most.
+/// Largest number of rounds of a method.
 const MOST_ROUNDS: usize = 9;
 
-/// How often the truth is made better at most: what is needed is a guess from what was measured.
+/// Largest number of refinements of the truth. Each refinement estimates the rays needed from the noise
+/// measured, so one may not be enough.
 const MOST_REFINEMENTS: usize = 3;
 
-/// The largest difference between the two pictures of the truth, by the smallest error held against it.
+/// The truth counts as settled when its two pictures differ by at most this fraction of the smallest
+/// error. Both are root mean squares.
 const SETTLED: f64 = 0.2;
 
-/// Measures what a program uses, as no library can.
+/// Measures processor time and memory of the program, which a library cannot do.
 pub trait Meter: Sync {
-    /// Processor time that the program has taken so far, over all threads.
+    /// Returns the processor time that the program has used so far, over all threads.
     fn cpu(&self) -> Duration;
-    /// Starts to look for the most memory held at once, and says what is held now, in bytes.
+    /// Starts a new measurement of peak memory, and returns the memory held now, in bytes.
     fn mark(&self) -> usize;
-    /// The most memory held at once since the mark, in bytes.
+    /// Returns the most memory held at once since the last call of [`Meter::mark`], in bytes.
     fn peak(&self) -> usize;
 }
 
-/// What a measurement is doing: a word or two, and how much of how much is done.
+/// Reports progress: the activity in a word or two, the work done, and the total work.
 pub type Tell<'a> = &'a (dyn Fn(&str, usize, usize) + Sync);
 
 /// Measures a page.
 ///
-/// Runs on the threads of the current rayon pool. All but times and memory is the same for any number
-/// of them.
+/// Runs on the threads of the current rayon pool. Apart from times and memory, the result is the same
+/// for any number of threads.
 ///
 /// # Errors
-/// When a picture cannot be compared: it has a pixel that is not finite, which should not happen.
+/// When a picture has a pixel that is not finite and so cannot be compared. This should not happen.
 pub fn page(
     name: &str,
     title: &str,
@@ -80,16 +82,16 @@ pub fn page(
     Ok(PageMeasured { name, title, size: plan.size, truth, regions, trials })
 }
 
-/// The difference from the truth without the truth's own noise, as far as that is known: of the squares.
+/// Returns the difference from the truth with the truth's own noise subtracted from the mean square.
 ///
-/// For any picture m and truths A and B of two seeds, the mean of (m - A)(m - B) is free of their noise,
-/// which has nothing to do with each other, and (m - (A + B)/2)^2 - (A - B)^2/4 is the same number.
+/// Take a picture m and truths A and B of two seeds, whose noise is independent. The mean of (m - A)(m
+/// - B) is then free of this noise. (m - (A + B)/2)^2 - (A - B)^2/4 is the same number.
 fn without_noise(difference: Difference, noise: f64) -> Difference {
     let square = difference.rmse.powi(2) - noise.powi(2);
     Difference { rmse: square.max(0.0).sqrt(), ..difference }
 }
 
-/// A method's picture and what each of its rounds took.
+/// A method's picture and the costs of each of its rounds. Times are in seconds, memory in bytes.
 struct Turn {
     method: Method,
     picture: Picture,
@@ -117,14 +119,16 @@ impl Turn {
     }
 }
 
-/// The middle one of some numbers, the lower of two; 0 of none.
+/// Returns the median of some numbers: the lower of the two middle ones of an even number, and 0 of
+/// none.
 fn median(values: &[f64]) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
     sorted.get(sorted.len().saturating_sub(1) / 2).copied().unwrap_or(0.0)
 }
 
-/// Every method in turn, until each has been at work for long enough.
+/// Measures every method in turn, until each has been measured for the time `plan.patience` or for
+/// [`MOST_ROUNDS`] rounds.
 fn take_turns(scene: &Scene, plan: &Plan, meter: &dyn Meter, tell: Tell<'_>) -> Vec<Turn> {
     let methods = plan.methods();
     let count = methods.len();
@@ -149,14 +153,15 @@ fn take_turns(scene: &Scene, plan: &Plan, meter: &dyn Meter, tell: Tell<'_>) -> 
     turns
 }
 
-/// One picture by a method.
+/// Renders one picture by a method and measures its costs.
 fn measure(scene: &Scene, plan: &Plan, method: Method, meter: &dyn Meter) -> Turn {
     let (width, height) = plan.size;
     let settings =
         Settings { sampling: method.sampling, ..Settings::new(width, height, method.filter) };
     let held = meter.mark();
     let (cpu, started) = (meter.cpu(), Instant::now());
-    // Prepared anew each time: tables and structure are part of what a method costs.
+    // The scene is prepared anew each time, since tables and acceleration structure are part of a
+    // method's cost.
     let (picture, stats) = render::render(&Prepared::new(scene), &settings, &|_, _| {});
     let wall = started.elapsed().as_secs_f64();
     let cpu = meter.cpu().saturating_sub(cpu).as_secs_f64();
@@ -166,8 +171,8 @@ fn measure(scene: &Scene, plan: &Plan, method: Method, meter: &dyn Meter) -> Tur
     Turn { method, picture, stats, walls, cpus, tables, peaks }
 }
 
-/// The truth, made better until its two pictures differ by little beside the smallest error; and
-/// whether they do.
+/// Returns the truth, refined until its two pictures differ little in comparison to the smallest error,
+/// and whether that was reached.
 fn settle(
     scene: &Scene,
     plan: &Plan,
@@ -192,7 +197,7 @@ fn settle(
     Ok((pair, settled))
 }
 
-/// The smallest error of all pictures, that of the truth taken out.
+/// Returns the smallest error of all pictures, with the noise of the truth subtracted.
 fn smallest(pair: &Refined, turns: &[Turn]) -> Result<f64, CompareError> {
     let (truth, noise) = (pair.mean(), pair.noise(None));
     turns.iter().try_fold(f64::INFINITY, |smallest, turn| {
@@ -208,7 +213,7 @@ mod tests {
     use render::Sampling;
     use render::filter::Filter;
 
-    /// Measures nothing.
+    /// A meter that measures nothing.
     struct None;
 
     impl Meter for None {
@@ -250,7 +255,7 @@ mod tests {
         for trial in &page.trials {
             let picture = trial.picture.as_ref().unwrap();
             let right = Difference::between(picture, &exact, Option::None).unwrap().rmse;
-            // What is left of the truth's noise when its squares are taken out.
+            // A remainder of the truth's noise is left when the squares are subtracted.
             let wrong = (trial.whole.rmse - right).abs();
             assert!(wrong < 0.3 * page.truth.noise + 0.01 * right, "{:?}: {wrong}", trial.method);
         }

@@ -1,124 +1,125 @@
-//! What a report measures: plain numbers, before they become tables, curves and sentences.
+//! The results of a report's measurements as plain numbers, before they become tables, curves and
+//! sentences.
 
 use crate::compare::Difference;
 use render::filter::Filter;
 use render::{Picture, Sampling};
 use serde::Serialize;
 
-/// All that was measured of the pages.
+/// All measurements of a report.
 #[derive(Debug)]
 pub struct Measured {
     /// The pages, in the order asked for.
     pub pages: Vec<PageMeasured>,
-    /// Threads that made each picture.
+    /// Number of threads that rendered each picture.
     pub threads: usize,
-    /// Whether it was made in haste: small pictures, few methods.
+    /// Whether the report was made in haste: small pictures, few methods.
     pub quick: bool,
-    /// What else was measured, of the modeler and the filters by themselves.
+    /// Separate measurements of the modeler and the filters.
     pub tables: Vec<Table>,
 }
 
-/// Measurements that accompany those of the pages.
+/// A table of measurements that accompany those of the pages.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Table {
-    /// What its file is called, without the extension.
+    /// The name of the table, such as `filters`.
     pub name: &'static str,
-    /// What it is about, in a line.
+    /// The title of the table, one line.
     pub title: String,
-    /// What was measured, in a few sentences.
+    /// A description of the measurement, in a few sentences.
     pub about: String,
-    /// The command that measures it again, when it was measured elsewhere than here.
+    /// The command that repeats the measurement, if another program made it.
     pub command: Option<&'static str>,
     /// The names of the columns.
     pub columns: Vec<String>,
-    /// Rows of as many cells.
+    /// The rows. Each has as many cells as there are columns.
     pub rows: Vec<Vec<String>>,
-    /// A drawing of it: an SVG document.
+    /// A drawing of the table: an SVG document.
     pub drawing: Option<&'static str>,
 }
 
-/// A page: its truth, its regions, and what each method made of it.
+/// A page with its truth, its regions, and the trial of each method.
 #[derive(Debug)]
 pub struct PageMeasured {
     /// The job's name.
     pub name: String,
     /// The job's title.
     pub title: String,
-    /// Pixels across and down.
+    /// Width and height of the pictures, in pixels.
     pub size: (u32, u32),
-    /// The picture that the others are held against.
+    /// The truth, with which all pictures are compared.
     pub truth: Truth,
-    /// Parts of the picture that are judged by themselves; those without pixels are left out.
+    /// Parts of the picture that are judged separately; those without pixels are left out.
     pub regions: Vec<Region>,
-    /// One for each method, cheapest first within a filter.
+    /// One trial for each method: by filter, and within a filter from few rays to many.
     pub trials: Vec<Trial>,
 }
 
-/// A picture made of so many rays that it counts as right, and how right it is.
+/// A picture of so many rays that it counts as right, and its remaining noise.
 #[derive(Debug)]
 pub struct Truth {
-    /// The mean of the pictures of two seeds, in linear light.
+    /// The mean of the pictures of two seeds, in linear RGB.
     pub picture: Picture,
-    /// Jittered, unfiltered rays in each pixel, along each side, for each of the two seeds: at least.
+    /// Least number of jittered, unfiltered rays along each side of a pixel, for each of the two seeds.
     pub samples: u32,
-    /// The same where the picture is hardest: at most.
+    /// Largest number of such rays, in the noisiest block of the picture.
     pub most_samples: u32,
-    /// Half the root mean square difference between the pictures of the two seeds: about the error
-    /// of their mean.
+    /// Half the root mean square difference between the pictures of the two seeds, in linear light.
+    /// This is about the error of their mean.
     pub noise: f64,
-    /// The same within each of the page's regions, in their order.
+    /// The noise within each of the page's regions, in their order.
     pub noise_by_region: Vec<f64>,
-    /// Whether the pictures of the two seeds differ by at most a fifth of the smallest error reported of
-    /// the whole picture.
+    /// Whether the pictures of the two seeds differ by at most a fifth of the smallest error reported
+    /// for the whole picture.
     pub settled: bool,
 }
 
-/// Pixels that have something in common.
+/// A set of pixels with a common property.
 #[derive(Debug, Clone)]
 pub struct Region {
     /// One of `far floor`, `in mirrors`, `through glass`, `silhouettes`.
     pub name: &'static str,
-    /// For each pixel, row by row from the top, whether it belongs.
+    /// For each pixel, row by row from the top, whether the region contains it.
     pub mask: Vec<bool>,
 }
 
-/// A way to make a picture.
+/// A method of rendering a picture.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Method {
-    /// How textures are averaged.
+    /// The texture filter.
     pub filter: Filter,
-    /// How a pixel is made of rays.
+    /// The pattern of rays in a pixel.
     pub sampling: Sampling,
 }
 
-/// A picture by a method: what it cost, and how wrong it is.
+/// The trial of a method: its picture, the cost, and the error.
 #[derive(Debug)]
 pub struct Trial {
-    /// How it was made.
+    /// The method that rendered the picture.
     pub method: Method,
-    /// Its cost.
+    /// The cost of the picture.
     pub cost: Cost,
-    /// Its error over the whole picture. Of the root mean square, here and by region, the noise of the truth
-    /// is taken out.
+    /// The error over the whole picture. The noise of the truth is subtracted from all root mean
+    /// squares, here and in `by_region`.
     pub whole: Difference,
-    /// Its error in each of the page's regions, in their order.
+    /// The error in each of the page's regions, in their order.
     pub by_region: Vec<Difference>,
     /// The picture, where it is to be shown.
     pub picture: Option<Picture>,
 }
 
-/// What a picture cost.
+/// The cost of a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Cost {
     /// Wall-clock time of tables, structure and picture, without reading and writing; in seconds.
     pub wall: f64,
-    /// Processor time of the same, over all threads; in seconds.
+    /// Processor time of the same work over all threads, in seconds.
     pub cpu: f64,
-    /// Of `wall`, the time for tables and pyramids of textures.
+    /// The part of `wall` that texture tables and pyramids took, in seconds.
     pub tables: f64,
-    /// Rays of all kinds, shadows too.
+    /// Number of rays of all kinds, including shadow rays.
     pub rays: u64,
-    /// Texels or table entries read.
+    /// Number of texels or table entries read.
     pub texels: u64,
     /// Most memory held at once beyond that of the scene, in bytes.
     pub peak_bytes: usize,

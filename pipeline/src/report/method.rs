@@ -1,17 +1,17 @@
-//! What a method is called.
+//! Names of methods.
 
 use super::measured::Method;
 use render::Sampling;
 use render::film::{Nine, Pattern, PixelFilter};
 
 impl Method {
-    /// Its filter and its rays, as tables and sentences call it: `tent, 3 x 3 rays`.
+    /// Returns filter and rays as tables and sentences name them: `tent, 3 x 3 rays`.
     #[must_use]
     pub fn name(&self) -> String {
         format!("{}, {}", self.filter, self.rays())
     }
 
-    /// What its pixels are made of, such as `3 x 3 rays`.
+    /// Returns the rays of a pixel in words, such as `3 x 3 rays`.
     #[must_use]
     pub fn rays(&self) -> String {
         match self.sampling {
@@ -30,7 +30,8 @@ impl Method {
         }
     }
 
-    /// Rays along each side of a pixel, if they are evenly spread and count the same.
+    /// Returns the rays along each side of a pixel, if the rays are evenly spread and have equal
+    /// weights.
     #[must_use]
     pub fn evenly(&self) -> Option<u32> {
         match self.sampling {

@@ -1,8 +1,10 @@
-//! Speed against error: what each way of rendering a page costs, and how wrong it is.
+//! Measures speed against error: what each method of rendering a page costs, and how wrong its picture
+//! is.
 //!
-//! [`measure`] renders a page by the methods of a [`Plan`] and holds the pictures against the
-//! [`refined`] truth, whole and by [`regions`]; [`accompanying`] measures the modeler and the filters by
-//! themselves. [`Measured`] is what comes of it, and [`write()`] makes words, plots and pages of that.
+//! [`measure`] renders a page by the methods of a [`Plan`] and compares the pictures with the
+//! [`refined`] truth, as a whole and by [`regions`]. [`accompanying`] measures the modeler and the
+//! filters separately. [`Measured`] holds the results, and [`write()`] turns the results into words,
+//! plots and pages.
 
 pub mod accompanying;
 mod blocks;

@@ -1,13 +1,13 @@
-//! The Pareto front of trials: those than which no other is both cheaper and nearer.
+//! The Pareto front of trials: those that no other trial beats in both cost and error.
 
-/// Which of the points `(cost, error)` lie on the front, by their places in the list, cheapest first.
+/// Returns the indices of the points `(cost, error)` on the front, cheapest first.
 ///
-/// A point is off the front if another is no dearer and no farther off, and better in one of the two.
-/// Points that are equal in both are on it together, or off it. A point with a number that is NaN or
-/// infinite is on no front and pushes none off it.
+/// A point is off the front if another point is no worse in both numbers, and better in one. Points
+/// equal in both numbers are on the front together or off it together. A point with a number that is
+/// NaN or infinite is never on the front, and keeps no other point off it.
 #[must_use]
 pub fn front(points: &[(f64, f64)]) -> Vec<usize> {
-    // Adding 0 makes -0 the 0 that it is equal to, which the order would set apart.
+    // Adding 0 makes -0 into 0. The two are equal, but the total order would distinguish them.
     let points: Vec<(f64, f64)> = points.iter().map(|&(a, b)| (a + 0.0, b + 0.0)).collect();
     let mut order: Vec<usize> =
         (0..points.len()).filter(|&k| points[k].0.is_finite() && points[k].1.is_finite()).collect();
@@ -17,7 +17,8 @@ pub fn front(points: &[(f64, f64)]) -> Vec<usize> {
     });
     let mut front: Vec<usize> = Vec::new();
     for k in order {
-        // All before it are no dearer; the last of the front is the nearest of them.
+        // All points before cost no more. The last point of the front has the smallest error among
+        // them.
         let stays = front
             .last()
             .is_none_or(|&last| points[k].1 < points[last].1 || points[k] == points[last]);
@@ -33,7 +34,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// The definition, word by word.
+    /// The definition of the front, word by word.
     fn by_definition(points: &[(f64, f64)]) -> Vec<usize> {
         let sound = |p: (f64, f64)| p.0.is_finite() && p.1.is_finite();
         let beats = |a: (f64, f64), b: (f64, f64)| a.0 <= b.0 && a.1 <= b.1 && a != b;
@@ -65,7 +66,7 @@ mod tests {
 
     #[test]
     fn zeros_of_both_signs_are_equal() {
-        // `total_cmp` orders them, which must not decide.
+        // `total_cmp` distinguishes the two zeros, which must not affect the front.
         assert_eq!(front(&[(0.0, 1.0), (-0.0, 1.0), (-0.0, 2.0), (0.0, 0.5)]), [3]);
         assert_eq!(front(&[(1.0, -0.0), (1.0, 0.0)]), [0, 1]);
     }
@@ -73,7 +74,7 @@ mod tests {
     proptest! {
         #[test]
         fn the_front_is_what_its_definition_says(
-            // Few values, so that ties are common; the last ones stand for what is no number.
+            // Few values, so that ties are common; the last two stand for numbers that are not finite.
             points in prop::collection::vec((0_u8..9, 0_u8..9), 0..40)
         ) {
             let value = |k: u8| match k {

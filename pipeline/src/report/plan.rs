@@ -1,4 +1,4 @@
-//! What a report measures, and how patiently.
+//! What a report measures, and for how long.
 
 use super::measured::Method;
 use render::Sampling;
@@ -6,30 +6,30 @@ use render::film::{MOST_SAMPLES, Nine};
 use render::filter::Filter;
 use std::time::Duration;
 
-/// What is measured of each page.
+/// The measurements to make of each page.
 #[derive(Debug, Clone)]
 pub struct Plan {
-    /// Pixels across and down, of all pictures.
+    /// Width and height of all pictures, in pixels.
     pub size: (u32, u32),
-    /// Filters, from the simplest on.
+    /// Filters, from the simplest to the most costly.
     pub filters: Vec<Filter>,
-    /// Ways to make a pixel of rays, from few rays to many.
+    /// Patterns of rays in a pixel, from few rays to many.
     pub samplings: Vec<Sampling>,
-    /// Rays along each side of a pixel for the truth, for each of two seeds: at least.
+    /// Least number of rays along each side of a pixel of the truth, for each of two seeds.
     pub truth_samples: u32,
-    /// The same: at most, where the noise asks for more.
+    /// Largest number of rays along each side of a pixel of the truth, where the noise requires more.
     pub most_truth_samples: u32,
-    /// How long a method is measured at least, all its rounds together.
+    /// Time after which a method is not measured again: the sum of its rounds so far.
     pub patience: Duration,
-    /// Whether it is made in haste.
+    /// Whether the report is made in haste.
     pub quick: bool,
 }
 
-/// Rays along each side of a pixel, evenly spread, in a full report.
+/// Numbers of rays along each side of a pixel, evenly spread, in a full report.
 const SAMPLES: [u32; 6] = [1, 2, 3, 4, 8, 16];
 
 impl Plan {
-    /// All methods, at 128 x 128.
+    /// Returns a plan of all methods, at 128 x 128 pixels.
     #[must_use]
     pub fn full() -> Self {
         let [one, two, rest @ ..] = SAMPLES.map(Sampling::regular);
@@ -45,7 +45,7 @@ impl Plan {
         }
     }
 
-    /// Few methods and small pictures.
+    /// Returns a plan of few methods and small pictures, 64 x 64 pixels.
     #[must_use]
     pub fn quick() -> Self {
         let samplings =
@@ -60,8 +60,9 @@ impl Plan {
         }
     }
 
-    /// Every method that makes a picture of its own. Without neighbours to look at, both forms of the
-    /// thesis's supersampling are the same to the last bit: then one is left out.
+    /// Returns every method that makes a picture of its own. For filters that do not average over an
+    /// area, both forms of the thesis's supersampling give the same picture to the last bit, so one
+    /// form is left out.
     #[must_use]
     pub fn methods(&self) -> Vec<Method> {
         let image = Sampling::Nine(Nine::Image);
@@ -83,8 +84,8 @@ mod tests {
     #[test]
     fn a_full_report_has_every_filter_with_all_its_rays() {
         let methods = Plan::full().methods();
-        // Six grids for each of six filters, and the thesis's supersampling: two forms for four of
-        // them, one for the two that look at points.
+        // Six grids for each of six filters. The thesis's supersampling has two forms for four filters,
+        // and one for the two that look up points.
         assert_eq!(methods.len(), 6 * 6 + 4 * 2 + 2);
         for filter in Filter::ALL {
             for samples in [1, 16] {

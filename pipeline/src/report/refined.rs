@@ -1,33 +1,35 @@
-//! The picture that all others are held against: a great many unfiltered rays.
+//! Renders the truth, the picture with which all others are compared, with a great many unfiltered
+//! rays.
 //!
-//! Each pixel is made of `n * n` jittered rays: what the methods that are judged do cleverly is done here by
-//! patience. It is made twice, of two seeds ([`Pair`]). Half the difference of the two is the noise of their mean.
+//! Each pixel is made of `n * n` jittered rays. The truth uses none of the filters that are judged, but
+//! many rays instead. The truth is rendered twice, with two seeds ([`Pair`]). Half the difference
+//! between the two pictures is the noise of their mean.
 //!
-//! Where that is too much, blocks of the picture are made anew of more rays, the noisiest of the most
-//! (`blocks.rs` allots them). Which blocks is decided by the pictures that are
-//! thrown away, so the new ones are as unbiased as the first.
+//! Where the noise is too large, blocks of the picture are rendered again with more rays, the noisiest
+//! block with the most (`blocks.rs` allots them). Only the pictures that are thrown away decide which
+//! blocks these are, so the new blocks are as unbiased as the first.
 
 use super::blocks::{Block, allot};
 use crate::truth::Pair;
 use render::film::Crop;
 use render::{Picture, Prepared};
 
-/// Pixels along the side of a block.
+/// Side of a block in pixels.
 const SIDE: u32 = 16;
 
-/// A pair of which parts can be made anew of more rays.
+/// A pair of pictures whose blocks can be rendered again with more rays.
 #[derive(Debug, Clone)]
 pub struct Refined {
     pair: Pair,
-    /// The blocks of the picture, and the rays of each along each side of a pixel.
+    /// The blocks of the picture, each with its rays along each side of a pixel.
     blocks: Vec<(Crop, u32)>,
 }
 
 impl Refined {
-    /// Makes both of `samples * samples` rays in each pixel, at most [`render::film::MOST_SAMPLES`]
-    /// along each side. `progress` is told how much of how much is done.
+    /// Renders both pictures with `samples * samples` rays in each pixel, with `samples` at most
+    /// [`render::film::MOST_SAMPLES`]. `progress` is called with the work done so far and the total.
     ///
-    /// Runs on the threads of the current rayon pool; the result is the same for any number of them.
+    /// Runs on the threads of the current rayon pool. The result is the same for any number of threads.
     #[must_use]
     pub fn render(
         scene: &Prepared<'_>,
@@ -41,14 +43,15 @@ impl Refined {
         Self { pair, blocks: blocks.map(|block| (block, samples)).collect() }
     }
 
-    /// The mean of both.
+    /// Returns the mean of both pictures.
     #[must_use]
     pub fn mean(&self) -> Picture {
         self.pair.mean()
     }
 
-    /// The root mean square difference between the two over all channels of the pixels that `mask` has
-    /// set, or of all; 0 when there are none.
+    /// Returns the root mean square difference between both pictures, in linear light. The mean is over
+    /// all channels of the pixels for which `mask` is true, or of all pixels. 0 if there are no such
+    /// pixels.
     #[must_use]
     pub fn difference(&self, mask: Option<&[bool]>) -> f64 {
         let set = |k: &usize| mask.is_none_or(|mask| mask[*k]);
@@ -57,22 +60,23 @@ impl Refined {
         (squares / (3 * places.len()).max(1) as f64).sqrt()
     }
 
-    /// About the root mean square error of the mean of both, likewise.
+    /// Returns about the root mean square error of the mean of both pictures, over the pixels of `mask`
+    /// as in [`Refined::difference`].
     #[must_use]
     pub fn noise(&self, mask: Option<&[bool]>) -> f64 {
         0.5 * self.difference(mask)
     }
 
-    /// The fewest and the most rays along each side of a pixel.
+    /// Returns the fewest and the most rays along each side of a pixel, over all blocks.
     #[must_use]
     pub fn samples(&self) -> (u32, u32) {
         let all = || self.blocks.iter().map(|(_, samples)| *samples);
         (all().min().unwrap_or(0), all().max().unwrap_or(0))
     }
 
-    /// Makes blocks anew so that the root mean square difference of the whole may be expected to be
-    /// at most `goal`, of at most `most` rays along each side of a pixel. Says whether there was
-    /// anything to do.
+    /// Renders blocks again with more rays, so that the expected root mean square difference of the
+    /// whole is at most `goal`. A pixel gets at most `most` rays along each side. Returns whether any
+    /// block was rendered.
     pub fn refine(
         &mut self,
         scene: &Prepared<'_>,
@@ -113,7 +117,7 @@ impl Refined {
         Block { squares, samples, pixels: block.width as usize * block.height as usize }
     }
 
-    /// The sum of the squared differences of a pixel's channels.
+    /// Returns the sum of the squared differences of a pixel's channels.
     fn square(&self, place: usize) -> f64 {
         let [a, b] = &self.pair.pictures;
         let pairs = a.pixels[place].iter().zip(&b.pixels[place]);
@@ -121,7 +125,7 @@ impl Refined {
     }
 }
 
-/// Puts a part of a picture back in its place.
+/// Copies a part into the picture at its position.
 fn paste(picture: &mut Picture, place: Crop, part: &Picture) {
     for (y, row) in place.rows().zip(part.pixels.chunks_exact(place.width as usize)) {
         let start = (y * picture.width + place.x) as usize;
@@ -149,8 +153,8 @@ mod tests {
         for samples in [4, 16, 32] {
             let pair = Refined::render(&Prepared::new(&scene), (SIZE, SIZE), samples, &|_, _| {});
             let (noise, error) = (pair.noise(None), error(&pair));
-            // Of 400 pixels a third cut no border and have none; of the others each is a number of one
-            // square's chance, so both are known to about a tenth.
+            // A third of the 400 pixels cut no border and have no noise. Each of the others contributes
+            // one random square, so error and noise are both known to about a tenth.
             assert!(error > 0.6 * noise && error < 1.6 * noise, "{samples}: {error}, {noise}");
             assert!(noise < 0.2 / f64::from(samples), "{samples}: {noise}");
         }
@@ -164,7 +168,7 @@ mod tests {
         let goal = 0.25 * before;
         assert!(pair.refine(&Prepared::new(&scene), goal, 64, &|_, _| {}));
         let after = pair.difference(None);
-        // Where borders are, noise falls faster than the law that rays are allotted by.
+        // At borders, noise falls faster than the law by which rays are allotted.
         assert!(after <= 1.1 * goal, "{before} to {after}");
         assert!(error(&pair) < 0.5 * first);
         assert!(pair.samples().0 >= 4 && pair.samples().1 <= 64);

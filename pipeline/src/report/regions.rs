@@ -1,20 +1,21 @@
-//! Parts of a picture in which methods are judged by themselves.
+//! Regions: parts of a picture in which methods are judged separately.
 //!
-//! Each pixel is judged by the ray through its middle, and by what the scene says of it, not by any
-//! picture: so regions are the same for all methods.
+//! A pixel belongs to a region because of what the ray through its middle meets in the scene, not
+//! because of any picture. So regions are the same for all methods.
 //!
 //! - `silhouettes`: among the first hits of the pixel and its eight neighbours in the picture there is
-//!   more than one object, or an object and nothing. These pixels are in no other region.
-//! - `far floor`: the first hit is on a plane, a rectangle or a side of a box that shows a picture, and
-//!   the minor axis of the pixel's footprint there is longer than [`MINIFIED`] texels.
-//! - `in mirrors`: more than half of the pixel's weight comes from pictures by mirrored rays only.
-//! - `through glass`: more than half of it comes from pictures by rays of which one at least has passed
-//!   a surface.
+//!   more than one object, or both an object and a miss. These pixels are in no other region.
+//! - `far floor`: the first hit is on a plane, a rectangle or a side of a box that shows a texture. The
+//!   minor axis of the pixel's footprint there is longer than [`MINIFIED`] texels.
+//! - `in mirrors`: more than half of the pixel's weight comes from textures by rays that were only
+//!   mirrored.
+//! - `through glass`: more than half of the pixel's weight comes from textures by rays that have passed
+//!   through at least one surface.
 //!
-//! The footprint is the parallelogram that the pixel's two sides become on the texture: its axes are the
-//! singular values of the derivative of texture coordinates on the film, in texels. The weight of a path
-//! is the product of what its surfaces mirror or let through, times the colour of the surface at its end
-//! in even light; a path that leaves the scene counts as if it ended on white.
+//! The footprint is the parallelogram that the pixel becomes on the texture. Its axes are the singular
+//! values of the derivative of texture coordinates with respect to film position, in texels. The weight
+//! of a path is the product of its surfaces' reflection or transmission factors, times the colour in
+//! even light of the surface at its end. A path that leaves the scene counts as if it ended on white.
 
 use super::measured::Region;
 use super::sight::{self, Looker, Sight};
@@ -22,12 +23,12 @@ use rayon::prelude::*;
 use render::Scene;
 use render::trace::volume::Volumes;
 
-/// The texels that a footprint must be longer than along its minor axis to be called minified.
+/// Length of a footprint's minor axis above which the texture counts as minified, in texels.
 pub const MINIFIED: f64 = 2.0;
 
-/// The regions of a picture of `size`, columns and rows; those without pixels are left out.
+/// Returns the regions of a picture of `size`, columns and rows. Regions without pixels are left out.
 ///
-/// Runs on the threads of the current rayon pool; the result is the same for any number of them.
+/// Runs on the threads of the current rayon pool. The result is the same for any number of threads.
 #[must_use]
 pub fn regions(scene: &Scene, size: (u32, u32)) -> Vec<Region> {
     let seen = sights(scene, size);
@@ -45,16 +46,16 @@ pub fn regions(scene: &Scene, size: (u32, u32)) -> Vec<Region> {
     regions.into_iter().filter(|region| region.mask.contains(&true)).collect()
 }
 
-/// The pixels of a picture of `size`, row by row, more than half of whose weight comes from one place on
-/// a picture, directly or by mirrors and glass, where the minor axis of their footprint is longer than
-/// [`MINIFIED`] texels.
+/// Returns a mask of the minified pixels of a picture of `size`, row by row. More than half of such a
+/// pixel's weight comes from one hit on a surface with a texture, seen directly or by mirrors and
+/// glass. There the minor axis of the footprint is longer than [`MINIFIED`] texels.
 #[must_use]
 pub fn minified(scene: &Scene, size: (u32, u32)) -> Vec<bool> {
     let seen = sights(scene, size);
     seen.iter().map(|sight| sight.minor.is_some_and(|minor| minor > MINIFIED)).collect()
 }
 
-/// What every pixel sees, row by row.
+/// Returns the sight of every pixel, row by row.
 fn sights(scene: &Scene, size: (u32, u32)) -> Vec<Sight> {
     let accel = sight::accel_of(scene);
     let volumes = Volumes::of(scene);
@@ -66,7 +67,7 @@ fn sights(scene: &Scene, size: (u32, u32)) -> Vec<Sight> {
     rows.flatten_iter().collect()
 }
 
-/// The pixels whose neighbours do not all see the same object first.
+/// Returns a mask of the pixels whose neighbours do not all see the same object first.
 fn silhouettes(seen: &[Sight], width: usize) -> Vec<bool> {
     let height = seen.len().checked_div(width).unwrap_or(0);
     let edge = |k: usize| {
@@ -91,7 +92,7 @@ mod tests {
     /// Half the picture's height at distance 1 over half its pixels: fields of view of 90 degrees.
     const PIXEL: f64 = 2.0 / 64.0;
 
-    /// A floor seen from a height of 1, the view level along -z, and more objects. The picture on the
+    /// A floor seen from a height of 1 with a level view along -z, and more objects. The texture of the
     /// floor repeats every `side` units.
     fn scene(side: f64, objects: &str) -> Scene {
         let text = format!(
@@ -114,7 +115,8 @@ mod tests {
         draft.resolve(&pages::FILES, MeshSource::new()).unwrap()
     }
 
-    /// The direction of the ray through the middle of a pixel, one unit ahead.
+    /// Returns the direction of the ray through the middle of a pixel: across and up, at one unit
+    /// ahead.
     fn direction(x: u32, y: u32) -> (f64, f64) {
         let across = (f64::from(x) + 0.5 - f64::from(SIZE.0) / 2.0) * PIXEL;
         (across, -(f64::from(y) + 0.5 - f64::from(SIZE.1) / 2.0) * PIXEL)
@@ -127,9 +129,10 @@ mod tests {
             .collect()
     }
 
-    /// The minor axis of a pixel's footprint on an endless floor, in texels, by hand: the ray through
-    /// (X, Y) meets it at (-X / Y, 1 / Y), whose derivative has the columns (1, 0) / -Y and
-    /// (X, -1) / Y^2; the larger eigenvalue of its square is found from trace and determinant.
+    /// The minor axis of a pixel's footprint on an endless floor, in texels, worked out by hand. The
+    /// ray through (X, Y) meets the floor at (-X / Y, 1 / Y). The derivative has the columns (1, 0) /
+    /// -Y and (X, -1) / Y^2. Trace and determinant give the larger eigenvalue of the derivative times
+    /// its transpose.
     fn minor_on_floor((x, y): (f64, f64), texels: f64) -> f64 {
         let columns = [[-1.0 / y, 0.0], [x / (y * y), -1.0 / (y * y)]];
         let trace: f64 = columns.iter().flatten().map(|entry| entry * entry).sum();
@@ -181,7 +184,7 @@ mod tests {
             let expected = (up < 0.0).then(|| minor_on_floor((across, up), texels));
             assert_eq!(sight.minor, sight.flat);
             match (sight.minor, expected) {
-                // Half a pixel below the horizon the difference is off by (1/32)^2.
+                // Half a pixel below the horizon the difference quotient is off by (1/32)^2.
                 (Some(found), Some(expected)) => {
                     assert!((found / expected - 1.0).abs() < 2e-3, "{x},{y}: {found} {expected}");
                 }
@@ -190,7 +193,7 @@ mod tests {
         }
     }
 
-    /// A mirror that stands upright across the view shows the floor as if it went on behind it.
+    /// An upright mirror across the view shows the floor as if it continued behind the mirror.
     #[test]
     fn a_mirror_shows_a_floor_as_far_as_its_mirror_image() {
         let mirror = r#", { "rectangle": { "corner": [-3, 0, -4], "edge_u": [6, 0, 0],
@@ -214,7 +217,7 @@ mod tests {
         let edge_in_mirror =
             inside.iter().zip(mask(small)).filter(|(inside, small)| **inside && !small);
         assert!(edge_in_mirror.count() > 50, "some of the mirrored floor is not minified");
-        // What is behind the mirror is hidden, and in it seen as far.
+        // The floor behind the mirror is hidden, but its mirror image is seen at the same distance.
         assert_eq!(minified(&scene, SIZE), mask(small));
         let far = mask(|x, y| small(x, y) && !on_mirror(x, y));
         let far: Vec<bool> = far.iter().zip(&silhouettes).map(|(a, b)| *a && !b).collect();
@@ -228,8 +231,8 @@ mod tests {
             r#", { "box": { "low": [-3, 0.01, -4.2], "high": [3, 3, -4], "material": "glass" } }"#;
         let found = regions(&scene(1.7, pane), SIZE);
         let silhouettes = region(&found, "silhouettes");
-        // Well inside the front, so that what is seen has come through front and back: the floor below
-        // the horizon and nothing above it.
+        // Only pixels well inside the front count. Their rays have passed through front and back: the
+        // floor is seen below the horizon, and no texture above it.
         let front = |x: u32, y: u32| {
             let (across, up) = direction(x, y);
             (4.0 * across).abs() < 2.8 && (0.25..3.0).contains(&(1.0 + 4.0 * up))

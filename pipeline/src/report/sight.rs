@@ -1,9 +1,9 @@
-//! What a pixel sees, by what ways, and how much of a texture lies in it.
+//! Finds what a pixel sees, along which paths, and how many texels its footprint spans.
 //!
-//! Five rays are followed for each pixel: through its middle, and through four places close by. The tree
-//! of the middle one says what is seen; the way from its texture coordinates to those of the others,
-//! where they came to the same surface by the same path, is the derivative of the texture coordinates
-//! on the film, also behind mirrors and glass.
+//! Five rays are traced for each pixel: through its middle and through four points close by. The tree
+//! of the middle ray tells what the pixel sees. Where another ray reaches the same surface by the same
+//! path, the difference between the two texture coordinates gives the derivative with respect to film
+//! position. This also works behind mirrors and glass.
 
 use glam::{DMat2, DVec2};
 use render::Scene;
@@ -15,13 +15,14 @@ use render::trace::tree::{Branch, IntersectionTree, Node};
 use render::trace::volume::Volumes;
 use render::trace::{RayCounts, Tracer};
 
-/// How far the places close by are from a pixel's middle, in pixels.
+/// Distance of the four points from a pixel's middle, in pixels.
 ///
-/// The difference of two of them is a derivative but for the third one, which on a plane is 2e-4 of it
-/// one pixel below the horizon; it loses 1e-13 to rounding where coordinates count in hundreds.
+/// The difference quotient of opposite points has an error from the third derivative. On a plane, one
+/// pixel below the horizon, its relative error is 2e-4. Rounding adds 1e-13 where texture coordinates
+/// are in the hundreds. A larger value increases the first error; a smaller value increases the second.
 const STEP: f64 = 1.0 / 64.0;
 
-/// The middle, right, left, below and above.
+/// Offsets of the middle and of the points to the right, left, below and above, in pixels with y down.
 const PLACES: [DVec2; 5] = [
     DVec2::ZERO,
     DVec2::new(STEP, 0.0),
@@ -30,27 +31,27 @@ const PLACES: [DVec2; 5] = [
     DVec2::new(0.0, -STEP),
 ];
 
-/// The trees of a pixel's rays, to be filled again for each.
+/// The trees of a pixel's rays, reused for each pixel.
 pub(super) type Trees = [IntersectionTree; PLACES.len()];
 
-/// What a pixel's middle sees.
+/// What the middle of a pixel sees.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Sight {
-    /// The object that is hit first; nothing where the ray leaves the scene.
+    /// The object that is hit first; `None` where the ray leaves the scene.
     pub object: Option<u32>,
-    /// The minor axis of the footprint on what is hit first, in texels, if that is flat and shows a
-    /// picture.
+    /// Minor axis of the footprint at the first hit, in texels, if the object there is flat and shows a
+    /// texture.
     pub flat: Option<f64>,
-    /// The part of the pixel's weight that comes from pictures by mirrors alone.
+    /// Fraction of the pixel's weight that comes from textures by mirrors alone, in [0, 1].
     pub mirrored: f64,
-    /// The part that comes from pictures through surfaces.
+    /// Fraction of the weight that comes from textures through surfaces, in [0, 1].
     pub through: f64,
-    /// The minor axis of the footprint on the picture that more than half of the weight comes from, in
-    /// texels.
+    /// Minor axis of the footprint on the textured surface that more than half of the weight comes
+    /// from, in texels.
     pub minor: Option<f64>,
 }
 
-/// Looks at the pixels of a scene.
+/// Finds the sights of a scene's pixels.
 pub(super) struct Looker<'a> {
     scene: &'a Scene,
     tracer: Tracer<'a>,
@@ -73,7 +74,7 @@ impl<'a> Looker<'a> {
         }
     }
 
-    /// What the pixel in this column and row sees.
+    /// Returns the sight of the pixel in column `x` and row `y`. The trees are overwritten.
     pub(super) fn look(&self, x: u32, y: u32, trees: &mut Trees) -> Sight {
         let middle = DVec2::new(f64::from(x), f64::from(y)) + 0.5;
         let mut counts = RayCounts::default();
@@ -98,7 +99,8 @@ impl<'a> Looker<'a> {
         }
     }
 
-    /// Adds up what comes along a branch that counts for `weight`.
+    /// Adds up the weights of a branch and of all branches below it. `weight` is the product of the
+    /// factors up to the branch.
     fn weigh(&self, five: &Five<'_>, weight: Color, way: Way, found: &mut Found) {
         let Some(node) = five.node() else {
             if matches!(five.branches[0], Branch::Background(_)) {
@@ -129,9 +131,9 @@ impl<'a> Looker<'a> {
         }
     }
 
-    /// The minor axis of the footprint of a pixel, in texels: the smaller singular value of the
-    /// derivative of texture coordinates on the film. Nothing where there is no picture, or its
-    /// coordinates have no derivative.
+    /// Returns the minor axis of a pixel's footprint, in texels: the smaller singular value of the
+    /// derivative of texture coordinates with respect to film position. `None` where there is no
+    /// texture, or where the derivative cannot be found.
     fn minor_axis(&self, five: &Five<'_>, node: &Node) -> Option<f64> {
         let object = &self.scene.objects[node.piece.object as usize];
         let texture = &self.scene.textures[object.parts[node.part as usize].picture()?];
@@ -140,7 +142,7 @@ impl<'a> Looker<'a> {
             let to = five.agreeing(k, node)?;
             charts.difference((node.piece.triangle, node.uv), (to.piece.triangle, to.uv))
         };
-        // Where one side has come to something else, the other one tells as well.
+        // Where one of two opposite rays misses the surface, the other gives a one-sided difference.
         let along = |ahead: usize, back: usize| match (way(ahead), way(back)) {
             (Some(ahead), Some(back)) => Some((ahead - back) / (2.0 * STEP)),
             (Some(ahead), None) => Some(ahead / STEP),
@@ -152,42 +154,43 @@ impl<'a> Looker<'a> {
     }
 }
 
-/// How light came to the eye, so far.
+/// The kinds of rays on the path from the eye so far.
 #[derive(Debug, Clone, Copy, Default)]
 struct Way {
     reflected: bool,
     refracted: bool,
 }
 
-/// Weights, summed over a tree.
+/// Weights of textures, summed over a tree. `all` includes surfaces without texture and the background.
 #[derive(Debug, Default)]
 struct Found {
     all: f64,
     mirrored: f64,
     through: f64,
-    /// The largest weight of a picture, and the minor axis there.
+    /// The largest weight of one textured surface, and in `minor` the minor axis there, in texels.
     most: f64,
     minor: Option<f64>,
 }
 
-/// Five trees walked in step: for each, the branch of it that corresponds to the middle one's.
+/// Five trees walked in step. `branches` holds the current branch of each tree, on the same path in all
+/// of them.
 struct Five<'t> {
     trees: [&'t IntersectionTree; PLACES.len()],
     branches: [Branch; PLACES.len()],
 }
 
 impl<'t> Five<'t> {
-    /// The middle tree's node, if its branch came to one.
+    /// Returns the node of the middle tree, if its branch ends in a node.
     fn node(&self) -> Option<&'t Node> {
         self.trees[0].node(self.branches[0])
     }
 
-    /// The node of a tree, if it came to the same textured area as the middle one's.
+    /// Returns the node of tree `k`, if it lies on the same textured area as the middle tree's node.
     fn agreeing(&self, k: usize, node: &Node) -> Option<&'t Node> {
         self.trees[k].node(self.branches[k]).filter(|other| other.area() == node.area())
     }
 
-    /// One step along all trees; those on another path are left behind.
+    /// Moves one step down all trees. Trees on another path than the middle one are cut off.
     fn step(&self, child: impl Fn(&Node) -> Branch) -> Self {
         let branches = std::array::from_fn(|k| {
             let node = self.node().and_then(|node| self.agreeing(k, node));
@@ -197,8 +200,8 @@ impl<'t> Five<'t> {
     }
 }
 
-/// What a surface's own colour counts for, in the scene's ambient light and one lamp of white light
-/// straight above: no shadows, since a region should not end where one begins.
+/// Returns the weight of a surface's own colour in the scene's ambient light and one white lamp
+/// straight above. There are no shadows, since a region should not end where a shadow begins.
 fn own_color(scene: &Scene, material: &Material) -> Color {
     material.color * (material.ambient * scene.ambient + material.diffuse)
 }
@@ -207,7 +210,7 @@ fn mean(color: Color) -> f64 {
     color.element_sum() / 3.0
 }
 
-/// Whether a shape is made of planes.
+/// Returns whether a shape is made of planes.
 fn is_flat(shape: &Shape) -> bool {
     match shape {
         Shape::Quad(_) | Shape::Cuboid(_) => true,
@@ -216,15 +219,15 @@ fn is_flat(shape: &Shape) -> bool {
     }
 }
 
-/// A matrix is the sum of a turning and a mirrored turning, each with a factor; its singular values are
-/// the factors' sum and difference.
+/// Returns the smaller singular value of a matrix. A matrix is the sum of a rotation and a mirrored
+/// rotation, each with a factor. Its singular values are the sum and the difference of these factors.
 fn smaller_singular_value(m: DMat2) -> f64 {
     let turning = DVec2::new(m.x_axis.x + m.y_axis.y, m.x_axis.y - m.y_axis.x).length();
     let mirrored = DVec2::new(m.x_axis.x - m.y_axis.y, m.x_axis.y + m.y_axis.x).length();
     0.5 * (turning - mirrored).abs()
 }
 
-/// What finds the hits of a scene's rays.
+/// Builds the structure that finds the hits of a scene's rays.
 pub(super) fn accel_of(scene: &Scene) -> Accel<'_> {
     let shapes = scene.objects.iter().map(|object| &object.shape).collect();
     Accel::build(shapes, Structure::default())
@@ -236,8 +239,8 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// The squares of singular values have the trace and the determinant of the matrix times its
-        /// transpose.
+        /// The squares of the singular values have the trace and the determinant of the matrix times
+        /// its transpose.
         #[test]
         fn the_smaller_singular_value_is_that(columns in prop::array::uniform4(-9.0..9.0f64)) {
             let m = DMat2::from_cols_array(&columns);

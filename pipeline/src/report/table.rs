@@ -1,23 +1,23 @@
-//! Looking things up in tables of measured numbers.
+//! Looks up cells in tables of measured numbers.
 
 use super::measured::Table;
 
 impl Table {
-    /// The row whose first cell is this.
+    /// Returns the row with `first` in its first cell.
     #[must_use]
     pub fn row(&self, first: &str) -> Option<&[String]> {
         let is = |row: &&Vec<String>| row.first().is_some_and(|cell| cell == first);
         self.rows.iter().find(is).map(Vec::as_slice)
     }
 
-    /// What stands in a column of a row.
+    /// Returns the cell of a row in a column.
     #[must_use]
     pub fn cell<'a>(&self, row: &'a [String], column: &str) -> Option<&'a str> {
         let at = self.columns.iter().position(|name| name == column)?;
         row.get(at).map(String::as_str)
     }
 
-    /// The same as a number.
+    /// Returns the cell of a row in a column as a number.
     #[must_use]
     pub fn number(&self, row: &[String], column: &str) -> Option<f64> {
         self.cell(row, column)?.trim().parse().ok()

@@ -1,4 +1,4 @@
-//! The files of a report.
+//! Writes the files of a report.
 
 use super::document;
 use super::measured::Measured;
@@ -9,16 +9,16 @@ use files::{Batch, Output};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// The page of HTML.
+/// The file name of the HTML page.
 const DOCUMENT: &str = "report.html";
 
-/// The files that a report of these pages has: the page of HTML, and the plot of each page.
+/// Returns the file names of a report of these pages: the HTML page, and the plot of each page.
 pub fn files<'a>(pages: impl Iterator<Item = &'a str>) -> Vec<String> {
     std::iter::once(DOCUMENT.into()).chain(pages.map(|page| format!("{page}.svg"))).collect()
 }
 
-/// Writes `report.html`, and for each page its plot as `PAGE.svg`, into a folder that is there, as a part of a batch.
-/// Returns the files, in the order in which they were written.
+/// Writes `report.html`, and for each page its plot as `PAGE.svg`, into an existing folder, as a part
+/// of a batch. Returns the paths of the files, in the order in which they were written.
 ///
 /// # Errors
 /// When a file cannot be written, or exists and `clobber` is false; when a picture cannot be encoded.
@@ -83,7 +83,7 @@ mod tests {
             assert!(!text.contains(outside), "{outside}");
         }
         for claim in words::claims(&measured) {
-            // What stands in bold is set apart by tags.
+            // Tags surround the text in bold.
             let (_, end) = claim.text.split_once(" where ").unwrap_or(("", &claim.text));
             assert!(text.contains(&document::set(end)), "{}", claim.text);
         }

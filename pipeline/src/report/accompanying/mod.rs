@@ -1,7 +1,8 @@
-//! What goes with the pages of a report: the modeler, the filters and the arithmetic by themselves.
+//! Measures the modeler, the filters and the arithmetic separately, to accompany the pages of a report.
 //!
-//! Two are measured here. Three take a machine for themselves or numbers of any length: those were
-//! measured by programs of their own, and their tables are built in with the commands that make them again.
+//! Two tables are measured here. Three others need a machine for themselves, or exact arithmetic with
+//! numbers of any length. Separate programs measured these three. Their tables are built in, with the
+//! commands that make them again.
 
 pub mod tables;
 pub mod tessellation;
@@ -16,10 +17,10 @@ macro_rules! measured {
     };
 }
 
-/// All of them. In haste with fewer shapes and tolerances.
+/// Returns all accompanying tables. With `quick`, the measured ones cover fewer shapes and tolerances.
 ///
 /// # Errors
-/// When a shape that is built in cannot be swept, which should not happen.
+/// When a built-in shape cannot be swept, which should not happen.
 pub fn measure(quick: bool) -> Result<Vec<Table>, PipelineError> {
     Ok(vec![
         tables::measure(),
@@ -52,7 +53,7 @@ pub fn measure(quick: bool) -> Result<Vec<Table>, PipelineError> {
     ])
 }
 
-/// A table that was measured by another program.
+/// Returns a table that another program measured.
 fn elsewhere(
     name: &'static str,
     title: &str,

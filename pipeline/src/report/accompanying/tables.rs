@@ -1,27 +1,28 @@
-//! Numerical stability of prefiltered tables, by their order and by the word of their sums.
+//! Measures the numerical stability of prefiltered tables, by their order and by the number type of
+//! their sums.
 //!
-//! A table of order n is a texture that was summed up n times along both axes; an average is a
-//! difference of (n + 1)^2 of its entries. The sums grow with the power 2n of the texture's side, so what
-//! rounds them loses the texture. Integers that wrap lose nothing, as long as the *difference* fits.
+//! A table of order n is a texture summed n times along both axes. An average is a difference of (n +
+//! 1)^2 of its entries. The sums grow with the power 2n of the texture's side, so number types that
+//! round the sums lose the texture. Integers that wrap lose nothing, as long as the *difference* fits.
 
 use crate::report::measured::Table;
 
-/// Texels along the side of the texture.
+/// Side of the texture in texels.
 const SIDE: usize = 512;
 
-/// Places of averages along each side.
+/// Number of averages along each side of the texture.
 const PLACES: usize = 24;
 
-/// Sides of the kernel's boxes, in texels.
+/// Sides of the kernel's boxes in texels.
 const STEPS: [usize; 3] = [4, 16, 64];
 
-/// What sums are made of.
+/// A number type of sums.
 trait Word: Copy + Default {
     const NAME: &'static str;
     fn from_code(code: u16) -> Self;
     fn plus(self, other: Self) -> Self;
     fn times(self, factor: i32) -> Self;
-    /// As a difference that may be below 0.
+    /// Returns a difference of entries as a number, which may be negative.
     fn value(self) -> f64;
 }
 
@@ -71,10 +72,10 @@ integer!(u128, i128, "u128, wrapping");
 float!(f32, "f32");
 float!(f64, "f64");
 
-/// How often differences take the entries along one axis, from the last back.
+/// Coefficients of the difference along one axis, by order, from the last entry back.
 const DIFFERENCES: [&[i32]; 4] = [&[1], &[1, -1], &[1, -2, 1], &[1, -3, 3, -1]];
 
-/// Measures averages of a texture of noise by tables of every order and word.
+/// Measures averages of a noise texture with tables of every order and number type.
 #[must_use]
 pub fn measure() -> Table {
     let codes = noise();
@@ -125,14 +126,15 @@ fn row<W: Word>(
     }
 }
 
-/// Bits of the largest sum of a white texture, if nothing wrapped.
+/// Returns the number of bits of the largest sum of a white texture, if nothing wrapped.
 fn bits(order: usize) -> u32 {
     // Summed n times, N ones become N (N + 1) ... (N + n - 1) / n! along each axis.
     let along: f64 = (0..order).map(|k| (SIDE + k) as f64 / (k + 1) as f64).product();
     (f64::from(u16::MAX) * along * along).log2().ceil() as u32
 }
 
-/// Averages by one word: for each step those of all places, white being 1.
+/// Averages computed with one number type: for each step the averages at all positions, where white is
+/// 1.
 struct Averages<W> {
     values: Vec<Vec<f64>>,
     word: std::marker::PhantomData<W>,
@@ -155,7 +157,7 @@ impl<W: Word> Averages<W> {
     }
 }
 
-/// Sums along rows and then along columns, in place.
+/// Sums the table along rows and then along columns, in place.
 fn sum_up<W: Word>(table: &mut [W]) {
     for row in table.chunks_exact_mut(SIDE) {
         let mut sum = W::default();
@@ -169,7 +171,7 @@ fn sum_up<W: Word>(table: &mut [W]) {
     }
 }
 
-/// The difference of entries that is the sum under the kernel that ends at a place.
+/// Returns the sum under the kernel whose last texel is `(x, y)`, as a difference of table entries.
 fn difference<W: Word>(table: &[W], order: usize, step: usize, (x, y): (usize, usize)) -> W {
     let mut sum = W::default();
     for (j, down) in DIFFERENCES[order].iter().enumerate() {
@@ -181,7 +183,7 @@ fn difference<W: Word>(table: &[W], order: usize, step: usize, (x, y): (usize, u
     sum
 }
 
-/// Codes that follow no pattern, the same every time.
+/// Returns 16-bit codes without a pattern, the same in every run.
 fn noise() -> Vec<u16> {
     let mut state = 1_u64;
     let mut next = || {
@@ -196,7 +198,7 @@ fn noise() -> Vec<u16> {
 mod tests {
     use super::*;
 
-    /// The sum under the kernel, texel by texel: with the coefficients of (1 + x + ... + x^(w-1))^n.
+    /// The sum under the kernel, texel by texel, with the coefficients of (1 + x + ... + x^(w-1))^n.
     fn direct(codes: &[u16], order: usize, step: usize, (x, y): (usize, usize)) -> u128 {
         let mut kernel = vec![1_u128];
         for _ in 0..order {

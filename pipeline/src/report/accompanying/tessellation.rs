@@ -1,4 +1,4 @@
-//! How many quads, and how much time, the modeler takes to come as near to a surface as is asked.
+//! Measures the quads and the time that the modeler needs for a given distance to the surface.
 
 use crate::PipelineError;
 use crate::pages;
@@ -10,17 +10,17 @@ use std::time::Instant;
 use sweep::Sweep;
 use sweep::resolution::{Distance, Reached, Tolerance};
 
-/// Shapes of about unit size, built in.
+/// Names of built-in shapes of about unit size.
 const SHAPES: [&str; 3] = ["trefoil", "fluted-vase", "horn"];
 
-/// Tolerances, of which haste takes the first.
+/// Tolerances, as distances to the surface; a quick report takes only the first.
 const ASKED: [f64; 3] = [1e-2, 3e-3, 1e-3];
 
-/// Measures cells that are placed where the surface bends, and even cells in the same proportion of rows to
-/// columns, the fewest that keep the same tolerance.
+/// Measures cells placed where the surface bends, and even cells. The even cells have the same
+/// proportion of rows to columns, and are the fewest that keep the same tolerance.
 ///
 /// # Errors
-/// When a shape cannot be swept, which should not happen: they are built in.
+/// When a shape cannot be swept. This should not happen, since the shapes are built in.
 pub fn measure(quick: bool) -> Result<Table, PipelineError> {
     let asked = if quick { &ASKED[..1] } else { &ASKED[..] };
     let mut rows = Vec::new();
@@ -90,7 +90,8 @@ fn row(
     ]
 }
 
-/// Even cells that keep a tolerance, about as few as there are in this proportion of rows to columns.
+/// Returns a sweep with even cells that keeps a tolerance, with nearly the fewest rows and columns in
+/// the proportion `near`.
 fn even(sweep: &Sweep, tolerance: &Tolerance, near: [usize; 2]) -> Result<Sweep, PipelineError> {
     let fewest = [sweep.trajectory().fewest_cells(), sweep.contour().fewest_cells()];
     let cut = |scale: f64| -> Result<Sweep, PipelineError> {
@@ -120,7 +121,7 @@ mod tests {
         for pair in table.rows.chunks(2) {
             let [placed, even] = [&pair[0], &pair[1]].map(|row| {
                 let number = |k: usize| row[k].parse::<f64>().unwrap();
-                // Rounded to three digits.
+                // Numbers in the table are rounded to three digits.
                 assert!(number(3) <= 1.005 * number(2), "{row:?}");
                 number(6)
             });

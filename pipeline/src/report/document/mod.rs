@@ -1,4 +1,4 @@
-//! The page of HTML: conclusions first, then every page with pictures, plots and tables.
+//! The HTML page of a report: conclusions first, then every page with pictures, plots and tables.
 
 mod page;
 mod pictures;
@@ -15,7 +15,7 @@ use maud::{Markup, PreEscaped, html};
 
 const STYLE: &str = include_str!("style.css");
 
-/// The whole report as one page that stands alone.
+/// Returns the whole report as one self-contained HTML page.
 ///
 /// # Errors
 /// When a picture cannot be compared or encoded.
@@ -48,7 +48,7 @@ pub fn document(measured: &Measured, claims: &[Claim]) -> Result<String, Pipelin
     Ok(html::page("Speed against error", &body))
 }
 
-/// What is to be seen in the plot of a page, for who cannot see it.
+/// Returns a description of a page's plot for readers who cannot see it.
 pub fn about_plot(page: &PageMeasured) -> String {
     format!(
         "{}: RMS error against processor time, a curve for each filter over its numbers of rays",
@@ -56,7 +56,7 @@ pub fn about_plot(page: &PageMeasured) -> String {
     )
 }
 
-/// A chart for a desk, and another for a telephone, of which one shows.
+/// Returns a chart in two sizes, for a desktop screen and for a telephone. Only one of them is visible.
 fn chart(chart: &Chart, about: &str) -> Markup {
     html! {
         div.for-desk { (PreEscaped(chart.inline(Size::Wide, about))) }
@@ -68,12 +68,12 @@ fn count(n: usize, thing: &str) -> String {
     if n == 1 { format!("one {thing}") } else { format!("{n} {thing}s") }
 }
 
-/// Words as they are set: with the signs that a keyboard lacks.
+/// Replaces typewriter signs with typographic ones.
 pub fn set(text: &str) -> String {
     text.replace('\'', "\u{2019}").replace(" x ", " \u{d7} ")
 }
 
-/// A sentence, with the method that it says to use in bold.
+/// Returns a sentence. If the sentence advises a method, the method is in bold.
 fn sentence(claim: &Claim) -> Markup {
     let text = set(&claim.text);
     let parts = text.strip_prefix("Use ").and_then(|rest| rest.split_once(" where "));
@@ -89,7 +89,7 @@ fn percent(part: f64) -> String {
     format!("{:.0} %", 100.0 * part)
 }
 
-/// How it was measured, and what the words mean.
+/// Returns the section on methods and terms.
 fn how(measured: &Measured) -> Markup {
     let by = |factor: f64| percent(factor - 1.0);
     let samples = measured.pages.iter().map(|page| page.truth.samples).min();

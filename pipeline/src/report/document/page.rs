@@ -1,4 +1,4 @@
-//! The section of a page.
+//! The section of one page.
 
 use super::super::measured::PageMeasured;
 use super::super::plot::{Chart, Size, trials as plots};
@@ -19,7 +19,7 @@ pub fn section(page: &PageMeasured, claims: &[Claim]) -> Result<Markup, Pipeline
         format!("{0} \u{d7} {0} to {1} \u{d7} {1}", truth.samples, truth.most_samples)
     };
     let pictures = pictures::pictures(page)?;
-    // The heading names the page already, and a telephone has no room for it twice.
+    // The heading already names the page, and on a telephone a second title does not fit.
     let untitled = Chart { title: None, ..plots::whole(page) };
     Ok(html! {
         section.page id=(page.name) {

@@ -1,4 +1,4 @@
-//! The pictures of a page beside the truth, and maps of where they are wrong.
+//! Shows the pictures of a page beside the truth, with maps of their errors.
 
 use super::super::measured::{PageMeasured, Trial};
 use crate::PipelineError;
@@ -12,10 +12,10 @@ use render::film::encode::{Format, encode};
 use render::filter::Filter;
 use render::{Picture, Sampling};
 
-/// The errors that a map tells apart: from what no eye sees up to white for black.
+/// The range of errors in the maps: from invisible differences up to white instead of black.
 const SCALE: Scale = Scale::Log { least: 1e-3, most: 1.0 };
 
-/// A row of pictures, each above its error map.
+/// Returns a row of pictures, each above its error map.
 pub fn pictures(page: &PageMeasured) -> Result<Markup, PipelineError> {
     let mut shown = Vec::new();
     for (why, trial, picture) in chosen(page) {
@@ -48,8 +48,10 @@ pub fn pictures(page: &PageMeasured) -> Result<Markup, PipelineError> {
     })
 }
 
-/// One ray without and with the thesis's filter, its supersampling, what is the nearest without its
-/// filters in that time, and the nearest of all.
+/// Returns the pictures to show. The first three are one ray without and with the thesis's filter, and
+/// the thesis's supersampling. Next comes the method without tables that is nearest to the truth in no
+/// more time than the supersampling, or than one filtered ray if there is no supersampling. The last is
+/// the nearest of all.
 fn chosen(page: &PageMeasured) -> Vec<(&'static str, &Trial, &Picture)> {
     let find = |filter: Filter, sampling: Sampling| {
         let is =
@@ -93,7 +95,7 @@ fn encoding(name: &str, source: image::ImageError) -> PipelineError {
     PipelineError::Encode { name: name.into(), source }
 }
 
-/// The colours of the maps, with the errors that they stand for.
+/// Returns the colours of the maps, with the errors that they stand for.
 fn legend() -> Markup {
     let stops: Vec<String> = (0..=16)
         .map(|k| {

@@ -1,4 +1,4 @@
-//! The conclusions, and all pages at a glance.
+//! The conclusions, and a table of all pages.
 
 use super::super::measured::{Measured, PageMeasured, Trial};
 use super::super::words::{Claim, Topic, Verdict};
@@ -17,7 +17,7 @@ const GROUPS: [(Verdict, &str); 5] = [
 ];
 
 pub fn section(measured: &Measured, claims: &[Claim]) -> Markup {
-    // Doubts are about pages, but whoever reads only the conclusions must read them.
+    // Doubts are about single pages, but readers of the conclusions alone must see them too.
     let said = |claim: &&Claim| claim.page.is_none() || claim.topic == Topic::Noise;
     html! {
         section id="conclusions" {
@@ -41,7 +41,7 @@ pub fn section(measured: &Measured, claims: &[Claim]) -> Markup {
     }
 }
 
-/// One row for each page.
+/// Returns a table with one row for each page.
 fn glance(pages: &[PageMeasured]) -> Markup {
     html! {
         section id="pages" {

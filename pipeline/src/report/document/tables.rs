@@ -1,4 +1,4 @@
-//! What was measured of the modeler and the filters by themselves.
+//! The section on separate measurements of the modeler and the filters.
 
 use super::super::measured::Table;
 use crate::report::plot::{self, Size};
@@ -18,7 +18,7 @@ pub fn section(tables: &[Table]) -> Markup {
     }
 }
 
-/// The address of a drawing that is the drawing itself.
+/// Returns a data URL that contains an SVG drawing.
 fn svg_address(drawing: &str) -> String {
     format!("data:image/svg+xml;base64,{}", STANDARD.encode(drawing))
 }

@@ -1,11 +1,11 @@
-//! The numbers of a page's methods as tables.
+//! Tables of the methods measured on a page.
 
 use super::super::measured::{PageMeasured, Trial};
 use super::super::pareto;
 use crate::number::{bytes, error, seconds};
 use maud::{Markup, html};
 
-/// The Pareto front openly, and all methods for who asks.
+/// Returns a table of the Pareto front, and a folded table of all methods.
 pub fn tables(page: &PageMeasured) -> Markup {
     let points: Vec<(f64, f64)> =
         page.trials.iter().map(|trial| (trial.cost.cpu, trial.whole.rmse)).collect();
@@ -69,7 +69,7 @@ fn row(trial: &Trial, on_front: bool) -> Markup {
     }
 }
 
-/// A count in the unit that suits its size.
+/// Formats a count as M, k or in full, whichever suits its size.
 fn thousands(count: u64) -> String {
     let value = count as f64;
     match value {

@@ -1,47 +1,48 @@
-//! An axis by powers of ten.
+//! A logarithmic axis.
 
-/// What the numbers of an axis are.
+/// The unit of the numbers on an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unit {
-    /// Seconds, written in the unit that suits their size.
+    /// Seconds, written as ns, µs, ms or s.
     Seconds,
     /// Numbers without a unit.
     Plain,
 }
 
-/// An axis by powers of ten.
+/// A logarithmic axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
-    /// What is written at it.
+    /// The label of the axis.
     pub label: String,
-    /// What its numbers are.
+    /// The unit of its numbers.
     pub unit: Unit,
-    /// Its smallest value; above 0.
+    /// The smallest value, above 0.
     pub low: f64,
-    /// Its largest value; above the smallest.
+    /// The largest value, above `low`.
     pub high: f64,
 }
 
-/// A value that is marked at an axis.
+/// A mark at a value of an axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tick {
     /// The value.
     pub at: f64,
-    /// What is written there; nothing at a value between.
+    /// The label of the mark. Minor marks have none.
     pub label: Option<String>,
 }
 
-/// Room beside the outermost values, as a part of a power of ten.
+/// Margin beyond the outermost values, in decades.
 const MARGIN: f64 = 0.12;
 
-/// Powers of ten at least, so that differences of a few percent do not look large.
+/// Shortest axis in decades. A shorter one would make differences of a few percent look large.
 const LEAST: f64 = 0.8;
 
-/// Powers of ten at most below which 2 and 5 are written too.
+/// Below this length in decades, 2 and 5 also have labels.
 const FEW: f64 = 2.2;
 
 impl Axis {
-    /// The axis that shows all the values that can be shown: those above 0, from 1e-300 to 1e300.
+    /// Makes an axis that shows all values from 1e-300 to 1e300, with a margin at both ends. Other
+    /// values are ignored.
     #[must_use]
     pub fn around(label: &str, unit: Unit, values: impl Iterator<Item = f64>) -> Self {
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
@@ -57,16 +58,17 @@ impl Axis {
         Self { label: label.into(), unit, low: value(low - more), high: value(high + more) }
     }
 
-    /// Where a value lies between the ends, 0 to 1; beyond them for values beyond. `None` where
-    /// there is no such place: for 0, for less, and for what is no number.
+    /// Returns the position of a value along the axis: 0 at `low`, 1 at `high`, and outside [0, 1] for
+    /// values beyond. `None` for 0, for negative values, and for values that are not finite.
     #[must_use]
     pub fn part(&self, value: f64) -> Option<f64> {
         let part = (value / self.low).ln() / (self.high / self.low).ln();
         part.is_finite().then_some(part)
     }
 
-    /// The values to mark, 1 to 9 of every power of ten, of which the powers have labels, and 2 and
-    /// 5 too if there are few.
+    /// Returns the marks: the values 1 to 9 of every power of ten. The powers have labels, and on a
+    /// short axis 2 and 5 as well. Over more than 8 decades, only powers have marks, and only some have
+    /// labels.
     #[must_use]
     pub fn ticks(&self) -> Vec<Tick> {
         let (low, high) = (self.low.log10(), self.high.log10());
@@ -93,7 +95,7 @@ impl Axis {
 }
 
 impl Unit {
-    /// `digit * 10^power` as it is written at an axis.
+    /// Returns the label of `digit * 10^power`.
     fn write(self, digit: u32, power: i32) -> String {
         match self {
             Self::Seconds if (-9..5).contains(&power) => {

@@ -1,75 +1,75 @@
-//! Curves over two axes by powers of ten.
+//! A chart of curves over two logarithmic axes.
 
 use super::axis::{Axis, Tick};
 use super::look::Look;
 use super::svg::{Anchor, Svg};
 
-/// Curves over two axes by powers of ten.
+/// A chart of curves over two logarithmic axes.
 #[derive(Debug, Clone)]
 pub struct Chart {
-    /// What is written above it.
+    /// The title above the chart.
     pub title: Option<String>,
-    /// The axis to the right.
+    /// The horizontal axis.
     pub across: Axis,
-    /// The axis upward.
+    /// The vertical axis.
     pub up: Axis,
     /// The curves.
     pub series: Vec<Series>,
-    /// What lies below a value, shaded.
+    /// A shaded band at the bottom.
     pub band: Option<Band>,
-    /// The Pareto front, from the left to the right; it goes on to both sides.
+    /// The Pareto front, points `(x, y)` from left to right. Its line continues to both sides.
     pub front: Vec<(f64, f64)>,
-    /// Marks that are explained beside the curves' names.
+    /// Marks with explanations, written beside the curves' names.
     pub key: Vec<(Look, String)>,
 }
 
-/// A curve, or places by themselves.
+/// A curve, or separate points.
 #[derive(Debug, Clone)]
 pub struct Series {
-    /// What is written where it ends; nothing if empty.
+    /// The name written at the end of the curve; empty for none.
     pub name: String,
-    /// How it looks.
+    /// The look of line and marks.
     pub look: Look,
-    /// Whether a line joins the places.
+    /// Whether a line joins the points.
     pub joined: bool,
-    /// Its places, in the order in which they are joined.
+    /// The points, in the order in which the line joins them.
     pub places: Vec<Place>,
 }
 
-/// A place of a curve. One that the axes cannot show, such as 0, is left out.
+/// A point of a curve. A point that the axes cannot show, such as one at 0, is left out.
 #[derive(Debug, Clone, Default)]
 pub struct Place {
-    /// Its value to the right.
+    /// Value on the horizontal axis.
     pub x: f64,
-    /// Its value upward.
+    /// Value on the vertical axis.
     pub y: f64,
-    /// What it is, for who points at it.
+    /// A description that appears under the mouse.
     pub name: String,
-    /// A few signs beside it.
+    /// A short note beside the point.
     pub note: Option<String>,
 }
 
-/// What is shaded, from a value down.
+/// A shaded band from a value down to the bottom of the chart.
 #[derive(Debug, Clone)]
 pub struct Band {
-    /// Where it ends above.
+    /// The value at the band's upper edge.
     pub up_to: f64,
-    /// What is written in it.
+    /// The text in the band.
     pub label: String,
 }
 
-/// How large a chart is drawn.
+/// The size of a drawn chart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Size {
-    /// For a desk, 780 by 480 pixels.
+    /// For a desktop screen: 780 by 480 pixels.
     Wide,
-    /// For a telephone, 390 by 420.
+    /// For a telephone: 390 by 420 pixels.
     Narrow,
-    /// One of several, 400 by 300.
+    /// For one of several charts: 400 by 300 pixels.
     Small,
 }
 
-/// The rectangle of the values.
+/// The rectangle that the axes enclose, in pixels with y down.
 #[derive(Debug, Clone, Copy)]
 struct Frame {
     left: f64,
@@ -78,13 +78,13 @@ struct Frame {
     bottom: f64,
 }
 
-/// Distance of lines of text.
+/// Distance between lines of text, in pixels.
 const LINE: f64 = 17.0;
 
-/// Room for a label of the axis to the right.
+/// Least distance between labels of the horizontal axis, in pixels.
 const LABEL: f64 = 48.0;
 
-/// Room for the names of curves.
+/// Width of the column of curve names, in pixels.
 const NAMES: f64 = 104.0;
 
 impl Size {
@@ -102,13 +102,13 @@ impl Size {
 }
 
 impl Chart {
-    /// An element for a page of HTML that has [`super::STYLE`]; `about` says what is to be seen.
+    /// Returns an SVG element for an HTML page that has [`super::STYLE`]. `about` describes the chart.
     #[must_use]
     pub fn inline(&self, size: Size, about: &str) -> String {
         self.drawn(size, about, "")
     }
 
-    /// A file of its own, with its style and a ground.
+    /// Returns an SVG file of its own, with style and background.
     #[must_use]
     pub fn file(&self, about: &str) -> String {
         self.drawn(Size::Wide, about, &format!("<style>{}</style>\n", super::STYLE))
@@ -172,7 +172,7 @@ impl Chart {
         svg.text("faint small", middle, frame.bottom + 36.0, Anchor::Middle, &self.across.label);
     }
 
-    /// Which labels of the axis to the right have room: powers of ten first, then what fits between.
+    /// Returns which labels of the horizontal axis fit: powers of ten first, then others in between.
     fn labels(&self, ticks: &[Tick], frame: Frame) -> Vec<bool> {
         let mut taken: Vec<f64> = Vec::new();
         let mut shown = vec![false; ticks.len()];
@@ -206,7 +206,7 @@ impl Chart {
         }
     }
 
-    /// What can be had for each time: the error of the nearest that is no dearer.
+    /// Draws the front as steps: for each time, the smallest error that costs no more.
     fn staircase(&self, svg: &mut Svg, frame: Frame) {
         let mut points: Vec<(f64, f64)> = Vec::new();
         for (x, y) in self.front.iter().filter_map(|&(x, y)| self.place(frame, x, y)) {
@@ -235,8 +235,8 @@ impl Chart {
         }
     }
 
-    /// Notes stand below to the left of their places, where below a front there is nothing; one that
-    /// would stand on another is left out.
+    /// Draws notes to the lower left of their points, since below a front there is nothing. A note that
+    /// would overlap another is left out.
     fn notes(&self, svg: &mut Svg, frame: Frame) {
         let mut taken: Vec<(f64, f64)> = Vec::new();
         for place in self.series.iter().flat_map(|series| &series.places) {
@@ -253,8 +253,8 @@ impl Chart {
         }
     }
 
-    /// The names of the curves, one below the other in the order in which they end, each with its
-    /// mark and a fine line to its end.
+    /// Draws the names of the curves, one below the other in the order of the curves' ends. Each name
+    /// has its mark and a fine line to the curve's end.
     fn names(&self, svg: &mut Svg, frame: Frame, radius: f64) {
         let mut ends: Vec<(f64, f64, &Series)> = self
             .series
@@ -304,7 +304,7 @@ impl Frame {
     }
 }
 
-/// Heights near those wished for, which ascend, a line of text apart at least.
+/// Returns heights near the wished ones, which ascend, at least one line of text apart.
 fn stacked(wished: &[f64], frame: Frame) -> Vec<f64> {
     let mut heights: Vec<f64> = Vec::with_capacity(wished.len());
     for &wish in wished {
@@ -364,7 +364,7 @@ mod tests {
         }
         chart.series[0].places.push(Place { x: f64::NAN, y: 0.0, ..Place::default() });
         let circles = chart.inline(Size::Wide, "about").matches("<circle").count();
-        // Three places, and the mark beside the name.
+        // Three points, and the mark beside the name.
         assert_eq!(circles, 4);
     }
 

@@ -1,4 +1,4 @@
-//! How a curve looks: its colour, and a mark by which it is known without colour.
+//! The look of a curve: its colour, and a mark that identifies it without colour.
 
 use super::svg::Svg;
 use render::filter::Filter;
@@ -10,22 +10,22 @@ pub enum Mark {
     Cross,
     /// A circle.
     Circle,
-    /// A triangle on its side.
+    /// A triangle with its tip up.
     Triangle,
     /// A square.
     Square,
     /// A square on its corner.
     Diamond,
-    /// A triangle on its tip.
+    /// A triangle with its tip down.
     Wedge,
 }
 
-/// How a curve looks.
+/// The look of a curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Look {
-    /// One of the six colours of the style, from 0.
+    /// The number of its colour, one of the six of the style, from 0 to 5.
     pub color: u8,
-    /// Its mark.
+    /// The shape of its mark.
     pub mark: Mark,
     /// Whether the mark is empty.
     pub hollow: bool,
@@ -34,7 +34,7 @@ pub struct Look {
 }
 
 impl Look {
-    /// One of six looks, which differ in colour and mark; over again after them.
+    /// Returns look `k` of six looks, which differ in colour and mark. From 6 on the looks repeat.
     #[must_use]
     pub fn number(k: usize) -> Self {
         let marks =
@@ -43,19 +43,19 @@ impl Look {
         Self { color: color as u8, mark: marks[color], hollow: false, dashed: false }
     }
 
-    /// The look of a filter, the same in all plots.
+    /// Returns the look of a filter, the same in all plots.
     #[must_use]
     pub fn filter(filter: Filter) -> Self {
         Self::number(Filter::ALL.iter().position(|&known| known == filter).unwrap_or(0))
     }
 
-    /// The same with an empty mark.
+    /// Returns this look with an empty mark.
     #[must_use]
     pub fn hollow(self) -> Self {
         Self { hollow: true, ..self }
     }
 
-    /// The same with a dashed line.
+    /// Returns this look with a dashed line.
     #[must_use]
     pub fn dashed(self) -> Self {
         Self { dashed: true, ..self }
@@ -65,11 +65,11 @@ impl Look {
         format!("s{}", self.color)
     }
 
-    /// Draws the mark; the radius is in pixels.
+    /// Draws the mark. Position and radius are in pixels.
     pub(super) fn draw(self, svg: &mut Svg, x: f64, y: f64, radius: f64) {
         let fill = if self.hollow { "hollow" } else { "full" };
         let class = format!("mark {fill} {}", self.class());
-        // Marks of different shapes look equally large at these sizes.
+        // The factors make marks of different shapes look equally large.
         let outline = |svg: &mut Svg, size: f64, corners: &[(f64, f64)]| {
             let points: Vec<(f64, f64)> =
                 corners.iter().map(|&(a, b)| (x + size * a, y + size * b)).collect();
@@ -78,7 +78,7 @@ impl Look {
         match self.mark {
             Mark::Circle => svg.circle(&class, x, y, radius),
             Mark::Cross => {
-                // A cross has no inside: an empty one stands in a circle.
+                // A cross has no inside, so an empty cross has a circle around it.
                 let arm = if self.hollow { 0.55 } else { 0.85 } * radius;
                 if self.hollow {
                     svg.circle(&class, x, y, radius);

@@ -1,7 +1,7 @@
-//! Plots as SVG: both axes by powers of ten, curves named where they end, marks that are told apart
+//! Draws plots as SVG. Both axes are logarithmic, curves are named at their ends, and marks differ
 //! without colour.
 //!
-//! A plot stands in a page of HTML or is a file of its own; both are right on white and on dark.
+//! A plot is part of an HTML page or a file of its own. Both forms are readable on white and on dark.
 
 pub mod axis;
 pub mod chart;
@@ -14,5 +14,5 @@ pub use axis::{Axis, Unit};
 pub use chart::{Band, Chart, Place, Series, Size};
 pub use look::{Look, Mark};
 
-/// What plots look like: for one `style` element of a page of HTML that has plots in it.
+/// The style of plots, for a `style` element of an HTML page that contains plots.
 pub const STYLE: &str = include_str!("style.css");

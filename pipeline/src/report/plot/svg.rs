@@ -1,9 +1,9 @@
-//! A drawing as it is written, by pixels with y down.
+//! Writes SVG elements. Coordinates are in pixels, with y down.
 
 use maud::Escaper;
 use std::fmt::{self, Write};
 
-/// Which end of a word is at its place.
+/// The part of a text that lies at its position.
 #[derive(Debug, Clone, Copy)]
 pub enum Anchor {
     Start,
@@ -11,7 +11,7 @@ pub enum Anchor {
     End,
 }
 
-/// The elements written so far. How they look is said by their classes.
+/// The SVG elements written so far. Their classes decide their look.
 #[derive(Debug, Default)]
 pub struct Svg(pub String);
 
@@ -50,7 +50,7 @@ impl Svg {
         self.0.push_str("</text>\n");
     }
 
-    /// A name for what the mouse points at: the next elements, until [`Svg::end`].
+    /// Opens a group with a name that appears under the mouse. The group ends at [`Svg::end`].
     pub fn named(&mut self, name: &str) {
         self.0.push_str("<g><title>");
         let _ = Escaper::new(&mut self.0).write_str(name);
@@ -66,7 +66,7 @@ impl Svg {
     }
 }
 
-/// A coordinate to a tenth of a pixel.
+/// A coordinate, rounded to a tenth of a pixel.
 struct Digits(f64);
 
 impl fmt::Display for Digits {

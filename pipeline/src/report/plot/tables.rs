@@ -1,4 +1,4 @@
-//! The plots of what was measured beside the pages.
+//! Plots of the tables that accompany the pages.
 
 use super::axis::{Axis, Unit};
 use super::chart::{Chart, Place, Series};
@@ -6,7 +6,7 @@ use super::look::{Look, Mark};
 use crate::number::digits;
 use crate::report::measured::Table;
 
-/// The plots of a table, by its name; none for one that is not known here, or has other columns.
+/// Returns the plots of a table, by its name. None for an unknown name or other columns.
 #[must_use]
 pub fn charts(table: &Table) -> Vec<Chart> {
     match table.name {
@@ -21,7 +21,7 @@ pub fn charts(table: &Table) -> Vec<Chart> {
     .collect()
 }
 
-/// A chart of curves, with axes around them.
+/// Makes a chart of curves, with axes that fit all points.
 fn chart(title: &str, across: (&str, Unit), up: (&str, Unit), series: Vec<Series>) -> Chart {
     let axis = |(label, unit): (&str, Unit), of: fn(&Place) -> f64| {
         Axis::around(label, unit, series.iter().flat_map(|own| &own.places).map(of))
@@ -31,7 +31,7 @@ fn chart(title: &str, across: (&str, Unit), up: (&str, Unit), series: Vec<Series
     Chart { title, across, up, series, band: None, front: Vec::new(), key: Vec::new() }
 }
 
-/// The places of rows, of which each is called by its first cell.
+/// Returns the points of rows. The name of each point begins with the row's first cell.
 fn places<'a>(
     table: &Table,
     rows: impl Iterator<Item = &'a Vec<String>>,
@@ -45,7 +45,7 @@ fn places<'a>(
     .collect()
 }
 
-/// Error against time of one average; samples of a pixel are joined.
+/// Plots error against time of one average. A line joins the numbers of samples in a pixel.
 fn filters(table: &Table) -> Chart {
     let columns = |error| ["ratio", error];
     let samples = |row: &&Vec<String>| row[0].starts_with("bilinear");
@@ -60,7 +60,8 @@ fn filters(table: &Table) -> Chart {
         joined: true,
         places: joined,
     }];
-    // The look of the filters in the other plots; the box of one pixel is a box too.
+    // Filters have their look of the other plots. The box of one pixel has the look of the box, but
+    // hollow.
     for (name, look) in [
         ("point", Look::number(0)),
         ("mip", Look::number(2)),
@@ -81,7 +82,7 @@ fn filters(table: &Table) -> Chart {
     )
 }
 
-/// Rounding of averages against the side of the box, by order and word.
+/// Plots the rounding error of averages against the side of the box, by order and number type.
 fn tables(table: &Table) -> Chart {
     let mut kinds: Vec<[&str; 2]> = Vec::new();
     let kind = |row: &'_ Vec<String>| -> Option<[String; 2]> {
@@ -119,7 +120,7 @@ fn tables(table: &Table) -> Chart {
     )
 }
 
-/// What a mesh takes against the distance that it reaches; even cells are dashed.
+/// Plots quads and time of meshes against the distance that they reach. Lines of even cells are dashed.
 fn cells(table: &Table, taken: [&str; 2]) -> Vec<Chart> {
     let mut shapes: Vec<&str> = Vec::new();
     for row in &table.rows {

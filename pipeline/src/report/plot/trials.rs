@@ -1,4 +1,4 @@
-//! The plots of a page: error against processor time.
+//! Plots of a page: error against processor time.
 
 use super::axis::{Axis, Unit};
 use super::chart::{Band, Chart, Place, Series};
@@ -13,10 +13,10 @@ const ACROSS: &str = "processor time";
 const UP: &str = "RMS error in linear light, where white is 1";
 const SUPERSAMPLED: &str = "supersampled";
 
-/// Noise below this part of the smallest error is not shown: there is nothing beside it.
+/// Noise below this fraction of the smallest error does not extend the axis: it is negligible.
 const NOISE_AT_LEAST: f64 = 0.08;
 
-/// Error over the whole picture.
+/// Plots the error over the whole picture.
 #[must_use]
 pub fn whole(page: &PageMeasured) -> Chart {
     let error = |trial: &Trial| Some(trial.whole);
@@ -25,7 +25,7 @@ pub fn whole(page: &PageMeasured) -> Chart {
     Chart { title: Some(title), ..chart(page, &error, page.truth.noise, across, up) }
 }
 
-/// The same for each region, all over the same axes.
+/// Plots the error in each region, all with the same axes.
 #[must_use]
 pub fn regions(page: &PageMeasured) -> Vec<Chart> {
     let all: Vec<_> = (0..page.regions.len())
@@ -52,7 +52,7 @@ pub fn regions(page: &PageMeasured) -> Vec<Chart> {
 
 type Error<'a> = dyn Fn(&Trial) -> Option<Difference> + 'a;
 
-/// Axes around the trials, and down to the noise, as far as that is worth the room.
+/// Returns axes that show all trials, and the noise if it is not negligible.
 fn axes(page: &PageMeasured, errors: &[&Error<'_>], noise: &[f64]) -> [Axis; 2] {
     let trials = || page.trials.iter();
     let of_all = errors.iter().flat_map(|of| trials().filter_map(of));
@@ -120,7 +120,8 @@ mod tests {
             assert_eq!(series.places.len(), fixture::COUNTS.len());
             assert!(series.places.windows(2).all(|w| w[0].x < w[1].x && w[0].y > w[1].y));
         }
-        // What is dearer and farther than another is not on the front: no quadratic, no point.
+        // A method that another one beats in cost and error is not on the front: no quadratic, no
+        // point.
         let points = |name: &str| {
             let named = chart.series.iter().find(|series| series.name == name).unwrap();
             named.places.iter().filter(|place| place.note.is_some()).count()

@@ -1,4 +1,4 @@
-//! Which method to use when, for a time that may be spent and for an error that is to be reached.
+//! Advises which method to use within a time, and which to reach an error.
 
 use super::super::measured::{Method, PageMeasured, Trial};
 use super::numbers::in_the_time;
@@ -8,14 +8,14 @@ use crate::number::times;
 use render::Sampling;
 use render::filter::Filter;
 
-/// Times that may be spent, by that of one bilinear ray in each pixel.
+/// Times that may be spent, as multiples of the time of one bilinear ray in each pixel.
 const BUDGETS: [f64; 5] = [2.0, 5.0, 20.0, 80.0, 300.0];
 
-/// Errors to be reached, as parts of that of one bilinear ray in each pixel, and what they are called.
+/// Errors to reach, as fractions of the error of one bilinear ray in each pixel, with their names.
 const AIMS: [(f64, &str); 4] =
     [(0.5, "half"), (0.25, "a quarter"), (0.125, "an eighth"), (0.0625, "a sixteenth")];
 
-/// What to use.
+/// Returns the sentences of advice.
 pub fn claims(pages: &[PageMeasured]) -> Vec<Claim> {
     let one = Method { filter: Filter::Bilinear, sampling: Sampling::regular(1) };
     let methods = everywhere(pages);
@@ -31,7 +31,8 @@ pub fn claims(pages: &[PageMeasured]) -> Vec<Claim> {
         let next = for_aim(pages, &methods, &one, aim);
         found.extend(next.map(|(method, text)| (method, Topic::Aim, text)));
     }
-    // What holds for the greater time, or the smaller error, is said once.
+    // If the next larger time, or the next smaller error, has the same advice, only that sentence is
+    // kept.
     let mut claims = Vec::new();
     for (k, (method, topic, text)) in found.iter().enumerate() {
         let again = found.get(k + 1).is_some_and(|next| (next.0, next.1) == (*method, *topic));
@@ -42,8 +43,9 @@ pub fn claims(pages: &[PageMeasured]) -> Vec<Claim> {
     claims
 }
 
-/// The method whose error is, in the geometric mean of the pages, the least by that of the nearest
-/// that keeps the time.
+/// Returns the method that is best within a time, with its sentence. On each page, a method is rated by
+/// its error over the least error within that time. The best method has the smallest geometric mean of
+/// these ratios and keeps the time on every page.
 fn for_budget<'a>(
     pages: &[PageMeasured],
     methods: &[&'a Method],
@@ -76,7 +78,7 @@ fn for_budget<'a>(
             "of what is done in that time it is the nearest on {nearest} of {} pages, and nowhere more than \
              {} times as far off as the nearest",
             pages.len(),
-            // Rounded up, so that it holds.
+            // Rounded up, so that the sentence is true.
             (100.0 * worst).ceil() / 100.0
         )
     };
@@ -87,8 +89,9 @@ fn for_budget<'a>(
     Some((method, text))
 }
 
-/// The method that takes the least time, in the geometric mean of the pages, of those that reach an
-/// error on every page.
+/// Returns the fastest method that reaches an error on every page, with its sentence. Times are
+/// compared in the geometric mean of the pages. Of methods as fast as the fastest, the one with the
+/// smallest error is taken.
 fn for_aim<'a>(
     pages: &[PageMeasured],
     methods: &[&'a Method],
@@ -101,7 +104,7 @@ fn for_aim<'a>(
             matches!(errors, [Some(own), Some(one)] if own <= part * one)
         })
     };
-    // Of those that are as fast as the fastest, the nearest.
+    // Returns the method with the smallest error among those as fast as the fastest.
     let fastest = |of: &dyn Fn(&Method) -> bool| {
         let all: Vec<(&Method, f64, f64)> = methods
             .iter()

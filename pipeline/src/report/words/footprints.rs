@@ -1,11 +1,11 @@
-//! Footprints that are hard for the thesis's method: at a slant, and thin.
+//! Sentences on footprints that are hard for the thesis's method: slanted or thin ones.
 
 use super::super::measured::Table;
 use super::numbers::list;
 use super::{AS_NEAR, Claim, Topic, Verdict, nearer};
 use crate::number::{error, times};
 
-/// What the filters' floor set says.
+/// Returns the sentences that the table of filters on a floor supports.
 pub fn claims(floor: &Table) -> Vec<Claim> {
     let rotated = hard(
         floor,
@@ -25,7 +25,8 @@ pub fn claims(floor: &Table) -> Vec<Claim> {
     [rotated, thin].into_iter().flatten().collect()
 }
 
-/// The tent's error on easy and on hard footprints, and what is nearer on the hard ones.
+/// Returns a sentence on the tent's error for easy and for hard footprints, with methods that are
+/// nearer for the hard ones.
 fn hard(floor: &Table, topic: Topic, columns: [&str; 2], places: [&str; 2]) -> Option<Claim> {
     let number = |row: &[String], column: &str| floor.number(row, column);
     let own = floor.row("tent")?;
@@ -39,7 +40,7 @@ fn hard(floor: &Table, topic: Topic, columns: [&str; 2], places: [&str; 2]) -> O
             .filter(|row| row[0] == "mip" || row[0].starts_with("bilinear"))
             .filter(|row| number(row, column).is_some_and(|error| nearer(error, own)))
             .collect();
-        // Cheap ones first, and no more than are needed to make the point.
+        // Cheap methods come first. Two of them are enough to make the point.
         rivals.sort_by(|a, b| {
             let [a, b] = [a, b].map(|row| number(row, "ns").unwrap_or(f64::INFINITY));
             a.total_cmp(&b)

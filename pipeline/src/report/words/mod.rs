@@ -1,7 +1,7 @@
-//! What the numbers say, in words.
+//! Turns the numbers of a report into sentences.
 //!
-//! Every sentence is worked out from what was measured, and is left out where the numbers do not
-//! bear it. What "as near" and "as fast" mean is said by [`AS_NEAR`] and [`AS_FAST`].
+//! Every sentence is derived from measurements, and is left out where the numbers do not support it.
+//! [`AS_NEAR`] and [`AS_FAST`] define "as near" and "as fast".
 
 mod advice;
 mod footprints;
@@ -15,70 +15,71 @@ mod tests;
 
 use super::measured::Measured;
 
-/// Errors of which the larger is at most this times the smaller count as the same.
+/// Two errors count as equal if the larger is at most this times the smaller.
 ///
 /// The noise of the truth changes an error of five times its size by 2 % at most.
 pub const AS_NEAR: f64 = 1.05;
 
-/// Times of which the longer is at most this times the shorter count as the same: about what two
-/// runs on a machine that does other work differ by.
+/// Two times count as equal if the longer is at most this times the shorter. Two runs on a machine that
+/// does other work differ by about as much.
 pub const AS_FAST: f64 = 1.1;
 
-/// Whether an error is as small as another, or smaller.
+/// Returns whether an error is at most as large as another, within [`AS_NEAR`].
 fn as_near(error: f64, other: f64) -> bool {
     error <= AS_NEAR * other
 }
 
-/// Whether an error is smaller than another, and not just as small.
+/// Returns whether an error is smaller than another by more than [`AS_NEAR`].
 fn nearer(error: f64, other: f64) -> bool {
     AS_NEAR * error < other
 }
 
-/// A filter helps where its error is at most this part of that of bilinear interpolation.
+/// A filter helps where its error is at most this fraction of that of bilinear interpolation.
 pub const HELPS: f64 = 0.8;
 
-/// No filter helps where the best has more than this part of that error.
+/// No filter helps where even the best leaves more than this fraction of the error of bilinear
+/// interpolation.
 pub const NO_HELP: f64 = 0.9;
 
-/// What a sentence is about.
+/// The subject of a sentence.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Topic {
-    /// Which method is nearest within a time.
+    /// The method that is nearest within a time.
     Budget,
-    /// Which method is fastest to an error.
+    /// The method that reaches an error fastest.
     Aim,
-    /// What one ray with the thesis's filter is worth in bilinear rays.
+    /// The number of bilinear rays that one ray with the thesis's filter is worth.
     OneRay,
-    /// That another method is nearer in no more time.
+    /// Another method that is nearer in no more time.
     Beaten,
-    /// What the filters do in a region.
+    /// The effect of the filters in a region.
     Region,
-    /// Mip-mapping against the tent.
+    /// Mip-mapping in comparison to the tent.
     Mip,
-    /// What is left of the filter when there are many rays.
+    /// The effect of the filter that remains with many rays.
     ManyRays,
-    /// The orders of repeated integration against each other.
+    /// The orders of repeated integration in comparison to each other.
     Orders,
-    /// The thesis's supersampling against as many rays evenly spread.
+    /// The thesis's supersampling in comparison to as many evenly spread rays.
     Supersampling,
     /// Footprints at a slant to the texture.
     Rotated,
     /// Footprints narrower than texels.
     Thin,
-    /// What the tables take.
+    /// The memory of the tables.
     Memory,
-    /// That a truth is not good enough.
+    /// A truth that is not exact enough.
     Noise,
 }
 
-/// For whom a sentence speaks.
+/// The conclusion of a sentence.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
-    /// It says what to use.
+    /// The sentence advises a method.
     Use,
     /// The thesis's method is better.
     Wins,
-    /// It makes no difference.
+    /// The methods do not differ.
     Even,
     /// The thesis's method is worse.
     Loses,
@@ -86,16 +87,16 @@ pub enum Verdict {
     Doubt,
 }
 
-/// A sentence, and what it says.
+/// A sentence with its subject and conclusion.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Claim {
-    /// What it is about.
+    /// The subject of the sentence.
     pub topic: Topic,
-    /// For whom it speaks.
+    /// The conclusion of the sentence.
     pub verdict: Verdict,
-    /// The page it is about; all of them if none.
+    /// The page that the sentence is about; `None` for all pages.
     pub page: Option<String>,
-    /// The sentence.
+    /// The text of the sentence.
     pub text: String,
 }
 
@@ -105,7 +106,7 @@ impl Claim {
     }
 }
 
-/// All that can be said of the pages and of the filters by themselves, which are in the table
+/// Returns all sentences on the pages, and on the filters by themselves, which are in the table
 /// `filters`.
 #[must_use]
 pub fn claims(measured: &Measured) -> Vec<Claim> {

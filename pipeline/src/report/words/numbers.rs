@@ -1,8 +1,8 @@
-//! Numbers as one says them.
+//! Writes numbers in words.
 
 use crate::number::{digits, times};
 
-/// How long one thing takes by another: `in a seventh of the time`.
+/// Returns a ratio of times in words: `in a seventh of the time`.
 #[must_use]
 pub fn in_the_time(ratio: f64) -> String {
     const PARTS: [&str; 9] = [
@@ -24,7 +24,7 @@ pub fn in_the_time(ratio: f64) -> String {
         return "in about the same time".into();
     }
     let whole = (1.0 / ratio).round();
-    // A part is said where it is within a tenth of the number; in between, the number.
+    // The fraction in words is used where it is within a tenth of the ratio, and the number otherwise.
     let near = (whole * ratio).max(1.0 / (whole * ratio)) <= by;
     match PARTS.get(whole as usize - 2) {
         Some(part) if near && whole >= 2.0 => format!("in {part} of the time"),
@@ -33,7 +33,7 @@ pub fn in_the_time(ratio: f64) -> String {
     }
 }
 
-/// Things one after the other: `a`, `a and b`, `a, b and c`.
+/// Joins items to a list: `a`, `a and b`, `a, b and c`.
 #[must_use]
 pub fn list(things: &[String]) -> String {
     match things {

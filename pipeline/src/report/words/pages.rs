@@ -1,4 +1,4 @@
-//! What one ray with the thesis's filter is worth, page by page and in all.
+//! Sentences on what one ray with the thesis's filter is worth, for each page and for all pages.
 
 use super::super::measured::{PageMeasured, Trial};
 use super::numbers::{in_the_time, list};
@@ -7,10 +7,11 @@ use super::{AS_FAST, Claim, Topic, Verdict, as_near, nearer};
 use crate::number::error;
 use render::filter::Filter;
 
-/// Differences of the truth's two seeds at most, as a part of the smallest error.
+/// Largest difference between the truth's two pictures, as a fraction of the smallest error, that
+/// causes no doubt. Both are root mean squares.
 const NOISE: f64 = 0.2;
 
-/// What each page says, and what they say together.
+/// Returns the sentences on each page, and those on all pages.
 pub fn claims(pages: &[PageMeasured]) -> Vec<Claim> {
     let mut claims = Vec::new();
     for page in pages {
@@ -25,12 +26,13 @@ fn claim(page: &PageMeasured, topic: Topic, verdict: Verdict, text: String) -> C
     Claim { topic, verdict, page: Some(page.name.clone()), text }
 }
 
-/// The thesis's method with one ray.
+/// Returns the trial of the thesis's method with one ray.
 fn reference(page: &PageMeasured) -> Option<&Trial> {
     THESIS.iter().find_map(|&filter| evenly(page, filter, 1))
 }
 
-/// How many bilinear rays are as near, and what they cost.
+/// Returns a sentence on how many bilinear rays are as near as one ray with the thesis's filter, and on
+/// the time of both.
 fn one_ray(page: &PageMeasured) -> Option<Claim> {
     let own = reference(page)?;
     let counts = counts(page, Filter::Bilinear);
@@ -66,7 +68,7 @@ fn one_ray(page: &PageMeasured) -> Option<Claim> {
     let (cost, rival) = (in_the_time(ratio), trial.whole.rmse);
     let as_near_as_it = as_near(own_error, rival);
     let verdict = match ratio {
-        // What costs the same and is farther off, or costs more, loses.
+        // A method that costs more loses, and so does one that costs the same and is farther off.
         r if r > AS_FAST || (r * AS_FAST >= 1.0 && !as_near_as_it) => Verdict::Loses,
         r if r * AS_FAST < 1.0 => Verdict::Wins,
         _ => Verdict::Even,
@@ -103,7 +105,8 @@ fn one_ray(page: &PageMeasured) -> Option<Claim> {
     Some(claim(page, Topic::OneRay, verdict, text))
 }
 
-/// A method without the thesis's filters that is nearer in no more time, or faster and no farther.
+/// Returns a sentence on a method without the thesis's filters that is nearer in no more time, or
+/// faster and no farther off.
 fn beaten(page: &PageMeasured) -> Option<Claim> {
     let own = reference(page)?;
     let beats = |other: &&Trial| {
@@ -126,12 +129,13 @@ fn beaten(page: &PageMeasured) -> Option<Claim> {
     Some(claim(page, Topic::Beaten, Verdict::Loses, text))
 }
 
-/// Whether the truth is good enough to tell the nearest method from it, in the whole and in regions.
+/// Returns a sentence if the truth is too noisy to measure the smallest error, in the whole picture or
+/// in regions.
 fn noise(page: &PageMeasured) -> Option<Claim> {
     let smallest = |of: &dyn Fn(&Trial) -> Option<f64>| {
         page.trials.iter().filter_map(of).min_by(f64::total_cmp)
     };
-    // The two seeds differ by twice the error of their mean.
+    // The two pictures of the truth differ by twice the error of their mean.
     let doubtful = |noise: f64, smallest: Option<f64>| {
         smallest.filter(|&smallest| 2.0 * noise > NOISE * smallest)
     };
@@ -154,7 +158,7 @@ fn noise(page: &PageMeasured) -> Option<Claim> {
     (!places.is_empty()).then(|| claim(page, Topic::Noise, Verdict::Doubt, text))
 }
 
-/// On how many pages one ray with the thesis's filter is worth it.
+/// Returns sentences on how many pages one ray with the thesis's filter is worth its time.
 fn together(claims: &[Claim]) -> Vec<Claim> {
     let of = |topic: Topic, verdict: Verdict| -> Vec<String> {
         let own = claims.iter().filter(|claim| claim.topic == topic && claim.verdict == verdict);

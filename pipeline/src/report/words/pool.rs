@@ -1,25 +1,26 @@
-//! Errors of several pages as one.
+//! Combines the errors of several pages into one.
 
 use super::super::measured::{Method, PageMeasured, Trial};
 use crate::compare::Difference;
 use render::Sampling;
 use render::filter::Filter;
 
-/// The thesis's filters, in the order in which one of them stands for its method: the tent is the
-/// one that it settles on.
+/// The thesis's filters, in the order in which one of them represents the thesis's method. The thesis
+/// settles on the tent, so the tent comes first.
 pub const THESIS: [Filter; 3] = [Filter::Tent, Filter::Box, Filter::Quadratic];
 
-/// What a method made of a page, if it was measured.
+/// Returns the trial of a method on a page, if the method was measured.
 pub fn trial<'a>(page: &'a PageMeasured, method: &Method) -> Option<&'a Trial> {
     page.trials.iter().find(|trial| trial.method == *method)
 }
 
-/// The trial of a filter with rays evenly spread.
+/// Returns the trial of a filter with `samples * samples` evenly spread rays in a pixel.
 pub fn evenly(page: &PageMeasured, filter: Filter, samples: u32) -> Option<&Trial> {
     trial(page, &Method { filter, sampling: Sampling::regular(samples) })
 }
 
-/// Numbers of rays along a side of a pixel with which a filter was measured, evenly spread; upward.
+/// Returns the numbers of evenly spread rays along a side of a pixel with which a filter was measured,
+/// in rising order.
 pub fn counts(page: &PageMeasured, filter: Filter) -> Vec<u32> {
     let own = page.trials.iter().filter(|trial| trial.method.filter == filter);
     let mut counts: Vec<u32> = own.filter_map(|trial| trial.method.evenly()).collect();
@@ -28,14 +29,14 @@ pub fn counts(page: &PageMeasured, filter: Filter) -> Vec<u32> {
     counts
 }
 
-/// The methods that were measured on every page, in the order of the first.
+/// Returns the methods that were measured on every page, in the order of the first page.
 pub fn everywhere(pages: &[PageMeasured]) -> Vec<&Method> {
     let Some((first, others)) = pages.split_first() else { return Vec::new() };
     let methods = first.trials.iter().map(|trial| &trial.method);
     methods.filter(|method| others.iter().all(|page| trial(page, method).is_some())).collect()
 }
 
-/// The root mean square error over the pixels of several pictures. `None` without pixels.
+/// Returns the root mean square error over the pixels of several pictures. `None` without pixels.
 pub fn pooled<'a>(differences: impl Iterator<Item = &'a Difference>) -> Option<f64> {
     let (mut sum, mut pixels) = (0.0, 0);
     for difference in differences {
@@ -46,14 +47,14 @@ pub fn pooled<'a>(differences: impl Iterator<Item = &'a Difference>) -> Option<f
     error.is_finite().then_some(error)
 }
 
-/// The error of a method over all pixels of all pages.
+/// Returns the root mean square error of a method over all pixels of all pages.
 pub fn whole(pages: &[PageMeasured], method: &Method) -> Option<f64> {
     let trials: Option<Vec<&Trial>> = pages.iter().map(|page| trial(page, method)).collect();
     pooled(trials?.iter().map(|trial| &trial.whole))
 }
 
-/// The geometric mean of what a function says of each page. `None` if it says nothing of one, or
-/// something that has no logarithm.
+/// Returns the geometric mean of the values that `of` returns for the pages. `None` if `of` returns
+/// `None` for a page or the mean is not finite and positive.
 pub fn mean(pages: &[PageMeasured], of: impl Fn(&PageMeasured) -> Option<f64>) -> Option<f64> {
     let logarithms: Option<Vec<f64>> = pages.iter().map(|page| of(page).map(f64::ln)).collect();
     let logarithms = logarithms.filter(|all| !all.is_empty())?;
@@ -61,7 +62,7 @@ pub fn mean(pages: &[PageMeasured], of: impl Fn(&PageMeasured) -> Option<f64>) -
     (mean.is_finite() && mean > 0.0).then_some(mean)
 }
 
-/// Processor time of one method by another's, in the geometric mean of the pages.
+/// Returns the processor time of one method over that of another, in the geometric mean of the pages.
 pub fn time_ratio(pages: &[PageMeasured], method: &Method, by: &Method) -> Option<f64> {
     mean(pages, |page| Some(trial(page, method)?.cost.cpu / trial(page, by)?.cost.cpu))
 }

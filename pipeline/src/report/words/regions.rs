@@ -1,4 +1,4 @@
-//! What the filters do in the regions of the pictures.
+//! Sentences on the effect of the filters in the regions of the pictures.
 
 use super::super::measured::{Method, PageMeasured};
 use super::pool::{THESIS, pooled, trial};
@@ -8,10 +8,10 @@ use crate::number::{error, times};
 use render::Sampling;
 use render::filter::Filter;
 
-/// Rays along a side that stand for many.
+/// Number of rays along a side of a pixel that stands for many rays.
 const MANY: u32 = 4;
 
-/// One sentence for each region.
+/// Returns one sentence for each region.
 pub fn claims(pages: &[PageMeasured]) -> Vec<Claim> {
     let mut names: Vec<&'static str> = Vec::new();
     for region in pages.iter().flat_map(|page| &page.regions) {
@@ -22,14 +22,15 @@ pub fn claims(pages: &[PageMeasured]) -> Vec<Claim> {
     names.into_iter().filter_map(|name| claim(pages, name)).collect()
 }
 
-/// A region, over all pages that have it.
+/// A region on all pages that have it.
 struct Everywhere<'a> {
-    /// The pages, and which of their regions it is.
+    /// The pages, each with the index of the region among its regions.
     places: Vec<(&'a PageMeasured, usize)>,
 }
 
 impl Everywhere<'_> {
-    /// The error of a filter with `samples * samples` rays, if it was measured on all the pages.
+    /// Returns the error of a filter with `samples * samples` rays, if it was measured on all these
+    /// pages.
     fn error(&self, filter: Filter, samples: u32) -> Option<f64> {
         let method = Method { filter, sampling: Sampling::regular(samples) };
         let found: Option<Vec<&Difference>> =
@@ -85,7 +86,7 @@ fn claim(pages: &[PageMeasured], name: &str) -> Option<Claim> {
     Some(Claim::general(Topic::Region, verdict, text))
 }
 
-/// What many rays do where no filter helps.
+/// Returns the part of a sentence on the effect of many rays where no filter helps.
 fn of_samples(region: &Everywhere<'_>, one: f64) -> String {
     let counts = (2..=MANY).rev();
     let Some((n, many)) =
@@ -101,7 +102,7 @@ fn of_samples(region: &Everywhere<'_>, one: f64) -> String {
     }
 }
 
-/// How many bilinear rays are as near in the region.
+/// Returns the part of a sentence on how many bilinear rays are as near in the region.
 fn worth(region: &Everywhere<'_>, own: f64) -> String {
     let counts = (2..=render::film::MOST_SAMPLES).map(|n| (n, region.error(Filter::Bilinear, n)));
     let measured: Vec<(u32, f64)> = counts.filter_map(|(n, found)| Some((n, found?))).collect();

@@ -1,4 +1,4 @@
-//! Filters against rays, and against each other, over all pages.
+//! Sentences that compare filters with more rays, and filters with each other, over all pages.
 
 use super::super::measured::{Method, PageMeasured};
 use super::numbers::in_the_time;
@@ -9,7 +9,7 @@ use render::Sampling;
 use render::film::Nine;
 use render::filter::Filter;
 
-/// What can be said of all pages together.
+/// Returns the sentences on all pages together.
 pub fn claims(pages: &[PageMeasured]) -> Vec<Claim> {
     [mip(pages), many_rays(pages), orders(pages), supersampling(pages), memory(pages)]
         .into_iter()
@@ -21,7 +21,7 @@ fn method(filter: Filter, samples: u32) -> Method {
     Method { filter, sampling: Sampling::regular(samples) }
 }
 
-/// From how many rays on bilinear interpolation is as near as the tent.
+/// Returns a sentence on the number of rays from which bilinear interpolation is as near as the tent.
 fn many_rays(pages: &[PageMeasured]) -> Option<Claim> {
     let errors: Vec<(u32, f64, f64)> = counts(pages.first()?, Filter::Tent)
         .into_iter()
@@ -72,7 +72,7 @@ fn many_rays(pages: &[PageMeasured]) -> Option<Claim> {
     )
 }
 
-/// The pyramid, which is no method of the thesis's, with one ray.
+/// Returns a sentence on mip-mapping with one ray, which is not a method of the thesis.
 fn mip(pages: &[PageMeasured]) -> Option<Claim> {
     let (mip, tent) = (method(Filter::Mip, 1), method(Filter::Tent, 1));
     let (own, rival) = (whole(pages, &mip)?, whole(pages, &tent)?);
@@ -95,7 +95,7 @@ fn mip(pages: &[PageMeasured]) -> Option<Claim> {
     Some(Claim::general(Topic::Mip, verdict, text))
 }
 
-/// Box, tent and quadratic with one ray.
+/// Returns a sentence on box, tent and quadratic with one ray.
 fn orders(pages: &[PageMeasured]) -> Option<Claim> {
     let [box_, tent, quadratic] = [Filter::Box, Filter::Tent, Filter::Quadratic]
         .map(|filter| whole(pages, &method(filter, 1)));
@@ -128,7 +128,7 @@ fn orders(pages: &[PageMeasured]) -> Option<Claim> {
     Some(Claim::general(Topic::Orders, verdict, text))
 }
 
-/// The thesis's supersampling against 2 x 2 rays, which it traces as well.
+/// Returns a sentence on the thesis's supersampling and 2 x 2 rays, which trace as many rays.
 fn supersampling(pages: &[PageMeasured]) -> Option<Claim> {
     let nine = Method { filter: Filter::Tent, sampling: Sampling::Nine(Nine::Image) };
     let even = method(Filter::Tent, 2);
@@ -153,7 +153,7 @@ fn supersampling(pages: &[PageMeasured]) -> Option<Claim> {
     Some(Claim::general(Topic::Supersampling, verdict, text))
 }
 
-/// What tables take beyond what one bilinear ray takes.
+/// Returns a sentence on the memory of tables beyond that of one bilinear ray.
 fn memory(pages: &[PageMeasured]) -> Option<Claim> {
     let more = |filter: Filter| -> Option<u64> {
         let own = pages.iter().filter_map(|page| {

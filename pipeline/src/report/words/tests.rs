@@ -1,4 +1,4 @@
-//! Each sentence on numbers where it is true, and on numbers where it is false.
+//! Checks each sentence with numbers for which it is true, and with numbers for which it is false.
 
 use super::*;
 use crate::report::fixture::{self, edges, floor};
@@ -23,15 +23,15 @@ fn one(claims: &[Claim], topic: Topic) -> (Verdict, &str) {
 
 #[test]
 fn one_ray_is_worth_the_rays_that_are_as_near() {
-    // Tent 0.2 of bilinear's error: five times nearer, and 8 x 8 bilinear rays of 0.125 are enough. It costs
-    // two rays of 64.
+    // The tent leaves 0.2 of the error of one bilinear ray. 8 x 8 bilinear rays, which leave 0.125, are
+    // enough to be as near. The tent costs as much as two of these 64 rays.
     let claims = said(vec![fixture::page("floor", &floor, &[])]);
     let (verdict, text) = one(&claims, Topic::OneRay);
     assert_eq!(verdict, Verdict::Wins);
     let expected = "On floor the tent with one ray (0.040) is nearer to the truth than 4 x 4 bilinear \
                     rays (0.050), but not as near as 8 x 8 (0.025); it is done in 1/32 of the time of those.";
     assert_eq!(text, expected);
-    // Exactly as near as 4 x 4.
+    // The tent is exactly as near as 4 x 4 bilinear rays.
     let law = |filter, n: f64| match filter {
         Filter::Tent => (0.05, 0.32 / 7.0 * n * n),
         filter => floor(filter, n),
@@ -69,7 +69,8 @@ fn one_ray_that_costs_more_than_it_is_worth_loses() {
 
 #[test]
 fn a_method_without_tables_that_is_nearer_in_no_more_time_beats_it() {
-    // In the made-up laws mip-mapping is cheaper and farther off, and nothing else as fast is nearer.
+    // With the fixture's laws, mip-mapping is cheaper but farther off, and no method is nearer in the
+    // same time.
     let claims = said(vec![fixture::page("floor", &floor, &[])]);
     assert_eq!(about(&claims, Topic::Beaten), []);
     let law = |filter, n: f64| match filter {
@@ -81,7 +82,7 @@ fn a_method_without_tables_that_is_nearer_in_no_more_time_beats_it() {
     assert_eq!(verdict, Verdict::Loses);
     let words = "beaten by mip, 1 ray: 0.030 against 0.040, in 0.85 of the time";
     assert!(text.contains(words), "{text}");
-    // As cheap and a little nearer is no victory.
+    // A method that costs the same and is nearer by less than 5 % does not beat the tent.
     let law = |filter, n: f64| match filter {
         Filter::Mip => (0.0395, 0.04),
         filter => floor(filter, n),
@@ -117,7 +118,7 @@ fn in_silhouettes_no_filter_helps_unless_one_does() {
     let expected = "On the far floor the tent with one ray is 5.0 times nearer: 0.040 where one bilinear \
                     ray is 0.20 off; it takes 8 x 8 of those (0.025) to be as near.";
     assert_eq!(far, (Verdict::Wins, expected));
-    // What a filter does at an edge is said, however little or bad it is.
+    // The effect of a filter at an edge is reported, however small or bad it is.
     for (tent, mip, verdict, words) in [
         (0.1, 0.1, Verdict::Wins, "2.1 times nearer"),
         (0.18, 0.21, Verdict::Even, "helps little"),
@@ -135,7 +136,7 @@ fn in_silhouettes_no_filter_helps_unless_one_does() {
         assert_eq!(found, verdict, "{text}");
         assert!(text.contains(words), "{text}");
     }
-    // Nor do samples help where they do not.
+    // More samples are not praised where they do not help.
     let law = |_, _| (0.2, 1.0);
     let claims = said(vec![fixture::page("page", &floor, &[("silhouettes", &law)])]);
     assert!(one(&claims, Topic::Region).1.contains("nor do samples help much"));
@@ -153,11 +154,12 @@ fn with_many_rays_the_filter_counts_as_long_as_it_does() {
         }
     };
     for (slope, left, verdict, words) in [
-        // It stays at 0.1: bilinear's 0.2 / n is there with n = 2, and past it at 8.
+        // The tent stays at 0.1. Bilinear interpolation, 0.2 / n, is as near with n = 2 and nearer with
+        // n = 8.
         (0.0, 0.1, Verdict::Loses, "From 2 x 2 rays in a pixel on bilinear"),
         (0.0, 0.1, Verdict::Loses, "with 8 x 8 the tent is farther off (0.10 against 0.025)"),
         (1.0, 0.2, Verdict::Loses, "With any number of rays that was measured bilinear"),
-        // Equal from 4 x 4 on, by the tie of 5 %.
+        // Equal from 4 x 4 on, which counts as a tie.
         (0.5, 0.098, Verdict::Even, "From 4 x 4"),
     ] {
         let law = law(slope, left);
@@ -225,18 +227,19 @@ fn orders_and_supersampling_are_judged_by_their_errors() {
 fn what_is_advised_keeps_the_time_and_reaches_the_error() {
     let claims = said(vec![fixture::page("floor", &floor, &[])]);
     let budgets = about(&claims, Topic::Budget);
-    // The tent costs twice as much as one bilinear ray; 2 x 2 with it, eight times.
+    // The tent costs twice as much as one bilinear ray; 2 x 2 rays with the tent cost eight times as
+    // much.
     assert!(budgets[0].1.starts_with("Use tent, 1 ray where up to 5 times"), "{budgets:?}");
     assert!(budgets[1].1.starts_with("Use tent, 3 x 3 rays where up to 20 times"), "{budgets:?}");
     assert!(budgets.iter().all(|(verdict, _)| *verdict == Verdict::Use));
     let aims = about(&claims, Topic::Aim);
-    // Mip-mapping, 0.3, is the cheapest below a half; the box is as fast, and nearer.
+    // Mip-mapping, 0.3, is the cheapest below a half. The box is as fast and nearer.
     let expected = "Use box, 1 ray where the error is to be at most half of that of one bilinear ray: nothing \
                     faster gets there, and it takes 1.8 times the time of one bilinear ray; with bilinear rays \
                     alone it takes 2 x 2 rays, in 2.2 times the time.";
     assert_eq!(aims[0].1, expected);
     assert!(aims[1].1.starts_with("Use tent, 1 ray where the error is to be at most a quarter"));
-    // Where filters do nothing, bilinear rays are advised.
+    // Where filters have no effect, unfiltered rays are advised.
     let claims = said(vec![fixture::page("edges", &edges, &[])]);
     for (_, text) in about(&claims, Topic::Aim) {
         assert!(text.starts_with("Use point") || text.starts_with("Use bilinear"), "{text}");
@@ -294,7 +297,7 @@ fn of_few_methods_little_is_said_and_nothing_false() {
     for trial in &mut page.trials {
         trial.whole.rmse = 0.0;
     }
-    // Errors of 0 have no ratios; what is left must have no NaN.
+    // Errors of 0 have no ratios. The remaining sentences must not contain NaN.
     let claims = said(vec![page]);
     assert!(claims.iter().all(|claim| !claim.text.contains("NaN") && !claim.text.contains("inf")));
 }
