@@ -58,9 +58,9 @@ impl Pair {
         Picture { pixels: pairs.map(mean).collect(), ..first.clone() }
     }
 
-    /// Returns the root mean square error of a picture of the same size, in linear light where white is
-    /// 1. The mean is over the three channels of the pixels whose index `among` accepts. Returns `None`
-    /// if `among` accepts no pixel, and 0 where noise hides the error.
+    /// Returns the root mean square error of a picture of the same size, in linear light (white is 1). The
+    /// mean is over the three channels of the pixels whose index `among` accepts. Returns `None` if `among`
+    /// accepts no pixel, and 0 where noise hides the error.
     #[must_use]
     pub fn error_of(&self, picture: &Picture, among: impl Fn(usize) -> bool) -> Option<f64> {
         let [first, second] = &self.pictures;
