@@ -19,7 +19,7 @@ const NO_AREA: f64 = 1e-9;
 /// A point of a contour, with derivatives.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Local2 {
-    /// The point.
+    /// The point, in the unit of length.
     pub point: DVec2,
     /// The unit tangent; at a crease, of one side.
     pub tangent: DVec2,

@@ -38,7 +38,7 @@ pub enum Kind {
 /// A point and a normal after a deformation.
 #[derive(Debug, Clone, Copy)]
 pub struct Moved {
-    /// The point.
+    /// The point, in the unit of length.
     pub point: DVec3,
     /// The normal, of any length.
     pub normal: DVec3,

@@ -146,8 +146,8 @@ impl Shape {
         }
     }
 
-    /// Returns the number of cells that resolves the whole surface, `[along the trajectory, along the
-    /// contour]`.
+    /// Returns the number of cells that resolves the whole surface,
+    /// `[along the trajectory, along the contour]`.
     pub(crate) fn detail(&self) -> [usize; 2] {
         let [along, around] = self.modulation.detail();
         let caps = 16.0 * self.caps.iter().flatten().count() as f64;

@@ -113,11 +113,11 @@
 //!
 //! # Depth
 //!
-//! `depth` is a relief on the contour, made of waves: `delta` is the sum over `terms` of `amp * along(v) *
-//! sin(2 pi (u_count u + v_count v) + phase)`. If `mode` is `factor`, the contour is multiplied by `1 +
-//! delta`, which must stay above 0. If `mode` is `offset`, the contour is moved along its outer normal by
-//! `delta`; such a contour must have no corners. Scale and twist act on the contour with its relief. Counts
-//! are whole numbers along closed curves. All keys of a term except `amp` may be left out.
+//! `depth` is a relief on the contour, made of waves: `delta` is the sum over `terms` of
+//! `amp * along(v) * sin(2 pi (u_count u + v_count v) + phase)`. If `mode` is `factor`, the contour is
+//! multiplied by `1 + delta`, which must stay above 0. If `mode` is `offset`, the contour is moved along its
+//! outer normal by `delta`; such a contour must have no corners. Scale and twist act on the contour with its
+//! relief. Counts are whole numbers along closed curves. All keys of a term except `amp` may be left out.
 //!
 //! ```json
 //! {
@@ -129,13 +129,13 @@
 //! }
 //! ```
 //!
-//! Heights may come from a grey picture, alone or in addition to `terms`: `"image": {"file": "relief.png",
-//! "amp": a, "repeat": [x, y], "zero": 0.5}` adds `a (grey - zero)`, where black is 0 and white is 1. The
-//! file is a PNG of 8 or 16 bits; its path is relative to the spec's folder. Its numbers are read as heights,
-//! whatever its colour space, and transparency is ignored. The picture lies on the surface like a texture
-//! with the same `across` in `uv`, `repeat` times (once if left out). Between its texels the heights are
-//! smooth. Along a closed curve the picture repeats a whole number of times. Along an open curve it is
-//! mirrored at its edges.
+//! Heights may come from a grey picture, alone or in addition to `terms`:
+//! `"image": {"file": "relief.png", "amp": a, "repeat": [x, y], "zero": 0.5}` adds `a (grey - zero)`, where
+//! black is 0 and white is 1. The file is a PNG of 8 or 16 bits; its path is relative to the spec's folder.
+//! Its numbers are read as heights, whatever its colour space, and transparency is ignored. The picture lies
+//! on the surface like a texture with the same `across` in `uv`, `repeat` times (once if left out). Between
+//! its texels the heights are smooth. Along a closed curve the picture repeats a whole number of times. Along
+//! an open curve it is mirrored at its edges.
 //!
 //! # Seam, caps, deformations, parts
 //!
@@ -275,7 +275,7 @@ pub struct Bezier<P> {
     pub segments: Vec<[P; 4]>,
 }
 
-/// Points that a C2 spline goes through.
+/// Points that a C2 spline passes through.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object with the key points, and closed if it is")]
 #[schemars(inline, transform = schema::loop_of_three)]

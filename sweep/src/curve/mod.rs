@@ -59,7 +59,7 @@ pub trait Curve3 {
 /// A point of a curve in space, with derivatives by arc length.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Local3 {
-    /// The point.
+    /// The point, in the unit of length.
     pub position: DVec3,
     /// The unit tangent.
     pub tangent: DVec3,

@@ -26,7 +26,7 @@ use glam::{DVec2, DVec3};
 /// A point on a curve with the tangent and two directions across it, three orthogonal unit vectors.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frame {
-    /// The point on the curve.
+    /// The point on the curve, in the unit of length.
     pub origin: DVec3,
     /// Direction of the curve, `T`.
     pub tangent: DVec3,

@@ -13,8 +13,8 @@
 //! ```
 //!
 //! So a normal needs the derivatives of the laws and no finite differences. Where a scale of 0 contracts the
-//! contour to a point, both `q` and `q_u` vanish. `q_u` is therefore divided by the scale first, and the
-//! normal is the limit along the column: that of a cone, or `-T` or `T` on a cap whose scale ends vertically.
+//! contour to a point, both `q` and `q_u` vanish. `q_u` is therefore divided by the scale first. The normal
+//! there is the limit along the column: that of a cone, or `-T` or `T` on a cap whose scale ends vertically.
 
 mod pole;
 
@@ -126,8 +126,8 @@ impl Modulation {
 }
 
 impl Modulation {
-    /// Returns the number of cells that resolves all laws and waves, `[along the trajectory, along the
-    /// contour]`.
+    /// Returns the number of cells that resolves all laws and waves,
+    /// `[along the trajectory, along the contour]`.
     pub(crate) fn detail(&self) -> [f64; 2] {
         let mut along: f64 = self.laws().map(Law::detail).sum();
         if let Some(twist) = &self.twist {

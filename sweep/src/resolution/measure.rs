@@ -1,7 +1,7 @@
 //! Distance of the triangles of a cut surface from the surface.
 //!
-//! A cell is measured where triangles are farthest from a surface of the second order: at the middle of its
-//! sides, at its own middle, and at the middle of its two triangles. The distance is that of the true point
+//! A cell is measured where triangles are farthest from a surface of the second order. These are the middle
+//! of its sides, its own middle, and the middle of its two triangles. The distance is that of the true point
 //! there to the triangles, so the surface may slide along them. At an edge between two cells, the triangles
 //! of the nearer cell count. The angle is that between a triangle and the true normals at its corners, where
 //! a surface of the second order turns away furthest.

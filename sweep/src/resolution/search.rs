@@ -45,7 +45,7 @@ const TRIMMED_TIMES: usize = 2;
 /// A surface to be cut, with the bounds of the cut.
 #[expect(missing_debug_implementations, reason = "a surface has none")]
 pub struct Search<'a> {
-    /// The surface.
+    /// The surface to be cut.
     pub surface: &'a dyn Surface,
     /// The tolerance to be kept.
     pub tolerance: &'a Tolerance,

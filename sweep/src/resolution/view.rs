@@ -29,9 +29,9 @@ pub struct View {
 }
 
 impl View {
-    /// A camera at `eye` that looks at `target`, with `field_of_view` in radians between the lower
-    /// and the upper edge of a picture of `size` pixels. Nothing when the eye is at the target or
-    /// `up` points along the view.
+    /// Returns a camera at `eye` that looks at `target`. `field_of_view` is the angle in radians between the
+    /// lower and the upper edge of a picture of `size` pixels, `[width, height]`. `None` if the eye is at the
+    /// target or `up` is parallel to the view.
     #[must_use]
     pub fn new(
         eye: DVec3,
@@ -42,7 +42,7 @@ impl View {
     ) -> Option<Self> {
         let forward = (target - eye).try_normalize()?;
         let across = forward.cross(up.try_normalize()?);
-        // An up vector this near the view leaves no digits for the direction across.
+        // An up vector this close to the view leaves no correct digits for the direction across.
         if across.length() < 1e-9 {
             return None;
         }

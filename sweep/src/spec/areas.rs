@@ -10,8 +10,8 @@
 //!
 //! Cells are those of `mesh`, counted from 0: `[0, 48]` are the first 48 rows. The picture fills its area
 //! once, or `repeat` times, in the direction that `uv.across` gives. `texture` and `surface` are ids; an id
-//! that is left out is that of the whole object. Later areas cover earlier ones. `triangulate` writes `usemtl
-//! texT_surfS` for each area, and a scene binds these names.
+//! that is left out is that of the whole object. Later areas cover earlier ones. `triangulate` writes
+//! `usemtl texT_surfS` for each area, and a scene binds these names.
 
 pub use crate::grid::Area;
 

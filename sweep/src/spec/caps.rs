@@ -1,8 +1,9 @@
 //! Caps as they are written: the closures of the two ends of a sweep.
 //!
 //! `caps` close the ends of an open trajectory whose contour is closed. `"flat"` closes an end in its own
-//! plane, `"round"` by a dome (half a sphere on a circle), `{"dome": h}` by a dome of height h, `{"pole": h}`
-//! by a cone of height h. `v` runs over the caps too, by length. The laws run over the trajectory alone.
+//! plane. `"round"` closes it by a dome (half a sphere on a circle), and `{"dome": h}` by a dome of height h.
+//! `{"pole": h}` closes it by a cone of height h. `v` runs over the caps too, by length. The laws run over
+//! the trajectory alone.
 //!
 //! ```json
 //! {

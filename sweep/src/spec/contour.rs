@@ -55,11 +55,11 @@
 //! ```
 //!
 //! Points at the same fraction of the length correspond, however many points a contour was drawn with. The
-//! start of each closed contour is moved to where the contour matches the one before it best: the sum of
-//! squared distances about the centroids is least, and a corner goes to a corner if that is nearly as good.
-//! `"align": false` keeps the starts as drawn. A corner of one section is a crease along the whole surface.
-//! Along a closed trajectory the last section blends into the first; sections at both 0 and 1 must then have
-//! the same contour. The sections of a rotation must not touch the axis.
+//! start of each closed contour is moved to where the contour matches the one before it best. There the sum
+//! of squared distances about the centroids is least, and a corner goes to a corner if that is nearly as
+//! good. `"align": false` keeps the starts as drawn. A corner of one section is a crease along the whole
+//! surface. Along a closed trajectory the last section blends into the first; sections at both 0 and 1 must
+//! then have the same contour. The sections of a rotation must not touch the axis.
 
 use super::{Bezier, Ease, Free, only};
 use crate::schema;
@@ -76,7 +76,7 @@ pub enum Contour {
     Bezier(Bezier<[f64; 2]>),
     /// The `d` attribute of an SVG path.
     Svg(String),
-    /// Points that a spline goes through, or that a curve is fitted to.
+    /// Points that a spline passes through, or that a curve is fitted to.
     Free(FreeContour),
     /// Points with straight lines between them.
     Polyline(Free<[f64; 2]>),
@@ -144,7 +144,7 @@ struct ContourKeys {
     /// The `d` attribute of an SVG path with one subpath; its y points down.
     #[serde(skip_serializing_if = "Option::is_none")]
     svg: Option<String>,
-    /// Points `[x, y]` that a spline goes through, or that a curve is fitted to.
+    /// Points `[x, y]` that a spline passes through, or that a curve is fitted to.
     #[serde(skip_serializing_if = "Option::is_none")]
     free: Option<FreeContour>,
     /// Points `[x, y]` with straight lines between them.

@@ -1,4 +1,4 @@
-//! A trajectory drawn flat, as it is written.
+//! A plane curve with a height as a trajectory, as it is written.
 //!
 //! `{"flat": {"curve": CONTOUR, "z": LAW}}` is a trajectory whose x and y are those of a plane curve. The
 //! curve is written like a contour, but keeps the direction in which it is drawn. The z of the trajectory is

@@ -36,10 +36,10 @@
 //! frame does not exist where the trajectory is parallel to `up`. Frenet's frame does not exist on straight
 //! pieces and at inflections. The frame of a guide does not exist where the guide's point lies on the
 //! tangent. The reader refuses such a trajectory and reports the fraction of its length. To find such points,
-//! it samples the trajectory densely, halves steps in which the frame turns by more than half a radian, and
-//! searches for the minimum near every approach. A frame fixed by a direction must also not jump where two
-//! segments meet. Frenet's frame does so if the curvatures of the segments differ in direction. Frames of a
-//! closed trajectory close by themselves.
+//! it samples the trajectory densely and halves steps in which the frame turns by more than half a radian.
+//! Then it searches for the minimum near every approach. A frame fixed by a direction must also not jump
+//! where two segments meet. Frenet's frame does so if the curvatures of the segments differ in direction.
+//! Frames of a closed trajectory close by themselves.
 //!
 //! ```json
 //! {

@@ -13,8 +13,8 @@ pub struct Station {
     pub(super) forward: f64,
     /// Gradient of that speed over the contour: the speed of the point at `q` is `forward + bend . q`.
     pub(super) bend: DVec2,
-    /// Displacement along the tangent at a mitre, per unit of contour x and y: a point at `q` moves by `shear
-    /// . q`.
+    /// Displacement along the tangent at a mitre, per unit of contour x and y: a point at `q` moves by
+    /// `shear . q`.
     pub(super) shear: DVec2,
     /// Turn of the frame about the tangent, in radians per length.
     pub(super) spin: f64,
@@ -87,11 +87,11 @@ impl Station {
 
     /// Returns the unit normal above a point `q` of the contour with the unit tangent `q_u`.
     ///
-    /// The normal is the direction of `S_u x S_v` in closed form, with `S_u = q_u.x w1 + q_u.y w2` and `S_v =
-    /// stretch T + spin (q.x w2 - q.y w1)`. A rotation has no spin, so the radius cancels in its normal, and
-    /// a pole has a normal like any other point. On a section with a shear `m`, `w1 + m1 T` and `w2 + m2 T`
-    /// replace `w1` and `w2`. Then `S_u x S_v = stretch (q2_u w1 - q1_u w2) + spin (q.q_u) (T - m1 w1 - m2
-    /// w2)`.
+    /// The normal is the direction of `S_u x S_v` in closed form, with `S_u = q_u.x w1 + q_u.y w2` and
+    /// `S_v = stretch T + spin (q.x w2 - q.y w1)`. A rotation has no spin, so the radius cancels in its
+    /// normal, and a pole has a normal like any other point. On a section with a shear `m`, `w1 + m1 T` and
+    /// `w2 + m2 T` replace `w1` and `w2`. Then
+    /// `S_u x S_v = stretch (q2_u w1 - q1_u w2) + spin (q.q_u) (T - m1 w1 - m2 w2)`.
     #[must_use]
     pub fn normal(&self, q: DVec2, q_u: DVec2) -> DVec3 {
         let Frame { normal, binormal, .. } = self.frame;
