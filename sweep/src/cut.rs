@@ -6,7 +6,7 @@
 /// A position on a curve, and the side from which it is approached.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stop {
-    /// Arc length from the start, as a fraction of the whole, in [0, 1].
+    /// Arc length from the start, as a fraction of the whole, in `[0, 1]`.
     pub at: f64,
     /// The side that counts where the curve has a break; elsewhere both sides are equal.
     pub side: Side,

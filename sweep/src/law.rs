@@ -62,7 +62,7 @@ impl Law {
         Self::keys(vec![[0.0, 0.0], [1.0, value]], false)
     }
 
-    /// Returns the value and the derivative at `at` in [0, 1]; where the derivative jumps, of the side after.
+    /// Returns the value and the derivative at `at` in `[0, 1]`; where the derivative jumps, of the side after.
     #[must_use]
     pub fn at(&self, at: f64) -> (f64, f64) {
         self.on(Stop::after(at))

@@ -121,7 +121,7 @@ pub(crate) fn at_least(count: usize) -> impl FnMut(&mut Schema) {
     }
 }
 
-/// Allows points `[at, value]`, or lists of points, with `at` in [0, 1].
+/// Allows points `[at, value]`, or lists of points, with `at` in `[0, 1]`.
 pub(crate) fn graph(schema: &mut Schema) {
     fn points(items: &mut Map<String, Value>) {
         match items.get_mut("items") {

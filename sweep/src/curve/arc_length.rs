@@ -52,7 +52,7 @@ impl<V: Vector> ArcLength<V> {
         self.table[cell] + self.between(knot(cell), t)
     }
 
-    /// Returns the parameter in [0, 1] at length `s` from the start; `s` outside the segment gives its ends.
+    /// Returns the parameter in `[0, 1]` at length `s` from the start; `s` outside the segment gives its ends.
     pub fn parameter_at(&self, s: f64) -> f64 {
         if s.is_nan() || s <= 0.0 {
             return 0.0;

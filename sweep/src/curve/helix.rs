@@ -34,7 +34,7 @@ impl Helix {
         self.turns.abs() * self.turn_length()
     }
 
-    /// Returns the point and derivatives at `v`, a fraction of the length in [0, 1].
+    /// Returns the point and derivatives at `v`, a fraction of the length in `[0, 1]`.
     #[must_use]
     pub fn place(&self, v: f64) -> Local3 {
         let (outward, around) = self.spoke(v);

@@ -44,7 +44,7 @@ pub struct Area {
 pub struct PlacedArea {
     /// The area.
     pub area: Area,
-    /// `v` at the first and the last row of the area, in [0, 1].
+    /// `v` at the first and the last row of the area, in `[0, 1]`.
     pub v: [f64; 2],
 }
 

@@ -60,7 +60,7 @@ pub(super) fn own(start: f64, u: f64) -> f64 {
     if start > 0.0 && sum >= 1.0 { sum - 1.0 } else { sum }
 }
 
-/// Returns the start of `contour`, as a fraction of its length in [0, 1), that matches `before` best.
+/// Returns the start of `contour`, as a fraction of its length in `[0, 1)`, that matches `before` best.
 /// `before` starts at `from`, a fraction of its length; both contours are closed.
 #[must_use]
 pub fn start(before: &Contour, from: f64, contour: &Contour) -> f64 {

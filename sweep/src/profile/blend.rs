@@ -30,7 +30,7 @@ pub struct Blend {
 pub(crate) struct Mix {
     from: usize,
     to: usize,
-    /// Weight of the second contour in [0, 1]; `part_v` is its derivative by `v`.
+    /// Weight of the second contour in `[0, 1]`; `part_v` is its derivative by `v`.
     part: f64,
     part_v: f64,
 }

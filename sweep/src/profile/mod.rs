@@ -47,7 +47,7 @@ struct Aligned {
 /// A position along a profile: the points with the same `u` on all its contours.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Column {
-    /// Arc length from the start, as a fraction of the whole, in [0, 1].
+    /// Arc length from the start, as a fraction of the whole, in `[0, 1]`.
     pub u: f64,
     /// The point on the first contour.
     pub first: Local2,
@@ -174,7 +174,7 @@ impl Profile {
         self.breaks.len()
     }
 
-    /// Returns the positions of the creases as fractions of the length in [0, 1], rising.
+    /// Returns the positions of the creases as fractions of the length in `[0, 1]`, rising.
     #[must_use]
     pub fn breaks(&self) -> &[f64] {
         &self.breaks
@@ -204,7 +204,7 @@ impl Profile {
         stops.iter().map(|&stop| self.column(stop)).collect()
     }
 
-    /// Returns the column at `u`, a fraction of the length in [0, 1]; at a crease, of the side after.
+    /// Returns the column at `u`, a fraction of the length in `[0, 1]`; at a crease, of the side after.
     #[must_use]
     pub fn at(&self, u: f64) -> Column {
         self.column(Stop::after(u))

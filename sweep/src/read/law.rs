@@ -70,7 +70,7 @@ impl Reader<'_> {
         Ok(Law::bezier(cubics))
     }
 
-    /// Checks a point of a law: a position in [0, 1] and a number.
+    /// Checks a point of a law: a position in `[0, 1]` and a number.
     fn law_point(&self, path: &str, point: &[f64; 2]) -> Result<(), SweepError> {
         if !(0.0..=1.0).contains(&point[0]) {
             let message =

@@ -117,7 +117,7 @@ pub struct Sections {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object with the keys at and contour")]
 pub struct Section {
-    /// Position on the trajectory, as a fraction of its length in [0, 1].
+    /// Position on the trajectory, as a fraction of its length in `[0, 1]`.
     #[schemars(transform = schema::range(0.0..=1.0))]
     pub at: f64,
     /// The contour at this position; not `sections`.

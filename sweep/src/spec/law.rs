@@ -17,7 +17,7 @@ pub enum Law {
     Number(f64),
     /// Keys, with interpolation between them.
     Keys {
-        /// Pairs `[at, value]`, with `at` strictly rising in [0, 1].
+        /// Pairs `[at, value]`, with `at` strictly rising in `[0, 1]`.
         keys: Vec<[f64; 2]>,
         /// Interpolation between two keys.
         ease: Ease,
@@ -60,7 +60,7 @@ pub enum Scale {
 #[serde(deny_unknown_fields)]
 #[schemars(extend("dependentRequired" = {"ease": ["keys"]}), transform = schema::one_of)]
 struct LawKeys {
-    /// Pairs `[at, value]`, with `at` strictly rising in [0, 1].
+    /// Pairs `[at, value]`, with `at` strictly rising in `[0, 1]`.
     #[schemars(transform = schema::graph)]
     keys: Option<Vec<[f64; 2]>>,
     /// Interpolation between two keys; `linear` if left out.

@@ -148,7 +148,7 @@ impl Trajectory {
         }
     }
 
-    /// Returns the station at `v`, a fraction of the length in [0, 1]; at a corner, of the side after.
+    /// Returns the station at `v`, a fraction of the length in `[0, 1]`; at a corner, of the side after.
     #[must_use]
     pub fn station(&self, v: f64) -> Station {
         self.station_at(Stop::after(v))

@@ -61,7 +61,7 @@ pub struct Header {
     pub tolerance: Option<Tolerance>,
     /// How texture coordinates lie on the surface.
     pub uv: UvLayout,
-    /// `u` of each column, not decreasing, in [0, 1].
+    /// `u` of each column, not decreasing, in `[0, 1]`.
     pub u: Vec<f64>,
 }
 
