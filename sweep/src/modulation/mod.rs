@@ -60,8 +60,8 @@ pub struct Section {
     /// At a pole, the signs of the scale's factors on the side of the stop; (1, 1) elsewhere.
     signs: DVec2,
     relief: Option<Relief>,
-    /// Length of the trajectory (or angle of a rotation, in radians). Dividing a derivative by `v` by it
-    /// gives a derivative by length.
+    /// Length of the trajectory, or angle of a rotation in radians. A derivative by `v` divided by this
+    /// number is the derivative by length or angle.
     extent: f64,
     /// On a cap, the contraction of the contour toward the pole.
     gathered: Option<Gathered>,

@@ -95,8 +95,8 @@ impl Trajectory {
         }
     }
 
-    /// Returns the length, or for a rotation its angle in radians. Derivatives by `v` over this number are
-    /// derivatives by length or angle.
+    /// Returns the length, or for a rotation its angle in radians. A derivative by `v` divided by this number
+    /// is the derivative by length or angle.
     pub(crate) fn extent(&self) -> f64 {
         match &self.0 {
             Form::Rotation { fraction, .. } => TAU * fraction,

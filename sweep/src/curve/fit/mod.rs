@@ -1,10 +1,10 @@
 //! Fits a few cubics to many points: P. J. Schneider's least-squares fit ("An Algorithm for Automatically
 //! Fitting Digitized Curves", Graphics Gems, 1990).
 //!
-//! Points are divided at their corners. Between two corners, each cubic takes as many points as it can stay
-//! within the tolerance of. It is the least-squares fit with given directions at its ends. Two cubics share
-//! one direction where they meet, so all joints except corners are smooth. A joint lies on a parabola fitted
-//! to the points around it, which averages noise. Ends and corners stay at their points.
+//! Points are divided at their corners. Between two corners, each cubic takes as many points as lie within
+//! the tolerance of it. The cubic is the least-squares fit with given directions at its ends. Two cubics
+//! share one direction where they meet, so all joints except corners are smooth. A joint lies on a parabola
+//! fitted to the points around it, which averages noise. Ends and corners stay at their points.
 //!
 //! The number of points that a cubic takes is found by bisection, starting near the number that the cubic
 //! before took. So the work is that of some dozen passes over the points. (Schneider divides at the worst
@@ -22,7 +22,7 @@ use piece::Piece;
 /// A piece is first tried with this many times the points of the piece before.
 const REACH: usize = 4;
 
-/// The number of points of a piece is found to within this fraction: 1 / FINE.
+/// The number of points of a piece is found to within 1 / `FINE` of it.
 const FINE: usize = 64;
 
 /// Cubics fitted to points.
