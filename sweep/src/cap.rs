@@ -1,15 +1,15 @@
-//! Caps: what closes the end of a sweep beyond its trajectory.
+//! Caps: surfaces that close the ends of a sweep beyond its trajectory.
 //!
-//! A cap gathers the last section toward a centre that sees all of it, while it goes on straight
-//! along the trajectory's last direction. With `t` from 0 at the section to 1 at the pole,
+//! A cap shrinks the last section toward a centre that sees the whole section, and moves it straight along
+//! the trajectory's last direction. With `t` from 0 at the section to 1 at the pole,
 //!
-//! | cap   | part of the section that is left | way beyond the end |
+//! | cap   | scale of the section             | distance from the end |
 //! |-------|----------------------------------|--------------------|
 //! | flat  | `1 - t`                          | 0                  |
 //! | dome  | `cos(pi t / 2)`                  | `h sin(pi t / 2)`  |
 //! | pole  | `1 - t`                          | `h t`              |
 //!
-//! So a dome meets a tube without an edge, and on a circle of radius `h` it is half a sphere.
+//! A dome therefore meets a tube without an edge. On a circle of radius `h` it is half a sphere.
 
 use crate::curve::turn;
 use glam::DVec2;
@@ -18,45 +18,46 @@ use std::f64::consts::{FRAC_PI_2, PI};
 /// A cap on a section.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cap {
-    /// What all of the section is gathered to, on its axes.
+    /// The centre toward which the section shrinks, on the section's axes.
     pub(crate) center: DVec2,
-    /// The mean distance of the section's points from it.
+    /// Mean distance of the section's outline from the centre.
     pub(crate) radius: f64,
-    /// How it is gathered.
+    /// Shape of the cap.
     pub(crate) form: Form,
 }
 
-/// How a cap gathers its section.
+/// Shape of a cap.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Form {
-    /// In its plane.
+    /// Flat, in the plane of the section.
     Flat,
-    /// By a quarter of an ellipse of this height.
+    /// A quarter of an ellipse of this height, in the unit of length, above 0.
     Dome(f64),
-    /// By a straight line of this height.
+    /// A straight line to the pole at this height, in the unit of length, above 0.
     Pole(f64),
 }
 
-/// A section on its way to the pole, and derivatives by `t`.
+/// A section on a cap at `t`, with derivatives by `t`.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Gathered {
     pub center: DVec2,
-    /// The part that is left of it.
+    /// Scale of the section about the centre, from 1 at the rim to 0 at the pole.
     pub part: f64,
     pub part_t: f64,
-    /// How far it is beyond the end.
+    /// Distance of the section from the trajectory's end.
     pub beyond: f64,
     pub beyond_t: f64,
 }
 
 impl Cap {
-    /// The length of the way from the section to the pole.
+    /// Returns the length of a line on the cap from the rim to the pole, at the mean radius.
     #[must_use]
     pub fn length(&self) -> f64 {
         match self.form {
             Form::Flat => self.radius,
             Form::Pole(height) => self.radius.hypot(height),
-            // A quarter of Ramanujan's first formula for an ellipse, 1914; it only shares out rows and pictures.
+            // A quarter of the ellipse by Ramanujan's first formula, 1914. The length only distributes rows
+            // and texture coordinates.
             Form::Dome(h) => {
                 let r = self.radius;
                 0.25 * PI * (3.0 * (r + h) - ((3.0 * r + h) * (r + 3.0 * h)).sqrt())
@@ -64,7 +65,7 @@ impl Cap {
         }
     }
 
-    /// The section at `t`.
+    /// Returns the section at `t`, from 0 at the rim to 1 at the pole.
     pub(crate) fn at(&self, t: f64) -> Gathered {
         let (part, part_t, beyond, beyond_t) = match self.form {
             Form::Flat => (1.0 - t, -1.0, 0.0, 0.0),
@@ -79,11 +80,11 @@ impl Cap {
     }
 }
 
-/// A place that sees all of a closed polygon, and the polygon's area, which is negative when it runs
-/// clockwise; `None` if there is no such place.
+/// Returns a point that sees the whole of a closed polygon, and the polygon's area, which is negative if the
+/// polygon runs clockwise. `None` if there is no such point.
 ///
-/// It is the centre of gravity where that will do, and else that of the polygon's kernel: what is
-/// left of a box when all that lies behind an edge is cut off.
+/// The point is the centre of gravity if that sees the whole polygon. Otherwise it is the centre of gravity
+/// of the polygon's kernel: a box from which everything behind each edge is cut off.
 #[must_use]
 pub fn center_of(polygon: &[DVec2]) -> Option<(DVec2, f64)> {
     let (area, center) = area_and_center(polygon)?;
@@ -132,8 +133,8 @@ fn area_and_center(polygon: &[DVec2]) -> Option<(f64, DVec2)> {
     (twice != 0.0 && center.is_finite()).then_some((0.5 * twice, center))
 }
 
-/// Whether all edges are seen from their inner side. One that is seen from its end, or is too short
-/// to tell, hides nothing.
+/// Returns whether all edges are seen from their inner side. An edge seen from its end, or too short to
+/// judge, counts as seen.
 fn sees_all(place: DVec2, polygon: &[DVec2], area: f64) -> bool {
     let slack = 1e-9 * area.abs();
     edges(polygon).all(|(from, to)| (from - place).perp_dot(to - place) * area.signum() > -slack)
@@ -151,7 +152,7 @@ mod tests {
 
     #[test]
     fn a_bent_shape_is_seen_from_its_kernel_alone() {
-        // Long legs, whose centre of gravity lies outside of the corner that sees both.
+        // Long legs, whose centre of gravity does not lie in the corner that sees both.
         let ell = [[0.0, 0.0], [9.0, 0.0], [9.0, 1.0], [1.0, 1.0], [1.0, 9.0], [0.0, 9.0]];
         let (center, area) = center_of(&ell.map(DVec2::from_array)).unwrap();
         assert!((center - DVec2::splat(0.5)).length() < 1e-12, "{center}");

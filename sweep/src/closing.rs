@@ -1,58 +1,59 @@
-//! How a surface comes back to its start when its columns do not meet themselves.
+//! How a surface comes back to its start if its columns do not meet themselves.
 //!
-//! Where a trajectory ends at its start, the last section lies on the first by some motion of their
-//! plane. A contour with a symmetry may then close with its columns *shifted* (`u` of the end leads to
-//! `u + u0` of the start) or *mirrored* (to `u0 - u`). Mirrored, the surface has one side: a Moebius
-//! band, if the contour is open, or a Klein bottle. That happens when a contour comes back turned
-//! onto its own reverse (a segment after half a turn), and when a trajectory comes back against its
-//! own direction, as that of Klein's bottle does.
+//! Where a trajectory ends at its start, a motion of their common plane takes the last section onto the
+//! first. A contour with a symmetry may then close with its columns *shifted*: `u` of the end continues at
+//! `u + u0` of the start. Or it closes with its columns *mirrored*, at `u0 - u`. A mirrored surface has one
+//! side: it is a Moebius band if the contour is open, or a Klein bottle. A surface closes mirrored in two
+//! cases. Either the contour comes back turned onto its own reverse (a segment after half a turn). Or the
+//! trajectory comes back against its own direction, as that of Klein's bottle does.
 //!
-//! What the contour still lacks to fit is turned in evenly along the whole length, and of all ways to
-//! fit the one is taken that turns the contour least against a frame that turns as little as it can.
+//! The turn that the contour still needs to fit is added evenly along the whole length. Among all fits, the
+//! one is taken that turns the contour least against a rotation-minimizing frame.
 
 use crate::cut::{Side, Stop};
 use crate::grid::Seam;
 use glam::DVec2;
 
-/// Samples around a contour; offsets of all parts below divide it.
+/// Samples around a contour; the denominators in `PARTS` divide this number.
 pub(crate) const SAMPLES: usize = 840;
 
-/// Offsets are multiples of one of these parts of the contour: its symmetries, and the places
-/// where it may start on an axis of symmetry.
+/// Denominators of the offsets that are tried, as fractions of the contour. They cover its symmetries and
+/// possible starts on an axis of symmetry.
 const PARTS: [usize; 10] = [1, 2, 3, 4, 5, 6, 7, 8, 10, 12];
 
-/// Sections that come closer than this part of their size are the same.
+/// Sections whose points differ by at most this fraction of their size coincide.
 const SAME: f64 = 1e-6;
 
-/// How the columns of the end lead on to those of the start.
+/// How the columns at the end continue as columns at the start.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Closing {
-    /// Whether they are led on in reverse.
+    /// Whether the columns continue in reverse order.
     pub(crate) mirrored: bool,
-    /// To which `u` of the start `u = 0` of the end leads, as a fraction `(p, q)`.
+    /// The `u` of the start at which `u = 0` of the end continues, as a fraction `(p, q)`.
     pub(crate) offset: (usize, usize),
-    /// What the contour is turned by in all so that it fits, as a fraction of a full turn.
+    /// Total turn that makes the contour fit, as a fraction of a full turn.
     pub(crate) turn: f64,
-    /// Whether the surface has an edge there.
+    /// Whether the surface has an edge where it closes.
     pub(crate) edge: bool,
 }
 
-/// Two sections on the axes of the start, sampled at `i / SAMPLES`; open ones at 1 too.
+/// Two sections on the frame axes of the start, sampled at `u = i / SAMPLES`; open ones also at 1.
 pub(crate) struct Ends<'a> {
     pub start: &'a [DVec2],
     pub end: &'a [DVec2],
     /// Whether the contour is closed.
     pub closed: bool,
-    /// Whether the end runs against the start: turning it one way is turning it the other way there.
+    /// Whether the trajectory ends against the direction of its start. A turn one way at the end is then a
+    /// turn the other way at the start.
     pub against: bool,
-    /// By how much the end was turned already to bring the frame back, in turns.
+    /// Turn that already brought the frame back at the end, as a fraction of a full turn.
     pub turned: f64,
 }
 
 impl Ends<'_> {
-    /// The way to close that turns the contour least; `turn_free` is false where it may not be turned.
+    /// Returns the closing with the smallest total turn. If `turn_free` is false, the end may not be turned.
     ///
-    /// The error is how far the best way misses, as a part of the contour's size.
+    /// The error is the smallest distance by which any offset misses, as a fraction of the contour's size.
     pub fn close(&self, mirrored: bool, turn_free: bool) -> Result<Closing, f64> {
         let mut best: Option<Closing> = None;
         let mut missed = f64::INFINITY;
@@ -61,7 +62,7 @@ impl Ends<'_> {
             let (turn, miss) = self.fit(mirrored, offset, turn_free);
             missed = missed.min(miss);
             let found = Closing { mirrored, offset, turn, edge: false };
-            // Of ways that differ by rounding the first is taken.
+            // Among closings that differ by rounding, the first is taken.
             if miss <= SAME && best.is_none_or(|best| total(&found) < total(&best) - 1e-9) {
                 best = Some(found);
             }
@@ -71,14 +72,15 @@ impl Ends<'_> {
 
     fn offsets(&self, mirrored: bool) -> Vec<(usize, usize)> {
         if !self.closed {
-            // Closed, an open contour meets itself; mirrored, it is led end to end.
+            // A closed seam joins an open contour to itself; a mirrored one joins it end to end.
             return vec![(usize::from(mirrored), 1)];
         }
         let of = |&q: &usize| (0..q).filter(move |&p| (p == 0) == (q == 1)).map(move |p| (p, q));
         PARTS.iter().flat_map(of).filter(|&(p, q)| p == 0 || gcd(p, q) == 1).collect()
     }
 
-    /// The turn of the end that fits best, in turns about its own direction, and how far it misses.
+    /// Returns the turn of the end that fits best, as a fraction of a full turn about the end's direction,
+    /// and the distance by which it misses.
     fn fit(&self, mirrored: bool, (p, q): (usize, usize), turn_free: bool) -> (f64, f64) {
         let shift = SAMPLES * p / q;
         let led = |i: usize| match (self.closed, mirrored) {
@@ -93,14 +95,14 @@ impl Ends<'_> {
         let size = self.start.iter().map(|s| s.length()).fold(0.0, f64::max);
         let miss = pairs().map(|(e, s)| (turn.rotate(e) - s).length()).fold(0.0, f64::max);
         let angle = turn.to_angle() / std::f64::consts::TAU;
-        // Half a turn either way is the same; rounding must not choose.
+        // Half a turn either way is the same; rounding must not decide between them.
         let angle = if angle < -0.5 + 1e-9 { 0.5 } else { angle };
         (if self.against { -angle } else { angle }, miss / size)
     }
 }
 
 impl Closing {
-    /// Where on the start a stop of the end leads.
+    /// Returns the stop of the start at which a stop of the end continues.
     pub(crate) fn leads_to(&self, closed: bool, stop: Stop) -> Stop {
         let offset = self.offset.0 as f64 / self.offset.1 as f64;
         let at = if self.mirrored { offset - stop.at } else { offset + stop.at };
@@ -112,7 +114,7 @@ impl Closing {
         Stop { at: if closed { at.rem_euclid(1.0) } else { at }, side }
     }
 
-    /// Where a contour must be cut so that its cuts lead to one another, besides its breaks.
+    /// Returns the positions, besides breaks, where a contour must be cut so that cuts continue as cuts.
     pub(crate) fn anchors(&self, breaks: &[f64], closed: bool) -> Vec<f64> {
         let mut anchors: Vec<f64> = Vec::new();
         for at in breaks.iter().copied().chain([0.0]) {
@@ -128,7 +130,8 @@ impl Closing {
         anchors
     }
 
-    /// The seam and its shift for columns at these stops; `None` if they do not lead to one another.
+    /// Returns the seam and its shift in columns, for columns at these stops. `None` if the columns do not
+    /// continue as columns.
     pub(crate) fn seam(
         &self,
         stops: &[Stop],
@@ -150,7 +153,7 @@ impl Closing {
     }
 }
 
-/// Whether two places on a contour are one, up to rounding.
+/// Returns whether two positions on a contour coincide up to rounding.
 fn same_place(a: f64, b: f64, closed: bool) -> bool {
     let apart = (a - b).abs();
     apart < 1e-9 || (closed && apart > 1.0 - 1e-9)

@@ -1,4 +1,4 @@
-//! The curve that is swept.
+//! Contours: the curves that are swept.
 
 use crate::curve::path::{Joint, Place};
 use crate::curve::{Cubic, Path, turn};
@@ -7,29 +7,29 @@ use glam::DVec2;
 use kurbo::{CubicBez, ParamCurveArea, Point, Shape};
 use std::f64::consts::TAU;
 
-/// A joint of a contour that turns further than this, in degrees, is a crease.
+/// A joint of a contour that turns by more than this, in degrees, is a crease.
 ///
-/// Handles rounded to three decimals turn a joint that was meant to be smooth by some tenths of a
-/// degree; a crease of less than a degree could not be told from a smooth joint.
+/// Handles rounded to three decimals turn a joint that is meant to be smooth by some tenths of a degree. A
+/// crease of less than a degree looks like a smooth joint.
 const CREASE_DEG: f64 = 1.0;
 
-/// An area below this fraction of the squared length has no sign to trust (a figure of eight).
+/// An area below this fraction of the squared length has no reliable sign (a figure of eight).
 const NO_AREA: f64 = 1e-9;
 
-/// A contour at one place.
+/// A point of a contour, with derivatives.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Local2 {
-    /// The point.
+    /// The point, in the unit of length.
     pub point: DVec2,
-    /// The unit tangent; at a crease that of one side.
+    /// The unit tangent; at a crease, of one side.
     pub tangent: DVec2,
-    /// Turn of the tangent by length, above 0 to the left; 0 where it has no bound.
+    /// Turn of the tangent in radians per length, positive to the left; 0 where it is unbounded.
     pub curvature: f64,
-    /// How fast `u` grows by length: one over the contour's length.
+    /// Derivative of `u` by length: 1 over the contour's length.
     pub pace: f64,
 }
 
-/// A contour, checked: it has a length, and a closed one runs counter-clockwise.
+/// A checked contour: it has a length, and a closed one runs counter-clockwise.
 #[derive(Debug, Clone)]
 pub struct Contour(Form);
 
@@ -38,7 +38,7 @@ enum Form {
     Circle {
         radius: f64,
     },
-    /// `reached` is how far fitted points are from it at most.
+    /// `reached` is the largest distance of a fitted point from the path.
     Path {
         path: Path<DVec2>,
         creases: Vec<Joint>,
@@ -47,32 +47,32 @@ enum Form {
 }
 
 impl Contour {
-    /// A circle about the origin, counter-clockwise from its point on the x axis.
+    /// Returns a circle about the origin, counter-clockwise from its point on the positive x axis.
     pub(crate) fn circle(radius: f64) -> Self {
         Self(Form::Circle { radius })
     }
 
-    /// A path. A closed one that runs clockwise is turned round, from the same start.
+    /// Returns a contour along a path. A closed path that runs clockwise is reversed, from the same start.
     ///
-    /// A closed path that encloses as much to its left as to its right keeps its direction.
+    /// A closed path that encloses equal areas to its left and right keeps its direction.
     pub(crate) fn path(path: Path<DVec2>) -> Self {
         Self::fitted(path, None)
     }
 
-    /// A path that was fitted to points, none of which is further from it than `reached`.
+    /// Returns a contour along a path fitted to points, whose largest distance from it is `reached`.
     pub(crate) fn fitted(path: Path<DVec2>, reached: Option<f64>) -> Self {
         let path = if path.closed() { counter_clockwise(path) } else { path };
         Self::of(path, reached)
     }
 
-    /// The contour as a rotation about the y axis takes it: an open one from the axis to the axis
-    /// closes there, and is turned round like a closed one when it runs clockwise.
+    /// Returns the contour for a rotation about the y axis. An open contour that starts and ends on the axis
+    /// (x of at most `on_axis`) is reversed like a closed one if it runs clockwise.
     pub(crate) fn rotated(self, on_axis: f64) -> Self {
         match self.0 {
             Form::Path { path, reached, .. }
                 if [path.start(), path.end()].iter().all(|&end| path.point(end).x <= on_axis) =>
             {
-                // The way back along the axis adds nothing to an area about the start.
+                // The line back along the axis adds nothing to an area about the start.
                 Self::of(counter_clockwise(path), reached)
             }
             form => Self(form),
@@ -84,7 +84,7 @@ impl Contour {
         Self(Form::Path { path, creases, reached })
     }
 
-    /// Whether the contour leads back to its start.
+    /// Returns whether the contour leads back to its start.
     #[must_use]
     pub fn closed(&self) -> bool {
         match &self.0 {
@@ -93,7 +93,7 @@ impl Contour {
         }
     }
 
-    /// The length of the whole contour.
+    /// Returns the length of the whole contour.
     #[must_use]
     pub fn length(&self) -> f64 {
         match &self.0 {
@@ -102,7 +102,7 @@ impl Contour {
         }
     }
 
-    /// The number of creases: corners of more than a degree, the start of a closed contour too.
+    /// Returns the number of creases: corners of more than a degree, including the start of a closed contour.
     #[must_use]
     pub fn creases(&self) -> usize {
         match &self.0 {
@@ -111,7 +111,8 @@ impl Contour {
         }
     }
 
-    /// The number of segments that were fitted to points, and the largest distance of a point from them.
+    /// Returns the number of segments fitted to points, and the largest distance of a point from them; `None`
+    /// if the contour was not fitted.
     #[must_use]
     pub fn fit(&self) -> Option<(usize, f64)> {
         match &self.0 {
@@ -122,7 +123,7 @@ impl Contour {
         }
     }
 
-    /// The smallest and the largest `x`.
+    /// Returns the smallest and the largest `x`.
     pub(crate) fn x_range(&self) -> (f64, f64) {
         match &self.0 {
             Form::Circle { radius } => (-radius, *radius),
@@ -135,7 +136,7 @@ impl Contour {
         }
     }
 
-    /// Where the creases lie, as fractions of the length.
+    /// Returns the positions of the creases as fractions of the length, rising.
     #[must_use]
     pub fn breaks(&self) -> Vec<f64> {
         match &self.0 {
@@ -146,7 +147,7 @@ impl Contour {
         }
     }
 
-    /// Cells that see all that the contour does: eight to a segment.
+    /// Returns the number of cells that resolves the contour: eight for each segment.
     pub(crate) fn detail(&self) -> f64 {
         match &self.0 {
             Form::Circle { .. } => 32.0,
@@ -154,19 +155,19 @@ impl Contour {
         }
     }
 
-    /// The contour's own parameter at a stop, from 0 to 1.
+    /// Returns the contour's own parameter at a stop, from 0 to 1.
     pub(crate) fn parameter(&self, stop: Stop) -> f64 {
         match &self.0 {
             Form::Circle { .. } => stop.at,
             Form::Path { path, creases, .. } => match stop {
-                // What leads up to the start of a closed contour is its end.
+                // Both sides of the start have parameter 0.
                 Stop { at: 0.0, .. } => 0.0,
                 _ => path.parameter(place(path, creases, stop)),
             },
         }
     }
 
-    /// The contour at a stop: at a crease that of its side.
+    /// Returns the contour at a stop; at a crease, of the stop's side.
     #[must_use]
     pub fn at(&self, stop: Stop) -> Local2 {
         match &self.0 {
@@ -189,7 +190,7 @@ impl Contour {
     }
 }
 
-/// The place of a stop: at a crease that of its side.
+/// Returns the place of a stop; at a crease, on the stop's side.
 fn place(path: &Path<DVec2>, creases: &[Joint], stop: Stop) -> Place {
     let length = path.length();
     match (creases.binary_search_by(|joint| (joint.s / length).total_cmp(&stop.at)), stop.side) {
@@ -200,10 +201,10 @@ fn place(path: &Path<DVec2>, creases: &[Joint], stop: Stop) -> Place {
     }
 }
 
-/// The path itself, or turned round when it runs clockwise.
+/// Returns the path, reversed if it runs clockwise.
 fn counter_clockwise(path: Path<DVec2>) -> Path<DVec2> {
     let origin = path.point(path.start());
-    // About a point of the path, so that nothing is lost far from the origin.
+    // The area is taken about a point of the path, so that no digits are lost far from the origin.
     let area: f64 =
         path.cubics().map(|cubic| kurbo_cubic(cubic.0.map(|p| p - origin)).signed_area()).sum();
     if area < -NO_AREA * path.length().powi(2) {
@@ -231,7 +232,7 @@ mod tests {
         Contour::path(Path::new(&outline.segments, outline.closed).unwrap())
     }
 
-    /// The contour at the ends of its cells, each with its `u` to six digits.
+    /// Returns the contour at the ends of its cells, each with its `u` rounded to six decimals.
     fn cut(contour: &Contour, cells: usize) -> Vec<(f64, Local2)> {
         let stops = cut::evenly(&contour.breaks(), contour.closed(), cells);
         stops.iter().map(|&stop| ((stop.at * 1e6).round() / 1e6, contour.at(stop))).collect()

@@ -1,51 +1,51 @@
-//! Where a curve is cut into cells: the rows of a trajectory, the columns of a contour.
+//! Division of a curve into cells: the rows of a trajectory, the columns of a contour.
 //!
-//! A curve has smooth pieces that end at *breaks*: creases of a contour, corners of a trajectory. A
-//! break is given twice, once for each side, so that the surface has the directions of both there.
+//! A curve has smooth pieces that end at *breaks*: creases of a contour, corners of a trajectory. A break has
+//! two stops, one for each side, so that the surface has the directions of both sides there.
 
-/// A place on a curve, and from which side it is looked at.
+/// A position on a curve, and the side from which it is approached.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stop {
-    /// Arc length from the start, as a fraction of the whole.
+    /// Arc length from the start, as a fraction of the whole, in `[0, 1]`.
     pub at: f64,
-    /// Which side is meant where the curve has a break; elsewhere both are the same.
+    /// The side that counts where the curve has a break; elsewhere both sides are equal.
     pub side: Side,
 }
 
-/// A side of a place, in the direction of the curve.
+/// A side of a position, in the direction of the curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Side {
-    /// What leads up to it.
+    /// The side that leads up to the position.
     Before,
-    /// What goes on from it.
+    /// The side that continues from the position.
     After,
 }
 
 impl Stop {
-    /// A place looked at from before.
+    /// Returns a stop on the side before a position.
     #[must_use]
     pub fn before(at: f64) -> Self {
         Self { at, side: Side::Before }
     }
 
-    /// A place looked at from after.
+    /// Returns a stop on the side after a position.
     #[must_use]
     pub fn after(at: f64) -> Self {
         Self { at, side: Side::After }
     }
 }
 
-/// The number of pieces between `breaks`; one that runs over the start of a closed curve counts as
-/// two.
+/// Returns the number of pieces between `breaks`. A piece that runs over the start of a closed curve counts
+/// as two.
 #[must_use]
 pub fn pieces(breaks: &[f64]) -> usize {
     1 + breaks.iter().filter(|&&at| at > 0.0).count()
 }
 
-/// Cuts a curve into `cells` parts; into one for each piece when those are more.
+/// Cuts a curve into `cells` cells, or into one for each piece if there are more pieces.
 ///
-/// `breaks` rise, from 0 to below 1. Each piece gets cells in proportion to its length, at least
-/// one, of equal length.
+/// `breaks` rise, from 0 to below 1. Each piece gets cells of equal length, at least one, in proportion to
+/// its length.
 #[must_use]
 pub fn evenly(breaks: &[f64], closed: bool, cells: usize) -> Vec<Stop> {
     let ends: Vec<f64> = breaks.iter().copied().filter(|&at| at > 0.0).chain([1.0]).collect();
@@ -65,10 +65,10 @@ pub fn evenly(breaks: &[f64], closed: bool, cells: usize) -> Vec<Stop> {
     at(breaks, closed, &inner)
 }
 
-/// Cuts a curve into about `cells` parts, and at `anchors` in any case.
+/// Cuts a curve into about `cells` cells, with stops at all `anchors`.
 ///
-/// What lies between two neighbours among breaks and anchors is cut by its length alone, so that
-/// pieces of equal length have equally many cells.
+/// Each interval between neighbouring breaks and anchors is cut by its own length alone. So intervals of
+/// equal length have equal numbers of cells.
 #[must_use]
 pub fn between(breaks: &[f64], closed: bool, cells: usize, anchors: &[f64]) -> Vec<Stop> {
     let near = |a: f64, b: f64| (a - b).abs() < 1e-9;
@@ -83,7 +83,7 @@ pub fn between(breaks: &[f64], closed: bool, cells: usize, anchors: &[f64]) -> V
     let mut inner = vec![Vec::new()];
     let mut from = 0.0;
     for to in ends {
-        // Rounding must not tell pieces of equal length apart.
+        // Rounding must not distinguish pieces of equal length.
         let count = ((cells as f64 * (to - from) + 1e-6).round() as usize).max(1);
         let part = |cell: usize| from + (to - from) * (cell as f64 / count as f64);
         if let Some(piece) = inner.last_mut() {
@@ -99,10 +99,10 @@ pub fn between(breaks: &[f64], closed: bool, cells: usize, anchors: &[f64]) -> V
     at(breaks, closed, &inner)
 }
 
-/// Cuts a curve at given places: `inner` has for each piece the places between its ends, rising.
+/// Cuts a curve at given positions: `inner` holds, for each piece, the rising positions between its ends.
 ///
-/// Breaks come twice. A closed curve has no stop at 1; its start comes twice if it is a break, first
-/// as the end of the last piece.
+/// Breaks get two stops. A closed curve has no stop at 1. If its start is a break it has two stops, of which
+/// the first is the end of the last piece.
 #[must_use]
 pub fn at(breaks: &[f64], closed: bool, inner: &[Vec<f64>]) -> Vec<Stop> {
     let mut stops =
@@ -124,24 +124,24 @@ pub fn at(breaks: &[f64], closed: bool, inner: &[Vec<f64>]) -> Vec<Stop> {
     stops
 }
 
-/// The number of cells of some length in a cut.
+/// Returns the number of cells in a cut that have some length.
 #[must_use]
 pub fn cells(stops: &[Stop], closed: bool) -> usize {
     let within = stops.windows(2).filter(|pair| pair[1].at > pair[0].at).count();
     within + usize::from(closed)
 }
 
-/// Divides `cells` among pieces that end at `ends`, of which the last is 1: how many cells there are
+/// Distributes `cells` among pieces that end at `ends`, of which the last is 1. Returns the number of cells
 /// up to each end.
 ///
-/// Each piece has at least one; `cells` is at least the number of pieces.
+/// Each piece has at least one cell; `cells` is at least the number of pieces.
 fn shares(ends: &[f64], cells: usize) -> Vec<usize> {
     let mut before = 0;
     ends.iter()
         .enumerate()
         .map(|(piece, &end)| {
             let fair = (cells as f64 * end).round() as usize;
-            // One for this piece, and enough left for those after it.
+            // At least one cell for this piece, and enough left for the pieces after it.
             before = fair.clamp(before + 1, cells - (ends.len() - 1 - piece));
             before
         })

@@ -1,53 +1,53 @@
-//! Deformations of the space that a surface lies in: taper, twist and bend along an axis.
+//! Deformations of space around a surface: taper, twist and bend along an axis.
 //!
-//! After A. Barr, "Global and local deformations of solid primitives", 1984: a point moves by a map
-//! `D` of space, and a normal `n` by the cofactors of its derivative, `det(D') D'^-T n`. These have a
-//! closed form for each map, so normals stay exact; where a taper draws everything into a
-//! point they are the limits, since the factor that vanishes is left out.
+//! After A. Barr, "Global and local deformations of solid primitives", 1984: a point moves by a map `D` of
+//! space. A normal `n` moves by the cofactors of the derivative, `det(D') D'^-T n`. The cofactors have a
+//! closed form for each map, so normals stay exact. Where a taper contracts everything to a point, the factor
+//! that vanishes is left out, and the normals are limits.
 //!
-//! Each map acts between two places of its axis and goes on evenly outside: a taper and a twist by
-//! their end values, a bend straight on.
+//! Each map acts between two heights on its axis. Outside, a taper and a twist keep their end values, and a
+//! bend goes straight on.
 
 use crate::law::Law;
 use glam::{DMat3, DVec3};
 
-/// A map of space.
+/// A deformation of space along an axis.
 #[derive(Debug, Clone)]
 pub struct Deform {
-    /// Where the axis passes.
+    /// A point on the axis, from which heights are measured.
     pub(crate) origin: DVec3,
-    /// Directions of x, y and the axis, right-handed; x is what a bend bends toward.
+    /// Unit vectors of x, y and the axis, right-handed; a bend bends toward x.
     pub(crate) axes: DMat3,
-    /// Where on the axis it begins and ends.
+    /// Heights on the axis where the deformation begins and ends.
     pub(crate) span: [f64; 2],
-    /// What it does there.
+    /// Kind of the deformation.
     pub(crate) kind: Kind,
 }
 
-/// What a deformation does along its axis.
+/// Kind of a deformation along its axis.
 #[derive(Debug, Clone)]
 pub enum Kind {
-    /// Multiplies the distance from the axis.
+    /// Multiplies the distance from the axis by a law, at least 0.
     Taper(Law),
-    /// Turns about the axis, in degrees.
+    /// Turns about the axis by a law, in degrees, right-handed.
     Twist(Law),
     /// Bends the axis by an angle in radians, other than 0.
     Bend(f64),
 }
 
-/// A point and a normal where they have come to.
+/// A point and a normal after a deformation.
 #[derive(Debug, Clone, Copy)]
 pub struct Moved {
-    /// The point.
+    /// The point, in the unit of length.
     pub point: DVec3,
     /// The normal, of any length.
     pub normal: DVec3,
-    /// Whether space is turned inside out there.
+    /// Whether the deformation turns space inside out at the point.
     pub folds: bool,
 }
 
 impl Deform {
-    /// Where a point goes, and a normal there.
+    /// Returns the deformed point, and the normal there.
     #[must_use]
     pub fn apply(&self, point: DVec3, normal: DVec3) -> Moved {
         let local = self.axes.transpose();
@@ -56,7 +56,7 @@ impl Deform {
             Kind::Taper(law) => {
                 let (r, slope) = self.law(law, p.z);
                 let moved = DVec3::new(r * p.x, r * p.y, p.z);
-                // Divided by r, which may be 0.
+                // The factor r is divided out, because it may be 0.
                 let z = r * n.z - slope * (p.x * n.x + p.y * n.y);
                 (moved, DVec3::new(n.x, n.y, z), false)
             }
@@ -73,7 +73,7 @@ impl Deform {
         Moved { point: self.axes * p + self.origin, normal: self.axes * n, folds }
     }
 
-    /// A law at a height, and its derivative by height.
+    /// Returns the value of a law at a height, and its derivative by height.
     fn law(&self, law: &Law, height: f64) -> (f64, f64) {
         let [from, to] = self.span;
         let (value, slope) = law.at(((height - from) / (to - from)).clamp(0.0, 1.0));
@@ -81,7 +81,7 @@ impl Deform {
         (value, if within { slope / (to - from) } else { 0.0 })
     }
 
-    /// The axis as an arc toward x: `k` is its curvature, and `1 - k x` how much is left of a length
+    /// Bends the axis into an arc toward x. `k` is the arc's curvature, and `1 - k x` the factor of lengths
     /// along the axis at x.
     fn bent(&self, angle: f64, p: DVec3, n: DVec3) -> (DVec3, DVec3, bool) {
         let [from, to] = self.span;
@@ -89,7 +89,7 @@ impl Deform {
         let on_arc = p.z.clamp(from, to) - from;
         let (sin, cos) = (k * on_arc).sin_cos();
         let half = (0.5 * k * on_arc).sin();
-        // Before the arc this is 0, and after it the rest of the way.
+        // Before the arc this is the height below its start, after it the height above its end.
         let rest = p.z - from - on_arc;
         let moved = DVec3::new(
             p.x * cos + 2.0 * half * half / k + rest * sin,
@@ -145,7 +145,7 @@ mod tests {
                 let cofactors = derivative.inverse().transpose() * derivative.determinant();
                 let moved = deform.apply(point, normal);
                 let error = moved.normal.normalize() - (cofactors * normal).normalize();
-                // Sixth differences of step 1e-3 leave some 1e-13 / h.
+                // Sixth-order differences with a step of 1e-3 leave an error of about 1e-13 / h.
                 assert!(error.length() < 1e-9, "{error}");
                 assert_eq!(moved.folds, derivative.determinant() < 0.0);
             }

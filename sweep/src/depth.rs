@@ -1,15 +1,15 @@
-//! Depth modulation: a relief on the contour, in waves along both directions of the surface and by a
+//! Depth modulation: a relief on the contour, from waves along both directions of the surface and from a
 //! picture of heights.
 //!
-//! The thesis names depth modulation and does not say what it is; this is our reading. With
+//! The thesis names depth modulation without defining it; this definition is ours. With
 //!
 //! ```text
 //!     delta(u, v) = sum of amp * along(v) * sin(2 pi (m u + n v) + phase)
 //! ```
 //!
-//! and the heights of the picture added to it, a *factor* makes the contour `C` into `(1 + delta) C`, and an *offset* into `C + delta n`, with
-//! `n` its outer normal. The relief is the contour's: what scales and twists the contour scales and
-//! twists it too.
+//! and the heights of the picture added to `delta`, a *factor* changes the contour `C` into `(1 + delta) C`.
+//! An *offset* changes it into `C + delta n`, where `n` is its outer normal. The relief belongs to the
+//! contour, so scale and twist act on the contour with its relief.
 
 use crate::contour::Local2;
 use crate::curve::turn;
@@ -20,42 +20,42 @@ use glam::DVec2;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-/// A relief on a contour, checked against it.
+/// A relief on a contour, checked against the contour.
 #[derive(Debug, Clone)]
 pub struct Depth {
-    /// What `delta` does to the contour.
+    /// How `delta` changes the contour.
     pub(crate) mode: Mode,
     /// The waves that add up to `delta`.
     pub(crate) terms: Vec<Term>,
-    /// Heights that are added to them.
+    /// Heights from a picture, added to the waves.
     pub(crate) heights: Option<Arc<HeightMap>>,
 }
 
-/// What `delta` does to the contour.
+/// How `delta` changes the contour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mode {
-    /// It is multiplied by `1 + delta`.
+    /// The contour is multiplied by `1 + delta`.
     Factor,
-    /// It is moved along its outer normal by `delta`.
+    /// The contour is moved along its outer normal by `delta`.
     Offset,
 }
 
-/// One wave.
+/// One wave of a relief.
 #[derive(Debug, Clone)]
 pub struct Term {
-    /// Height of the wave, before its law.
+    /// Amplitude of the wave, before its law; a length for an offset.
     pub(crate) amp: f64,
-    /// Waves along the contour.
+    /// Number of waves along the contour.
     pub(crate) u: f64,
-    /// Waves along the trajectory.
+    /// Number of waves along the trajectory.
     pub(crate) v: f64,
-    /// Where it begins, as a fraction of a turn.
+    /// Phase at the start of both curves, as a fraction of a turn.
     pub(crate) phase: f64,
-    /// Factor of the height along the trajectory.
+    /// Factor of the amplitude along the trajectory.
     pub(crate) along: Law,
 }
 
-/// A relief at one place of the trajectory.
+/// A relief at one position of the trajectory.
 #[derive(Debug, Clone)]
 pub struct Relief {
     mode: Mode,
@@ -64,31 +64,31 @@ pub struct Relief {
     v: f64,
 }
 
-/// A term at one place of the trajectory.
+/// A wave at one position of the trajectory.
 #[derive(Debug, Clone, Copy)]
 struct Wave {
     u: f64,
-    /// Phase as a fraction of a turn, and its derivative by `v` in radians.
+    /// Phase as a fraction of a turn; `phase_v` is its derivative by `v` in radians.
     phase: f64,
     phase_v: f64,
     height: f64,
     height_v: f64,
 }
 
-/// A point of a contour with its relief.
+/// A point of a contour with its relief, and its derivatives.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Raised {
     pub point: DVec2,
-    /// Derivative of the point by length of the contour as drawn.
+    /// Derivative of the point by length of the contour without its relief.
     pub along: DVec2,
-    /// Derivative by `v`.
+    /// Derivative of the point by `v`.
     pub across: DVec2,
     /// Whether the contour folds back on itself here.
     pub folds: bool,
 }
 
 impl Depth {
-    /// A bound of the size of `delta`.
+    /// Returns an upper bound of `|delta|`.
     #[must_use]
     pub fn most(&self) -> f64 {
         let most = |term: &Term| {
@@ -99,7 +99,7 @@ impl Depth {
         self.terms.iter().map(most).sum::<f64>() + heights
     }
 
-    /// The relief at `v`.
+    /// Returns the relief at `v`, a fraction of the trajectory's length.
     #[must_use]
     pub fn at(&self, v: f64) -> Relief {
         let wave = |term: &Term| {
@@ -118,7 +118,7 @@ impl Depth {
 }
 
 impl Relief {
-    /// The contour's point at `u` with the relief on it.
+    /// Returns the contour's point at `u` with the relief on it.
     pub(crate) fn on(&self, u: f64, moving: &Moving) -> Raised {
         let Moving { place, across, turning } = *moving;
         let Local2 { point, tangent, curvature, pace } = place;
@@ -143,8 +143,8 @@ impl Relief {
                 folds: false,
             },
             Mode::Offset => {
-                // Outward of a counter-clockwise contour, whose curvature is above 0 at a bulge.
-                // It turns with the tangent.
+                // The normal points out of a counter-clockwise contour, whose curvature is above 0 at a
+                // bulge. It turns with the tangent.
                 let normal = -tangent.perp();
                 let stretch = 1.0 + delta * curvature;
                 Raised {

@@ -1,21 +1,21 @@
-//! Heights from a picture, smooth between its texels.
+//! Heights from a picture, interpolated smoothly between its texels.
 //!
-//! The picture is the surface `h(s, t)` of cubic B-splines that goes through the middle of each texel,
-//! so that its first and second derivatives have no jumps. Its coefficients come from the texels by the
-//! recursive filter of M. Unser, A. Aldroubi and M. Eden, "B-spline signal processing: part II"
-//! (1993): forward and backward with the pole `sqrt(3) - 2`, first along rows, then along columns.
-//! Along a closed direction of the surface the picture goes on from its other edge; along an open one
-//! it is mirrored at its edges, where it is level then.
+//! The heights are a surface `h(s, t)` of cubic B-splines through the middle of each texel. Its first and
+//! second derivatives have no jumps. The coefficients are computed from the texels by the recursive filter of
+//! M. Unser, A. Aldroubi and M. Eden, "B-spline signal processing: part II" (1993): forward and backward with
+//! the pole `sqrt(3) - 2`, first along rows, then along columns. Along a closed direction of the surface the
+//! picture continues from its opposite edge. Along an open direction it is mirrored at its edges, where the
+//! surface is then level.
 
 use crate::grid::Across;
 
-/// Texels beyond an edge that the filter looks at: it forgets by a factor of 0.27 with each.
+/// Texels beyond an edge that the filter reads. The influence of a texel falls by a factor of 0.27 per texel.
 const MARGIN: isize = 40;
 
 /// Heights on a surface, with their derivatives.
 #[derive(Debug, Clone)]
 pub struct HeightMap {
-    /// Coefficients of the splines, less the height that counts as 0; rows from the top.
+    /// Coefficients of the splines, relative to the height that counts as 0, row by row from the top.
     coefficients: Vec<f64>,
     x: Axis,
     y: Axis,
@@ -27,18 +27,18 @@ pub struct HeightMap {
 /// One direction of a picture.
 #[derive(Debug, Clone, Copy)]
 pub struct Axis {
-    /// Texels along it.
+    /// Number of texels along the direction.
     pub texels: usize,
-    /// How often the picture repeats along the surface; a whole number along a closed one.
+    /// Repeats of the picture along the surface; a whole number along a closed direction.
     pub repeat: f64,
     /// Whether the direction of the surface is closed.
     pub closed: bool,
 }
 
 impl HeightMap {
-    /// The heights of a picture with values from 0 to 1, by rows from the top.
+    /// Returns the heights of a picture with values from 0 to 1, row by row from the top.
     ///
-    /// `across` says which direction of the surface runs along its rows, as in
+    /// `across` says which direction of the surface runs along the picture's rows, as in
     /// [`UvLayout`](crate::grid::UvLayout).
     pub(crate) fn new(mut values: Vec<f64>, [x, y]: [Axis; 2], across: Across, amp: f64) -> Self {
         for row in values.chunks_exact_mut(x.texels) {
@@ -54,7 +54,7 @@ impl HeightMap {
         Self { coefficients: values, x, y, across, amp }
     }
 
-    /// Cells that see all of the picture, along `u` and along `v`: two to a texel.
+    /// Returns the numbers of cells along `u` and `v` that resolve the picture: two for each texel.
     pub(crate) fn detail(&self) -> [f64; 2] {
         let [s, t] = [2.0 * self.x.rate(), 2.0 * self.y.rate()];
         match self.across {
@@ -63,12 +63,12 @@ impl HeightMap {
         }
     }
 
-    /// A bound of the size of the heights: splines stay within their coefficients.
+    /// Returns an upper bound of the heights' size: splines stay within their coefficients.
     pub(crate) fn most(&self) -> f64 {
         self.amp.abs() * self.coefficients.iter().fold(0.0, |most: f64, c| most.max(c.abs()))
     }
 
-    /// The height at a place of the surface, and its derivatives by `u` and by `v`.
+    /// Returns the height at (u, v), and its derivatives by `u` and by `v`.
     #[must_use]
     pub fn at(&self, u: f64, v: f64) -> [f64; 3] {
         let (s, t) = match self.across {
@@ -102,12 +102,12 @@ impl HeightMap {
 }
 
 impl Axis {
-    /// Texels along the whole surface.
+    /// Returns the number of texels along the whole surface.
     fn rate(&self) -> f64 {
         self.texels as f64 * self.repeat
     }
 
-    /// The texel of the picture at a place on it or beyond its edges.
+    /// Returns the index of a texel of the picture for an index that may lie beyond its edges.
     fn texel(&self, index: isize) -> usize {
         let count = self.texels as isize;
         let place = if self.closed {
@@ -120,7 +120,7 @@ impl Axis {
     }
 }
 
-/// The four texels around a place, and the weight of each with its derivative.
+/// Returns the four texels around a position, and the weight of each with its derivative.
 fn taps(place: f64) -> ([isize; 4], [[f64; 2]; 4]) {
     let first = place.floor();
     let (f, g) = (place - first, 1.0 - (place - first));
@@ -136,7 +136,7 @@ fn taps(place: f64) -> ([isize; 4], [[f64; 2]; 4]) {
     ([first - 1, first, first + 1, first + 2], weights)
 }
 
-/// The coefficients of the spline through the values of a line.
+/// Returns the coefficients of the spline through the values of a line.
 fn filtered(line: &[f64], axis: Axis) -> Vec<f64> {
     let pole = 3.0_f64.sqrt() - 2.0;
     let count = line.len() as isize;
@@ -156,7 +156,7 @@ fn filtered(line: &[f64], axis: Axis) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    /// Numbers without a pattern, from 0 to 1.
+    /// Returns numbers from 0 to 1 without a pattern.
     fn texels(count: usize) -> Vec<f64> {
         (0..count).map(|i| (i as f64 * 0.618_033_988_7 + (i * i) as f64 * 0.137).fract()).collect()
     }
@@ -190,7 +190,7 @@ mod tests {
                 let slope = |a: [f64; 3], b: [f64; 3]| (a[0] - b[0]) / (2.0 * h);
                 let u_slope = slope(heights.at(u + h, v), heights.at(u - h, v));
                 let v_slope = slope(heights.at(u, v + h), heights.at(u, v - h));
-                // Third derivatives jump at texels: the differences are right to h^2 of them.
+                // Third derivatives jump at texels, so the differences are accurate only to the order h^2.
                 assert!((by_u - u_slope).abs() < 1e-6 && (by_v - v_slope).abs() < 1e-6);
             }
         }

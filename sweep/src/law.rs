@@ -1,7 +1,7 @@
 //! Laws: numbers that change along a trajectory.
 //!
-//! A law is a function of `at`, the fraction of the trajectory's length, and knows its derivative
-//! in closed form. What each kind promises of that derivative:
+//! A law is a function of `at`, the fraction of the trajectory's length, and has a derivative in closed form.
+//! Each kind of law guarantees:
 //!
 //! | law           | continuous | derivative continuous (C1)                                      |
 //! |---------------|------------|-----------------------------------------------------------------|
@@ -11,10 +11,9 @@
 //! | Bezier        | yes        | inside a segment, and at joints whose handles are in line        |
 //! | total         | yes        | yes                                                             |
 //!
-//! Keys and Beziers keep their end values outside their ends, with a derivative of 0. Where the
-//! derivative jumps it is that of the side after, and at the end of the trajectory that of the side
-//! before. A Bezier may be vertical, as at the end of a round cap; its derivative is then
-//! [`STEEPEST`].
+//! Keys and Beziers are constant outside their ends, with a derivative of 0. Where the derivative jumps, its
+//! value is that of the side after; at the end of the trajectory it is that of the side before. A Bezier may
+//! be vertical, as at the end of a round cap; its derivative is then [`STEEPEST`].
 
 mod graph;
 
@@ -25,11 +24,11 @@ use crate::cut::{Side, Stop};
 use glam::DVec2;
 use kurbo::{CubicBez, Point, Shape};
 
-/// Derivatives are kept within this: beyond it a surface is level to all of its 16 digits, and far
-/// larger ones would overflow when they are squared.
+/// Bound of the size of derivatives. A surface this steep is level to all 16 digits, and far larger
+/// derivatives would overflow when squared.
 pub const STEEPEST: f64 = 1e30;
 
-/// A function of the fraction of the trajectory's length, checked.
+/// A checked function of the fraction of the trajectory's length.
 #[derive(Debug, Clone)]
 pub struct Law(Form);
 
@@ -41,34 +40,35 @@ enum Form {
 }
 
 impl Law {
-    /// The same number everywhere.
+    /// Returns a law with the same value everywhere.
     #[must_use]
     pub fn constant(value: f64) -> Self {
         Self(Form::Constant(value))
     }
 
-    /// Keys `[at, value]`, at least one, `at` strictly rising.
+    /// Returns a law through keys `[at, value]`: at least one, with `at` strictly rising.
     pub(crate) fn keys(keys: Vec<[f64; 2]>, smooth: bool) -> Self {
         Self(Form::Keys { keys, smooth })
     }
 
-    /// Cubics of points `(at, value)`, at least one, that meet and along which `at` does not fall.
+    /// Returns a law with a graph of cubics of points `(at, value)`: at least one, which meet and along which
+    /// `at` does not fall.
     pub(crate) fn bezier(segments: Vec<Cubic<DVec2>>) -> Self {
         Self(Form::Bezier(segments))
     }
 
-    /// From 0 at the start to `value` at the end.
+    /// Returns a linear law from 0 at the start to `value` at the end.
     pub(crate) fn total(value: f64) -> Self {
         Self::keys(vec![[0.0, 0.0], [1.0, value]], false)
     }
 
-    /// The value and its derivative by `at`, which lies in `[0, 1]`.
+    /// Returns the value and the derivative at `at` in `[0, 1]`; where the derivative jumps, of the side after.
     #[must_use]
     pub fn at(&self, at: f64) -> (f64, f64) {
         self.on(Stop::after(at))
     }
 
-    /// The value and its derivative at a stop: where the derivative jumps, that of its side.
+    /// Returns the value and the derivative at a stop; where the derivative jumps, of the stop's side.
     #[must_use]
     pub fn on(&self, stop: Stop) -> (f64, f64) {
         let Stop { at, side } = stop;
@@ -86,7 +86,7 @@ impl Law {
                 let x = (at - from) / (to - from);
                 let (part, slope) =
                     if *smooth { (x * x * (3.0 - 2.0 * x), 6.0 * x * (1.0 - x)) } else { (x, 1.0) };
-                // Of this form, so that both ends are met exactly.
+                // In this form both ends are met exactly.
                 (a * (1.0 - part) + b * part, bounded((b - a) * slope / (to - from)))
             }
             Form::Bezier(segments) => {
@@ -99,14 +99,15 @@ impl Law {
                 }
                 let segment = &segments[next];
                 let t = parameter(segment, at);
-                // Where the speed is 0 the direction still is one.
+                // Where the speed is 0 the curve still has a direction.
                 let direction = segment.tangent(t);
                 (segment.point(t).y, bounded(direction.y / direction.x.max(0.0)))
             }
         }
     }
 
-    /// The graph as cubics of points `(at, value)` from `at` 0 to 1, ends that are held included.
+    /// Returns the graph as cubics of points `(at, value)` for `at` from 0 to 1, with the constant parts at
+    /// the ends.
     #[must_use]
     pub(crate) fn graph(&self) -> Vec<Cubic<DVec2>> {
         let mut graph = match &self.0 {
@@ -136,7 +137,7 @@ impl Law {
         graph
     }
 
-    /// The least and the greatest value.
+    /// Returns the least and the greatest value.
     #[must_use]
     pub fn range(&self) -> (f64, f64) {
         let wider = |(low, high): (f64, f64), (a, b): (f64, f64)| (low.min(a), high.max(b));
@@ -155,7 +156,7 @@ impl Law {
         }
     }
 
-    /// The law with the other sign.
+    /// Returns the law with its sign reversed.
     pub(crate) fn negated(self) -> Self {
         Self(match self.0 {
             Form::Constant(value) => Form::Constant(-value),
@@ -169,7 +170,7 @@ impl Law {
         })
     }
 
-    /// Where the value is or passes 0: single places, and the ends of a stretch of zeros. Rising.
+    /// Returns the zeros of the law, rising: single zeros, and both ends of an interval of zeros.
     pub(crate) fn zeros(&self) -> Vec<f64> {
         let mut found: Vec<f64> = match &self.0 {
             Form::Constant(_) => Vec::new(),
@@ -185,7 +186,7 @@ impl Law {
         found
     }
 
-    /// Cells that see all that the law does: eight to a segment.
+    /// Returns the number of cells that resolves the law: eight for each segment or key.
     pub(crate) fn detail(&self) -> f64 {
         match &self.0 {
             Form::Constant(_) => 0.0,
@@ -194,7 +195,7 @@ impl Law {
         }
     }
 
-    /// Places inside the trajectory where the derivative may jump.
+    /// Returns the positions inside the trajectory where the derivative may jump.
     pub(crate) fn kinks(&self) -> Vec<f64> {
         let inside = |at: &f64| *at > 0.0 && *at < 1.0;
         match &self.0 {
@@ -209,19 +210,19 @@ impl Law {
         }
     }
 
-    /// The values at the start and at the end of the trajectory.
+    /// Returns the values at the start and at the end of the trajectory.
     #[must_use]
     pub fn ends(&self) -> [f64; 2] {
         [self.at(0.0).0, self.at(1.0).0]
     }
 }
 
-/// A piece of a graph that keeps its value.
+/// Returns a piece of a graph with a constant value.
 fn level(from: f64, to: f64, value: f64) -> Cubic<DVec2> {
     Cubic::line(DVec2::new(from, value), DVec2::new(to, value))
 }
 
-/// Whether a place is the end of the trajectory and of the law, where only one side is left.
+/// Returns whether `at` is the end of both the trajectory and the law, where only the side before exists.
 fn is_end(at: f64, last: f64) -> bool {
     at == last && last == 1.0
 }
@@ -230,7 +231,7 @@ fn bounded(slope: f64) -> f64 {
     if slope.is_nan() { 0.0 } else { slope.clamp(-STEEPEST, STEEPEST) }
 }
 
-/// Where the way between two keys of different signs passes 0.
+/// Returns the position between two keys of different signs where the law is 0.
 fn crossing([from, a]: [f64; 2], [to, b]: [f64; 2], smooth: bool) -> f64 {
     let part = a / (a - b);
     if !smooth {
@@ -350,7 +351,7 @@ mod tests {
 
     #[test]
     fn a_vertical_end_is_steep_and_finite() {
-        // A quarter of a circle, nearly, from full width to nothing.
+        // Approximately a quarter of a circle, from full width to nothing.
         let cap = Law::bezier(vec![cubic([[0.0, 1.0], [0.55, 1.0], [1.0, 0.55], [1.0, 0.0]])]);
         assert_eq!(cap.at(0.0), (1.0, 0.0));
         assert_eq!(cap.at(1.0), (0.0, -STEEPEST));

@@ -1,29 +1,29 @@
-//! Contours swept along trajectories: a JSON spec to a contour x trajectory grid.
+//! Sweeps contours along trajectories: from a JSON spec to a contour x trajectory grid.
 //!
 //! | module         | what                                                                |
 //! |----------------|---------------------------------------------------------------------|
-//! | [`spec`]       | the spec as JSON; here are its keys and its conventions             |
-//! | [`schema`]     | the same as JSON Schema                                             |
-//! | [`Object`]     | what a spec is of: one sweep or several                             |
-//! | [`Sweep`]      | a spec that has been checked, and the grid it gives                 |
+//! | [`spec`]       | the spec as JSON, with its keys and conventions                     |
+//! | [`schema`]     | the spec as JSON Schema                                             |
+//! | [`Object`]     | the object of a spec: one sweep or several                          |
+//! | [`Sweep`]      | a checked spec, and its grid                                        |
 //! | [`contour`]    | the curve that is swept; creases                                    |
-//! | [`profile`]    | one contour, or several that go over into each other; columns       |
-//! | [`cut`]        | where a curve is cut into cells                                     |
-//! | [`trajectory`] | the curve it follows; stations, normals in closed form              |
+//! | [`profile`]    | one contour, or several that blend into each other; columns         |
+//! | [`cut`]        | division of a curve into cells                                      |
+//! | [`trajectory`] | the curve that the contour follows; stations, normals in closed form |
 //! | [`law`]        | numbers that change along the trajectory                            |
 //! | [`depth`]      | relief on the contour, in waves                                     |
 //! | [`height`]     | heights from a picture                                              |
-//! | [`modulation`] | the contour scaled and twisted on its way                          |
+//! | [`modulation`] | the contour scaled and twisted along the trajectory                 |
 //! | [`Shape`]      | the whole surface, before it is cut into cells                      |
-//! | [`cap`]        | what closes the ends                                                |
-//! | [`closing`]    | how the surface comes back to its start                             |
+//! | [`cap`]        | surfaces that close the ends                                        |
+//! | [`closing`]    | how the end of the surface meets its start                          |
 //! | [`wall`]       | a one-sided surface given a thickness                               |
 //! | [`deform`]     | taper, twist and bend of the finished surface                       |
-//! | [`frame`]      | rotation-minimizing frames, and those that a direction fixes        |
+//! | [`frame`]      | rotation-minimizing frames, and frames that a direction fixes       |
 //! | [`curve`]      | cubic Bezier paths by arc length, splines, SVG                      |
-//! | [`resolution`] | cells in rows x cols, or to a tolerance                              |
+//! | [`resolution`] | cells in rows x cols, or to a tolerance                             |
 //! | [`grid`]       | the grid and its file                                               |
-//! | [`check`]      | what is wrong or suspicious, in words                               |
+//! | [`check`]      | errors and suspicious values, in words                              |
 //! | [`preview`]    | contour, trajectory, laws and surface drawn on one page             |
 //!
 //! ```

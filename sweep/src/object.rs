@@ -1,4 +1,4 @@
-//! An object: one sweep, or several that belong together, as a cup and its handle do.
+//! An object: one sweep, or several that belong together, such as a cup and its handle.
 
 use crate::grid::file::{Encoding, Patch};
 use crate::rows::{Rows, Spent};
@@ -19,12 +19,12 @@ pub struct Object {
 impl Object {
     /// Reads and checks a [`Spec`](crate::spec::Spec), or a spec of [`Parts`](crate::spec::Parts).
     ///
-    /// Files that it names count from `folder` and lie in `source`. Each key of `rather` stands in place
-    /// of that of every `mesh`.
+    /// Files named in the spec are relative to `folder` and are read from `source`. Each key of `rather`
+    /// replaces that key in every `mesh`.
     ///
     /// # Errors
-    /// When the text is not a spec, a surface does not exist, or a file cannot be read or is not what
-    /// it should be; the message has the place.
+    /// When the text is not a spec, a surface does not exist, or a file cannot be read or has the wrong
+    /// content. The message states the position.
     pub fn read(
         document: &Document<'_>,
         folder: &Path,
@@ -34,19 +34,19 @@ impl Object {
         read::read(document, folder, source, rather)
     }
 
-    /// The object's name.
+    /// Returns the object's name.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// Its sweeps, at least one.
+    /// Returns the object's sweeps, at least one.
     #[must_use]
     pub fn parts(&self) -> &[Sweep] {
         &self.parts
     }
 
-    /// By how much the tolerances of its parts are missed, in words; nothing where they are kept.
+    /// Returns a sentence that says by how much the parts miss their tolerances; `None` if all are kept.
     #[must_use]
     pub fn missed(&self) -> Option<String> {
         let of = |part: &Sweep| {
@@ -57,18 +57,18 @@ impl Object {
         (!missed.is_empty()).then(|| missed.join("; "))
     }
 
-    /// The grids of its parts, in their order.
+    /// Returns the grids of the parts, in their order.
     ///
     /// # Errors
-    /// When there is no memory for them.
+    /// When there is not enough memory for the grids.
     pub fn grids(&self) -> Result<Vec<GridMesh>, SweepError> {
         self.parts.iter().map(Sweep::try_grid).collect()
     }
 
-    /// Writes the grids of its parts, in the memory of a few rows of each.
+    /// Writes the grids of the parts, with only a few rows of each in memory.
     ///
     /// # Errors
-    /// When `out` fails.
+    /// When writing to `out` fails.
     pub fn write(&self, encoding: Encoding, out: &mut impl Write) -> io::Result<Spent> {
         let mut spent = Spent::default();
         for (index, part) in self.parts.iter().enumerate() {

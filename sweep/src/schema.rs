@@ -1,12 +1,12 @@
-//! JSON Schema of the specs, for editors and for programs that write them.
+//! JSON Schema of the specs, for editors and for programs that write specs.
 //!
-//! It comes from the types that read a spec, with their pages as descriptions, and is of draft 2020-12.
-//! What it refuses the reader refuses; what it cannot say (curves that meet, keys that rise, a mirrored
-//! contour that meets itself) the reader alone knows. It is stricter where
-//! the reader takes more than is meant: `null` for a key that is left out, an array of its values for an
-//! object. It is laxer in one point: to JSON Schema `3.0` is a whole number.
+//! The schema, of draft 2020-12, is generated from the types that read a spec, with their docs as
+//! descriptions. Whatever it refuses, the reader refuses too. Some rules cannot be expressed in it and are
+//! checked by the reader alone: curves that meet, keys that rise, a mirrored contour that meets itself. The
+//! schema is stricter where the reader accepts more than is intended: `null` for a key that is left out, or
+//! an array of values for an object. It is laxer in one point: to JSON Schema `3.0` is a whole number.
 //!
-//! The functions here are what the types in [`spec`](crate::spec) say about themselves beyond their form.
+//! The functions here add to the types in [`spec`](crate::spec) what their Rust form does not say.
 
 use crate::spec::{Parts, Spec};
 use schemars::Schema;
@@ -17,7 +17,7 @@ use std::ops::RangeInclusive;
 
 pub(crate) use crate::read::{LARGEST, REPEATS, SMALLEST};
 
-/// The schema of a spec, of one sweep or of parts.
+/// Returns the schema of a spec, of one sweep or of parts.
 #[must_use]
 pub fn of_spec() -> Value {
     let settings = SchemaSettings::draft2020_12().with_transform(RecursiveTransform(plain));
@@ -37,7 +37,7 @@ pub fn of_spec() -> Value {
     })
 }
 
-/// Takes out what the types say that means nothing here, and bounds all numbers that nothing bounds.
+/// Removes keywords of the types that mean nothing here, and bounds all numbers without bounds.
 fn plain(schema: &mut Schema) {
     let Some(object) = schema.as_object_mut() else {
         return;
@@ -70,7 +70,7 @@ fn plain(schema: &mut Schema) {
     }
 }
 
-/// Inserts keywords into a schema, or into that of the innermost elements of an array.
+/// Inserts keywords into a schema, or into the schema of an array's innermost elements.
 fn insert(schema: &mut Schema, words: &Value) {
     fn innermost(object: &mut Map<String, Value>, words: &Value) {
         match (object.get_mut("items"), words) {
@@ -82,46 +82,46 @@ fn insert(schema: &mut Schema, words: &Value) {
     innermost(schema.ensure_object(), words);
 }
 
-/// Numbers from one to another.
+/// Allows numbers in a closed range.
 pub(crate) fn range<N: Into<Value> + Copy>(range: RangeInclusive<N>) -> impl FnMut(&mut Schema) {
     let [low, high] = [*range.start(), *range.end()].map(Into::into);
     move |schema| insert(schema, &json!({ "minimum": low, "maximum": high }))
 }
 
-/// Numbers above one, up to another.
+/// Allows numbers above `low`, up to `high`.
 pub(crate) fn above(low: f64, high: f64) -> impl FnMut(&mut Schema) {
     move |schema| insert(schema, &json!({ "exclusiveMinimum": low, "maximum": high }))
 }
 
-/// Numbers above 0 that can be reckoned with, below another.
+/// Allows numbers from [`SMALLEST`] to below `high`.
 pub(crate) fn below(high: f64) -> impl FnMut(&mut Schema) {
     move |schema| insert(schema, &json!({ "minimum": SMALLEST, "exclusiveMaximum": high }))
 }
 
-/// Numbers above 0 that can be reckoned with.
+/// Allows numbers from [`SMALLEST`] to [`LARGEST`].
 pub(crate) fn positive(schema: &mut Schema) {
     range(SMALLEST..=LARGEST)(schema);
 }
 
-/// Whole numbers that stand for a texture or a surface.
+/// Allows whole numbers that are ids of a texture or a surface.
 pub(crate) fn id(schema: &mut Schema) {
     range(0..=u32::MAX)(schema);
 }
 
-/// One word.
+/// Allows one word: no white space and no control characters.
 pub(crate) fn word(schema: &mut Schema) {
     let pattern = "^[^\\s\\u0000-\\u001f\\u007f-\\u009f]+$";
     insert(schema, &json!({ "pattern": pattern }));
 }
 
-/// At least so many elements.
+/// Requires at least `count` elements.
 pub(crate) fn at_least(count: usize) -> impl FnMut(&mut Schema) {
     move |schema| {
         schema.insert("minItems".into(), json!(count));
     }
 }
 
-/// Points `[at, value]`, or lists of them, with `at` a part of a length.
+/// Allows points `[at, value]`, or lists of points, with `at` in `[0, 1]`.
 pub(crate) fn graph(schema: &mut Schema) {
     fn points(items: &mut Map<String, Value>) {
         match items.get_mut("items") {
@@ -143,7 +143,7 @@ pub(crate) fn graph(schema: &mut Schema) {
     schema.insert("minItems".into(), json!(1));
 }
 
-/// Exactly one of the keys, besides those that go with one of them by `dependentRequired`.
+/// Requires exactly one of the keys, besides keys that `dependentRequired` allows with one of them.
 pub(crate) fn one_of(schema: &mut Schema) {
     let besides = schema.get("dependentRequired").cloned().unwrap_or_default();
     let Some(Value::Object(properties)) = schema.get("properties") else {
@@ -154,7 +154,7 @@ pub(crate) fn one_of(schema: &mut Schema) {
     schema.insert("oneOf".into(), kinds.into());
 }
 
-/// None of some keys of the type.
+/// Forbids some keys of the type.
 pub(crate) fn without(keys: &[&str]) -> impl FnMut(&mut Schema) {
     let kinds: Vec<Value> = keys.iter().map(|key| json!({ "required": [key] })).collect();
     move |schema| {
@@ -162,7 +162,7 @@ pub(crate) fn without(keys: &[&str]) -> impl FnMut(&mut Schema) {
     }
 }
 
-/// At least three points where `closed`.
+/// Requires at least three points if `closed`.
 pub(crate) fn loop_of_three(schema: &mut Schema) {
     let closed = json!({ "properties": { "closed": { "const": true } }, "required": ["closed"] });
     let three = json!({ "properties": { "points": { "minItems": 3 } } });
@@ -170,13 +170,13 @@ pub(crate) fn loop_of_three(schema: &mut Schema) {
     schema.insert("then".into(), three);
 }
 
-/// Waves or a picture.
+/// Requires waves or a picture.
 pub(crate) fn terms_or_image(schema: &mut Schema) {
     let terms = json!({ "required": ["terms"], "properties": { "terms": { "minItems": 1 } } });
     schema.insert("anyOf".into(), json!([terms, { "required": ["image"] }]));
 }
 
-/// Both counts of cells, or a tolerance.
+/// Requires both counts of cells, or a tolerance.
 pub(crate) fn cells_or_tolerance(schema: &mut Schema) {
     let any = |keys: &[&str]| {
         let kinds: Vec<Value> = keys.iter().map(|key| json!({ "required": [key] })).collect();

@@ -1,4 +1,4 @@
-//! What is swept, before it is cut into cells: a surface with a point and a normal at every place.
+//! The swept surface before it is cut into cells: a point and a normal for each (u, v).
 
 use crate::cap::Cap;
 use crate::closing::Closing;
@@ -11,29 +11,30 @@ use crate::resolution::Surface;
 use crate::trajectory::Trajectory;
 use glam::DVec3;
 
-/// Distances from the axis of a rotation below this fraction of the largest are on it.
+/// Points of a rotation whose distance from the axis is at most this fraction of the largest distance lie on
+/// the axis.
 pub(crate) const ON_AXIS: f64 = 1e-9;
 
-/// A contour and a trajectory that fit each other, and all that happens to them.
+/// A contour and a trajectory that fit each other, with everything that is done to them.
 #[derive(Debug, Clone)]
 pub struct Shape {
     pub(crate) contour: Profile,
     pub(crate) trajectory: Trajectory,
     pub(crate) modulation: Modulation,
-    /// What closes the start and the end.
+    /// Caps that close the start and the end.
     pub(crate) caps: [Option<Cap>; 2],
-    /// How it comes back to its start, where columns do not meet themselves.
+    /// How the end meets the start, if columns do not meet themselves.
     pub(crate) closing: Option<Closing>,
-    /// What happens to the surface in the end, one after another.
+    /// Deformations of the finished surface, applied one after another.
     pub(crate) deforms: Vec<Deform>,
-    /// By how much it is moved after that.
+    /// Translation applied after the deformations.
     pub(crate) position: DVec3,
 }
 
 impl Shape {
-    /// The surface at any place: the point, the unit normal, and whether it folds back there.
+    /// Returns the point and the unit normal of the surface at (u, v).
     ///
-    /// `u` and `v` are fractions of the contour's length, and of the length of the trajectory and its
+    /// `u` is a fraction of the contour's length, `v` a fraction of the length of the trajectory with its
     /// caps. At a crease the normal is that of the side after.
     #[must_use]
     pub fn at(&self, u: f64, v: f64) -> (DVec3, DVec3) {
@@ -43,15 +44,15 @@ impl Shape {
         (place.point, place.normal)
     }
 
-    /// Whether the rows lead back to the first.
+    /// Returns whether the last row leads back to the first.
     #[must_use]
     pub fn closed(&self) -> bool {
         self.trajectory.closed() || self.closing.is_some()
     }
 
-    /// The contour at a stop of the rows, on the trajectory or on a cap.
+    /// Returns the contour at a stop of the rows, on the trajectory or on a cap.
     pub(crate) fn section(&self, stop: Stop) -> Section {
-        // What leads up to the start is the end, unless columns lead on to others there.
+        // The side before the start is the end, unless columns continue as other columns there.
         let first = self.closing.is_some() && stop == Stop::before(0.0);
         let stop = if first { Stop::after(0.0) } else { stop };
         let [start, end] = self.body();
@@ -62,7 +63,7 @@ impl Shape {
                 on_trajectory(Stop::after(0.0)).gathered(cap.at(1.0 - stop.at / start), -1.0)
             }
             [_, Some(cap)] if stop.at > end || stop == Stop::after(end) => {
-                // Of a cap too short to have a part of `v` only the end is left.
+                // A cap too short to have a part of `v` is reduced to its tip.
                 let t = if end < 1.0 { (stop.at - end) / (1.0 - end) } else { 1.0 };
                 on_trajectory(Stop::before(1.0)).gathered(cap.at(t), 1.0)
             }
@@ -70,7 +71,7 @@ impl Shape {
         }
     }
 
-    /// A point of a section in its place in space, with its unit normal.
+    /// Returns a point of a section in space, after deformations and translation, with its unit normal.
     pub(crate) fn place(&self, section: &Section, column: &Column) -> Moved {
         let (point, normal) = (section.point(column), section.normal(column));
         let mut moved = Moved { point, normal, folds: false };
@@ -85,13 +86,14 @@ impl Shape {
         Moved { point: moved.point + self.position, ..moved }
     }
 
-    /// Whether a section folds back on itself at a column, or does so where it comes to.
+    /// Returns whether the surface folds back on itself at a column, by the section itself or by a
+    /// deformation.
     pub(crate) fn folds(&self, section: &Section, column: &Column) -> bool {
         section.folds(column) || (!self.deforms.is_empty() && self.place(section, column).folds)
     }
 
-    /// Where the surface may have an edge along the contour: at caps, at corners of the trajectory, at
-    /// poles inside it, and where it closes.
+    /// Returns the `v` of possible edges that run along the contour, rising: at caps, at corners of the
+    /// trajectory, at poles inside it, and where the surface closes.
     pub(crate) fn row_breaks(&self) -> Vec<f64> {
         let edge = self.closing.filter(|closing| closing.edge).map(|_| 0.0);
         let [start, end] = self.body();
@@ -106,18 +108,19 @@ impl Shape {
         breaks
     }
 
-    /// Where the surface may have an edge along the contour that has one normal.
+    /// Returns the `v` of possible edges that run along the contour and have one normal.
     pub(crate) fn kinks(&self) -> Vec<f64> {
         self.modulation.kinks().into_iter().map(|at| self.row_of(at)).collect()
     }
 
-    /// The fewest cells along the trajectory and its caps: one to each piece, and three around.
+    /// Returns the fewest cells along the trajectory and its caps: one for each piece, and at least three if
+    /// the rows are closed.
     pub(crate) fn fewest_rows(&self) -> usize {
         let around = if self.closed() { 3 } else { 1 };
         cut::pieces(&self.row_breaks()).max(around)
     }
 
-    /// The stops of about so many columns of equal width on each smooth piece.
+    /// Returns the stops of about `cells` columns, of equal width on each smooth piece.
     pub(crate) fn even_columns(&self, cells: usize) -> Vec<Stop> {
         let (breaks, closed) = (self.contour.breaks(), self.contour.closed());
         match self.closing {
@@ -126,14 +129,15 @@ impl Shape {
         }
     }
 
-    /// Where columns must lie so that they lead to one another where the surface closes.
+    /// Returns the positions where columns must lie so that they meet columns where the surface closes.
     pub(crate) fn anchors(&self) -> Vec<f64> {
         let anchors =
             |closing: &Closing| closing.anchors(self.contour.breaks(), self.contour.closed());
         self.closing.as_ref().map(anchors).unwrap_or_default()
     }
 
-    /// The seam of the rows and its shift, with columns at these stops; `None` if they do not meet.
+    /// Returns the seam of the rows and its shift in columns, for columns at these stops. `None` if the
+    /// columns do not meet columns.
     pub(crate) fn seam(&self, stops: &[Stop]) -> Option<(Seam, usize)> {
         match &self.closing {
             Some(closing) => closing.seam(stops, self.contour.breaks(), self.contour.closed()),
@@ -142,7 +146,8 @@ impl Shape {
         }
     }
 
-    /// Cells that see all that the surface does, along the trajectory and the contour.
+    /// Returns the number of cells that resolves the whole surface,
+    /// `[along the trajectory, along the contour]`.
     pub(crate) fn detail(&self) -> [usize; 2] {
         let [along, around] = self.modulation.detail();
         let caps = 16.0 * self.caps.iter().flatten().count() as f64;
@@ -152,7 +157,8 @@ impl Shape {
         [cells(self.trajectory.detail(), along), cells(self.contour.detail(), around)]
     }
 
-    /// Where a row lies by the trajectory's own parameter; on a cap as it is.
+    /// Converts the `v` of a row by arc length to a `v` by the trajectory's own parameter; on a cap, `v` is
+    /// unchanged.
     pub(crate) fn parameter_of(&self, v: f64) -> f64 {
         let [start, end] = self.body();
         if v < start || v > end {
@@ -161,7 +167,7 @@ impl Shape {
         self.row_of(self.trajectory.parameter(self.on_body(v)))
     }
 
-    /// Where on the trajectory a stop of the rows lies; `None` on a cap.
+    /// Returns the fraction of the trajectory's length at a stop of the rows; `None` on a cap.
     pub(crate) fn along(&self, stop: Stop) -> Option<f64> {
         let [start, end] = self.body();
         let before = stop.at < start || self.caps[0].is_some() && stop == Stop::before(start);
@@ -169,17 +175,17 @@ impl Shape {
         (!before && !after).then(|| self.on_body(stop.at))
     }
 
-    /// The fraction of the trajectory's length at a `v` that is on it.
+    /// Returns the fraction of the trajectory's length at a `v` on the trajectory.
     fn on_body(&self, v: f64) -> f64 {
         let [start, end] = self.body();
-        // Back from where `row_of` has put a break, to the last bit.
+        // Inverts `row_of` exactly, to the last bit, where a break lies.
         let same = |at: &f64| self.row_of(*at) == v;
         let corner = self.trajectory.breaks().iter().copied().find(same);
         let known = corner.or_else(|| self.modulation.breaks(self.trajectory.closed()).find(same));
         known.unwrap_or_else(|| ((v - start) / (end - start)).clamp(0.0, 1.0))
     }
 
-    /// Which part of `v` is on the trajectory: before and after it are the caps.
+    /// Returns the `v` at which the trajectory starts and ends; caps lie before and after.
     fn body(&self) -> [f64; 2] {
         let [start, end] = self.caps.map(|cap| cap.map_or(0.0, |cap| cap.length()));
         let whole = start + self.trajectory.length() + end;
@@ -189,13 +195,13 @@ impl Shape {
         ]
     }
 
-    /// The `v` of a fraction of the trajectory's length.
+    /// Returns the `v` of a fraction of the trajectory's length.
     fn row_of(&self, at: f64) -> f64 {
         let [start, end] = self.body();
         start + (end - start) * at
     }
 
-    /// Puts points of a rotation that all but touch its axis on it.
+    /// Sets x to 0 for points of a rotation that lie on its axis up to `ON_AXIS`.
     fn snap_to_axis(&self, columns: &mut [Column]) {
         if self.trajectory.is_rotation() {
             let on_axis = ON_AXIS * self.contour.x_range().1;

@@ -1,4 +1,4 @@
-//! The spec: a sweep as JSON, as it is written and not yet checked.
+//! The spec: a sweep written as JSON, before it is checked.
 //!
 //! ```json
 //! {
@@ -11,36 +11,36 @@
 //! }
 //! ```
 //!
-//! Lengths are in any one unit; angles are in degrees. `uv`, `areas` ([`Area`]), `position`, `frame`, `scale`,
-//! `twist` and `depth` may be left out, and inside the objects `closed` (false), `center` and `origin` (zero), `axis` (y) and
-//! `angle_deg` (360). Unknown keys are errors. A **contour** is one of
+//! Lengths are in any one unit, angles in degrees. These keys may be left out: `uv`, `areas` ([`Area`]),
+//! `position`, `frame`, `scale`, `twist` and `depth`, and inside the objects `closed` (false), `center` and
+//! `origin` (zero), `axis` (y) and `angle_deg` (360). Unknown keys are errors. A **contour** is one of
 //!
 //! | contour                                         | what                                         |
 //! |-------------------------------------------------|----------------------------------------------|
-//! | `{"circle": r}`                                 | a circle about the origin                    |
+//! | `{"circle": r}`                                 | a circle of radius r about the origin        |
 //! | `{"bezier": {"closed": c, "segments": [S, ...]}}` | cubics; `S` is four points `[x, y]`        |
-//! | `{"svg": "M0 0 C..."}`                          | one subpath, closed by `Z` or by its end; y is negated, as SVG's points down |
-//! | `{"free": {"closed": c, "points": [P, ...]}}`   | a C2 spline through points `[x, y]`, or a curve near them; see [`contour`] |
-//! | `{"polyline": {"closed": c, "points": [P, ...]}}` | straight from point to point; see [`contour`] |
-//! | `{"sections": [{"at": v, "contour": C}, ...], ...}` | contours that go over into each other |
+//! | `{"svg": "M0 0 C..."}`                          | one subpath, closed by `Z` or by its end; y is negated, because y points down in SVG |
+//! | `{"free": {"closed": c, "points": [P, ...]}}`   | a C2 spline through points `[x, y]`, or a curve fitted to them; see [`contour`] |
+//! | `{"polyline": {"closed": c, "points": [P, ...]}}` | straight lines from point to point; see [`contour`] |
+//! | `{"sections": [{"at": v, "contour": C}, ...], ...}` | contours that blend into each other      |
 //!
 //! and a **trajectory** is one of
 //!
 //! | trajectory                                      | what                                         |
 //! |-------------------------------------------------|----------------------------------------------|
 //! | `{"line": [A, B]}`                              | a straight line                              |
-//! | `{"circle": {"radius": r, ...}}`                | a circle or, by `angle_deg`, a part of it      |
+//! | `{"circle": {"radius": r, ...}}`                | a circle, or an arc of `angle_deg` degrees   |
 //! | `{"helix": {"radius": r, "rise": h, "turns": n, ...}}` | a helix that rises by h in each turn |
 //! | `{"bezier": {"closed": c, "segments": [S, ...]}}` | cubics; `S` is four points `[x, y, z]`     |
 //! | `{"free": {"closed": c, "points": [P, ...]}}`   | a C2 spline through points `[x, y, z]`       |
 //! | `{"polyline": {"closed": c, "points": [P, ...], "corners": K}}` | straight lines through points `[x, y, z]` |
-//! | `{"flat": {"curve": C, "z": LAW}}`             | a curve drawn flat like a contour, with a height; see [`Flat`] |
-//! | `{"rotation": {"angle_deg": d, ...}}`             | contour x is the distance from an axis, y the height on it |
+//! | `{"flat": {"curve": C, "z": LAW}}`             | a plane curve drawn like a contour, with z given by a law; see [`Flat`] |
+//! | `{"rotation": {"angle_deg": d, ...}}`             | contour x is the distance from an axis, contour y the height along it |
 //!
-//! `mesh` counts cells, which become quads: rows along the trajectory, cols along the contour. Going
-//! around takes three, a contour at least one for each piece between corners, and all together are
-//! at most 100 million. It can ask for a tolerance in their place, as [`mesh`] says. The vessel of a
-//! potter is a rotation:
+//! `mesh` counts cells, which become quads: `rows` along the trajectory and `cols` along the contour. A
+//! closed direction needs at least three cells. A contour needs at least one cell for each piece between
+//! corners. The grid may have at most 100 million cells. Instead of counts, `mesh` can give a tolerance; see
+//! [`mesh`]. A vessel turned on a potter's wheel is a rotation:
 //!
 //! ```json
 //! {
@@ -52,40 +52,41 @@
 //! }
 //! ```
 //!
-//! A picture lies on the surface by length; with `"by": "parameter"` in `uv`, by the curves' own
-//! parameters.
+//! Texture coordinates are proportional to arc length. With `"by": "parameter"` in `uv` they follow the
+//! curves' own parameters.
 //!
 //! # Which side is outside, and where the contour lies
 //!
-//! Axes are right-handed and y points up. A contour's (x, y) lies on the directions (w1, w2) of a
-//! frame with `w1 x w2 = T`, the direction of the trajectory. Closed contours run counter-clockwise
-//! there (they are turned round if they do not), which puts their outside outside; so do open ones
-//! that a rotation takes from its axis to its axis. The outer side of any other open contour is to
-//! the right of its direction of travel.
+//! Axes are right-handed and y points up. A contour's (x, y) lies on the directions (w1, w2) of a frame with
+//! `w1 x w2 = T`, the direction of the trajectory. Closed contours run counter-clockwise in (w1, w2), so that
+//! their normals point out of the area they enclose; a clockwise contour is reversed. The same holds for an
+//! open contour of a rotation that starts and ends on the axis. The outer side of any other open contour is
+//! to the right of its direction of travel.
 //!
-//! On a circle and a rotation `w1` points away from the axis and `w2` along it. They start where
-//! `w1` is as near as can be to the coordinate axis least aligned with their axis (x before y
-//! before z): with the axis at y on the side of +x, from where they run toward +z. So does a helix,
-//! which is left-handed then if it rises, and right-handed if its turns are below 0; on its way its
-//! frame turns as little as it can.
+//! On a circle and a rotation `w1` points away from the axis and `w2` along it. The sweep starts where `w1`
+//! is nearest to the coordinate axis least aligned with the axis of the circle or rotation (x before y before
+//! z). If the axis is y, the sweep starts on the side of +x and runs toward +z. A helix starts in the same
+//! direction. It is therefore left-handed if it rises, and right-handed if its `turns` are below 0. The frame
+//! of a helix is rotation-minimizing.
 //!
-//! Any other trajectory starts with `w1` as near as can be to the coordinate axis least aligned
-//! with its direction. From there the frame turns about the trajectory as little as it can, and
-//! along a closed one it is turned evenly so that it closes.
+//! Any other trajectory starts with `w1` as near as possible to the coordinate axis least aligned with its
+//! direction. From there the frame turns about the trajectory as little as possible. Along a closed
+//! trajectory an even extra turn makes the last frame equal the first.
 //!
-//! A spec can choose for itself what `w1` starts toward: `"frame": {"start": [x, y, z]}`. Or it fixes
-//! the frame everywhere, by `up`, `frenet` or `guide`; see [`Frame`].
+//! A spec can choose the direction of `w1` at the start: `"frame": {"start": [x, y, z]}`. Or it fixes the
+//! frame everywhere, by `up`, `frenet` or `guide`; see [`Frame`].
 //!
 //! # Laws: scale and twist
 //!
-//! A **law** is a number that may change along the trajectory, by the fraction `at` of its length:
+//! A **law** is a number that may change along the trajectory. Its argument `at` is the fraction of the
+//! trajectory's length.
 //!
 //! | law                                             | what                                         |
 //! |-------------------------------------------------|----------------------------------------------|
 //! | `x`                                             | the same number everywhere                   |
-//! | `{"keys": [[at, x], ...], "ease": "smooth"}`    | from key to key, `linear` (the default) or `smooth`; held outside |
-//! | `{"bezier": [[[at, x], ... four], ...]}`        | the graph of a curve, along which `at` rises; held outside |
-//! | `{"total": x}`                                  | from 0 at the start evenly to x at the end   |
+//! | `{"keys": [[at, x], ...], "ease": "smooth"}`    | interpolated between keys, `linear` (the default) or `smooth`; constant outside |
+//! | `{"bezier": [[[at, x], ... four], ...]}`        | the graph of a Bezier curve along which `at` rises; constant outside |
+//! | `{"total": x}`                                  | linear from 0 at the start to x at the end   |
 //!
 //! ```json
 //! {
@@ -98,23 +99,25 @@
 //! }
 //! ```
 //!
-//! `scale` is one law for both axes of the contour or two, for x and y. Where both are 0 the surface has
-//! a pole. Factors below 0 on both axes turn the contour by half, so that a scale may pass through 0: it
-//! has a pole there, at a row of its own, and the outside stays outside. A factor below 0 on one axis
-//! mirrors the contour, whose columns then run the other way round; only one axis must not pass 0 on its
-//! way, as the surface would turn inside out. `twist` then turns the contour about the trajectory, in degrees,
-//! right-handed about its direction. Along a closed trajectory a scale ends as it starts, and a
-//! twist ends a multiple of 360 degrees from there, since each column meets itself. About the axis
-//! of a rotation there is no twist; its scale stays above 0 on x and apart from 0 on y, and wants a contour off the axis.
-//! A law whose derivative jumps, as linear keys do, gives the surface an edge with one normal.
+//! `scale` is one law for both axes of the contour, or two laws, for x and y. Where both factors are 0 the
+//! surface has a pole. Factors below 0 on both axes turn the contour by half a turn. So both factors may pass
+//! through 0 together: the surface has a pole there, at a row of its own, and the outside stays outside. A
+//! factor below 0 on one axis mirrors the contour, whose columns then run the other way round. One factor
+//! alone must not change its sign along the trajectory, as the surface would turn inside out.
+//!
+//! `twist` turns the scaled contour about the trajectory, in degrees, right-handed about its direction. Along
+//! a closed trajectory a scale ends with the value it starts with. A twist ends a multiple of 360 degrees
+//! from its start, so that each column meets itself. A rotation has no twist. Its scale must be above 0 on x
+//! and must not reach 0 on y, and its contour must not touch the axis. Where the derivative of a law jumps,
+//! as at linear keys, the surface has an edge with one normal.
 //!
 //! # Depth
 //!
 //! `depth` is a relief on the contour, made of waves: `delta` is the sum over `terms` of
-//! `amp * along(v) * sin(2 pi (u_count u + v_count v) + phase)`. Where `mode` is `factor` the contour
-//! is multiplied by `1 + delta`, which must stay above 0; where it is `offset` the contour, which has
-//! no corners then, is moved along its outer normal by `delta`. The rest acts on the contour with its
-//! relief. Counts are whole along closed curves; all keys of a term but `amp` may be left out.
+//! `amp * along(v) * sin(2 pi (u_count u + v_count v) + phase)`. If `mode` is `factor`, the contour is
+//! multiplied by `1 + delta`, which must stay above 0. If `mode` is `offset`, the contour is moved along its
+//! outer normal by `delta`; such a contour must have no corners. Scale and twist act on the contour with its
+//! relief. Counts are whole numbers along closed curves. All keys of a term except `amp` may be left out.
 //!
 //! ```json
 //! {
@@ -126,25 +129,26 @@
 //! }
 //! ```
 //!
-//! Heights may come from a grey picture, alone or besides `terms`:
+//! Heights may come from a grey picture, alone or in addition to `terms`:
 //! `"image": {"file": "relief.png", "amp": a, "repeat": [x, y], "zero": 0.5}` adds `a (grey - zero)`, where
-//! black is 0 and white is 1. The file is a PNG of 8 or 16 bits, named from the spec's folder; its numbers
-//! are heights, whatever its colour space, and transparency is not looked at. It lies on the surface as
-//! a texture does that `uv` lays `across` the same way, `repeat` times (once if left out), and is smooth
-//! between its texels. Along a closed curve it repeats, a whole number of times; along an open one
-//! it is mirrored at its edges.
+//! black is 0 and white is 1. The file is a PNG of 8 or 16 bits; its path is relative to the spec's folder.
+//! Its numbers are read as heights, whatever its colour space, and transparency is ignored. The picture lies
+//! on the surface like a texture with the same `across` in `uv`, `repeat` times (once if left out). Between
+//! its texels the heights are smooth. Along a closed curve the picture repeats a whole number of times. Along
+//! an open curve it is mirrored at its edges.
 //!
 //! # Seam, caps, deformations, parts
 //!
-//! [`SeamKind`] closes one-sided surfaces, to which a `wall` gives a thickness; [`Caps`] close the ends; [`Deform`] bends, twists and tapers the finished surface; [`Parts`] are
-//! several sweeps in one object.
+//! [`SeamKind`] closes one-sided surfaces, and `wall` gives such a surface a thickness. [`Caps`] close the
+//! ends. [`Deform`] bends, twists and tapers the finished surface. [`Parts`] are several sweeps in one
+//! object.
 //!
 //! # Corners
 //!
-//! A contour may have corners; one of more than a degree is a crease, where the surface has two
-//! normals. A trajectory may not, unless it says by `corners` whether they are rounded or mitred; see
-//! [`Corners`]. A rotation wants contour x
-//! of at least 0; where it is 0 the surface has a pole. Points given twice count once.
+//! A contour may have corners. A corner of more than a degree is a crease, where the surface has two normals.
+//! A trajectory may have corners only if `corners` says whether they are rounded or mitred; see [`Corners`].
+//! The contour of a rotation must have x of at least 0; where x is 0 the surface has a pole. A point given
+//! twice in a row counts once.
 
 mod areas;
 mod caps;
@@ -189,70 +193,71 @@ pub const FORMAT: &str = "tb-sweep";
 /// The value of `version`.
 pub const VERSION: u32 = 1;
 
-/// A spec as it is written.
+/// A spec of one sweep, before it is checked.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object, a sweep's spec")]
 pub struct Spec {
-    /// Where an editor finds the schema of this file; passed over.
+    /// Path or URL of this file's JSON Schema, for editors; ignored by the reader.
     #[serde(rename = "$schema", default, skip_serializing_if = "Option::is_none")]
     pub schema: Option<String>,
-    /// `tb-sweep`; may be left out in a part of an object.
+    /// The format, `tb-sweep`; may be left out in a part of an object.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("const" = FORMAT))]
     pub format: Option<String>,
-    /// 1; may be left out in a part of an object.
+    /// The version of the format, 1; may be left out in a part of an object.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("const" = VERSION))]
     pub version: Option<u32>,
     /// The object's name; one word.
     #[schemars(transform = schema::word)]
     pub name: String,
-    /// What is swept.
+    /// The curve that is swept.
     pub contour: Contour,
-    /// What it is swept along.
+    /// The curve that the contour is swept along, or a rotation.
     pub trajectory: Trajectory,
-    /// How the contour's axes lie along the trajectory.
+    /// Orientation of the contour's axes along the trajectory.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frame: Option<Frame>,
-    /// Factors of the contour along the trajectory; 1 if left out.
+    /// Factors of the contour's x and y along the trajectory; 1 if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scale: Option<Scale>,
-    /// Turn of the contour about the trajectory, in degrees, right-handed; 0 if left out.
+    /// Rotation of the contour about the trajectory, in degrees, right-handed; 0 if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub twist: Option<Law>,
     /// Relief on the contour.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub depth: Option<Depth>,
-    /// How it comes back to its start, where columns do not meet themselves.
+    /// How the end of the surface meets its start, if columns do not meet themselves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub seam: Option<SeamKind>,
-    /// The thickness of a wall in place of a sheet, in the unit of length; of mirrored closed surfaces.
+    /// Thickness of a wall around the surface, in the unit of length, above 0. Needs `"seam": "mirror"` and a
+    /// closed contour.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(transform = schema::positive)]
     pub wall: Option<f64>,
-    /// What closes the ends.
+    /// What closes the two ends.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub caps: Option<Caps>,
-    /// What happens to the surface in the end, one after another.
+    /// Deformations of the finished surface, applied one after another before `position`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub deform: Vec<Deform>,
-    /// How finely.
+    /// Resolution of the surface: counts of cells, or a tolerance.
     pub mesh: Mesh,
-    /// How a picture lies on the surface.
+    /// How texture coordinates lie on the surface.
     #[serde(default)]
     pub uv: UvLayout,
-    /// Parts with pictures of their own.
+    /// Rectangles of cells with textures of their own.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub areas: Vec<Area>,
-    /// The texture id of its triangles, which a scene binds to a picture; 0 is none.
+    /// Texture id of the triangles, which a scene binds to a picture; 0 means none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(transform = schema::id)]
     pub texture: Option<u32>,
-    /// The surface id of its triangles, which a scene binds to a material.
+    /// Surface id of the triangles, which a scene binds to a material.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(transform = schema::id)]
     pub surface: Option<u32>,
-    /// By how much the whole is moved in the end, `[x, y, z]` in the unit of length.
+    /// Translation of the finished surface, `[x, y, z]` in the unit of length.
     #[serde(default)]
     pub position: [f64; 3],
 }
@@ -262,28 +267,28 @@ pub struct Spec {
 #[serde(deny_unknown_fields, expecting = "an object with the key segments, and closed if it is")]
 #[schemars(inline)]
 pub struct Bezier<P> {
-    /// Whether the last segment ends at the start of the first, and continues there.
+    /// Whether the last segment ends at the start of the first.
     #[serde(default)]
     pub closed: bool,
-    /// Four control points each, at least one segment; a segment starts where the one before ends.
+    /// Four control points for each segment. At least one segment; each starts where the one before it ends.
     #[schemars(transform = schema::at_least(1))]
     pub segments: Vec<[P; 4]>,
 }
 
-/// Points that a C2 spline goes through.
+/// Points that a C2 spline passes through.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object with the key points, and closed if it is")]
 #[schemars(inline, transform = schema::loop_of_three)]
 pub struct Free<P> {
-    /// Whether the last point leads on to the first, which is not given again.
+    /// Whether the curve returns from the last point to the first, which is not repeated.
     #[serde(default)]
     pub closed: bool,
-    /// At least two points, three when closed.
+    /// The points: at least two, or three if closed.
     #[schemars(transform = schema::at_least(2))]
     pub points: Vec<P>,
 }
 
-/// The one value of a kind that is there.
+/// Returns the one value that is given, or a message if there is none or more than one.
 fn only<T, const N: usize>(kind: &str, keys: [(&str, Option<T>); N]) -> Result<T, String> {
     let names = keys.each_ref().map(|key| key.0).join(", ");
     let mut given = keys.into_iter().filter_map(|(name, value)| value.map(|value| (name, value)));
@@ -308,7 +313,7 @@ mod tests {
     use files::json::Document;
     use std::path::Path;
 
-    /// The pages that show specs, and how many each shows.
+    /// Pages that show specs, with the number of specs on each.
     const PAGES: [(&str, usize); 10] = [
         (include_str!("spec.rs"), 4),
         (include_str!("spec/caps.rs"), 1),

@@ -1,23 +1,23 @@
-//! A wall: a one-sided surface given a thickness.
+//! Walls: one-sided surfaces given a thickness.
 //!
-//! A surface that closes mirrored has no inside, and a sheet no thickness. A wall is what lies within
-//! half its thickness of the sheet, and its boundary is one closed surface with two sides, the sheet's
-//! orientation cover: it goes along one side of the sheet, comes back over the mirrored seam on the
-//! other, and closes after twice the way. A Klein bottle so becomes a torus, and a bottle of glass.
+//! A surface that closes mirrored has no inside, and a sheet has no thickness. A wall consists of all points
+//! within half its thickness of the sheet. Its boundary is one closed surface with two sides, the orientation
+//! cover of the sheet. It runs along one side of the sheet, returns over the mirrored seam on the other side,
+//! and closes after twice the sheet's length. A Klein bottle thus becomes a torus, and a bottle of glass.
 //!
-//! Its points are the sheet's moved along the normals, and its normals the sheet's own, since a
-//! surface at a constant distance from another is parallel to it.
+//! The wall's points are those of the sheet moved along the normals. The normals are those of the sheet,
+//! because a surface at a constant distance from another is parallel to it.
 
 use glam::{DVec3, Vec3};
 
 /// A wall around a sheet that closes mirrored.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wall {
-    /// Half its thickness.
+    /// Half the thickness, in the unit of length; above 0.
     pub(crate) half: f64,
 }
 
-/// How often a wall goes along its sheet.
+/// Number of times a wall runs along its sheet.
 pub(crate) const SIDES: usize = 2;
 
 impl Wall {
@@ -28,8 +28,8 @@ impl Wall {
         }
     }
 
-    /// Moves a row of the sheet to the other side, where `led` are the columns in the order in which the
-    /// way comes back on them.
+    /// Moves a row of the sheet to the other side and reverses its normals. `led` holds the columns in the
+    /// order in which the wall returns on them.
     pub(crate) fn far(self, points: &mut [DVec3], normals: &mut [Vec3], led: &[usize]) {
         let sheet: Vec<(DVec3, Vec3)> =
             points.iter().copied().zip(normals.iter().copied()).collect();

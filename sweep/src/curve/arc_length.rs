@@ -1,23 +1,23 @@
-//! Arc length of one cubic segment, and its inverse.
+//! Arc length of one cubic segment, and the inverse function.
 //!
-//! The length from the start is a table over equal cells of the parameter plus an adaptive
-//! Gauss-Legendre integral inside one cell. The inverse finds its cell in the table and goes on by
-//! Newton's method, kept inside a bracket that every step narrows: a step that would leave it
-//! (near a cusp the speed is almost zero) is replaced by a bisection. It is judged by the length
-//! at the parameter found, as the parameter itself is ill-defined where the speed vanishes.
+//! The length from the start is a table over equal cells of the parameter, plus an adaptive Gauss-Legendre
+//! integral inside one cell. The inverse finds its cell in the table and continues with Newton's method
+//! inside a bracket that every step narrows. A step that would leave the bracket (near a cusp the speed is
+//! almost zero) is replaced by a bisection. The iteration stops by the length at the parameter found, because
+//! the parameter itself is ill-defined where the speed vanishes.
 
 use super::cubic::Cubic;
 use super::quadrature::integrate;
 use super::vector::Vector;
 
-/// Cells of the table. More make the inverse start nearer and the table slower to build; 16 leaves
-/// two or three Newton steps on smooth curves.
+/// Cells of the table. With more cells the inverse starts nearer and the table takes longer to build. With 16
+/// cells, smooth curves need two or three Newton steps.
 const CELLS: usize = 16;
 
-/// Agreement asked of the integral, as a fraction of the control polygon's length.
+/// Tolerance of the integral, as a fraction of the control polygon's length.
 const TOLERANCE: f64 = 1e-14;
 
-/// Steps of the inverse at most; bisection alone needs 53.
+/// Most steps of the inverse; bisection alone needs 53.
 const STEPS: usize = 128;
 
 /// The length of a cubic segment as a function of its parameter.
@@ -25,7 +25,7 @@ const STEPS: usize = 128;
 pub struct ArcLength<V> {
     cubic: Cubic<V>,
     tolerance: f64,
-    /// Length from the start at `i / CELLS`.
+    /// Length from the start of the segment to the parameter `i / CELLS`.
     table: [f64; CELLS + 1],
 }
 
@@ -41,18 +41,18 @@ impl<V: Vector> ArcLength<V> {
         lengths
     }
 
-    /// The length of the whole segment.
+    /// Returns the length of the whole segment.
     pub fn total(&self) -> f64 {
         self.table[CELLS]
     }
 
-    /// The length from the start to the parameter `t` in `[0, 1]`.
+    /// Returns the length from the start to the parameter `t` in `[0, 1]`.
     pub fn length_to(&self, t: f64) -> f64 {
         let cell = ((t * CELLS as f64) as usize).min(CELLS - 1);
         self.table[cell] + self.between(knot(cell), t)
     }
 
-    /// The parameter at length `s` from the start; `s` outside the segment gives its ends.
+    /// Returns the parameter in `[0, 1]` at length `s` from the start; `s` outside the segment gives its ends.
     pub fn parameter_at(&self, s: f64) -> f64 {
         if s.is_nan() || s <= 0.0 {
             return 0.0;
@@ -88,7 +88,7 @@ impl<V: Vector> ArcLength<V> {
     }
 }
 
-/// The parameter at which a cell begins.
+/// Returns the parameter at which a cell begins.
 fn knot(cell: usize) -> f64 {
     cell as f64 / CELLS as f64
 }
@@ -98,7 +98,7 @@ mod tests {
     use super::*;
     use glam::{DVec2, DVec3};
 
-    /// The largest `|s(t(s)) - s|`, as a fraction of the length.
+    /// Returns the largest `|s(t(s)) - s|`, as a fraction of the length.
     fn inverse_error<V: Vector>(points: [V; 4]) -> f64 {
         let lengths = ArcLength::new(Cubic(points));
         let total = lengths.total();
@@ -143,7 +143,7 @@ mod tests {
 
     #[test]
     fn a_semicubical_cusp_has_its_length() {
-        // (t^2, t^3) from -1 to 1 in closed form: the cusp is where no table cell ends.
+        // (t^2, t^3) from -1 to 1.1 in closed form. The cusp does not lie at the end of a table cell.
         let shift = 0.1;
         let (from, to) = (-1.0, 1.0 + shift);
         let half = |t: f64| ((4.0 + 9.0 * t * t).powf(1.5) - 8.0) / 27.0;
@@ -153,7 +153,7 @@ mod tests {
         assert!(error.abs() < 1e-12, "{error:e}");
     }
 
-    /// The control points of (t^2, t^3) over an interval.
+    /// Returns the control points of (t^2, t^3) over an interval.
     fn blossom(a: f64, b: f64) -> [DVec2; 4] {
         let at = |x: f64, y: f64, z: f64| DVec2::new((x * y + y * z + z * x) / 3.0, x * y * z);
         [at(a, a, a), at(a, a, b), at(a, b, b), at(b, b, b)]

@@ -4,53 +4,53 @@
 //!     P(t) = (1-t)^3 p0 + 3 (1-t)^2 t p1 + 3 (1-t) t^2 p2 + t^3 p3,     t in [0, 1]
 //! ```
 //!
-//! Derivatives are formed from the differences of the control points, so that a direction is right
-//! to its last digits also where the speed is very small. Where the speed is zero the direction
-//! comes from the first derivative that is not.
+//! Derivatives are formed from differences of the control points, so a direction is right to its last digits
+//! even where the speed is very small. Where the speed is zero, the direction is that of the first derivative
+//! that is not zero.
 
 use super::vector::Vector;
 use kurbo::common::solve_cubic;
 
-/// Speeds below this fraction of the segment's largest count as zero.
+/// A speed below this fraction of the segment's largest counts as zero.
 ///
-/// A handle this short bends the curve only over a billionth of its length, less than a picture can
-/// show; much smaller, and a cusp whose control points are rounded to decimals is not seen as one.
+/// A handle this short bends the curve only over a billionth of its length, less than a picture can show.
+/// With a much smaller value, a cusp whose control points are rounded to decimals would be missed.
 pub const ZERO_SPEED: f64 = 1e-9;
 
-/// A cubic Bezier segment by its control points.
+/// A cubic Bezier segment, given by its four control points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cubic<V>(pub [V; 4]);
 
 impl<V: Vector> Cubic<V> {
-    /// The straight segment from `a` to `b`, run through at constant speed.
+    /// Returns the straight segment from `a` to `b` with constant speed.
     pub fn line(a: V, b: V) -> Self {
         let third = (b - a) * (1.0 / 3.0);
         Self([a, a + third, b - third, b])
     }
 
-    /// The point at `t`; exactly the first and the last control point at 0 and 1.
+    /// Returns the point at `t`: exactly the first control point at 0 and the last at 1.
     pub fn point(&self, t: f64) -> V {
         let [p0, p1, p2, p3] = self.0;
         let s = 1.0 - t;
         p0 * (s * s * s) + p1 * (3.0 * s * s * t) + p2 * (3.0 * s * t * t) + p3 * (t * t * t)
     }
 
-    /// The first derivative at `t`.
+    /// Returns the first derivative by `t`.
     pub fn velocity(&self, t: f64) -> V {
         let [d0, d1, d2] = self.differences();
         let s = 1.0 - t;
         (d0 * (s * s) + d1 * (2.0 * s * t) + d2 * (t * t)) * 3.0
     }
 
-    /// The second derivative at `t`.
+    /// Returns the second derivative by `t`.
     pub fn acceleration(&self, t: f64) -> V {
         let [d0, d1, d2] = self.differences();
         ((d1 - d0) * (1.0 - t) + (d2 - d1) * t) * 6.0
     }
 
-    /// The unit tangent at `t`, one-sided at the ends; the zero vector for a segment of no size.
+    /// Returns the unit tangent at `t`, one-sided at the ends; the zero vector for a segment of no size.
     ///
-    /// Where the speed is zero it is the direction in which the segment leaves its nearer end.
+    /// Where the speed is zero, the tangent is the direction in which the segment leaves its nearer end.
     pub fn tangent(&self, t: f64) -> V {
         let velocity = self.velocity(t);
         let slow = 3.0 * ZERO_SPEED * self.size();
@@ -65,9 +65,9 @@ impl<V: Vector> Cubic<V> {
             .map_or(V::ZERO, |d| d * (1.0 / d.length()))
     }
 
-    /// The curvature vector at `t`: the derivative of the unit tangent by arc length.
+    /// Returns the curvature vector at `t`: the derivative of the unit tangent by arc length.
     ///
-    /// It is unbounded where the speed is zero; there the answer is the zero vector.
+    /// The zero vector where the speed is zero, although the curvature is unbounded there.
     pub fn curvature(&self, t: f64) -> V {
         let velocity = self.velocity(t);
         let speed = velocity.length();
@@ -79,7 +79,7 @@ impl<V: Vector> Cubic<V> {
         (acceleration - tangent * acceleration.dot(tangent)) * (1.0 / speed)
     }
 
-    /// The derivative of the curvature by arc length; the zero vector where the speed is zero.
+    /// Returns the derivative of the curvature by arc length; the zero vector where the speed is zero.
     pub fn third(&self, t: f64) -> V {
         let velocity = self.velocity(t);
         let speed = velocity.length();
@@ -96,18 +96,18 @@ impl<V: Vector> Cubic<V> {
             - tangent * curvature.dot(curvature)
     }
 
-    /// The length of the longest side of the control polygon.
+    /// Returns the length of the longest side of the control polygon.
     pub fn size(&self) -> f64 {
         self.differences().into_iter().map(Vector::length).fold(0.0, f64::max)
     }
 
-    /// The same points in the other direction.
+    /// Returns the segment in the opposite direction.
     pub fn reversed(&self) -> Self {
         let [p0, p1, p2, p3] = self.0;
         Self([p3, p2, p1, p0])
     }
 
-    /// The part from one parameter to another.
+    /// Returns the part between two parameters.
     pub fn part(&self, from: f64, to: f64) -> Self {
         if (from, to) == (0.0, 1.0) {
             return *self;
@@ -118,8 +118,9 @@ impl<V: Vector> Cubic<V> {
         Self([start, start + leaving * width, end - reaching * width, end])
     }
 
-    /// Whether the inner control points lie on the line between the ends, up to a part of its length
-    /// and what coordinates far from the origin are rounded by.
+    /// Returns whether the inner control points lie on the line between the ends. `part` is the tolerance as
+    /// a fraction of that line's length. The rounding of coordinates far from the origin is added to the
+    /// tolerance.
     pub fn is_straight(&self, part: f64) -> bool {
         let [p0, p1, p2, p3] = self.0;
         let chord = p3 - p0;
@@ -132,9 +133,9 @@ impl<V: Vector> Cubic<V> {
         })
     }
 
-    /// The parts before and after each inner point where the speed is zero.
+    /// Splits the segment at each inner point where the speed is zero.
     ///
-    /// The parts meet there with handles of no length, so that each has its own tangent.
+    /// The parts meet there with handles of no length, so each part has its own tangent.
     pub fn split_at_cusps(&self) -> Vec<Self> {
         let mut parts = vec![*self];
         let mut before = 0.0;
@@ -146,16 +147,16 @@ impl<V: Vector> Cubic<V> {
         parts
     }
 
-    /// The parameters inside the segment where the speed is zero, rising.
+    /// Returns the parameters inside the segment where the speed is zero, rising.
     fn cusps(&self) -> Vec<f64> {
         let size = self.size();
         if size == 0.0 {
             return Vec::new();
         }
-        // The velocity as a + b t + c t^2, in units of the size.
+        // The velocity is a + b t + c t^2, in units of the size.
         let [d0, d1, d2] = self.differences().map(|d| d * (1.0 / size));
         let (a, b, c) = (d0, (d1 - d0) * 2.0, d0 - d1 * 2.0 + d2);
-        // Least speeds are where half the derivative of its square is zero.
+        // The speed is least where half the derivative of its square is zero.
         let [k0, k1, k2, k3] =
             [a.dot(b), b.dot(b) + 2.0 * a.dot(c), 3.0 * b.dot(c), 2.0 * c.dot(c)];
         let slope = |t: f64| ((k3 * t + k2) * t + k1) * t + k0;
@@ -163,7 +164,8 @@ impl<V: Vector> Cubic<V> {
         let mut found: Vec<f64> = solve_cubic(k0, k1, k2, k3)
             .into_iter()
             .map(|t| {
-                // The closed form loses half its digits; at a cusp the root is simple.
+                // The closed form loses half its digits; at a cusp the root is simple, so Newton's method
+                // restores them.
                 (0..4).fold(t, |t, _| {
                     let step = slope(t) / slope_change(t);
                     if step.is_finite() { t - step } else { t }
@@ -177,7 +179,7 @@ impl<V: Vector> Cubic<V> {
         found
     }
 
-    /// The parts before and after the cusp at `t`.
+    /// Returns the parts before and after the cusp at `t`.
     fn split(&self, t: f64) -> [Self; 2] {
         let mix = |a: V, b: V| a * (1.0 - t) + b * t;
         let [p0, p1, p2, p3] = self.0;

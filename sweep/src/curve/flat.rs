@@ -1,9 +1,9 @@
-//! A curve drawn flat, with a height over every place of it.
+//! A plane curve with a height above each of its points.
 //!
-//! The flat curve gives x and y by its length `l`; the height is a function of `l`. Rolled out flat, the
-//! wall that stands over the flat curve up to that height ends in the graph of the height, and the
-//! graph is as long there as the curve is in space. So the curve in space is measured, and run
-//! through at unit speed, by the graph alone: with `(l, z)` on the graph by its arc length `s`,
+//! The plane curve gives x and y as functions of its arc length `l`; the height z is also a function of `l`.
+//! The surface between the plane curve and the curve in space can be unrolled. Its upper edge then becomes
+//! the graph of z over `l`, which has the same length as the curve in space. So the graph alone determines
+//! the arc length of the curve in space. With `(l, z)` on the graph, at the graph's arc length `s`,
 //!
 //! ```text
 //!     P     = (p(l), z)
@@ -19,20 +19,20 @@ use crate::cut::Side;
 use crate::law::parameter;
 use glam::DVec2;
 
-/// Joints of the two curves nearer than this fraction of the length are one.
+/// Joints of the two curves at most this fraction of the length apart are one joint.
 const SAME: f64 = 1e-11;
 
-/// A curve in space over a flat one.
+/// A curve in space above a plane curve.
 #[derive(Debug, Clone)]
 pub struct Flat {
     plane: Path<DVec2>,
-    /// Points `(l, z)`, along which l does not fall.
+    /// The graph of points `(l, z)`, along which `l` does not fall.
     graph: Path<DVec2>,
 }
 
 impl Flat {
-    /// Puts a graph of points `(at, z)` over a flat curve, `at` being a fraction of its length from 0
-    /// to 1. `None` when the graph has no length, which cannot be.
+    /// Returns the curve in space for a graph of points `(at, z)` over a plane curve. `at` is a fraction of
+    /// the plane curve's length, from 0 to 1. `None` only if the graph has no length, which cannot be.
     #[must_use]
     pub fn new(plane: Path<DVec2>, graph: &[Cubic<DVec2>]) -> Option<Self> {
         let wide = DVec2::new(plane.length(), 1.0);
@@ -41,7 +41,7 @@ impl Flat {
         Some(Self { plane, graph })
     }
 
-    /// The joints: arc length, and by how much the direction turns there, in radians.
+    /// Returns the joints: the arc length of each, and the turn of the tangent there in radians.
     pub fn joints(&self) -> impl Iterator<Item = (f64, f64)> {
         let length = self.length();
         let mut knots = self.knots();
@@ -49,7 +49,8 @@ impl Flat {
         if !self.closed() {
             knots.remove(0);
         }
-        // A step aside, since the joints of one curve are found in the other but for rounding.
+        // Tangents are taken a small step aside, because joints of one curve are located on the other only up
+        // to rounding.
         knots.into_iter().map(move |s| {
             let end = if s == 0.0 { length } else { s };
             let (before, after) = (self.at(end - SAME * length), self.at(s + SAME * length));
@@ -57,7 +58,7 @@ impl Flat {
         })
     }
 
-    /// The arc length in space over the arc length `l` of the flat curve.
+    /// Returns the arc length in space above the arc length `l` of the plane curve.
     fn over(&self, l: f64) -> f64 {
         let next = self.graph.cubics().take_while(|cubic| cubic.0[3].x <= l).count();
         match self.graph.cubics().nth(next) {
@@ -131,7 +132,7 @@ mod tests {
         assert!((flat.length() - ring.length()).abs() < 1e-13);
         let place = flat.at(1.0);
         assert!((place.position - ring.point(ring.locate(1.0)).extend(3.0)).length() < 1e-14);
-        // An open ring, as the ends of a helix differ.
+        // An open ring, because the ends of a helix differ.
         let cubics: Vec<_> = ring.cubics().copied().collect();
         let ring = Path::new(&cubics, false).unwrap();
         let around = ring.length();
@@ -141,7 +142,7 @@ mod tests {
         for i in 0..=40 {
             let place = helix.at(helix.length() * f64::from(i) / 40.0);
             assert!((place.tangent.z - slope).abs() < 1e-14);
-            // The ring is a spline through 64 points, whose curvature is a circle's to 1e-3.
+            // The ring is a spline through 64 points, whose curvature is that of a circle to 1e-3.
             assert!((place.curvature.length() - (1.0 - slope * slope) / 2.0).abs() < 1e-3);
         }
     }

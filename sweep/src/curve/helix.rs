@@ -1,46 +1,45 @@
-//! A helix, with frames that turn as little as they can, in closed form.
+//! A helix and its rotation-minimizing frames, in closed form.
 //!
-//! Its tangent keeps an angle to the axis, with the cosine `h` and the sine `c`; so curvature and
-//! torsion are the same everywhere, and a rotation-minimizing frame turns evenly against one whose
-//! `w1` points away from the axis. Nothing is summed up, and a place takes no longer far from the
-//! start than near it.
+//! The tangent of a helix keeps an angle to the axis, with the cosine `h` and the sine `c`. So curvature and
+//! torsion are constant, and a rotation-minimizing frame turns evenly against a frame whose `w1` points away
+//! from the axis. Nothing is summed, so a point far from the start costs no more than one near it.
 
 use super::{Local3, turn};
 use crate::frame::Frame;
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 
-/// A helix about the y direction of a frame through the frame's origin.
+/// A helix about the line through a frame's origin in the direction of the frame's `w2`.
 #[derive(Debug, Clone, Copy)]
 pub struct Helix {
-    /// The frame of the circle below it, at its centre: the helix starts toward `w1`.
+    /// The frame at the centre of the helix's base circle. The helix starts at the side of `w1`.
     pub(crate) start: Frame,
     /// Distance from the axis; above 0.
     pub(crate) radius: f64,
-    /// Way along the axis in one turn.
+    /// Rise along the axis in one turn.
     pub(crate) rise: f64,
-    /// Turns, from `w1` toward `T`; below 0 the other way.
+    /// Number of turns, positive from `w1` toward `T`.
     pub(crate) turns: f64,
 }
 
 impl Helix {
-    /// The length of one turn.
+    /// Returns the length of one turn.
     fn turn_length(&self) -> f64 {
         (TAU * self.radius).hypot(self.rise)
     }
 
-    /// The length of the whole.
+    /// Returns the length of the whole helix.
     #[must_use]
     pub fn length(&self) -> f64 {
         self.turns.abs() * self.turn_length()
     }
 
-    /// The place at `v`, a fraction of the length.
+    /// Returns the point and derivatives at `v`, a fraction of the length in `[0, 1]`.
     #[must_use]
     pub fn place(&self, v: f64) -> Local3 {
         let (outward, around) = self.spoke(v);
         let (c, h) = self.slope();
-        // Turn about the axis by length.
+        // Rotation about the axis, in radians per length.
         let rate = (c / self.radius).copysign(self.turns);
         Local3 {
             position: self.start.origin
@@ -52,16 +51,17 @@ impl Helix {
         }
     }
 
-    /// The frame at `v`, a fraction of the length, and the curvature there on its `(w1, w2)`.
+    /// Returns the frame at `v`, a fraction of the length, and the curvature there on its `(w1, w2)`.
     ///
-    /// It starts with `w1` away from the axis.
+    /// At the start, `w1` points away from the axis.
     #[must_use]
     pub fn at(&self, v: f64) -> (Frame, DVec2) {
         let (outward, _) = self.spoke(v);
         let (c, h) = self.slope();
         let Local3 { position, tangent, .. } = self.place(v);
         let sideways = tangent.cross(outward);
-        // Away from the axis, w1 would turn toward w2 by -c h / r of an angle for each length.
+        // If w1 pointed away from the axis everywhere, it would turn toward w2 by -c h / r radians per
+        // length.
         let back = turn(self.turns * v * h);
         let frame = Frame {
             origin: position,
@@ -72,14 +72,14 @@ impl Helix {
         (frame, DVec2::new(-back.x, back.y) * (c * c / self.radius))
     }
 
-    /// The direction away from the axis, and the one a quarter of a turn further.
+    /// Returns the unit vector away from the axis, and that vector a quarter turn further.
     fn spoke(&self, v: f64) -> (DVec3, DVec3) {
         let Frame { normal, tangent, .. } = self.start;
         let angle = turn(self.turns * v);
         (normal * angle.x + tangent * angle.y, tangent * angle.x - normal * angle.y)
     }
 
-    /// The sine and the cosine of the tangent's angle to the axis.
+    /// Returns the sine and the cosine of the tangent's angle to the axis.
     fn slope(&self) -> (f64, f64) {
         (TAU * self.radius / self.turn_length(), self.rise / self.turn_length())
     }
@@ -98,7 +98,7 @@ mod tests {
         Helix { start, radius: 2.0, rise, turns }
     }
 
-    /// The same curve without its frames, which double reflection then finds.
+    /// The helix without its closed-form frames, so that double reflection finds them.
     struct Bare(Helix);
 
     impl Curve3 for Bare {

@@ -1,18 +1,18 @@
-//! Curves: piecewise cubic Beziers in two and three dimensions, measured by arc length.
+//! Curves: piecewise cubic Beziers in two and three dimensions, by arc length.
 //!
 //! | module         | what                                                              |
 //! |----------------|-------------------------------------------------------------------|
 //! | [`cubic`]      | one segment: point, derivatives, tangents, cusps                  |
 //! | [`path`]       | segments joined, located by arc length; corners                   |
 //! | [`arc_length`] | the length of a segment and its inverse                           |
-//! | [`fit`]        | few cubics near many points                                       |
-//! | [`flat`]       | a curve drawn flat, with a height by a law                        |
+//! | [`fit`]        | a few cubics near many points                                     |
+//! | [`flat`]       | a plane curve with a height given by a law                        |
 //! | [`helix`]      | a helix and its frames, in closed form                            |
 //! | [`spline`]     | a C2 curve through free points                                    |
 //! | [`svg`]        | the path of an SVG file                                           |
 //!
-//! Nothing here has an absolute tolerance: a curve and its copy a billion times larger are treated
-//! alike. Lines and circles are not made into cubics; see [`turn`](self::turn()).
+//! No tolerance here is absolute: a curve and a copy a billion times larger give the same results at their
+//! scales. Lines and circles are not converted to cubics; see [`turn`](self::turn()).
 
 pub mod arc_length;
 pub mod cubic;
@@ -34,50 +34,51 @@ pub use vector::Vector;
 use glam::{DVec2, DVec3};
 use std::f64::consts::FRAC_PI_2;
 
-/// A curve in space, run through at unit speed.
+/// A curve in space, parametrized by arc length.
 pub trait Curve3 {
-    /// The length of the whole curve.
+    /// Returns the length of the whole curve.
     fn length(&self) -> f64;
 
-    /// Whether the curve leads back to its start.
+    /// Returns whether the curve leads back to its start.
     fn closed(&self) -> bool;
 
-    /// Arc lengths from 0 to the whole length, rising, between which the curve is smooth.
+    /// Returns arc lengths between which the curve is smooth, rising from 0 to the whole length.
     fn knots(&self) -> Vec<f64>;
 
-    /// The curve at arc length `s` from its start; `s` outside the curve gives its ends.
+    /// Returns the curve at arc length `s` from its start; `s` outside the curve gives its ends.
     ///
-    /// At a joint it is the side after.
+    /// At a joint, returns the side after.
     fn at(&self, s: f64) -> Local3;
 
-    /// The same, but at a joint the side before.
+    /// Returns the curve at arc length `s`, as [`at`](Curve3::at) does, but at a joint the side before.
     fn before(&self, s: f64) -> Local3 {
         self.at(s)
     }
 }
 
-/// A curve in space at one place.
+/// A point of a curve in space, with derivatives by arc length.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Local3 {
-    /// The point.
+    /// The point, in the unit of length.
     pub position: DVec3,
     /// The unit tangent.
     pub tangent: DVec3,
-    /// The derivative of the tangent by arc length: towards the centre, one over the radius long.
+    /// Derivative of the tangent by arc length: a vector toward the centre of curvature, of length 1 /
+    /// radius.
     pub curvature: DVec3,
-    /// The derivative of the curvature by arc length.
+    /// Derivative of the curvature by arc length.
     pub third: DVec3,
 }
 
 impl Local3 {
-    /// A place where the curve is straight.
+    /// Returns a point at which the curve is straight.
     #[must_use]
     pub fn straight(position: DVec3, tangent: DVec3) -> Self {
         Self { position, tangent, curvature: DVec3::ZERO, third: DVec3::ZERO }
     }
 }
 
-/// The point of the unit circle after a fraction of a turn; exact at the quarters.
+/// Returns the point of the unit circle after a fraction of a full turn; exact at the quarters.
 #[must_use]
 pub fn turn(fraction: f64) -> DVec2 {
     let quarters = 4.0 * fraction;

@@ -1,4 +1,4 @@
-//! Cubic segments joined end to end, located by arc length.
+//! Cubic segments joined end to end, with points located by arc length.
 
 use super::arc_length::ArcLength;
 use super::cubic::Cubic;
@@ -6,10 +6,10 @@ use super::vector::{Vector, angle_between, extent};
 use super::{Curve3, Local3};
 use glam::DVec3;
 
-/// Segments smaller than this fraction of the curve are points given twice, and are dropped.
+/// Segments smaller than this fraction of the curve are repeated points and are dropped.
 ///
-/// Coordinates carry 16 digits and a curve may lie at some distance from the origin; a segment
-/// smaller than this has no direction left to trust.
+/// Coordinates carry 16 digits, and a curve may lie at some distance from the origin. A segment smaller than
+/// this has no reliable direction.
 const COINCIDENT: f64 = 1e-12;
 
 /// A curve of cubic segments, open or closed.
@@ -23,21 +23,21 @@ pub struct Path<V> {
 #[derive(Debug, Clone)]
 struct Segment<V> {
     cubic: Cubic<V>,
-    /// Which of the segments given this one is, or is a part of.
+    /// Index of the given segment that this segment is, or is a part of.
     source: usize,
     /// Length of the curve before this segment.
     start: f64,
     lengths: ArcLength<V>,
 }
 
-/// A place on a path: a segment and the parameter on it.
+/// A point on a path: a segment and the parameter on it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Place {
     segment: usize,
     t: f64,
 }
 
-/// A joint of a path: where one segment leads into the next.
+/// A joint of a path, where one segment leads into the next.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Joint {
     /// Arc length from the start of the path; 0 for the joint that closes it.
@@ -46,17 +46,17 @@ pub struct Joint {
     pub before: Place,
     /// The start of the segment after.
     pub after: Place,
-    /// By how much the direction turns here, in radians.
+    /// Angle by which the tangent turns here, in radians from 0 to pi.
     pub angle: f64,
-    /// Which of the segments given lie before and after; the same one at a cusp inside it.
+    /// Indices of the given segments before and after; both are the same at a cusp inside one segment.
     pub sources: [usize; 2],
 }
 
 impl<V: Vector> Path<V> {
-    /// Joins the segments, each of which starts where the one before it ends.
+    /// Joins segments, each of which starts where the one before it ends.
     ///
-    /// Segments whose points coincide are dropped, and segments are split at inner cusps. `None`
-    /// when nothing of any length is left.
+    /// Segments whose points coincide are dropped, and segments are split at inner cusps. `None` if no length
+    /// is left.
     pub fn new(given: &[Cubic<V>], closed: bool) -> Option<Self> {
         let size = extent(given.iter().flat_map(|cubic| cubic.0));
         let mut segments = Vec::with_capacity(given.len());
@@ -75,34 +75,34 @@ impl<V: Vector> Path<V> {
         (start > 0.0 && start.is_finite()).then_some(Self { segments, closed, length: start })
     }
 
-    /// The length of the whole path.
+    /// Returns the length of the whole path.
     pub fn length(&self) -> f64 {
         self.length
     }
 
-    /// Whether the path leads back to its start.
+    /// Returns whether the path leads back to its start.
     pub fn closed(&self) -> bool {
         self.closed
     }
 
-    /// The segments as they are swept: without those dropped, and with cusps split.
+    /// Returns the segments of the path: without dropped ones, and with cusps split.
     pub fn cubics(&self) -> impl Iterator<Item = &Cubic<V>> {
         self.segments.iter().map(|segment| &segment.cubic)
     }
 
-    /// The start of the path.
+    /// Returns the start of the path.
     pub fn start(&self) -> Place {
         Place { segment: 0, t: 0.0 }
     }
 
-    /// The end of the path.
+    /// Returns the end of the path.
     pub fn end(&self) -> Place {
         Place { segment: self.segments.len() - 1, t: 1.0 }
     }
 
-    /// The place at arc length `s` from the start; `s` outside the path gives its ends.
+    /// Returns the place at arc length `s` from the start; `s` outside the path gives its ends.
     ///
-    /// At a joint it is the start of the segment after.
+    /// At a joint, returns the start of the segment after.
     pub fn locate(&self, s: f64) -> Place {
         let after = self.segments.partition_point(|segment| segment.start <= s);
         let index = after.max(1) - 1;
@@ -110,7 +110,8 @@ impl<V: Vector> Path<V> {
         Place { segment: index, t: segment.lengths.parameter_at(s - segment.start) }
     }
 
-    /// The same, but at a joint the end of the segment before.
+    /// Returns the place at arc length `s`, as [`Path::locate`] does, but at a joint the end of the segment
+    /// before.
     pub fn locate_before(&self, s: f64) -> Place {
         let after = self.segments.partition_point(|segment| segment.start < s);
         let index = after.max(1) - 1;
@@ -120,12 +121,12 @@ impl<V: Vector> Path<V> {
         Place { segment: index, t }
     }
 
-    /// The segment of a place.
+    /// Returns the segment that contains a place.
     pub fn cubic(&self, place: Place) -> &Cubic<V> {
         &self.segments[place.segment].cubic
     }
 
-    /// The cubics from one arc length to another.
+    /// Returns the cubics between two arc lengths.
     pub fn part(&self, from: f64, to: f64) -> Vec<Cubic<V>> {
         let (first, last) = (self.locate(from), self.locate_before(to));
         (first.segment..=last.segment)
@@ -137,48 +138,48 @@ impl<V: Vector> Path<V> {
             .collect()
     }
 
-    /// The place at the parameter `t` of a segment.
+    /// Returns the place at the parameter `t` of a segment.
     pub(super) fn place(&self, segment: usize, t: f64) -> Place {
         Place { segment, t }
     }
 
-    /// The arc lengths between which the path is smooth.
+    /// Returns the arc lengths between which the path is smooth, rising.
     pub(super) fn knots(&self) -> Vec<f64> {
         self.starts().chain([self.length]).collect()
     }
 
-    /// The parameter of a place from 0 to 1, in which every segment has an equal share.
+    /// Returns the parameter of a place along the whole path, from 0 to 1. Every segment has an equal share.
     pub fn parameter(&self, place: Place) -> f64 {
         (place.segment as f64 + place.t) / self.segments.len() as f64
     }
 
-    /// The length of the path before a place.
+    /// Returns the length of the path before a place.
     pub fn length_to(&self, place: Place) -> f64 {
         let segment = &self.segments[place.segment];
         segment.start + segment.lengths.length_to(place.t)
     }
 
-    /// The point at a place.
+    /// Returns the point at a place.
     pub fn point(&self, place: Place) -> V {
         self.segments[place.segment].cubic.point(place.t)
     }
 
-    /// The unit tangent at a place.
+    /// Returns the unit tangent at a place.
     pub fn tangent(&self, place: Place) -> V {
         self.segments[place.segment].cubic.tangent(place.t)
     }
 
-    /// The derivative of the tangent by arc length; zero where the speed is zero.
+    /// Returns the derivative of the tangent by arc length; zero where the speed is zero.
     pub fn curvature(&self, place: Place) -> V {
         self.segments[place.segment].cubic.curvature(place.t)
     }
 
-    /// The derivative of the curvature by arc length; zero where the speed is zero.
+    /// Returns the derivative of the curvature by arc length; zero where the speed is zero.
     pub fn third(&self, place: Place) -> V {
         self.segments[place.segment].cubic.third(place.t)
     }
 
-    /// All joints, by rising `s`; in a closed path the first is the one that closes it.
+    /// Returns all joints by rising `s`; in a closed path the first is the joint that closes it.
     pub fn joints(&self) -> impl Iterator<Item = Joint> {
         let first = usize::from(!self.closed);
         (first..self.segments.len()).map(|index| {
@@ -195,7 +196,7 @@ impl<V: Vector> Path<V> {
         })
     }
 
-    /// The arc length at which each segment starts.
+    /// Returns the arc length at which each segment starts.
     fn starts(&self) -> impl Iterator<Item = f64> {
         self.segments.iter().map(|segment| segment.start)
     }
@@ -224,7 +225,7 @@ impl Curve3 for Path<DVec3> {
 }
 
 impl Path<DVec3> {
-    /// The curve at a place.
+    /// Returns the point at a place, with its derivatives.
     pub fn local(&self, place: Place) -> Local3 {
         Local3 {
             position: self.point(place),

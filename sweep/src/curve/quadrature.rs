@@ -1,9 +1,9 @@
 //! Integration by adaptive halving with the eight-point Gauss-Legendre rule.
 
-/// Halvings of one interval at most: a kink is then confined to 2^-48 of it.
+/// Most halvings of one interval: a kink is then confined to 2^-48 of it.
 const DEEPEST: u32 = 48;
 
-/// Nodes in (0, 1), mirrored about 0, and their weights.
+/// Nodes in (0, 1), mirrored about 0, with their weights.
 const RULE: [(f64, f64); 4] = [
     (0.183_434_642_495_649_8, 0.362_683_783_378_362),
     (0.525_532_409_916_329, 0.313_706_645_877_887_3),
@@ -11,10 +11,10 @@ const RULE: [(f64, f64); 4] = [
     (0.960_289_856_497_536_3, 0.101_228_536_290_376_26),
 ];
 
-/// The integral of `f` from `a` to `b`.
+/// Returns the integral of `f` from `a` to `b`.
 ///
-/// An interval is halved until its two halves agree with the whole to `tolerance`, an absolute
-/// amount. The halves are kept, so that the error is far smaller where `f` is smooth.
+/// An interval is halved until the sum of its halves agrees with the whole to `tolerance`, an absolute
+/// number. The sum of the halves is returned, so the error is far smaller where `f` is smooth.
 pub fn integrate(f: &impl Fn(f64) -> f64, a: f64, b: f64, tolerance: f64) -> f64 {
     refine(f, a, b, gauss(f, a, b), tolerance, DEEPEST)
 }

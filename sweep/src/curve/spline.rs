@@ -1,17 +1,17 @@
 //! A C2 cubic spline through free points, given as Bezier segments.
 //!
-//! The knots are centripetal: a chord's interval is the square root of its length (E. T. Y. Lee,
-//! "Choosing nodes in parametric curve interpolation", 1989), which keeps the curve close to
-//! points that are spaced unevenly. An open curve has no curvature at its ends (the natural
-//! spline); a closed one continues there with the same tangent and curvature.
+//! The knots are centripetal: a chord's interval is the square root of its length (E. T. Y. Lee, "Choosing
+//! nodes in parametric curve interpolation", 1989). This keeps the curve close to unevenly spaced points. An
+//! open curve has no curvature at its ends (the natural spline). A closed curve has the same tangent and
+//! curvature on both sides of its start.
 
 use super::cubic::Cubic;
 use super::vector::Vector;
 
-/// The spline through `points`, in their order; neighbours must differ.
+/// Returns the spline through `points`, in their order; neighbours must differ.
 ///
-/// A closed spline needs three points and has as many segments; an open one needs two and has one
-/// segment fewer. With fewer points there are no segments.
+/// A closed spline needs three points and has as many segments as points. An open spline needs two points and
+/// has one segment fewer than points. With fewer points there are no segments.
 pub fn through<V: Vector>(points: &[V], closed: bool) -> Vec<Cubic<V>> {
     let count = points.len();
     if count < if closed { 3 } else { 2 } {
@@ -19,7 +19,7 @@ pub fn through<V: Vector>(points: &[V], closed: bool) -> Vec<Cubic<V>> {
     }
     let segments = if closed { count } else { count - 1 };
     let chords: Vec<V> = (0..segments).map(|i| points[(i + 1) % count] - points[i]).collect();
-    // Only ratios matter; the largest interval is 1.
+    // Only ratios of intervals matter; the largest interval is 1.
     let longest = chords.iter().map(|chord| chord.length()).fold(0.0, f64::max);
     let steps: Vec<f64> = chords.iter().map(|chord| (chord.length() / longest).sqrt()).collect();
     let slopes: Vec<V> =
@@ -35,7 +35,7 @@ pub fn through<V: Vector>(points: &[V], closed: bool) -> Vec<Cubic<V>> {
         .collect()
 }
 
-/// Derivatives at the points of an open spline without curvature at its ends.
+/// Returns the derivatives at the points of an open spline without curvature at its ends.
 fn natural<V: Vector>(steps: &[f64], slopes: &[V]) -> Vec<V> {
     let last = steps.len();
     let mut rows = Vec::with_capacity(last + 1);
@@ -45,10 +45,10 @@ fn natural<V: Vector>(steps: &[f64], slopes: &[V]) -> Vec<V> {
     solve(&rows)
 }
 
-/// Derivatives at the points of a closed spline.
+/// Returns the derivatives at the points of a closed spline.
 ///
-/// The two elements in the corners of the matrix are taken out as a product of two vectors
-/// (Sherman and Morrison), which leaves two systems that are tridiagonal.
+/// The two elements in the corners of the matrix are separated as a product of two vectors (Sherman and
+/// Morrison). Two tridiagonal systems remain.
 fn periodic<V: Vector>(steps: &[f64], slopes: &[V]) -> Vec<V> {
     let count = steps.len();
     let mut rows: Vec<Row<V>> =
@@ -79,7 +79,7 @@ struct Row<V> {
     right: V,
 }
 
-/// The second derivatives of the segments before and after a point agree.
+/// Returns the equation that the second derivatives before and after a point agree.
 fn smooth_at<V: Vector>(steps: &[f64], slopes: &[V], before: usize, after: usize) -> Row<V> {
     let (h, k) = (steps[before], steps[after]);
     Row {
@@ -120,7 +120,7 @@ mod tests {
             .to_vec()
     }
 
-    /// Second derivative by the spline's own parameter.
+    /// Returns the second derivative by the spline's own parameter.
     fn second(cubic: &Cubic<DVec3>, t: f64, points: &[DVec3], i: usize) -> DVec3 {
         let step = (points[(i + 1) % points.len()] - points[i]).length();
         cubic.acceleration(t) / step

@@ -1,35 +1,36 @@
 //! The outline of an SVG path (its `d` attribute) as cubic segments.
 //!
-//! All path commands of SVG 1.1 are read, relative and absolute, and exactly one subpath is
-//! accepted. SVG's y axis points down; y is negated here, so that what stands upright in an SVG
-//! editor stands upright in a contour. A path is closed by `Z`, or by ending where it began.
+//! All path commands of SVG 1.1 are read, relative and absolute, and exactly one subpath is accepted. SVG's y
+//! axis points down. y is negated here, so that a shape upright in an SVG editor is upright as a contour. A
+//! path is closed by `Z`, or by ending where it began.
 //!
-//! The lexing is done here and not by kurbo, whose path reader turns arcs into cubics with an
-//! absolute tolerance of 0.1: too coarse for a circle of radius 1, and endless for one of 1e300.
-//! The arcs themselves are kurbo's, to a billionth of their radius.
+//! kurbo's own path reader is not used, because it turns arcs into cubics with an absolute tolerance of 0.1.
+//! That is too coarse for a circle of radius 1, and never finishes for one of 1e300. The arcs themselves are
+//! converted by kurbo, to a billionth of their radius.
 
 use super::cubic::Cubic;
 use super::vector::{Vector, extent};
 use glam::DVec2;
 use kurbo::{Arc, PathEl, Point, SvgArc, Vec2};
 
-/// The error of an arc's cubics, as a fraction of its larger radius: about 32 cubics a turn.
+/// Error of an arc's cubics, as a fraction of its larger radius: about 32 cubics for a full turn.
 const ARC_TOLERANCE: f64 = 1e-9;
 
-/// An arc whose radius is this many times its chord departs from it by a billionth, and is a line.
+/// An arc whose radius is this many times its chord departs from the chord by a billionth, and becomes a
+/// line.
 const STRAIGHT: f64 = 1e8;
 
-/// A path ends where it began when its ends are this fraction of its size apart.
+/// A path ends where it began if its ends are at most this fraction of its size apart.
 const MEETS: f64 = 1e-9;
 
-/// A `Z` whose line would be shorter than this fraction of the path's size closes a gap of rounding.
+/// A `Z` whose line would be at most this fraction of the path's size closes a gap made by rounding.
 ///
-/// Drawing programs write relative commands with three decimals or fewer, whose errors add up along
-/// the path. Drawn as a line such a gap would be a cell of its own between two creases. A line that
-/// was meant is longer, and to move an end by so little is seen by nobody.
+/// Drawing programs write relative commands with three decimals or fewer, whose errors add up along the path.
+/// Drawn as a line, such a gap would be a cell of its own between two creases. An intended line is longer,
+/// and moving an end by so little is invisible.
 const ROUNDING: f64 = 1e-4;
 
-/// The subpath of an SVG path, y up.
+/// The subpath of an SVG path, with y pointing up.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outline {
     /// The segments; each starts where the one before it ends.
@@ -41,7 +42,7 @@ pub struct Outline {
 /// Reads an SVG path.
 ///
 /// # Errors
-/// A sentence that says what was found, at which character, and what was expected.
+/// The message says what was found, at which character, and what was expected.
 pub fn outline(text: &str) -> Result<Outline, String> {
     let mut reader =
         Reader { lexer: Lexer { text, at: 0 }, pen: DVec2::ZERO, segments: Vec::new() };
@@ -59,7 +60,7 @@ pub fn outline(text: &str) -> Result<Outline, String> {
         last.0[3] = start;
     }
     for segment in &mut segments {
-        // Not -y, which would turn 0 into -0.
+        // Negating with -y would turn 0 into -0.
         segment.0 = segment.0.map(|p| DVec2::new(p.x, 0.0 - p.y));
     }
     Ok(Outline { segments, closed: closed || meets })
@@ -72,7 +73,7 @@ struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    /// Reads all commands; gives the start, and whether the path ends with `Z`.
+    /// Reads all commands. Returns the start, and whether the path ends with `Z`.
     fn read(&mut self) -> Result<(DVec2, bool), String> {
         let mut command = match self.lexer.command() {
             Some(letter @ ('M' | 'm')) => letter,
@@ -80,9 +81,9 @@ impl Reader<'_> {
         };
         let start = self.lexer.point()?;
         self.pen = start;
-        // Pairs that follow a move are lines.
+        // Further points after a move are lines.
         command = if command == 'M' { 'L' } else { 'l' };
-        // The last handle of a cubic and of a quadratic, for the commands that mirror it.
+        // The last handles of a cubic and of a quadratic, for the commands that mirror them.
         let mut handles = [None; 2];
         loop {
             if let Some(letter) = self.lexer.command() {
@@ -142,7 +143,7 @@ impl Reader<'_> {
         self.pen = to;
     }
 
-    /// The rest of a cubic after its first handle; gives its second.
+    /// Reads the rest of a cubic after its first handle. Returns its second handle.
     fn cubic(&mut self, first: DVec2, origin: DVec2) -> Result<DVec2, String> {
         let second = origin + self.lexer.point()?;
         let to = origin + self.lexer.point()?;
@@ -151,7 +152,7 @@ impl Reader<'_> {
         Ok(second)
     }
 
-    /// The rest of a quadratic after its handle; gives the handle.
+    /// Reads the rest of a quadratic after its handle. Returns the handle.
     fn quadratic(&mut self, handle: DVec2, origin: DVec2) -> Result<DVec2, String> {
         let from = self.pen;
         let to = origin + self.lexer.point()?;
@@ -168,7 +169,7 @@ impl Reader<'_> {
         let sweep = self.lexer.flag()?;
         let to = origin + self.lexer.point()?;
         let chord = to - self.pen;
-        // In units of the chord nothing can overflow or vanish.
+        // In units of the chord nothing can overflow or underflow.
         let unit = Vector::length(chord);
         let radii = radii.abs() / unit;
         let arc = SvgArc {
@@ -201,7 +202,7 @@ impl Reader<'_> {
     }
 }
 
-/// Commands, numbers and flags; commas and white space lie between them.
+/// Reads commands, numbers and flags, separated by commas and white space.
 struct Lexer<'a> {
     text: &'a str,
     at: usize,
@@ -219,7 +220,7 @@ impl Lexer<'_> {
         self.at == self.text.len()
     }
 
-    /// The letter that comes next, if one does.
+    /// Reads the next character if it is a letter.
     fn command(&mut self) -> Option<char> {
         self.skip();
         let letter = self.text[self.at..].chars().next().filter(char::is_ascii_alphabetic)?;
@@ -231,7 +232,7 @@ impl Lexer<'_> {
         Ok(DVec2::new(self.number()?, self.number()?))
     }
 
-    /// The longest number that comes next; `1.5.5` is two.
+    /// Reads the longest number that follows; `1.5.5` is two numbers.
     fn number(&mut self) -> Result<f64, String> {
         self.skip();
         let bytes = self.text.as_bytes();

@@ -1,10 +1,10 @@
-//! The few operations that curves ask of their points, in two dimensions and in three.
+//! The operations that curves need from their points, in two and three dimensions.
 
 use glam::{DVec2, DVec3};
 use std::fmt::Debug;
 use std::ops::{Add, Mul, Neg, Sub};
 
-/// A point or a direction; also a plain number, as the solver of the splines needs.
+/// A point or a vector; also a plain number, for the solver of the splines.
 pub trait Vector:
     Copy
     + Debug
@@ -16,16 +16,16 @@ pub trait Vector:
     + Neg<Output = Self>
     + Mul<f64, Output = Self>
 {
-    /// The origin.
+    /// The zero vector.
     const ZERO: Self;
 
-    /// The scalar product.
+    /// Returns the scalar product.
     fn dot(self, other: Self) -> f64;
 
-    /// The smaller and the larger of each coordinate.
+    /// Returns the smaller and the larger value of each coordinate.
     fn bounds(self, other: Self) -> (Self, Self);
 
-    /// The Euclidean length.
+    /// Returns the Euclidean length.
     fn length(self) -> f64 {
         self.dot(self).sqrt()
     }
@@ -67,12 +67,12 @@ impl Vector for DVec3 {
     }
 }
 
-/// The angle between two unit vectors, in radians from 0 to pi; exact near both ends.
+/// Returns the angle between two unit vectors, in radians from 0 to pi; accurate near both ends.
 pub fn angle_between<V: Vector>(a: V, b: V) -> f64 {
     2.0 * (a - b).length().atan2((a + b).length())
 }
 
-/// The diagonal of the box around the points; 0 for none.
+/// Returns the diagonal of the bounding box of the points; 0 for no points.
 pub fn extent<V: Vector>(points: impl IntoIterator<Item = V>) -> f64 {
     let mut points = points.into_iter();
     let Some(first) = points.next() else {

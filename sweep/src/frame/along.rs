@@ -1,11 +1,11 @@
 //! Rotation-minimizing frames along a whole curve.
 //!
-//! The frames are found once, on nodes of their own; a frame between two nodes is one more double
-//! reflection from the one before. So a frame does not depend on how many rows are asked for. Along
-//! a closed curve the frame comes back turned by some angle; the turn is undone evenly in length.
+//! The frames are found once, on nodes of their own. A frame between two nodes is carried from the node
+//! before by one more double reflection. So a frame does not depend on the number of rows. Along a closed
+//! curve the frame returns turned by some angle; this turn is removed evenly over the length.
 //!
-//! Nodes are as dense as the error asks, some 1e-13 radians over all: differences of the surface, which
-//! divide by their step, are not to see where nodes lie.
+//! Nodes are so dense that the total error is about 1e-13 radians. With larger errors, finite differences of
+//! the surface, which divide by their step, would show where nodes lie.
 
 use super::Frame;
 use crate::curve::vector::angle_between;
@@ -13,46 +13,48 @@ use crate::curve::{Curve3, Local3};
 use crate::cut::Side;
 use std::f64::consts::{PI, TAU};
 
-/// Steps from knot to knot, before any is halved.
+/// Steps from knot to knot before any is halved.
 const STEPS: usize = 8;
 
-/// Nodes of one curve, more or less, for curves of very many segments or very sharp bends.
+/// Approximate largest number of nodes of one curve, which limits curves of very many segments or very sharp
+/// bends.
 const MOST_NODES: usize = 1 << 20;
 
-/// A step that turns the tangent further than this, in radians, is halved.
+/// A step that turns the tangent by more than this, in radians, is halved.
 ///
-/// Below it the error of a step falls with the fifth power of its length, and can be judged.
+/// Below this turn the error of a step falls with the fifth power of its length, so the error can be
+/// estimated.
 const LARGEST_TURN: f64 = 0.1;
 
-/// A step is halved until it and its halves agree to this, in radians.
+/// A step is halved until it and its two halves agree to this, in radians.
 ///
-/// The halves are off by a fifteenth of that together, which is taken out at the nodes; between two
-/// nodes it stays. Smaller, and rounding would be taken for the error; larger, and differences of the
-/// surface would see the nodes.
+/// The two halves together are off by a fifteenth of the difference. This error is removed at the nodes and
+/// remains between two nodes. With a smaller value, rounding would be mistaken for the error; with a larger
+/// value, finite differences of the surface would show the nodes.
 const AGREED: f64 = 1e-13;
 
-/// Halvings of one step at most; a bend sharper than that is a corner to all purposes.
+/// Most halvings of one step. A sharper bend is in effect a corner.
 const MOST_HALVINGS: u32 = 24;
 
-/// An angle this near to half a turn backward, in radians, is half a turn forward.
+/// An angle within this of half a turn backward, in radians, counts as half a turn forward.
 const HALF_TURN: f64 = 1e-9;
 
 /// Rotation-minimizing frames along a curve.
 #[derive(Debug, Clone)]
 pub struct Frames {
-    /// Arc lengths of the nodes and the frames there; a joint has one for each side.
+    /// Arc lengths of the nodes, rising, with the frames there. A joint has one node for each side.
     nodes: Vec<(f64, Frame)>,
-    /// Turn by length that closes a closed curve, in radians; 0 for an open one.
+    /// Extra turn that closes a closed curve, in radians per length; 0 for an open curve.
     spin: f64,
 }
 
 impl Frames {
-    /// Finds the frames, from the frame at the start of the curve onward.
+    /// Finds the frames along `curve`, starting with the frame `first`.
     pub fn new(curve: &impl Curve3, first: Frame) -> Self {
         let nodes = nodes_of(curve, first);
         let spin = match nodes.last() {
             Some((length, last)) if curve.closed() => {
-                // The last step leads back onto the very first point and tangent.
+                // The last step returns exactly to the first point and tangent.
                 -closing(first.angle_to(last.carried_to(&curve.at(0.0)).normal)) / length
             }
             _ => 0.0,
@@ -60,13 +62,14 @@ impl Frames {
         Self { nodes, spin }
     }
 
-    /// By how much the frames turn more than they must, in radians by length, so that a closed
-    /// curve ends with the frame it began with.
+    /// Returns the turn of the frames beyond rotation-minimizing ones, in radians per length. With it a
+    /// closed curve ends with the frame it starts with; 0 for an open curve.
     pub fn spin(&self) -> f64 {
         self.spin
     }
 
-    /// The frame at a place of the curve, that of arc length `s` and of a side if it is a joint.
+    /// Returns the frame at arc length `s`. `place` is the curve at `s`; `side` selects the node if `s` is a
+    /// joint.
     pub fn at(&self, s: f64, place: &Local3, side: Side) -> Frame {
         let after = match side {
             Side::Before => self.nodes.partition_point(|node| node.0 < s),
@@ -77,15 +80,15 @@ impl Frames {
     }
 }
 
-/// The angle by which a frame has come back turned, from which half a turn backward is taken out.
+/// Returns the angle by which a frame has come back turned; half a turn backward becomes half a turn forward.
 ///
-/// Half a turn has no sign of its own. About the tangent the angle is the same whichever way the curve
-/// is run through, and so is the surface, if the choice is.
+/// The sign of half a turn is ambiguous. The angle about the tangent is the same in both directions of
+/// travel, and so is the surface if the choice is the same.
 fn closing(angle: f64) -> f64 {
     if angle < HALF_TURN - PI { angle + TAU } else { angle }
 }
 
-/// The nodes of a curve by arc length, each with its frame.
+/// Returns the nodes of a curve by arc length, each with its frame.
 fn nodes_of(curve: &impl Curve3, first: Frame) -> Vec<(f64, Frame)> {
     let knots = curve.knots();
     let steps = (MOST_NODES / knots.len().max(1)).clamp(4, STEPS);
@@ -108,7 +111,7 @@ fn nodes_of(curve: &impl Curve3, first: Frame) -> Vec<(f64, Frame)> {
     nodes
 }
 
-/// Adds the node at `s`, and before it those that its accuracy needs; at least one.
+/// Adds the node at `s`, after at least one node between, and as many as the accuracy needs.
 fn extend_to(
     curve: &impl Curve3,
     s: f64,
@@ -122,7 +125,7 @@ fn extend_to(
     let turned = angle_between(last.tangent, place.tangent);
     let between = last.carried_to(&middle);
     let there = between.carried_to(place);
-    // Points far from the origin are rounded, and their chord is tilted by as much of its length.
+    // Points far from the origin are rounded, which tilts their chord by the rounding over its length.
     let tilt = f64::EPSILON * last.origin.length() / (place.position - last.origin).length();
     let agreed = AGREED + 4.0 * tilt.min(1.0) * turned;
     let apart = last.carried_to(place).angle_to(there.normal);
@@ -131,7 +134,7 @@ fn extend_to(
         extend_to(curve, s, place, halvings - 1, nodes);
         return;
     }
-    // The error falls with the fifth power of the step (Richardson).
+    // Richardson extrapolation: the error falls with the fifth power of the step.
     nodes.push((half, between.turned(apart / 30.0)));
     nodes.push((s, there.turned(apart / 15.0)));
 }

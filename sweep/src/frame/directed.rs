@@ -1,19 +1,19 @@
-//! Frames that a direction fixes: an upright one, the centre of curvature, a guide curve.
+//! Frames fixed by a direction: an upright direction, the centre of curvature or a guide curve.
 //!
-//! Let `D(s)` be the direction and `d = D - (D.T) T` what of it lies across the trajectory. Then
+//! Let `D(s)` be the direction and `d = D - (D.T) T` its part across the trajectory. Then
 //!
 //! ```text
 //!     n = d / |d|,   b = T x n,   spin = n'.b = (D'.b - (D.T)(K.b)) / |d|
 //! ```
 //!
-//! with the curvature vector `K = T'`. An upright direction is constant; that of Frenet's frame is `K`
-//! itself, whose spin is the torsion; that of a guide leads from the trajectory to the guide's point
-//! at the same fraction of its length. `w1 = n`, but for an upright frame, where `w2 = n`; both
-//! have the same spin.
+//! with the curvature vector `K = T'`. An upright direction is constant. The direction of Frenet's frame is
+//! `K` itself, and its spin is the torsion. The direction of a guide leads from the trajectory to the guide's
+//! point at the same fraction of its length. `w1 = n`, except for an upright frame, where `w2 = n`; both have
+//! the same spin.
 //!
-//! Where `d` is 0 there is no frame. [`Directed::lack`] looks for such places: it samples the curve
-//! between its knots, halves steps until `n` turns by less than half a radian in each (where it
-//! turns over, it cannot), and goes down to the bottom of every valley of `|d|`.
+//! Where `d` is 0 there is no frame. [`Directed::lack`] searches for such points. It samples the curve
+//! between its knots and halves steps until `n` turns by less than half a radian in each. Where `n` reverses,
+//! no halving achieves this. The search then finds the minimum in every valley of `|d|`.
 
 use super::Frame;
 use crate::curve::vector::angle_between;
@@ -21,52 +21,53 @@ use crate::curve::{Curve3, Local3};
 use crate::cut::Side;
 use glam::DVec3;
 
-/// Below this a direction lies along the trajectory: its sine for an upright one, the curvature
-/// times the length of the trajectory, the distance of a guide as a part of that length.
+/// A direction whose part across the trajectory is at most this counts as parallel to it. The number is a
+/// sine for an upright direction, the curvature times the trajectory's length for Frenet's frame, and a
+/// distance over that length for a guide.
 const NONE: f64 = 1e-9;
 
-/// Samples from knot to knot, fewer where there are very many knots.
+/// Samples from knot to knot; fewer if there are very many knots.
 const SAMPLES: usize = 64;
 
-/// Samples of one curve, more or less, for curves of very many knots.
+/// Approximate largest number of samples of one curve, which limits curves of very many knots.
 const MOST_SAMPLES: usize = 1 << 20;
 
-/// Further than this, in radians, `n` does not turn from sample to sample.
+/// Largest turn of `n` from sample to sample, in radians; a step with a larger turn is halved.
 const LARGEST_TURN: f64 = 0.5;
 
-/// Halvings of a step at most: `n` turns over within a trillionth of the curve then.
+/// Most halvings of a step. If `n` still turns too far, it reverses within a trillionth of the step.
 const MOST_HALVINGS: u32 = 40;
 
-/// Steps toward the bottom of a valley; each leaves 0.62 of it.
+/// Golden-section steps toward the minimum of a valley; each leaves 0.62 of the interval.
 const GOLDEN_STEPS: usize = 90;
 
-/// A joint turns a frame by this at most, in radians: a degree, as for the tangent.
+/// Largest turn of a frame at a joint, in radians: one degree, as for the tangent.
 const SMOOTH: f64 = std::f64::consts::PI / 180.0;
 
-/// What fixes the frames.
+/// What fixes the frames along a trajectory.
 #[derive(Debug, Clone)]
 pub enum Directed<C> {
-    /// `w2` is as near to this unit vector as the trajectory lets it.
+    /// `w2` is as near to this unit vector as the trajectory allows.
     Up(DVec3),
     /// `w1` points to the centre of curvature.
     Frenet,
-    /// `w1` points to the point of the guide at the same fraction of the length.
+    /// `w1` points to the guide's point at the same fraction of the length.
     Guide(Box<C>),
 }
 
-/// Why there are no such frames along a curve.
+/// Why a curve has no frame at some point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Lack {
-    /// The direction lies along the trajectory, at a fraction of the length.
+    /// The direction is parallel to the trajectory, at this fraction of the length.
     Along(f64),
-    /// The direction jumps at a joint, at a fraction of the length, by an angle in radians.
+    /// The direction jumps at a joint: the fraction of the length and the angle in radians.
     Jump(f64, f64),
 }
 
 impl<C: Curve3> Directed<C> {
-    /// The frame of a curve at arc length `s`, and its spin in radians by length.
+    /// Returns the frame at arc length `s` of a curve of this `length`, and its spin in radians per length.
     ///
-    /// `None` where there is none.
+    /// `place` is the curve at `s`, on the given side. `None` where the direction is parallel to the tangent.
     pub fn at(&self, s: f64, length: f64, place: &Local3, side: Side) -> Option<(Frame, f64)> {
         let (wanted, change) = self.direction(s, length, place, side);
         let along = wanted.dot(place.tangent);
@@ -81,7 +82,7 @@ impl<C: Curve3> Directed<C> {
         })
     }
 
-    /// Looks for a place without a frame; the first that is found.
+    /// Searches for a point without a frame and returns the first one found.
     pub fn lack(&self, curve: &impl Curve3) -> Option<Lack> {
         let (length, knots) = (curve.length(), curve.knots());
         let mut search = Search { directed: self, curve, length, samples: Vec::new() };
@@ -110,7 +111,8 @@ impl<C: Curve3> Directed<C> {
             .map(|(s, jump)| Lack::Jump(s / length, jump))
     }
 
-    /// By how much, in radians, the frame turns at a joint more than the joint turns it.
+    /// Returns the angle in radians by which the frame jumps at the joint at `s`, beyond the turn of the
+    /// tangent there; pi if a side has no frame.
     pub fn jump(&self, curve: &impl Curve3, s: f64) -> f64 {
         let length = curve.length();
         let end = if s == 0.0 { length } else { s };
@@ -125,13 +127,13 @@ impl<C: Curve3> Directed<C> {
         }
     }
 
-    /// The direction and its derivative by length.
+    /// Returns the direction and its derivative by arc length.
     fn direction(&self, s: f64, length: f64, place: &Local3, side: Side) -> (DVec3, DVec3) {
         match self {
             Self::Up(up) => (*up, DVec3::ZERO),
             Self::Frenet => {
-                // A curve that ends straight, as a natural spline does, has the limit: cubics that are
-                // straight at one place lie in a plane, in which the limit is the third derivative.
+                // A curve that ends straight, as a natural spline does, has a limit of the direction. A cubic
+                // that is straight at one point lies in a plane, and there the limit is the third derivative.
                 let straight = place.curvature.length() * length <= NONE;
                 if straight && s <= 0.0 {
                     (place.third, DVec3::ZERO)
@@ -154,7 +156,8 @@ impl<C: Curve3> Directed<C> {
         }
     }
 
-    /// The part of the direction across the trajectory, in units that [`NONE`] is in.
+    /// Returns the part of the direction across the trajectory, scaled so that [`NONE`] applies to its
+    /// length.
     fn across(&self, s: f64, length: f64, place: &Local3, side: Side) -> DVec3 {
         let (wanted, _) = self.direction(s, length, place, side);
         let across = wanted - place.tangent * wanted.dot(place.tangent);
@@ -163,7 +166,7 @@ impl<C: Curve3> Directed<C> {
             Self::Frenet
                 if place.curvature.length() * length <= NONE && wanted != place.curvature =>
             {
-                // At a straight end only the direction counts.
+                // At a straight end only the direction of this vector matters.
                 across.normalize_or_zero() * (2.0 * NONE)
             }
             Self::Frenet => across * length,
@@ -172,12 +175,12 @@ impl<C: Curve3> Directed<C> {
     }
 }
 
-/// A search along one curve.
+/// A search for points without a frame along one curve.
 struct Search<'a, C, D> {
     directed: &'a Directed<C>,
     curve: &'a D,
     length: f64,
-    /// The samples of one piece, rising.
+    /// Samples of one smooth piece, by rising `s`.
     samples: Vec<Sample>,
 }
 
@@ -196,7 +199,8 @@ impl<C: Curve3, D: Curve3> Search<'_, C, D> {
         Sample { s, across: self.directed.across(s, self.length, &place, side) }
     }
 
-    /// Adds a sample, and before it those that a turn needs; or the place without a direction.
+    /// Adds a sample, after as many samples in between as its turn needs. The error is the arc length of a
+    /// point without a direction.
     fn extend_to(&mut self, next: Sample, halvings: u32) -> Result<(), f64> {
         let Some(&last) = self.samples.last() else {
             self.samples.push(next);
@@ -217,7 +221,7 @@ impl<C: Curve3, D: Curve3> Search<'_, C, D> {
         Ok(())
     }
 
-    /// The first bottom of a valley at which there is no direction.
+    /// Returns the arc length of the first minimum of `|d|` at which there is no direction.
     fn bottom(&self) -> Option<f64> {
         self.samples.windows(3).find_map(|three| {
             let [a, b, c] = [three[0], three[1], three[2]].map(|sample| sample.across.length());

@@ -1,4 +1,4 @@
-//! Frames: a place on a curve with two directions across it, and how it is carried along.
+//! Frames: a point on a curve with two directions across the curve, carried along it.
 //!
 //! ```text
 //!        w2 ^   contour (x, y) lies on (w1, w2);
@@ -7,12 +7,12 @@
 //!           T-------> w1
 //! ```
 //!
-//! A frame is carried from one place to the next by double reflection (W. Wang, B. Juettler,
-//! D. Zheng, Y. Liu, "Computation of rotation minimizing frames", 2008): a reflection takes the
-//! first point to the second, another takes the reflected tangent to the tangent there. With exact
-//! tangents the error of the whole is of order 4 in the step; with chords for tangents it would be
-//! of order 2, so curves are asked for theirs. [`Frames`] are the frames along a whole curve;
-//! [`Directed`] are those that a direction fixes instead.
+//! A frame is carried from one point to the next by double reflection (W. Wang, B. Juettler, D. Zheng, Y.
+//! Liu, "Computation of rotation minimizing frames", 2008). One reflection takes the first point to the
+//! second. Another takes the reflected tangent to the tangent at the second point. With exact tangents the
+//! global error is of order 4 in the step. With chords instead of tangents it would be of order 2, so curves
+//! supply their exact tangents. [`Frames`] are the frames along a whole curve; [`Directed`] are frames that a
+//! direction fixes instead.
 
 mod along;
 mod directed;
@@ -23,37 +23,37 @@ pub use directed::{Directed, Lack};
 use crate::curve::Local3;
 use glam::{DVec2, DVec3};
 
-/// A place on a curve with two directions across it; all three are unit vectors.
+/// A point on a curve with the tangent and two directions across it, three orthogonal unit vectors.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frame {
-    /// The point on the curve.
+    /// The point on the curve, in the unit of length.
     pub origin: DVec3,
-    /// The direction of the curve, `T`.
+    /// Direction of the curve, `T`.
     pub tangent: DVec3,
-    /// The direction of the contour's x, `w1`.
+    /// Direction of the contour's x, `w1`.
     pub normal: DVec3,
-    /// The direction of the contour's y, `w2`; `w1 x w2 = T`.
+    /// Direction of the contour's y, `w2`; `w1 x w2 = T`.
     pub binormal: DVec3,
 }
 
 impl Frame {
-    /// The frame at a place whose `w1` is nearest to `direction`.
+    /// Returns the frame at `place` whose `w1` is nearest to `direction`, which may have any length.
     ///
-    /// `None` when the direction runs along the curve.
+    /// `None` if the direction is parallel to the tangent, to a sine of 1e-9.
     pub fn toward(place: &Local3, direction: DVec3) -> Option<Self> {
         let across = direction - place.tangent * direction.dot(place.tangent);
         let normal = across.try_normalize()?;
-        // Cancellation leaves nothing to trust in a direction this close to the tangent.
+        // This close to the tangent, cancellation leaves no correct digits of the direction.
         (across.length() > 1e-9 * direction.length()).then(|| Self::new(place, normal))
     }
 
-    /// The frame whose `w1` is nearest to the axis that is least aligned with the tangent.
+    /// Returns the frame whose `w1` is nearest to the coordinate axis least aligned with the tangent.
     ///
-    /// Of axes that are aligned alike x comes before y before z: a line along z has its contour on
-    /// (x, y), one along y on (x, -z), one along x on (y, z).
+    /// Among axes that are equally aligned, x comes before y and y before z. A line along z has its contour
+    /// on (x, y), one along y on (x, -z), one along x on (y, z).
     pub fn seed(place: &Local3) -> Self {
         let aligned = place.tangent.abs();
-        // Rounding must not choose between axes that are equally good.
+        // Rounding must not choose between equally aligned axes.
         let least = aligned.min_element() + 1e-6;
         let axis = if aligned.x <= least {
             DVec3::X
@@ -71,12 +71,11 @@ impl Frame {
         Self { origin: place.position, tangent: place.tangent, normal, binormal }
     }
 
-    /// The frame at another place, one double reflection away.
+    /// Returns this frame carried to `place` by one double reflection.
     fn carried_to(&self, place: &Local3) -> Self {
         let chord = place.position - self.origin;
-        // A chord that is not along the curve is nothing but rounding, of two points that are one.
-        // Reflected in it, a frame could come out mirrored; the limit of short chords takes its
-        // place.
+        // A chord that is not along the curve is pure rounding, between two points that coincide. Reflection
+        // in it could mirror the frame, so the limit of short chords replaces it.
         let mean = self.tangent + place.tangent;
         let along = chord.dot(mean).abs() > 0.5 * chord.length() * mean.length();
         let chord = if along { chord } else { mean };
@@ -89,12 +88,12 @@ impl Frame {
         } else {
             normal
         };
-        // Rounding adds up over many steps; it is taken out of every one.
+        // Rounding errors accumulate over many steps, so each step removes its own.
         let across = normal - place.tangent * normal.dot(place.tangent);
         Self::new(place, across.try_normalize().unwrap_or(self.normal))
     }
 
-    /// The frame turned about its tangent, counter-clockwise seen against it.
+    /// Returns the frame turned about its tangent by `angle` radians, from `w1` toward `w2`.
     fn turned(&self, angle: f64) -> Self {
         let (sin, cos) = angle.sin_cos();
         Self {
@@ -104,12 +103,12 @@ impl Frame {
         }
     }
 
-    /// A direction on the axes of the contour.
+    /// Returns the components of a vector on `(w1, w2)`.
     pub(crate) fn across(&self, direction: DVec3) -> DVec2 {
         DVec2::new(direction.dot(self.normal), direction.dot(self.binormal))
     }
 
-    /// The angle about the tangent from this frame's `w1` to a direction.
+    /// Returns the angle about the tangent from `w1` to `direction`, in radians from -pi to pi.
     fn angle_to(&self, direction: DVec3) -> f64 {
         direction.dot(self.binormal).atan2(direction.dot(self.normal))
     }

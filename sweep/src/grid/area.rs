@@ -1,55 +1,54 @@
-//! Areas of a grid that carry pictures of their own (thesis 3.2).
+//! Areas of a grid with textures of their own (thesis 3.2).
 
 use super::{GridMesh, Seam};
 use crate::{MOST_CELLS, schema};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A rectangle of cells with a picture of its own, which is fitted to it: picture coordinates run
-/// from 0 to `repeat` over the area, by the lengths along contour and trajectory inside it, and lie
-/// as the grid's [`UvLayout`](super::UvLayout) says.
+/// A rectangle of cells with a texture of its own, which is fitted to the rectangle. Texture coordinates run
+/// from 0 to `repeat` over the area, by the lengths along contour and trajectory inside it. Their orientation
+/// is that of the grid's [`UvLayout`](super::UvLayout).
 ///
-/// Cells are numbered from 0 along the trajectory and along the contour, as a spec counts them: a
-/// cell of no width, between the two columns of a crease, has no number. `[2, 5]` are cells 2, 3
-/// and 4. The cell that leads back to the start is the last one. Of areas that overlap the last one
-/// is seen.
+/// Cells are numbered from 0 along the trajectory and along the contour, as a spec counts them. A cell of no
+/// width, between the two columns of a crease, has no number. `[2, 5]` are cells 2, 3 and 4. The cell that
+/// leads back to the start is the last one. Where areas overlap, the last one is visible.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(
     deny_unknown_fields,
     expecting = "an object with the keys rows and cols, and any of texture, surface, repeat"
 )]
 pub struct Area {
-    /// The first cell along the trajectory, and the one behind the last.
+    /// First cell along the trajectory, and the cell after the last.
     #[schemars(transform = schema::range(0..=MOST_CELLS))]
     pub rows: [usize; 2],
-    /// The first cell along the contour, and the one behind the last.
+    /// First cell along the contour, and the cell after the last.
     #[schemars(transform = schema::range(0..=MOST_CELLS))]
     pub cols: [usize; 2],
-    /// The texture id; left out, that of the patch.
+    /// Texture id; if left out, that of the patch.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(transform = schema::id)]
     pub texture: Option<u32>,
-    /// The surface id; left out, that of the patch.
+    /// Surface id; if left out, that of the patch.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(transform = schema::id)]
     pub surface: Option<u32>,
-    /// How often the picture repeats, across and up; positive.
+    /// Repeats of the picture, across and up; positive.
     #[serde(default = "once")]
     #[schemars(transform = schema::above(0.0, MOST_REPEATS))]
     pub repeat: [f64; 2],
 }
 
-/// An area as a header has it: whoever reads rows one by one must know where it ends.
+/// An area as a header stores it. A reader of single rows needs to know where the area ends.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlacedArea {
     /// The area.
     pub area: Area,
-    /// `v` at its first and its last row.
+    /// `v` at the first and the last row of the area, in `[0, 1]`.
     pub v: [f64; 2],
 }
 
-/// The most repeats of a picture; far below the end of the f32 of a mesh.
+/// Largest number of repeats of a picture; far below the largest f32 of a mesh.
 const MOST_REPEATS: f64 = 1e30;
 
 fn once() -> [f64; 2] {
@@ -57,8 +56,8 @@ fn once() -> [f64; 2] {
 }
 
 impl Area {
-    /// What is wrong with the area on a grid of so many cells along trajectory and contour: the key
-    /// and a sentence.
+    /// Returns the key and a message for what is wrong with the area on a grid of `cells`
+    /// `[along the trajectory, along the contour]`; `None` if the area fits.
     #[must_use]
     pub fn fault(&self, cells: [usize; 2]) -> Option<(&'static str, String)> {
         for ((key, [from, to]), most) in
@@ -84,15 +83,15 @@ impl Area {
 }
 
 impl GridMesh {
-    /// Cells along the trajectory and along the contour, those of no size not counted.
+    /// Returns the number of cells along the trajectory and along the contour, without cells of no size.
     #[must_use]
     pub fn cells(&self) -> [usize; 2] {
         [edges(&self.v, self.seam_v), edges(&self.u, self.seam_u)]
             .map(|edges| edges.len().max(1) - 1)
     }
 
-    /// What is wrong with the first area that does not fit the grid: its number, the key and a
-    /// sentence.
+    /// Returns the first area that does not fit the grid: its index, the key and a message. `None` if all
+    /// areas fit.
     #[must_use]
     pub fn area_fault(&self) -> Option<(usize, &'static str, String)> {
         let cells = self.cells();
@@ -101,7 +100,7 @@ impl GridMesh {
         })
     }
 
-    /// The areas, with the `v` at their ends; those of areas that do not fit are 1.
+    /// Returns the areas with the `v` at their ends; a row that the grid does not have gets a `v` of 1.
     #[must_use]
     pub fn placed_areas(&self) -> Vec<PlacedArea> {
         if self.areas.is_empty() {
@@ -116,7 +115,7 @@ impl GridMesh {
     }
 }
 
-/// Where cells that have a size begin and end, along `u` or `v`: cell `i` lies between edges `i` and
+/// Returns where cells that have a size begin and end, along `u` or `v`. Cell `i` lies between edges `i` and
 /// `i + 1`.
 #[must_use]
 pub fn edges(places: &[f64], seam: Seam) -> Vec<f64> {

@@ -1,4 +1,4 @@
-//! The contour x trajectory grid: what `sweep` makes and `triangulate` reads.
+//! The contour x trajectory grid, which `sweep` makes and `triangulate` reads.
 
 pub mod area;
 pub mod file;
@@ -15,10 +15,10 @@ use glam::{DVec3, Vec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A swept surface as a grid of points, row-major by station: an object, or a patch of one that is
-/// several sweeps.
+/// A swept surface as a grid of points, row-major by station: an object, or a patch of an object of several
+/// sweeps.
 ///
-/// A *station* is one contour placed on the trajectory; it is a row. `u` runs along the contour
+/// A *station* is one contour placed on the trajectory, and is a row of the grid. `u` runs along the contour
 /// (columns), `v` along the trajectory (rows), both over `[0, 1]`.
 ///
 /// ```text
@@ -28,71 +28,71 @@ use serde::{Deserialize, Serialize};
 ///     +-------> u    col 0 1 2 3       S_u x S_v points outward
 /// ```
 ///
-/// In a closed direction the first row or column is not repeated at the end: the cell after the
-/// last one leads back to the first, over a seam that [`Seam`] describes. A *crease* (a corner of the contour) is a column given twice,
-/// at the same positions with the same `u`, once with the normals of each side.
-/// Where a contour meets the axis of a rotational sweep all rows share one position (a pole).
+/// In a closed direction the first row or column is not repeated at the end. The cell after the last row or
+/// column leads back to the first, over a seam that [`Seam`] describes. A *crease* (a corner of the contour)
+/// is two columns at the same positions with the same `u`, each with the normals of one side. Where a contour
+/// meets the axis of a rotation, all rows share one position (a pole).
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct GridMesh {
-    /// The object's name, from the spec; one word per OBJ object.
+    /// The object's name, from the spec; one word.
     pub name: String,
-    /// Whether the contour leads back to its start; never mirrored.
+    /// How the last column leads back to the first; never mirrored.
     pub seam_u: Seam,
-    /// Whether the trajectory leads back to its start.
+    /// How the last row leads back to the first.
     pub seam_v: Seam,
-    /// Columns by which the contour comes back turned in itself, below `cols`; 0 where it does not
-    /// come back.
+    /// Shift in columns between the last row and the first, below `cols`; see [`Seam`]. 0 if the trajectory
+    /// is open.
     pub shift: usize,
-    /// The texture id, where the patch has one of its own.
+    /// The texture id, if the patch has its own.
     pub texture: Option<u32>,
-    /// The surface id, where the patch has one of its own.
+    /// The surface id, if the patch has its own.
     pub surface: Option<u32>,
-    /// Parts with pictures of their own; later ones lie on earlier ones.
+    /// Areas with textures of their own; later areas cover earlier ones.
     pub areas: Vec<Area>,
-    /// Where it folds back on itself, if that was looked for.
+    /// Where the surface folds back on itself, if that was measured.
     pub fold: Option<Fold>,
-    /// How near to the surface it is, if that was asked.
+    /// The requested and the measured distance from the surface, if requested.
     pub tolerance: Option<Tolerance>,
-    /// How a picture lies on the surface.
+    /// How texture coordinates lie on the surface.
     pub uv: UvLayout,
-    /// `u` of each column, not decreasing, from 0; up to 1 when open, below 1 when closed.
+    /// `u` of each column, not decreasing, from 0; up to 1 if open, below 1 if closed.
     pub u: Vec<f64>,
-    /// `v` of each row, not decreasing, from 0; up to 1 when open, below 1 when closed.
+    /// `v` of each row, not decreasing, from 0; up to 1 if open, below 1 if closed.
     pub v: Vec<f64>,
-    /// Points in the spec's unit, `rows * cols` of them.
+    /// Points in the spec's unit, `rows * cols` of them, row by row.
     pub positions: Vec<DVec3>,
     /// Unit normals, outward for a counter-clockwise contour, one per position.
     pub normals: Vec<Vec3>,
 }
 
-/// How a picture lies on the surface: which grid direction runs across it, and how often it
+/// How texture coordinates lie on the surface: the grid direction that runs across the picture, and the
 /// repeats.
 ///
-/// Across the contour, the picture's coordinates are `(s, t) = (u, v)`. Across the trajectory it is
-/// turned a quarter, `(s, t) = (1 - v, u)`, so that it stands upright on a vessel; seen from
-/// outside, neither is mirrored.
+/// With `contour` across, the texture coordinates are `(s, t) = (u, v)`. With `trajectory` across, they are
+/// turned a quarter, `(s, t) = (1 - v, u)`, so that a picture stands upright on a vessel. Seen from outside,
+/// neither is mirrored.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct UvLayout {
     /// The grid direction that runs across the picture.
     pub across: Across,
-    /// How often the picture repeats, across and up; above 0.
+    /// Repeats of the picture, across and up; above 0.
     #[schemars(transform = crate::schema::range(crate::schema::REPEATS))]
     pub repeat: [f64; 2],
-    /// What `u` and `v` of the grid count.
+    /// What `u` and `v` of the grid are proportional to.
     #[serde(skip_serializing_if = "By::is_length")]
     pub by: By,
 }
 
-/// What `u` and `v` of a grid count.
+/// What `u` and `v` of a grid are proportional to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum By {
-    /// Fractions of length: a picture lies evenly.
+    /// Arc length, so that a picture lies evenly.
     #[default]
     Length,
-    /// The curves' own parameters: each segment of a Bezier, and each piece between free points, has an
-    /// equal share of the picture.
+    /// The curves' own parameters: each segment of a Bezier, and each piece between free points, has an equal
+    /// share of the picture.
     Parameter,
 }
 
@@ -108,7 +108,7 @@ impl By {
 pub enum Across {
     /// Along the contour, `u`.
     Contour,
-    /// Along the trajectory, against `v`.
+    /// Along the trajectory, against the direction of `v`.
     Trajectory,
 }
 
@@ -119,19 +119,19 @@ impl Default for UvLayout {
 }
 
 impl GridMesh {
-    /// Number of stations.
+    /// Returns the number of rows, which are stations.
     #[must_use]
     pub fn rows(&self) -> usize {
         self.v.len()
     }
 
-    /// Number of points on a station.
+    /// Returns the number of columns, which are points of a station.
     #[must_use]
     pub fn cols(&self) -> usize {
         self.u.len()
     }
 }
-/// Bytes of the points and normals of a grid.
+/// Returns the number of bytes of the points and normals of a grid.
 #[must_use]
 pub fn bytes(rows: usize, cols: usize) -> u64 {
     const POINT: u64 = (size_of::<DVec3>() + size_of::<Vec3>()) as u64;

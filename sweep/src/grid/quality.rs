@@ -1,48 +1,47 @@
-//! How good a grid is, as far as the program that made it knows.
+//! Quality of a grid, as far as the program that made it knows it.
 
 use serde::{Deserialize, Serialize};
 
-/// Where a surface folds back on itself, since its trajectory bends more sharply than the contour is
+/// Folds of a surface: parts that run backward because the trajectory bends more sharply than the contour is
 /// wide.
 ///
-/// At a point at `q` on the contour the surface is stretched along the trajectory by `1 - k.q`, for
-/// the trajectory's curvature `k`; below 0 it runs backward.
+/// At a point `q` of the contour the surface is stretched along the trajectory by `1 - k.q`, where `k` is the
+/// trajectory's curvature. Where this is below 0 the surface runs backward.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Fold {
     /// The smallest stretch of all points.
     pub worst: f64,
-    /// Rows in which some of the surface runs backward.
+    /// Number of rows in which part of the surface runs backward.
     pub rows: usize,
-    /// The largest factor of the contour with which nothing would.
+    /// The largest factor of the contour with which no part would run backward.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fits: Option<f64>,
 }
 
-/// How near to the surface a grid was asked to be, and is. What was not asked for, or not
-/// measured, is not there.
+/// Requested and measured accuracy of a grid. A value that was not requested, or not measured, is `None`.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Tolerance {
-    /// The distance between surface and mesh asked for, in the grid's unit.
+    /// Requested largest distance between surface and mesh, in the grid's unit.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub asked: Option<f64>,
-    /// The largest that was measured.
+    /// Largest measured distance between surface and mesh, in the grid's unit.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reached: Option<f64>,
-    /// The angle between normals of neighbouring points asked for, in degrees.
+    /// Requested largest angle between a triangle and the surface's normals at its corners, in degrees.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub angle_asked_deg: Option<f64>,
-    /// The largest that was measured.
+    /// Largest measured angle between a triangle and the surface's normals at its corners, in degrees.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub angle_reached_deg: Option<f64>,
-    /// The distance asked for on the picture of a camera, in pixels.
+    /// Requested largest distance on the picture of a camera, in pixels.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pixels: Option<f64>,
 }
 
 impl Fold {
-    /// That of two patches together.
+    /// Returns the folds of two patches together.
     #[must_use]
     pub fn and(self, other: Self) -> Self {
         Self {
@@ -58,7 +57,7 @@ impl Fold {
 }
 
 impl Tolerance {
-    /// That of two patches together: the strictest that was asked, the worst that was reached.
+    /// Returns the tolerances of two patches together: the strictest request and the worst measurement.
     #[must_use]
     pub fn and(self, other: Self) -> Self {
         Self {
@@ -77,7 +76,7 @@ impl Tolerance {
     }
 }
 
-/// The one there is, or `of` both.
+/// Returns the only value given, or `of` both.
 fn both(a: Option<f64>, b: Option<f64>, of: fn(f64, f64) -> f64) -> Option<f64> {
     match (a, b) {
         (Some(a), Some(b)) => Some(of(a, b)),

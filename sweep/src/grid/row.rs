@@ -1,4 +1,4 @@
-//! One station of a grid, borrowed.
+//! One row of a grid, borrowed.
 
 use super::{GridMesh, Seam};
 use glam::{DVec3, Vec3};
@@ -6,20 +6,20 @@ use glam::{DVec3, Vec3};
 /// One row of a [`GridMesh`]: a contour placed on the trajectory.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Row<'a> {
-    /// Where on the trajectory, in `[0, 1]`.
+    /// Position on the trajectory, in `[0, 1]`.
     pub v: f64,
-    /// One point per column.
+    /// One point for each column, in the spec's unit.
     pub positions: &'a [DVec3],
-    /// One normal per column.
+    /// One unit normal for each column.
     pub normals: &'a [Vec3],
 }
 
 /// A value that cannot be part of a grid.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Fault {
-    /// The value, as `u[3]` or `the position of column 3`.
+    /// Name of the value, such as `u[3]` or `the position of column 3`.
     pub place: String,
-    /// What was found and what was expected.
+    /// What was found, and what was expected.
     pub message: String,
 }
 
@@ -30,7 +30,7 @@ impl std::fmt::Display for Fault {
 }
 
 impl GridMesh {
-    /// The rows in the order of `v`.
+    /// Returns the rows in the order of `v`.
     ///
     /// # Panics
     /// When `positions` or `normals` is shorter than `rows * cols`.
@@ -44,7 +44,7 @@ impl GridMesh {
 }
 
 impl Row<'_> {
-    /// Checks the numbers of a row; `before` is the `v` of the row before it.
+    /// Checks the numbers of a row; `before` is the `v` of the row before, if any.
     pub(super) fn check(&self, seam_v: Seam, before: Option<f64>) -> Result<(), Fault> {
         check_parameter(self.v, before, seam_v)
             .map_err(|message| Fault { place: "v".into(), message })?;
@@ -60,8 +60,8 @@ impl Row<'_> {
     }
 }
 
-/// Checks one `u` or `v` against the one before it: from 0, not decreasing, up to 1 when open and
-/// below 1 when closed.
+/// Checks one `u` or `v` against the one before it: the first is 0, none decreases, all are at most 1 if open
+/// and below 1 if closed.
 pub(super) fn check_parameter(found: f64, before: Option<f64>, seam: Seam) -> Result<(), String> {
     let expected = match (before, seam) {
         (None, _) if found == 0.0 => return Ok(()),
@@ -81,8 +81,7 @@ pub(super) fn check_parameter(found: f64, before: Option<f64>, seam: Seam) -> Re
     Err(format!("found {}, expected {expected}", number(found)))
 }
 
-/// A number as one writes it: very large and very small ones with a power, in place of hundreds of
-/// zeros.
+/// Formats a number briefly: a very large or very small number gets an exponent instead of hundreds of zeros.
 pub(super) fn number(value: f64) -> String {
     let usual = value == 0.0 || (1e-5..1e16).contains(&value.abs());
     if usual { value.to_string() } else { format!("{value:?}") }

@@ -1,22 +1,22 @@
-//! What follows the last row or column of a grid.
+//! Seams: what follows the last row or column of a grid.
 
 use super::row::Fault;
 use serde::{Deserialize, Serialize};
 
-/// Whether a direction of the grid leads back to its start, and how.
+/// How a direction of the grid leads back to its start, if it does.
 ///
-/// Columns are only open or closed. Rows may also come back *mirrored*, as in a Klein bottle or a
-/// Moebius band; and both ways of coming back have a `shift`, in columns, by which the contour was
-/// turned in itself when it arrives:
+/// Columns are only open or closed. Rows may also come back *mirrored*, as in a Klein bottle or a Moebius
+/// band. Closed and mirrored rows have a `shift` in columns, by which the contour has turned within itself
+/// when it comes back:
 ///
 /// ```text
 ///   closed  column k of the last row leads on to column (k + shift) mod cols of the first
 ///   mirror  column k of the last row leads on to column (shift - k) mod cols of the first
 /// ```
 ///
-/// A mirrored surface comes back with its other side out, so that the normals of its two ends are
-/// opposite. An open contour cannot be turned in itself, and mirrored it is led end to end: its
-/// shift is 0 when closed and `cols - 1` when mirrored.
+/// A mirrored surface comes back with its other side out, so the normals at its two ends are opposite. An
+/// open contour cannot turn within itself, and mirrored it is joined end to end. Its shift is 0 if closed,
+/// and `cols - 1` if mirrored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Seam {
@@ -25,18 +25,19 @@ pub enum Seam {
     Open,
     /// The last row or column is followed by the first.
     Closed,
-    /// The last row is followed by the first, read the other way round.
+    /// The last row is followed by the first, in reverse.
     Mirror,
 }
 
 impl Seam {
-    /// Whether the last row or column leads back to the first.
+    /// Returns whether the last row or column leads back to the first.
     #[must_use]
     pub fn joins(self) -> bool {
         self != Self::Open
     }
 
-    /// The column of the first row that column `col` of the last row leads on to, of `cols`.
+    /// Returns the column of the first row that follows column `col` of the last row; `cols` is the number of
+    /// columns.
     #[must_use]
     pub fn leads_to(self, col: usize, shift: usize, cols: usize) -> usize {
         match self {
@@ -47,7 +48,7 @@ impl Seam {
     }
 }
 
-/// Checks how a grid of `cols` columns comes back to its first row and column.
+/// Checks the seams and the shift of a grid with `cols` columns.
 pub(super) fn check(seams: [Seam; 2], shift: usize, cols: usize) -> Result<(), Fault> {
     let [seam_u, seam_v] = seams;
     let fault = |place: &str, message| Err(Fault { place: place.into(), message });

@@ -1,13 +1,13 @@
-//! Cubics that are graphs: along which `x` does not fall.
+//! Cubics that are graphs: `x` does not fall along them.
 
 use crate::curve::Cubic;
 use glam::DVec2;
 use kurbo::common::solve_cubic;
 
-/// Steps toward a place on a Bezier at most; halving alone would need 53 of them.
+/// Most steps toward a position on a Bezier; bisection alone would need 53.
 const MOST_STEPS: usize = 80;
 
-/// Whether `at` nowhere falls along a segment, and rises from its start to its end.
+/// Returns whether `at` nowhere falls along a segment, and rises from its start to its end.
 pub(crate) fn is_graph(segment: &Cubic<DVec2>) -> bool {
     let [p0, p1, p2, p3] = segment.0.map(|p| p.x);
     let (a, b, c) = (p1 - p0, p2 - p1, p3 - p2);
@@ -15,7 +15,7 @@ pub(crate) fn is_graph(segment: &Cubic<DVec2>) -> bool {
     p3 > p0 && a >= 0.0 && c >= 0.0 && (b >= 0.0 || b * b <= a * c)
 }
 
-/// The parameter at which a segment reaches `at`, by Newton's method kept between its bounds.
+/// Returns the parameter at which a segment reaches `at`, by Newton's method inside a bracket.
 pub(crate) fn parameter(segment: &Cubic<DVec2>, at: f64) -> f64 {
     let [from, .., to] = segment.0.map(|p| p.x);
     let (mut low, mut high) = (0.0, 1.0);
@@ -40,7 +40,7 @@ pub(crate) fn parameter(segment: &Cubic<DVec2>, at: f64) -> f64 {
     t
 }
 
-/// Where a segment is 0.
+/// Returns the values of `at` where a segment is 0.
 pub(super) fn zeros_of(segment: &Cubic<DVec2>) -> Vec<f64> {
     let [a, b, c, d] = segment.0.map(|p| p.y);
     let ends = segment.0.into_iter().step_by(3).filter(|p| p.y == 0.0).map(|p| p.x);

@@ -1,8 +1,9 @@
-//! How the contour changes on its way: blended into another, given a relief, scaled along its axes,
-//! then turned about the trajectory.
+//! Changes of the contour along the trajectory: it is blended into another contour, given a relief, scaled
+//! along its axes, then turned about the trajectory.
 //!
-//! With `q(u, s)` the contour's point after all that but the turn, on a frame that turns by `phi(s)` more than it
-//! must, and the trajectory's curvature `k` on that frame's `(w1, w2)`,
+//! Let `q(u, s)` be the contour's point after all these changes except the turn, on a frame that spins at the
+//! rate `phi'(s)` beyond a rotation-minimizing frame. Let `k` be the trajectory's curvature on that frame's
+//! `(w1, w2)`. Then
 //!
 //! ```text
 //!     S         = P + q1 w1 + q2 w2
@@ -11,10 +12,9 @@
 //!     S_u x S_s = (1 - k.q)(q2_u w1 - q1_u w2) + (q1_u B - q2_u A) T
 //! ```
 //!
-//! so that a normal needs the laws' derivatives and no differences. Where a scale of 0 gathers the
-//! contour in a point, both `q` and `q_u` vanish; they are divided by the scale first, and the
-//! normal is the limit along the column: that of a cone, or `-T` or `T` on a cap whose scale ends
-//! vertically.
+//! So a normal needs the derivatives of the laws and no finite differences. Where a scale of 0 contracts the
+//! contour to a point, both `q` and `q_u` vanish. `q_u` is therefore divided by the scale first. The normal
+//! there is the limit along the column: that of a cone, or `-T` or `T` on a cap whose scale ends vertically.
 
 mod pole;
 
@@ -32,66 +32,67 @@ use crate::trajectory::{Station, Trajectory};
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 
-/// The laws by which a contour changes; none of them leaves it as it is.
+/// The laws by which a contour changes. A law that is `None` changes nothing.
 #[derive(Debug, Clone, Default)]
 pub struct Modulation {
-    /// The places of the contours, where there are several.
+    /// Positions of the contours on the trajectory, if there are several.
     pub(crate) blend: Option<Blend>,
-    /// Factors of the contour's x and y, of the same sign everywhere.
+    /// Factors of the contour's x and y. At each position both have the same sign, or one of them is 0.
     pub(crate) scale: Option<[Law; 2]>,
-    /// Where both are 0.
+    /// The poles, where both factors are 0.
     pub(crate) poles: Vec<Pole>,
     /// Turn about the trajectory, in degrees as in the file.
     pub(crate) twist: Option<Law>,
-    /// Relief on the contour, under the scale.
+    /// Relief on the contour, before the scale.
     pub(crate) depth: Option<Depth>,
-    /// Turn in all that closes the surface, as a fraction of a full turn; evenly on top of the twist.
+    /// Total turn that closes the surface, as a fraction of a full turn, added evenly on top of the twist.
     pub(crate) turn: f64,
 }
 
-/// A contour in its place on the trajectory, with all that has changed there.
+/// A contour placed on the trajectory, with all changes that apply there.
 #[derive(Debug, Clone)]
 pub struct Section {
     station: Station,
     mix: Option<Mix>,
     scale: DVec2,
-    /// Derivative of the scale by length of the trajectory; by radian for a rotation.
+    /// Derivative of the scale by length of the trajectory, or by radian for a rotation.
     scale_s: DVec2,
-    /// The signs of the scale; where it is 0 those that it has just beside.
+    /// At a pole, the signs of the scale's factors on the side of the stop; (1, 1) elsewhere.
     signs: DVec2,
     relief: Option<Relief>,
-    /// Length of the trajectory, by which derivatives by `v` become those by length.
+    /// Length of the trajectory, or angle of a rotation in radians. A derivative by `v` divided by this
+    /// number is the derivative by length or angle.
     extent: f64,
-    /// The contour gathered to a pole, on a cap.
+    /// On a cap, the contraction of the contour toward the pole.
     gathered: Option<Gathered>,
-    /// Whether the contour is as it was drawn.
+    /// Whether the contour has no scale, relief, blend or contraction.
     plain: bool,
 }
 
-/// A point of a section: where it lies on the frame, and how it moves.
+/// A point of a section on the frame's axes, with its derivatives.
 #[derive(Debug, Clone, Copy)]
 struct Local {
     q: DVec2,
-    /// Direction of the contour, divided by the scale: it does not vanish with it.
+    /// Direction of the contour, divided by the scale so that it does not vanish with the scale.
     q_u: DVec2,
     q_s: DVec2,
-    /// Whether the contour itself folds back.
+    /// Whether the contour itself folds back here.
     folds: bool,
 }
 
 impl Modulation {
-    /// Places inside the trajectory where a row is needed from both sides: the poles; at 0 too,
-    /// when it is closed.
+    /// Returns the positions inside the trajectory where a row is needed from both sides: the poles. If the
+    /// trajectory is `closed`, a pole at 0 is included.
     pub(crate) fn breaks(&self, closed: bool) -> impl Iterator<Item = f64> {
         let inside = move |at: &f64| *at < 1.0 && (closed || *at > 0.0);
         self.poles.iter().map(|pole| pole.at).filter(inside)
     }
 
-    /// The section at a stop of the trajectory.
+    /// Returns the section at a stop of the trajectory.
     #[must_use]
     pub fn section(&self, trajectory: &Trajectory, stop: Stop) -> Section {
         let station = trajectory.station_at(stop);
-        // What leads up to the start of a closed trajectory is its end.
+        // The side before the start of a closed trajectory is its end.
         let stop = match stop {
             Stop { at: 0.0, side: Side::Before } => Stop::before(1.0),
             _ => stop,
@@ -125,7 +126,8 @@ impl Modulation {
 }
 
 impl Modulation {
-    /// Cells that see all that the laws and waves do, along the trajectory and along the contour.
+    /// Returns the number of cells that resolves all laws and waves,
+    /// `[along the trajectory, along the contour]`.
     pub(crate) fn detail(&self) -> [f64; 2] {
         let mut along: f64 = self.laws().map(Law::detail).sum();
         if let Some(twist) = &self.twist {
@@ -147,7 +149,7 @@ impl Modulation {
         [along, around]
     }
 
-    /// Places inside the trajectory where the surface may have an edge.
+    /// Returns the positions inside the trajectory where the surface may have an edge with one normal.
     pub(crate) fn kinks(&self) -> Vec<f64> {
         let blends = self.blend.iter().flat_map(|blend| &blend.at);
         let inside = blends.copied().filter(|&at| at > 0.0 && at < 1.0);
@@ -161,35 +163,35 @@ impl Modulation {
 }
 
 impl Section {
-    /// The section of a cap: gathered from this one, beyond the trajectory's end (`outward` of 1)
-    /// or before its start (-1).
+    /// Returns this section contracted as a cap does, beyond the trajectory's end (`outward` of 1) or before
+    /// its start (-1).
     #[must_use]
     pub(crate) fn gathered(self, gathered: Gathered, outward: f64) -> Self {
         let Gathered { part_t, beyond, beyond_t, .. } = gathered;
-        // Along the trajectory `t` rises at the end and falls at the start.
+        // `t` runs in the direction of the trajectory at the end and against it at the start.
         let station = self.station.beyond(outward * beyond, beyond_t);
         let gathered = Gathered { part_t: outward * part_t, ..gathered };
         Self { station, gathered: Some(gathered), plain: false, ..self }
     }
 
-    /// The point of the surface.
+    /// Returns the point of the surface at a column.
     #[must_use]
     pub fn point(&self, column: &Column) -> DVec3 {
         self.station.point(self.local(column).q)
     }
 
-    /// Where the contour's axes lie.
+    /// Returns the frame that carries the contour's axes.
     pub(crate) fn frame(&self) -> &Frame {
         &self.station.frame
     }
 
-    /// Where a point of the contour lies on the station's axes.
+    /// Returns the contour's point at a column, on the axes `(w1, w2)` of the station.
     #[must_use]
     pub fn place(&self, column: &Column) -> DVec2 {
         self.local(column).q
     }
 
-    /// The unit normal of the surface.
+    /// Returns the unit normal of the surface at a column.
     #[must_use]
     pub fn normal(&self, column: &Column) -> DVec3 {
         if self.plain {
@@ -199,7 +201,7 @@ impl Section {
         self.station.normal_of_moving(q, q_u, q_s)
     }
 
-    /// Whether the surface folds back on itself here.
+    /// Returns whether the surface folds back on itself at a column.
     #[must_use]
     pub fn folds(&self, column: &Column) -> bool {
         if self.plain {
@@ -223,7 +225,7 @@ impl Section {
                 folds: false,
             },
         };
-        // The proportion of the axes; where both are 0 it is that in which they leave it.
+        // The ratio of the two factors. Where both are 0 it is the ratio of their derivatives.
         let leaving = self.signs * self.scale_s.abs();
         let axes = if self.scale == DVec2::ZERO { leaving } else { self.scale };
         let size = axes.abs().max_element();
@@ -233,14 +235,15 @@ impl Section {
         match self.gathered {
             None => local,
             Some(Gathered { center, part, part_t, .. }) => {
-                // Where all is left, on the rim, it is the section's own point to the last bit.
+                // On the rim `part` is 1, and the lerp gives the section's own point to the last bit.
                 let q = center.lerp(local.q, part);
                 Local { q, q_s: (local.q - center) * part_t, ..local }
             }
         }
     }
 
-    /// How far the point moves along the tangent by length of the trajectory: see [`Station::stretch`].
+    /// Returns the speed of the point along the tangent, by length of the trajectory: see
+    /// [`Station::stretch`].
     pub(crate) fn stretch(&self, column: &Column) -> f64 {
         self.station.stretch(if self.plain { column.first.point } else { self.local(column).q })
     }

@@ -1,41 +1,40 @@
-//! Poles: where a scale of 0 on both axes gathers the contour in a point.
+//! Poles: positions where a scale of 0 on both axes contracts the contour to a point.
 //!
-//! Behind a pole that a scale passes with a change of sign the contour is turned by half, which is
-//! what factors of -1 on both axes do: its outside stays outside. A change of sign on one axis alone
-//! would mirror the contour and turn the surface inside out on its way; there is no outside that
-//! both parts share.
+//! If both factors change sign at a pole, the contour behind the pole is turned by half a turn, as factors of
+//! -1 on both axes do. Its outside stays outside. If one factor alone changed sign, it would mirror the
+//! contour and turn the surface inside out. The parts before and after would then have no common outside.
 
 use crate::cut::{Side, Stop};
 use crate::law::Law;
 use glam::DVec2;
 
-/// Zeros of two laws that are this close lie at one place.
+/// Zeros of two laws whose positions differ by at most this are one zero.
 const SAME: f64 = 1e-9;
 
-/// A place where both factors are 0.
+/// A position where both factors are 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pole {
-    /// Fraction of the trajectory's length.
+    /// Position as a fraction of the trajectory's length.
     pub at: f64,
-    /// The signs of both factors before it.
+    /// Signs of both factors before the pole.
     before: DVec2,
-    /// The signs of both factors after it.
+    /// Signs of both factors after the pole.
     after: DVec2,
 }
 
-/// The signs of a scale along the trajectory.
+/// Signs of a scale's factors along the trajectory.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Signs {
-    /// Places at which the signs may change, from 0 to 1.
+    /// Positions at which the signs may change, from 0 to 1, rising.
     ends: Vec<f64>,
-    /// The signs between them; 0 where a factor stays 0.
+    /// Signs in each interval between two `ends`; 0 where a factor stays 0.
     between: Vec<DVec2>,
-    /// The places where both factors are 0.
+    /// Positions where both factors are 0.
     poles: Vec<f64>,
 }
 
 impl Signs {
-    /// The signs of a scale's factors.
+    /// Finds the signs of the factors of x and y.
     pub(crate) fn of([x, y]: &[Law; 2]) -> Self {
         let (x_zeros, y_zeros) = (x.zeros(), y.zeros());
         let near = |zeros: &[f64], at: f64| zeros.iter().any(|zero| (zero - at).abs() <= SAME);
@@ -60,20 +59,22 @@ impl Signs {
         Self { ends, between, poles }
     }
 
-    /// The first signs of both factors.
+    /// Returns the signs in the first interval where neither factor is 0.
     pub(crate) fn first(&self) -> DVec2 {
         let nonzero = |signs: &&DVec2| signs.x * signs.y != 0.0;
         self.between.iter().find(nonzero).copied().unwrap_or(DVec2::ONE)
     }
 
-    /// Where the contour, a mirrored one or one that is not, becomes the other.
+    /// Returns the position where a mirrored contour becomes one that is not mirrored, or the reverse, if
+    /// any.
     pub(crate) fn inside_out(&self) -> Option<f64> {
         let first = self.first();
         let turned = |signs: &DVec2| signs.x * signs.y * (first.x * first.y) < 0.0;
         self.between.iter().position(turned).map(|piece| self.ends[piece])
     }
 
-    /// The poles, with the signs on both sides; a closed trajectory goes on from 1 at 0.
+    /// Returns the poles with the signs on both sides. Before a pole at 0 of a closed trajectory come the
+    /// signs at its end.
     pub(crate) fn poles(&self, closed: bool) -> Vec<Pole> {
         let last = self.between.len() - 1;
         let pole = |&at: &f64| {
@@ -91,7 +92,7 @@ impl Signs {
 }
 
 impl Pole {
-    /// The signs of both factors on the side of a stop at the pole.
+    /// Returns the signs of both factors on the side that the stop names.
     pub(crate) fn signs(&self, stop: Stop) -> DVec2 {
         let before = stop.side == Side::Before || stop.at >= 1.0;
         if before { self.before } else { self.after }

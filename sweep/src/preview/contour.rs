@@ -1,4 +1,4 @@
-//! The contour in its plane: start, direction, creases, axes, and a bar that shows the scale.
+//! The panel of the contour in its plane: start, direction, creases, axes, and a scale bar.
 
 use super::page::{Anchor, Area, Page, Pen, bounds, ink};
 use crate::Sweep;
@@ -6,16 +6,16 @@ use crate::check::short;
 use crate::cut::{self, Stop};
 use glam::DVec2;
 
-/// Places on a contour at which it is drawn.
+/// Number of points at which a contour is drawn.
 const PLACES: usize = 480;
 
-/// Contours of one sweep that are drawn, from the first to the last.
+/// Largest number of contours of one sweep that are drawn, starting with the first.
 const MOST: usize = 6;
 
-/// Sweeps that are drawn side by side.
+/// Largest number of sweeps drawn side by side.
 const MOST_PARTS: usize = 4;
 
-/// Shades of contours that follow each other.
+/// Colours of successive contours.
 const SHADES: [&str; 6] = ["#2f5d86", "#6a51a3", "#a23b72", "#c8553d", "#b8860b", "#4f9a6b"];
 
 pub fn draw(page: &mut Page, area: Area, parts: &[Sweep]) {
@@ -54,7 +54,7 @@ fn one(page: &mut Page, area: Area, sweep: &Sweep, named: bool) {
     let all = (0..shown).flat_map(|one| (0..columns.len()).map(move |col| (col, one)));
     let (low, high) = bounds(all.map(|(col, one)| point(col, one).point));
     let size = (high - low).max_element();
-    // The origin, unless it is so far that the contour would be small.
+    // The origin is included unless it is so far away that the contour would become small.
     let (low, high) = match (low.min(DVec2::ZERO), high.max(DVec2::ZERO)) {
         (from, to) if (to - from).max_element() <= 3.0 * size => (from, to),
         _ => (low, high),
@@ -100,7 +100,7 @@ fn one(page: &mut Page, area: Area, sweep: &Sweep, named: bool) {
     }
 }
 
-/// The middle of the piece between creases that a place is on; the place itself without creases.
+/// Returns the middle of the piece between creases that contains `u`; without creases, `u` itself.
 fn smooth(breaks: &[f64], u: f64) -> f64 {
     if breaks.is_empty() {
         return u;
@@ -110,7 +110,7 @@ fn smooth(breaks: &[f64], u: f64) -> f64 {
     0.5 * (from + breaks.get(next).copied().unwrap_or(1.0))
 }
 
-/// The axes where they pass through the panel.
+/// Draws the axes that pass through the panel.
 fn axes(page: &mut Page, inner: Area, origin: DVec2, rotation: bool) {
     let Area { x, y, width, height } = inner;
     let (right, below) = (x + width + 12.0, y + height + 12.0);
@@ -129,7 +129,7 @@ fn axes(page: &mut Page, inner: Area, origin: DVec2, rotation: bool) {
     }
 }
 
-/// A bar of a round length.
+/// Draws a scale bar of a round length.
 fn bar(page: &mut Page, at: DVec2, scale: f64, width: f64) {
     let most = 0.3 * width / scale;
     let power = 10.0_f64.powf(most.log10().floor());

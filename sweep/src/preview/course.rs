@@ -1,4 +1,4 @@
-//! The trajectory in space, with the contour's axes on its way.
+//! The panel of the trajectory in space, with the contour's axes along it.
 
 use super::page::{Anchor, Area, Page, Pen, View, ink};
 use crate::Sweep;
@@ -7,13 +7,13 @@ use crate::cut::Stop;
 use crate::frame::Frame;
 use glam::{DVec2, DVec3};
 
-/// Straight pieces of a trajectory.
+/// Number of straight pieces that a trajectory is drawn with.
 const PIECES: usize = 240;
 
-/// Stations at which the frame is drawn.
+/// Number of stations at which the frame is drawn.
 const STATIONS: usize = 24;
 
-/// Length of the frame's axes, by the size of the whole.
+/// Length of the frame's axes, as a fraction of the size of all trajectories.
 const ARM: f64 = 0.075;
 
 pub fn draw(page: &mut Page, area: Area, parts: &[Sweep]) {
@@ -61,7 +61,8 @@ pub fn draw(page: &mut Page, area: Area, parts: &[Sweep]) {
     legend(page, area, parts.iter().any(|sweep| !sweep.shape.trajectory.closed()));
 }
 
-/// Frames along a trajectory, with its twist; those of a rotation on the circle of its widest point.
+/// Returns frames along a trajectory, with its twist. The frames of a rotation are on the circle of its
+/// widest point.
 fn frames(sweep: &Sweep, pieces: usize) -> Vec<Frame> {
     let (radius, height) = widest(sweep);
     let place = |i: usize| {
@@ -74,7 +75,7 @@ fn frames(sweep: &Sweep, pieces: usize) -> Vec<Frame> {
     (0..=pieces).map(place).collect()
 }
 
-/// Where the widest point of a rotation's contour is; the origin for all else.
+/// Returns the widest point of a rotation's contour; the origin for other trajectories.
 fn widest(sweep: &Sweep) -> (f64, f64) {
     if !sweep.shape.trajectory.is_rotation() {
         return (0.0, 0.0);
@@ -99,7 +100,7 @@ fn ground(page: &mut Page, view: &View, base: &[DVec3], courses: &[Vec<Frame>], 
     }
 }
 
-/// The axis of a rotation, beside its contour.
+/// Draws a piece of a rotation's axis, beside its contour.
 fn axis(page: &mut Page, view: &View, sweep: &Sweep) {
     let frame = *sweep.shape.modulation.section(&sweep.shape.trajectory, Stop::after(0.0)).frame();
     let (radius, height) = widest(sweep);
@@ -110,7 +111,7 @@ fn axis(page: &mut Page, view: &View, sweep: &Sweep) {
     page.text(ends[1] + DVec2::new(0.0, -4.0), 10.0, ink::MUTED, Anchor::Middle, "axis");
 }
 
-/// A piece of the drawing, from far to near.
+/// An element of the drawing; elements are drawn from far to near.
 enum Item {
     Piece([DVec2; 2]),
     Halo([DVec2; 2]),
@@ -124,7 +125,8 @@ fn curve(page: &mut Page, view: &View, sweep: &Sweep, course: &[Frame], arm: f64
         let ends = [view.page(pair[0].origin), view.page(pair[1].origin)];
         let depth = view.depth(middle);
         items.push((depth, Item::Piece(ends)));
-        // The paper shows on both sides of what is nearer, but beside its neighbors.
+        // Each piece has a halo in the background colour, which interrupts farther pieces but not its
+        // neighbours.
         let rise = view.depth(pair[1].origin) - view.depth(pair[0].origin);
         items.push((depth - 4.0 * ends[0].distance(ends[1]).hypot(rise), Item::Halo(ends)));
     }

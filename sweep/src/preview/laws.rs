@@ -1,4 +1,4 @@
-//! What changes along the trajectory, as small graphs over `v`.
+//! The panel of the laws along the trajectory, as small graphs over `v`.
 
 use super::page::{Anchor, Area, Page, Pen, ink};
 use crate::Sweep;
@@ -6,19 +6,19 @@ use crate::check::short;
 use crate::law::Law;
 use glam::DVec2;
 
-/// Places on a graph.
+/// Number of intervals of a graph.
 const PLACES: usize = 160;
 
-/// Graphs that are drawn.
+/// Largest number of graphs drawn.
 const MOST: usize = 3;
 
-/// A graph: its name, and the curves on it by their values at all places, with their colours.
+/// A graph: its name, and for each curve the values at all positions and the colour.
 struct Graph {
     name: String,
     curves: Vec<(Vec<f64>, &'static str)>,
 }
 
-/// Whether there is anything to draw.
+/// Returns whether there is any law to draw.
 pub fn any(parts: &[Sweep]) -> bool {
     !graphs(parts).is_empty()
 }
@@ -72,7 +72,7 @@ fn places() -> impl Iterator<Item = f64> {
 
 fn one(page: &mut Page, area: Area, graph: &Graph) {
     let all = || graph.curves.iter().flat_map(|(values, _)| values).copied();
-    // The line of 0 is the floor of what is near it.
+    // The zero line is always part of the graph.
     let (low, high) = (all().fold(0.0, f64::min), all().fold(0.0, f64::max));
     let (low, high) = if high > low { (low, high) } else { (low - 1.0, high + 1.0) };
     let Area { x, y, width, height } = area;

@@ -1,4 +1,4 @@
-//! A page that shows a sweep: its contour, its trajectory, its laws and the surface.
+//! A page that shows a sweep: contour, trajectory, laws and surface.
 //!
 //! ```text
 //!   +-----------------------------------+
@@ -12,8 +12,8 @@
 //!   +-----------+-----------------------+
 //! ```
 //!
-//! It is an SVG of 1200 x 900 pixels that needs nothing else. Space is seen without perspective from
-//! the front, a little from the right and from above. The same object gives the same page.
+//! The page is an SVG of 1200 x 900 pixels that refers to no other file. Space is seen in parallel projection
+//! from the front, slightly from the right and from above. The same object gives the same page.
 
 mod contour;
 mod course;
@@ -26,16 +26,16 @@ use crate::{GridMesh, Object};
 use glam::DVec2;
 use page::{Anchor, Area, HEIGHT, Page, WIDTH, ink};
 
-/// Space around the panels and between them.
+/// Space around the panels, in pixels.
 const MARGIN: f64 = 24.0;
 
-/// Width of the column on the left.
+/// Width of the left column, in pixels.
 const LEFT: f64 = 396.0;
 
-/// Characters that a line of the header has room for.
+/// Largest number of characters in a line of the header.
 const LINE: usize = 178;
 
-/// The page of an object, with its grids and what was found about it.
+/// Returns the page of an object as SVG, with its grids and the findings of the check.
 #[must_use]
 pub fn svg(object: &Object, grids: &[GridMesh], findings: &[Finding]) -> String {
     let mut page = Page::new();
@@ -83,7 +83,7 @@ fn header(page: &mut Page, object: &Object, grids: &[GridMesh], findings: &[Find
     };
     let right = DVec2::new(WIDTH - MARGIN, 42.0);
     page.text(right, 14.0, ink::MUTED, Anchor::End, &sizes);
-    // Remarks are no blemish: the first of what weighs more is told.
+    // Remarks are no faults: the first of the most severe findings above a remark is shown.
     let (color, words) = match worst.filter(|worst| worst.severity > Severity::Remark) {
         None => (ink::START, "check: nothing wrong".to_owned()),
         Some(worst) => {
@@ -98,7 +98,7 @@ fn header(page: &mut Page, object: &Object, grids: &[GridMesh], findings: &[Find
     page.text(DVec2::new(MARGIN, 72.0), 13.0, color, Anchor::Start, &words);
 }
 
-/// The text, or as much of it as has room.
+/// Returns the text, shortened to `most` characters.
 fn cut(text: &str, most: usize) -> String {
     if text.chars().count() <= most {
         return text.into();

@@ -1,13 +1,13 @@
-//! A page of SVG: shapes and words, by pixel coordinates with y down.
+//! A page of SVG: shapes and words at pixel coordinates, with y down.
 
 use files::words::unseen;
 use glam::{DVec2, DVec3};
 use std::fmt::Write;
 
-/// Width of the page.
+/// Width of the page in pixels.
 pub const WIDTH: f64 = 1200.0;
 
-/// Height of the page.
+/// Height of the page in pixels.
 pub const HEIGHT: f64 = 900.0;
 
 /// Colours of the page.
@@ -29,7 +29,7 @@ pub mod ink {
     pub const FONT: &str = "Helvetica, Arial, 'DejaVu Sans', sans-serif";
 }
 
-/// A rectangle of the page.
+/// A rectangle of the page, in pixels.
 #[derive(Debug, Clone, Copy)]
 pub struct Area {
     pub x: f64,
@@ -43,7 +43,7 @@ impl Area {
         Self { x, y, width, height }
     }
 
-    /// The rectangle with margins to the left and right, above, and below taken off.
+    /// Returns the rectangle without margins to the left and right (`side`), above and below.
     pub fn inside(self, side: f64, above: f64, below: f64) -> Self {
         let (width, height) = (self.width - 2.0 * side, self.height - above - below);
         Self::new(self.x + side, self.y + above, width, height)
@@ -54,12 +54,12 @@ impl Area {
     }
 }
 
-/// How a line is drawn.
+/// Style of a line.
 #[derive(Debug, Clone, Copy)]
 pub struct Pen<'a> {
     pub color: &'a str,
     pub width: f64,
-    /// Lengths of dashes and of gaps; empty for a whole line.
+    /// Lengths of dashes and gaps in pixels; empty for a solid line.
     pub dashes: &'a str,
 }
 
@@ -73,7 +73,7 @@ impl<'a> Pen<'a> {
     }
 }
 
-/// Which end of a word is at its place.
+/// The part of a text that is placed at its position.
 #[derive(Debug, Clone, Copy)]
 pub enum Anchor {
     Start,
@@ -81,7 +81,7 @@ pub enum Anchor {
     End,
 }
 
-/// The page as it is written.
+/// The text of the page written so far.
 #[derive(Debug)]
 pub struct Page(String);
 
@@ -104,7 +104,7 @@ impl Page {
         self.0
     }
 
-    /// What follows is filled with this opacity.
+    /// Opens a group that is filled with this opacity.
     pub fn open_group(&mut self, opacity: f64) {
         self.put(&format!("<g fill-opacity=\"{opacity}\">\n"));
     }
@@ -117,7 +117,7 @@ impl Page {
         self.0.push_str(text);
     }
 
-    /// A panel with its heading.
+    /// Draws a panel with its heading and a note.
     pub fn panel(&mut self, area: Area, heading: &str, note: &str) {
         let Area { x, y, width, height } = area;
         self.put(&format!(
@@ -148,7 +148,7 @@ impl Page {
         );
     }
 
-    /// Straight lines from point to point.
+    /// Draws straight lines from point to point.
     pub fn line(&mut self, points: &[DVec2], closed: bool, pen: Pen<'_>) {
         self.put("<path d=\"");
         self.points(points, closed);
@@ -156,7 +156,7 @@ impl Page {
         self.pen(pen);
     }
 
-    /// A filled polygon; a width of 0 leaves its edges out.
+    /// Draws a filled polygon; with a pen width of 0 it has no outline.
     pub fn polygon(&mut self, points: &[DVec2], fill: &str, pen: Pen<'_>) {
         self.put("<path d=\"");
         self.points(points, true);
@@ -170,7 +170,7 @@ impl Page {
         self.pen(pen);
     }
 
-    /// The head of an arrow that ends at a point.
+    /// Draws the head of an arrow that ends at `tip`.
     pub fn arrow(&mut self, tip: DVec2, direction: DVec2, size: f64, color: &str) {
         let along = direction.normalize_or(DVec2::X) * size;
         let (back, side) = (tip - along, along.perp() * 0.42);
@@ -198,7 +198,7 @@ impl Page {
     }
 }
 
-/// A coordinate to a tenth of a pixel.
+/// A coordinate, rounded to a tenth of a pixel.
 struct Digits(f64);
 
 impl std::fmt::Display for Digits {
@@ -216,7 +216,7 @@ fn escaped(text: &str) -> String {
             '<' => out.push_str("&lt;"),
             '>' => out.push_str("&gt;"),
             '"' => out.push_str("&quot;"),
-            // XML knows no control characters, and not these two; others turn text around.
+            // XML has no control characters and lacks these two; other invisible characters can reverse text.
             c if unseen(c) || matches!(c, '\u{fffe}' | '\u{ffff}') => out.push('\u{fffd}'),
             c => out.push(c),
         }
@@ -224,7 +224,7 @@ fn escaped(text: &str) -> String {
     out
 }
 
-/// A view of space along a direction, without perspective, fitted into a rectangle.
+/// A parallel projection of space along a direction, fitted into a rectangle.
 #[derive(Debug, Clone, Copy)]
 pub struct View {
     right: DVec3,
@@ -233,12 +233,12 @@ pub struct View {
     scale: f64,
     middle: DVec2,
     center: DVec2,
-    /// What coordinates are divided by first, so that none is too large to reckon with.
+    /// Divisor of all coordinates, so that none is too large for calculations.
     unit: f64,
 }
 
 impl View {
-    /// The view from the front, a little from the right and from above, that shows all points.
+    /// Returns the view from the front, slightly from the right and from above, that shows all points.
     pub fn of(points: &[DVec3], area: Area) -> Self {
         let toward = DVec3::new(0.42, 0.44, 0.79).normalize();
         let right = DVec3::Y.cross(toward).normalize();
@@ -252,24 +252,24 @@ impl View {
         Self { right, up, toward, scale, middle: 0.5 * (low + high), center: area.center(), unit }
     }
 
-    /// Where a point is on the page.
+    /// Returns the position of a point on the page, in pixels.
     pub fn page(&self, p: DVec3) -> DVec2 {
         let p = p / self.unit;
         let flat = DVec2::new(p.dot(self.right), -p.dot(self.up));
         self.center + (flat - self.middle) * self.scale
     }
 
-    /// How near a point is to the reader, in pixels.
+    /// Returns the nearness of a point to the viewer, in pixels.
     pub fn depth(&self, p: DVec3) -> f64 {
         (p / self.unit).dot(self.toward) * self.scale
     }
 
-    /// A direction as the reader sees it: to the right, up, and toward the reader.
+    /// Returns a direction in the viewer's axes: to the right, up, and toward the viewer.
     pub fn seen(&self, direction: DVec3) -> DVec3 {
         DVec3::new(direction.dot(self.right), direction.dot(self.up), direction.dot(self.toward))
     }
 
-    /// The three axes, with their letters.
+    /// Draws the three coordinate axes with their letters.
     pub fn axes(&self, page: &mut Page, at: DVec2, length: f64) {
         for (axis, name) in [(DVec3::X, "x"), (DVec3::Y, "y"), (DVec3::Z, "z")] {
             let seen = self.seen(axis);
@@ -283,7 +283,7 @@ impl View {
     }
 }
 
-/// The box around points; that of the origin for none.
+/// Returns the corners of the bounding box of points; the origin twice for no points.
 pub fn bounds(points: impl Iterator<Item = DVec2>) -> (DVec2, DVec2) {
     let none = (DVec2::INFINITY, DVec2::NEG_INFINITY);
     let (low, high) = points.fold(none, |(low, high), p| (low.min(p), high.max(p)));

@@ -1,4 +1,4 @@
-//! The surface as shaded cells, drawn from far to near, with its seams, creases, rims and folds.
+//! The panel of the surface: shaded cells drawn from far to near, with seams, creases, rims and folds.
 
 use super::page::{Anchor, Area, Page, Pen, View, ink};
 use crate::Sweep;
@@ -7,20 +7,20 @@ use crate::check::short;
 use crate::grid::{GridMesh, Seam};
 use glam::{DVec2, DVec3};
 
-/// Cells that are drawn, of all parts together; of more, some rows and columns are passed over.
+/// Largest number of cells drawn for all parts together; if there are more, rows and columns are skipped.
 const MOST_CELLS: usize = 5000;
 
-/// Where the light comes from, as the reader sees it: right, up, toward the reader.
+/// Direction of the light in the viewer's axes: right, up, toward the viewer.
 const LIGHT: DVec3 = DVec3::new(-0.42, 0.6, 0.68);
 
-/// Dark and light of each kind of cell: outside, inside, folded.
+/// Dark and light colour of each kind of cell: outside, inside, folded.
 const SHADES: [[[f64; 3]; 2]; 3] = [
     [[72.0, 104.0, 138.0], [240.0, 245.0, 250.0]],
     [[176.0, 136.0, 92.0], [253.0, 246.0, 234.0]],
     [[172.0, 44.0, 40.0], [250.0, 205.0, 198.0]],
 ];
 
-/// What lies on an edge of a cell, by rising importance.
+/// A line on an edge of a cell, by rising importance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Line {
     Rim,
@@ -33,7 +33,7 @@ enum Item {
     Edge([DVec2; 2], Line),
 }
 
-/// What there is to explain.
+/// What the legend has to explain.
 #[derive(Default)]
 struct Seen {
     mirrored: bool,
@@ -57,7 +57,7 @@ pub fn draw(page: &mut Page, area: Area, parts: &[Sweep], grids: &[GridMesh]) {
         .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)));
     let size = (high - low).to_array().map(short).join(" x ");
     page.panel(area, "Surface", &format!("{size} (x, y, z)"));
-    // Of a surface with one side one wants to see where it passes through itself.
+    // On a surface with one side, cells are transparent so that self-intersections are visible.
     page.open_group(if seen.mirrored { 0.8 } else { 1.0 });
     for (_, item) in &items {
         match item {
@@ -84,17 +84,17 @@ fn pen(line: Line) -> Pen<'static> {
 
 fn color(kind: usize, light: f64) -> String {
     let [dark, bright] = SHADES[kind];
-    // Steps too fine to see, so that equal colours are equal text.
+    // Brightness has 48 steps, too fine to see, so that equal colours are equal text.
     let light = (light.clamp(0.0, 1.0) * 48.0).round() / 48.0;
     let [r, g, b] = [0, 1, 2].map(|i| (dark[i] + (bright[i] - dark[i]) * light).round() as u8);
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// Pairs of rows or columns that cells lie between, about one for each `step` within each smooth
-/// piece and most where `bends` are, and whether there is a crease on the first of each.
+/// Returns the pairs of rows or columns between which cells are drawn, about one for each `step` of each
+/// smooth piece and more where `bends` are large. The flag says whether a crease lies on the first of a pair.
 fn pairs(places: &[f64], joins: bool, step: usize, bends: &[f64]) -> Vec<([usize; 2], bool)> {
-    // Chords over cells of one bend each are equally far from the curve when cells are as dense as
-    // its square root; some density everywhere keeps cells from getting long.
+    // Chords are equally far from the curve if the density of cells is the square root of the bend. A least
+    // density everywhere keeps cells from becoming long.
     let mean = bends.iter().map(|bend| bend.sqrt()).sum::<f64>() / bends.len().max(1) as f64;
     let least = if mean > 0.0 { mean } else { 1.0 };
     let mut sum = 0.0;
@@ -130,7 +130,7 @@ fn pairs(places: &[f64], joins: bool, step: usize, bends: &[f64]) -> Vec<([usize
     pairs
 }
 
-/// How much the surface bends at each row and at each column.
+/// Returns the sum of second differences of the surface at each row and at each column.
 fn bends(grid: &GridMesh) -> [Vec<f64>; 2] {
     let (rows, cols) = (grid.rows(), grid.cols());
     let at = |row: usize, col: usize| grid.positions[row * cols + col];
@@ -145,9 +145,9 @@ fn bends(grid: &GridMesh) -> [Vec<f64>; 2] {
     bends
 }
 
-/// How many rows and columns to step over at once: as the surface bends along each.
+/// Returns the steps in rows and columns, according to how much the surface bends along each.
 fn steps(bends: [f64; 2], rows: usize, cols: usize, most: usize) -> [usize; 2] {
-    // Straight lines need no cells; they look better with some.
+    // Straight lines need no cells, but some cells make them look better.
     let least = 0.02 * bends[0].max(bends[1]);
     let error = |a: usize, b: usize| {
         (a * a) as f64 * (bends[0] + least) + (b * b) as f64 * (bends[1] + least)
@@ -197,7 +197,7 @@ fn cells(
             let corners = [row * cols + col, row * cols + next, led(next), led(col)];
             let corners = corners.map(|i| grid.positions[i]);
             let [a, b, c, d] = corners;
-            // Half the product of the diagonals is the area, and points outward.
+            // Half the cross product of the diagonals is the area vector, which points outward.
             let normal = view.seen((c - a).normalize_or_zero().cross((d - b).normalize_or_zero()));
             let normal = normal.normalize_or(DVec3::Z);
             let facing = if normal.z < 0.0 { -normal } else { normal };
@@ -205,12 +205,12 @@ fn cells(
             seen.folds |= folded;
             let flat = corners.map(|p| view.page(p));
             let across = flat[0].distance(flat[2]).max(flat[1].distance(flat[3]));
-            // Where the surface turns away from the reader, what faces away is the farther.
+            // Where the surface turns away from the viewer, cells that face away are moved back.
             let away = if normal.z < 0.0 { 0.35 * across } else { 0.0 };
             let depth = view.depth(0.25 * (a + b + c + d)) - away;
             let light = 0.12 + 0.88 * (0.5 + 0.5 * facing.dot(light)).powi(2);
             items.push((depth, Item::Cell { corners: flat, kind, light }));
-            // A line is drawn after the cells on both of its sides, of which one may be nearer.
+            // A line is drawn after the cells on both its sides, one of which may be nearer.
             let reach = 0.6 * across;
             let mut edge = |p: DVec3, q: DVec3, line: Line| {
                 let ends = [view.page(p), view.page(q)];
@@ -266,7 +266,7 @@ fn legend(page: &mut Page, area: Area, seen: &Seen) {
     let [front, back] =
         if seen.mirrored { ["one side", "the other side"] } else { ["outside", "inside"] };
     swatch(page, front, Some(0), None);
-    // A surface without a rim hides its inside.
+    // The inside of a surface without a rim is not visible.
     if seen.mirrored || seen.lines.contains(&Line::Rim) {
         swatch(page, back, Some(1), None);
     }

@@ -1,67 +1,67 @@
-//! Which point of a closed contour is its start, so that it matches the contour before it.
+//! The start of a closed contour that matches the contour before it best.
 //!
-//! With both contours `A` and `B` by arc length about their centroids, the start `r` of `B` is that
-//! of the least sum of squared distances
+//! Let `A` and `B` be the two contours by arc length about their centroids. The start `r` of `B` minimizes
+//! the sum of squared distances
 //!
 //! ```text
 //!     D(r) = sum over k of |A(u_k) - B(u_k + r)|^2,     u_k = k / M
 //! ```
 //!
-//! found among `M` shifts by correlation, then to the last digits by Newton's method on the derivative
-//! of the integral that the correlation stands for,
+//! A correlation finds it among `M` shifts. Newton's method then refines it to the last digits, on the
+//! derivative of the integral that the correlation approximates,
 //!
 //! ```text
 //!     c'(r) = integral of A(u) . B'(u + r),     c''(r) = - integral of A'(u) . B'(u + r)
 //! ```
 //!
-//! and, where one contour is a copy of the other, on `D` itself. Where both have corners, the nearest
-//! shift that brings a corner onto a corner is taken instead if it is nearly as good. Shifts that are
-//! as good as each other are decided in favour of the smallest, so that what matches as drawn is
-//! left as drawn.
+//! and, if one contour is a copy of the other, on `D` itself. If both contours have corners, the nearest
+//! shift that brings a corner onto a corner is taken instead if it is nearly as good. Among equally good
+//! shifts the smallest is taken, so that contours that match as drawn are left as drawn.
 
 use crate::contour::{Contour, Local2};
 use crate::cut::Stop;
 use glam::DVec2;
 
-/// Shifts that are compared. Neighbours are 1.4 degrees of a circle apart; finer details than that
-/// do not decide which way round two contours match.
+/// Number of shifts compared. Neighbouring shifts are 1.4 degrees of a circle apart. Finer details do not
+/// decide how two contours match.
 const SHIFTS: usize = 256;
 
-/// Shifts whose correlation is this fraction of the largest possible apart are as good as each
-/// other; the terms of the sum are rounded to far less.
+/// Shifts are equally good if their correlations differ by at most this fraction of the largest possible one.
+/// The terms of the sum are rounded to far less.
 const TIE: f64 = 1e-9;
 
-/// What a corner on a corner may cost, as a fraction of the largest possible correlation.
+/// Largest loss of correlation that bringing a corner onto a corner may cost, as a fraction of the largest
+/// possible correlation.
 ///
-/// Between a polygon and another one or a circle it is the loss at 3 degrees, where the shift is
-/// hardly seen; the corners that then run on smoothly are.
+/// Between two polygons, or a polygon and a circle, this is the loss of a shift by 3 degrees. Such a shift is
+/// hardly visible, but corners that lead smoothly into corners are.
 const CORNER: f64 = 1.5e-3;
 
-/// Steps of Newton's method at most; bisection alone needs 45.
+/// Most steps of Newton's method; bisection alone needs 45.
 const STEPS: usize = 60;
 
-/// Cells of the integral, besides those that corners cut.
+/// Equal cells of the integral, which corners divide further.
 const CELLS: usize = 64;
 
-/// Contours whose mean distance is this fraction of their size are copies.
+/// Contours whose mean distance is at most this fraction of their size are copies of each other.
 const COPY: f64 = 1e-4;
 
-/// Nodes and weights of Gauss and Legendre on a cell from 0 to 1.
+/// Nodes and weights of the three-point Gauss-Legendre rule on a cell from 0 to 1.
 const GAUSS: [(f64, f64); 3] = [
     (0.112_701_665_379_258_3, 5.0 / 18.0),
     (0.5, 8.0 / 18.0),
     (0.887_298_334_620_741_7, 5.0 / 18.0),
 ];
 
-/// A place on a contour that starts at `start`, both as fractions of its length.
+/// Returns the position on a contour that starts at `start`; all are fractions of its length.
 pub(super) fn own(start: f64, u: f64) -> f64 {
     let sum = start + u;
-    // The end of a contour from its own start stays its end.
+    // The end of a contour that starts at 0 stays its end.
     if start > 0.0 && sum >= 1.0 { sum - 1.0 } else { sum }
 }
 
-/// Where `contour` starts, as a fraction of its length from 0 to below 1, to match `before`, which
-/// starts at `from`; both are closed.
+/// Returns the start of `contour`, as a fraction of its length in `[0, 1)`, that matches `before` best.
+/// `before` starts at `from`, a fraction of its length; both contours are closed.
 #[must_use]
 pub fn start(before: &Contour, from: f64, contour: &Contour) -> f64 {
     let a = centred(sampled(before, from));
@@ -74,7 +74,7 @@ pub fn start(before: &Contour, from: f64, contour: &Contour) -> f64 {
     };
     let all: Vec<f64> = (0..SHIFTS).map(matches).collect();
     let best = all.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    // The nearest to none, forward before backward.
+    // Take the shift nearest to 0, a forward one before a backward one.
     let nearest = (0..SHIFTS)
         .filter(|&shift| all[shift] >= best - TIE * scale)
         .min_by_key(|&shift| (shift.min(SHIFTS - shift), shift))
@@ -86,18 +86,18 @@ pub fn start(before: &Contour, from: f64, contour: &Contour) -> f64 {
         Some(corner) if best - correlation(&a, contour, corner) <= CORNER * scale => corner,
         _ => shift,
     };
-    // A start that rounding has moved is where it was.
+    // A start moved only by rounding counts as not moved.
     let shift = if (shift - shift.round()).abs() < 1e-14 { 0.0 } else { shift };
     shift.rem_euclid(1.0) % 1.0
 }
 
-/// A contour at equal steps from a start.
+/// Returns a contour at `SHIFTS` equal steps from a start.
 fn sampled(contour: &Contour, start: f64) -> Vec<Local2> {
     let at = |k: usize| own(start, k as f64 / SHIFTS as f64);
     (0..SHIFTS).map(|k| contour.at(Stop::after(at(k)))).collect()
 }
 
-/// The same points about their centroid.
+/// Returns the points moved so that their centroid is the origin.
 fn centred(mut places: Vec<Local2>) -> Vec<Local2> {
     let centre = places.iter().map(|place| place.point).sum::<DVec2>() / places.len() as f64;
     for place in &mut places {
@@ -111,7 +111,7 @@ fn correlation(a: &[Local2], contour: &Contour, shift: f64) -> f64 {
     a.iter().zip(&b).map(|(a, b)| a.point.dot(b.point)).sum()
 }
 
-/// The shift near `first`, within two of those compared, where the integral is largest.
+/// Returns the shift that maximizes the integral, within two steps of `first`.
 fn refined(before: &Contour, from: f64, contour: &Contour, first: f64, scale: f64) -> f64 {
     let size = scale / SHIFTS as f64;
     let width = 2.0 / SHIFTS as f64;
@@ -138,10 +138,10 @@ fn refined(before: &Contour, from: f64, contour: &Contour, first: f64, scale: f6
     shift
 }
 
-/// The derivatives of the correlation at a shift.
+/// Returns the first and second derivative of the correlation integral at a shift.
 fn derivatives(before: &Contour, from: f64, contour: &Contour, shift: f64) -> [f64; 2] {
     let start = shift.rem_euclid(1.0) % 1.0;
-    // Between these the integrand is smooth.
+    // Between these ends the integrand is smooth.
     let mut ends: Vec<f64> = (1..=CELLS).map(|cell| cell as f64 / CELLS as f64).collect();
     ends.extend(before.breaks().iter().map(|at| (at - from).rem_euclid(1.0)));
     ends.extend(contour.breaks().iter().map(|at| (at - start).rem_euclid(1.0)));
@@ -161,8 +161,8 @@ fn derivatives(before: &Contour, from: f64, contour: &Contour, shift: f64) -> [f
     [slope, change]
 }
 
-/// The shift at which a copy meets its original, which is near `shift`; of other contours `shift`
-/// itself.
+/// Returns the shift, near `shift`, at which a copy coincides with its original. For contours that are no
+/// copies, returns `shift`.
 fn copied(a: &[Local2], contour: &Contour, shift: f64) -> f64 {
     let size: f64 = a.iter().map(|a| a.point.length_squared()).sum();
     let mut found = shift;
@@ -183,7 +183,8 @@ fn copied(a: &[Local2], contour: &Contour, shift: f64) -> f64 {
     found
 }
 
-/// The shift nearest to `shift` that brings a corner of one contour onto one of the other.
+/// Returns the shift nearest to `shift` that brings a corner of one contour onto a corner of the other, if
+/// both have corners.
 fn nearest_corner(before: &[f64], from: f64, after: &[f64], shift: f64) -> Option<f64> {
     let far = |corner: f64| (corner - shift - (corner - shift).round()).abs();
     before
@@ -234,11 +235,11 @@ mod tests {
 
     #[test]
     fn a_corner_goes_to_a_corner_nearby() {
-        // Squares, one of them turned by two degrees.
+        // Two squares, one of them turned by two degrees.
         let turned = 2.0 / 360.0;
         let found = start(&polygon(4, 0.0), 0.0, &polygon(4, turned));
         assert_eq!(found, 0.0);
-        // Turned by 40 degrees the corners stay where they are, but for the nearest.
+        // With a turn of 40 degrees, either no corner moves or the nearest corner is taken.
         let found = start(&polygon(4, 0.0), 0.0, &polygon(4, 40.0 / 360.0));
         assert!(found == 0.0 || found > 0.85, "{found}");
     }

@@ -1,52 +1,52 @@
-//! Between which contours a place of the trajectory lies, and what the profile is there.
+//! Blends: the two contours around a position of the trajectory, and the profile between them.
 //!
-//! With the contours `A` and `B` before and after a place and the part `w(v)` of the way between
-//! them, the profile and its derivatives are
+//! Let `A` and `B` be the contours before and after a position, and `w(v)` the weight of `B`. Then the
+//! profile and its derivatives are
 //!
 //! ```text
 //!     q = A + w (B - A),   q_u = A_u + w (B_u - A_u),   q_uu likewise,   q_v = w' (B - A)
 //! ```
 //!
-//! Before the first and after the last contour there is no change. Along a closed trajectory the
-//! last one goes over into the first.
+//! Before the first and after the last contour the profile is constant. Along a closed trajectory the last
+//! contour blends into the first.
 
 use super::Column;
 use crate::contour::Local2;
 use glam::DVec2;
 
-/// Where the contours of a profile lie on the trajectory.
+/// Positions of a profile's contours on the trajectory.
 #[derive(Debug, Clone)]
 pub struct Blend {
-    /// Fractions of the trajectory's length, strictly rising, one to each contour.
+    /// Fractions of the trajectory's length, strictly rising, one for each contour.
     pub(crate) at: Vec<f64>,
-    /// Whether it comes to rest at each contour; otherwise it goes evenly.
+    /// Whether the weight has slope 0 at each contour; otherwise it is linear between two contours.
     pub(crate) smooth: bool,
-    /// Whether the last goes over into the first.
+    /// Whether the last contour blends into the first.
     pub(crate) wraps: bool,
 }
 
-/// A place between two contours.
+/// Two neighbouring contours and the weight of the second.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Mix {
     from: usize,
     to: usize,
-    /// The part of the way, and its derivative by `v`.
+    /// Weight of the second contour in `[0, 1]`; `part_v` is its derivative by `v`.
     part: f64,
     part_v: f64,
 }
 
-/// A contour at one place, as it changes along the trajectory.
+/// A point of a contour, with its change along the trajectory.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Moving {
     pub place: Local2,
     /// Derivative of the point by `v`.
     pub across: DVec2,
-    /// Derivative of the tangent's angle by `v`.
+    /// Derivative by `v` of the tangent's angle, in radians.
     pub turning: f64,
 }
 
 impl Blend {
-    /// What lies at `v`.
+    /// Returns the two contours around `v`, with the weight there.
     pub(crate) fn at(&self, v: f64) -> Mix {
         let last = self.at.len() - 1;
         let held = |index| Mix { from: index, to: index, part: 0.0, part_v: 0.0 };
@@ -56,7 +56,7 @@ impl Blend {
             0 => return held(0),
             _ if next <= last => (next - 1, next, self.at[next - 1], self.at[next]),
             _ if self.wraps => (last, 0, self.at[last], self.at[0] + 1.0),
-            // At the end of the trajectory the side before is meant, as in laws.
+            // At the end of the trajectory the side before counts, as in laws.
             _ if v >= 1.0 && self.at[last] == 1.0 && last > 0 => {
                 (last - 1, last, self.at[last - 1], 1.0)
             }
@@ -70,17 +70,17 @@ impl Blend {
 }
 
 impl Mix {
-    /// The profile at a column.
+    /// Returns the profile's point at a column, with its derivatives.
     pub(crate) fn of(&self, column: &Column) -> Moving {
         let (a, b) = (column.on(self.from), column.on(self.to));
         let between = |a: DVec2, b: DVec2| a + (b - a) * self.part;
-        // Derivatives by u.
+        // Derivatives of the points by `u`.
         let [a_u, b_u] = [a, b].map(|place| place.tangent / place.pace);
         let bend =
             |place: &Local2, velocity: DVec2| velocity.perp() * (place.curvature / place.pace);
         let q_u = between(a_u, b_u);
         let speed = q_u.length();
-        // Contours that run against each other have a place without a direction.
+        // Contours that run against each other have a point without a direction.
         let pace = if speed > 0.0 { 1.0 / speed } else { 0.0 };
         let tangent = q_u * pace;
         let curvature = tangent.perp_dot(between(bend(a, a_u), bend(b, b_u))) * (pace * pace);
@@ -93,14 +93,14 @@ impl Mix {
 }
 
 impl Moving {
-    /// A contour that does not change.
+    /// Returns a point of a contour that does not change along the trajectory.
     pub(crate) fn still(place: Local2) -> Self {
         Self { place, across: DVec2::ZERO, turning: 0.0 }
     }
 }
 
 impl Column {
-    /// The place on one of the contours.
+    /// Returns the point on the contour with this index.
     fn on(&self, contour: usize) -> &Local2 {
         if contour == 0 { &self.first } else { &self.others[contour - 1] }
     }

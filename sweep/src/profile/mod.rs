@@ -1,14 +1,15 @@
-//! What is swept: one contour, or several with places on the trajectory and blends between them.
+//! The profile that is swept: one contour, or several contours at positions on the trajectory with blends
+//! between them.
 //!
-//! Points of several contours belong together by length: the point of a blend at `u` lies between
-//! those at `u` of both contours, however many points each was drawn with. Closed contours are given
-//! starts that match first (see [`align`]). A crease of any contour is a break of all of them; the
-//! others have the same normal on both sides there.
+//! Points of several contours correspond by length. The point of a blend at `u` lies between the points at
+//! `u` of both contours, however many points each was drawn with. Closed contours are first given starts that
+//! match (see [`align`]). A crease of any contour is a break of all contours; a contour without a crease
+//! there has the same normal on both sides.
 //!
 //! | module    | what                                                |
 //! |-----------|-----------------------------------------------------|
-//! | [`align`] | which point of a closed contour is its start        |
-//! | [`blend`] | between which contours a place lies, and the blend  |
+//! | [`align`] | the start of a closed contour that matches another  |
+//! | [`blend`] | the two contours around a position, and their blend |
 
 pub mod align;
 pub mod blend;
@@ -19,48 +20,48 @@ use crate::contour::{Contour, Local2};
 use crate::cut::{self, Side, Stop};
 use glam::DVec2;
 
-/// Breaks of two contours that are this fraction of the length apart are one.
+/// Breaks of two contours at most this fraction of the length apart are one break.
 const SAME: f64 = 1e-9;
 
 /// A contour, or several contours that are all closed or all open.
 #[derive(Debug, Clone)]
 pub struct Profile {
     contours: Vec<Aligned>,
-    /// Where there are creases, rising.
+    /// Positions of the creases as fractions of the length, rising.
     breaks: Vec<f64>,
-    /// Factors of both axes, 1 and -1, by which it is mirrored; it runs the other way round then.
+    /// Factors of both axes, 1 or -1, if the profile is mirrored. A mirrored profile runs the other way
+    /// round.
     mirror: Option<DVec2>,
 }
 
-/// A contour with the start that it has among others.
+/// A contour with the start that aligns it with the others.
 #[derive(Debug, Clone)]
 struct Aligned {
     contour: Contour,
-    /// Where it starts, as a fraction of its own length; 0 for an open one.
+    /// Start of the contour, as a fraction of its own length; 0 for an open contour.
     start: f64,
-    /// Its creases: where they lie on the profile, rising, and where on the contour.
+    /// Creases, rising: position on the profile and position on the contour, as fractions of the length.
     creases: Vec<[f64; 2]>,
 }
 
-/// A place along a profile: that of the same `u` on each of its contours.
+/// A position along a profile: the points with the same `u` on all its contours.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Column {
-    /// Length from the start, as a fraction of the whole.
+    /// Arc length from the start, as a fraction of the whole, in `[0, 1]`.
     pub u: f64,
-    /// The place on the first contour.
+    /// The point on the first contour.
     pub first: Local2,
-    /// The places on the contours after it, of which there are most often none.
+    /// The points on the other contours; most often there are none.
     pub others: Box<[Local2]>,
 }
 
 impl Profile {
-    /// One contour.
+    /// Returns a profile of one contour.
     pub(crate) fn single(contour: Contour) -> Self {
         Self::of(vec![(contour, 0.0)])
     }
 
-    /// Several contours, at least one; closed ones get starts that match when they are to be
-    /// aligned.
+    /// Returns a profile of at least one contour. If `aligned`, closed contours get starts that match.
     pub(crate) fn blended(contours: Vec<Contour>, aligned: bool) -> Self {
         let mut placed: Vec<(Contour, f64)> = Vec::with_capacity(contours.len());
         for contour in contours {
@@ -102,10 +103,10 @@ impl Profile {
         Self { contours, breaks, mirror: None }
     }
 
-    /// The profile mirrored by factors of 1 and -1, one each.
+    /// Returns the profile mirrored by two factors of 1 or -1.
     ///
-    /// It runs the other way round, from the same start when it is closed: its outside stays to the
-    /// right of its direction.
+    /// The mirrored profile runs the other way round, from the same start if it is closed. So its outside
+    /// stays to the right of its direction.
     pub(crate) fn mirrored(self, factors: DVec2) -> Self {
         Self { mirror: Some(factors), ..self }.reversed()
     }
@@ -129,7 +130,7 @@ impl Profile {
         self
     }
 
-    /// The one contour, when there is no other.
+    /// Returns the only contour, or `None` if there are several.
     #[must_use]
     pub fn as_contour(&self) -> Option<&Contour> {
         match &self.contours[..] {
@@ -138,54 +139,56 @@ impl Profile {
         }
     }
 
-    /// The segments and the largest distance of each contour that was fitted to points.
+    /// Returns, for each contour fitted to points, the number of segments and the largest distance of a point
+    /// from them.
     pub fn fits(&self) -> impl Iterator<Item = (usize, f64)> {
         self.contours.iter().filter_map(|one| one.contour.fit())
     }
 
-    /// The number of contours.
+    /// Returns the number of contours.
     #[must_use]
     pub fn contours(&self) -> usize {
         self.contours.len()
     }
 
-    /// Whether the contours lead back to their starts.
+    /// Returns whether the contours are closed.
     #[must_use]
     pub fn closed(&self) -> bool {
         self.contours.iter().all(|one| one.contour.closed())
     }
 
-    /// The length of the longest contour.
+    /// Returns the length of the longest contour.
     #[must_use]
     pub fn length(&self) -> f64 {
         self.contours.iter().map(|one| one.contour.length()).fold(0.0, f64::max)
     }
 
-    /// Cells that see all that its contours do.
+    /// Returns the number of cells that resolves every contour.
     pub(crate) fn detail(&self) -> f64 {
         self.contours.iter().map(|one| one.contour.detail()).fold(0.0, f64::max)
     }
 
-    /// The number of creases: those of all contours, each place once.
+    /// Returns the number of creases of all contours; creases at one position count once.
     #[must_use]
     pub fn creases(&self) -> usize {
         self.breaks.len()
     }
 
-    /// Where the creases lie, as fractions of the length.
+    /// Returns the positions of the creases as fractions of the length in `[0, 1]`, rising.
     #[must_use]
     pub fn breaks(&self) -> &[f64] {
         &self.breaks
     }
 
-    /// The fewest cells along the profile: one to each smooth piece, and three around.
+    /// Returns the fewest cells along the profile: one for each smooth piece, and at least three if it is
+    /// closed.
     #[must_use]
     pub fn fewest_cells(&self) -> usize {
         let around = if self.closed() { 3 } else { 1 };
         cut::pieces(&self.breaks).max(around)
     }
 
-    /// The smallest and the largest `x` of all contours.
+    /// Returns the smallest and the largest `x` of all contours.
     pub(crate) fn x_range(&self) -> (f64, f64) {
         let mirrored = self.mirror.is_some_and(|factors| factors.x < 0.0);
         let turned = |(low, high): (f64, f64)| if mirrored { (-high, -low) } else { (low, high) };
@@ -195,19 +198,19 @@ impl Profile {
         })
     }
 
-    /// The columns at `stops`, for rows anywhere on the trajectory.
+    /// Returns the columns at `stops`, which serve all rows of the trajectory.
     #[must_use]
     pub fn columns(&self, stops: &[Stop]) -> Vec<Column> {
         stops.iter().map(|&stop| self.column(stop)).collect()
     }
 
-    /// The column at `u`, a fraction of the length; at a crease that of the side after.
+    /// Returns the column at `u`, a fraction of the length in `[0, 1]`; at a crease, of the side after.
     #[must_use]
     pub fn at(&self, u: f64) -> Column {
         self.column(Stop::after(u))
     }
 
-    /// The first contour's own parameter at a stop, from 0 to 1.
+    /// Returns the first contour's own parameter at a stop, from 0 to 1.
     pub(crate) fn parameter(&self, stop: Stop) -> f64 {
         let Some(one) = self.contours.first() else { return stop.at };
         match (self.mirror, stop.at) {
@@ -242,7 +245,8 @@ impl Aligned {
             Side::After => Side::Before,
         };
         let place = self.contour.at(Stop { at: own, side });
-        // A mirror turns the curve the other way, and so does the other direction.
+        // Both the mirror and the reversed direction change the sign of the turn, so the curvature keeps its
+        // sign.
         Local2 { point: place.point * factors, tangent: -place.tangent * factors, ..place }
     }
 }
@@ -268,7 +272,7 @@ mod tests {
         assert_eq!((profile.fewest_cells(), profile.creases()), (5, 5));
         let stops = cut::evenly(profile.breaks(), true, 5);
         let columns = profile.columns(&stops);
-        // At the triangle's own corner only the triangle turns.
+        // At the triangle's own corner only the triangle has two tangents.
         let [before, after] = [&columns[6], &columns[7]];
         assert_eq!((before.u, after.u), (2.0 / 3.0, 2.0 / 3.0));
         assert_eq!(before.first, after.first);

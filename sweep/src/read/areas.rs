@@ -1,4 +1,4 @@
-//! The texture areas of a spec, checked against the numbers of cells.
+//! Checks the texture areas of a spec against the numbers of cells.
 
 use super::Reader;
 use crate::spec::Area;

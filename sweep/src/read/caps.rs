@@ -1,4 +1,4 @@
-//! The caps of a spec.
+//! Reads the caps of a spec.
 
 use super::Reader;
 use crate::SweepError;
@@ -10,10 +10,10 @@ use crate::spec::{Cap as Written, Caps};
 use crate::trajectory::Trajectory;
 use glam::DVec2;
 
-/// Points of a section that a cap's centre has to see, besides its corners.
+/// Number of points of a section that a cap's centre must see, besides its corners.
 const LOOKED_AT: usize = 720;
 
-/// A section with less area than this fraction of its squared size is no surface's rim.
+/// A section with less area than this fraction of its squared size cannot be the rim of a cap.
 const NO_AREA: f64 = 1e-9;
 
 impl Reader<'_> {

@@ -1,4 +1,4 @@
-//! The contour of a spec.
+//! Reads the contour of a spec.
 
 use super::{LARGEST, Reader};
 use crate::contour::Contour;
@@ -7,7 +7,7 @@ use crate::{SweepError, spec};
 use glam::DVec2;
 
 impl Reader<'_> {
-    /// One contour; `path` is its place in the spec.
+    /// Reads one contour; `path` is its JSON path in the spec.
     pub(super) fn contour(
         &self,
         path: &str,
@@ -38,7 +38,7 @@ impl Reader<'_> {
         }
     }
 
-    /// An SVG path as it is drawn.
+    /// Reads an SVG path, in the direction in which it is drawn.
     pub(super) fn outline(&self, path: &str, text: &str) -> Result<Path<DVec2>, SweepError> {
         let outline = svg::outline(text).map_err(|message| self.fault(path, message))?;
         let reckonable = |point: &DVec2| point.abs().max_element() <= LARGEST;

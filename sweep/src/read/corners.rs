@@ -1,4 +1,4 @@
-//! The corners of a spec's trajectory: refused, rounded or mitred.
+//! Reads the corners of a spec's trajectory: refused, rounded or mitred.
 
 use super::Reader;
 use super::trajectory::SMOOTH_DEG;
@@ -10,13 +10,14 @@ use crate::trajectory::Course;
 use crate::{SweepError, spec};
 use glam::DVec3;
 
-/// Legs of a hairpin this much nearer to each other than they are long lie on each other.
+/// Two legs of a hairpin coincide if, at the cuts, their distance is at most this fraction of the cut's
+/// length.
 const ON_EACH_OTHER: f64 = 1e-9;
 
-/// Lengths along a trajectory are known to this part of the whole.
+/// Rounding error of lengths along a trajectory, as a fraction of the whole length.
 const ROUNDING: f64 = 1e-12;
 
-/// A control point this far off the line, as a part of the segment, leaves it straight.
+/// A segment is straight if its control points are at most this fraction of its length off its chord.
 const STRAIGHT: f64 = 1e-9;
 
 impl Reader<'_> {
@@ -72,7 +73,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Refuses a corner that has no mitre.
+    /// Refuses a corner that cannot be mitred.
     fn mitre(
         &self,
         curve: &Path<DVec3>,
@@ -82,7 +83,7 @@ impl Reader<'_> {
     ) -> Result<(), SweepError> {
         let straight =
             [joint.before, joint.after].iter().all(|&at| curve.cubic(at).is_straight(STRAIGHT));
-        // Rounded up, so that it can be given as it is told.
+        // The ratio is rounded up, so that the user can copy it into the spec as the limit.
         let needed = (1e3 / (0.5 * joint.angle).cos().max(0.0)).ceil() / 1e3;
         let expected = if !straight {
             "straight segments on both sides for a mitre; use `round`".to_owned()
@@ -97,7 +98,7 @@ impl Reader<'_> {
         Err(self.geometry(&place(joint.sources[1]), message))
     }
 
-    /// The curve with its corners cut off and bridged.
+    /// Returns the curve with its corners cut off and bridged by cubics.
     fn rounded(
         &self,
         path: &str,
@@ -130,7 +131,7 @@ impl Reader<'_> {
             }
             let first = if is_corner(from) { from + cut } else { from };
             let last = if is_corner(to) { to - cut } else { to };
-            // Two cuts may leave nothing between them.
+            // Two cuts may leave no length between them.
             if last - first > rounding {
                 cubics.extend(curve.part(first, last));
             }
@@ -147,7 +148,7 @@ impl Reader<'_> {
                     );
                     return Err(self.geometry(&place(joint.sources[1]), message));
                 }
-                // The handles of an arc.
+                // The length of the handles of a circular arc's cubic.
                 let turn = angle_between(a.tangent, b.tangent);
                 let handle = chord / (3.0 * (0.25 * turn).cos().powi(2));
                 let (p, q) = (a.position, b.position);
@@ -174,7 +175,7 @@ fn corners_of(curve: &Path<DVec3>) -> impl Iterator<Item = Joint> {
     curve.joints().filter(|joint| joint.angle.to_degrees() > SMOOTH_DEG)
 }
 
-/// A corner or a cusp in words.
+/// Describes a corner or a cusp in words.
 pub(super) fn described(joint: &Joint) -> String {
     let ([before, after], degrees) = (joint.sources, joint.angle.to_degrees());
     if before == after && joint.s > 0.0 {

@@ -1,4 +1,4 @@
-//! Curves of two and three dimensions: Beziers that meet, splines through points.
+//! Reads curves of two and three dimensions: Beziers that meet, and splines through points.
 
 use super::{Reader, SMALLEST};
 use crate::SweepError;
@@ -7,17 +7,17 @@ use crate::curve::{Cubic, Path, Vector, fit, spline};
 use crate::spec::{Bezier, Free, FreeContour};
 use glam::DVec2;
 
-/// Segments meet when their ends are this fraction of the curve apart.
+/// Segments meet if their ends are at most this fraction of the curve apart.
 ///
-/// Wider than rounding by far, so that six decimals copied from an editor do, and far narrower than
-/// what is seen.
+/// The value is far above rounding, so that six decimals copied from an editor suffice, and far below what
+/// can be seen.
 const MEETS: f64 = 1e-6;
 
-/// Free points closer than this fraction of the curve are one point given twice.
+/// Consecutive points at most this fraction of the curve apart are one point.
 const COINCIDENT: f64 = 1e-12;
 
 impl Reader<'_> {
-    /// Segments that meet end to end; the small gaps between them are closed.
+    /// Reads segments that meet end to end; small gaps between them are closed.
     pub(super) fn bezier<P, V>(&self, path: &str, bezier: &Bezier<P>) -> Result<Path<V>, SweepError>
     where
         P: AsRef<[f64]> + Copy,
@@ -57,7 +57,7 @@ impl Reader<'_> {
         self.path(path, &cubics, bezier.closed)
     }
 
-    /// The spline through free points; points given twice count once.
+    /// Returns the spline through free points, without repeated points.
     pub(super) fn free<P, V>(&self, path: &str, free: &Free<P>) -> Result<Path<V>, SweepError>
     where
         P: AsRef<[f64]> + Copy,
@@ -67,8 +67,8 @@ impl Reader<'_> {
         self.path(path, &spline::through(&points, free.closed), free.closed)
     }
 
-    /// The spline through free points of a plane, or a curve as near to them as asked, and how near
-    /// that is.
+    /// Returns the spline through free points of a plane, or with `fit` a curve near them and the largest
+    /// distance of a point from it.
     pub(super) fn near(
         &self,
         path: &str,
@@ -84,7 +84,7 @@ impl Reader<'_> {
         Ok((self.path(path, &fit.cubics, free.closed)?, Some(fit.reached)))
     }
 
-    /// Straight lines from point to point.
+    /// Reads straight lines from point to point.
     pub(super) fn polyline<P, V>(&self, path: &str, line: &Free<P>) -> Result<Path<V>, SweepError>
     where
         P: AsRef<[f64]> + Copy,
@@ -97,7 +97,7 @@ impl Reader<'_> {
         self.path(path, &sides, line.closed)
     }
 
-    /// The points of a curve, each once, and enough of them.
+    /// Returns the points of a curve without repetitions; refuses too few of them.
     pub(super) fn distinct<P, V>(&self, path: &str, free: &Free<P>) -> Result<Vec<V>, SweepError>
     where
         P: AsRef<[f64]> + Copy,

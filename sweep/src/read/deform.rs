@@ -1,4 +1,4 @@
-//! The deformations of a spec.
+//! Reads the deformations of a spec.
 
 use super::Reader;
 use crate::SweepError;
@@ -6,10 +6,11 @@ use crate::deform::{Deform, Kind};
 use crate::spec;
 use glam::{DMat3, DVec3};
 
-/// A bend of less than this, in degrees, is none: its radius would be lost among the digits.
+/// A bend of less than this, in degrees, is left out, because its radius would exceed the precision of
+/// numbers.
 const LEAST_BEND: f64 = 1e-6;
 
-/// A bend of more than this would run through itself many times over.
+/// Largest bend in degrees; a larger one would run through itself many times.
 const MOST_BEND: f64 = 3600.0;
 
 impl Reader<'_> {
@@ -48,7 +49,7 @@ impl Reader<'_> {
         self.along(path, twist.axis, twist.origin, [twist.from, twist.to], Kind::Twist(law))
     }
 
-    /// `None` for a bend by nothing.
+    /// Reads a bend; `None` for a bend by less than [`LEAST_BEND`].
     fn bend(&self, path: &str, bend: &spec::Bend) -> Result<Option<Deform>, SweepError> {
         if bend.degrees.abs() > MOST_BEND {
             let message =
@@ -70,7 +71,7 @@ impl Reader<'_> {
         Ok((bend.degrees.abs() >= LEAST_BEND).then_some(Deform { axes, ..deform }))
     }
 
-    /// A deformation along an axis.
+    /// Reads what all deformations share: the axis and the span on it.
     fn along(
         &self,
         path: &str,

@@ -1,4 +1,4 @@
-//! The relief of a spec, checked against both curves.
+//! Reads the relief of a spec and checks it against both curves.
 
 use super::Reader;
 use crate::SweepError;
@@ -9,7 +9,7 @@ use crate::spec::{self, DepthMode, DepthTerm};
 use crate::trajectory::Trajectory;
 use std::sync::Arc;
 
-/// Waves along a curve at most; a mesh of as many cells as there may be shows fewer.
+/// Largest number of waves along a curve. Even a mesh of the largest number of cells shows fewer.
 const MOST_WAVES: f64 = 1e6;
 
 impl Reader<'_> {

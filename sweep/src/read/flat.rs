@@ -1,4 +1,4 @@
-//! A trajectory of a spec that is drawn flat, with a height.
+//! Reads a plane curve with a height as a trajectory.
 
 use super::Reader;
 use super::trajectory::SMOOTH_DEG;
@@ -7,7 +7,7 @@ use crate::trajectory::Course;
 use crate::{SweepError, spec};
 use glam::DVec2;
 
-/// Heights at the ends of a closed curve that are this fraction of its size apart are the same.
+/// Heights at the ends of a closed curve that differ by at most this fraction of its size are equal.
 const SAME: f64 = 1e-9;
 
 impl Reader<'_> {

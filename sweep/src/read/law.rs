@@ -1,4 +1,4 @@
-//! The laws of a spec.
+//! Reads the laws of a spec.
 
 use super::{LARGEST, Reader};
 use crate::SweepError;
@@ -70,7 +70,7 @@ impl Reader<'_> {
         Ok(Law::bezier(cubics))
     }
 
-    /// A place from 0 to 1 and a number.
+    /// Checks a point of a law: a position in `[0, 1]` and a number.
     fn law_point(&self, path: &str, point: &[f64; 2]) -> Result<(), SweepError> {
         if !(0.0..=1.0).contains(&point[0]) {
             let message =
@@ -80,7 +80,7 @@ impl Reader<'_> {
         self.number(&format!("{path}[1]"), point[1])
     }
 
-    /// A number of a size that can be reckoned with.
+    /// Checks that the size of a number is at most [`LARGEST`].
     pub(super) fn number(&self, path: &str, number: f64) -> Result<(), SweepError> {
         if number.abs() <= LARGEST {
             return Ok(());

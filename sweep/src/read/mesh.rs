@@ -1,4 +1,4 @@
-//! The resolution of a spec.
+//! Reads the resolution of a spec.
 
 use super::Reader;
 use crate::SweepError;
@@ -7,16 +7,16 @@ use crate::spec::mesh::{Camera, MAX_QUADS, Mesh};
 use crate::sweep::MOST_CELLS;
 use glam::DVec3;
 
-/// Why there is no such resolution: the key and a sentence.
+/// Why there is no resolution: the key and a message.
 type Fault = (&'static str, String);
 
 impl Reader<'_> {
-    /// The resolution that a spec's `mesh` asks for, with the keys of `rather` in place of its own.
+    /// Returns the resolution that a spec's `mesh` asks for, with its keys replaced by those of `rather`.
     pub(super) fn resolution(&self, mesh: &Mesh, rather: &Mesh) -> Result<Resolution, SweepError> {
         resolution(&mesh.or_rather(rather)).map_err(|fault| self.of_mesh(rather, fault))
     }
 
-    /// A complaint about a key of `mesh`, or about what was asked in its place.
+    /// Returns an error about a key of `mesh`, or about the key of `rather` that replaced it.
     pub(super) fn of_mesh(&self, rather: &Mesh, (key, message): Fault) -> SweepError {
         let asked = match key {
             "rows" => rather.rows.is_some() || rather.cols.is_some(),

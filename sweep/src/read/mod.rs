@@ -1,4 +1,4 @@
-//! From a spec to an [`Object`](crate::Object): every value is looked at before any work is done.
+//! Reads specs: from a spec to an [`Object`](crate::Object). Every value is checked before any work is done.
 
 mod areas;
 mod caps;
@@ -29,27 +29,27 @@ use files::json::Document;
 use glam::DVec3;
 use std::ops::RangeInclusive;
 
-/// Coordinates beyond this have squares of squares that a double cannot hold.
+/// Largest size of a coordinate; its fourth power fits a double with a wide margin.
 pub(crate) const LARGEST: f64 = 1e60;
 
-/// Curves smaller than this have squares of squares that vanish.
+/// Smallest size of a curve; its fourth power is above the smallest double by a wide margin.
 pub(crate) const SMALLEST: f64 = 1e-60;
 
-/// Repeats of a picture, whose coordinates become f32 in a mesh.
+/// Repeats of a picture, whose texture coordinates become f32 in a mesh.
 pub(crate) const REPEATS: RangeInclusive<f64> = 1e-30..=1e30;
 
-/// The checks, with the document that their complaints are placed in, and where its files lie.
+/// The reader of a spec, with the document for error positions and the source of its files.
 struct Reader<'a> {
     document: &'a Document<'a>,
     folder: &'a std::path::Path,
     source: &'a dyn Source,
-    /// Keys in place of those of every `mesh`.
+    /// Keys that replace those of every `mesh`.
     rather: &'a Mesh,
-    /// What all paths start with.
+    /// Prefix of all JSON paths.
     prefix: String,
 }
 
-/// Bytes of a name at most.
+/// Largest number of bytes of a name.
 const LONGEST_NAME: usize = 1000;
 
 impl Reader<'_> {
@@ -104,7 +104,7 @@ impl Reader<'_> {
         SweepError::Geometry(self.document.fault(&self.whole(path), message))
     }
 
-    /// A path from the root of the document.
+    /// Returns a path from the root of the document.
     fn whole(&self, path: &str) -> String {
         format!("{}{path}", self.prefix)
     }
@@ -114,7 +114,7 @@ impl Reader<'_> {
         if name.is_empty() || name.contains(blank) {
             return Err(self.fault("name", format!("found {name:?}, expected one word")));
         }
-        // A name is in the header of a grid, whose length readers bound.
+        // A name is part of a grid's header, whose length readers limit.
         if name.len() > LONGEST_NAME {
             let message = format!("found {} bytes, expected at most {LONGEST_NAME}", name.len());
             return Err(self.fault("name", message));
@@ -122,7 +122,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// All that is no curve.
+    /// Checks the values that belong to no curve: name, repeats and position.
     fn header(&self, spec: &Spec) -> Result<(), SweepError> {
         self.name(&spec.name)?;
         for (i, &repeat) in spec.uv.repeat.iter().enumerate() {
@@ -138,7 +138,7 @@ impl Reader<'_> {
         self.point("position", &spec.position)
     }
 
-    /// A number above 0 of a size that can be reckoned with.
+    /// Checks that a number is above 0 and lies from [`SMALLEST`] to [`LARGEST`].
     fn positive(&self, path: &str, number: f64) -> Result<(), SweepError> {
         if number > 0.0 && (SMALLEST..=LARGEST).contains(&number) {
             return Ok(());
@@ -179,7 +179,7 @@ mod tests {
 "trajectory": {"circle": {"radius": 1}},
 "mesh": {"rows": 9, "cols": 8}}"#;
 
-    /// The complaint about the ring with one part of its text replaced.
+    /// Returns the error for the ring with one part of its text replaced.
     pub(super) fn complaint(part: &str, replacement: &str) -> (String, Exit) {
         let text = RING.replace(part, replacement);
         assert_ne!(text, RING, "{part} is not in the spec");

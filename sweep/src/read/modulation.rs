@@ -1,4 +1,4 @@
-//! How the contour of a spec changes on its way, checked against both curves.
+//! Reads the changes of a spec's contour along the trajectory, and checks them against both curves.
 
 use super::Reader;
 use crate::SweepError;
@@ -10,7 +10,7 @@ use crate::spec::{self, Scale, SeamKind, Spec};
 use crate::trajectory::Trajectory;
 use glam::DVec2;
 
-/// Ends of a law that are this fraction of its size apart are the same.
+/// Ends of a law that differ by at most this fraction of their size are equal.
 const SAME: f64 = 1e-9;
 
 impl Reader<'_> {
@@ -56,7 +56,8 @@ impl Reader<'_> {
         Ok((Modulation { blend: None, scale, poles, twist, depth, turn: 0.0 }, mirror))
     }
 
-    /// Refuses what would move the pole that a contour makes on the axis of a rotation.
+    /// Refuses a contour that touches the axis of a rotation, where the change named by `path` would move the
+    /// pole.
     pub(super) fn off_axis(&self, path: &str, contour: &Profile) -> Result<(), SweepError> {
         let (low, high) = contour.x_range();
         if low > ON_AXIS * high {
@@ -67,7 +68,7 @@ impl Reader<'_> {
         Err(self.geometry(path, message))
     }
 
-    /// Refuses a scale that mirrors the contour in one part of the trajectory and not in another.
+    /// Refuses a scale that mirrors the contour in one part of the trajectory only.
     fn outside_out(&self, signs: &Signs) -> Result<(), SweepError> {
         let Some(at) = signs.inside_out() else {
             return Ok(());
@@ -91,7 +92,7 @@ impl Reader<'_> {
         })
     }
 
-    /// One axis of the scale.
+    /// Reads the law of one axis of the scale.
     fn factor(
         &self,
         path: &str,
@@ -149,7 +150,7 @@ impl Reader<'_> {
         Ok(law)
     }
 
-    /// Refuses a law that ends otherwise than it starts, along a closed trajectory.
+    /// Refuses a law that ends with another value than it starts with, if the trajectory is closed.
     pub(super) fn ends_meet(
         &self,
         path: &str,

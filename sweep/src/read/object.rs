@@ -1,4 +1,4 @@
-//! A whole spec: of one sweep, or of several.
+//! Reads a whole spec: of one sweep, or of several.
 
 use super::Reader;
 use crate::spec::{FORMAT, Mesh, Parts, Spec, VERSION};
@@ -31,7 +31,7 @@ pub fn read(
     Ok(Object { name, parts: vec![reader.sweep(spec)?] })
 }
 
-/// Whether a text has parts, whatever else it has.
+/// Finds whether a text has parts, and ignores everything else.
 #[derive(Deserialize)]
 struct Probe {
     parts: Option<IgnoredAny>,

@@ -1,4 +1,4 @@
-//! What a spec sweeps: one contour, or sections.
+//! Reads the profile of a spec: one contour, or sections.
 
 use super::Reader;
 use crate::SweepError;
@@ -9,11 +9,11 @@ use crate::spec::contour::Sections;
 use crate::spec::{self, Ease};
 use crate::trajectory::Trajectory;
 
-/// Sections at most: each column of the grid knows its place on all of them.
+/// Largest number of sections. Each column of the grid stores a point on every section.
 const MOST_SECTIONS: usize = 1000;
 
 impl Reader<'_> {
-    /// The profile, and where its contours lie on the trajectory.
+    /// Returns the profile, and the positions of its contours on the trajectory if there are several.
     pub(super) fn profile(
         &self,
         contour: &spec::Contour,
@@ -36,7 +36,7 @@ impl Reader<'_> {
         Ok((profile, None))
     }
 
-    /// The largest distance from the axis of a rotation; refuses a profile that crosses the axis.
+    /// Returns the largest distance from the axis of a rotation; refuses a profile that crosses the axis.
     fn right_of_axis(&self, profile: &Profile) -> Result<f64, SweepError> {
         let (low, high) = profile.x_range();
         if low < -ON_AXIS * high.max(-low) {

@@ -1,4 +1,4 @@
-//! How the surface of a spec comes back to its start.
+//! Reads how the surface of a spec comes back to its start.
 
 use super::Reader;
 use crate::SweepError;
@@ -8,14 +8,14 @@ use crate::modulation::Section;
 use crate::shape::Shape;
 use crate::spec::SeamKind;
 
-/// Ends of a trajectory that are this part of the section's size apart are one point.
+/// The ends of a trajectory meet if they are at most this fraction of the section's size apart.
 const MEETS: f64 = 1e-6;
 
-/// Directions that differ by less than this many radians are one.
+/// Unit vectors that differ by at most this are one direction; in radians for such small angles.
 const ALIKE: f64 = 1e-3;
 
 impl Reader<'_> {
-    /// Closes a shape that is open at its ends, or whose contour does not come back to itself.
+    /// Closes a shape whose trajectory is open at its ends, or whose contour does not come back to itself.
     pub(super) fn closed(&self, mut shape: Shape, kind: SeamKind) -> Result<Shape, SweepError> {
         let refusal = |message: String| self.geometry("seam", message);
         let refused = |message: String| Err(refusal(message));
@@ -99,7 +99,7 @@ impl Reader<'_> {
         )
     }
 
-    /// Whether the surface turns by more than rounding where it closes.
+    /// Returns whether the normal jumps by more than rounding where the surface closes.
     fn has_edge(shape: &Shape, closing: Closing, stops: &[Stop]) -> bool {
         let side = if closing.mirrored { -1.0 } else { 1.0 };
         stops.iter().step_by(7).any(|&stop| {

@@ -1,4 +1,4 @@
-//! The trajectory of a spec, and the frame it starts with.
+//! Reads the trajectory of a spec, and the frame at its start.
 
 use super::Reader;
 use super::corners::described;
@@ -8,13 +8,13 @@ use crate::trajectory::{Course, Trajectory};
 use crate::{SweepError, spec};
 use glam::DVec3;
 
-/// A trajectory may turn at a joint by this many degrees, as handles rounded to a few decimals do.
+/// Largest turn of a trajectory at a joint in degrees, for handles that are rounded to a few decimals.
 pub(super) const SMOOTH_DEG: f64 = crate::trajectory::CORNER_DEG;
 
-/// A frame that a mitre does not reflect to within this angle, in radians, would tear the surface.
+/// A frame that a mitre reflects with an error above this angle, in radians, would tear the surface.
 const MIRRORED: f64 = 1e-9;
 
-/// Turns of a helix at most: digits enough are left for the place within one.
+/// Largest number of turns of a helix, which leaves enough digits for the position within a turn.
 const MOST_TURNS: f64 = 1e6;
 
 impl Reader<'_> {
@@ -68,7 +68,7 @@ impl Reader<'_> {
         Ok(Trajectory::rotation(frame, fraction))
     }
 
-    /// A curve in space: the trajectory, or the guide of its frame.
+    /// Reads a curve in space: the trajectory, or the guide of its frame.
     fn course(
         &self,
         path: &str,
@@ -142,7 +142,7 @@ impl Reader<'_> {
         Ok(Course::Helix(Helix { start, radius, rise, turns }))
     }
 
-    /// A curve whose frames a direction fixes.
+    /// Returns a trajectory whose frames are fixed by a direction.
     fn directed(&self, course: Course, frame: &spec::Frame) -> Result<Trajectory, SweepError> {
         let (path, directed, what) = match frame {
             spec::Frame::Up(up) => {
@@ -199,7 +199,7 @@ impl Reader<'_> {
         }
     }
 
-    /// The frame at the start: as the spec wants it, or the seed.
+    /// Returns the frame at the start: the one the spec asks for, or the seed.
     fn first_frame(&self, place: &Local3, start: Option<&[f64; 3]>) -> Result<Frame, SweepError> {
         let Some(start) = start else {
             return Ok(Frame::seed(place));
@@ -211,7 +211,7 @@ impl Reader<'_> {
         })
     }
 
-    /// The frame in which a turn about an axis starts: contour y is the axis.
+    /// Returns the frame in which a rotation about an axis starts; contour y is along the axis.
     fn upright(
         &self,
         path: &str,
@@ -224,7 +224,8 @@ impl Reader<'_> {
         let Some(axis) = DVec3::from_array(axis).try_normalize() else {
             return Err(self.fault(&axis_path, "found no direction, expected an axis"));
         };
-        // The frame of a line along the axis has the right w1; the turn begins across both.
+        // The frame of a line along the axis has the right w1. The rotation starts perpendicular to w1 and
+        // the axis.
         let normal = self.first_frame(&Local3::straight(origin, axis), start)?.normal;
         Ok(Frame { origin, tangent: normal.cross(axis), normal, binormal: axis })
     }

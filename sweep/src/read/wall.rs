@@ -1,4 +1,4 @@
-//! The wall that a spec asks for.
+//! Reads the wall of a spec.
 
 use super::Reader;
 use crate::SweepError;
@@ -7,7 +7,7 @@ use crate::spec::Spec;
 use crate::wall::Wall;
 
 impl Reader<'_> {
-    /// The wall of a spec; `shape` is the sheet in its middle.
+    /// Returns the wall of a spec; `shape` is the sheet in the middle of the wall.
     pub(super) fn wall(&self, spec: &Spec, shape: &Shape) -> Result<Option<Wall>, SweepError> {
         let Some(thickness) = spec.wall else {
             return Ok(None);

@@ -1,54 +1,55 @@
-//! How wide columns and how high rows may be, so that the fewest cells keep every load within 1.
+//! Widths of columns and heights of rows that keep every load within 1 with the fewest cells.
 //!
-//! With `x` the square of a column's width and `y` that of a row's height, the load of the cell where
-//! they meet is measured as `a x` along one pair of sides and `b y` along the other, and as a
-//! whole it is
+//! Let `x` be the square of a column's width and `y` the square of a row's height. The load of the cell where
+//! they meet is measured as `a x` along one pair of sides and as `b y` along the other. The load of the whole
+//! cell is
 //!
 //! ```text
 //!     t = max(a x, b y, r (a x + b y)) + c sqrt(x y)
 //! ```
 //!
-//! with `r` and `c` such that the measured load comes out. The number of cells is the product of two
-//! integrals, over `x^-1/2` and `y^-1/2`. Times the largest load (to which it is proportional,
-//! all sizes scaled together) it has to be least: in the logarithms of `x` and `y` that
-//! is convex, so any descent finds the one minimum. There each column has as large a share of all
-//! columns as of the pressure on columns, where a cell presses if its load is near the largest; and
-//! so have rows. Columns and rows are widened or narrowed in that proportion until it holds.
+//! where `r` and `c` are chosen so that the measured load results. The number of cells is the product of two
+//! integrals, over `x^-1/2` and `y^-1/2`. The number to minimize is this product times the largest load, to
+//! which the number of cells is proportional if all sizes are scaled together. In the logarithms of `x` and
+//! `y` this problem is convex, so any descent finds the only minimum. At the minimum, each column's share of
+//! the number of columns equals its share of the pressure on columns. A cell exerts pressure if its load is
+//! near the largest. The same holds for rows. Each step of the descent widens or narrows columns and rows by
+//! the ratio of the two shares.
 
 use super::measure::{Field, Load};
 
-/// Cells that are looked at, at most: more are gathered in blocks, each with the largest of its
-/// cells' needs.
+/// Largest number of cells considered. More cells are grouped in blocks, each with the largest of its cells'
+/// needs.
 const MOST_BLOCKS: usize = 1 << 15;
 
-/// Steps of descent. After 60 the number of cells is within a percent of where it ends.
+/// Steps of the descent. After 60 steps the number of cells is within a percent of its limit.
 const STEPS: usize = 60;
 
-/// A cell as large as a whole direction has this load at least: it keeps flat surfaces finite, and
-/// is far too little to be a cell more.
+/// Least load of a cell as large as a whole direction. It keeps the cells of flat surfaces finite, and is far
+/// too small to add a cell.
 const LEAST_LOAD: f64 = 1e-4;
 
-/// Costs that differ by less than this part are alike, and the earlier counts: rounding, and so the
-/// unit of length, may not decide.
+/// Costs that differ by less than this fraction are equal, and the earlier counts. So rounding, and with it
+/// the unit of length, cannot decide.
 pub const ALIKE: f64 = 1e-9;
 
-/// How densely a direction is to be cut.
+/// Density of cells along one direction of the surface.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Density {
-    /// Where it changes: from 0 to 1.
+    /// Positions at which the density changes, rising from 0 to 1.
     pub places: Vec<f64>,
-    /// The number of cells between two places, not whole, for a largest load of 1.
+    /// Number of cells in each interval between two `places`, not whole, for a largest load of 1.
     pub cells: Vec<f64>,
 }
 
 impl Density {
-    /// All cells.
+    /// Returns the number of all cells, not whole.
     pub fn total(&self) -> f64 {
         self.cells.iter().sum()
     }
 }
 
-/// The need of a block of cells.
+/// The coefficients `a`, `b`, `r` and `c` of the load of a block of cells.
 #[derive(Debug, Clone, Copy, Default)]
 struct Need {
     a: f64,
@@ -59,12 +60,12 @@ struct Need {
 
 struct Problem {
     needs: Vec<Need>,
-    /// Extents of the blocks along the contour and the trajectory.
+    /// Extents of the blocks along the contour and the trajectory, as fractions.
     widths: Vec<f64>,
     heights: Vec<f64>,
 }
 
-/// Squared widths and heights, and the largest load that they give.
+/// Squared widths and heights, and the largest load that they cause.
 #[derive(Debug, Clone)]
 struct Sizes {
     x: Vec<f64>,
@@ -72,8 +73,8 @@ struct Sizes {
     worst: f64,
 }
 
-/// The densities `[along the trajectory, along the contour]` that need the fewest cells; with
-/// `even`, among those whose columns are evenly wide.
+/// Returns the densities `[along the trajectory, along the contour]` that need the fewest cells. If `even`,
+/// only densities with columns of equal width are considered.
 pub fn fewest(field: &Field, even: bool) -> [Density; 2] {
     let (cols, rows) = (field.u.len(), field.v.len());
     let (mut by_u, mut by_v) = (1, 1);
@@ -105,7 +106,7 @@ pub fn fewest(field: &Field, even: bool) -> [Density; 2] {
     [density(&v, &sizes.y), density(&u, &sizes.x)]
 }
 
-/// Neighbouring spans together, `by` of them at a time.
+/// Merges neighbouring spans, `by` at a time.
 fn gathered(spans: &[[f64; 2]], by: usize) -> Vec<[f64; 2]> {
     spans.chunks(by).map(|chunk| [chunk[0][0], chunk[chunk.len() - 1][1]]).collect()
 }
@@ -131,8 +132,8 @@ impl Need {
         }
     }
 
-    /// The load of a cell, and the part of it that `x` is answerable for: the derivative of its
-    /// logarithm.
+    /// Returns the load of a cell, and the share of it due to `x`: the derivative of its logarithm by that of
+    /// `x`.
     fn load(&self, x: f64, y: f64, xy: f64) -> (f64, f64) {
         let (u, v, cross) = (self.a * x, self.b * y, self.c * xy);
         let both = self.r * (u + v);
@@ -154,7 +155,7 @@ impl Problem {
         let mut least = self.cost(&best);
         let mut sizes = best.clone();
         for step in 0..STEPS {
-            // From a soft maximum to a hard one, by ever smaller steps.
+            // The maximum sharpens from soft to hard, by ever smaller steps.
             let part = step as f64 / STEPS as f64;
             let (sharpness, pace) = (8 << (4 * step / STEPS), 0.5 * (1.0 - 0.8 * part));
             self.descend(&mut sizes, sharpness, pace, even);
@@ -166,8 +167,8 @@ impl Problem {
         best
     }
 
-    /// The better of two guesses, each with the best proportion of rows to columns: evenly cut, and
-    /// cut as the neediest cell of each column and row asks for.
+    /// Returns the better of two guesses: even sizes, and sizes as the neediest cell of each column and row
+    /// requires. Each guess is tried with several proportions of rows to columns.
     fn start(&self, even: bool) -> Sizes {
         let cols = self.widths.len();
         let mut x = vec![0.0_f64; cols];
@@ -208,12 +209,12 @@ impl Problem {
         worst
     }
 
-    /// The number of cells for a largest load of 1.
+    /// Returns the number of cells, scaled to a largest load of 1.
     fn cost(&self, sizes: &Sizes) -> f64 {
         count(&self.widths, &sizes.x) * count(&self.heights, &sizes.y) * sizes.worst
     }
 
-    /// Widens and narrows all columns and rows once.
+    /// Widens and narrows all columns and rows by one step.
     fn descend(&self, sizes: &mut Sizes, sharpness: i32, pace: f64, even: bool) {
         let cols = sizes.x.len();
         let roots = |all: &[f64]| all.iter().map(|one| one.sqrt()).collect::<Vec<_>>();
@@ -251,7 +252,7 @@ impl Problem {
     }
 }
 
-/// How many cells of these squared sizes fill the extents.
+/// Returns the number of cells of these squared sizes that fill the extents.
 fn count(extents: &[f64], sizes: &[f64]) -> f64 {
     extents.iter().zip(sizes).map(|(extent, size)| extent / size.sqrt()).sum()
 }

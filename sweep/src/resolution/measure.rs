@@ -1,14 +1,13 @@
-//! How far the triangles of a cut surface are from the surface.
+//! Distance of the triangles of a cut surface from the surface.
 //!
-//! A cell is looked at where triangles are farthest from a surface of the second order: in the
-//! middle of its sides and of itself, and in the middle of its two triangles. What counts is the
-//! distance of the true point there to the triangles, so that a surface may slide along them. An
-//! edge between two cells is as near as the nearer cell's triangles are. The angle is that between a
-//! triangle and the true normals at its corners, which is where a surface of the second order turns
-//! away furthest.
+//! A cell is measured where triangles are farthest from a surface of the second order. These are the middle
+//! of its sides, its own middle, and the middle of its two triangles. The distance is that of the true point
+//! there to the triangles, so the surface may slide along them. At an edge between two cells, the triangles
+//! of the nearer cell count. The angle is that between a triangle and the true normals at its corners, where
+//! a surface of the second order turns away furthest.
 //!
-//! All errors are *loads*: relative to what is allowed, and of the second order in the size of the
-//! cell; so an angle, which is of the first, is squared. A load of 1 is just allowed.
+//! All errors are *loads*: relative to the tolerance, and of the second order in the size of the cell. An
+//! angle is of the first order, so it is squared. A load of 1 is just allowed.
 
 use super::Tolerance;
 use super::triangle::{Facet, Pair};
@@ -17,56 +16,56 @@ use crate::profile::Column;
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// What is cut and measured.
+/// A surface that can be cut into cells and measured.
 pub trait Surface: Sync {
-    /// Columns at stops of the contour.
+    /// Returns the columns at stops of the contour.
     fn columns(&self, stops: &[Stop]) -> Vec<Column>;
 
-    /// Points and unit normals at one stop of the trajectory.
+    /// Returns points and unit normals at one stop of the trajectory, one pair for each column.
     fn station(&self, stop: Stop, columns: &[Column]) -> Vec<(DVec3, DVec3)>;
 
-    /// The points alone.
+    /// Returns the points at one stop of the trajectory, one for each column.
     fn points(&self, stop: Stop, columns: &[Column]) -> Vec<DVec3>;
 }
 
-/// What a cell's size does to its load.
+/// The loads of a cell: errors relative to the tolerance.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Load {
-    /// That of its sides along the contour.
+    /// Load of the cell's sides along the contour.
     pub u: f64,
-    /// That of its sides along the trajectory.
+    /// Load of the cell's sides along the trajectory.
     pub v: f64,
-    /// That of the whole cell, not less than either.
+    /// Load of the whole cell, at least as large as the loads of its sides.
     pub total: f64,
 }
 
-/// Loads of all cells.
+/// The loads of all cells of a cut surface.
 #[derive(Debug, Clone)]
 pub struct Field {
-    /// Where the columns of cells begin and end, as fractions; cells without width are left out.
+    /// Start and end of each column of cells, as fractions; cells without width are left out.
     pub u: Vec<[f64; 2]>,
-    /// Where the rows of cells begin and end.
+    /// Start and end of each row of cells, as fractions.
     pub v: Vec<[f64; 2]>,
-    /// `v.len()` rows of `u.len()`.
+    /// Loads row by row: `v.len()` rows of `u.len()` cells.
     pub loads: Vec<Load>,
-    /// The largest distance in the unit of length.
+    /// Largest distance of the triangles from the surface, in the unit of length.
     pub distance: f64,
-    /// The largest distance as a part of what is allowed.
+    /// Largest distance as a fraction of the tolerance.
     pub part: f64,
-    /// The largest angle in radians.
+    /// Largest angle between a triangle and the true normals, in radians.
     pub angle: f64,
 }
 
-/// One row of cells.
+/// The measurements of one row of cells.
 struct Strip {
     loads: Vec<Load>,
-    /// Load of each cell's lower and upper side, as its own triangles have it.
+    /// Errors of each cell's lower and upper side, measured against the cell's own triangles.
     sides: Vec<[Off; 2]>,
     distance: Off,
     turn_sq: f64,
 }
 
-/// A distance, and as a part of what is allowed.
+/// A distance, and that distance as a fraction of the tolerance.
 #[derive(Debug, Clone, Copy, Default)]
 struct Off {
     distance: f64,
@@ -83,19 +82,20 @@ impl Off {
     }
 }
 
-/// The columns of one kind of place in all cells, by their order.
+/// Columns at the measured positions of all cells, in the order of the cells.
 struct Columns {
-    /// At the stops, the end of a closed contour included.
+    /// Columns at the stops, with the end of a closed contour.
     stops: Vec<Column>,
-    /// Between the stops, in cells that have a width: a third, the middle, two thirds.
+    /// Columns at a third, the middle and two thirds of each cell that has a width.
     within: [Vec<Column>; 3],
-    /// The stop before each cell.
+    /// Index of the stop before each cell.
     cells: Vec<usize>,
 }
 
-/// Measures the surface cut at `rows` and `cols`; `kinks` are places of the trajectory with two
-/// normals, of which a station has that of the side after. `meets` says whether the end of the
-/// trajectory meets its start column by column.
+/// Measures the surface cut at `rows` and `cols`.
+///
+/// `kinks` are positions of the trajectory with two normals, at which a station has the normal of the side
+/// after. `meets` says whether the end of the trajectory meets its start column by column.
 pub fn measure(
     surface: &dyn Surface,
     tolerance: &Tolerance,
@@ -122,7 +122,7 @@ pub fn measure(
     joined(u, v, strips, closed_v && meets)
 }
 
-/// A cut with the end of a closed curve, which is its start once more.
+/// Returns the stops with the end of a closed curve added, which repeats its start.
 fn opened(stops: &[Stop], closed: bool) -> Vec<Stop> {
     let mut stops = stops.to_vec();
     if closed {
@@ -131,14 +131,14 @@ fn opened(stops: &[Stop], closed: bool) -> Vec<Stop> {
     stops
 }
 
-/// The cells of some width, and the stop before each.
+/// Returns the cells that have a width, and the index of the stop before each.
 fn spans(stops: &[Stop]) -> (Vec<[f64; 2]>, Vec<usize>) {
     let wide = |at: &usize| stops[at + 1].at > stops[*at].at;
     let cells: Vec<usize> = (0..stops.len() - 1).filter(wide).collect();
     (cells.iter().map(|&at| [stops[at].at, stops[at + 1].at]).collect(), cells)
 }
 
-/// Measures the cells between two rows.
+/// Measures the row of cells between two positions of the trajectory.
 fn strip(
     surface: &dyn Surface,
     tolerance: &Tolerance,
@@ -154,7 +154,7 @@ fn strip(
     let (below, above) = (Stop::after(from), Stop::before(to));
     let (lower, mut upper) = (row(below), row(above));
     if kinks.contains(&to) {
-        // The point is the row's own, the normal that of this side.
+        // The point is that of the row itself; the normal is that of this side.
         let near = row(Stop::before(to - 1e-9 * (to - from)));
         upper.iter_mut().zip(near).for_each(|(here, near)| here.1 = near.1);
     }
@@ -171,7 +171,7 @@ fn strip(
         let (places, normals) = (corners.map(|c| c.0), corners.map(|c| c.1));
         let pair = Pair::choose(&places, &normals);
         let facets = pair.corners.map(|corners| Facet::new(corners.map(|corner| places[corner])));
-        // What is allowed in the cell is that of its centre.
+        // The tolerance in the cell is that at its centre.
         let per_distance = tolerance.per_distance(centre[cell]);
         let off = |point: DVec3| {
             let distance = facets[0].distance_sq(point).min(facets[1].distance_sq(point)).sqrt();
@@ -186,7 +186,7 @@ fn strip(
             Some(corners.map(|corner| (normals[corner] - normal).length_squared()))
         });
         let turn_sq = turn_sq.flatten().fold(0.0, f64::max);
-        // Half of what a side turns is how far a facet along it is off at its ends.
+        // At each end of a side, a facet along it is off by half the turn of the side.
         let turn = |a: usize, b: usize| 0.25 * (normals[a] - normals[b]).length_squared();
         let turns = [turn(0, 1).max(turn(3, 2)), turn(0, 3).max(turn(1, 2))];
         cells.push((sides, inner, turn_sq, turns));
@@ -195,7 +195,7 @@ fn strip(
     let (mut loads, mut sides) = (Vec::with_capacity(count), Vec::with_capacity(count));
     let (mut distance, mut most_turn_sq) = (Off::default(), 0.0_f64);
     for (cell, (own, inner, turn_sq, turns)) in cells.iter().enumerate() {
-        // The sides to the left and right are shared with the cells there.
+        // The left and right sides are shared with the neighbouring cells.
         let before = match cell {
             0 if closed_u => Some(count - 1),
             0 => None,
@@ -218,7 +218,7 @@ fn strip(
     Strip { loads, sides, distance, turn_sq: most_turn_sq }
 }
 
-/// All rows of cells; the sides between two of them are shared.
+/// Joins all rows of cells; sides between two rows are shared.
 fn joined(u: Vec<[f64; 2]>, v: Vec<[f64; 2]>, strips: Vec<Strip>, closed_v: bool) -> Field {
     let count = strips.len();
     let mut loads = Vec::with_capacity(u.len() * v.len());
@@ -243,12 +243,12 @@ fn joined(u: Vec<[f64; 2]>, v: Vec<[f64; 2]>, strips: Vec<Strip>, closed_v: bool
 }
 
 impl Field {
-    /// The largest load of a cell.
+    /// Returns the largest load of a cell.
     pub fn worst(&self) -> f64 {
         self.loads.iter().fold(0.0, |most, load| load.total.max(most))
     }
 
-    /// Cells of some width.
+    /// Returns the number of cells that have a width.
     pub fn quads(&self) -> usize {
         self.loads.len()
     }

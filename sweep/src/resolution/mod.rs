@@ -1,19 +1,19 @@
-//! How finely a surface is cut: in rows x cols, or as its shape asks for.
+//! Resolution of a surface: rows x cols, or as fine as a tolerance needs.
 //!
-//! Where a *tolerance* is asked for, the grid stays a product of rows and columns, so that no
-//! T-junction can occur; what is chosen is where the stops lie. `search` does it:
+//! With a *tolerance*, the grid remains a product of rows and columns, so that no T-junction can occur. Only
+//! the positions of the stops are chosen. `search` does this:
 //!
-//! 1. `measure` cuts the surface and finds, in every cell, how far the triangles are from the true
-//!    surface and what the cell's width and height contribute to that.
-//! 2. `demand` finds the widths of columns and heights of rows that keep the tolerance with the
-//!    fewest cells: the product of two integrals is least under a bound on every cell, which is a
-//!    convex problem in the logarithms. `place` puts the stops accordingly.
-//! 3. What comes out is measured again, and so on until it is kept, and then thinned out until a
-//!    column or a row less would break it.
+//! 1. `measure` cuts the surface. In every cell it measures the distance of the triangles from the true
+//!    surface, and how the cell's width and height contribute to that.
+//! 2. `demand` finds the widths of columns and heights of rows that keep the tolerance with the fewest cells.
+//!    The product of two integrals is minimized under a bound on every cell, which is a convex problem in the
+//!    logarithms. `place` puts the stops accordingly.
+//! 3. The result is measured again, and the steps are repeated until the tolerance is kept. Then columns and
+//!    rows are removed until one less would break it.
 //!
-//! So the surface's laws, twist and relief need no second derivatives, and what is reported is
-//! measured on the triangles themselves. All errors are taken relative to what is allowed, so that
-//! the unit of length does not matter.
+//! So no second derivatives of the surface's laws, twist and relief are needed, and the reported errors are
+//! measured on the triangles themselves. All errors are relative to the tolerance, so the unit of length does
+//! not matter.
 
 mod demand;
 mod measure;
@@ -28,61 +28,61 @@ pub use view::View;
 
 use glam::DVec3;
 
-/// How finely a surface is cut.
+/// Resolution of a surface.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Resolution {
-    /// Cells along the trajectory and the contour, of equal length on each smooth piece.
+    /// Numbers of cells along the trajectory and the contour, of equal length on each smooth piece.
     Cells {
-        /// Cells along the trajectory.
+        /// Number of cells along the trajectory.
         rows: usize,
-        /// Cells along the contour, those of no width at creases not counted.
+        /// Number of cells along the contour, without the cells of no width at creases.
         cols: usize,
     },
-    /// As many as keep a tolerance.
+    /// As many cells as a tolerance needs.
     Tolerance(Tolerance),
 }
 
-/// What triangles may be off by.
+/// Largest allowed errors of the triangles.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tolerance {
-    /// How far from the surface they may be, if that counts.
+    /// Largest distance from the surface, if it is bounded.
     pub distance: Option<Distance>,
-    /// The largest angle in radians between a triangle and the surface over it, if that counts:
-    /// between the triangle's own direction and the true normals at its corners. Normals
-    /// interpolated between the corners are nearer to the truth by an order.
+    /// Largest angle in radians between a triangle and the surface over it, if it is bounded. The angle is
+    /// that between the triangle's own normal and the true normals at its corners. Normals interpolated
+    /// between the corners are more accurate by one order.
     pub angle: Option<f64>,
-    /// Cells at most.
+    /// Largest number of cells.
     pub max_quads: usize,
 }
 
-/// How far triangles may be from the surface.
+/// Largest allowed distance of triangles from the surface.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Distance {
-    /// The same everywhere, in the spec's unit.
+    /// One distance everywhere, in the spec's unit.
     Everywhere(f64),
-    /// As many pixels of a picture.
+    /// A number of pixels of a picture.
     Pixels(f64, View),
 }
 
-/// What a grid made to a tolerance has come to.
+/// What a grid made to a tolerance achieves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reached {
-    /// The largest distance measured between the triangles and the surface, in the spec's unit.
+    /// Largest measured distance between the triangles and the surface, in the spec's unit.
     pub tol: f64,
-    /// The same in pixels, where pixels were asked for.
+    /// Largest measured distance in pixels, if the tolerance is in pixels.
     pub pixels: Option<f64>,
-    /// The largest angle measured between a triangle and the surface, in degrees.
+    /// Largest measured angle between a triangle and the surface, in degrees.
     pub angle_deg: f64,
-    /// Cells, those of no width at creases not counted.
+    /// Number of cells, without those of no width at creases.
     pub quads: usize,
-    /// How often the surface was cut and measured.
+    /// How many times the surface was cut and measured.
     pub rounds: usize,
-    /// Whether all that was asked for is kept.
+    /// Whether the whole tolerance is kept.
     pub kept: bool,
 }
 
 impl Tolerance {
-    /// By how much it is missed, in words; nothing where it is kept.
+    /// Returns a sentence that says by how much the tolerance is missed; `None` if it is kept.
     #[must_use]
     pub fn missed(&self, reached: &Reached) -> Option<String> {
         if reached.kept {
@@ -109,7 +109,7 @@ impl Tolerance {
         ))
     }
 
-    /// One over the distance that is allowed at a point; 0 where none is too large.
+    /// Returns 1 over the distance allowed at a point; 0 if distances are not bounded.
     pub(crate) fn per_distance(&self, point: DVec3) -> f64 {
         match &self.distance {
             None => 0.0,
@@ -118,7 +118,8 @@ impl Tolerance {
         }
     }
 
-    /// One over the square of what is allowed between unit normals: the chord of the angle.
+    /// Returns 1 over the square of the chord between unit normals at the allowed angle; 0 if angles are not
+    /// bounded.
     pub(crate) fn per_turn_sq(&self) -> f64 {
         self.angle.map_or(0.0, |angle| (2.0 * (0.5 * angle).sin()).powi(-2))
     }

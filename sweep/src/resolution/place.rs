@@ -1,34 +1,34 @@
-//! Where stops lie, given how densely.
+//! Positions of stops for a given density.
 
 use super::demand::Density;
 use crate::cut::{self, Stop};
 
-/// A density that varies by less than this factor within a piece is even.
+/// A density that varies by at most this factor within a piece is even.
 const EVEN: f64 = 1.02;
 
-/// By how much a number of cells may be above a whole one and still be it.
+/// A number of cells may exceed a whole number by this fraction and still count as that number.
 const WHOLE: f64 = 1e-6;
 
-/// One direction of a surface, in which stops are to be placed.
+/// One direction of a surface, in which stops are placed.
 #[derive(Debug, Clone)]
 pub struct Direction {
-    /// Breaks, as in `cut`.
+    /// Breaks, rising, as in `cut`.
     pub breaks: Vec<f64>,
-    /// Places where the surface has an edge with one normal: a stop lies there.
+    /// Positions where the surface has an edge with one normal. A stop lies at each.
     pub kinks: Vec<f64>,
-    /// Whether it is closed.
+    /// Whether the direction is closed.
     pub closed: bool,
-    /// The fewest cells.
+    /// The fewest cells allowed.
     pub fewest: usize,
-    /// Whether its end meets its start place by place, where it is closed.
+    /// Whether the end of a closed direction meets its start point by point.
     pub meets: bool,
-    /// Where stops must lie besides breaks, if all are to be even between them, as `cut::between` places
-    /// them. Kinks have none then.
+    /// If given, stops are even between breaks and these positions, as `cut::between` places them, and no
+    /// stops are put at kinks.
     pub even: Option<Vec<f64>>,
 }
 
 impl Direction {
-    /// Where the pieces end, the last at 1.
+    /// Returns the ends of the pieces, rising; the last is 1.
     fn ends(&self) -> Vec<f64> {
         let inner =
             self.breaks.iter().chain(if self.even.is_some() { &[] } else { &self.kinks[..] });
@@ -39,18 +39,18 @@ impl Direction {
         ends
     }
 
-    /// Evenly cut, with about so many cells.
+    /// Returns the stops of an even cut with about `cells` cells.
     pub fn evenly(&self, cells: usize) -> Vec<Stop> {
         let flat = Density { places: vec![0.0, 1.0], cells: vec![cells as f64] };
         self.place(&flat, 1.0)
     }
 
-    /// The number of cells for a density times a factor.
+    /// Returns the number of cells for a density times a factor.
     pub fn count(&self, density: &Density, factor: f64) -> usize {
         self.counts(density, factor).iter().sum()
     }
 
-    /// The largest factor below this one that gives fewer cells; nothing when there is none.
+    /// Returns the largest factor below `factor` that gives fewer cells; `None` if there is none.
     pub fn fewer(&self, density: &Density, factor: f64) -> Option<f64> {
         let (shares, counts) = (self.shares(density), self.counts(density, factor));
         if counts.iter().sum::<usize>() <= self.fewest.max(counts.len()) {
@@ -58,11 +58,11 @@ impl Direction {
         }
         let smaller = shares.iter().zip(&counts).filter(|(_, count)| **count > 1);
         let smaller = smaller.map(|(share, count)| (count - 1) as f64 / share);
-        // A factor from before the fewest were asked for may be below all of these.
+        // A factor raised to reach the fewest cells may be below all of these.
         smaller.filter(|&smaller| smaller < factor).reduce(f64::max)
     }
 
-    /// The stops for a density times a factor.
+    /// Returns the stops for a density times a factor.
     pub fn place(&self, density: &Density, factor: f64) -> Vec<Stop> {
         let counts = self.counts(density, factor);
         if let Some(anchors) = &self.even {
@@ -85,7 +85,7 @@ impl Direction {
         cut::at(&self.breaks, self.closed, &inner)
     }
 
-    /// Cells of each piece, not whole.
+    /// Returns the number of cells of each piece, not whole.
     fn shares(&self, density: &Density) -> Vec<f64> {
         let mut from = 0.0;
         let share = |to: f64| {
@@ -99,7 +99,7 @@ impl Direction {
 
     fn counts(&self, density: &Density, factor: f64) -> Vec<usize> {
         let shares = self.shares(density);
-        // With this there is half a cell in all.
+        // With this factor there is half a cell in all.
         let least = 0.5 / shares.iter().sum::<f64>();
         let mut factor = factor;
         loop {
@@ -113,7 +113,7 @@ impl Direction {
     }
 }
 
-/// The cells from the start to a place.
+/// Returns the number of cells, not whole, from the start to a position.
 fn cells_to(density: &Density, at: f64) -> f64 {
     let mut before = 0.0;
     for (span, cells) in density.places.windows(2).zip(&density.cells) {
@@ -125,11 +125,11 @@ fn cells_to(density: &Density, at: f64) -> f64 {
     before
 }
 
-/// The places that divide a piece into `count` cells of an equal share of the density.
+/// Returns the positions that divide a piece into `count` cells of equal shares of the density.
 fn between(density: &Density, [from, to]: [f64; 2], count: usize) -> Vec<f64> {
     let part = |cell: usize| cell as f64 / count as f64;
     let spans = density.places.windows(2).zip(&density.cells);
-    // What the piece has of each span, with the cells up to there.
+    // The part of each span within the piece, with the number of cells up to its start.
     let (mut before, mut pieces) = (0.0, Vec::new());
     let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
     for (span, cells) in spans {
@@ -155,7 +155,7 @@ fn between(density: &Density, [from, to]: [f64; 2], count: usize) -> Vec<f64> {
         start + (end - start) * ((wanted - done) / within).clamp(0.0, 1.0)
     };
     let mut places: Vec<f64> = (1..count).map(place).collect();
-    // Rounding may not put two stops at one place.
+    // Rounding must not put two stops at one position.
     places.retain(|&at| at > from && at < to);
     places.dedup();
     places
@@ -210,7 +210,7 @@ mod tests {
             factor = smaller;
             counts.push(cut.count(&steep, factor));
         }
-        // At a factor of 1 both pieces lose one.
+        // At a factor of 1 both pieces lose a cell.
         assert_eq!(counts, [8, 7, 6, 4, 3, 2]);
         let around = Direction { fewest: 3, closed: true, ..direction(&[], &[]) };
         assert_eq!(around.count(&steep, 0.1), 3);

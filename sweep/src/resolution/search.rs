@@ -1,4 +1,4 @@
-//! The fewest cells that keep a tolerance.
+//! Search for the fewest cells that keep a tolerance.
 
 use super::demand::{self, Density};
 use super::measure::{Field, Surface, measure};
@@ -6,75 +6,76 @@ use super::place::Direction;
 use super::{Distance, Reached, Tolerance};
 use crate::cut::Stop;
 
-/// Cells of the first cut at most: it only has to see every wave.
+/// Largest number of cells of the first cut, which only has to resolve every wave.
 const MOST_AT_FIRST: usize = 1 << 20;
 
-/// Cells of a sketch, from which densities are found, at least and at most. What coarse cells ask
-/// for is rough and jumps from one sketch to the next; what fine ones ask for differs little from
-/// these, and costs more.
+/// Least and largest number of cells of a sketch, from which densities are found. Densities from coarser
+/// cells are rough and vary from one sketch to the next. Densities from finer cells differ little and cost
+/// more.
 const SKETCH: (f64, f64) = (3e3, 2e4);
 
-/// Cuts by ever better densities. Mostly the third is as good as the second.
+/// Largest number of sketches, each by the densities of the one before. Mostly the third is as good as the
+/// second.
 const SKETCHES: usize = 6;
 
-/// A density better by less than this part is as good.
+/// A density that is better by less than this fraction counts as equally good.
 const BETTER: f64 = 0.01;
 
-/// Cuts on the way to one that keeps the tolerance.
+/// Largest number of cuts tried for one that keeps the tolerance.
 const TRIALS: usize = 20;
 
-/// How much finer than expected a trial is after one that failed.
+/// Factor by which a trial after a failed one is finer than expected to be necessary.
 const SAFETY: f64 = 1.003;
 
-/// A load from which on a trial that fails asks for other densities, not for more of everything.
+/// If a trial fails with a load above this, new densities are found instead of refining all cells.
 const UNEVEN: f64 = 1.1;
 
-/// Trials that may.
+/// Number of trials that may find new densities.
 const RESHAPED: usize = 3;
 
-/// By how much finer all cells are made at least when some fail.
+/// Least factor by which all cells are refined if some fail.
 const LEAST_STEP: f64 = 1.01;
 
-/// Cells that thinning out may measure, besides a number of times those there are.
+/// Cells that thinning may measure, in addition to `TRIMMED_TIMES` times the number of cells.
 const TRIMMED: usize = 150_000;
 
-/// How many times the cells there are.
+/// Multiple of the number of cells that thinning may measure.
 const TRIMMED_TIMES: usize = 2;
 
-/// A surface that is to be cut.
+/// A surface to be cut, with the bounds of the cut.
 #[expect(missing_debug_implementations, reason = "a surface has none")]
 pub struct Search<'a> {
-    /// The surface.
+    /// The surface to be cut.
     pub surface: &'a dyn Surface,
-    /// What is to be kept.
+    /// The tolerance to be kept.
     pub tolerance: &'a Tolerance,
-    /// Along the trajectory and along the contour.
+    /// The directions along the trajectory and along the contour.
     pub directions: [Direction; 2],
-    /// Cells that see all that the curves, laws and waves do, along each.
+    /// Numbers of cells that resolve the curves, laws and waves, along the trajectory and the contour.
     pub detail: [usize; 2],
-    /// Cells along the contour at most.
+    /// Largest number of cells along the contour.
     pub most_cols: usize,
 }
 
-/// The cells of a surface.
+/// The cells of a cut surface.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cells {
     /// Stops along the trajectory.
     pub rows: Vec<Stop>,
     /// Stops along the contour.
     pub cols: Vec<Stop>,
-    /// How good they are.
+    /// The measured errors of the cut.
     pub reached: Reached,
 }
 
-/// Densities along trajectory and contour, and factors of them.
+/// Densities along the trajectory and the contour, with a factor for each.
 #[derive(Debug, Clone)]
 struct Plan {
     densities: [Density; 2],
     factors: [f64; 2],
 }
 
-/// A plan that has been tried.
+/// A plan that has been cut and measured.
 struct Tried {
     plan: Plan,
     stops: [Vec<Stop>; 2],
@@ -83,15 +84,15 @@ struct Tried {
 }
 
 impl Search<'_> {
-    /// Cuts the surface. Where the tolerance cannot be kept the result is the best that was found
-    /// within the cells allowed.
+    /// Cuts the surface. If the tolerance cannot be kept, the result is the best cut found within the allowed
+    /// number of cells.
     #[must_use]
     pub fn run(&self) -> Cells {
         let mut rounds = 1;
         let sketch = self.sketch(&mut rounds);
         let mut best = self.kept(sketch, &mut rounds);
         if best.worst <= 1.0 {
-            // At its full size the surface may ask for a little less than in a sketch.
+            // At full size the surface may need slightly less than in a sketch.
             let densities = self.fewest(&best.field);
             let factors = [1.0; 2];
             let again = self.kept(Plan { densities, factors }, &mut rounds);
@@ -105,7 +106,7 @@ impl Search<'_> {
         Cells { rows, cols, reached }
     }
 
-    /// How near the triangles of a cut are to the surface.
+    /// Measures the errors of a cut at these `[rows, cols]`.
     #[must_use]
     pub fn measured(&self, [rows, cols]: [&[Stop]; 2]) -> Reached {
         self.reached(&self.measure([rows, cols]), 1)
@@ -126,7 +127,7 @@ impl Search<'_> {
         }
     }
 
-    /// Densities for the surface, from cuts of moderate size.
+    /// Returns densities for the surface, found from cuts of moderate size.
     fn sketch(&self, rounds: &mut usize) -> Plan {
         let [mut rows, mut cols] = self.detail;
         while rows.saturating_mul(cols) > MOST_AT_FIRST {
@@ -139,12 +140,12 @@ impl Search<'_> {
         for _ in 0..SKETCHES {
             let quads = self.quads(&plan) as f64;
             plan.factors = [(quads.clamp(SKETCH.0, SKETCH.1) / quads).sqrt(); 2];
-            // One direction may have its fewest cells already.
+            // One direction may already have its fewest cells.
             self.fit(&mut plan, SKETCH.1 as usize);
             let tried = self.tried(plan.clone(), rounds);
-            // Cells for a load of 1, of which more would be needed in proportion to the load.
+            // The number of cells for a load of 1, to which the number of cells is proportional.
             let figure = tried.field.quads() as f64 * tried.worst;
-            // Of full size, so that the next sketch is drawn to its own scale.
+            // Factors of 1 make the next sketch at full size, before it is scaled.
             plan = Plan { densities: self.fewest(&tried.field), factors: [1.0; 2] };
             let known = best.as_ref().map_or(f64::INFINITY, |(figure, _)| *figure);
             if figure < known * (1.0 - demand::ALIKE) {
@@ -158,14 +159,15 @@ impl Search<'_> {
         best.map_or(plan, |(_, plan)| plan)
     }
 
-    /// The coarsest cut by some densities that keeps the tolerance; else the best one tried.
+    /// Returns the coarsest cut found by scaling the plan that keeps the tolerance; otherwise the best cut
+    /// tried.
     fn kept(&self, mut plan: Plan, rounds: &mut usize) -> Tried {
         let mut best: Option<Tried> = None;
         for trial in 0..TRIALS {
             let fits = self.fit(&mut plan, self.tolerance.max_quads);
             let tried = self.tried(plan.clone(), rounds);
             let (worst, kept) = (tried.worst, tried.worst <= 1.0);
-            // Where only some cells fail, as at the vertical end of a cap, those are made finer.
+            // Where only some cells fail, as at the vertical end of a cap, only these are refined.
             let uneven =
                 (worst > UNEVEN && fits && trial < RESHAPED).then(|| self.fewest(&tried.field));
             let better = best.as_ref().is_none_or(|best| match (kept, best.worst <= 1.0) {
@@ -187,7 +189,7 @@ impl Search<'_> {
             }
             let mut by = worst.sqrt();
             if let Some(best) = best.as_ref().filter(|_| !kept && trial == RESHAPED) {
-                // Densities have had their chance: the best of them, and more of everything.
+                // New densities did not suffice: take the best of them and refine all cells.
                 plan = best.plan.clone();
                 by = best.worst.sqrt();
             }
@@ -211,7 +213,7 @@ impl Search<'_> {
         }
     }
 
-    /// The same with columns and rows taken out as long as the tolerance is kept.
+    /// Removes columns and rows from a cut as long as the tolerance is kept.
     fn thinned(&self, mut best: Tried, rounds: &mut usize) -> Tried {
         let mut left = TRIMMED + TRIMMED_TIMES * best.field.quads();
         let mut steps = [0.06; 2];
@@ -244,8 +246,8 @@ impl Search<'_> {
         best
     }
 
-    /// Makes a plan coarser until it has no more cells than `most`, or one for each piece; whether it
-    /// had no more before.
+    /// Makes a plan coarser until it has at most `most` cells, or one cell for each piece. Returns whether
+    /// the plan was within the limits before.
     fn fit(&self, plan: &mut Plan, most: usize) -> bool {
         let over = |plan: &Plan, most: usize| {
             let [rows, cols] = self.counts(plan);
@@ -259,7 +261,7 @@ impl Search<'_> {
         while too_many(plan) {
             let [rows, cols] = self.counts(plan);
             let over = (most as f64 / (rows as f64 * cols as f64)).min(1.0).sqrt();
-            // Along the contour the limit of a row counts too.
+            // Along the contour the largest number of columns also counts.
             let over_cols = over.min(self.most_cols as f64 / cols as f64);
             plan.factors[0] *= over.min(0.9995);
             plan.factors[1] *= over_cols.min(0.9995);

@@ -1,27 +1,28 @@
-//! The two triangles of a cell, as they will be cut, and how far a point is from them.
+//! The two triangles of a cell as they will be cut, and distances of points from them.
 
 use glam::DVec3;
 
-/// How much nearer to the surface, as a part of its length, the second diagonal must be.
+/// Least difference of the two diagonals' distances from the surface, as a fraction of the longer diagonal,
+/// that counts.
 const NEARER: f64 = 1e-6;
-/// How much shorter, as a part of the squared length, the second diagonal must be.
+/// Fraction of the squared length by which the second diagonal must be shorter to be chosen.
 const SHORTER: f64 = 1e-5;
 
-/// The triangles of a cell with corners A, B, C, D, counter-clockwise from its first.
+/// The two triangles of a cell with corners A, B, C, D, counter-clockwise from its first corner.
 #[derive(Debug, Clone, Copy)]
 pub struct Pair {
-    /// Whether the diagonal runs from A to C, else from B to D.
+    /// Whether the diagonal runs from A to C; otherwise it runs from B to D.
     pub ac: bool,
-    /// Corner numbers.
+    /// Indices of the corners of both triangles.
     pub corners: [[usize; 3]; 2],
 }
 
 impl Pair {
-    /// Cuts a cell by the rule of `triangulate`: along the diagonal whose ends' normals say that it
-    /// is nearer to the surface, and of equally near ones along the shorter.
+    /// Cuts a cell by the rule of `triangulate`: along the diagonal that is nearer to the surface, judged by
+    /// the normals at its ends. Of equally near diagonals the shorter is taken.
     ///
-    /// That rule sees coordinates of f32; where both diagonals are equally near it may decide
-    /// otherwise, and then either is as good.
+    /// `triangulate` sees coordinates of f32. Where both diagonals are equally near it may decide otherwise;
+    /// then both are equally good.
     pub fn choose(points: &[DVec3; 4], normals: &[DVec3; 4]) -> Self {
         let chord = |from: usize, to: usize| {
             let chord = points[to] - points[from];
@@ -40,13 +41,14 @@ impl Pair {
     }
 }
 
-/// A triangle, made ready to be asked for many points.
+/// A triangle prepared for distance queries.
 #[derive(Debug, Clone, Copy)]
 pub struct Facet {
     corners: [DVec3; 3],
-    /// From each side, in the order of the corners that it starts at, into the triangle.
+    /// Vectors from each side into the triangle, perpendicular to the side, in the order of the corners where
+    /// sides start.
     inward: [DVec3; 3],
-    /// The unit normal; nothing where the triangle has no area.
+    /// The unit normal; `None` if the triangle has no area.
     pub normal: Option<DVec3>,
 }
 
@@ -56,13 +58,13 @@ impl Facet {
         let (p, q) = (b - a, c - a);
         let across = p.cross(q);
         let long_sq = p.length_squared().max(q.length_squared());
-        // Below this rounding alone decides the direction.
+        // Below this bound, rounding alone decides the direction.
         let has_area = across.length_squared() > (1e-12 * long_sq).powi(2);
         let inward = [b - a, c - b, a - c].map(|side| across.cross(side));
         Self { corners, inward, normal: has_area.then(|| across.normalize()) }
     }
 
-    /// The squared distance of a point.
+    /// Returns the squared distance of a point from the triangle.
     pub fn distance_sq(&self, point: DVec3) -> f64 {
         let [a, b, c] = self.corners;
         if let Some(normal) = self.normal

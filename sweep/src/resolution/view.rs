@@ -1,19 +1,19 @@
-//! How large a pixel is where a camera looks.
+//! Size of a pixel at a point seen by a camera.
 
 use glam::DVec3;
 
-/// Pixels that one pixel may grow to out of the picture: what is not seen itself may be seen in a
-/// mirror or cast a shadow, where sixteen pixels are coarse and still a shape.
+/// Factor by which a pixel may be larger outside the picture. A surface not seen directly may be seen in a
+/// mirror or cast a shadow, where sixteen pixels are coarse but still show its shape.
 const UNSEEN: f64 = 16.0;
 
-/// By how much more than the picture's half counts as seen, for cells that reach into it.
+/// Factor by which the seen region exceeds the picture, for cells that reach into the picture.
 const MARGIN: f64 = 1.1;
 
-/// Nothing counts as nearer to the eye than this part of the distance to the target: a surface
-/// through the eye would need pixels of no size.
+/// Least distance from the eye, as a fraction of the distance to the target. Without it, a surface through
+/// the eye would need pixels of no size.
 const NEAREST: f64 = 1e-3;
 
-/// A pinhole camera and the height of its picture, as in a scene.
+/// A pinhole camera and the size of its picture, as in a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct View {
     eye: DVec3,
@@ -21,17 +21,17 @@ pub struct View {
     right: DVec3,
     up: DVec3,
     forward: DVec3,
-    /// Half the picture's width and height at distance 1.
+    /// Half the picture's width and height at distance 1 from the eye.
     half: [f64; 2],
-    /// A pixel's side at distance 1.
+    /// Side of a pixel at distance 1 from the eye.
     pixel: f64,
     nearest: f64,
 }
 
 impl View {
-    /// A camera at `eye` that looks at `target`, with `field_of_view` in radians between the lower
-    /// and the upper edge of a picture of `size` pixels. Nothing when the eye is at the target or
-    /// `up` points along the view.
+    /// Returns a camera at `eye` that looks at `target`. `field_of_view` is the angle in radians between the
+    /// lower and the upper edge of a picture of `size` pixels, `[width, height]`. `None` if the eye is at the
+    /// target or `up` is parallel to the view.
     #[must_use]
     pub fn new(
         eye: DVec3,
@@ -42,7 +42,7 @@ impl View {
     ) -> Option<Self> {
         let forward = (target - eye).try_normalize()?;
         let across = forward.cross(up.try_normalize()?);
-        // An up vector this near the view leaves no digits for the direction across.
+        // An up vector this close to the view leaves no correct digits for the direction across.
         if across.length() < 1e-9 {
             return None;
         }
@@ -60,8 +60,8 @@ impl View {
         })
     }
 
-    /// The side of a pixel at a point, in the unit of length; sixteen times as much behind the eye
-    /// and out of the picture.
+    /// Returns the side of a pixel at a point, in the unit of length. Behind the eye and outside the picture
+    /// it is sixteen times the side at the point's distance.
     #[must_use]
     pub fn pixel_at(&self, point: DVec3) -> f64 {
         let to = point - self.eye;

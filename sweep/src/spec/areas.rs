@@ -1,5 +1,5 @@
-//! Texture areas as they are written: `"areas": [A, ...]`, each a rectangle of cells with a picture
-//! of its own, fitted to it.
+//! Texture areas as they are written: `"areas": [A, ...]`. Each area is a rectangle of cells with a texture
+//! of its own, fitted to the rectangle.
 //!
 //! ```json
 //! [
@@ -8,10 +8,10 @@
 //! ]
 //! ```
 //!
-//! Cells are those of `mesh`, counted from 0: `[0, 48]` are the first 48 rows. A picture runs once,
-//! or `repeat` times, over its area, and lies as `uv.across` says. `texture` and `surface` are ids,
-//! those of the whole object where left out. Later areas lie on earlier ones. `triangulate` says
-//! `usemtl texT_surfS` for each, and a scene binds them.
+//! Cells are those of `mesh`, counted from 0: `[0, 48]` are the first 48 rows. The picture fills its area
+//! once, or `repeat` times, in the direction that `uv.across` gives. `texture` and `surface` are ids; an id
+//! that is left out is that of the whole object. Later areas cover earlier ones. `triangulate` writes
+//! `usemtl texT_surfS` for each area, and a scene binds these names.
 
 pub use crate::grid::Area;
 

@@ -1,9 +1,9 @@
-//! Caps as they are written.
+//! Caps as they are written: the closures of the two ends of a sweep.
 //!
-//! `caps` close the ends of an open trajectory whose contour is closed: `"flat"` in the plane of the
-//! end, `"round"` by a dome (half a sphere on a circle), `{"dome": h}` by one of height h,
-//! `{"pole": h}` by a cone of height h. `v` runs over the caps too, by length; the laws do
-//! not, and keep to the trajectory.
+//! `caps` close the ends of an open trajectory whose contour is closed. `"flat"` closes an end in its own
+//! plane. `"round"` closes it by a dome (half a sphere on a circle), and `{"dome": h}` by a dome of height h.
+//! `{"pole": h}` closes it by a cone of height h. `v` runs over the caps too, by length. The laws run over
+//! the trajectory alone.
 //!
 //! ```json
 //! {
@@ -15,8 +15,8 @@
 //! }
 //! ```
 //!
-//! A cap gathers its section to one place in it that sees all of it, so a section that has none (a
-//! figure of eight, a U) is refused.
+//! A cap shrinks its section toward a point that sees the whole outline of the section. A section without
+//! such a point (a figure of eight, a U) is refused.
 
 use crate::schema;
 use schemars::JsonSchema;
@@ -26,23 +26,23 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default, expecting = "an object with any of the keys start, end")]
 pub struct Caps {
-    /// At the start of the trajectory.
+    /// The cap at the start of the trajectory.
     pub start: Option<Cap>,
-    /// At its end.
+    /// The cap at the end of the trajectory.
     pub end: Option<Cap>,
 }
 
-/// What closes one end.
+/// What closes one end of a sweep.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Cap {
-    /// The plane of the section.
+    /// A flat cap in the plane of the section.
     Flat,
-    /// A dome as high as the section's points are from its centre in the mean: on a circle, half a
+    /// A dome whose height is the mean distance of the section's outline from its centre: on a circle, half a
     /// sphere.
     Round,
     /// A dome of this height, in the unit of length; above 0.
     Dome(#[schemars(transform = schema::positive)] f64),
-    /// A cone of this height, to a pole; above 0.
+    /// A cone of this height, in the unit of length; above 0. Its tip is a pole.
     Pole(#[schemars(transform = schema::positive)] f64),
 }

@@ -1,8 +1,8 @@
 //! Contours as they are written: the curves that are swept.
 //!
-//! A **polyline** goes straight from point to point; where it turns by more than a degree it has a
-//! corner, and the surface a crease. Two points are a line; a closed one takes three. Points given
-//! twice count once:
+//! A **polyline** is straight from point to point. Where it turns by more than a degree it has a corner, and
+//! the surface has a crease. An open polyline needs two points, a closed one three. A point given twice in a
+//! row counts once:
 //!
 //! ```json
 //! {
@@ -15,10 +15,11 @@
 //!
 //! # Points that are measured or drawn by hand
 //!
-//! **Free** points with a `fit` are not gone through: few cubics pass within that distance of all of
-//! them. Where the points turn by 30 degrees more than they do around, the curve has a corner; all else
-//! is smooth, the start of a closed curve too. A turn is measured over 8 `fit` to both sides at least,
-//! so noise of half a `fit` makes no corner, and a smaller bend may be one.
+//! **Free** points with a `fit` are not interpolated: a curve of few cubics passes within that distance of
+//! every point. The curve has a corner where the points turn by 30 degrees more than they do around it.
+//! Everywhere else it is smooth, also at the start of a closed curve. A turn is measured over legs at least 8
+//! `fit` long on both sides, so noise of half a `fit` makes no corner. A bend smaller than the legs may
+//! become a corner.
 //!
 //! ```json
 //! {
@@ -33,9 +34,10 @@
 //!
 //! # Several contours
 //!
-//! **Sections** are contours with places `at` on the trajectory, as parts of its length; each goes over
-//! into the next, and before the first and after the last the shape is held. All are closed or all are
-//! open. `blend` is `linear` (the default), with an edge in the surface at each section, or `smooth`:
+//! **Sections** are contours at positions `at` on the trajectory, as fractions of its length. Each section
+//! blends into the next; before the first and after the last the shape is constant. All sections are closed,
+//! or all are open. `blend` is `linear` (the default), with an edge in the surface at each section, or
+//! `smooth`:
 //!
 //! ```json
 //! {
@@ -52,12 +54,12 @@
 //! }
 //! ```
 //!
-//! Points at the same part of the length belong together, however many points a contour was drawn
-//! with. The start of each closed contour is moved to where it matches the contour before it best (the
-//! sum of squared distances about the centroids is least; a corner goes to a corner if that is nearly as
-//! good); `"align": false` keeps the starts as drawn. A corner of one section is a crease along the whole
-//! surface. Along a closed trajectory the last section goes over into the first; one at 1 beside one
-//! at 0 has to be the same contour. About the axis of a rotation sections keep off the axis.
+//! Points at the same fraction of the length correspond, however many points a contour was drawn with. The
+//! start of each closed contour is moved to where the contour matches the one before it best. There the sum
+//! of squared distances about the centroids is least, and a corner goes to a corner if that is nearly as
+//! good. `"align": false` keeps the starts as drawn. A corner of one section is a crease along the whole
+//! surface. Along a closed trajectory the last section blends into the first; sections at both 0 and 1 must
+//! then have the same contour. The sections of a rotation must not touch the axis.
 
 use super::{Bezier, Ease, Free, only};
 use crate::schema;
@@ -68,62 +70,63 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "ContourKeys", into = "ContourKeys")]
 pub enum Contour {
-    /// A circle about the origin, by its radius.
+    /// A circle about the origin, given by its radius.
     Circle(f64),
     /// Cubic Bezier segments.
     Bezier(Bezier<[f64; 2]>),
     /// The `d` attribute of an SVG path.
     Svg(String),
-    /// Points that a spline goes through, or that a curve is fitted to.
+    /// Points that a spline passes through, or that a curve is fitted to.
     Free(FreeContour),
     /// Points with straight lines between them.
     Polyline(Free<[f64; 2]>),
-    /// Contours that go over into each other.
+    /// Contours that blend into each other along the trajectory.
     Sections(Sections),
 }
 
-/// Points in the plane that a C2 spline goes through, or that few cubics are fitted to.
+/// Points in the plane that a C2 spline passes through, or that few cubics are fitted to.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object with the key points, and any of closed, fit")]
 #[schemars(transform = schema::loop_of_three)]
 pub struct FreeContour {
-    /// Whether the last point leads on to the first, which is not given again.
+    /// Whether the curve returns from the last point to the first, which is not repeated.
     #[serde(default)]
     pub closed: bool,
-    /// At least two points, three when closed.
+    /// The points `[x, y]`: at least two, or three if closed.
     #[schemars(transform = schema::at_least(2))]
     pub points: Vec<[f64; 2]>,
-    /// How far a point may be from the curve, in the unit of length, above 0; left out, the curve goes
-    /// through all points.
+    /// Largest distance of a point from the curve, in the unit of length, above 0. If left out, the curve
+    /// passes through all points.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(transform = schema::positive)]
     pub fit: Option<f64>,
 }
 
-/// Contours with places on the trajectory.
+/// Contours at positions on the trajectory, and the blend between them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sections {
-    /// At least two, `at` strictly rising.
+    /// The sections: at least two, with `at` strictly rising.
     pub sections: Vec<Section>,
-    /// The way from one to the next.
+    /// Interpolation between two neighbouring sections.
     pub blend: Ease,
     /// Whether the starts of closed contours are moved to match.
     pub align: bool,
 }
 
-/// A contour and its place.
+/// A contour and its position on the trajectory.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object with the keys at and contour")]
 pub struct Section {
-    /// A part of the trajectory's length, from 0 to 1.
+    /// Position on the trajectory, as a fraction of its length in `[0, 1]`.
     #[schemars(transform = schema::range(0.0..=1.0))]
     pub at: f64,
-    /// What is swept there; no sections.
+    /// The contour at this position; not `sections`.
     #[schemars(transform = schema::without(&["sections"]))]
     pub contour: Contour,
 }
 
-/// The keys of a contour as they are read, so that none and two of them get a sentence.
+/// The keys of a contour as they are read. With this type, a missing or a second key gets an error message of
+/// its own.
 #[derive(Default, Serialize, Deserialize, JsonSchema)]
 #[serde(
     deny_unknown_fields,
@@ -131,7 +134,7 @@ pub struct Section {
 )]
 #[schemars(extend("dependentRequired" = {"blend": ["sections"], "align": ["sections"]}), transform = schema::one_of)]
 struct ContourKeys {
-    /// A circle about the origin, by its radius; above 0.
+    /// A circle about the origin, given by its radius, above 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(transform = schema::positive)]
     circle: Option<f64>,
@@ -141,17 +144,17 @@ struct ContourKeys {
     /// The `d` attribute of an SVG path with one subpath; its y points down.
     #[serde(skip_serializing_if = "Option::is_none")]
     svg: Option<String>,
-    /// Points `[x, y]` that a spline goes through, or that a curve is fitted to.
+    /// Points `[x, y]` that a spline passes through, or that a curve is fitted to.
     #[serde(skip_serializing_if = "Option::is_none")]
     free: Option<FreeContour>,
     /// Points `[x, y]` with straight lines between them.
     #[serde(skip_serializing_if = "Option::is_none")]
     polyline: Option<Free<[f64; 2]>>,
-    /// Contours that go over into each other, from 2 to 1000, `at` rising.
+    /// Contours that blend into each other, from 2 to 1000, with `at` rising.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(transform = schema::at_least(2))]
     sections: Option<Vec<Section>>,
-    /// The way from one section to the next; `linear` if left out.
+    /// Interpolation between neighbouring sections; `linear` if left out.
     #[serde(skip_serializing_if = "Option::is_none")]
     blend: Option<Ease>,
     /// Whether the starts of closed sections are moved to match; true if left out.

@@ -1,16 +1,16 @@
 //! Trajectories that may have corners, as they are written.
 //!
-//! A trajectory bends smoothly, unless a Bezier or a polyline says what becomes of its corners:
+//! A trajectory must bend smoothly, unless a Bezier or a polyline says how its corners are treated:
 //!
 //! | corners            | what                                                                     |
 //! |--------------------|--------------------------------------------------------------------------|
-//! | `{"round": d}`     | each is cut off at the length d before and after it, and bridged by a cubic that goes on from both; between straight legs it is as near to an arc as a cubic is |
-//! | `{"mitre": limit}` | the section is sheared into the plane that halves the corner, where straight legs meet |
+//! | `{"round": d}`     | the curve is cut at the arc length d before and after each corner, and a cubic with the tangents of both cuts joins them; between straight legs the cubic is close to a circular arc |
+//! | `{"mitre": limit}` | the section is sheared into the plane that halves the corner; both legs must be straight |
 //!
-//! A corner turns by more than a degree. Cuts take at most half of the way between two corners or to
-//! an end. Cusps and hairpins are rounded too, unless both legs lie on one line. A mitre is as much
-//! longer than the section is wide as 1 is more than the sine of half the angle between the legs; where
-//! that is above the limit the corner is refused, as is a mitre next to a bent segment.
+//! A corner turns by more than a degree. A cut is at most half of the length between two corners, or between
+//! a corner and an end. Cusps and hairpins can be rounded too, unless both legs lie on one line. The length
+//! of a mitre over the width of the section is 1 over the sine of half the angle between the legs. A corner
+//! whose ratio is above the limit is refused, and so is a mitre next to a bent segment.
 //!
 //! ```json
 //! {
@@ -45,15 +45,15 @@ pub struct Bezier3 {
     /// Whether the last segment ends at the start of the first.
     #[serde(default)]
     pub closed: bool,
-    /// Four control points each.
+    /// Four control points `[x, y, z]` for each segment, at least one segment.
     #[schemars(transform = schema::at_least(1))]
     pub segments: Vec<[[f64; 3]; 4]>,
-    /// What becomes of corners.
+    /// Treatment of corners; if left out, corners are errors.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub corners: Option<Corners>,
 }
 
-/// Points in space that straight lines join.
+/// Points in space joined by straight lines.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(
     deny_unknown_fields,
@@ -61,24 +61,24 @@ pub struct Bezier3 {
 )]
 #[schemars(transform = schema::loop_of_three)]
 pub struct Polyline3 {
-    /// Whether the last point leads on to the first, which is not given again.
+    /// Whether the curve returns from the last point to the first, which is not repeated.
     #[serde(default)]
     pub closed: bool,
-    /// At least two points, three when closed.
+    /// The points `[x, y, z]`: at least two, or three if closed.
     #[schemars(transform = schema::at_least(2))]
     pub points: Vec<[f64; 3]>,
-    /// What becomes of corners.
+    /// Treatment of corners; if left out, corners are errors.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub corners: Option<Corners>,
 }
 
-/// What becomes of the corners of a trajectory.
+/// Treatment of the corners of a trajectory.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", try_from = "CornersKeys")]
 pub enum Corners {
-    /// They are cut off at this length before and after, and bridged.
+    /// Corners are rounded: the curve is cut at this arc length before and after each, above 0.
     Round(f64),
-    /// They are mitred, up to this limit, which is at least 1.
+    /// Corners are mitred. The value limits the mitre's length over the section's width; at least 1.
     Mitre(f64),
 }
 
@@ -86,10 +86,10 @@ pub enum Corners {
 #[serde(deny_unknown_fields, expecting = "an object with one of the keys round, mitre")]
 #[schemars(transform = schema::one_of)]
 struct CornersKeys {
-    /// They are cut off at this length before and after, above 0, and bridged.
+    /// Rounds corners: the curve is cut at this arc length before and after each, above 0.
     #[schemars(transform = schema::positive)]
     round: Option<f64>,
-    /// They are mitred, up to this limit, at least 1.
+    /// Mitres corners. The value limits the mitre's length over the section's width; at least 1.
     #[schemars(transform = schema::range(1.0..=f64::MAX))]
     mitre: Option<f64>,
 }

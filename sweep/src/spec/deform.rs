@@ -1,17 +1,16 @@
 //! Deformations as they are written.
 //!
-//! `deform` is a list of what happens to the finished surface, one after another, before it is moved to
-//! its `position`. Each has an `axis` (y) through an `origin` (zero), and acts between the
-//! places `from` and `to` on it; its law runs from the one to the other.
+//! `deform` is a list of deformations. They are applied to the finished surface one after another, before the
+//! surface is moved to its `position`. Each has an `axis` (y) through an `origin` (zero) and acts between the
+//! heights `from` and `to` on that axis. Its law runs from `from` to `to`.
 //!
 //! | deformation | what                                                                    |
 //! |-------------|-------------------------------------------------------------------------|
 //! | `taper`     | distances from the axis are multiplied by `factor`                      |
-//! | `twist`     | all is turned about the axis by `degrees`, right-handed                 |
+//! | `twist`     | everything is turned about the axis by `degrees`, right-handed          |
 //! | `bend`      | the axis becomes an arc of `degrees` in the direction `toward`           |
 //!
-//! Beyond the two places a taper and a twist stay as they are there, and a bent axis goes straight
-//! on.
+//! Beyond `from` and `to`, a taper and a twist keep their end values, and a bent axis goes straight on.
 //!
 //! ```json
 //! {
@@ -36,15 +35,15 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", try_from = "DeformKeys")]
 pub enum Deform {
-    /// Draws everything toward an axis, or away from it.
+    /// Multiplies distances from an axis by a factor.
     Taper(Taper),
     /// Turns everything about an axis.
     Twist(AxisTwist),
-    /// Bends an axis, and everything with it.
+    /// Bends an axis into an arc, and everything around it.
     Bend(Bend),
 }
 
-/// A piece of an axis, along which a deformation takes place.
+/// A taper: distances from an axis are multiplied by a factor that changes along the axis.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(
     deny_unknown_fields,
@@ -54,18 +53,18 @@ pub struct Taper {
     /// The direction of the axis, of any length.
     #[serde(default = "up")]
     pub axis: [f64; 3],
-    /// Where the axis passes, and where `from` and `to` count from.
+    /// A point on the axis, from which `from` and `to` are measured.
     #[serde(default)]
     pub origin: [f64; 3],
-    /// Where on the axis it begins.
+    /// Height on the axis where the taper begins, in the unit of length.
     pub from: f64,
-    /// Where it ends; above `from`.
+    /// Height on the axis where the taper ends; above `from`.
     pub to: f64,
-    /// Factors of the distance from the axis, not negative, from `from` to `to`.
+    /// Factor of the distance from the axis, at least 0, as a law from `from` to `to`.
     pub factor: Law,
 }
 
-/// A turn about an axis that changes along it.
+/// A rotation about an axis by an angle that changes along the axis.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(
     deny_unknown_fields,
@@ -75,18 +74,18 @@ pub struct AxisTwist {
     /// The direction of the axis, of any length.
     #[serde(default = "up")]
     pub axis: [f64; 3],
-    /// Where the axis passes, and where `from` and `to` count from.
+    /// A point on the axis, from which `from` and `to` are measured.
     #[serde(default)]
     pub origin: [f64; 3],
-    /// Where on the axis it begins.
+    /// Height on the axis where the twist begins, in the unit of length.
     pub from: f64,
-    /// Where it ends; above `from`.
+    /// Height on the axis where the twist ends; above `from`.
     pub to: f64,
-    /// The turn in degrees, right-handed about the axis, from `from` to `to`.
+    /// Angle in degrees, right-handed about the axis, as a law from `from` to `to`.
     pub degrees: Law,
 }
 
-/// A piece of an axis that becomes an arc of a circle.
+/// A bend: a piece of an axis becomes an arc of a circle.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(
     deny_unknown_fields,
@@ -96,17 +95,17 @@ pub struct Bend {
     /// The direction of the axis, of any length.
     #[serde(default = "up")]
     pub axis: [f64; 3],
-    /// Where the axis passes, and where `from` and `to` count from.
+    /// A point on the axis, from which `from` and `to` are measured.
     #[serde(default)]
     pub origin: [f64; 3],
-    /// Where on the axis it begins.
+    /// Height on the axis where the arc begins, in the unit of length.
     pub from: f64,
-    /// Where it ends; above `from`.
+    /// Height on the axis where the arc ends; above `from`.
     pub to: f64,
-    /// By how much the axis is turned after it, in degrees, at most 3600 either way.
+    /// Angle of the arc in degrees, from -3600 to 3600.
     #[schemars(transform = schema::range(-3600.0..=3600.0))]
     pub degrees: f64,
-    /// A direction across the axis, which it bends toward.
+    /// Direction that the axis bends toward; not parallel to the axis.
     pub toward: [f64; 3],
 }
 
@@ -115,11 +114,11 @@ pub struct Bend {
 #[serde(deny_unknown_fields, expecting = "an object with one of the keys taper, twist, bend")]
 #[schemars(transform = schema::one_of)]
 struct DeformKeys {
-    /// Multiplies distances from an axis.
+    /// Multiplies distances from an axis by a factor.
     taper: Option<Taper>,
     /// Turns everything about an axis.
     twist: Option<AxisTwist>,
-    /// Makes an axis an arc, and takes everything with it.
+    /// Bends an axis into an arc, and everything around it.
     bend: Option<Bend>,
 }
 

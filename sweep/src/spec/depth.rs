@@ -1,21 +1,21 @@
-//! Depth modulation as it is written.
+//! Depth modulation as it is written: a relief on the contour.
 
 use super::Law;
 use crate::schema::{self, SMALLEST};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A relief on the contour.
+/// A relief on the contour, from waves, a picture or both.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object with the key mode, and terms or image")]
 #[schemars(transform = schema::terms_or_image)]
 pub struct Depth {
-    /// What the sum of the terms does to the contour.
+    /// How the relief changes the contour.
     pub mode: DepthMode,
-    /// Waves.
+    /// Waves that add up to the relief.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub terms: Vec<DepthTerm>,
-    /// Heights from a picture.
+    /// Heights from a picture, added to the waves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub image: Option<DepthImage>,
 }
@@ -27,26 +27,27 @@ pub struct Depth {
     expecting = "an object with the keys file and amp, and any of repeat, zero"
 )]
 pub struct DepthImage {
-    /// A grey PNG file, from the spec's folder.
+    /// A grey PNG file; its path is relative to the spec's folder.
     pub file: String,
-    /// Height of white above black: a part of the contour for a factor, a length for an offset.
+    /// Height of white above black: a factor in `factor` mode, a length in `offset` mode.
     pub amp: f64,
-    /// How often the picture repeats, across and up, above 0 and at most a million; whole numbers along closed curves.
+    /// Repeats of the picture, across and up, above 0 and at most a million; whole numbers along closed
+    /// curves.
     #[serde(default = "once")]
     #[schemars(transform = schema::range(SMALLEST..=1e6))]
     pub repeat: [f64; 2],
-    /// The grey that leaves the contour as it is: 0 is black, 1 is white.
+    /// The grey that leaves the contour unchanged: 0 is black, 1 is white.
     #[serde(default = "half")]
     pub zero: f64,
 }
 
-/// What a relief does to the contour.
+/// How a relief changes the contour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum DepthMode {
-    /// Multiplies it by one more than the relief.
+    /// Multiplies the contour by 1 plus the relief.
     Factor,
-    /// Moves it along its outer normal.
+    /// Moves the contour along its outer normal by the relief.
     Offset,
 }
 
@@ -57,20 +58,20 @@ pub enum DepthMode {
     expecting = "an object with the key amp, and any of u, v, phase_deg, along"
 )]
 pub struct DepthTerm {
-    /// Its height: a part of the contour for a factor, a length for an offset.
+    /// Amplitude: a factor in `factor` mode, a length in `offset` mode.
     pub amp: f64,
-    /// Waves along the contour; a whole number on a closed one.
+    /// Number of waves along the contour; a whole number if the contour is closed.
     #[serde(default)]
     #[schemars(transform = schema::range(-1e6..=1e6))]
     pub u: f64,
-    /// Waves along the trajectory; a whole number on a closed one.
+    /// Number of waves along the trajectory; a whole number if the trajectory is closed.
     #[serde(default)]
     #[schemars(transform = schema::range(-1e6..=1e6))]
     pub v: f64,
-    /// Where the sine begins, in degrees.
+    /// Phase of the sine at the start of both curves, in degrees.
     #[serde(default)]
     pub phase_deg: f64,
-    /// Factor of the height along the trajectory.
+    /// Factor of the amplitude along the trajectory; 1 if left out.
     #[serde(default = "one")]
     pub along: Law,
 }

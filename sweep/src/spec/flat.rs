@@ -1,9 +1,9 @@
-//! A trajectory drawn flat, as it is written.
+//! A plane curve with a height as a trajectory, as it is written.
 //!
-//! `{"flat": {"curve": CONTOUR, "z": LAW}}` is a trajectory whose x and y are those of a curve in the plane,
-//! written as contours are (but run through as it is drawn), and whose z is a law of the fraction of that
-//! curve's length. A closed curve wants a law that ends as it starts. Keys of a linear law are corners of the
-//! trajectory.
+//! `{"flat": {"curve": CONTOUR, "z": LAW}}` is a trajectory whose x and y are those of a plane curve. The
+//! curve is written like a contour, but keeps the direction in which it is drawn. The z of the trajectory is
+//! a law of the fraction of the plane curve's length. The law of a closed curve must end with the value it
+//! starts with. Keys of a linear law are corners of the trajectory, which are errors.
 //!
 //! ```json
 //! {
@@ -21,13 +21,14 @@ use crate::schema;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A curve in the plane with a height.
+/// A plane curve with a height.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object with the keys curve and z")]
 pub struct Flat {
-    /// Gives x and y; any contour but a circle, of which an SVG path can draw one.
+    /// The curve that gives x and y: any contour except `circle` and `sections`. An SVG path can draw a
+    /// circle.
     #[schemars(transform = schema::without(&["circle", "sections"]))]
     pub curve: Contour,
-    /// Gives z, by the fraction of the curve's length.
+    /// The law that gives z, by the fraction of the curve's length.
     pub z: Law,
 }

@@ -1,11 +1,11 @@
-//! Frames as they are written.
+//! Frames as they are written: how the contour's axes lie along the trajectory.
 //!
-//! What a contour's axes point at on their way is one of
+//! The axes `w1` (contour x) and `w2` (contour y) are fixed by one of
 //!
 //! | frame                  | what                                                                |
 //! |------------------------|---------------------------------------------------------------------|
-//! | `{"start": [x, y, z]}` | `w1` starts toward that direction and turns as little as it can     |
-//! | `{"up": [x, y, z]}`    | `w2` is everywhere as near to that direction as the trajectory lets it |
+//! | `{"start": [x, y, z]}` | `w1` starts toward that direction, and the frame turns as little as possible |
+//! | `{"up": [x, y, z]}`    | `w2` is everywhere as near to that direction as the trajectory allows |
 //! | `{"frenet": {}}`       | `w1` points to the centre of curvature                              |
 //! | `{"guide": CURVE}`     | `w1` points to the point of another curve at the same fraction of its length |
 //!
@@ -19,7 +19,8 @@
 //! }
 //! ```
 //!
-//! A guide is any curve that a trajectory can be, but a rotation; it is closed where the trajectory is.
+//! A guide is any curve that can be a trajectory, except a rotation. The guide of a closed trajectory is
+//! closed.
 //!
 //! ```json
 //! {
@@ -31,12 +32,13 @@
 //! }
 //! ```
 //!
-//! A frame that a direction fixes does not exist where that direction lies along the trajectory: an
-//! upright one where the trajectory is upright itself, Frenet's on straight pieces and at inflections,
-//! that of a guide where it meets the tangent. The reader refuses such a trajectory with the place, a
-//! fraction of its length: it samples the trajectory densely, halves steps in which the frame turns
-//! by more than half a radian, and follows every approach to its nearest point. Such a frame must
-//! also not jump where two segments meet, as Frenet's does if their curvatures differ in direction.
+//! A frame fixed by a direction does not exist where that direction is parallel to the trajectory. An `up`
+//! frame does not exist where the trajectory is parallel to `up`. Frenet's frame does not exist on straight
+//! pieces and at inflections. The frame of a guide does not exist where the guide's point lies on the
+//! tangent. The reader refuses such a trajectory and reports the fraction of its length. To find such points,
+//! it samples the trajectory densely and halves steps in which the frame turns by more than half a radian.
+//! Then it searches for the minimum near every approach. A frame fixed by a direction must also not jump
+//! where two segments meet. Frenet's frame does so if the curvatures of the segments differ in direction.
 //! Frames of a closed trajectory close by themselves.
 //!
 //! ```json
@@ -54,21 +56,21 @@ use crate::schema;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What the frames along a trajectory are fixed by.
+/// What fixes the frames along a trajectory.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", try_from = "FrameKeys")]
 pub enum Frame {
-    /// What the contour's x points at in the beginning, as near as the trajectory lets it.
+    /// The contour's x starts as near to this direction as the trajectory allows.
     Start([f64; 3]),
-    /// What the contour's y points at everywhere, as near as the trajectory lets it.
+    /// The contour's y is everywhere as near to this direction as the trajectory allows.
     Up([f64; 3]),
     /// The contour's x points to the centre of curvature.
     Frenet(Frenet),
-    /// The contour's x points to this curve.
+    /// The contour's x points to the point of this curve at the same fraction of its length.
     Guide(Box<Trajectory>),
 }
 
-/// Frenet's frame, about which there is nothing to say.
+/// Frenet's frame, which has no settings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an empty object, {}")]
 pub struct Frenet {}
@@ -77,13 +79,13 @@ pub struct Frenet {}
 #[serde(deny_unknown_fields, expecting = "an object with one of the keys start, up, frenet, guide")]
 #[schemars(transform = schema::one_of)]
 struct FrameKeys {
-    /// What the contour's x points at in the beginning, a direction `[x, y, z]`.
+    /// Direction `[x, y, z]` that the contour's x is nearest to at the start.
     start: Option<[f64; 3]>,
-    /// What the contour's y points at everywhere, a direction `[x, y, z]`.
+    /// Direction `[x, y, z]` that the contour's y is nearest to everywhere.
     up: Option<[f64; 3]>,
     /// The contour's x points to the centre of curvature.
     frenet: Option<Frenet>,
-    /// The contour's x points to this curve; no rotation.
+    /// The contour's x points to the point of this curve at the same fraction of its length; not a rotation.
     #[schemars(transform = schema::without(&["rotation"]))]
     guide: Option<Box<Trajectory>>,
 }

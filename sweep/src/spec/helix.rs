@@ -11,16 +11,17 @@ use serde::{Deserialize, Serialize};
     expecting = "an object with the keys radius, rise, turns, and any of center, axis"
 )]
 pub struct Helix {
-    /// The distance of the contour's origin from the axis; positive.
+    /// Distance of the contour's origin from the axis, in the unit of length; positive.
     #[schemars(transform = schema::positive)]
     pub radius: f64,
-    /// The way along the axis in one turn.
+    /// Rise along the axis in one turn, in the unit of length; below 0 the helix descends.
     pub rise: f64,
-    /// Turns, at most a million, of any number but 0; below 0 they go the other way round.
+    /// Number of turns, not 0, from -1,000,000 to 1,000,000. A negative number reverses the direction of
+    /// rotation.
     #[schemars(transform = schema::range(-1e6..=1e6))]
     #[schemars(extend("not" = {"const": 0}))]
     pub turns: f64,
-    /// Where the axis is met at the height of the start.
+    /// The point of the axis at the height of the start.
     #[serde(default)]
     pub center: [f64; 3],
     /// The direction of the axis, of any length.

@@ -9,39 +9,39 @@ use serde::{Deserialize, Deserializer, Serialize};
 use std::borrow::Cow;
 use std::fmt;
 
-/// A number that may change along the trajectory, by the fraction of its length.
+/// A number that may change along the trajectory, as a function of the fraction of its length.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Law {
-    /// The same everywhere.
+    /// The same number everywhere.
     Number(f64),
-    /// Keys, and the way from one to the next.
+    /// Keys, with interpolation between them.
     Keys {
-        /// `[at, value]`, `at` strictly rising within 0 and 1.
+        /// Pairs `[at, value]`, with `at` strictly rising in `[0, 1]`.
         keys: Vec<[f64; 2]>,
-        /// The way between two keys.
+        /// Interpolation between two keys.
         ease: Ease,
     },
-    /// The graph of a Bezier.
+    /// The graph of a Bezier curve.
     Bezier {
         /// Cubics of points `[at, value]`, along which `at` does not fall.
         bezier: Vec<[[f64; 2]; 4]>,
     },
-    /// From 0 at the start evenly to a number at the end.
+    /// A linear law from 0 at the start to a number at the end.
     Total {
-        /// That number.
+        /// The number at the end.
         total: f64,
     },
 }
 
-/// The way between two keys.
+/// Interpolation between two keys.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Ease {
-    /// Straight.
+    /// Linear interpolation.
     #[default]
     Linear,
-    /// Level at every key.
+    /// Cubic interpolation with slope 0 at every key.
     Smooth,
 }
 
@@ -49,9 +49,9 @@ pub enum Ease {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Scale {
-    /// For both axes.
+    /// One law for both axes.
     Both(Law),
-    /// For x and for y.
+    /// One law for x and one for y.
     Each([Law; 2]),
 }
 
@@ -60,15 +60,15 @@ pub enum Scale {
 #[serde(deny_unknown_fields)]
 #[schemars(extend("dependentRequired" = {"ease": ["keys"]}), transform = schema::one_of)]
 struct LawKeys {
-    /// Keys `[at, value]`, `at` strictly rising within 0 and 1.
+    /// Pairs `[at, value]`, with `at` strictly rising in `[0, 1]`.
     #[schemars(transform = schema::graph)]
     keys: Option<Vec<[f64; 2]>>,
-    /// The way between two keys; `linear` if left out.
+    /// Interpolation between two keys; `linear` if left out.
     ease: Option<Ease>,
     /// Cubics of points `[at, value]`, along which `at` does not fall.
     #[schemars(transform = schema::graph)]
     bezier: Option<Vec<[[f64; 2]; 4]>>,
-    /// From 0 at the start evenly to this at the end.
+    /// The value at the end of a linear law that starts at 0.
     total: Option<f64>,
 }
 

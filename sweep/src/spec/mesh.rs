@@ -1,15 +1,15 @@
-//! How finely a surface is cut, as it is written.
+//! The resolution of a surface, as it is written.
 //!
-//! `mesh` either counts cells, `{"rows": R, "cols": C}`, or asks for what they have to keep; then as
-//! few cells as will do are placed where the surface bends:
+//! `mesh` either counts cells, `{"rows": R, "cols": C}`, or gives bounds that the cells must keep. With
+//! bounds, as few cells as possible are placed, more where the surface bends:
 //!
 //! | key         | meaning                                                                        |
 //! |-------------|--------------------------------------------------------------------------------|
 //! | `tol`       | the largest distance between the triangles and the surface, in the unit of length |
 //! | `angle_deg` | the largest angle between a triangle and the true normals at its corners, below 90 |
-//! | `pixels`    | in place of `tol`: the largest distance in pixels of the picture of a `camera`  |
-//! | `camera`    | `eye`, `target`, `up` (y) and `fov_deg` as in a scene, and `size`, the picture's pixels across and down |
-//! | `max_quads` | cells at most, 2,000,000 if not given                                          |
+//! | `pixels`    | instead of `tol`: the largest distance in pixels of the picture of a `camera`   |
+//! | `camera`    | `eye`, `target`, `up` (y) and `fov_deg` as in a scene, and `size`, the picture's width and height in pixels |
+//! | `max_quads` | the largest number of cells, 2,000,000 if not given                            |
 //!
 //! ```json
 //! {
@@ -22,22 +22,22 @@
 //! }
 //! ```
 //!
-//! `tol`, `angle_deg` or `pixels` must be there; `angle_deg` goes with each of the others. It bounds how a surface
-//! of flat triangles looks; where normals are interpolated a distance is mostly enough. A triangle
-//! that leaves the picture or lies behind the camera may be off by 16 times as many pixels: mirrors
-//! and shadows show it still. Without a `camera`, `pipeline run` takes that of the scene;
-//! `sweep` by itself refuses `pixels` then. Distances are measured in the middle of each cell, of its
-//! sides and of its triangles, and hold there. When `max_quads` or the surface (a cusp, a fold) do not
-//! let the tolerance be kept, the closest is made and a note says how close that is.
+//! At least one of `tol`, `angle_deg` and `pixels` must be given; `angle_deg` can be combined with either of
+//! the others. `angle_deg` bounds how a surface of flat triangles looks. Where normals are interpolated, a
+//! distance is mostly enough. A triangle outside the picture or behind the camera may be off by 16 times as
+//! many pixels, because mirrors and shadows still show it. Without a `camera`, `pipeline run` takes that of
+//! the scene; `sweep` by itself refuses `pixels` without a `camera`. Distances are measured at the middle of
+//! each cell, of its sides and of its triangles, and hold there. If `max_quads` or the surface (a cusp, a
+//! fold) does not allow the tolerance, the closest mesh found is made, and a note says how close it is.
 
 use crate::{MOST_CELLS, schema};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Cells at most where a spec does not say.
+/// The largest number of cells if a spec gives none.
 pub const MAX_QUADS: usize = 2_000_000;
 
-/// How finely a surface is cut.
+/// Resolution of a surface: counts of cells, or a tolerance.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(
     deny_unknown_fields,
@@ -45,30 +45,31 @@ pub const MAX_QUADS: usize = 2_000_000;
 )]
 #[schemars(transform = schema::cells_or_tolerance)]
 pub struct Mesh {
-    /// Cells along the trajectory.
+    /// Number of cells along the trajectory.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(transform = schema::range(1..=MOST_CELLS))]
     pub rows: Option<usize>,
-    /// Cells along the contour; the cells without width at creases come on top.
+    /// Number of cells along the contour. Cells without width at creases are not counted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(transform = schema::range(1..=MOST_CELLS))]
     pub cols: Option<usize>,
-    /// The largest distance between triangles and surface, in the unit of length; above 0.
+    /// Largest distance between triangles and surface, in the unit of length; above 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(transform = schema::below(1e60))]
     pub tol: Option<f64>,
-    /// The largest angle between triangles and surface, in degrees above 0 and below 90.
+    /// Largest angle between a triangle and the true normals at its corners, in degrees above 0 and below 90.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(transform = schema::below(90.0))]
     pub angle_deg: Option<f64>,
-    /// The largest distance in pixels of the camera's picture; above 0. Not beside `tol`.
+    /// Largest distance between triangles and surface, in pixels of the camera's picture; above 0. Not
+    /// allowed with `tol`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(transform = schema::below(1e6))]
     pub pixels: Option<f64>,
-    /// Whose pixels.
+    /// The camera whose pixels `pixels` counts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub camera: Option<Camera>,
-    /// Cells at most; 2,000,000 if left out.
+    /// Largest number of cells; 2,000,000 if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(transform = schema::range(1..=MOST_CELLS))]
     pub max_quads: Option<usize>,
@@ -81,24 +82,29 @@ pub struct Mesh {
     expecting = "an object with the keys eye, target, fov_deg, size, and up if it is not y"
 )]
 pub struct Camera {
-    /// Where it stands.
+    /// Position of the camera, `[x, y, z]`.
     pub eye: [f64; 3],
-    /// What it looks at.
+    /// The point that the camera looks at, `[x, y, z]`.
     pub target: [f64; 3],
-    /// What is up in the picture, as near as it can be.
+    /// Direction that points up in the picture, as near as the view allows.
     #[serde(default = "super::up")]
     pub up: [f64; 3],
-    /// The angle between the lower and the upper edge of the picture, in degrees above 0 and below 180.
+    /// Vertical field of view, from the lower to the upper edge of the picture, in degrees above 0 and below
+    /// 180.
     #[schemars(extend("exclusiveMinimum" = 0.0, "exclusiveMaximum" = 180.0))]
     pub fov_deg: f64,
-    /// Pixels across and down.
+    /// Width and height of the picture in pixels.
     #[schemars(transform = schema::range(1..=u32::MAX))]
     pub size: [u32; 2],
 }
 
 impl Mesh {
-    /// This with every key of another in its place; rows and columns, and a tolerance, each take the
-    /// place of the other. A camera is taken only where pixels are asked for and there is none.
+    /// Returns this resolution with every key of `other` in place of its own.
+    ///
+    /// Counts (`rows`, `cols`) in `other` remove the tolerance of this resolution, and a tolerance in `other`
+    /// removes its counts. A distance in `other` (`tol` or `pixels`) removes both distances of this
+    /// resolution. The camera of `other` is used only if the result has `pixels` and this resolution has no
+    /// camera.
     #[must_use]
     pub fn or_rather(&self, other: &Self) -> Self {
         let counted = other.rows.is_some() || other.cols.is_some();

@@ -1,7 +1,7 @@
-//! An object of several sweeps as it is written.
+//! An object of several sweeps, as it is written.
 //!
-//! `parts` are specs, whose `format` and `version` may be left out. Each has a name of its own, under
-//! which it becomes a mesh; together they are one object.
+//! `parts` are specs, in which `format` and `version` may be left out. Each part has a name of its own, which
+//! becomes the name of its mesh. Together the parts are one object.
 //!
 //! ```json
 //! {
@@ -28,23 +28,23 @@ use crate::schema;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Several sweeps that are one object.
+/// Several sweeps that form one object.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object, a spec of parts")]
 pub struct Parts {
-    /// Where an editor finds the schema of this file; passed over.
+    /// Path or URL of this file's JSON Schema, for editors; ignored by the reader.
     #[serde(rename = "$schema", default, skip_serializing_if = "Option::is_none")]
     pub schema: Option<String>,
-    /// `tb-sweep`.
+    /// The format, `tb-sweep`.
     #[schemars(extend("const" = FORMAT))]
     pub format: String,
-    /// 1.
+    /// The version of the format, 1.
     #[schemars(extend("const" = VERSION))]
     pub version: u32,
     /// The object's name; one word.
     #[schemars(transform = schema::word)]
     pub name: String,
-    /// At least one sweep, each with a name of its own.
+    /// The parts: at least one sweep, each with a name of its own.
     #[schemars(transform = schema::at_least(1))]
     pub parts: Vec<Spec>,
 }

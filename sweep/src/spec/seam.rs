@@ -1,8 +1,9 @@
-//! How a surface comes back to its start, as it is written.
+//! How the end of a surface meets its start, as it is written.
 //!
 //! Along a closed trajectory each column meets itself, and a twist is a multiple of 360 degrees. With
-//! `"seam": "shift"` a contour with a symmetry may meet itself turned: a column leads on to another
-//! one. With `"seam": "mirror"` columns are led on in reverse order, so that the surface has one side.
+//! `"seam": "shift"`, a contour with a rotational symmetry may meet itself turned: each column continues as
+//! another column. With `"seam": "mirror"`, columns continue in reverse order, so that the surface has one
+//! side.
 //!
 //! | surface                  | trajectory                       | contour                       | seam     |
 //! |--------------------------|----------------------------------|-------------------------------|----------|
@@ -11,10 +12,11 @@
 //! | Klein bottle             | back at its start, against itself | the same on both sides       | `mirror` |
 //! | threefold torus          | closed                           | a threefold star              | `shift`  |
 //!
-//! A trajectory that comes back to its start against its own direction is given open, with both
-//! ends at one point. What the contour lacks to meet itself is turned in evenly along the way, if no
-//! `twist` is given; of all ways to meet the one with the least turn is taken. A `twist` must fit by itself. The contour
-//! starts at one of 2 to 8, 10 or 12 equal parts from its image: on its axis of symmetry.
+//! A trajectory that returns to its start against its own direction is given as an open curve with both ends
+//! at one point. If no `twist` is given, the turn that the contour still needs to meet itself is added evenly
+//! along the trajectory. Of all possible turns the smallest is taken. A given `twist` must fit by itself. The
+//! contour and its image are shifted by a multiple of 1/q of the contour's length, with q from 1 to 8, 10 or
+//! 12. A contour to be mirrored should therefore start on its axis of symmetry.
 //!
 //! ```json
 //! {
@@ -26,10 +28,11 @@
 //! }
 //! ```
 //!
-//! A surface that closes mirrored has no inside. `"wall"` gives it one: in place of the sheet, all
-//! that is within half the wall's thickness of it, bounded by one closed surface with two sides, which
-//! a material of glass fills. The contour is closed and smooth, and there are no areas. `rows`, or the
-//! tolerance, are those of the sheet: the wall goes along it twice, first on the side of its normals.
+//! A surface that closes mirrored has no inside. `"wall"` gives it one: the sheet is replaced by all points
+//! within half the wall's thickness of it. One closed surface with two sides bounds these points, and a
+//! material of glass fills them. The contour must be closed and smooth, and there must be no areas. `rows`,
+//! or the tolerance, are those of the sheet. The wall goes along the sheet twice, first on the side of the
+//! sheet's normals.
 //!
 //! ```json
 //! {
@@ -49,8 +52,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SeamKind {
-    /// Turned onto itself by a symmetry.
+    /// By a rotational symmetry of the contour: each column continues as another column.
     Shift,
-    /// In reverse.
+    /// Mirrored: columns continue in reverse order.
     Mirror,
 }

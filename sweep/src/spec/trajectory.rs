@@ -1,4 +1,4 @@
-//! Trajectories as they are written.
+//! Trajectories as they are written: the curves that a contour is swept along.
 
 use super::{Bezier3, Circle, Flat, Free, Helix, Polyline3, Rotation, only};
 use crate::schema;
@@ -9,25 +9,26 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", try_from = "TrajectoryKeys")]
 pub enum Trajectory {
-    /// A straight line by its ends.
+    /// A straight line, given by its two ends.
     Line([[f64; 3]; 2]),
-    /// A circle or an arc of one.
+    /// A circle, or an arc of a circle.
     Circle(Circle),
     /// A helix.
     Helix(Helix),
-    /// Cubic Bezier segments.
+    /// Cubic Bezier segments that meet end to end.
     Bezier(Bezier3),
-    /// Points that straight lines join.
+    /// Points joined by straight lines.
     Polyline(Polyline3),
-    /// Points that a spline goes through.
+    /// Points that a C2 spline passes through.
     Free(Free<[f64; 3]>),
-    /// A curve drawn flat, with a height.
+    /// A plane curve with a height.
     Flat(Flat),
-    /// A turn of the contour about an axis in its plane.
+    /// A rotation of the contour about an axis in its plane.
     Rotation(Rotation),
 }
 
-/// The keys of a trajectory as they are read, so that none and two of them get a sentence.
+/// The keys of a trajectory as they are read. With this type, a missing or a second key gets an error message
+/// of its own.
 #[derive(Deserialize, JsonSchema)]
 #[serde(
     deny_unknown_fields,
@@ -35,21 +36,21 @@ pub enum Trajectory {
 )]
 #[schemars(transform = schema::one_of)]
 struct TrajectoryKeys {
-    /// A straight line by its ends `[x, y, z]`, which differ.
+    /// A straight line, given by its two ends `[x, y, z]`, which must differ.
     line: Option<[[f64; 3]; 2]>,
-    /// A circle or an arc of one.
+    /// A circle, or an arc of a circle.
     circle: Option<Circle>,
     /// A helix.
     helix: Option<Helix>,
-    /// Cubic Bezier segments of points `[x, y, z]`.
+    /// Cubic Bezier segments of points `[x, y, z]` that meet end to end.
     bezier: Option<Bezier3>,
-    /// Points `[x, y, z]` that straight lines join.
+    /// Points `[x, y, z]` joined by straight lines.
     polyline: Option<Polyline3>,
-    /// Points `[x, y, z]` that a spline goes through.
+    /// Points `[x, y, z]` that a C2 spline passes through.
     free: Option<Free<[f64; 3]>>,
-    /// A curve drawn flat, with a height.
+    /// A plane curve with a height.
     flat: Option<Flat>,
-    /// A turn of the contour about an axis in its plane.
+    /// A rotation of the contour about an axis in its plane.
     rotation: Option<Rotation>,
 }
 

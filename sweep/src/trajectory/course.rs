@@ -5,10 +5,11 @@ use crate::frame::Frame;
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 
-/// Knots of a helix at most; beyond, they are more than an eighth of a turn apart.
+/// Most knots of a helix. A helix with more than 65536 eighths of a turn has knots further apart than an
+/// eighth of a turn.
 const MOST_KNOTS: f64 = 65536.0;
 
-/// A joint of a trajectory that turns further than this, in degrees, is a corner.
+/// A joint of a trajectory that turns by more than this, in degrees, is a corner.
 pub const CORNER_DEG: f64 = 1.0;
 
 /// A curve in space by arc length.
@@ -16,30 +17,30 @@ pub const CORNER_DEG: f64 = 1.0;
 pub enum Course {
     /// A straight line, from the origin of its frame.
     Line {
-        /// The frame at its start, which it keeps.
+        /// The constant frame of the line, at its start.
         start: Frame,
-        /// Where it ends.
+        /// The end of the line.
         end: DVec3,
     },
-    /// A circle about the y direction of a frame through the frame's origin, which is the centre.
+    /// A circle about the line through the frame's origin, its centre, in the direction of the frame's `w2`.
     Circle {
-        /// The frame at the centre; the circle starts toward its `w1` and along its `T`.
+        /// The frame at the centre. The circle starts at the side of `w1`, in the direction `T`.
         start: Frame,
         /// The radius, above 0.
         radius: f64,
-        /// The part of a full turn; of 1 it is closed.
+        /// The fraction of a full turn, above 0; at 1 the circle is closed.
         fraction: f64,
     },
     /// A helix.
     Helix(Helix),
-    /// Cubics.
+    /// Joined cubic segments.
     Path(Path<DVec3>),
-    /// A curve drawn flat, with a height.
+    /// A plane curve with a height.
     Flat(Flat),
 }
 
 impl Course {
-    /// The arc lengths of the corners, which are mitred; 0 for the start of a closed curve.
+    /// Returns the arc lengths of the corners, which are mitred, rising; 0 for the start of a closed curve.
     #[must_use]
     pub fn corners(&self) -> Vec<f64> {
         match self {
@@ -52,7 +53,7 @@ impl Course {
         }
     }
 
-    /// The curve's own parameter at a fraction of its length, from 0 to 1.
+    /// Returns the curve's own parameter, from 0 to 1, at the fraction `v` of its length.
     pub(super) fn parameter(&self, v: f64) -> f64 {
         match self {
             Self::Path(path) if v >= 1.0 => path.parameter(path.end()),
@@ -61,7 +62,7 @@ impl Course {
         }
     }
 
-    /// Cells that see all that the curve does: eight to a segment or a quarter turn.
+    /// Returns the number of cells that resolves the curve: eight for each segment or quarter turn.
     pub(super) fn detail(&self) -> f64 {
         match self {
             Self::Line { .. } => 1.0,
@@ -72,8 +73,8 @@ impl Course {
         }
     }
 
-    /// The rotation-minimizing frame at `v`, a fraction of the length, and the curvature there on its
-    /// `(w1, w2)`, where both are known in closed form.
+    /// Returns the rotation-minimizing frame at `v`, a fraction of the length, and the curvature there on its
+    /// `(w1, w2)`. `None` if the curve has no closed form for them.
     pub(super) fn own_frame(&self, v: f64) -> Option<(Frame, DVec2)> {
         match self {
             Self::Line { start, end } => {

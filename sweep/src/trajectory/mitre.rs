@@ -6,26 +6,26 @@
 //!     S = P + q1 w1 + q2 w2 + (m.q) T,    m = -(n.w1, n.w2) / (n.T) at a corner with the normal n
 //! ```
 //!
-//! of its halving plane. Between its ends `m` changes evenly; at an end that is no corner it is 0.
-//! The frame behind a corner is that before it reflected in the plane, so that both legs have the
-//! same ring there.
+//! of the halving plane. Between the ends of a leg `m` changes linearly; at an end that is no corner it is 0.
+//! The frame after a corner is the frame before it, reflected in the plane, so both legs have the same
+//! section there.
 
 use crate::cut::{Side, Stop};
 use crate::frame::Frame;
 use glam::{DVec2, DVec3};
 
-/// The mitres of a trajectory; none is the rule.
+/// The mitres of a trajectory, most often none.
 #[derive(Debug, Clone, Default)]
 pub struct Mitres {
-    /// Fractions and arc lengths of the corners, rising.
+    /// Corners, rising: fraction of the length, and arc length.
     corners: Vec<(f64, f64)>,
-    /// The same fractions alone.
+    /// The fractions of `corners` alone.
     breaks: Vec<f64>,
     legs: Vec<Leg>,
     length: f64,
 }
 
-/// A straight piece between two knots, with the shear at its ends.
+/// A straight piece between two knots, with the shears at its ends.
 #[derive(Debug, Clone, Copy)]
 struct Leg {
     from: f64,
@@ -35,10 +35,10 @@ struct Leg {
 }
 
 impl Mitres {
-    /// Finds the shear of each leg next to a corner.
+    /// Finds the shear at the ends of each leg next to a corner.
     ///
-    /// `corners` are arc lengths, rising, 0 for the start of a closed curve; `knots` lie between
-    /// straight pieces; `frame` is asked for frames on both sides of the corners.
+    /// `corners` are rising arc lengths, with 0 for the start of a closed curve. `knots` are the arc lengths
+    /// between straight pieces. `frame` returns the frame on a side of an arc length.
     pub fn new(corners: &[f64], knots: &[f64], frame: impl Fn(f64, Side) -> Frame) -> Self {
         let length = knots.last().copied().unwrap_or(0.0);
         let shears = |s: f64| {
@@ -65,18 +65,19 @@ impl Mitres {
         Self { corners, breaks, legs, length }
     }
 
-    /// Where the corners lie, as fractions of the length.
+    /// Returns the positions of the corners as fractions of the length, rising.
     pub fn breaks(&self) -> &[f64] {
         &self.breaks
     }
 
-    /// The arc length of a stop: exactly that of a corner, and the whole before the start.
+    /// Returns the exact arc length of a stop at a corner; the whole length for the side before the start.
+    /// `None` for a stop at no corner.
     pub fn arc_length(&self, stop: Stop) -> Option<f64> {
         let (_, s) = *self.corners.iter().find(|corner| corner.0 == stop.at)?;
         Some(if s == 0.0 && stop.side == Side::Before { self.length } else { s })
     }
 
-    /// The shear at arc length `s`, and its derivative.
+    /// Returns the shear at arc length `s`, and its derivative by arc length.
     pub fn at(&self, s: f64, side: Side) -> (DVec2, DVec2) {
         let after = match side {
             Side::Before => self.legs.partition_point(|leg| leg.from < s),
@@ -87,7 +88,7 @@ impl Mitres {
             return (DVec2::ZERO, DVec2::ZERO);
         };
         let part = (s - leg.from) / (leg.to - leg.from);
-        // Of this form, so that both ends are met exactly.
+        // In this form both ends are met exactly.
         let shear = leg.start * (1.0 - part) + leg.end * part;
         (shear, (leg.end - leg.start) / (leg.to - leg.from))
     }

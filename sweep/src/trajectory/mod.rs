@@ -1,4 +1,4 @@
-//! The curve that a contour follows, and the stations on it.
+//! The trajectory that a contour follows, and the stations on it.
 
 mod course;
 mod mitre;
@@ -14,7 +14,7 @@ use glam::DVec2;
 use mitre::Mitres;
 use std::f64::consts::TAU;
 
-/// A trajectory, checked: it has a length (or is a rotation) and a frame everywhere.
+/// A checked trajectory: it has a length (or is a rotation), and a frame everywhere.
 #[derive(Debug, Clone)]
 pub struct Trajectory(Form);
 
@@ -24,27 +24,27 @@ enum Form {
     Along { course: Course, framing: Framing, mitres: Mitres },
 }
 
-/// How the frames along a curve are found.
+/// How the frames along a curve are computed.
 #[derive(Debug, Clone)]
 enum Framing {
-    /// They turn as little as they can, and the curve knows them in closed form.
+    /// Rotation-minimizing frames in closed form.
     Own,
-    /// They turn as little as they can, from node to node.
+    /// Rotation-minimizing frames carried from node to node.
     Carried(Frames),
-    /// A direction fixes them.
+    /// Frames fixed by a direction.
     Directed(Directed<Course>),
 }
 
 impl Trajectory {
-    /// A turn about the y direction of a frame through the frame's origin: contour x is the distance
-    /// from that axis. `fraction` of 1 is a full turn, which is closed.
+    /// Returns a rotation about the line through a frame's origin in the direction of its `w2`. Contour x is
+    /// the distance from that axis. A `fraction` of 1 is a full turn, which is closed.
     pub(crate) fn rotation(start: Frame, fraction: f64) -> Self {
         Self(Form::Rotation { start, fraction })
     }
 
-    /// A curve with frames that turn as little as they can from the first.
+    /// Returns a curve with rotation-minimizing frames that start with `first`.
     ///
-    /// A line, a circle and a helix hold their first frame, and pass over `first`.
+    /// A line, a circle and a helix carry a first frame of their own and ignore `first`.
     pub(crate) fn minimizing(course: Course, first: Frame) -> Self {
         let framing = if course.own_frame(0.0).is_some() {
             Framing::Own
@@ -54,12 +54,12 @@ impl Trajectory {
         Self::along(course, framing)
     }
 
-    /// A curve with frames that a direction fixes, which must not lack one anywhere.
+    /// Returns a curve with frames fixed by a direction, which must give a frame everywhere.
     pub(crate) fn directed(course: Course, directed: Directed<Course>) -> Self {
         Self::along(course, Framing::Directed(directed))
     }
 
-    /// A curve with its frames; what corners it has are mitred.
+    /// Returns a curve with its frames; its corners are mitred.
     fn along(course: Course, framing: Framing) -> Self {
         let corners = course.corners();
         let mitres = if corners.is_empty() {
@@ -71,13 +71,13 @@ impl Trajectory {
         Self(Form::Along { course, framing, mitres })
     }
 
-    /// Whether the contour is turned about an axis that its x is measured from.
+    /// Returns whether this is a rotation: the contour turns about an axis from which its x is measured.
     #[must_use]
     pub fn is_rotation(&self) -> bool {
         matches!(self.0, Form::Rotation { .. })
     }
 
-    /// Whether the trajectory leads back to its start.
+    /// Returns whether the trajectory leads back to its start.
     #[must_use]
     pub fn closed(&self) -> bool {
         match &self.0 {
@@ -86,7 +86,7 @@ impl Trajectory {
         }
     }
 
-    /// The length of the trajectory; 0 for a rotational sweep.
+    /// Returns the length of the trajectory; 0 for a rotation.
     #[must_use]
     pub fn length(&self) -> f64 {
         match &self.0 {
@@ -95,7 +95,8 @@ impl Trajectory {
         }
     }
 
-    /// What laws are differentiated by: the length, or the angle of a rotation in radians.
+    /// Returns the length, or for a rotation its angle in radians. A derivative by `v` divided by this number
+    /// is the derivative by length or angle.
     pub(crate) fn extent(&self) -> f64 {
         match &self.0 {
             Form::Rotation { fraction, .. } => TAU * fraction,
@@ -103,8 +104,8 @@ impl Trajectory {
         }
     }
 
-    /// By how much the frame is turned along a closed trajectory so that it comes back to itself, as
-    /// a fraction of a full turn.
+    /// Returns the extra turn of the frame along a closed trajectory that brings it back to itself, as a
+    /// fraction of a full turn.
     pub(crate) fn closing_turn(&self) -> f64 {
         match &self.0 {
             Form::Along { course, framing: Framing::Carried(frames), .. } => {
@@ -114,14 +115,15 @@ impl Trajectory {
         }
     }
 
-    /// The fewest cells along the trajectory: one to each piece between corners, and three around.
+    /// Returns the fewest cells along the trajectory: one for each piece between corners, and at least three
+    /// if it is closed.
     #[must_use]
     pub fn fewest_cells(&self) -> usize {
         let around = if self.closed() { 3 } else { 1 };
         cut::pieces(self.breaks()).max(around)
     }
 
-    /// The curve's own parameter at a fraction of its length, from 0 to 1.
+    /// Returns the curve's own parameter, from 0 to 1, at the fraction `v` of its length.
     pub(crate) fn parameter(&self, v: f64) -> f64 {
         match &self.0 {
             Form::Rotation { .. } => v,
@@ -129,7 +131,7 @@ impl Trajectory {
         }
     }
 
-    /// Cells that see all that the trajectory does: eight to a segment or a quarter turn.
+    /// Returns the number of cells that resolves the trajectory: eight for each segment or quarter turn.
     pub(crate) fn detail(&self) -> f64 {
         match &self.0 {
             Form::Rotation { fraction, .. } => 32.0 * fraction,
@@ -137,7 +139,7 @@ impl Trajectory {
         }
     }
 
-    /// Where the corners lie, as fractions of the length.
+    /// Returns the positions of the corners as fractions of the length, rising.
     #[must_use]
     pub fn breaks(&self) -> &[f64] {
         match &self.0 {
@@ -146,13 +148,13 @@ impl Trajectory {
         }
     }
 
-    /// The station at `v`, a fraction of the length; at a corner that of the side after.
+    /// Returns the station at `v`, a fraction of the length in `[0, 1]`; at a corner, of the side after.
     #[must_use]
     pub fn station(&self, v: f64) -> Station {
         self.station_at(Stop::after(v))
     }
 
-    /// The station at a stop: at a corner that of its side.
+    /// Returns the station at a stop; at a corner, of the stop's side.
     #[must_use]
     pub fn station_at(&self, stop: Stop) -> Station {
         match &self.0 {
@@ -182,7 +184,7 @@ fn station(course: &Course, framing: &Framing, mitres: &Mitres, stop: Stop) -> S
     Station { bend, shear, ..upright }
 }
 
-/// The station at arc length `s`, without mitres, and its spin.
+/// Returns the station at arc length `s`, without mitres, and its spin in radians per length.
 fn placed(course: &Course, framing: &Framing, s: f64, side: Side) -> (Station, f64) {
     let place = match side {
         Side::Before => course.before(s),
@@ -192,7 +194,7 @@ fn placed(course: &Course, framing: &Framing, s: f64, side: Side) -> (Station, f
         Framing::Carried(frames) => (frames.at(s, &place, side), frames.spin()),
         Framing::Directed(directed) => directed
             .at(s, course.length(), &place, side)
-            // The reader has looked for places without a frame; any will do at one it missed.
+            // The reader has searched for points without a frame. At a point it missed, any frame will do.
             .unwrap_or_else(|| (Frame::seed(&place), 0.0)),
         Framing::Own => (Frame::seed(&place), 0.0),
     };
@@ -216,7 +218,7 @@ mod tests {
         Trajectory::minimizing(course, first)
     }
 
-    /// The frame of a turn about the y axis: from +x toward +z.
+    /// Returns the frame of a turn about the y axis, from +x toward +z.
     fn upright() -> Frame {
         let place = Local3::straight(DVec3::ZERO, DVec3::Z);
         Frame::toward(&place, DVec3::X).unwrap()
@@ -255,11 +257,11 @@ mod tests {
         let path = spline::through(&points.map(DVec3::from_array), true);
         let path = Path::new(&path, true).unwrap();
         let trajectory = minimizing(Course::Path(path));
-        // An ellipse, whose points are not at a right angle to its tangents.
+        // An ellipse, because its points are not perpendicular to its tangents.
         let ellipse = |a: f64| DVec2::new(0.5 * a.cos(), 0.2 * a.sin());
         let (h, mut worst) = (4e-4, 0.0_f64);
         let surface = |a: f64, v: f64| trajectory.station(v).point(ellipse(a));
-        // Differences of order 6.
+        // Finite differences of order 6.
         let slope = |f: &dyn Fn(f64) -> DVec3| {
             (f(h) - f(-h)) * 0.75 - (f(2.0 * h) - f(-2.0 * h)) * 0.15
                 + (f(3.0 * h) - f(-3.0 * h)) / 60.0

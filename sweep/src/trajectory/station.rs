@@ -1,28 +1,29 @@
-//! A contour's place on a trajectory: points, stretch and normals in closed form.
+//! Stations: contours placed on a trajectory, with points, stretch and normals in closed form.
 
 use crate::curve::turn;
 use crate::frame::Frame;
 use glam::{DVec2, DVec3};
 
-/// A contour's place on a trajectory: a frame, and how a point moves when the station does.
+/// A contour placed on a trajectory: a frame, and the motion of its points when the station moves.
 #[derive(Debug, Clone, Copy)]
 pub struct Station {
-    /// Where the contour's axes lie.
+    /// The frame that carries the contour's axes.
     pub frame: Frame,
-    /// The speed along the tangent, by length of the trajectory, of the point at the origin...
+    /// Speed along the tangent, per length of the trajectory, of the point at the contour's origin.
     pub(super) forward: f64,
-    /// ... and by how much it changes over the contour: `forward + bend . q`.
+    /// Gradient of that speed over the contour: the speed of the point at `q` is `forward + bend . q`.
     pub(super) bend: DVec2,
-    /// Lean of the section toward the tangent, by its `(x, y)`: `shear . q`, at a mitre.
+    /// Displacement along the tangent at a mitre, per unit of contour x and y: a point at `q` moves by
+    /// `shear . q`.
     pub(super) shear: DVec2,
-    /// Turn of the frame about the tangent, in radians by length.
+    /// Turn of the frame about the tangent, in radians per length.
     pub(super) spin: f64,
     /// Whether contour x = 0 is an axis that all stations share.
     pub(super) on_axis: bool,
 }
 
 impl Station {
-    /// A station on a straight piece whose frame does not turn.
+    /// Returns a station on a straight piece whose frame does not turn.
     pub(super) fn along(frame: Frame) -> Self {
         Self {
             frame,
@@ -34,21 +35,20 @@ impl Station {
         }
     }
 
-    /// The point of the surface over a point `q` of the contour.
+    /// Returns the point of the surface above a point `q` of the contour.
     #[must_use]
     pub fn point(&self, q: DVec2) -> DVec3 {
         let Frame { origin, normal, binormal, tangent } = self.frame;
         if self.on_axis && q.x == 0.0 {
-            // A pole is the same in every row to the last bit, which 0 * w1 need not be: it may
-            // be -0.
+            // A pole must be equal in every row to the last bit. 0 * w1 could give -0 instead of 0.
             return origin + binormal * q.y;
         }
         let upright = origin + normal * q.x + binormal * q.y;
         if self.shear == DVec2::ZERO { upright } else { upright + tangent * self.shear.dot(q) }
     }
 
-    /// The same place with the contour turned about the tangent by a fraction of a full turn, which
-    /// changes at `rate` radians by length. Right-handed: from w1 toward w2.
+    /// Returns this station with the contour turned about the tangent by a fraction of a full turn,
+    /// right-handed from w1 toward w2. The angle changes at `rate` radians per length.
     pub(crate) fn turned(self, fraction: f64, rate: f64) -> Self {
         let angle = turn(fraction);
         let Frame { normal, binormal, .. } = self.frame;
@@ -57,26 +57,26 @@ impl Station {
             binormal: binormal * angle.x - normal * angle.y,
             ..self.frame
         };
-        // The same vectors in space, on the new axes.
+        // The same vectors in space, expressed on the new axes.
         let back = |v: DVec2| DVec2::new(angle.x, -angle.y).rotate(v);
         let (bend, shear) = (back(self.bend), back(self.shear));
         Self { frame, bend, shear, spin: self.spin + rate, ..self }
     }
 
-    /// A place straight ahead, which is moved through at `rate`.
+    /// Returns a station straight ahead at the distance `way`, which moves forward at `rate`.
     pub(crate) fn beyond(self, way: f64, rate: f64) -> Self {
         let origin = self.frame.origin + self.frame.tangent * way;
         Self { forward: rate, ..Self::along(Frame { origin, ..self.frame }) }
     }
 
-    /// How far the point over `q` moves along the tangent, by length of the trajectory at the
-    /// origin (by radian, for a rotation). Not above 0 where the surface folds back on itself.
+    /// Returns the speed of the point at `q` along the tangent, per length of the trajectory at the contour's
+    /// origin (per radian for a rotation). Not above 0 where the surface folds back on itself.
     #[must_use]
     pub fn stretch(&self, q: DVec2) -> f64 {
         self.forward + self.bend.dot(q)
     }
 
-    /// A vector across the section: the tangent, unless the section leans.
+    /// Returns a vector perpendicular to the section: the tangent, unless the section is sheared.
     fn across(&self) -> DVec3 {
         let Frame { tangent, normal, binormal, .. } = self.frame;
         if self.shear == DVec2::ZERO {
@@ -85,12 +85,12 @@ impl Station {
         tangent - normal * self.shear.x - binormal * self.shear.y
     }
 
-    /// The unit normal over a point `q` of the contour with the unit tangent `q_u`.
+    /// Returns the unit normal above a point `q` of the contour with the unit tangent `q_u`.
     ///
-    /// It is `S_u x S_v` in closed form, with `S_u = q_u.x w1 + q_u.y w2` and
-    /// `S_v = stretch T + spin (q.x w2 - q.y w1)`. A rotation has no spin, so its normal does not
-    /// hold the radius, and a pole has one like any other point. On a section that leans by a shear
-    /// `m`, `w1 + m1 T` and `w2 + m2 T` stand for `w1` and `w2`, and so
+    /// The normal is the direction of `S_u x S_v` in closed form, with `S_u = q_u.x w1 + q_u.y w2` and
+    /// `S_v = stretch T + spin (q.x w2 - q.y w1)`. A rotation has no spin, so the radius cancels in its
+    /// normal, and a pole has a normal like any other point. On a section with a shear `m`, `w1 + m1 T` and
+    /// `w2 + m2 T` replace `w1` and `w2`. Then
     /// `S_u x S_v = stretch (q2_u w1 - q1_u w2) + spin (q.q_u) (T - m1 w1 - m2 w2)`.
     #[must_use]
     pub fn normal(&self, q: DVec2, q_u: DVec2) -> DVec3 {
@@ -104,8 +104,9 @@ impl Station {
         across.try_normalize().unwrap_or(outward)
     }
 
-    /// The same as [`Station::normal`] for a contour that changes on its way: `q_u` is along it, of
-    /// any length, and `q_s` is how its point moves on it by length of the trajectory.
+    /// Returns the unit normal, as [`Station::normal`] does, for a contour that changes along the trajectory.
+    /// `q_u` is its direction, of any length. `q_s` is the derivative of its point on the contour's axes, per
+    /// length of the trajectory.
     #[must_use]
     pub(crate) fn normal_of_moving(&self, q: DVec2, q_u: DVec2, q_s: DVec2) -> DVec3 {
         let Frame { normal, binormal, .. } = self.frame;

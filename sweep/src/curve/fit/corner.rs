@@ -1,25 +1,25 @@
-//! Where points turn sharply.
+//! Detection of corners in a sequence of points.
 
 use glam::DVec2;
 
-/// A corner turns by this much more, in degrees, than the points around it.
+/// Least difference in degrees between the turn at a corner and the turns around it.
 const CORNER_DEG: f64 = 30.0;
 
-/// A turn is measured between legs at least this many tolerances long, so that points that are half
-/// a tolerance off do not make one.
+/// A turn is measured between legs at least this many tolerances long, so that points half a tolerance off
+/// make no corner.
 const LEG: f64 = 8.0;
 
-/// Points less than this part of a leg from the one before are passed over in the search.
+/// Points nearer than this fraction of a leg to the point before are skipped in the search.
 const APART: f64 = 0.125;
 
-/// Steps in which a leg ends at last.
+/// Most steps from a point to the end of a leg.
 const MOST_STEPS: usize = 64;
 
-/// The numbers of the points that are corners, rising; the ends of an open run are none.
+/// Returns the indices of the points that are corners, rising. The ends of an open sequence are no corners.
 ///
-/// The turn at a point is that between its legs: to the nearest points before and after that are a
-/// leg away. It is a corner where its turn is larger by 30 degrees than those at both ends of its
-/// legs, and none between them is larger. So a circle has none, however few its points.
+/// The turn at a point is the angle between its legs: the lines to the nearest points before and after it
+/// that are a leg away. A point is a corner if its turn is larger by 30 degrees than the turns at both ends
+/// of its legs, and no turn between them is larger. So a circle has no corners, however few its points.
 pub fn find(points: &[DVec2], closed: bool, tolerance: f64) -> Vec<usize> {
     let leg = LEG * tolerance;
     let mut kept: Vec<usize> = Vec::new();
@@ -36,7 +36,7 @@ pub fn find(points: &[DVec2], closed: bool, tolerance: f64) -> Vec<usize> {
             let turn = turns[at]?;
             let count = kept.len();
             let least = turn.angle - CORNER_DEG.to_radians();
-            // Near the ends of an open run there is a turn at one end only, or at none.
+            // Near the ends of an open sequence there is a turn at one end only, or at none.
             let around = [turn.before, turn.after].into_iter().filter_map(|end| turns[end]);
             let mut straighter = around.map(|turn| turn.angle < least).peekable();
             let sharp = straighter.peek().is_some() && straighter.all(|is| is);
@@ -55,7 +55,7 @@ pub fn find(points: &[DVec2], closed: bool, tolerance: f64) -> Vec<usize> {
     corners
 }
 
-/// The turn at a point, and the ends of its legs.
+/// The turn at a point in radians, and the ends of its legs.
 #[derive(Clone, Copy)]
 struct Turn {
     angle: f64,
@@ -97,7 +97,8 @@ impl Search<'_> {
         Some(Turn { angle, before, after })
     }
 
-    /// Of the points between the ends of two legs the one furthest from the line through them.
+    /// Returns, of the points between the ends of two legs, the one furthest from the line through these
+    /// ends.
     fn tip(&self, turn: Turn) -> usize {
         let count = self.points.len();
         let (from, to) = (self.kept[turn.before], self.kept[turn.after]);

@@ -1,27 +1,27 @@
-//! Where two pieces meet: a place and the directions there.
+//! Joints where two pieces meet: a point and the directions there.
 
 use super::Run;
 use glam::{DMat3, DVec2, DVec3};
 
-/// So few points to a side say nothing of noise.
+/// With at most this many points to a side, noise cannot be judged.
 const FEW: usize = 4;
 
-/// What is off by this part of the tolerance does not matter.
+/// Errors of at most this fraction of the tolerance do not matter.
 const SMALL: f64 = 0.05;
 
 /// An end of a piece.
 #[derive(Debug, Clone, Copy)]
 pub struct Joint {
-    /// Where it is.
+    /// Position of the joint.
     pub place: DVec2,
-    /// The unit direction in which the piece before comes in.
+    /// Unit direction in which the piece before arrives.
     pub before: DVec2,
-    /// The unit direction in which the piece after goes out; the same unless this is a corner.
+    /// Unit direction in which the piece after leaves; equal to `before` unless the joint is a corner.
     pub after: DVec2,
 }
 
 impl Run<'_> {
-    /// The joint at point `i`.
+    /// Returns the joint at point `i`.
     pub(super) fn joint(&self, i: usize) -> Joint {
         let [before, after] = self.around(i);
         let end = before == 0 || after == 0;
@@ -36,8 +36,8 @@ impl Run<'_> {
         Joint { place, before: direction, after: direction }
     }
 
-    /// How many points there are before and after point `i`, up to corners and ends; in a loop
-    /// without corners a third of all.
+    /// Returns the number of points before and after point `i`, up to corners and ends. In a closed sequence
+    /// each number is at most a third of all points.
     fn around(&self, i: usize) -> [usize; 2] {
         let count = self.points.len();
         let most = count / 3;
@@ -60,16 +60,17 @@ impl Run<'_> {
         }
     }
 
-    /// The place and the direction at point `i` of the parabola through the points around it, at most
-    /// so many before and after: the widest of those, twice as wide each, that is a good one.
+    /// Returns the point and the unit direction, at point `i`, of a parabola fitted to the points around it,
+    /// at most `most` before and after.
     ///
-    /// It is within half the tolerance of all its points, and among noise: a wider one is not off by
-    /// much more. Beyond that it would be the parabola that misses the curve.
+    /// The reach of the parabola is doubled as long as the result is good; the last good parabola is taken. A
+    /// good parabola is within half the tolerance of all its points, and its error is noise, not much larger
+    /// than that of the narrower one. A much larger error would mean that the parabola misses the curve.
     fn parabola(&self, i: usize, most: [usize; 2], fixed: bool) -> (DVec2, DVec2) {
         let mut best: Option<(f64, DVec2, DVec2)> = None;
         let mut steps = 1;
         loop {
-            // The side of an end takes two points, so that it can bend.
+            // At an end the only side takes one point more, so that the parabola can bend.
             let reach = if most.contains(&0) { steps + 1 } else { steps };
             let [before, after] = most.map(|most| most.min(reach));
             let found = self.through(i, [before, after], fixed);
@@ -93,15 +94,15 @@ impl Run<'_> {
         })
     }
 
-    /// Whether a parabola that is `next` off is to be preferred to a narrower one that is `last` off.
+    /// Returns whether a parabola with error `next` is preferable to a narrower one with error `last`.
     fn is_good(&self, steps: usize, last: f64, next: f64) -> bool {
         let noise = steps <= FEW || next <= SMALL * self.tolerance || next <= 2.0 * last;
         next <= 0.5 * self.tolerance && noise
     }
 
-    /// The largest distance from its points, and place and direction at point `i`, of the parabola by
-    /// chord length that is nearest to them in the least-squares sense. A fixed one goes through the
-    /// point itself.
+    /// Fits a parabola over chord length to the points around point `i` by least squares. Returns the largest
+    /// distance of a point from it, and its point and direction at point `i`. A `fixed` parabola passes
+    /// through point `i`.
     fn through(
         &self,
         i: usize,

@@ -1,15 +1,14 @@
-//! Few cubics near many points: P. J. Schneider's least-squares fit ("An Algorithm for Automatically
+//! Fits a few cubics to many points: P. J. Schneider's least-squares fit ("An Algorithm for Automatically
 //! Fitting Digitized Curves", Graphics Gems, 1990).
 //!
-//! Points are divided at their corners. From one of them to the next, each cubic takes as many points as
-//! it can be near to; it is the nearest one in the least-squares sense whose directions at its ends
-//! are given. Two cubics have one direction where they meet, so that all joints but corners are smooth.
-//! Joints lie where a parabola through the points around them does, which averages noise; ends and
-//! corners stay where they are.
+//! Points are divided at their corners. Between two corners, each cubic takes as many points as lie within
+//! the tolerance of it. The cubic is the least-squares fit with given directions at its ends. Two cubics
+//! share one direction where they meet, so all joints except corners are smooth. A joint lies on a parabola
+//! fitted to the points around it, which averages noise. Ends and corners stay at their points.
 //!
-//! The number of points that a cubic takes is found by halving, beginning near that of the cubic before,
-//! so the work is that of some dozen passes over the points. (Schneider divides at the worst point
-//! instead, which takes 8 cubics for a circle to a thousandth, where this takes 4.)
+//! The number of points that a cubic takes is found by bisection, starting near the number that the cubic
+//! before took. So the work is that of some dozen passes over the points. (Schneider divides at the worst
+//! point instead. That takes 8 cubics for a circle to a thousandth, where this method takes 4.)
 
 mod corner;
 mod joint;
@@ -20,26 +19,26 @@ use glam::DVec2;
 use joint::Joint;
 use piece::Piece;
 
-/// A piece is first tried with this many times the points of the one before.
+/// A piece is first tried with this many times the points of the piece before.
 const REACH: usize = 4;
 
-/// The end of a piece is looked for up to this part of its points.
+/// The number of points of a piece is found to within 1 / `FINE` of it.
 const FINE: usize = 64;
 
-/// Cubics near points.
+/// Cubics fitted to points.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fit {
-    /// The cubics, each from the end of the one before it.
+    /// The cubics, each starting at the end of the one before it.
     pub cubics: Vec<Cubic<DVec2>>,
-    /// The largest distance of a point from them, in the unit of the points.
+    /// The largest distance of a point from the cubics, in the unit of the points.
     pub reached: f64,
 }
 
-/// Cubics within `tolerance` of every point, in their order; neighbours must differ.
+/// Fits cubics within `tolerance` of every point, in their order; neighbours must differ.
 ///
-/// A closed fit takes three points, an open one two; with fewer there are no cubics. Where points turn
-/// by 30 degrees more than around, there is a corner; all other joints are smooth, the start of a
-/// closed fit too.
+/// A closed fit needs three points, an open one two; with fewer points there are no cubics. A point that
+/// turns by 30 degrees more than the points around it is a corner. All other joints are smooth, including the
+/// start of a closed fit.
 #[must_use]
 pub fn within(points: &[DVec2], closed: bool, tolerance: f64) -> Fit {
     let count = points.len();
@@ -51,7 +50,7 @@ pub fn within(points: &[DVec2], closed: bool, tolerance: f64) -> Fit {
     let last = if closed { count } else { count - 1 };
     let mut knots: Vec<usize> = [0, last].into_iter().chain(run.corners.iter().copied()).collect();
     if closed && run.corners.is_empty() {
-        // A cubic that starts and ends in one place is no part of a loop.
+        // A cubic that starts and ends at one point cannot be the whole loop.
         knots.push(count / 2);
     }
     knots.sort_unstable();
@@ -66,22 +65,22 @@ pub fn within(points: &[DVec2], closed: bool, tolerance: f64) -> Fit {
     fit
 }
 
-/// Points that are fitted.
+/// Points to be fitted.
 struct Run<'a> {
     points: &'a [DVec2],
     closed: bool,
     tolerance: f64,
-    /// Numbers of points that are corners, rising; those of an open run are not its ends.
+    /// Indices of the points that are corners, rising; the ends of an open sequence are not included.
     corners: Vec<usize>,
 }
 
 impl Run<'_> {
-    /// Point `i`, counted on after the last one of a closed run.
+    /// Returns point `i`; indices continue after the last point of a closed sequence.
     fn point(&self, i: usize) -> DVec2 {
         self.points[i % self.points.len()]
     }
 
-    /// Fits cubics from one joint to another, and adds them.
+    /// Fits cubics between two joints and adds them to `fit`.
     fn fit(&self, span: [usize; 2], ends: [Joint; 2], fit: &mut Fit) {
         let ([mut from, end], [mut start, last]) = (span, ends);
         let mut steps = end - from;
@@ -93,7 +92,7 @@ impl Run<'_> {
                 let piece = Piece::through(&points, [start, joint], self.tolerance);
                 (steps == 1 || piece.error <= self.tolerance).then_some((steps, joint, piece))
             };
-            // From what the piece before took down to what fits, and then between the two.
+            // Search down from a multiple of the last piece's points to a number that fits, then bisect.
             let mut low = steps.saturating_mul(REACH).min(end - from);
             let mut high = low + 1;
             let mut found = piece(low);

@@ -1,30 +1,30 @@
-//! One cubic near a run of points.
+//! One cubic fitted to a sequence of points.
 
 use super::joint::Joint;
 use crate::curve::cubic::Cubic;
 use glam::DVec2;
 
-/// Rounds of moving parameters to where the cubic is nearest, at most.
+/// Most rounds that move the parameters of the points to the nearest points of the cubic.
 const ROUNDS: usize = 12;
 
-/// Parameters are moved where the error is below this many tolerances, as more is not won by it.
+/// Parameters are moved only if the error is below this many tolerances; above it, moving gains nothing.
 const IN_REACH: f64 = 1024.0;
 
-/// Handles are from this part of the chord ...
+/// Shortest handle, as a fraction of the chord.
 const SHORTEST: f64 = 0.01;
 
-/// ... to this part of the way along the points.
+/// Longest handle, as a fraction of the length of the polyline through the points.
 const LONGEST: f64 = 1.0;
 
-/// A cubic, and how near it is to its points.
+/// A cubic and its error.
 pub struct Piece {
     pub cubic: Cubic<DVec2>,
-    /// The largest distance of a point from it.
+    /// The largest distance of a point from the cubic at the point's parameter.
     pub error: f64,
 }
 
 impl Piece {
-    /// The cubic from one joint to another that is nearest to the points between.
+    /// Fits the cubic from one joint to another to the points between.
     pub fn through(points: &[DVec2], [start, end]: [Joint; 2], tolerance: f64) -> Self {
         let mut at = chord_lengths(points);
         let way: f64 = points.windows(2).map(|ends| ends[0].distance(ends[1])).sum();
@@ -57,7 +57,7 @@ impl Piece {
     }
 }
 
-/// The parameters of points by the way along them, from 0 to 1.
+/// Returns the parameters of points by chord length, from 0 to 1.
 fn chord_lengths(points: &[DVec2]) -> Vec<f64> {
     let mut at = vec![0.0];
     let mut way = 0.0;
@@ -68,11 +68,11 @@ fn chord_lengths(points: &[DVec2]) -> Vec<f64> {
     at.iter().map(|length| length / way).collect()
 }
 
-/// The cubic whose handles have given directions and the lengths with the least sum of squared
-/// distances; a third of the chord where those would be none.
+/// Returns the cubic whose handles have given directions and the lengths with the least sum of squared
+/// distances. If a length would be out of bounds, both are a third of the chord.
 ///
-/// Where there is a normal only the distance along it counts, so that points slide along the curve: a
-/// Gauss-Newton step for the true distances, where plain ones take hundreds of rounds.
+/// If a point has a normal, only the distance along the normal counts, so that points slide along the curve.
+/// That is a Gauss-Newton step for the true distances, where plain steps take hundreds of rounds.
 fn least_squares(
     points: &[DVec2],
     at: &[f64],
@@ -107,7 +107,7 @@ fn least_squares(
     Cubic([start, start + leaving * a, end + reaching * b, end])
 }
 
-/// One step of Newton's toward the parameter where the cubic is nearest to a point.
+/// Returns a parameter nearer to the point of the cubic closest to `point`, by one step of Newton's method.
 fn nearer(cubic: &Cubic<DVec2>, t: f64, point: DVec2) -> f64 {
     let off = cubic.point(t) - point;
     let (velocity, acceleration) = (cubic.velocity(t), cubic.acceleration(t));

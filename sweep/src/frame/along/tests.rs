@@ -1,10 +1,10 @@
-//! Frames on curves whose frames are known.
+//! Tests of frames on curves whose frames are known.
 
 use super::*;
 use crate::curve::{Cubic, Path, spline};
 use glam::DVec3;
 
-/// A helix about y with as many knots as steps are wanted.
+/// A helix about the y axis with `pieces` pieces between knots.
 struct Helix {
     radius: f64,
     climb: f64,
@@ -17,7 +17,7 @@ impl Helix {
         self.radius.hypot(self.climb)
     }
 
-    /// The frame that turns against the torsion, from Frenet's normal and binormal.
+    /// The normal of a rotation-minimizing frame: Frenet's normal turned back by the torsion.
     fn truth(&self, s: f64) -> DVec3 {
         let place = self.at(s);
         let normal = place.curvature.normalize();
@@ -28,7 +28,7 @@ impl Helix {
     }
 
     fn torsion(&self) -> f64 {
-        // Right-handed about y for a climb upward: x leads to -z.
+        // With an upward climb the helix is right-handed about y: x leads to -z.
         self.climb / self.speed().powi(2)
     }
 }
@@ -58,7 +58,7 @@ impl Curve3 for Helix {
     }
 }
 
-/// The largest error of frames carried over `steps` even steps, in radians.
+/// Returns the largest error of frames carried over `steps` even steps, in radians.
 fn helix_error(steps: usize) -> f64 {
     let helix = Helix { radius: 1.0, climb: 0.3, turns: 2.0, pieces: 1 };
     let place = |i: usize| helix.length() * i as f64 / steps as f64;
@@ -97,7 +97,7 @@ fn frames_between_nodes_are_as_good_as_those_on_them() {
     assert!(worst < 2e-13, "{worst:e}");
 }
 
-/// `(sin t + 2 sin 2t, cos t - 2 cos 2t, -sin 3t)`, five times, at `t`.
+/// Returns the trefoil `5 (sin t + 2 sin 2t, cos t - 2 cos 2t, -sin 3t)` at `t`.
 fn trefoil(t: f64) -> Local3 {
     let (s1, c1) = t.sin_cos();
     let (s2, c2) = (2.0 * t).sin_cos();
@@ -107,7 +107,7 @@ fn trefoil(t: f64) -> Local3 {
     Local3::straight(position, velocity.normalize())
 }
 
-/// The frames after each eighth of a trefoil, carried over `steps` steps of even parameter.
+/// Returns the frames after each eighth of a trefoil, carried over `steps` even steps of the parameter.
 fn trefoil_frames(steps: usize) -> Vec<Frame> {
     let place = |i: usize| trefoil(TAU * i as f64 / steps as f64);
     let mut frame = Frame::seed(&place(0));
@@ -121,7 +121,7 @@ fn trefoil_frames(steps: usize) -> Vec<Frame> {
     eighths
 }
 
-/// The largest error of frames carried over `steps` steps of even length, in radians.
+/// Returns the largest error of frames carried over `steps` steps of even length, in radians.
 fn trefoil_error(steps: usize) -> f64 {
     let curve = Trefoil::new();
     let t = |i: usize| curve.parameter(curve.length() * i as f64 / steps as f64);
@@ -130,7 +130,7 @@ fn trefoil_error(steps: usize) -> f64 {
     for i in 1..=steps {
         frame = frame.carried_to(&trefoil(t(i)));
         for part in 1..=64 {
-            // An error of order 4 is 64^4 times smaller.
+            // With 64 times as many steps an error of order 4 is 64^4 times smaller.
             let part = f64::from(part) / 64.0;
             truth = truth.carried_to(&trefoil(t(i - 1) + (t(i) - t(i - 1)) * part));
         }
@@ -149,9 +149,9 @@ fn frames_on_a_trefoil_have_order_four() {
     }
 }
 
-/// The trefoil run through at its own speed, with Simpson's rule for the length.
+/// The trefoil by arc length, which is measured by Simpson's rule.
 struct Trefoil {
-    /// Lengths up to each of even steps of the parameter.
+    /// Lengths up to each of the even steps of the parameter.
     lengths: Vec<f64>,
 }
 
@@ -173,7 +173,7 @@ impl Trefoil {
         Self { lengths }
     }
 
-    /// The parameter at a length, straight between those known.
+    /// Returns the parameter at a length, interpolated linearly between the known lengths.
     fn parameter(&self, s: f64) -> f64 {
         let cells = self.lengths.len() - 1;
         let cell = self.lengths.partition_point(|&from| from <= s).clamp(1, cells) - 1;
@@ -196,7 +196,7 @@ impl Curve3 for Trefoil {
         self.lengths.iter().copied().step_by(128).collect()
     }
 
-    /// Frames ask for points with their tangents, and little of even speed.
+    /// Frames need points and tangents, and hardly any evenness of the speed.
     fn at(&self, s: f64) -> Local3 {
         trefoil(self.parameter(s))
     }

@@ -1,18 +1,18 @@
-//! Binary rows and footer.
+//! Binary rows and footers of a grid file.
 
 use super::Footer;
 use super::reader::RowBuffer;
 use crate::grid::Row;
 use glam::{DVec3, Vec3};
 
-/// Bytes before the positions: `v` and the flags.
+/// Number of bytes before the positions: `v` and the flags.
 const HEAD: usize = 9;
 const POSITION: usize = 24;
 const NORMAL: usize = 12;
-/// Bytes of the footer.
+/// Number of bytes of the footer.
 pub(super) const FOOTER: usize = 12;
 
-/// Bytes of a row.
+/// Returns the number of bytes of a row.
 pub(super) fn row_len(cols: usize) -> usize {
     HEAD + cols * (POSITION + NORMAL)
 }
@@ -43,7 +43,7 @@ pub(super) fn encode_footer(footer: Footer) -> [u8; FOOTER] {
     bytes
 }
 
-/// Takes the numbers of a row out of its [`row_len`] bytes.
+/// Decodes a row from its [`row_len`] bytes.
 pub(super) fn decode(bytes: &[u8], cols: usize, row: &mut RowBuffer) {
     let (head, points) = bytes.split_at(HEAD);
     row.v = f64_at(head, 0);

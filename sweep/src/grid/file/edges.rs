@@ -1,10 +1,10 @@
-//! The areas of a header held against the rows, which come behind it.
+//! Checks the areas of a header against the rows, which follow the header.
 
 use crate::grid::row::Fault;
 use crate::grid::{PlacedArea, Seam};
 
-/// The edges of the cells along the trajectory, of which a cell without height has one: counted row by
-/// row, as [`area::edges`](crate::grid::area::edges) counts them.
+/// Counter of the edges of the cells along the trajectory, row by row. Rows at one `v` are one edge, as in
+/// [`area::edges`](crate::grid::area::edges).
 #[derive(Debug, Default)]
 pub(super) struct Edges {
     count: usize,
@@ -12,10 +12,10 @@ pub(super) struct Edges {
 }
 
 impl Edges {
-    /// Takes in a row at `v`.
+    /// Adds a row at `v`.
     ///
     /// # Errors
-    /// When an area begins or ends at this row, and has another `v` there.
+    /// When an area begins or ends at this row but states another `v`.
     pub(super) fn row(&mut self, v: f64, areas: &[PlacedArea]) -> Result<(), Fault> {
         if self.count > 0 && v == self.last {
             return Ok(());
@@ -33,11 +33,11 @@ impl Edges {
         Ok(())
     }
 
-    /// Takes in the end of the rows.
+    /// Marks the end of the rows.
     ///
     /// # Errors
-    /// When an area ends where there is no row, or an area that ends over the seam has another `v`
-    /// there than 1.
+    /// When an area ends at a row that does not exist, or an area that ends at the seam does not state a `v`
+    /// of 1.
     pub(super) fn finish(&mut self, seam: Seam, areas: &[PlacedArea]) -> Result<(), Fault> {
         if seam.joins() {
             self.row(1.0, areas)?;

@@ -1,4 +1,4 @@
-//! What can be wrong with a grid file.
+//! Errors in a grid file.
 
 use super::Patch;
 use files::input::STDIN;
@@ -6,35 +6,35 @@ use files::{Exit, Failure, JsonError, MemoryError};
 use std::io;
 use thiserror::Error;
 
-/// A grid that could not be read. Rows are counted from 1 in messages.
+/// An error that prevented reading a grid. Messages count rows from 1.
 #[derive(Debug, Error)]
 pub enum GridError {
-    /// The system did not give the bytes.
+    /// The system could not read the file.
     #[error("cannot read {name}: {source}")]
     Read {
         /// The file as the user named it, or `<stdin>`.
         name: String,
-        /// What the system said.
+        /// The error of the system.
         source: io::Error,
     },
-    /// The rows take more memory than is allowed.
+    /// The rows need more memory than is allowed.
     #[error(transparent)]
     Memory(#[from] MemoryError),
-    /// There is not one byte.
+    /// The file has no bytes.
     #[error("{name} is empty, expected a grid: {} wrote nothing", writer_of(name))]
     Empty {
         /// The file as the user named it.
         name: String,
     },
-    /// The first bytes are those of something else.
+    /// The file is something other than a grid.
     #[error("{name} is not a grid: {found}")]
     NotAGrid {
         /// The file as the user named it.
         name: String,
-        /// What it looks like, and what to do with it.
+        /// What the file looks like, and what to do with it.
         found: String,
     },
-    /// The header line has no end.
+    /// The file ends inside the header line.
     #[error(
         "{name}: the header line is cut short: the program that wrote it stopped early after \
          {bytes} bytes"
@@ -42,22 +42,22 @@ pub enum GridError {
     HeaderCut {
         /// The file as the user named it.
         name: String,
-        /// Bytes that are there.
+        /// Number of bytes read.
         bytes: usize,
     },
-    /// A line goes on and on.
+    /// A line is longer than any line of a grid.
     #[error("{name}: line {line} is longer than {limit} bytes, expected {expected}")]
     LongLine {
         /// The file as the user named it.
         name: String,
         /// The line, from 1.
         line: usize,
-        /// The longest line a grid of this size can have.
+        /// The longest line that a grid of this size can have.
         limit: usize,
         /// What the line should have been.
         expected: &'static str,
     },
-    /// A grid of another time.
+    /// The grid has an unsupported version.
     #[error(
         "{name}: found a grid of version {found}, expected version {expected}: make it anew with \
          the `sweep` that came with this program"
@@ -65,12 +65,12 @@ pub enum GridError {
     Version {
         /// The file as the user named it.
         name: String,
-        /// Its version.
+        /// The version of the grid.
         found: u64,
-        /// Ours.
+        /// The supported version.
         expected: u64,
     },
-    /// A wrong value in the header or in a row of a text grid.
+    /// The header or a row of a text grid has a wrong value.
     #[error(transparent)]
     Json(#[from] JsonError),
     /// The file ends inside a row, or before it.
@@ -80,24 +80,24 @@ pub enum GridError {
         name: String,
         /// The row, from 1.
         row: usize,
-        /// Rows according to the header.
+        /// Number of rows according to the header.
         rows: usize,
     },
-    /// A row holds a number that no grid holds.
+    /// A row holds a number that is not valid in a grid.
     #[error("{name}: row {row} of {rows}: {place}: {message}")]
     Row {
         /// The file as the user named it.
         name: String,
         /// The row, from 1.
         row: usize,
-        /// Rows according to the header.
+        /// Number of rows according to the header.
         rows: usize,
-        /// The value, as `v` or `the position of column 3`.
+        /// Name of the value, such as `v` or `the position of column 3`.
         place: String,
-        /// What was found and what was expected.
+        /// What was found, and what was expected.
         message: String,
     },
-    /// The file ends after the last row.
+    /// The file ends after the last row, before the end of the footer.
     #[error(
         "{name}: the row count and checksum behind the last of {rows} rows are cut short: the \
          program that wrote it stopped early"
@@ -105,10 +105,10 @@ pub enum GridError {
     FooterCut {
         /// The file as the user named it.
         name: String,
-        /// Rows according to the header.
+        /// Number of rows according to the header.
         rows: usize,
     },
-    /// Header and footer disagree.
+    /// Header and footer have different numbers of rows.
     #[error(
         "{name}: found {found} rows in the closing count, expected the {expected} of the header: \
          the file was damaged on its way"
@@ -116,12 +116,12 @@ pub enum GridError {
     Count {
         /// The file as the user named it.
         name: String,
-        /// Rows according to the footer.
+        /// Number of rows according to the footer.
         found: u64,
-        /// Rows according to the header.
+        /// Number of rows according to the header.
         expected: usize,
     },
-    /// The checksum does not fit the bytes.
+    /// The checksum does not match the bytes.
     #[error(
         "{name}: found the checksum {found:08x}, expected {expected:08x} for these bytes: the \
          file was changed or damaged after it was written"
@@ -131,10 +131,10 @@ pub enum GridError {
         name: String,
         /// The CRC-32 in the footer.
         found: u32,
-        /// The CRC-32 of the bytes before it.
+        /// The CRC-32 of the bytes before the footer.
         expected: u32,
     },
-    /// Something stands behind the last footer.
+    /// Bytes follow the last footer.
     #[error("{name}: found bytes behind the end of the grid, expected another grid or nothing")]
     Trailing {
         /// The file as the user named it.
@@ -147,20 +147,20 @@ pub enum GridError {
     PatchCut {
         /// The file as the user named it.
         name: String,
-        /// The one that should have followed.
+        /// The patch that should have followed.
         patch: Patch,
     },
-    /// Patches that do not follow each other.
+    /// Patches do not follow in order.
     #[error("{name}: found {found}, expected {expected}: the file was put together wrongly")]
     PatchOrder {
         /// The file as the user named it.
         name: String,
-        /// The one that is there.
+        /// The patch that was found.
         found: Patch,
-        /// The one that should be.
+        /// The patch that was expected.
         expected: Patch,
     },
-    /// Several grids where one is wanted.
+    /// The file has several grids where one is expected.
     #[error("{name}: found several grids, expected one")]
     Several {
         /// The file as the user named it.
@@ -168,7 +168,7 @@ pub enum GridError {
     },
 }
 
-/// Who should have written the file.
+/// Returns a description of the program that should have written the file.
 fn writer_of(name: &str) -> &'static str {
     if name == STDIN { "the program before the pipe" } else { "the program that made it" }
 }

@@ -1,4 +1,4 @@
-//! The header line: everything about a grid but its rows.
+//! The header line: everything about a grid except its rows.
 
 use super::{Encoding, GridError, stranger};
 use crate::GridMesh;
@@ -12,60 +12,60 @@ use std::io::{self, BufRead, Read};
 
 /// The `format` of the header line.
 const FORMAT: &str = "tb-grid";
-/// How our writer starts a header line.
+/// First bytes of a header line, as the writer of this module writes them.
 const START: &[u8] = br#"{"format":"tb-grid","#;
 /// The `version` of the header line.
 const VERSION: u64 = 1;
-/// The longest station: it bounds the memory that a reader gives a file it cannot trust yet.
-/// A row of this length is 36 MiB; the finest pictures need a thousandth of it.
+/// Largest number of columns. It bounds the memory that a reader spends on a file it cannot trust yet. A row
+/// of this length is 36 MiB; the finest pictures need a thousandth of it.
 pub(crate) const MAX_COLS: usize = 1 << 20;
-/// Rows are counted with 32 bits, as in the OBJ that is made of them.
+/// Largest number of rows: rows are counted with 32 bits, as in the OBJ made from them.
 const MAX_ROWS: usize = u32::MAX as usize;
-/// The longest header line: room for [`MAX_COLS`] numbers of 24 characters, and a name.
+/// Longest header line in bytes: [`MAX_COLS`] numbers of 24 characters, and a name.
 const MAX_LINE: usize = 32 << 20;
 
-/// Which patch of its object a grid is; `[2, 3]` in a file is the second of three.
+/// Number of a patch in its object; `[2, 3]` in a file is the second of three.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(from = "[usize; 2]", into = "[usize; 2]")]
 pub struct Patch {
-    /// Its number, from 1.
+    /// Number of the patch, from 1.
     pub number: usize,
-    /// How many there are.
+    /// Number of patches in the object.
     pub of: usize,
 }
 
-/// Everything about a grid but its rows.
+/// Everything about a grid except its rows.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Header {
     /// The object's name.
     pub name: String,
-    /// Which patch of its object it is.
+    /// Number of this patch in its object.
     pub patch: Patch,
-    /// Number of stations.
+    /// Number of rows, which are stations.
     pub rows: usize,
-    /// Whether the contour leads back to its start.
+    /// How the last column leads back to the first.
     pub seam_u: Seam,
-    /// Whether the trajectory leads back to its start.
+    /// How the last row leads back to the first.
     pub seam_v: Seam,
-    /// Columns by which the contour comes back turned in itself.
+    /// Shift in columns between the last row and the first; see [`Seam`].
     pub shift: usize,
-    /// The texture id, where the patch has one of its own.
+    /// The texture id, if the patch has its own.
     pub texture: Option<u32>,
-    /// The surface id, where the patch has one of its own.
+    /// The surface id, if the patch has its own.
     pub surface: Option<u32>,
-    /// Parts with pictures of their own; later ones lie on earlier ones.
+    /// Areas with textures of their own; later areas cover earlier ones.
     pub areas: Vec<PlacedArea>,
-    /// Where it folds back on itself, if that was looked for.
+    /// Where the surface folds back on itself, if that was measured.
     pub fold: Option<Fold>,
-    /// How near to the surface it is, if that was asked.
+    /// The requested and the measured distance from the surface, if requested.
     pub tolerance: Option<Tolerance>,
-    /// How a picture lies on the surface.
+    /// How texture coordinates lie on the surface.
     pub uv: UvLayout,
-    /// `u` of each column.
+    /// `u` of each column, not decreasing, in `[0, 1]`.
     pub u: Vec<f64>,
 }
 
-/// The header as its line has it.
+/// The header as its JSON line stores it.
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Line {
@@ -96,7 +96,7 @@ struct Line {
     u: Vec<f64>,
 }
 
-/// What a JSON text claims to be; everything else in it is passed over.
+/// The format and version that a JSON text states; everything else in it is ignored.
 #[derive(Debug, Deserialize)]
 struct Claim {
     #[serde(default)]
@@ -105,7 +105,7 @@ struct Claim {
     version: Value,
 }
 
-/// The byte order of binary rows. There is one, and the file says so.
+/// Byte order of binary rows. Only one exists, and the file states it.
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 enum Endian {
@@ -113,15 +113,15 @@ enum Endian {
 }
 
 impl Patch {
-    /// An object that is one patch.
+    /// The only patch of an object.
     pub(super) const WHOLE: Self = Self { number: 1, of: 1 };
 
     fn is_whole(&self) -> bool {
         *self == Self::WHOLE
     }
 
-    /// The patch that follows in a stream of grids: the next one of the object, or the first of
-    /// another, of which anything is known only then.
+    /// Returns the next patch of the object; `None` after the last, where only the first patch of another
+    /// object may follow.
     pub(super) fn next(self) -> Option<Self> {
         (self.number < self.of).then(|| Self { number: self.number + 1, of: self.of })
     }
@@ -152,7 +152,7 @@ impl std::fmt::Display for Patch {
 }
 
 impl Header {
-    /// The header of a grid in memory, as the only patch of its object.
+    /// Returns the header of a grid in memory, as the only patch of its object.
     #[must_use]
     pub fn of(grid: &GridMesh) -> Self {
         Self {
@@ -172,20 +172,20 @@ impl Header {
         }
     }
 
-    /// Number of points on a station.
+    /// Returns the number of columns, which are points of a station.
     #[must_use]
     pub fn cols(&self) -> usize {
         self.u.len()
     }
 
-    /// What is wrong with how the last row leads back to the first, if anything is.
+    /// Returns a message about what is wrong with the seams or the shift, if anything is.
     #[must_use]
     pub fn seam_fault(&self) -> Option<String> {
         let fault = seam::check([self.seam_u, self.seam_v], self.shift, self.cols()).err();
         fault.map(|fault| fault.to_string())
     }
 
-    /// The header line with its newline.
+    /// Returns the header line with its newline.
     pub(super) fn line(&self, encoding: Encoding) -> io::Result<Vec<u8>> {
         let line = Line {
             format: FORMAT.into(),
@@ -212,7 +212,7 @@ impl Header {
         Ok(bytes)
     }
 
-    /// Checks what the types do not say.
+    /// Checks the values, as far as their types do not.
     pub(super) fn check(&self) -> Result<(), Fault> {
         let Patch { number, of } = self.patch;
         if !(1..=of).contains(&number) {
@@ -254,7 +254,7 @@ impl Header {
         self.check_areas()
     }
 
-    /// Checks areas as far as can be told without the rows.
+    /// Checks areas, as far as possible without the rows.
     fn check_areas(&self) -> Result<(), Fault> {
         let cols = area::edges(&self.u, self.seam_u).len().max(1) - 1;
         let rows = if self.seam_v.joins() { self.rows } else { self.rows.saturating_sub(1) };
@@ -275,8 +275,8 @@ fn is_zero(number: &usize) -> bool {
     *number == 0
 }
 
-/// Reads and checks the header line, behind `lines` others; gives its bytes, newline included, for
-/// the checksum.
+/// Reads and checks the header line, which follows `lines` other lines. Also returns the line's bytes with
+/// the newline, for the checksum.
 pub(super) fn read(
     name: &str,
     lines: usize,
@@ -285,7 +285,7 @@ pub(super) fn read(
     let read_error = |source| GridError::Read { name: name.into(), source };
     let not_a_grid = |found| GridError::NotAGrid { name: name.into(), found };
 
-    // A grid starts with a brace; of anything else a few bytes are enough to name it.
+    // A grid starts with a brace; a few bytes suffice to identify anything else.
     let mut bytes = Vec::new();
     input.by_ref().take(1).read_to_end(&mut bytes).map_err(read_error)?;
     if bytes.is_empty() {
@@ -310,7 +310,7 @@ pub(super) fn read(
         });
     }
 
-    // What it claims to be comes before what is wrong in it.
+    // The stated format is checked before the other values.
     let cut = || GridError::HeaderCut { name: name.into(), bytes: bytes.len() };
     match serde_json::from_slice::<Claim>(&bytes) {
         Err(error) if !whole && (error.is_eof() || bytes.starts_with(START)) => return Err(cut()),
@@ -322,7 +322,7 @@ pub(super) fn read(
                 return Err(GridError::Version { name: name.into(), found, expected: VERSION });
             }
         }
-        // Ours, but damaged: the strict reading below says where.
+        // A grid of this format, but damaged: the strict parser below reports the position.
         _ if bytes.starts_with(START) => {}
         _ => return Err(not_a_grid(stranger::OTHER_JSON.into())),
     }

@@ -1,4 +1,4 @@
-//! Files of several grids: whole, cut between two, and put together wrongly.
+//! Tests of files with several grids: whole, cut between two, and assembled wrongly.
 
 use super::tests::{bytes_of, small};
 use super::*;
@@ -6,7 +6,7 @@ use files::{Exit, Failure};
 
 const ENCODINGS: [Encoding; 2] = [Encoding::Binary, Encoding::Json];
 
-/// A cup, its handle and its lid.
+/// Returns the patches of a cup, its handle and its lid.
 fn patches() -> Vec<GridMesh> {
     let named = |name: &str| GridMesh { name: name.into(), ..small() };
     let handle = GridMesh { texture: Some(3), surface: Some(0), ..named("handle") };
@@ -25,7 +25,7 @@ fn complaint(bytes: &[u8]) -> String {
     error.to_string()
 }
 
-/// Where each patch starts, in a file of text.
+/// Returns the byte offsets at which patches start in a text file.
 fn starts(text: &str) -> Vec<usize> {
     text.match_indices("{\"format\"").map(|(at, _)| at).collect()
 }
@@ -103,7 +103,7 @@ fn patches_out_of_order_are_noticed() {
 fn a_fault_in_a_later_patch_is_placed_in_the_file() {
     let text = String::from_utf8(all_bytes(Encoding::Json)).unwrap();
     let at = starts(&text)[1];
-    // A patch of three rows is five lines.
+    // A patch of three rows has five lines.
     let header = [&text[..at], &text[at..].replacen("\"rows\":3", "\"rows\":1", 1)].concat();
     let message = complaint(header.as_bytes());
     assert!(message.starts_with("cup.grid:6:"), "{message}");

@@ -1,4 +1,4 @@
-//! Reading grids row by row, trusting nothing.
+//! A reader of grids, row by row, which checks everything it reads.
 
 use super::edges::Edges;
 use super::{Encoding, Footer, GridError, Header, Patch, binary, header, text};
@@ -8,22 +8,22 @@ use files::memory;
 use glam::{DVec3, Vec3};
 use std::io::{self, BufRead, Read};
 
-/// A grid file being read, one row in memory at a time.
+/// A grid file being read, with one row in memory at a time.
 ///
-/// It stands at one patch; [`GridReader::next_patch`] goes on to the one behind it.
+/// The reader is positioned at one patch; [`GridReader::next_patch`] moves to the next.
 #[derive(Debug)]
 pub struct GridReader<R> {
     /// The file as the user named it.
     name: String,
-    /// The same, with the patch where there are several.
+    /// `name`, with the number of the patch if there are several.
     label: String,
     input: R,
-    /// Lines before this patch; only of patches that are text is there a number of them.
+    /// Number of text lines before this patch; binary patches count as none.
     lines: usize,
     header: Header,
     encoding: Encoding,
     crc: crc32fast::Hasher,
-    /// Rows given so far.
+    /// Number of rows returned so far.
     given: usize,
     finished: bool,
     edges: Edges,
@@ -31,7 +31,7 @@ pub struct GridReader<R> {
     row: RowBuffer,
 }
 
-/// The numbers of the row last read.
+/// The values of the row that was read last.
 #[derive(Debug, Default)]
 pub(super) struct RowBuffer {
     pub v: f64,
@@ -61,10 +61,10 @@ pub fn read_all(name: &str, input: impl BufRead) -> Result<Vec<GridMesh>, GridEr
     GridReader::open(name, input)?.read_rest()
 }
 
-/// The patch that a reader stands at.
+/// Reads the rest of the current patch into memory.
 fn rest_of(reader: &mut GridReader<impl BufRead>) -> Result<GridMesh, GridError> {
     let (mut v, mut positions, mut normals) = (Vec::new(), Vec::new(), Vec::new());
-    // Asked for what the header promises; taken for what comes, which doubling makes up to twice that.
+    // The memory reserved is what the header states. Vectors that grow by doubling take up to twice that.
     let (rows, cols) = (reader.header.rows, reader.header.cols());
     let _reserved = memory::of_process()
         .reserve(grid::bytes(rows, cols).saturating_mul(2), || {
@@ -95,12 +95,12 @@ fn rest_of(reader: &mut GridReader<impl BufRead>) -> Result<GridMesh, GridError>
 }
 
 impl<R: BufRead> GridReader<R> {
-    /// Reads and checks the first header line; `name` is how messages call the file.
+    /// Reads and checks the first header line; `name` is the name of the file in messages.
     ///
-    /// Memory is taken for what was read, never for what a header only promises.
+    /// Memory is allocated for data that was read, never for a size that a header only states.
     ///
     /// # Errors
-    /// When the input cannot be read, is not a grid, or has a header with a wrong value in it.
+    /// When the input cannot be read, is not a grid, or has a header with a wrong value.
     pub fn open(name: &str, mut input: R) -> Result<Self, GridError> {
         let (header, encoding, bytes) = header::read(name, 0, &mut input)?;
         let mut crc = crc32fast::Hasher::new();
@@ -123,11 +123,11 @@ impl<R: BufRead> GridReader<R> {
         Ok(reader)
     }
 
-    /// Goes on to the next patch, past rows that were not asked for; false at the end of the file.
+    /// Moves to the next patch and skips rows not yet read; returns false at the end of the file.
     ///
     /// # Errors
-    /// As [`GridReader::next_row`] and [`GridReader::open`]; and when the file ends where the
-    /// header of the patch before promised another one, or is followed by something else.
+    /// As [`GridReader::next_row`] and [`GridReader::open`]. Also when the file ends although the header
+    /// announced another patch, or when other data follows.
     pub fn next_patch(&mut self) -> Result<bool, GridError> {
         while self.next_row()?.is_some() {}
         let due = self.header.patch.next();
@@ -156,7 +156,7 @@ impl<R: BufRead> GridReader<R> {
         Ok(true)
     }
 
-    /// This patch and all behind it, in memory; of this one, the rows that were not given yet.
+    /// Reads the rest of this patch and all patches after it into memory.
     ///
     /// # Errors
     /// As [`GridReader::next_row`] and [`GridReader::next_patch`].
@@ -168,8 +168,8 @@ impl<R: BufRead> GridReader<R> {
         Ok(grids)
     }
 
-    /// Holds the patch at hand against the one that is `due`, or the first of an object, and takes
-    /// it into the name.
+    /// Checks that the current patch is the one that is `due`, or the first of an object, and updates the
+    /// label.
     fn follows(&mut self, due: Option<Patch>) -> Result<(), GridError> {
         let found = self.header.patch;
         let expected = due.unwrap_or(Patch { number: 1, of: found.of });
@@ -183,24 +183,23 @@ impl<R: BufRead> GridReader<R> {
         Ok(())
     }
 
-    /// What the header line of this patch says.
+    /// Returns the header of this patch.
     #[must_use]
     pub fn header(&self) -> &Header {
         &self.header
     }
 
-    /// How messages call the file.
+    /// Returns the name of the file in messages.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// The next row of this patch, or `None` when all rows were given and the footer behind them
-    /// agrees.
+    /// Returns the next row of this patch, or `None` after all rows if the footer agrees with them.
     ///
     /// # Errors
-    /// When the file is cut short, damaged, or holds a number that no grid holds. Nothing more can
-    /// be read then.
+    /// When the file is cut short, damaged, or holds a number that is not valid in a grid. Nothing more can
+    /// be read afterwards.
     pub fn next_row(&mut self) -> Result<Option<Row<'_>>, GridError> {
         if self.finished {
             return Ok(None);
@@ -267,7 +266,7 @@ impl<R: BufRead> GridReader<R> {
         }
     }
 
-    /// Reads the footer and holds it against what was read.
+    /// Reads the footer and checks it against the data read.
     fn read_footer(&mut self) -> Result<(), GridError> {
         let footer = match self.encoding {
             Encoding::Binary => {
@@ -298,7 +297,7 @@ impl<R: BufRead> GridReader<R> {
         Ok(())
     }
 
-    /// Reads a line into the byte buffer; false when the input ends before its newline.
+    /// Reads a line into the byte buffer; returns false if the input ends before the newline.
     fn read_line(&mut self, limit: usize, expected: &'static str) -> Result<bool, GridError> {
         self.bytes.clear();
         let mut limited = self.input.by_ref().take(limit as u64);

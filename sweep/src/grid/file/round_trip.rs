@@ -1,4 +1,4 @@
-//! Any grid, written and read back to the same bits.
+//! Tests that any grid, written and read back, keeps the same bits.
 
 use super::*;
 use crate::grid::{Across, Area, Fold, Seam, Tolerance, UvLayout, area};
@@ -16,7 +16,7 @@ proptest! {
     }
 }
 
-/// Equality that tells -0 from 0.
+/// Asserts equality that distinguishes -0 from 0.
 fn assert_same_bits(a: &GridMesh, b: &GridMesh) {
     assert_eq!(a, b);
     let bits = |g: &GridMesh| {
@@ -28,7 +28,7 @@ fn assert_same_bits(a: &GridMesh, b: &GridMesh) {
     assert_eq!(bits(a), bits(b));
 }
 
-/// Finite numbers, among them those that formats lose.
+/// Finite numbers, among them some that text formats often lose.
 fn nasty_f64() -> impl Strategy<Value = f64> {
     prop_oneof![
         prop::sample::select(vec![
@@ -54,7 +54,7 @@ fn nasty_f32() -> impl Strategy<Value = f32> {
     ]
 }
 
-/// `count` parameters from 0, not decreasing, below 1.
+/// Returns `count` parameters from 0, not decreasing, below 1.
 fn parameters(count: usize) -> impl Strategy<Value = Vec<f64>> {
     prop::collection::vec(0.0..1.0, count - 1).prop_map(|mut list| {
         list.sort_by(f64::total_cmp);
@@ -63,7 +63,7 @@ fn parameters(count: usize) -> impl Strategy<Value = Vec<f64>> {
     })
 }
 
-/// Ways for `cols` columns to come back.
+/// Returns valid seams and shifts for `cols` columns.
 fn seams(cols: usize) -> impl Strategy<Value = (Seam, Seam, usize)> {
     let seam = |all: &[Seam]| prop::sample::select(all.to_vec());
     let ways = (seam(&[Seam::Open, Seam::Closed]), seam(&[Seam::Open, Seam::Closed, Seam::Mirror]));
@@ -78,7 +78,7 @@ fn maybe() -> impl Strategy<Value = Option<f64>> {
     prop::option::of(nasty_f64())
 }
 
-/// The first cell along the contour, and all of them, where there are any.
+/// Returns an area of the first cell along the contour, and one of all cells, if there are any.
 fn areas_on(u: &[f64], seam_u: Seam, [texture, surface]: [Option<u32>; 2]) -> Vec<Area> {
     let cells = area::edges(u, seam_u).len() - 1;
     let of = |cols, repeat| Area { rows: [0, 1], cols, texture, surface, repeat };

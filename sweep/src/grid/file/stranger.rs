@@ -1,6 +1,6 @@
-//! What a file that is not a grid looks like, so that the message can say what to do with it.
+//! Descriptions of files that are not grids, so that messages can say what to do with them.
 
-/// Files known by their first bytes.
+/// Descriptions of files known by their first bytes.
 const KNOWN: [(&[u8], &str); 7] = [
     (b"\x89PNG", "it is a PNG picture"),
     (b"\xff\xd8\xff", "it is a JPEG picture"),
@@ -11,14 +11,14 @@ const KNOWN: [(&[u8], &str); 7] = [
     (b"[", "it is JSON without the header line of a grid"),
 ];
 
-/// The first words of the lines an OBJ file starts with.
+/// First words of the lines that an OBJ file may start with.
 const OBJ_WORDS: [&str; 9] = ["#", "o", "g", "v", "vt", "vn", "f", "mtllib", "usemtl"];
 
-/// For JSON that does not say it is a grid.
+/// Description of JSON that does not state that it is a grid.
 pub(super) const OTHER_JSON: &str = "it is JSON without \"format\":\"tb-grid\" in its first line; \
      if it is a curve spec, `sweep` makes the grid of it";
 
-/// What a file that starts with `bytes` (and not with a brace) looks like.
+/// Describes a file that starts with `bytes`, which do not start with a brace.
 pub(super) fn described(bytes: &[u8]) -> String {
     if let Some((_, what)) = KNOWN.iter().find(|(magic, _)| bytes.starts_with(magic)) {
         return format!("{what}; expected a grid as `sweep` writes it");

@@ -1,4 +1,4 @@
-//! Grids written and read back, whole, cut, damaged and made up.
+//! Tests of grids written and read back: whole, cut, damaged and made up.
 
 use super::*;
 use crate::grid::{Across, Area, Fold, Seam, Tolerance, UvLayout};
@@ -8,7 +8,7 @@ use proptest::prelude::*;
 
 const ENCODINGS: [Encoding; 2] = [Encoding::Binary, Encoding::Json];
 
-/// Three rows, four columns, closed along `u`; the name needs escapes.
+/// Returns a grid of three rows and four columns, closed along `u`, whose name needs escapes.
 pub(super) fn small() -> GridMesh {
     let point = |i: usize| DVec3::new(i as f64 / 3.0, -(i as f64) * 1e-7, 1.0 + i as f64);
     GridMesh {
@@ -34,7 +34,7 @@ fn complaint(bytes: &[u8]) -> String {
     read("grid.tbg", bytes).unwrap_err().to_string()
 }
 
-/// A binary file with a checksum that fits, whatever the bytes before it are.
+/// Returns a binary file with a checksum that fits, whatever the bytes before it are.
 fn signed(mut bytes: Vec<u8>) -> Vec<u8> {
     let end = bytes.len() - 4;
     let crc = crc32fast::hash(&bytes[..end - 8]);
@@ -226,7 +226,7 @@ fn the_header_is_checked() {
     }
 }
 
-/// Found by the fuzzer: such a grid was read, and no writer took it.
+/// Found by the fuzzer: such a grid was read, but no writer accepted it.
 #[test]
 fn an_area_that_the_rows_do_not_have_is_refused() {
     let area = Area { rows: [0, 2], cols: [0, 3], texture: None, surface: None, repeat: [1.0; 2] };
@@ -243,7 +243,7 @@ fn an_area_that_the_rows_do_not_have_is_refused() {
         with("\"v\":[0.0,1.0]", "\"v\":[0.0,0.5]"),
         "grid.tbg: row 3 of 3: areas[0].v[1]: found 0.5, expected 1.0, where that row lies"
     );
-    // Two rows at one place are the edge of one cell.
+    // Two rows at one `v` are one edge of cells.
     assert_eq!(
         with("[0.3333333333333333,0,", "[0.0,0,"),
         "grid.tbg: row 3 of 3: areas[0].area.rows: found [0, 2], expected two rising numbers from 0 to 1, \
@@ -251,7 +251,7 @@ fn an_area_that_the_rows_do_not_have_is_refused() {
     );
 }
 
-/// Found by the fuzzer: hundreds of zeros, and words of Rust.
+/// Found by the fuzzer: messages had hundreds of zeros, and names of Rust types.
 #[test]
 fn numbers_of_a_text_grid_are_complained_of_in_short_words() {
     let text = String::from_utf8(bytes_of(&small(), Encoding::Json)).unwrap();
@@ -261,7 +261,7 @@ fn numbers_of_a_text_grid_are_complained_of_in_short_words() {
     assert!(pair.contains("[2][0]: found 2 values, expected 3 (row 1 of 3)"), "{pair}");
 }
 
-/// A text grid with a checksum that fits.
+/// Returns a text grid with a checksum that fits.
 fn resigned(text: &str) -> String {
     let end = 1 + text.trim_end().rfind('\n').unwrap();
     let crc = crc32fast::hash(&text.as_bytes()[..end]);

@@ -1,4 +1,4 @@
-//! Rows and footer as JSON text, one line each.
+//! Rows and footers of a grid file as JSON text, one line each.
 
 use super::Footer;
 use super::reader::RowBuffer;
@@ -9,7 +9,7 @@ use glam::{DVec3, Vec3};
 use serde::de::DeserializeOwned;
 use std::io;
 
-/// Appends a row and its newline to `bytes`.
+/// Appends a row and a newline to `bytes`.
 pub(super) fn encode(row: &Row<'_>, bytes: &mut Vec<u8>) -> io::Result<()> {
     serde_json::to_writer(&mut *bytes, &(row.v, 0_u8, row.positions, row.normals))?;
     bytes.push(b'\n');
@@ -22,16 +22,16 @@ pub(super) fn encode_footer(footer: Footer) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// The longest line of a footer.
+/// Length in bytes of the longest footer line.
 pub(super) const FOOTER_LIMIT: usize = 200;
 
-/// The longest line of a row. The longest shortest f64 has 24 characters, the longest f32 15, so
-/// that a point with its normal takes 129 with brackets and commas; the rest is room for blanks.
+/// Returns the length in bytes of the longest row line. An f64 needs up to 24 characters and an f32 up to 15,
+/// so a point with its normal takes 129 with brackets and commas. The rest leaves space for blanks.
 pub(super) fn row_limit(cols: usize) -> usize {
     1000 + 200 * cols
 }
 
-/// Takes the numbers of a row out of its line, which is `line` (from 1) of the file `name`.
+/// Decodes a row from its line, which is line number `line` (from 1) of the file `name`.
 pub(super) fn decode(
     name: &str,
     line: usize,
@@ -39,7 +39,7 @@ pub(super) fn decode(
     cols: usize,
     row: &mut RowBuffer,
 ) -> Result<(), JsonError> {
-    // Arrays and not vectors, of which messages would speak in the words of Rust.
+    // Arrays instead of glam vectors, because error messages about those would name Rust types.
     let (v, flags, positions, normals): (_, _, Vec<[f64; 3]>, Vec<[f32; 3]>) =
         parse(name, line, bytes)?;
     (row.v, row.flags) = (v, flags);

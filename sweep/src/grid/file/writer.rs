@@ -1,29 +1,29 @@
-//! One grid of a file, row by row.
+//! A writer of one grid of a file, row by row.
 
 use super::header::Header;
 use super::{Encoding, Footer, binary, refused, text};
 use crate::grid::Row;
 use std::io::{self, Write};
 
-/// Writes a grid in the memory of one row.
+/// Writes a grid with one row in memory at a time.
 #[derive(Debug)]
 pub struct Writer<'a, W> {
     out: &'a mut W,
     header: Header,
     encoding: Encoding,
-    /// Of all that was written.
+    /// CRC-32 of everything written so far.
     crc: crc32fast::Hasher,
     rows: usize,
-    /// `v` of the row before.
+    /// `v` of the row before, if any.
     before: Option<f64>,
     bytes: Vec<u8>,
 }
 
 impl<'a, W: Write> Writer<'a, W> {
-    /// Writes the header line. `out` gets one write a row; it need not be buffered.
+    /// Writes the header line. `out` gets one write for each row and need not be buffered.
     ///
     /// # Errors
-    /// When `out` fails. A header that no reader would take is [`io::ErrorKind::InvalidInput`].
+    /// When writing to `out` fails. A header that no reader accepts is [`io::ErrorKind::InvalidInput`].
     pub fn new(header: &Header, encoding: Encoding, out: &'a mut W) -> io::Result<Self> {
         header.check().map_err(|fault| refused(&fault.to_string()))?;
         let bytes = header.line(encoding)?;
@@ -36,8 +36,8 @@ impl<'a, W: Write> Writer<'a, W> {
     /// Writes the next row.
     ///
     /// # Errors
-    /// When `out` fails. A row that no reader would take (of another length, with a number that is not
-    /// finite, with `v` out of order, one too many) is [`io::ErrorKind::InvalidInput`].
+    /// When writing to `out` fails. A row that no reader accepts (of another length, with a number that is
+    /// not finite, with `v` out of order, or one too many) is [`io::ErrorKind::InvalidInput`].
     pub fn row(&mut self, row: &Row<'_>) -> io::Result<()> {
         let cols = self.header.cols();
         if self.rows == self.header.rows || [row.positions.len(), row.normals.len()] != [cols; 2] {
@@ -61,7 +61,7 @@ impl<'a, W: Write> Writer<'a, W> {
     /// Writes the footer.
     ///
     /// # Errors
-    /// When `out` fails; missing rows are [`io::ErrorKind::InvalidInput`].
+    /// When writing to `out` fails. Missing rows are [`io::ErrorKind::InvalidInput`].
     pub fn finish(self) -> io::Result<()> {
         if self.rows < self.header.rows {
             let (found, expected) = (self.rows, self.header.rows);
