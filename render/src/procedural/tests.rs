@@ -87,7 +87,7 @@ proptest! {
         // large.
         let expected = slopes(|p| octaves.fractal(p), point, 1e-5);
         prop_assert!(octaves.fractal_gradient(point).abs_diff_eq(expected, 1e-5));
-        // |noise| has a crease where the noise is 0, and differences across a crease are meaningless.
+        // |noise| has a crease where the noise is 0. Differences across a crease are meaningless.
         let places: Vec<DVec3> = places_of(point, 4).collect();
         prop_assume!(places.iter().all(|&at| octaves.noise.value(at).abs() > 1e-3));
         let expected = slopes(|p| octaves.turbulence(p), point, 1e-5);
