@@ -3,7 +3,7 @@
 use super::{Settings, size};
 use std::ops::Range;
 
-/// A rectangle of a picture's pixels. Its coordinates are those of the whole picture.
+/// A rectangle of a picture's pixels. Coordinates count from the corner of the whole picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Crop {
     /// The leftmost column.

@@ -202,8 +202,8 @@ impl Exposure<'_> {
         self.shader.shade(around, &mut exposed.shading, witness)
     }
 
-    /// Index within `pixels` of the pixel whose middle sample lies in column `x`, if any. It works
-    /// for rows in the same way.
+    /// Index within `pixels` of the pixel whose middle sample lies in column `x`, if any. Rows
+    /// follow the same rule.
     fn pixel_of_middle(&self, x: i64, pixels: &Range<u32>) -> Option<usize> {
         let sampling = self.settings.sampling;
         let pixel = u32::try_from(x / i64::from(sampling.per_pixel())).ok()?;

@@ -7,9 +7,9 @@ use std::str::FromStr;
 
 /// A value of the first hit of each pixel's middle ray.
 ///
-/// Where a pixel has several rays, a layer holds the value of the ray in the middle, or of the
-/// first one to the right of the middle and below it. Nothing is averaged, so an object's number is
-/// always that of an object, and a normal is always a unit vector.
+/// If a pixel has several rays, a layer holds the value of the middle ray. If no ray is in the
+/// middle, it holds the value of the first ray to the right and below. Nothing is averaged, so an
+/// object's number always belongs to an object, and a normal is always a unit vector.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Layer {
     /// The unit normal used for shading, in scene space, on the side that is seen. It is 0 where

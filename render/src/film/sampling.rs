@@ -110,15 +110,15 @@ impl Sampling {
     }
 
     /// Returns the column of the sample that represents a pixel: the sample in its middle, or the
-    /// first one after the middle. It works for rows in the same way.
+    /// first one after the middle. Rows follow the same rule.
     #[must_use]
     pub fn middle(self, pixel: u32) -> i64 {
         let n = i64::from(self.per_pixel());
         i64::from(pixel) * n + n / 2
     }
 
-    /// Returns the columns of the samples that have a weight in a range of pixels. It works for
-    /// rows in the same way.
+    /// Returns the columns of the samples that have a weight in a range of pixels. Rows follow the
+    /// same rule.
     #[must_use]
     pub fn under(self, pixels: Range<u32>) -> Range<i64> {
         let n = i64::from(self.per_pixel());
@@ -137,7 +137,7 @@ impl Sampling {
     }
 
     /// Returns the weight of a column of samples in a pixel, as a part of [`Sampling::whole`]. The
-    /// weight is 0 outside [`Sampling::under`]. It works for rows in the same way.
+    /// weight is 0 outside [`Sampling::under`]. Rows follow the same rule.
     #[must_use]
     pub fn weight(self, pixel: u32, column: i64) -> i64 {
         if !self.under(pixel..pixel + 1).contains(&column) {

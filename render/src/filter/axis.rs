@@ -38,8 +38,8 @@
 //! a polynomial in the stored entries; see [`super::entry`]. Any footprint size and any distance
 //! from the origin is therefore allowed.
 //!
-//! A footprint wider than half a period of a repeating texture is folded exactly. A box of width `h
-//! = q P + r`, with `r` of either sign, is `q` whole periods and a box of width `|r|`, which is
+//! A footprint wider than half a period of a repeating texture is folded exactly. A box of width
+//! `h = q P + r`, with `r` of either sign, is `q` whole periods and a box of width `|r|`, which is
 //! added or removed. The average is therefore the mean of the axis with weight `1 - r/h` and the
 //! average under the small box, moved by `q P/2`, with weight `r/h`. A filter of order `n` is `n`
 //! boxes in succession. Its small filter has weight `(r/h)^n` and is moved by `n q P/2`, and the
@@ -108,8 +108,8 @@ pub struct Part {
 /// Returns the parts of the filter of order `n` centred at `x` with half-support `half`, both in
 /// texels.
 ///
-/// The step is at least one texel. A smaller footprint is smoothed by the B-spline of step 1, which
-/// for n = 1 is bilinear interpolation.
+/// The step is at least one texel. A smaller footprint is smoothed by the B-spline of degree `n`,
+/// which for n = 1 is bilinear interpolation.
 #[must_use]
 #[inline]
 pub fn parts(n: usize, x: f64, half: f64, size: usize, wrap: Wrap) -> [Option<Part>; 2] {

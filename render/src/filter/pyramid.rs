@@ -8,10 +8,10 @@
 //! are rounded to 16 bits on each level, with an error of half a code at most.
 //!
 //! A footprint is treated as a square, and `d` is the logarithm to base 2 of its side in texels.
-//! The thesis says that there is no correct way to find it. Here the side is half the *longer* side
-//! of the box around 3 x 3 neighbours: one pixel, where the texture is most compressed. This choice
-//! blurs surfaces seen at a slant and does not alias. The result is interpolated linearly between
-//! the two nearest levels and between the texels of each.
+//! The thesis says that no method of finding `d` is correct. Here the side is half the *longer*
+//! side of the box around 3 x 3 neighbours: one pixel, where the texture is most compressed. This
+//! choice blurs surfaces seen at a slant and does not alias. The result is interpolated linearly
+//! between the two nearest levels and between the texels of each.
 
 use crate::color::Color;
 use crate::texture::Texture;

@@ -1,8 +1,8 @@
 //! The part of a texture that a pixel sees.
 //!
 //! A [`Footprint`] separates tracing from texture filtering. Tracing knows nothing of textures, and
-//! filtering knows nothing of rays. A sampling method looks at the nodes of an intersection tree
-//! and makes a footprint, and a filter averages a texture over the footprint. [`neighbours`] is the
+//! filtering knows nothing of rays. A sampling method computes a footprint from the nodes of
+//! intersection trees. A filter averages a texture over the footprint. [`neighbours`] is the
 //! thesis's sampling method. Another method adds a file to this module and, if it needs a new
 //! shape, a variant of [`Footprint`].
 

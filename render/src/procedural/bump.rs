@@ -2,9 +2,9 @@
 //!
 //! The normal `Ns` of a surface becomes `Ns + k Np`, normalised, where `Np` is a perturbation. Here
 //! a perturbation is given by a height `h`, and `Np` is minus the part of its gradient along the
-//! surface. To first order in `k` the result is the normal of the surface displaced outward by `k
-//! h`. A bump and a true displacement of the same relief therefore have the same shading and differ
-//! only in their outlines. The thesis's own perturbation, `dnoise`, is added unchanged.
+//! surface. To first order in `k` the result is the normal of the surface displaced outward by
+//! `k h`. A bump and a true displacement of the same relief therefore have the same shading and
+//! differ only in their outlines. The thesis's own perturbation, `dnoise`, is added unchanged.
 //!
 //! The slopes of a bump determine its shading. Slopes of trilinear noise jump at the faces of its
 //! cells, which appear as creases. Bumps are therefore interpolated smoothly unless linear

@@ -6,10 +6,10 @@
 //! numbers and needs no lattice but the one of [`super::noise`].
 //!
 //! There are two departures. Where all three differences vanish, the figure divides by zero; here
-//! the result is the zero vector. The figure takes the upper neighbour at `(x + 1) % (MAXNOISE +
-//! 1)`, a remainder that its loop over `x < MAXNOISE` never needs. It leaves the differences of the
-//! last layer unset, although interpolation reads them. Here the lattice repeats after `MAXNOISE`
-//! cells, and its last layer meets the first.
+//! the result is the zero vector. The figure takes the upper neighbour at
+//! `(x + 1) % (MAXNOISE + 1)`, a remainder that its loop over `x < MAXNOISE` never needs. It leaves
+//! the differences of the last layer unset, although interpolation reads them. Here the lattice
+//! repeats after `MAXNOISE` cells, and its last layer meets the first.
 
 use super::lattice::Cell;
 use super::noise::{Noise, interpolated, step};

@@ -2,9 +2,9 @@
 //!
 //! The figure interpolates linearly. Values are then continuous from cell to cell, but slopes are
 //! not: a bumped surface shows the faces of the cells as creases. The two other methods replace
-//! each offset by a curve. With `3t^2 - 2t^3` slopes are continuous as well. With `6t^5 - 15t^4 +
-//! 10t^3` curvatures are too (K. Perlin, "Improving Noise", 2002). Both make the noise flat at the
-//! lattice points and keep its range.
+//! each offset by a curve. With `3t^2 - 2t^3` slopes are continuous as well. With
+//! `6t^5 - 15t^4 + 10t^3` curvatures are too (K. Perlin, "Improving Noise", 2002). Both make the
+//! noise flat at the lattice points and keep its range.
 
 use super::lattice::{Cell, NoiseLattice};
 use glam::DVec3;
@@ -26,8 +26,8 @@ pub enum Interpolation {
 }
 
 impl Interpolation {
-    /// Returns the weight of the upper corner at an offset `t` in `[0, 1]`. The weight is in `[0,
-    /// 1]` too.
+    /// Returns the weight of the upper corner at an offset `t` in `[0, 1]`. The weight is in
+    /// `[0, 1]` too.
     #[must_use]
     pub fn fade(self, t: f64) -> f64 {
         match self {
@@ -92,9 +92,8 @@ impl Noise {
         )
     }
 
-    /// Returns the values at the corners of a cell, in the figure's order. Corner `k` lies at the
-    /// upper x if bit 0 of `k` is set, at the upper z if bit 1 is set, and at the upper y if bit 2
-    /// is set.
+    /// Returns the values at the corners of a cell, in the figure's order. Bit 0 of the corner's
+    /// index selects the upper x, bit 1 the upper z and bit 2 the upper y.
     fn corners(&self, cell: &Cell) -> [f64; 8] {
         std::array::from_fn(|k| self.lattice.value(cell.at(step(k))))
     }

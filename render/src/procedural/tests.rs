@@ -311,7 +311,7 @@ fn a_picture_bumps_as_its_heights_say() {
     }
 }
 
-/// The gradient is 0 where the wall is clamped, and elsewhere it is that of the height.
+/// The gradient is 0 where the wall is clamped, and elsewhere it is the height's.
 #[test]
 fn a_wall_is_level_where_its_slow_noise_is_clamped() {
     let noise = noise(Interpolation::Smoother);

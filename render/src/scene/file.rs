@@ -51,8 +51,8 @@
 //! A light is a `point` light or a `directional` light, whose `direction` is the direction in which
 //! its light travels. A point light may fade: `"falloff": { "quadratic": 1, "reference": 4 }` is
 //! the inverse square, with the light's colour at a distance of 4. In general the colour is
-//! multiplied by `1 / (constant + linear x + quadratic x^2)` with `x = distance / reference`, but
-//! by a million at most.
+//! multiplied by `1 / (constant + linear x + quadratic x^2)` with `x = distance / reference`. The
+//! factor is at most a million.
 //!
 //! A texture is a picture (`image`) or a solid, which fills space and is carved by the surface: see
 //! [`solid`]. A picture fills a rectangle, or the unit square of the texture coordinates of a mesh
@@ -73,17 +73,18 @@
 //!
 //! `exponents` are Barr's e1 and e2, 0.05 to 4: of the section through the axis y and of the
 //! section across it. A section is a square near 0, a circle at 1, a square on its corner at 2, and
-//! a pinched star above 2. `[1, 1]` is an ellipsoid, `[0.1, 1]` a drum, `[1, 0.1]` a pillow, `[0.1,
-//! 0.1]` a box with rounded edges. With a `ring` (1 to 1000) the shape is a supertoroid: `radii`
-//! are those of its tube, and the middle of the tube is `ring` times as far from the axis.
+//! a pinched star above 2. `[1, 1]` is an ellipsoid, `[0.1, 1]` a drum, `[1, 0.1]` a pillow,
+//! `[0.1, 0.1]` a box with rounded edges. With a `ring` (1 to 1000) the shape is a supertoroid:
+//! `radii` are the radii of its tube, and the middle of the tube is `ring` times as far from the
+//! axis.
 //!
-//! Any object may have a `"place"`, a list of steps that are applied in order: `{ "scale": [x, y,
-//! z] }`, `{ "rotate_deg": { "axis": [x, y, z], "angle": a } }` (counter-clockwise as seen from the
-//! direction in which the axis points), `{ "translate": [x, y, z] }` and `{ "matrix": [[...],
-//! [...], [...]] }` with three rows of four numbers. All steps are about the origin of the scene.
-//! Mirroring is allowed, and the outside stays the outside. Flat maps are refused: the product of
-//! the Frobenius norms of the whole matrix and of its inverse may be at most a million (a rotation
-//! has 3).
+//! Any object may have a `"place"`, a list of steps that are applied in order:
+//! `{ "scale": [x, y, z] }`, `{ "rotate_deg": { "axis": [x, y, z], "angle": a } }`
+//! (counter-clockwise as seen from the direction in which the axis points),
+//! `{ "translate": [x, y, z] }` and `{ "matrix": [[...], [...], [...]] }` with three rows of four
+//! numbers. All steps are about the origin of the scene. Mirroring is allowed, and the outside
+//! stays the outside. Flat maps are refused: the product of the Frobenius norms of the whole matrix
+//! and of its inverse may be at most a million (a rotation has 3).
 //!
 //! # Meshes
 //!
@@ -106,10 +107,10 @@
 //! }
 //! ```
 //!
-//! Included lights and objects come before those of the including file. `[a, b]` gives the lights
-//! and objects of a, those of b, then the scene's own. Of surfaces at the same position the first
-//! is seen. A name may be defined only once in all files together, and may be used in any of them.
-//! A part that is reached by two includes is added once.
+//! Included lights and objects come before the including file's own. `[a, b]` gives the lights and
+//! objects of a, then of b, then the scene's own. Of surfaces at the same position the first is
+//! seen. A name may be defined only once in all files together, and may be used in any of them. A
+//! part that is reached by two includes is added once.
 
 mod background;
 pub mod bump;

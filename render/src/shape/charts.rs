@@ -6,11 +6,11 @@
 //! texture.
 //!
 //! A chart may close on itself, as around a tube. Its coordinates then jump by a whole number at a
-//! seam, and differences are taken the short way round. Seams are found in the mesh, for each chart
-//! separately, since one area may go around with its picture once, another with four and a third
-//! only halfway. An edge lies on a seam if two triangles of a chart share it with coordinates that
-//! differ by the same whole number at both ends. A floor has no seam, however often its picture
-//! repeats.
+//! seam, and differences are taken across the seam if this is shorter. Seams are found in the mesh,
+//! for each chart separately. One area may go around with its picture once, another with four
+//! pictures, and a third only halfway. An edge lies on a seam if two triangles of a chart share it
+//! with coordinates that differ by the same whole number at both ends. A floor has no seam, however
+//! often its picture repeats.
 
 use super::SeamPeriod;
 use super::mesh::{Mesh, NONE};
@@ -58,9 +58,10 @@ impl Charts {
     }
 
     /// Returns the difference `to - from` of two texture coordinates, each given with its triangle.
-    /// Where the chart closes on itself, the difference is taken the short way round. Returns
-    /// `None` if the coordinates are of different charts. Returns `None` too if the short way
-    /// crosses a seam that mirrors, since the coordinates between are then unknown.
+    /// Where the chart closes on itself, the difference is taken across the seam if this is
+    /// shorter. Returns `None` if the coordinates are of different charts. Returns `None` too if
+    /// the shorter difference crosses a seam that mirrors, since the coordinates between are then
+    /// unknown.
     #[must_use]
     pub fn difference(&self, from: (u32, DVec2), to: (u32, DVec2)) -> Option<DVec2> {
         let chart = self.chart(from.0);
@@ -271,7 +272,7 @@ mod tests {
         band(&mut mesh, 1.0, 8, 1.0, 4.0, 0);
         band(&mut mesh, 2.0, 8, 0.5, 1.0, 0);
         let charts = Charts::of(&mesh);
-        // Once around, the short way crosses the seam. Four times around, 0.9 stays 0.9.
+        // Once around, the shorter difference crosses the seam. Four times around, 0.9 stays 0.9.
         assert_eq!(way(&charts, (0, 0.05), (15, 0.95)), Some(-0.1));
         assert_eq!(way(&charts, (16, 0.05), (17, 0.95)), Some(0.9));
         assert_eq!(way(&charts, (16, 0.05), (31, 3.95)), Some(-0.1));

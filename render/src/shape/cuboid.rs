@@ -85,7 +85,7 @@ impl Cuboid {
         position[axis] = self.plane(face);
         let mut normal = DVec3::ZERO;
         normal[axis] = if face.is_multiple_of(2) { -1.0 } else { 1.0 };
-        // Parts of the way along each axis, in both directions.
+        // Position along each axis as a part of the side, counted from both ends.
         let to = (position - self.low) / (self.high - self.low);
         let back = (self.high - position) / (self.high - self.low);
         let uv = match face {
@@ -99,7 +99,7 @@ impl Cuboid {
         SurfacePoint { position, geometric_normal: normal, shading_normal: normal, uv, part: face }
     }
 
-    /// As [`Shape::uv_gradients`](super::Shape::uv_gradients).
+    /// Returns gradients as [`Shape::uv_gradients`](super::Shape::uv_gradients) does.
     #[must_use]
     pub fn uv_gradients(&self, face: u32) -> [DVec3; 2] {
         let per_side = (self.high - self.low).recip();

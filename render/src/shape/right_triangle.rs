@@ -45,7 +45,7 @@ pub struct Mapped {
 /// Maps the point `hit` on the triangle with the corners `A1`, `B1`, `C1` to the right triangle
 /// with the legs `legs = (|B2 A2|, |B2 C2|)`.
 ///
-/// No case is added to those of the thesis, which lacks three. They give NaN, except the last:
+/// No case is added to the cases of the thesis, which lacks three. They give NaN, except the last:
 ///
 /// - A hit on the side `A1 B1`, where eq. 3.9 divides by `r_BC = 0`.
 /// - A triangle perpendicular to the x-y plane that is not parallel to another coordinate plane.

@@ -7,8 +7,8 @@ use super::tree::IntersectionTree;
 ///
 /// Trees keep their arrays when the window moves on, so a tile allocates nothing after its first
 /// rows. One array for the nodes of a whole row was tried. It halves the allocations of a small
-/// picture (1467 to 751 in all) and needs the same memory at its peak (22 MB of heap where trees
-/// have 186 nodes on average). It takes 2.6 % more instructions, since nodes are copied into it.
+/// picture (1467 to 751 in all). Its peak memory is the same (22 MB of heap where trees have 186
+/// nodes on average). It takes 2.6 % more instructions, since nodes are copied into it.
 #[derive(Debug)]
 pub struct RowWindow {
     /// The three rows, oldest first.

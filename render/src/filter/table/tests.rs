@@ -179,7 +179,7 @@ fn a_huge_footprint_is_the_mean_of_what_repeats() {
         let table = PrefilteredTable::build(&texture, order);
         let mean = texture.texels.iter().map(|texel| f64::from(texel[0])).sum::<f64>()
             / (37.0 * 21.0 * 65535.0);
-        // A million texels each way: the part beyond whole periods counts below 1e-4.
+        // A million texels along each axis: the part beyond whole periods counts below 1e-4.
         let half = DVec2::new(1e6 / 37.0, 1e6 / 21.0);
         let average = table.average(&texture, DVec2::new(0.123, -7.7), half).x;
         assert!((average - mean).abs() < 1e-4, "order {order}, {wrap:?}: {average} {mean}");

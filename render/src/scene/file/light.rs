@@ -40,9 +40,10 @@ pub struct DirectionalLightFile {
     pub color: ColorFile,
 }
 
-/// Fading of a light with distance. The light's colour is multiplied by `1 / (constant + linear x +
-/// quadratic x^2)` with `x = distance / reference`, and by a million at most. `{"quadratic": 1,
-/// "reference": 4}` is the inverse square of a light that has its colour at a distance of 4.
+/// Fading of a light with distance. The light's colour is multiplied by
+/// `1 / (constant + linear x + quadratic x^2)` with `x = distance / reference`, and by a million at
+/// most. `{"quadratic": 1, "reference": 4}` is the inverse square of a light that has its colour at
+/// a distance of 4.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FalloffFile {

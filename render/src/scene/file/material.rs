@@ -35,7 +35,7 @@ pub struct MaterialFile {
     #[schemars(transform = schema::range(0.1..=10.0))]
     pub index_of_refraction: f64,
     /// Whether Fresnel's equations divide the light: the weight of the mirrored ray is multiplied
-    /// by their reflectance, and that of the refracted ray by the rest; false if left out.
+    /// by their reflectance, and the weight of the refracted ray by the rest; false if left out.
     pub fresnel: bool,
     /// Relief that perturbs the normals; none if left out.
     pub bump: Option<BumpFile>,

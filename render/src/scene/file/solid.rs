@@ -10,8 +10,8 @@
 //!
 //! A solid is defined in a space of its own, whose unit depends on the pattern: the distance of
 //! marble's veins, a crystal of granite, a ring of wood, a cell of noise, a side of a checker.
-//! `place` maps this space to the object's own space. Colours are linear. A list of `[position,
-//! colour]` is a ramp: positions rise, and colours between them are interpolated.
+//! `place` maps this space to the object's own space. Colours are linear. A list of
+//! `[position, colour]` is a ramp: positions rise, and colours between them are interpolated.
 //!
 //! | kind | keys | range | default |
 //! |---|---|---|---|

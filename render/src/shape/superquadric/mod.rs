@@ -13,8 +13,8 @@
 //! e1 shapes the section through the axis, and e2 the section across it. A section is a square near
 //! 0, a circle at 1, a square on its corner at 2, and a pinched star above 2.
 //!
-//! Texture coordinates are those of the sphere. `u` is the longitude, eastward from +z toward +x,
-//! one half at +z. `v` is the latitude of the direction from the centre in units of the radii.
+//! Texture coordinates are defined as on the sphere. `u` is the longitude, eastward from +z toward
+//! +x, one half at +z. `v` is the latitude of the direction from the centre in units of the radii.
 //! Barr's own parameters are not used, since they crowd at the edges of a boxy shape. On a ring `v`
 //! goes around the tube, one half at its outermost line, with a seam at its innermost.
 
@@ -88,8 +88,8 @@ impl Superquadric {
     /// surface, according to `start`, meets it again only beyond the skin.
     #[must_use]
     pub fn intersect(&self, origin: DVec3, direction: DVec3, start: Start) -> Option<f64> {
-        // Lengths are in units of the radii, and t starts at the point of the ray nearest to the
-        // centre, so that no digits are lost on a long ray.
+        // Lengths are in units of the radii. t starts at the point of the ray nearest to the
+        // centre, so that a long ray loses no digits.
         let from = (origin - self.center) / self.radii;
         let step = direction / self.radii;
         let shift = -from.dot(step) / step.length_squared();

@@ -130,7 +130,7 @@ impl Search<'_> {
         self.piece(a, middle).or_else(|| self.piece(middle, b))
     }
 
-    /// Moves the search to a side, and returns the root on the way if there is one that counts.
+    /// Moves the search to a side, and returns the root before it, if there is one that counts.
     fn passed(&mut self, outside: bool, root: impl Fn(&Self) -> f64) -> Option<f64> {
         if outside == self.outside {
             return None;
