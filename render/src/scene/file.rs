@@ -38,8 +38,8 @@
 //! The JSON Schema that `render --emit-schema` prints is made of them. The absolute value of a
 //! number without another range is at most [`LARGEST`](super::schema::LARGEST).
 //!
-//! A ray from the eye and all rays that follow from it count their first 8191 hits, as many as a
-//! `max_depth` of 12 can have.
+//! Of a ray from the eye and all rays that follow from it, only the first 8191 hits count: as many
+//! as a `max_depth` of 12 can have.
 //!
 //! Spheres, boxes, superquadrics, planes (behind them) and closed meshes have an inside. They may
 //! contain and overlap each other, and the camera may stand inside them. A rectangle or an open
