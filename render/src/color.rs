@@ -1,24 +1,24 @@
-//! Linear RGB, and the two encodings at the edge of a file.
+//! Linear RGB, and the two encodings for 8-bit files.
 //!
-//! Inside the renderer a colour is three linear amounts of light; 1 is the white of an 8-bit file.
+//! Inside the renderer a colour is three linear amounts of light. The white of an 8-bit file is 1.
 
 use glam::DVec3;
 
-/// Linear red, green and blue.
+/// Linear red, green and blue. 1 is the white of an 8-bit file; larger values are allowed.
 pub type Color = DVec3;
 
-/// How linear values become the codes of an 8-bit file.
+/// The function from linear values to the codes of an 8-bit file.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Encoding {
     /// The sRGB curve (IEC 61966-2-1).
     Srgb,
-    /// A pure power, `code = value^(1/gamma)`: our reading of the thesis's "gamma corrected"
-    /// files (appendix B).
+    /// A power with this positive exponent: `code = value^(1/gamma)`. This is our reading of the
+    /// thesis's "gamma corrected" files (appendix B).
     Gamma(f64),
 }
 
 impl Encoding {
-    /// The code in `[0, 1]` of a linear value; values outside `[0, 1]` are clamped.
+    /// Returns the code in `[0, 1]` of a linear value. Values outside `[0, 1]` are clamped.
     #[must_use]
     pub fn encode(self, linear: f64) -> f64 {
         let linear = linear.clamp(0.0, 1.0);
@@ -29,7 +29,7 @@ impl Encoding {
         }
     }
 
-    /// The linear value of a code in `[0, 1]`.
+    /// Returns the linear value in `[0, 1]` of a code in `[0, 1]`.
     #[must_use]
     pub fn decode(self, code: f64) -> f64 {
         match self {
@@ -39,7 +39,7 @@ impl Encoding {
         }
     }
 
-    /// The nearest 8-bit code of a linear value.
+    /// Returns the nearest 8-bit code of a linear value. Values outside `[0, 1]` are clamped.
     #[must_use]
     pub fn to_byte(self, linear: f64) -> u8 {
         (self.encode(linear) * 255.0).round() as u8

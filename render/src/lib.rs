@@ -1,17 +1,18 @@
-//! A ray tracer whose textures are area sampled: a JSON scene and meshes to a picture.
+//! A ray tracer with area sampled textures: it renders a JSON scene and meshes to a picture.
 //!
-//! The road of a ray, one room each, no room looking back:
+//! Each stage of the work is a module, and no stage uses a later one:
 //!
 //! ```text
 //!   scene -> accel -> trace -> footprint -> filter -> shade -> film -> picture file
 //! ```
 //!
-//! [`scene`] reads and checks everything, so that nothing after it fails on user input. [`accel`]
-//! finds hits. [`trace`] turns a place on the film into an intersection tree. [`footprint`] looks at
-//! a node of it and at its neighbours and says which piece of texture the pixel sees. [`filter`]
-//! averages a texture over that piece. [`procedural`] computes textures that are no pictures, and
-//! bumps. [`shade`] turns trees into colours. [`prepared`] keeps what all pictures of a scene share, and
-//! [`film`] makes pictures. [`film::render`] does it all, and [`inspect`] prints what one pixel is made of.
+//! [`scene`] reads and checks all input, so that no later stage fails on user input. [`accel`]
+//! finds hits. [`trace`] turns a position on the film into an intersection tree. [`footprint`]
+//! compares a node of the tree with its neighbours and determines the part of the texture that the
+//! pixel sees. [`filter`] averages the texture over that part. [`procedural`] computes solid
+//! textures and bumps. [`shade`] turns trees into colours. [`prepared`] keeps the data that all
+//! pictures of a scene share. [`film`] makes pictures. [`film::render`] runs all stages, and
+//! [`inspect`] prints one pixel in detail.
 
 pub mod accel;
 pub mod color;

@@ -1,27 +1,29 @@
 //! Mirror and refraction directions, total internal reflection and Fresnel's equations.
 //!
-//! The thesis's conventions (4.5.3): the incident direction `I` points *at* the surface, the normal
-//! `N` lies on the incident side, both are unit, and `eta` is the index on the incident side over
-//! that on the transmitted side. Other books turn one or both round.
+//! The thesis's conventions (4.5.3) apply. The incident direction `I` points *at* the surface, and
+//! the normal `N` lies on the incident side. Both are unit vectors. `eta` is the index of
+//! refraction on the incident side over the index on the transmitted side. Other books turn one or
+//! both round.
 
 pub mod thin_film;
 
 use glam::DVec3;
 
-/// The mirrored direction, `R = I + 2 c1 N` (thesis eq. 4.1), unit when its arguments are.
+/// Returns the unit mirrored direction, `R = I + 2 c1 N` (thesis eq. 4.1). Both arguments are unit.
 #[must_use]
 pub fn reflect(incident: DVec3, normal: DVec3) -> DVec3 {
     (incident - 2.0 * incident.dot(normal) * normal).normalize()
 }
 
-/// The refracted direction, or nothing when all light is reflected (thesis eq. 4.6-4.8).
+/// Returns the unit refracted direction, or `None` if all light is reflected (thesis eq. 4.6-4.8).
+/// Both vectors are unit, and `eta` is positive.
 ///
-/// Between equal media the direction stays as it is, to the last bit.
+/// Between equal media the direction stays unchanged to the last bit.
 #[must_use]
 pub fn refract(incident: DVec3, normal: DVec3, eta: f64) -> Option<DVec3> {
     if eta == 1.0 {
-        // No boundary at all; by the formula below the way would bend by its roundings, which at
-        // grazing angles are many.
+        // There is no boundary. The formula below would bend the ray by its rounding errors, which
+        // are large at grazing angles.
         return Some(incident);
     }
     let c1 = -incident.dot(normal);
@@ -29,17 +31,18 @@ pub fn refract(incident: DVec3, normal: DVec3, eta: f64) -> Option<DVec3> {
     Some((eta * incident + (eta * c1 - c2) * normal).normalize())
 }
 
-/// The share of unpolarized light that a smooth boundary of two dielectrics reflects, in `[0, 1]`.
+/// Returns Fresnel's reflectance in `[0, 1]`: the share of unpolarized light that a smooth boundary
+/// of two dielectrics reflects.
 ///
-/// `c1` is the cosine of the angle of incidence. The rest is transmitted; beyond the critical
-/// angle the share is exactly 1, and between equal media exactly 0.
+/// `c1` is the cosine of the angle of incidence, [0, 1]. The rest of the light is transmitted. The
+/// reflectance is exactly 1 beyond the critical angle, and exactly 0 between equal media.
 #[must_use]
 pub fn fresnel(c1: f64, eta: f64) -> f64 {
     if eta == 1.0 {
         return 0.0;
     }
     let Some(c2) = transmitted_cosine(c1, eta) else { return 1.0 };
-    // With eta = n1/n2 both amplitude ratios are free of the absolute indices.
+    // With eta = n1/n2 both amplitude ratios are independent of the absolute indices.
     let perpendicular = (eta * c1 - c2) / (eta * c1 + c2);
     let parallel = (c1 - eta * c2) / (c1 + eta * c2);
     let share = 0.5 * (perpendicular * perpendicular + parallel * parallel);
@@ -47,7 +50,8 @@ pub fn fresnel(c1: f64, eta: f64) -> f64 {
     if share.is_finite() { share.min(1.0) } else { 1.0 }
 }
 
-/// The cosine of the transmitted angle (thesis eq. 4.7); nothing beyond the critical angle (4.8).
+/// Returns the cosine of the transmitted angle (thesis eq. 4.7), or `None` beyond the critical
+/// angle (4.8).
 fn transmitted_cosine(c1: f64, eta: f64) -> Option<f64> {
     let c2_sq = 1.0 - eta * eta * (1.0 - c1 * c1);
     (c2_sq >= 0.0).then(|| c2_sq.sqrt())
@@ -58,7 +62,8 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// The direction that comes down on the plane z = 0 at `angle` from its normal.
+    /// Returns the direction that meets the plane z = 0 from above at `angle` radians from its
+    /// normal.
     fn down_at(angle: f64) -> DVec3 {
         DVec3::new(angle.sin(), 0.0, -angle.cos())
     }
@@ -101,7 +106,8 @@ mod tests {
     #[test]
     fn at_the_critical_angle_fresnels_share_has_no_step() {
         for eta in [1.1, 1.33, 1.5, 2.4] {
-            // The last cosine that passes and the first that does not, and ten ulps on each side.
+            // Brackets the last cosine that is reflected and the first that is refracted; ten ulps
+            // on each side.
             let mut low = f64::sqrt(1.0 - 1.0 / (eta * eta)).to_bits() - 1000;
             let mut high = low + 2000;
             while high - low > 1 {
@@ -123,7 +129,7 @@ mod tests {
 
     #[test]
     fn known_values() {
-        // Straight on glass: ((n - 1)/(n + 1))^2.
+        // Perpendicular incidence on glass: ((n - 1)/(n + 1))^2.
         assert!((fresnel(1.0, 1.0 / 1.5) - 0.04).abs() < 1e-15);
         assert_eq!(fresnel(0.0, 1.0 / 1.5), 1.0);
         assert_eq!((fresnel(0.3, 1.0), fresnel(0.0, 1.0)), (0.0, 0.0));

@@ -1,10 +1,10 @@
-//! A scene made ready for any number of pictures.
+//! A scene prepared for any number of pictures.
 //!
-//! A [`Prepared`] scene keeps what does not depend on a picture: the structure that finds the hits, the
-//! volumes that transparent objects bound, how texture coordinates hang together, and the tables of each
-//! filter. Volumes are found at once. The rest is built when the first picture needs it and stays for the
-//! pictures that follow, so that the modes of a page, the two pictures of a truth, the blocks of a refined
-//! one and `--pixel` share it.
+//! A [`Prepared`] scene keeps the data that does not depend on a picture: the structure that finds
+//! the hits, the volumes that transparent objects bound, the charts of texture coordinates, and the
+//! tables of each filter. Volumes are found at once. The rest is built when the first picture needs
+//! it and is kept for the pictures that follow. It is shared by the modes of a page, the two
+//! pictures of a truth, the blocks of a refined picture, and `--pixel`.
 
 use crate::accel::{Accel, Structure};
 use crate::filter::{Filter, FilteredTexture};
@@ -17,37 +17,38 @@ use rayon::prelude::*;
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
-/// A scene, and what pictures of it share.
+/// A scene and the data that pictures of it share.
 ///
-/// Pictures may be made one after another from any threads. Of two that start at the same time from tasks
-/// of one rayon pool, one may wait for what the other builds, and the pool must have a thread left for that:
-/// start them from different pools, or one after the other.
+/// Pictures may be rendered one after another from any threads. If two pictures start at the same
+/// time in tasks of one rayon pool, one may wait for data that the other builds. The pool must have
+/// a thread left for this work. Start such pictures from different pools, or one after the other.
 #[derive(Debug)]
 pub struct Prepared<'a> {
     scene: &'a Scene,
     volumes: Volumes,
-    /// By [`Structure::ALL`].
+    /// One structure for each of [`Structure::ALL`].
     structures: [OnceLock<Accel<'a>>; Structure::ALL.len()],
-    /// By [`Filter::ALL`]; for each texture of the scene, nothing if no surface shows it.
+    /// Textures for each of [`Filter::ALL`], by texture index; `None` if no surface shows the
+    /// texture.
     textures: [OnceLock<Vec<Option<FilteredTexture<'a>>>>; Filter::ALL.len()],
-    /// For each object how its texture coordinates hang together, for filters that look at areas.
+    /// Charts of each object, for filters that average over areas.
     charts: OnceLock<Vec<Charts>>,
-    /// For each object nothing, for filters that look at points.
+    /// Empty charts for each object, for filters that average over points only.
     no_charts: Vec<Charts>,
-    /// For each light the volumes that it lies in.
+    /// The volumes that contain each light.
     around_lights: OnceLock<Vec<Media>>,
 }
 
-/// What was built for one picture, because no picture before it needed it.
+/// The data that was built for one picture because no earlier picture needed it.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Built {
-    /// Structures that find hits: 0 or 1.
+    /// Number of structures that find hits: 0 or 1.
     pub structures: u64,
-    /// Time to build it.
+    /// Time to build the structure.
     pub structure_time: Duration,
-    /// Tables and pyramids of textures.
+    /// Number of tables and pyramids of textures.
     pub tables: u64,
-    /// Time to build tables and charts.
+    /// Time to build tables, charts and the volumes around lights.
     pub table_time: Duration,
 }
 
@@ -78,7 +79,8 @@ impl<'a> Prepared<'a> {
         &self.volumes
     }
 
-    /// A shader for pictures of one structure and filter, and what had to be built for it.
+    /// Returns a shader for pictures with one structure and one filter, and a record of what was
+    /// built for it.
     ///
     /// Runs on the threads of the current rayon pool.
     #[must_use]
@@ -98,7 +100,7 @@ impl<'a> Prepared<'a> {
             built.tables = tables.count() as u64;
             textures
         });
-        // Only neighbours that are averaged need to be unwrapped.
+        // Only filters that average over neighbours need charts.
         let charts = if filter.wants_area() {
             self.charts.get_or_init(|| self.charted())
         } else {
@@ -111,7 +113,7 @@ impl<'a> Prepared<'a> {
         (Shader { scene: self.scene, accel, textures, charts, volumes, around_lights }, built)
     }
 
-    /// The textures that surfaces show, ready for a filter.
+    /// Prepares the textures that surfaces show for a filter.
     fn filtered(&self, filter: Filter) -> Vec<Option<FilteredTexture<'a>>> {
         let shown = self.scene.shown_textures();
         let textures = self.scene.textures.par_iter().zip(&shown);
@@ -120,7 +122,7 @@ impl<'a> Prepared<'a> {
             .collect()
     }
 
-    /// The charts of the objects that show a picture; those of others are left empty.
+    /// Builds the charts of the objects that show a picture. Those of other objects stay empty.
     fn charted(&self) -> Vec<Charts> {
         let objects = self.scene.objects.iter();
         objects

@@ -2,62 +2,64 @@
 
 use glam::DVec3;
 
-/// A half line that starts in space or on a surface.
+/// A half line that starts in free space or on a surface.
 #[derive(Debug, Clone, Copy)]
 pub struct Ray {
-    /// Where it starts.
+    /// Start of the ray, in scene space.
     pub origin: DVec3,
-    /// Where it goes; unit, so that `t` is a distance.
+    /// Unit direction of the ray, so that `t` is a distance.
     pub direction: DVec3,
-    /// The piece of surface it leaves; [`crate::accel`] says what it cannot hit at its start.
+    /// The piece of surface that the ray leaves; [`crate::accel`] describes what the ray cannot hit
+    /// at its start.
     pub leaving: Option<Piece>,
 }
 
 impl Ray {
-    /// A ray that starts in free space.
+    /// A ray that starts in free space; `direction` is unit.
     #[must_use]
     pub fn from_eye(origin: DVec3, direction: DVec3) -> Self {
         Self { origin, direction, leaving: None }
     }
 
-    /// A ray that leaves a surface at `origin`.
+    /// A ray that leaves a surface at `origin`; `direction` is unit.
     #[must_use]
     pub fn leaving(piece: Piece, origin: DVec3, direction: DVec3) -> Self {
         Self { origin, direction, leaving: Some(piece) }
     }
 
-    /// The point at distance `t`.
+    /// Returns the point at distance `t`, in scene units.
     #[must_use]
     pub fn at(&self, t: f64) -> DVec3 {
         self.origin + t * self.direction
     }
 }
 
-/// A piece of surface: one shape of the scene, and for a mesh one of its triangles, for a box one of
-/// its faces.
+/// A piece of surface: an object of the scene, or a single triangle of a mesh, or a single face of
+/// a box.
 ///
-/// The order is the tie rule: of two hits at equal distance the smaller piece is seen.
+/// The order of pieces breaks ties: of two hits at equal distance the smaller piece is seen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Piece {
     /// Index of the object in the scene.
     pub object: u32,
-    /// Index of the triangle in its mesh, or of the face of a box; 0 for other shapes.
+    /// Index of the triangle in its mesh or of the face of a box; 0 for other shapes.
     pub triangle: u32,
 }
 
-/// Where a ray meets a surface.
+/// A point where a ray meets a surface.
 #[derive(Debug, Clone, Copy)]
 pub struct Hit {
-    /// Distance along the ray.
+    /// Distance along the ray, in scene units.
     pub t: f64,
-    /// What was hit.
+    /// The piece that the ray meets.
     pub piece: Piece,
-    /// For a triangle the barycentric weights of its second and third corner; else unused.
+    /// Barycentric weights of a triangle's second and third corner; unused for other shapes.
     pub barycentric: [f64; 2],
 }
 
 impl Hit {
-    /// True when this hit is seen rather than `other`: nearer, or equally near and first.
+    /// Returns whether this hit is seen rather than `other`: it is nearer, or equally near and its
+    /// piece is smaller.
     #[must_use]
     pub fn before(&self, other: &Self) -> bool {
         (self.t, self.piece) < (other.t, other.piece)

@@ -1,4 +1,4 @@
-//! What a picture cost.
+//! Statistics of rendering one picture.
 
 use crate::shade::ShadeCounts;
 use crate::trace::RayCounts;
@@ -9,50 +9,51 @@ use std::time::Duration;
 /// Counts, memory and wall-clock time per stage of one picture.
 #[derive(Debug, Clone, Default, Serialize)]
 pub struct Stats {
-    /// Rays from the eye; with an area filter also those around the tiles.
+    /// Rays from the eye. With an area filter they include the rays of the halos around tiles.
     pub primary_rays: u64,
     /// Mirrored rays.
     pub reflected_rays: u64,
     /// Refracted rays.
     pub refracted_rays: u64,
-    /// Rays to lights.
+    /// Shadow rays sent to lights.
     pub shadow_rays: u64,
-    /// Rays of the first three kinds that hit something.
+    /// Primary, reflected and refracted rays that hit a surface.
     pub hits: u64,
-    /// Textures averaged over an area.
+    /// Texture averages over an area.
     pub texture_areas: u64,
-    /// Textures looked up at a point.
+    /// Texture lookups at a point.
     pub texture_points: u64,
-    /// Texels or table entries read for both; an average over an area counts as the number that the
-    /// usual footprint reads ([`crate::filter::FilteredTexture::reads`]).
+    /// Texels or table entries read for averages and lookups together. An average over an area
+    /// counts the nominal number of reads ([`crate::filter::FilteredTexture::reads`]).
     pub texels: u64,
-    /// Solid textures looked up.
+    /// Lookups of solid textures.
     pub solid_points: u64,
-    /// Memory of what finds the hits, in bytes ([`crate::accel::Accel::bytes`]).
+    /// Memory of the structure that finds the hits, in bytes ([`crate::accel::Accel::bytes`]).
     pub accel_bytes: u64,
-    /// Structures that find hits, built for this picture: 0 or 1. Pictures of one prepared scene share them.
+    /// Structures built for this picture to find hits: 0 or 1. Pictures of one prepared scene share
+    /// them.
     pub structures: u64,
     /// Prefiltered tables and pyramids built for this picture.
     pub tables: u64,
-    /// Memory of those that the picture uses, in bytes.
+    /// Memory of the tables and pyramids that the picture uses, in bytes.
     pub table_bytes: u64,
-    /// Memory of the noise lattice in bytes; 0 when nothing of the scene is made of noise.
+    /// Memory of the noise lattice, in bytes; 0 if nothing in the scene uses noise.
     pub lattice_bytes: u64,
-    /// Pixels that came out NaN or infinite and were made black; there should be none.
+    /// Pixels that were NaN or infinite and were made black. There should be none.
     pub not_finite: u64,
-    /// Reading the scene, its meshes and textures.
+    /// Time to read the scene, its meshes and its textures.
     #[serde(rename = "read_seconds", serialize_with = "seconds")]
     pub read_time: Duration,
-    /// Building what finds the hits.
+    /// Time to build the structure that finds the hits.
     #[serde(rename = "accel_seconds", serialize_with = "seconds")]
     pub accel_time: Duration,
-    /// Building tables.
+    /// Time to build tables, pyramids and charts.
     #[serde(rename = "table_seconds", serialize_with = "seconds")]
     pub table_time: Duration,
-    /// Tracing and shading.
+    /// Time to trace and shade.
     #[serde(rename = "picture_seconds", serialize_with = "seconds")]
     pub picture_time: Duration,
-    /// Encoding and writing the file.
+    /// Time to encode and write the file.
     #[serde(rename = "write_seconds", serialize_with = "seconds")]
     pub write_time: Duration,
 }
@@ -62,7 +63,7 @@ fn seconds<S: serde::Serializer>(time: &Duration, serializer: S) -> Result<S::Ok
 }
 
 impl Stats {
-    /// Adds the work of one tile.
+    /// Adds the counts of one tile.
     pub fn add(&mut self, rays: &RayCounts, shading: &ShadeCounts) {
         self.primary_rays += rays.primary;
         self.reflected_rays += rays.reflected;

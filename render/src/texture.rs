@@ -6,7 +6,7 @@ use image::{ColorType, DynamicImage};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// A picture to be laid on surfaces.
+/// A picture that is mapped onto surfaces.
 ///
 /// ```text
 ///   t = 1  +---------------+   row 0 of the picture is at the top;
@@ -17,47 +17,47 @@ use serde::Deserialize;
 /// ```
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Texture {
-    /// What the scene calls it.
+    /// Name of the texture in the scene.
     pub name: String,
     /// Texels across.
     pub width: usize,
     /// Texels down.
     pub height: usize,
-    /// What lies beyond the edges.
+    /// How the texture continues beyond its edges.
     pub wrap: Wrap,
     /// Codes of red, green and blue, proportional to light, row by row from the top.
     pub texels: Vec<[u16; 3]>,
-    /// The largest code that can occur; it stands for 1.
+    /// The largest code that can occur, which stands for 1.
     pub white: u16,
 }
 
-/// What lies beyond the edges of a texture.
+/// How a texture continues beyond its edges.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Wrap {
-    /// The texture again.
+    /// The texture repeats.
     #[default]
     Repeat,
-    /// Its edge texels, without end.
+    /// The edge texels continue without end.
     Clamp,
-    /// The texture turned over, and so on: what lies beyond an edge is what lies before it.
+    /// The texture repeats, and every other copy is mirrored.
     Mirror,
 }
 
-/// What the codes of a picture file mean.
+/// The meaning of a picture file's codes.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Values {
-    /// sRGB: codes become 16-bit linear before anything is summed.
+    /// Codes are sRGB. They become 16-bit linear values before anything is summed.
     #[default]
     Srgb,
-    /// Codes proportional to light; they stay as they are, 8 or 16 bits.
+    /// Codes are proportional to light and stay unchanged, with 8 or 16 bits.
     Linear,
 }
 
 impl Texture {
-    /// The texture of a picture; transparency is passed over, grey becomes three equal channels.
-    /// Nothing for pictures of floating point values.
+    /// Creates a texture from a decoded picture. Transparency is ignored, and grey becomes three
+    /// equal channels. Returns `None` for a picture of floating point values.
     #[must_use]
     pub fn from_picture(picture: &DynamicImage, values: Values, wrap: Wrap) -> Option<Self> {
         let (width, height) = (picture.width() as usize, picture.height() as usize);
@@ -90,8 +90,8 @@ impl Texture {
         Some(Self { name: String::new(), width, height, wrap, texels, white })
     }
 
-    /// Bytes a pixel while a picture of this kind becomes a texture: as decoded, as codes, and as
-    /// texels, all at once. What the decoder itself works with is not in it.
+    /// Returns the bytes per pixel while a picture of this kind becomes a texture: decoded, as
+    /// codes and as texels, all at once. The decoder's own working memory is not included.
     #[must_use]
     pub fn decoding_bytes(kind: ColorType) -> u64 {
         let wide = kind.bytes_per_pixel() / kind.channel_count() > 1;
@@ -99,25 +99,27 @@ impl Texture {
         u64::from(kind.bytes_per_pixel()) + codes + size_of::<[u16; 3]>() as u64
     }
 
-    /// Memory of the texels in bytes.
+    /// Memory of the texels, in bytes.
     #[must_use]
     pub fn bytes(&self) -> u64 {
         size_of_val(self.texels.as_slice()) as u64
     }
 
-    /// Light of one code.
+    /// Returns the amount of light of one code, `1 / white`.
     #[must_use]
     pub fn unit(&self) -> f64 {
         1.0 / f64::from(self.white)
     }
 
-    /// Texture coordinates as a place in texels, `x` to the right and `y` downward.
+    /// Converts texture coordinates to a position in texels, `x` to the right and `y` downward from
+    /// the upper left corner.
     #[must_use]
     pub fn in_texels(&self, uv: DVec2) -> DVec2 {
         DVec2::new(uv.x * self.width as f64, (1.0 - uv.y) * self.height as f64)
     }
 
-    /// The texel that holds the point: no filtering at all.
+    /// Returns the texel that contains the point, unfiltered, in linear RGB. `uv` are texture
+    /// coordinates.
     #[must_use]
     pub fn point(&self, uv: DVec2) -> Color {
         let at = self.in_texels(uv);
@@ -126,7 +128,8 @@ impl Texture {
         DVec3::from(self.texels[row * self.width + column].map(f64::from)) * self.unit()
     }
 
-    /// Linear interpolation between the four texel centres around the point.
+    /// Interpolates linearly between the four texel centres around the point and returns linear
+    /// RGB. `uv` are texture coordinates.
     #[must_use]
     pub fn bilinear(&self, uv: DVec2) -> Color {
         let at = self.in_texels(uv) - 0.5;
@@ -145,13 +148,14 @@ impl Texture {
     }
 }
 
-/// Further than this many texels from the origin, places are taken nearer before they are weighed.
+/// Largest distance from the origin, in texels, at which positions are used as they are. Farther
+/// positions are replaced by equivalent ones near the origin before they get weights.
 ///
-/// A few texels from here `f64` still tells a thousandth of a texel; from 2^53 on it does not tell
-/// one texel from the next, and the weights of a filter no longer sum to one.
+/// A few times farther out, `f64` still resolves a thousandth of a texel. From 2^53 on it does not
+/// distinguish neighbouring texels, and the weights of a filter no longer sum to one.
 const FAR: f64 = (1u64 << 42) as f64;
 
-/// The next whole number below, without a call for all but the farthest places.
+/// Rounds down, without a function call for all but the farthest positions.
 fn floor(at: f64) -> f64 {
     if at.abs() < FAR {
         let toward_zero = at as i64 as f64;
@@ -161,7 +165,7 @@ fn floor(at: f64) -> f64 {
 }
 
 impl Wrap {
-    /// A place in texels, not too far from the origin, that looks like the one at `at`.
+    /// Returns an equivalent position in texels that is not too far from the origin.
     #[must_use]
     pub fn nearer(self, at: f64, size: usize) -> f64 {
         match self.period(size) {
@@ -171,7 +175,8 @@ impl Wrap {
         }
     }
 
-    /// After how many texels an axis of this size begins again, if it does.
+    /// Returns the number of texels after which an axis of `size` texels repeats, or `None` if it
+    /// does not.
     #[must_use]
     pub fn period(self, size: usize) -> Option<f64> {
         match self {
@@ -181,11 +186,11 @@ impl Wrap {
         }
     }
 
-    /// The index in `0..size` that a whole number stands for.
+    /// Returns the texel in `0..size` at the whole number `at`, of either sign.
     #[must_use]
     pub fn index(self, at: f64, size: usize) -> usize {
         let size_f = size as f64;
-        // The usual case, without a slow remainder.
+        // The usual case, which avoids a slow remainder.
         if at >= 0.0 && at < size_f {
             return at as usize;
         }

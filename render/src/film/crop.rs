@@ -1,9 +1,9 @@
-//! A part of a picture.
+//! A rectangular part of a picture.
 
 use super::{Settings, size};
 use std::ops::Range;
 
-/// A rectangle of a picture's pixels; its places are those of the whole.
+/// A rectangle of a picture's pixels. Coordinates count from the corner of the whole picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Crop {
     /// The leftmost column.
@@ -17,10 +17,11 @@ pub struct Crop {
 }
 
 impl Crop {
-    /// Reads a rectangle such as `100,50,64x48`: its upper left pixel and its size.
+    /// Reads a rectangle such as `100,50,64x48`: column and row of its upper left pixel, then its
+    /// size.
     ///
     /// # Errors
-    /// When the text has another form, or the rectangle could lie in no picture.
+    /// If the text has another form, or if the rectangle cannot lie in any picture.
     pub fn parse(text: &str) -> Result<Self, String> {
         let form = "expected X,Y,WxH in pixels, such as 100,50,64x48";
         let (corner, extent) = text.rsplit_once(',').ok_or(form)?;
@@ -29,13 +30,13 @@ impl Crop {
         Ok(Self { x, y, width, height })
     }
 
-    /// All of a picture.
+    /// Returns the rectangle of a whole picture of this size, in pixels.
     #[must_use]
     pub fn whole(width: u32, height: u32) -> Self {
         Self { x: 0, y: 0, width, height }
     }
 
-    /// Whether it lies in a picture of this size.
+    /// Returns whether the rectangle lies in a picture of this size, in pixels, and is not empty.
     #[must_use]
     pub fn fits(&self, width: u32, height: u32) -> bool {
         let ends = |start: u32, extent: u32, whole: u32| {
@@ -44,25 +45,26 @@ impl Crop {
         ends(self.x, self.width, width) && ends(self.y, self.height, height)
     }
 
-    /// What is to be rendered.
+    /// Returns the rectangle that `settings` ask to render.
     #[must_use]
     pub fn of(settings: &Settings) -> Self {
         settings.crop.unwrap_or(Self::whole(settings.width, settings.height))
     }
 
-    /// Its columns.
+    /// Columns of the rectangle.
     #[must_use]
     pub fn columns(&self) -> Range<u32> {
         self.x..self.x + self.width
     }
 
-    /// Its rows.
+    /// Rows of the rectangle.
     #[must_use]
     pub fn rows(&self) -> Range<u32> {
         self.y..self.y + self.height
     }
 
-    /// The rectangles of at most `side` by `side` pixels that it is cut into, row by row.
+    /// Cuts the rectangle into tiles of at most `side` by `side` pixels, listed row by row. `side`
+    /// is at least 1.
     #[must_use]
     pub fn tiles(&self, side: u32) -> Vec<Self> {
         let columns = self.columns().step_by(side as usize);
@@ -79,10 +81,11 @@ impl Crop {
     }
 }
 
-/// Reads the place of a pixel, such as `320,240`: column and row from the upper left, from 0.
+/// Reads the coordinates of a pixel, such as `320,240`: column and row, counted from 0 at the upper
+/// left.
 ///
 /// # Errors
-/// When the text is not two numbers below 65536 with a comma between them.
+/// If the text is not two numbers below 65536 with a comma between them.
 pub fn pixel(text: &str) -> Result<(u32, u32), String> {
     let place = |text: &str| text.parse().ok().filter(|&place: &u32| place < 65536);
     text.split_once(',')

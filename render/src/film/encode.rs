@@ -1,7 +1,8 @@
-//! A picture as the bytes of a file.
+//! Encodes a picture as the bytes of a PNG or EXR file.
 //!
-//! An EXR with layers holds them in one part, as channels whose names have the layer before the
-//! dot: `R`, `G`, `B`, `normal.X`, `depth.Z` and so on ([`super::Layer`]), all 32-bit floats.
+//! An EXR file with layers holds one part with a channel for each value. A channel's name starts
+//! with the layer and a dot, such as `normal.X` or `depth.Z` ([`super::Layer`]); the colour is `R`,
+//! `G` and `B`. All channels are 32-bit floats.
 
 use super::Picture;
 use crate::color::Encoding;
@@ -11,17 +12,18 @@ use image::{ImageError, ImageFormat, Rgb, Rgb32FImage, RgbImage};
 use std::io::Cursor;
 use std::path::Path;
 
-/// A kind of picture file.
+/// The format of a picture file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
-    /// 24 bits per pixel, encoded (sRGB or a gamma).
+    /// PNG: 24 bits per pixel, encoded with sRGB or a gamma.
     Png,
     /// EXR: linear 32-bit floats.
     Exr,
 }
 
 impl Format {
-    /// The format that a file name's extension names, if it is one of ours.
+    /// Returns the format of a file name's extension, in upper or lower case, or `None` if the
+    /// extension is neither `png` nor `exr`.
     #[must_use]
     pub fn of(path: &Path) -> Option<Self> {
         match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
@@ -32,10 +34,11 @@ impl Format {
     }
 }
 
-/// The bytes of the file. `encoding` is how PNG codes are made; EXR stays linear.
+/// Returns the bytes of the file. `encoding` turns linear values into the codes of a PNG. An EXR
+/// stays linear.
 ///
 /// # Errors
-/// When the picture is too large for the format.
+/// If the picture is too large for the format.
 pub fn encode(
     picture: &Picture,
     format: Format,
@@ -58,7 +61,7 @@ pub fn encode(
     Ok(bytes.into_inner())
 }
 
-/// Writes an EXR with all channels of the picture.
+/// Writes an EXR file with the colour and all channels of the picture.
 fn write_layers(picture: &Picture, bytes: &mut Cursor<Vec<u8>>) -> Result<(), ImageError> {
     let light = |k: usize| FlatSamples::F32(picture.pixels.iter().map(|pixel| pixel[k]).collect());
     let mut channels: SmallVec<[AnyChannel<FlatSamples>; 4]> = ["R", "G", "B"]
@@ -100,7 +103,7 @@ mod tests {
         }
     }
 
-    /// The channels of an EXR by name.
+    /// Reads the channels of an EXR file, each with its name.
     fn read_channels(bytes: &[u8]) -> Vec<(String, Vec<f32>)> {
         use exr::prelude::{ReadChannels, ReadLayers, read};
         let image = read()

@@ -1,4 +1,4 @@
-//! What happens in a tile: its samples are traced row by row, shaded, and added up to pixels.
+//! Exposure of one tile: its samples are traced row by row, shaded and summed into pixels.
 
 use super::crop::Crop;
 use super::layer::Layer;
@@ -15,18 +15,18 @@ use crate::trace::{RayCounts, Tracer};
 use glam::DVec2;
 use std::ops::Range;
 
-/// All that the tiles share.
+/// The data that all tiles share.
 pub struct Exposure<'a> {
     pub tracer: Tracer<'a>,
     pub shader: Shader<'a>,
     pub settings: &'a Settings,
-    /// Whether neighbours are looked at.
+    /// Whether footprints need the neighbours of each sample.
     pub halo: bool,
 }
 
-/// What came of a tile.
+/// The exposed pixels of a tile.
 pub struct Exposed {
-    /// Row by row.
+    /// Pixels row by row, linear RGB.
     pixels: Vec<Color>,
     /// For each pixel the values of all channels of all layers.
     layers: Vec<Vec<f32>>,
@@ -34,9 +34,9 @@ pub struct Exposed {
     shading: ShadeCounts,
 }
 
-/// Is told which samples of the film's lattice are shaded, and of all that their shading is.
+/// Observes the exposure of a tile: which samples are shaded, and all steps of their shading.
 pub trait Witness: Observer {
-    /// The sample in this column and row is shaded next.
+    /// Called before the sample in column `x` and row `y` of the film's lattice is shaded.
     fn sample(&mut self, x: i64, y: i64);
 }
 
@@ -44,13 +44,14 @@ impl Witness for () {
     fn sample(&mut self, _: i64, _: i64) {}
 }
 
-/// Where tiles come together, in any order: they do not overlap, and counts are whole numbers.
+/// Collects the tiles of a picture, in any order. The order does not matter, since tiles do not
+/// overlap and counts are whole numbers.
 pub struct Film {
     pub picture: Picture,
     pub stats: Stats,
-    /// The part of the whole that is exposed.
+    /// The part of the whole picture that is exposed.
     crop: Crop,
-    /// Tiles that are there.
+    /// Number of tiles collected.
     done: usize,
 }
 
@@ -60,7 +61,7 @@ impl Film {
         Self { picture, stats, crop, done: 0 }
     }
 
-    /// Puts a tile in its place and says how many there are now.
+    /// Copies a tile into the picture and returns the number of tiles collected so far.
     pub fn take(&mut self, tile: &Crop, exposed: &Exposed) -> usize {
         let (x, y) = (tile.x - self.crop.x, tile.y - self.crop.y);
         self.picture.place(x, y, tile.width, &exposed.pixels);
@@ -91,7 +92,7 @@ impl Exposure<'_> {
         exposed
     }
 
-    /// Shades one row of samples after the other.
+    /// Exposes a tile one row of samples at a time.
     fn expose_rows<W: Witness>(&self, tile: &Crop, exposed: &mut Exposed, witness: &mut W) {
         let columns = self.settings.sampling.under(tile.columns());
         let rows = self.settings.sampling.under(tile.rows());
@@ -122,7 +123,7 @@ impl Exposure<'_> {
         }
     }
 
-    /// Adds a row of samples to the pixels that it counts in.
+    /// Adds a row of samples to the pixels in which it has a weight.
     fn gather(
         &self,
         tile: &Crop,
@@ -146,8 +147,8 @@ impl Exposure<'_> {
         }
     }
 
-    /// Shades the nine rays of one pixel after the other; of three rows of trees the last is the
-    /// first of the next row of pixels.
+    /// Exposes a tile by shading all nine rays of each pixel. Of the three rows of trees, the last
+    /// is the first for the next row of pixels.
     fn expose_nine<W: Witness>(&self, tile: &Crop, exposed: &mut Exposed, witness: &mut W) {
         let sampling = self.settings.sampling;
         let columns = sampling.under(tile.columns());
@@ -178,8 +179,8 @@ impl Exposure<'_> {
         }
     }
 
-    /// The colour of the sample in the middle of `around`, of which layers are kept where they are
-    /// asked for.
+    /// Shades the sample in the middle of `around` and returns its linear RGB colour. Stores the
+    /// values of all layers if the sample is the middle one of its pixel.
     fn shade<W: Witness>(
         &self,
         tile: &Crop,
@@ -201,7 +202,8 @@ impl Exposure<'_> {
         self.shader.shade(around, &mut exposed.shading, witness)
     }
 
-    /// Which of the pixels, counted from the first, a column of samples stands for.
+    /// Index within `pixels` of the pixel whose middle sample lies in column `x`, if any. Rows
+    /// follow the same rule.
     fn pixel_of_middle(&self, x: i64, pixels: &Range<u32>) -> Option<usize> {
         let sampling = self.settings.sampling;
         let pixel = u32::try_from(x / i64::from(sampling.per_pixel())).ok()?;
@@ -209,14 +211,14 @@ impl Exposure<'_> {
         stands.then(|| (pixel - pixels.start) as usize)
     }
 
-    /// Traces a row of samples from column `x` on.
+    /// Traces row `y` of samples into `trees`, starting at column `x`.
     fn trace_row(&self, x: i64, y: i64, trees: &mut [IntersectionTree], rays: &mut RayCounts) {
         for (tree, x) in trees.iter_mut().zip(x..) {
             self.trace(x, y, tree, rays);
         }
     }
 
-    /// Traces the ray of a sample.
+    /// Traces the ray of the sample in column `x` and row `y`.
     fn trace(&self, x: i64, y: i64, tree: &mut IntersectionTree, rays: &mut RayCounts) {
         let Settings { width, height, sampling, .. } = *self.settings;
         let size = DVec2::new(f64::from(width), f64::from(height));

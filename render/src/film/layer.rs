@@ -1,38 +1,38 @@
-//! What a pixel shows, besides its colour: layers of an EXR file.
+//! Layers of an EXR file: values of a pixel besides its colour.
 
 use crate::footprint::Footprint;
 use crate::footprint::neighbours::Neighbourhood;
 use crate::shade::Shader;
 use std::str::FromStr;
 
-/// A kind of value that is kept of what each pixel's middle ray hits first.
+/// A value of the first hit of each pixel's middle ray.
 ///
-/// Where a pixel has several rays, a layer holds the value of the one in its middle, or the first
-/// right of it and below: nothing is averaged, so an object's number is that of an object and a
-/// normal is unit.
+/// If a pixel has several rays, a layer holds the value of the middle ray. If no ray is in the
+/// middle, it holds the value of the first ray to the right and below. Nothing is averaged, so an
+/// object's number always belongs to an object, and a normal is always a unit vector.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Layer {
-    /// The unit normal that is shaded with, in the scene's space, on the side that is seen; 0
-    /// where there is nothing.
+    /// The unit normal used for shading, in scene space, on the side that is seen. It is 0 where
+    /// the ray hits nothing.
     Normal,
-    /// The distance from the eye along the ray, in the scene's units; infinite where there is
+    /// The distance from the eye along the ray, in scene units. It is infinite where the ray hits
     /// nothing.
     Depth,
-    /// Texture coordinates; 0 where there is nothing.
+    /// Texture coordinates. They are 0 where the ray hits nothing.
     Uv,
-    /// The number of the object in the scene's list, from 0; -1 where there is nothing.
+    /// The object's index in the scene's list, from 0. It is -1 where the ray hits nothing.
     Object,
-    /// Width and height of the rectangle of texture that is averaged, in texture coordinates; 0
-    /// for a point, where there is nothing, and everywhere if no neighbours are looked at (no
-    /// texture is shown, or the filter looks at points).
+    /// Width and height of the rectangle of texture that is averaged, in texture coordinates. They
+    /// are 0 for a point and where the ray hits nothing. They are 0 everywhere if no neighbours are
+    /// traced: no texture is shown, or the filter averages over points only.
     Footprint,
 }
 
 impl Layer {
-    /// Every layer there is.
+    /// All layers.
     pub const ALL: [Self; 5] = [Self::Normal, Self::Depth, Self::Uv, Self::Object, Self::Footprint];
 
-    /// What it is called.
+    /// Name of the layer, as in settings.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -44,7 +44,7 @@ impl Layer {
         }
     }
 
-    /// What its channels are called in the file.
+    /// Names of the layer's channels in the file.
     #[must_use]
     pub fn channels(self) -> &'static [&'static str] {
         match self {
@@ -56,7 +56,8 @@ impl Layer {
         }
     }
 
-    /// Adds the values of its channels for the root of a tree.
+    /// Appends the values of the layer's channels for the root of the tree in the middle of
+    /// `around`.
     pub(super) fn push(self, around: &Neighbourhood<'_>, shader: &Shader<'_>, to: &mut Vec<f32>) {
         let Some(node) = around.node() else {
             let nothing = match self {

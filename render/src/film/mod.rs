@@ -1,9 +1,10 @@
-//! Makes the picture: tiles of rows of trees, shaded and averaged into pixels.
+//! Renders the picture: traces and shades tiles of samples and averages the samples into pixels.
 //!
-//! A tile traces its samples row by row. With a filter that looks at areas it keeps three rows and
-//! shades the middle one, and traces one sample more on each side than it shades (a halo); where
-//! pixels share samples it shades those of its neighbours too. So each tile has all it needs, and
-//! the picture does not depend on how it is cut or on who works on it.
+//! A tile traces its samples row by row. With a filter that averages over areas, it keeps three
+//! rows of trees and shades the middle one. It then also traces one sample more on each side than
+//! it shades (a halo). Where pixels share samples, a tile shades the shared samples of its
+//! neighbours too. Each tile is therefore complete by itself, and the picture does not depend on
+//! the tiles or on the threads.
 
 pub mod crop;
 pub mod encode;
@@ -33,36 +34,37 @@ use std::time::Instant;
 
 /// Samples along the side of a tile.
 ///
-/// Smaller, and the halo of two samples a row is a larger part of the work (6 % of the rays at 64);
-/// larger, and the last tiles leave cores idle.
+/// A smaller tile makes the halo of two samples a row a larger part of the work (6 % of the rays at
+/// 64). A larger tile leaves more cores idle while the last tiles are rendered.
 const TILE_SAMPLES: u32 = 64;
 
-/// Pixels along the side of a tile at least, where pixels share samples: fewer, and the samples
-/// that are traced again for the next tile are a larger part of the work (a half of it at 4).
+/// Smallest side of a tile in pixels, where pixels share samples. A smaller tile increases the part
+/// of the work that is repeated for the next tile (a half at 4).
 const LEAST_SHARING: u32 = 4;
 
-/// What is asked of a picture.
+/// The size, the sampling and the parts of a picture to render.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Settings {
     /// Pixels across, at least 1.
     pub width: u32,
     /// Pixels down, at least 1.
     pub height: u32,
-    /// How a pixel is made of rays.
+    /// Number, position and weight of the rays of a pixel.
     pub sampling: Sampling,
-    /// How textures are averaged.
+    /// Filter that averages textures.
     pub filter: Filter,
-    /// The part to be rendered, within the picture; nothing for all of it. Its pixels are those of
-    /// the whole picture to the last bit.
+    /// Part of the picture to render, within the picture; `None` renders all of it. The pixels of
+    /// the part equal those of the whole picture to the last bit.
     pub crop: Option<Crop>,
-    /// What is kept besides the colour, in this order.
+    /// Layers to keep besides the colour, in this order.
     pub layers: Vec<Layer>,
-    /// What finds the hits.
+    /// Structure that finds the hits.
     pub accel: Structure,
 }
 
 impl Settings {
-    /// One ray in the middle of each pixel.
+    /// Settings with one ray in the middle of each pixel. `width` and `height` are in pixels, at
+    /// least 1.
     #[must_use]
     pub fn new(width: u32, height: u32, filter: Filter) -> Self {
         let sampling = Sampling::regular(1);
@@ -70,21 +72,22 @@ impl Settings {
         Self { width, height, sampling, filter, crop: None, layers: Vec::new(), accel }
     }
 
-    /// The same with `samples * samples` rays in each pixel, evenly spread and of equal weight.
+    /// Returns these settings with `samples * samples` rays in each pixel, evenly spread and of
+    /// equal weight.
     #[must_use]
     pub fn with_samples(self, samples: u32) -> Self {
         Self { sampling: Sampling::regular(samples), ..self }
     }
 }
 
-/// Pixels of one picture at most: 3 GB of them.
+/// Largest number of pixels in a picture; such a picture takes 3 GB.
 const MOST_PIXELS: u64 = 1 << 28;
 
-/// Reads a size in pixels, such as `640x480`.
+/// Reads a size in pixels, such as `640x480`: width, then height.
 ///
 /// # Errors
-/// When the text is not two numbers from 1 to 65536 with an `x` between them, or asks for more
-/// pixels than memory should be expected to hold.
+/// If the text is not two numbers from 1 to 65536 with an `x` between them, or if they make more
+/// than 2^28 pixels.
 pub fn size(text: &str) -> Result<(u32, u32), String> {
     let side = |text: &str| text.parse().ok().filter(|side| (1..=65536).contains(side));
     let (width, height): (u32, u32) = text
@@ -97,11 +100,12 @@ pub fn size(text: &str) -> Result<(u32, u32), String> {
     Ok((width, height))
 }
 
-/// Renders a scene. Calls `progress` after each tile with the number of tiles done and of all tiles.
+/// Renders a scene. Calls `progress` after each tile with the number of finished tiles and the
+/// number of all tiles.
 ///
-/// What the scene lacks for these settings is built first and kept in `prepared`; the statistics count only
-/// what was built for this picture. Runs on the threads of the current rayon pool; the picture is the same
-/// for any number of them.
+/// Builds the structures and tables that the settings need and `prepared` lacks, and keeps them in
+/// `prepared`. The statistics count only what was built for this picture. Runs on the threads of
+/// the current rayon pool. The picture is the same for any number of threads.
 pub fn render(
     prepared: &Prepared<'_>,
     settings: &Settings,
@@ -123,8 +127,8 @@ fn render_in_tiles(
         let crop = Crop::of(settings);
         let tiles = crop.tiles((tile_samples / sampling.per_pixel()).max(least));
         let film = Mutex::new(Film::new(crop, &settings.layers, stats));
-        // Tile by tile: in longer runs, which are taken whole, the last one would keep one core busy and
-        // leave the others idle.
+        // One tile per task. In longer runs, which one core takes as a whole, the last run would
+        // leave the other cores idle.
         tiles.par_iter().with_max_len(1).for_each(|tile| {
             let exposed = exposure.expose(tile, &mut ());
             let done = film.lock().unwrap_or_else(PoisonError::into_inner).take(tile, &exposed);
@@ -138,11 +142,11 @@ fn render_in_tiles(
     })
 }
 
-/// Renders one pixel of a scene, and tells `witness` of all that it is made of. `looks` is told
-/// beforehand whether neighbours are looked at.
+/// Renders one pixel of a scene and reports all of its samples to a witness. `witness` makes the
+/// observer; its argument tells whether the neighbours of each sample are traced.
 ///
-/// It is exposed as a tile of its own, by the code that exposes all others: its colour is that of
-/// the picture to the last bit. The pixel lies in the picture.
+/// The pixel is exposed as a tile of its own, by the code that exposes all other tiles. Its colour
+/// therefore equals that of the picture to the last bit. The pixel must lie in the picture.
 pub fn expose_pixel<W: Witness>(
     prepared: &Prepared<'_>,
     settings: &Settings,
@@ -159,7 +163,7 @@ pub fn expose_pixel<W: Witness>(
     })
 }
 
-/// Takes from a prepared scene what the tiles of a picture share, and begins the picture's statistics.
+/// Takes the data that the tiles share from a prepared scene and starts the picture's statistics.
 fn with_exposure<T>(
     prepared: &Prepared<'_>,
     settings: &Settings,
@@ -274,7 +278,7 @@ mod tests {
         }
     }
 
-    /// A part of a picture, with its layers.
+    /// Cuts a rectangle out of a picture, with its layers.
     fn cut_out(whole: &Picture, crop: Crop) -> Picture {
         let mut part = Picture::black(crop.width, crop.height);
         let places =
@@ -320,7 +324,7 @@ mod tests {
         scene.min_weight = 1e-3;
         let (most, less) = render(&Prepared::new(&scene), &settings, &|_, _| {});
         assert!(less.refracted_rays < cost.refracted_rays);
-        // A pixel lacks at most as many branches as it has surfaces on its way, 8 here.
+        // A pixel lacks at most one branch for each of the surfaces on its path, 8 here.
         for (a, b) in all.pixels.iter().flatten().zip(most.pixels.iter().flatten()) {
             assert!((a - b).abs() <= 8e-3 && b <= a, "{a} {b}");
         }

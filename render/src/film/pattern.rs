@@ -1,28 +1,28 @@
-//! Where in its part of a pixel a ray goes.
+//! Positions of the samples within their cells of the sampling lattice.
 
 use glam::DVec2;
 
-/// Where in its part of a pixel a ray goes.
+/// Position of a sample within its cell of the sampling lattice.
 ///
-/// With jitter the neighbours of a sample, between which its footprint is spanned, are the samples
-/// of the neighbouring parts, wherever they lie in those: the box that they span is as wide on the
-/// average as that of a regular grid, and its middle is not the sample.
+/// The footprint of a sample is spanned by its neighbours. With jitter these are the samples of the
+/// neighbouring cells, wherever they lie in their cells. The box that they span is as wide on
+/// average as that of a regular grid, and the sample is not in the middle of the box.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Pattern {
-    /// In the middle.
+    /// The middle of the cell.
     #[default]
     Regular,
-    /// Anywhere, by a hash of the sample's numbers and the seed: the same for any number of
-    /// threads, any tiles and any crop.
+    /// A pseudo-random position, from a hash of the seed and the sample's column and row. It is the
+    /// same for any number of threads, any tiles and any crop.
     Jitter {
-        /// Another seed is another pattern.
+        /// Seed of the hash. Different seeds give different patterns.
         seed: u64,
     },
 }
 
 impl Pattern {
-    /// The place within the part of the sample in column `x` and row `y` of the film's lattice,
-    /// each in `[0, 1)`.
+    /// Returns the position of the sample in column `x` and row `y` of the film's lattice within
+    /// its cell. Both coordinates are in `[0, 1)`.
     #[must_use]
     pub fn offset(self, x: i64, y: i64) -> DVec2 {
         match self {
@@ -35,8 +35,8 @@ impl Pattern {
     }
 }
 
-/// One step of the generator `SplitMix64` (Steele, Lea and Flood 2014): a permutation of all words in
-/// which each bit of the argument turns about half of the result's.
+/// One step of the generator `SplitMix64` (Steele, Lea and Flood 2014). It is a permutation of all
+/// words, in which each bit of the argument flips about half of the result's bits.
 fn mixed(word: u64) -> u64 {
     let word = word.wrapping_add(0x9e37_79b9_7f4a_7c15);
     let word = (word ^ (word >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -44,7 +44,7 @@ fn mixed(word: u64) -> u64 {
     word ^ (word >> 31)
 }
 
-/// The upper 53 bits as a number in `[0, 1)`.
+/// Returns the upper 53 bits of a word as a number in `[0, 1)`.
 fn fraction(word: u64) -> f64 {
     (word >> 11) as f64 / (1u64 << 53) as f64
 }
@@ -70,8 +70,8 @@ mod tests {
             }
         }
         let n = f64::from(count);
-        // Five standard deviations: of the mean sqrt(1/12 / n), of the square sqrt(1/180 / n), of
-        // the products 1/12 / sqrt(n).
+        // Five standard deviations: of the mean sqrt(1/12 / n), of the square sqrt(1/180 / n), and
+        // of the products 1/12 / sqrt(n).
         assert!((sum / n).abs().max_element() < 5.0 * (1.0 / 12.0 / n).sqrt());
         assert!((squares / n - 1.0 / 12.0).abs().max_element() < 5.0 * (1.0 / 180.0 / n).sqrt());
         for product in [along, axes] {

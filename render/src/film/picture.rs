@@ -3,36 +3,36 @@
 use super::Layer;
 use crate::color::Color;
 
-/// Linear RGB, row by row from the top.
+/// A picture in linear RGB, with optional further channels.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Picture {
     /// Pixels across.
     pub width: u32,
     /// Pixels down.
     pub height: u32,
-    /// The pixels, in the `f32` that a file of linear values holds.
+    /// Pixels row by row from the top, linear RGB in the `f32` of an EXR file.
     pub pixels: Vec<[f32; 3]>,
-    /// What is known of them besides their colour: the channels of the layers that were asked for.
+    /// Channels of the layers that were asked for.
     pub channels: Vec<Channel>,
 }
 
-/// A number for each pixel.
+/// One number for each pixel.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Channel {
-    /// What it is called in a file, such as `normal.X`.
+    /// Name of the channel in a file, such as `normal.X`.
     pub name: &'static str,
-    /// The numbers, row by row from the top.
+    /// One number for each pixel, row by row from the top.
     pub values: Vec<f32>,
 }
 
 impl Picture {
-    /// A black picture.
+    /// Creates a black picture without layers; the size is in pixels.
     #[must_use]
     pub fn black(width: u32, height: u32) -> Self {
         Self::with_layers(width, height, &[])
     }
 
-    /// A black picture with layers of zeros.
+    /// Creates a black picture with layers whose values are all 0; the size is in pixels.
     #[must_use]
     pub fn with_layers(width: u32, height: u32, layers: &[Layer]) -> Self {
         let count = width as usize * height as usize;
@@ -41,7 +41,8 @@ impl Picture {
         Self { width, height, pixels: vec![[0.0; 3]; count], channels }
     }
 
-    /// Puts a rectangle of pixels, `columns` wide, with its upper left corner at `(x, y)`.
+    /// Copies a rectangle of pixels into the picture, with its upper left corner at column `x` and
+    /// row `y`. `colors` holds the rectangle row by row, `columns` pixels a row.
     pub fn place(&mut self, x: u32, y: u32, columns: u32, colors: &[Color]) {
         for (row, colors) in colors.chunks_exact(columns as usize).enumerate() {
             let start = (y as usize + row) * self.width as usize + x as usize;
@@ -51,7 +52,9 @@ impl Picture {
         }
     }
 
-    /// Puts the values of all channels for a rectangle of pixels, as [`Picture::place`] does.
+    /// Copies the values of all channels for a rectangle of pixels, as [`Picture::place`] does for
+    /// colours. Each element of `pixels` holds the values of one pixel, in the order of the
+    /// channels.
     pub fn place_layers(&mut self, x: u32, y: u32, columns: u32, pixels: &[Vec<f32>]) {
         for (row, pixels) in pixels.chunks_exact(columns as usize).enumerate() {
             let start = (y as usize + row) * self.width as usize + x as usize;
@@ -63,13 +66,15 @@ impl Picture {
         }
     }
 
-    /// Makes pixels that are NaN or infinite black, and counts them. There should be none.
+    /// Replaces pixels that hold NaN or infinity by black and returns their number, which should be
+    /// 0.
     pub fn remove_not_finite(&mut self) -> u64 {
         let broken = self.pixels.iter_mut().filter(|pixel| !pixel.iter().all(|x| x.is_finite()));
         broken.map(|pixel| *pixel = [0.0; 3]).count() as u64
     }
 
-    /// The pictures next to each other, `gap` pixels of white between them; they are equally high.
+    /// Joins pictures from left to right, with `gap` white pixels between neighbours. The pictures
+    /// should have the same height; below a lower picture the result is white.
     #[must_use]
     pub fn side_by_side(pictures: &[Self], gap: u32) -> Self {
         let height = pictures.iter().map(|picture| picture.height).max().unwrap_or(0);

@@ -1,7 +1,8 @@
-//! Where the rays of a picture go, and what each counts for in a pixel.
+//! Positions and weights of the samples of a picture.
 //!
-//! Samples lie on one lattice over the whole film, numbered by whole numbers from the upper left,
-//! also left of it and above: a sample and its place do not depend on the pixel that asks for it.
+//! Samples lie on one lattice over the whole film. Their columns and rows are whole numbers,
+//! counted from the upper left and negative to the left of the film and above it. A sample's
+//! position does not depend on the pixel that uses the sample.
 //!
 //! ```text
 //!   N x N, here N = 2            nine weights: the same lattice, moved by
@@ -11,8 +12,8 @@
 //!                                +---------+---------+
 //! ```
 //!
-//! The weights of a pixel are products of whole numbers along both axes, divided once by their
-//! sum: so they sum to one exactly, and the order in which a pixel adds its samples, row by row,
+//! The weights of a pixel are products of whole numbers along both axes, divided once by their sum.
+//! The weights therefore sum to exactly one. A pixel adds its samples row by row, and this order
 //! does not depend on tiles.
 
 use super::pattern::Pattern;
@@ -20,69 +21,73 @@ use glam::DVec2;
 use serde::Deserialize;
 use std::ops::Range;
 
-/// Rays along each side of a pixel at most: more would show in no 16-bit file.
+/// Largest number of samples along each side of a pixel. More samples would not change a 16-bit
+/// file.
 pub const MOST_SAMPLES: u32 = 256;
 
-/// How a pixel is made of rays.
+/// Number, position and weight of the samples of a pixel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sampling {
-    /// `samples * samples` rays in each pixel.
+    /// `samples * samples` samples in each pixel.
     Grid {
-        /// Rays along each side of a pixel, 1 to [`MOST_SAMPLES`].
+        /// Samples along each side of a pixel, 1 to [`MOST_SAMPLES`].
         samples: u32,
-        /// Where in its part of the pixel each ray goes.
+        /// Position of each sample within its cell of the pixel.
         pattern: Pattern,
-        /// What they count for.
+        /// Weights of the samples.
         pixel_filter: PixelFilter,
     },
-    /// The thesis's uniform supersampling (4.5.4): a picture of twice the size, of which each pixel
-    /// takes the sample in its middle with weight 1/4, the four beside it with 1/8 and the four at
-    /// its corners with 1/16.
+    /// The thesis's uniform supersampling (4.5.4): the picture is traced at twice the size. Each
+    /// pixel takes the sample in its middle with weight 1/4, the four samples beside it with 1/8
+    /// and the four at its corners with 1/16.
     ///
     /// We read "the pixel in the middle" as the sample in the middle of the small picture's pixel.
-    /// A picture of 2n x 2n has none there: it is moved by a quarter of a pixel, since otherwise
-    /// the small picture would be. Pixel `k` is then made of columns `2k`, `2k + 1` and `2k + 2`,
-    /// and likewise of three rows, of which it shares the outer two with its neighbours. The
-    /// samples on the border of the film and beyond it are traced like all others.
+    /// A lattice of 2n x 2n samples has none there. The lattice is therefore moved by a quarter of
+    /// a pixel, since otherwise the small picture would be moved. Pixel `k` uses the columns `2k`,
+    /// `2k + 1` and `2k + 2`, and shares the outer two with its neighbours; rows likewise. Samples
+    /// on the border of the film and beyond it are traced like all others.
     Nine(Nine),
 }
 
-/// What the rays of a grid count for in a pixel.
+/// Weights of a grid's samples in a pixel.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PixelFilter {
-    /// The rays in the pixel, equally.
+    /// Equal weights for the samples in the pixel, and none for others.
     #[default]
     Box,
-    /// A tent that reaches to the middles of the neighbouring pixels. With one ray in each pixel
-    /// nothing else lies under it.
+    /// A tent that reaches to the middles of the neighbouring pixels. With one sample in each pixel
+    /// the tent covers only the pixel's own sample.
     Tent,
 }
 
-/// Where the nine rays of a pixel take their footprints from; see [`Sampling::Nine`].
+/// Choice of the neighbours that span the footprints of a pixel's nine rays; see
+/// [`Sampling::Nine`].
 ///
-/// With a filter that looks at points both are the same to the last bit.
+/// With a filter that averages over points only, both choices give the same picture to the last
+/// bit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Nine {
-    /// The picture of twice the size is a picture like any other (thesis 4.5.4): each of its
-    /// samples is averaged over the box of its own eight neighbours, half a pixel away.
+    /// The picture of twice the size is rendered like any other (thesis 4.5.4). Each of its samples
+    /// is averaged over the box of its own eight neighbours, half a pixel away.
     Image,
-    /// The nine rays of a pixel are each other's neighbours (thesis 4.5.1: "row 1 and row 2 must
-    /// be cleared and row 3 must be shifted to the place of row 1"): all are averaged over the box
-    /// that they span together, which is the pixel. Textures come out sharper, and every pixel
-    /// shades nine trees, of which it shares none.
+    /// The nine rays of a pixel are each other's neighbours (thesis 4.5.1: "row 1 and row 2 must be
+    /// cleared and row 3 must be shifted to the place of row 1"). All nine are averaged over the
+    /// box that they span together, which is the pixel. Textures are sharper than with
+    /// [`Nine::Image`]. Every pixel shades nine trees and shares none of their colours with its
+    /// neighbours.
     Rays,
 }
 
 impl Sampling {
-    /// `samples * samples` rays in each pixel, evenly spread and of equal weight.
+    /// A grid of `samples * samples` samples in each pixel, evenly spread and of equal weight.
     #[must_use]
     pub fn regular(samples: u32) -> Self {
         Self::Grid { samples, pattern: Pattern::Regular, pixel_filter: PixelFilter::Box }
     }
 
-    /// Columns of the lattice to a pixel, and rows.
+    /// Columns of the lattice per pixel, which is also the number of rows per pixel.
     #[must_use]
     pub fn per_pixel(self) -> u32 {
         match self {
@@ -91,7 +96,8 @@ impl Sampling {
         }
     }
 
-    /// Where a sample lies on the film, in pixels.
+    /// Returns the position on the film of the sample in column `x` and row `y`, in pixels from the
+    /// upper left corner.
     #[must_use]
     pub fn place(self, x: i64, y: i64) -> DVec2 {
         let corner = DVec2::new(x as f64, y as f64);
@@ -103,15 +109,16 @@ impl Sampling {
         }
     }
 
-    /// The column of the sample that stands for a pixel where one must: in its middle, or the
-    /// first after it. The same for rows.
+    /// Returns the column of the sample that represents a pixel: the sample in its middle, or the
+    /// first one after the middle. Rows follow the same rule.
     #[must_use]
     pub fn middle(self, pixel: u32) -> i64 {
         let n = i64::from(self.per_pixel());
         i64::from(pixel) * n + n / 2
     }
 
-    /// The columns of the samples that count in a row of pixels. The same for rows.
+    /// Returns the columns of the samples that have a weight in a range of pixels. Rows follow the
+    /// same rule.
     #[must_use]
     pub fn under(self, pixels: Range<u32>) -> Range<i64> {
         let n = i64::from(self.per_pixel());
@@ -123,14 +130,14 @@ impl Sampling {
         }
     }
 
-    /// Whether pixels share samples.
+    /// Returns whether neighbouring pixels share samples.
     #[must_use]
     pub fn shares(self) -> bool {
         self.under(0..1).end > self.under(1..2).start
     }
 
-    /// What a column counts for in a pixel, of [`Sampling::whole`]; 0 where it does not. The same
-    /// for rows.
+    /// Returns the weight of a column of samples in a pixel, as a part of [`Sampling::whole`]. The
+    /// weight is 0 outside [`Sampling::under`]. Rows follow the same rule.
     #[must_use]
     pub fn weight(self, pixel: u32, column: i64) -> i64 {
         if !self.under(pixel..pixel + 1).contains(&column) {
@@ -140,13 +147,13 @@ impl Sampling {
         let into = column - i64::from(pixel) * n;
         match self {
             Self::Grid { pixel_filter: PixelFilter::Box, .. } => 1,
-            // By the middle of the sample's part of its pixel, in halves of such a part.
+            // Distance of the middles of the sample's cell and of the pixel, in halves of a cell.
             Self::Grid { pixel_filter: PixelFilter::Tent, .. } => 2 * n - (2 * into + 1 - n).abs(),
             Self::Nine(_) => 2 - (into - 1).abs(),
         }
     }
 
-    /// The sum of the weights of a pixel along one axis.
+    /// Returns the sum of the weights of a pixel along one axis.
     #[must_use]
     pub fn whole(self) -> i64 {
         let n = i64::from(self.per_pixel());
@@ -195,7 +202,7 @@ mod tests {
             let n = i64::from(sampling.per_pixel());
             for x in 5 * n..6 * n {
                 let sum: i64 = (3..9).map(|pixel| sampling.weight(pixel, x)).sum();
-                // The whole of a pixel, spread over the samples there are to a pixel.
+                // The weights of one pixel, divided by the number of samples per pixel.
                 assert_eq!(sum * n, sampling.whole(), "{sampling:?}, column {x}");
             }
         }

@@ -1,9 +1,9 @@
-//! One axis of a repeated integration filter: which table entries, with which weights.
+//! One axis of a repeated integration filter: its table entries and their weights.
 //!
-//! Heckbert, *Filtering by Repeated Integration*, SIGGRAPH 1986. Let `T(i)` be the texels of one
-//! row, `D_1(i)` the sum of those before `i`, and `D_n(i)` the sum of `D_{n-1}` before `i`; so the
-//! differences of `D_n` are `D_{n-1}`, down to `D_0 = T`. The texture is constant on each texel, and
-//! its n-fold integral at `i + f` is, for `f` in `[0, 1)`,
+//! The method is Heckbert, *Filtering by Repeated Integration*, SIGGRAPH 1986. Let `T(i)` be the
+//! texels of one row. `D_1(i)` is the sum of the texels before `i`, and `D_n(i)` is the sum of
+//! `D_{n-1}` before `i`. The differences of `D_n` are therefore `D_{n-1}`, down to `D_0 = T`. The
+//! texture is constant on each texel, and its n-fold integral at `i + f` is, for `f` in `[0, 1)`,
 //!
 //! ```text
 //!   F_1(i + f) = D_1(i) + f T(i)
@@ -12,8 +12,8 @@
 //! ```
 //!
 //! The average under the B-spline of order `n` and step `h`, centred at `x`, is an n-th difference
-//! of it, exact for real `x` and `h`: a box of width `h` (n = 1), a tent of half-width `h` (n = 2),
-//! a quadratic of half-width `3h/2` (n = 3):
+//! of this integral. It is exact for real `x` and `h`. The B-spline is a box of width `h` (n = 1),
+//! a tent of half-width `h` (n = 2) or a quadratic of half-width `3h/2` (n = 3):
 //!
 //! ```text
 //!   h^-n  sum_k  c_k F_n(p_k),    p_k = x + (k - n/2) h,    c_k = (-1)^(n-k) C(n,k)
@@ -21,66 +21,69 @@
 //!
 //! The `c_k` of both axes multiply to the grid coefficients of thesis fig. 3.9.
 //!
-//! Real weights must not touch huge sums, whose differences alone are exact modulo 2^B. With `i_k`
-//! and `f_k` the whole and the broken part of `p_k`, every `D_m(i_k)` is therefore taken without
-//! its Newton polynomial around one of the points, `r`: with `d = i_k - r`, what is left,
-//!
+//! Only differences of the huge sums are exact modulo 2^B, so real weights must not multiply the
+//! sums themselves. Let `i_k` be the integer part of `p_k` and `f_k` its fractional part. Subtract
+//! from every `D_m(i_k)` its Newton polynomial around one of the points, `r`. With `d = i_k - r`,
+//! the rest
 //! ```text
 //!   R_m(k) = D_m(i_k) - D_m(r) - C(d,1) D_{m-1}(r) - ... - C(d,m-1) D_1(r),
 //! ```
 //!
-//! is an integer as small as the footprint. The polynomials themselves add up to nothing: their sum
-//! is the n-th difference of a polynomial of degree below `n` in the evenly spaced `p_k`. So
-//! [`super::reduce`] finds small integers and [`Axis::weights`] their real weights. That is what
-//! makes a table of wrapping integers usable for real places and widths.
+//! is an integer as small as the footprint. The polynomials themselves sum to zero, since their sum
+//! is the n-th difference of a polynomial of degree below `n` in the evenly spaced `p_k`.
+//! [`super::reduce`] computes these small integers and [`Axis::weights`] holds their real weights.
+//! A table of wrapping integers thus serves real positions and widths.
 //!
-//! The table holds `D_n(i)` for `i` from 0 to `size + n - 1`. Beyond that `D_n` goes on as a
-//! polynomial in the stored entries, told in [`super::entry`]; so no footprint is too large and
-//! none is too far from the origin.
+//! The table holds `D_n(i)` for `i` from 0 to `size + n - 1`. Beyond that range `D_n` continues as
+//! a polynomial in the stored entries; see [`super::entry`]. Any footprint size and any distance
+//! from the origin is therefore allowed.
 //!
-//! A footprint wider than half a period of a repeating texture is folded, exactly. A box of width
-//! `h = q P + r`, with `r` of either sign, is `q` whole periods and, beside them, a box of width
-//! `|r|` that is added or taken away; so it is the mean of the axis with weight `1 - r/h` and that
-//! box with `r/h`, moved by `q P/2`. A filter of order `n` is `n` boxes one after another: weight
-//! `(r/h)^n`, moved by `n q P/2`, and the mean for the rest. The period is the size, or twice that
-//! under [`Wrap::Mirror`].
+//! A footprint wider than half a period of a repeating texture is folded exactly. A box of width
+//! `h = q P + r`, with `r` of either sign, is `q` whole periods and a box of width `|r|`, which is
+//! added or removed. The average is therefore the mean of the axis with weight `1 - r/h` and the
+//! average under the small box, moved by `q P/2`, with weight `r/h`. A filter of order `n` is `n`
+//! boxes in succession. Its small filter has weight `(r/h)^n` and is moved by `n q P/2`, and the
+//! mean has the rest of the weight. The period is the size, or twice the size under
+//! [`Wrap::Mirror`].
 
 use super::entry::{Entry, Line};
 use super::reduce::Reduce;
 use crate::texture::Wrap;
 
-/// The highest order there is.
+/// Highest order of a table.
 pub const HIGHEST: usize = 3;
 
-/// At most this many points make a difference.
+/// Largest number of points in a difference.
 pub const MOST_POINTS: usize = HIGHEST + 1;
 
-/// At most this many integers are left of an axis.
+/// Largest number of reduced integers of an axis.
 pub const MOST_REDUCED: usize = 11;
 
-/// Under [`Wrap::Clamp`], wider steps are taken as this many times the texture.
+/// Widest step under [`Wrap::Clamp`], in sizes of the texture. Wider steps are narrowed to it.
 ///
-/// They average little but the edge texels already (a sixteenth of a tent's weight lies on the
-/// texture), and the integers that hold their sums stay short.
+/// A filter this wide already averages mostly the edge texels: about a quarter of a tent's weight
+/// lies on the texture along one axis, and a sixteenth along both. The limit keeps the integers
+/// that hold the sums short.
 pub const WIDEST_CLAMPED: f64 = 4.0;
 
-/// One axis of a filter: at which points, and with which weights.
+/// One axis of a filter: the points at which it reads the table, and their weights.
 #[derive(Debug, Clone, Copy)]
 pub struct Axis {
-    /// What is done to the entries.
+    /// How the entries are reduced to small integers.
     pub reduce: Reduce,
-    /// The whole parts `i_k` of the points; entries `i_k` to `i_k + n` belong to each.
+    /// Integer parts `i_k` of the points. Each point uses the entries `i_k` to `i_k + n`.
     pub points: [i64; MOST_POINTS],
-    /// A weight for each reduced integer in use.
+    /// One weight for each reduced integer in use.
     pub weights: [f64; MOST_REDUCED],
-    /// Whether all entries are stored ones.
+    /// Whether all entries are stored in the table, so that none has to be continued.
     pub plain: bool,
-    /// The axis of the table.
+    /// The table's axis.
     pub line: Line,
 }
 
 impl Axis {
-    /// An entry in terms of stored ones; `slot` counts the entries of all points. The mean has one.
+    /// Returns an entry in terms of stored ones. `slot` counts the entries of all points, `n + 1`
+    /// for each. [`Reduce::Mean`] has a single entry.
     #[must_use]
     pub fn entry(&self, slot: usize) -> Entry {
         let per_point = self.line.n + 1;
@@ -93,18 +96,19 @@ impl Axis {
     }
 }
 
-/// An axis and how much it counts; a folded footprint has a second one, the mean.
+/// An axis and its share in the average. A folded footprint has a second part, the mean.
 #[derive(Debug, Clone, Copy)]
 pub struct Part {
-    /// Its entries and weights; they average, so they give 1 for a texture of ones.
+    /// Entries and weights of the part, normalized: a texture of ones gives 1.
     pub axis: Axis,
-    /// Its share, of either sign; those of all parts sum to 1.
+    /// Share of the part, of either sign. The shares of all parts sum to 1.
     pub share: f64,
 }
 
-/// The parts of the filter of order `n` centred at `x` with half-support `half`, both in texels.
+/// Returns the parts of the filter of order `n` centred at `x` with half-support `half`, both in
+/// texels.
 ///
-/// The step is never below a texel: a smaller footprint is smoothed by the B-spline of degree `n`,
+/// The step is at least one texel. A smaller footprint is smoothed by the B-spline of degree `n`,
 /// which for n = 1 is bilinear interpolation.
 #[must_use]
 #[inline]
@@ -113,13 +117,13 @@ pub fn parts(n: usize, x: f64, half: f64, size: usize, wrap: Wrap) -> [Option<Pa
     let line = Line { n, size: size as i64, wrap };
     let Some(period) = wrap.period(size) else {
         let step = step.min(WIDEST_CLAMPED * size as f64);
-        // Further out the clamped texture is constant and the place does not matter.
+        // Further out the clamped texture is constant, and the position does not matter.
         let reach = 2.0 * (step + size as f64);
         let x = x.clamp(-reach, size as f64 + reach);
         return [Some(Part { axis: difference(line, x, step), share: 1.0 }), None];
     };
     if 2.0 * step <= period {
-        // The usual case, without a slow remainder.
+        // The usual case, which avoids a slow remainder.
         let axis = difference(line, nearest(line, x, step, period), step);
         return [Some(Part { axis, share: 1.0 }), None];
     }
@@ -128,7 +132,7 @@ pub fn parts(n: usize, x: f64, half: f64, size: usize, wrap: Wrap) -> [Option<Pa
     let share = (rest / step).powi(n as i32);
     let odd = (n as f64 * ((step - rest) / period).round()) % 2.0 == 1.0;
     let x = if odd { x - 0.5 * period } else { x };
-    // A step of a whole number of periods: only the mean is left.
+    // A step of a whole number of periods leaves only the mean.
     let local = (share != 0.0).then(|| {
         let step = rest.abs();
         Part { axis: difference(line, nearest(line, x, step, period), step), share }
@@ -136,14 +140,14 @@ pub fn parts(n: usize, x: f64, half: f64, size: usize, wrap: Wrap) -> [Option<Pa
     [local, Some(Part { axis: mean(line), share: 1.0 - share })]
 }
 
-/// A place that looks the same, from where the points begin within the first period, or within
-/// the texture if it is mirrored.
+/// Returns an equivalent centre near the origin. It is `x` itself if the filter lies on the
+/// texture; otherwise the first point of the filter lies in the first period.
 fn nearest(line: Line, x: f64, step: f64, period: f64) -> f64 {
     let reach = 0.5 * line.n as f64 * step;
     let x = if x - reach >= 0.0 && x + reach < line.size as f64 {
         return x;
     } else if line.wrap == Wrap::Mirror {
-        // The filter is even, and so is the texture around its edges.
+        // The filter is even, and a mirrored texture is even around its edges.
         let x = x.rem_euclid(period);
         if 2.0 * x > period { period - x } else { x }
     } else {
@@ -152,7 +156,7 @@ fn nearest(line: Line, x: f64, step: f64, period: f64) -> f64 {
     x - ((x - reach) / period).floor() * period
 }
 
-/// The n-th difference of the n-fold integral around `x`.
+/// Takes the n-th difference of the n-fold integral around `x`.
 #[inline]
 fn difference(line: Line, x: f64, step: f64) -> Axis {
     let n = line.n;
@@ -160,7 +164,7 @@ fn difference(line: Line, x: f64, step: f64) -> Axis {
     let mut f = [0.0; MOST_POINTS];
     for k in 0..=n {
         let point = x + (k as f64 - 0.5 * n as f64) * step;
-        // Rounding down without a call; places are far below 2^63.
+        // Rounds down without a function call; positions are far below 2^63.
         let toward_zero = point as i64;
         let whole = toward_zero - i64::from(point < toward_zero as f64);
         f[k] = point - whole as f64;
@@ -195,7 +199,7 @@ fn difference(line: Line, x: f64, step: f64) -> Axis {
     Axis { reduce: Reduce::difference(n, &points), points, weights, plain, line }
 }
 
-/// The mean over the whole size: `D_1(size) / size`.
+/// Takes the mean over the whole size: `D_1(size) / size`.
 fn mean(line: Line) -> Axis {
     let mut weights = [0.0; MOST_REDUCED];
     weights[0] = 1.0 / line.size as f64;
@@ -203,8 +207,8 @@ fn mean(line: Line) -> Axis {
     Axis { reduce: Reduce::Mean, points, weights, plain: false, line }
 }
 
-/// A bound on the reduced integers of one axis for texels of 1: what the table's words must hold,
-/// with a sign.
+/// Returns a bound on the reduced integers of one axis for texels of 1. The words of a table must
+/// hold it, with a sign, times the largest texel.
 #[must_use]
 pub fn sum_bound(n: usize, size: usize, wrap: Wrap) -> f64 {
     let size = size as f64;
@@ -213,12 +217,12 @@ pub fn sum_bound(n: usize, size: usize, wrap: Wrap) -> f64 {
         Wrap::Mirror => size,
         Wrap::Clamp => WIDEST_CLAMPED * size,
     };
-    // The sum of all texels, of which the mean is made, is one of them.
+    // The sum of all texels, from which the mean is computed, is also a reduced integer.
     reduced_bound(n, widest.max(1.0)).max(size)
 }
 
-/// The same for steps up to `step`: the kernel's own sum is `step^n`, points are rounded and
-/// followed by `n` more entries.
+/// Returns this bound for steps up to `step`. The kernel's own sum is `step^n`. The margin of 3
+/// covers the rounding of points and the `n` entries that follow each of them.
 fn reduced_bound(n: usize, step: f64) -> f64 {
     (step + 3.0).powi(n as i32)
 }
@@ -231,7 +235,7 @@ mod tests {
     use crate::filter::reduce::difference as reduced;
     use proptest::prelude::*;
 
-    /// What the reduced integers and weights of an axis make of a table.
+    /// Averages a table with the reduced integers and weights of an axis.
     fn average<const N: usize, const E: usize, const R: usize>(axis: &Axis, table: &[i64]) -> f64 {
         let value = |slot| [axis.line.value(&axis.entry(slot), table) as u64; 3];
         let words: Vec<[u64; 3]> = match &axis.reduce {
@@ -245,7 +249,7 @@ mod tests {
     }
 
     proptest! {
-        /// The parts against the kernel itself, integrated texel by texel.
+        /// Compares the parts with the kernel itself, integrated texel by texel.
         #[test]
         fn the_average_is_that_of_the_kernel(
             row in prop::collection::vec(0i64..9, 1..6), x in -20.0..20.0f64,
@@ -269,15 +273,15 @@ mod tests {
             let truth: f64 = weights
                 .map(|(i, weight)| weight * row[wrap.index(i as f64, size)] as f64)
                 .sum();
-            // Sums of at most 1e5 in f64.
+            // The sums are at most 1e5, in f64.
             prop_assert!((sum - truth).abs() < 1e-9, "{} {}", sum, truth);
         }
     }
 
     #[test]
     fn reduced_integers_stay_below_their_bound() {
-        // The most that texels from -1 to 1 can make of a reduced integer is the sum of what each
-        // texel alone makes of it, without signs.
+        // Texels from -1 to 1 give at most the sum of the absolute values that each texel gives
+        // alone.
         fn most<const N: usize, const E: usize, const R: usize>(
             line: Line,
             x: f64,

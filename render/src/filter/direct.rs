@@ -1,26 +1,26 @@
-//! Averages over few texels, by the texels themselves.
+//! Averages a texture over few texels directly, without a table.
 //!
-//! A table answers for any footprint at the same cost, 81 entries for a tent and 256 for a quadratic.
-//! A footprint of a few texels is cheaper to average directly, texel by texel, with the weight that
-//! the kernel has on each: the same average, since both are exact.
+//! A table answers for any footprint at the same cost, 81 entries for a tent and 256 for a
+//! quadratic. A footprint of a few texels is cheaper to average texel by texel, with the kernel's
+//! weight on each. Both averages are exact and therefore equal.
 
 use super::kernel;
 use crate::color::Color;
 use crate::texture::Texture;
 use glam::{DVec2, DVec3};
 
-/// Steps up to this many texels are averaged directly, by order.
+/// Largest step in texels that is averaged directly, by order.
 ///
 /// Such a tent covers at most six by six texels of 6 bytes, against 81 entries of 24 bytes that lie
-/// far apart; at steps of 3 and more the two cost the same. The quadratic covers up to 20 by 20,
-/// against 256 entries of 24 or 48 bytes. A box reads 16 entries, which is few enough.
+/// far apart. At steps of 3 and more the two cost the same. The quadratic covers up to 20 by 20
+/// texels, against 256 entries of 24 or 48 bytes. A box reads 16 entries, which is few enough.
 pub const WIDEST: [f64; 4] = [0.0, 0.0, 2.0, 6.0];
 
-/// More texels than any direct footprint covers along one axis.
+/// Largest number of texels that a direct footprint covers along one axis.
 const MOST: usize = 20;
 
-/// The average under the B-spline of order `n` and these steps (1 to [`WIDEST`]) along each axis,
-/// centred at `at`; all in texels.
+/// Returns the average under the B-spline of order `n`, centred at `at`, linear RGB. `step` holds
+/// the steps along both axes, 1 to [`WIDEST`]. Positions and steps are in texels.
 #[must_use]
 pub fn average(texture: &Texture, n: usize, at: DVec2, step: DVec2) -> Color {
     let columns = Weights::new(n, at.x, step.x);
@@ -41,9 +41,9 @@ pub fn average(texture: &Texture, n: usize, at: DVec2, step: DVec2) -> Color {
     sum * texture.unit()
 }
 
-/// The weights of the texels under one axis of a kernel.
+/// Weights of the texels under a kernel along one axis.
 struct Weights {
-    /// The first texel, a whole number.
+    /// Index of the first texel, a whole number of either sign.
     first: f64,
     count: usize,
     weights: [f64; MOST],

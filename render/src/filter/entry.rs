@@ -1,9 +1,9 @@
-//! The entries of a table beyond its ends.
+//! Continues the entries of a table beyond its ends.
 //!
-//! `D_n(i)`, the n-fold sum of the texels before `i`, is wanted for any whole `i`. Its differences
-//! are `D_{n-1}`, so beyond the texture it goes on as a polynomial of entries near the end, beside
-//! at most one other entry. Below, `W` is the size, `P` the period, and `D_m(W)` for `m < n` is the
-//! (n-m)-th difference of the stored `D_n(W)`, `D_n(W+1)`, ...
+//! Filters need `D_n(i)`, the n-fold sum of the texels before `i`, for any whole `i`. Its
+//! differences are `D_{n-1}`. Beyond the texture it therefore continues as a polynomial of entries
+//! near the end, plus at most one other entry. Below, `W` is the size and `P` the period. `D_m(W)`
+//! for `m < n` is the (n-m)-th difference of the stored `D_n(W)`, `D_n(W+1)`, ...
 //!
 //! ```text
 //!   repeat   D_n(i + qP) = D_n(i) + sum_{j<n} C(i,j) D_{n-j}(qP)
@@ -18,39 +18,39 @@
 //!            D_n(W + d) = sum_{j<n} C(d,j) D_{n-j}(W) + C(d,n) T(W-1)
 //! ```
 //!
-//! Binomial coefficients are those of any whole `i`, `i (i-1) (i-2) / 6` and so on.
+//! The binomial coefficients hold for any whole `i`, of either sign: `i (i-1) (i-2) / 6` and so on.
 
 use crate::texture::Wrap;
 
-/// At most this many entries at the ends carry a table on.
+/// Largest number of entries at the ends that continue a table.
 pub const MOST_ENDS: usize = 5;
 
 /// One axis of a table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Line {
-    /// Its order, 1 to 3.
+    /// Order of the table, 1 to 3.
     pub n: usize,
-    /// Texels along it; it has `n` entries more.
+    /// Number of texels along the axis. The table has `n` entries more.
     pub size: i64,
-    /// What lies beyond.
+    /// How the texture continues beyond its edges.
     pub wrap: Wrap,
 }
 
-/// A table entry at any index, as a sum of stored ones.
+/// A table entry at any index, as a sum of stored entries.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Entry {
-    /// A stored entry that counts `sign` times.
+    /// Index of a stored entry, which is multiplied by `sign`.
     pub index: usize,
     /// 1, -1, or 0.
     pub sign: i8,
-    /// Whether entries at the ends count too.
+    /// Whether the entries at the ends contribute too.
     pub goes_on: bool,
-    /// How often each of [`Line::ends`] counts.
+    /// Factor of each of the entries [`Line::ends`].
     pub factors: [i128; MOST_ENDS],
 }
 
 impl Line {
-    /// The stored entries at the ends.
+    /// Returns the indices of the stored entries at the ends, and their number.
     #[must_use]
     pub fn ends(self) -> ([usize; MOST_ENDS], usize) {
         let (n, size) = (self.n, self.size as usize);
@@ -61,7 +61,7 @@ impl Line {
         }
     }
 
-    /// `D_n(i)` for any `i`, from the entries `0..size + n` of the table.
+    /// Returns `D_n(i)` for any `i`, in terms of the entries `0..size + n` of the table.
     #[must_use]
     pub fn entry(self, i: i64) -> Entry {
         if (0..self.size + self.n as i64).contains(&i) {
@@ -74,7 +74,7 @@ impl Line {
         }
     }
 
-    /// `D_1(size)`, the sum of all texels.
+    /// Returns `D_1(size)`, the sum of all texels.
     #[must_use]
     pub fn sum(self) -> Entry {
         let mut entry = Entry { goes_on: true, ..Entry::default() };
@@ -82,14 +82,14 @@ impl Line {
         entry
     }
 
-    /// Adds `factor` times `D_m(W)`.
+    /// Adds `factor` times `D_m(W)` to `entry`.
     fn add(self, entry: &mut Entry, m: usize, factor: i128) {
-        // Under Wrap::Clamp the first texel and the entry before W come first.
+        // Under Wrap::Clamp the list of ends starts with the first texel and the entry before W.
         let first = if self.wrap == Wrap::Clamp { 2 } else { 0 };
         self.add_from(entry, first, self.n - m, factor);
     }
 
-    /// Adds `factor` times the j-th difference from one of the ends on.
+    /// Adds `factor` times the j-th difference of the end entries, starting at end `first`.
     fn add_from(self, entry: &mut Entry, first: usize, j: usize, factor: i128) {
         for k in 0..=j {
             let sign = if (j - k).is_multiple_of(2) { 1 } else { -1 };
@@ -104,7 +104,8 @@ impl Line {
         entry
     }
 
-    /// Adds what `q` periods before `i` add to `D_n(i)`; `whole` adds a multiple of `D_m(P)`.
+    /// Adds to `entry` what `q` periods before `i` contribute to `D_n(i)`. `whole` adds a multiple
+    /// of `D_m(P)`.
     fn periods(
         self,
         entry: &mut Entry,
@@ -144,7 +145,7 @@ impl Line {
         entry
     }
 
-    /// Adds `factor` times the ends' part of `D_m(W + d)`.
+    /// Adds `factor` times the part of `D_m(W + d)` that the ends contribute.
     fn reflect(self, entry: &mut Entry, m: usize, d: i64, factor: i128) {
         let far = i128::from(d);
         match m {
@@ -173,7 +174,7 @@ impl Line {
     }
 }
 
-/// `C(i, k)` for any whole `i` and `k` up to 3.
+/// Returns `C(i, k)` for any whole `i`, of either sign, and `k` up to 3.
 #[must_use]
 pub fn binomial(i: i64, k: usize) -> i128 {
     let wide = i128::from(i);
@@ -181,7 +182,7 @@ pub fn binomial(i: i64, k: usize) -> i128 {
         0 => 1,
         1 => wide,
         2 => wide * (wide - 1) / 2,
-        // Short division is fast, and long enough for all but the widest textures.
+        // 64-bit division is fast and suffices for all but the widest textures.
         _ if i.unsigned_abs() < 1 << 20 => i128::from(i * (i - 1) * (i - 2) / 6),
         _ => wide * (wide - 1) * (wide - 2) / 6,
     }
@@ -193,7 +194,7 @@ pub mod tests {
     use proptest::prelude::*;
 
     impl Line {
-        /// The value of an entry in a table of plain integers.
+        /// Evaluates an entry in a table of plain integers.
         pub fn value(self, entry: &Entry, table: &[i64]) -> i64 {
             let (ends, count) = self.ends();
             let beyond: i128 = (0..count)
@@ -203,14 +204,14 @@ pub mod tests {
         }
     }
 
-    /// `D_n` of a wrapped row by counting, for `i` of either sign.
+    /// Computes `D_n` of a wrapped row by counting, for `i` of either sign.
     pub fn direct(n: usize, i: i64, row: &[i64], wrap: Wrap) -> i64 {
-        // From the texels between 0 and i, summed n times.
+        // Sums the texels between 0 and i, n times.
         let texel = |k: i64| row[wrap.index(k as f64, row.len())];
         let mut sums: Vec<i64> =
             if i >= 0 { (0..i).map(texel).collect() } else { (i..0).rev().map(texel).collect() };
         if i >= 0 {
-            // Exclusive sums: the last has to go before each further summing.
+            // The sums are exclusive: each value is replaced by the sum of the values before it.
             for _ in 1..n {
                 let mut before = 0;
                 for value in &mut sums {

@@ -1,12 +1,12 @@
-//! The B-splines that filters weigh with, themselves.
+//! The B-spline kernels of the filters, computed directly.
 
-/// The integral of the B-spline of order `n` (1 to 3) and step 1 from minus infinity to `z`; its
-/// middle is at 0, its support from `-n/2` to `n/2`.
+/// Returns the integral of the B-spline of order `n` (1 to 3) and step 1 from minus infinity to
+/// `z`, in [0, 1]. The kernel's middle is 0 and its support is `-n/2` to `n/2`.
 #[must_use]
 pub fn integral(n: usize, z: f64) -> f64 {
     let reach = 0.5 * n as f64;
     let z = z.clamp(-reach, reach);
-    // What is left to the nearer end.
+    // Distance to the nearer end of the support.
     let rest = reach - z.abs();
     let below = match n {
         1 => rest,
@@ -17,8 +17,8 @@ pub fn integral(n: usize, z: f64) -> f64 {
     if z < 0.0 { below } else { 1.0 - below }
 }
 
-/// The texels, by whole numbers, under the B-spline of this order and step centred at `x`, each
-/// with its weight: the kernel's integral over it.
+/// Lists the texels under the B-spline of order `n` and this step centred at `x`, in texels. Each
+/// has as its weight the kernel's integral over it.
 #[cfg(test)]
 pub fn weights(n: usize, x: f64, step: f64) -> impl Iterator<Item = (i64, f64)> {
     let reach = (0.5 * n as f64 * step) as i64 + 2;
@@ -32,7 +32,8 @@ mod tests {
 
     #[test]
     fn each_order_is_the_one_below_under_a_box() {
-        // The integral of order n at z is the mean of that of order n - 1 over a unit around z.
+        // The integral of order n at z is the mean of the integral of order n - 1 over a unit
+        // around z.
         for n in 2..=3 {
             for k in -40..=40 {
                 let z = 0.05 * f64::from(k);
@@ -43,7 +44,7 @@ mod tests {
                     })
                     .sum::<f64>()
                     / f64::from(parts);
-                // The midpoint rule with 2000 parts.
+                // The midpoint rule with 2000 parts has this error.
                 assert!((mean - integral(n, z)).abs() < 1e-6, "n {n}, z {z}");
             }
         }

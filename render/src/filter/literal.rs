@@ -1,15 +1,17 @@
-//! The thesis's tables to the letter (3.3.3): a reference, with which no picture is made.
+//! The thesis's tables to the letter (3.3.3). They are a reference for tests; no picture is made
+//! with them.
 //!
-//! Fig. 3.8 integrates one array in place, fig. 3.9 gives the grid coefficients with which sums are
-//! read off it. Widths and places are whole. The kernel is then the discrete B-spline: `n` boxes of
-//! `w` texels one after another.
+//! Fig. 3.8 integrates one array in place, and fig. 3.9 gives the grid coefficients that read sums
+//! from it. Widths and positions are whole numbers. The kernel is the discrete B-spline: `n` boxes
+//! of `w` texels in succession.
 //!
-//! The tables of `table` take texels as squares instead of points, so their kernel is the
-//! same convolved with the B-spline of degree `n` of one texel: nothing for n = 1, and for whole
-//! widths the weights (1, 6, 1)/8 for n = 2 and (1, 4, 1)/6 for n = 3, along each axis.
+//! The tables of `table` treat texels as squares instead of points. Their kernel is therefore the
+//! discrete B-spline convolved with the B-spline of degree `n` of one texel. For n = 1 this changes
+//! nothing. For whole widths it applies the weights (1, 6, 1)/8 for n = 2 and (1, 4, 1)/6 for n = 3
+//! along each axis.
 //!
-//! [`IntegratedArray::naive`] is how one would take real widths at first: by linear interpolation
-//! of the sums. For n = 1 that is exact; above, its weights do not add up to one.
+//! [`IntegratedArray::naive`] is a first attempt at real widths, by linear interpolation of the
+//! sums. It is exact for n = 1. For larger n its weights do not sum to one.
 
 use super::reduce::DIFFERENCES;
 
@@ -23,10 +25,11 @@ pub struct IntegratedArray {
 }
 
 impl IntegratedArray {
-    /// Integrates `texels`, row by row, `n` times along both axes (fig. 3.8); `n` is 0 to 3.
+    /// Integrates `texels`, given row by row with `size_x` in each, `n` times along both axes (fig.
+    /// 3.8). `n` is 0 to 3.
     ///
-    /// Sums wrap at 64 bits, which the thesis's `2nr + b` bits for a `2^r x 2^r` array fit for all
-    /// but the largest.
+    /// Sums wrap at 64 bits. For a `2^r x 2^r` array the thesis needs `2nr + b` bits, which fit for
+    /// all but the largest arrays.
     #[must_use]
     pub fn new(texels: &[i64], size_x: usize, n: usize) -> Self {
         let size_y = texels.len() / size_x.max(1);
@@ -46,10 +49,10 @@ impl IntegratedArray {
         Self { n, size_x, size_y, t }
     }
 
-    /// The average whose grid of coefficients (fig. 3.9) has its last corner at column `x` and row
-    /// `y` and steps of `w` columns and `h` rows: its texels are the last `n (w - 1) + 1` columns up
-    /// to `x`, and likewise down. Nothing if the grid leaves the array by more than its first
-    /// column or row, before which all sums are 0.
+    /// Returns the average whose grid of coefficients (fig. 3.9) has its last corner at column `x`
+    /// and row `y` and steps of `w` columns and `h` rows. Its texels are the last `n (w - 1) + 1`
+    /// columns up to `x`, and likewise down. Returns `None` if `x` or `y` is outside the array. All
+    /// sums before the first column or row are 0.
     #[must_use]
     pub fn average(&self, x: usize, y: usize, w: usize, h: usize) -> Option<f64> {
         let mut sum = 0i64;
@@ -66,7 +69,8 @@ impl IntegratedArray {
         Some(sum as f64 / ((w * h) as f64).powi(self.n as i32))
     }
 
-    /// The same with real places and steps, sums between columns and rows interpolated linearly.
+    /// Returns the average for real positions and steps, with sums interpolated linearly between
+    /// columns and rows.
     #[must_use]
     pub fn naive(&self, x: f64, y: f64, w: f64, h: f64) -> f64 {
         let mut sum = 0.0;
@@ -97,8 +101,8 @@ impl IntegratedArray {
     }
 }
 
-/// The index `back` before `from`: nothing inside if it is before the first, nothing at all if the
-/// grid is off the array.
+/// Returns the index `back` before `from`. The inner `None` means an index before the first entry,
+/// the outer one a `from` outside the array.
 fn before(from: usize, back: usize, size: usize) -> Option<Option<usize>> {
     (from < size).then(|| from.checked_sub(back))
 }
@@ -127,7 +131,7 @@ mod tests {
         }
     }
 
-    /// The weights of `n` discrete boxes of `w` texels, one after another; they sum to `w^n`.
+    /// Returns the weights of `n` discrete boxes of `w` texels in succession. They sum to `w^n`.
     fn discrete(n: usize, w: usize) -> Vec<i64> {
         let mut kernel = vec![1];
         for _ in 0..n {
@@ -164,7 +168,7 @@ mod tests {
             prop_assert_eq!(table.average(x, y, w, h), Some(direct));
         }
 
-        /// With whole widths ours is the thesis's, smoothed by one texel's B-spline.
+        /// With whole widths our average is the thesis's, smoothed by the B-spline of one texel.
         #[test]
         fn ours_at_whole_widths_is_the_thesis_smoothed_by_one_texel(
             n in 1usize..=3, w in 1usize..7, h in 1usize..7, seed in any::<u64>(),
@@ -189,7 +193,7 @@ mod tests {
                     thesis += down * across * literal.average(x + i - 1, y + j - 1, w, h).unwrap();
                 }
             }
-            // The middle of the texels under the discrete kernel, in texels.
+            // Middle of the texels under the discrete kernel, in texels.
             let middle = |last: usize, w: usize| last as f64 + 0.5 - 0.5 * (n * (w - 1)) as f64;
             let center = DVec2::new(
                 middle(x, w) / width as f64,
@@ -202,7 +206,8 @@ mod tests {
         }
     }
 
-    /// The largest departure from 1 of the filtered texture of ones, over places within a texel.
+    /// Returns the largest departure from 1 of the filtered texture of ones, over positions within
+    /// a texel.
     fn ripple(steps: f64, two: bool, average: impl Fn(f64, f64, f64, f64) -> f64) -> f64 {
         let places = (0..40).map(|k| 30.0 + 0.025 * f64::from(k));
         let rows: Vec<f64> = if two { places.clone().collect() } else { vec![30.0] };
@@ -219,7 +224,7 @@ mod tests {
         let literal = IntegratedArray::new(&ones, 40, 2);
         let naive = |x, y, w, h| literal.naive(x, y, w, h);
         let near = |found: f64, expected: f64| (found - expected).abs() < 0.01;
-        // One axis at a step of 1.5: weights add up to 8/9 and to 10/9.
+        // One axis at a step of 1.5: the weights sum to 8/9 and to 10/9.
         let one = ripple(1.5, false, naive);
         assert!((one - 1.0 / 9.0).abs() < 0.005, "{one}");
         let both = [(1.25, 0.25), (1.5, 0.24), (2.5, 0.08), (3.5, 0.04), (10.5, 0.005)];
@@ -227,7 +232,7 @@ mod tests {
             let found = ripple(steps, true, naive);
             assert!(near(found, expected), "step {steps}: {found}, expected {expected}");
         }
-        // Whole steps have none, but for the rounding of sums up to 1e6.
+        // Whole steps have no ripple, except for the rounding of sums up to 1e6.
         assert!(ripple(3.0, true, naive) < 1e-9);
 
         let texture = Texture {

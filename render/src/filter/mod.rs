@@ -1,6 +1,6 @@
 //! Averages a texture over a footprint.
 //!
-//! | filter      | what it gives for a rectangle                                                |
+//! | filter      | its result for a rectangle                                                   |
 //! |-------------|------------------------------------------------------------------------------|
 //! | `point`     | the texel at its middle                                                      |
 //! | `bilinear`  | four texels interpolated at its middle                                       |
@@ -9,8 +9,8 @@
 //! | `tent`      | the average under a tent that fills it (repeated integration, order 2)       |
 //! | `quadratic` | the average under a quadratic B-spline that fills it (the same, order 3)     |
 //!
-//! The last four work from pyramids and tables, which are built only for textures that a scene
-//! shows. [`literal`] is the thesis's own form of the tables, to test ours against.
+//! The last four filters use pyramids or tables, which are built only for textures that a scene
+//! shows. [`literal`] is the thesis's own form of the tables, against which ours are tested.
 
 mod axis;
 mod direct;
@@ -33,16 +33,16 @@ use glam::DVec2;
 use serde::Deserialize;
 use std::fmt;
 
-/// How a texture is averaged.
+/// A method of averaging a texture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Filter {
-    /// The texel at the point.
+    /// The texel at the middle of the footprint.
     Point,
-    /// Linear interpolation between texels.
+    /// Linear interpolation between the four texels around the middle of the footprint.
     Bilinear,
-    /// Linear interpolation between texels and levels of a pyramid; a square about as wide as the
-    /// footprint.
+    /// Linear interpolation between texels and levels of a pyramid, over a square about as wide as
+    /// the footprint.
     Mip,
     /// A box over the footprint (summed areas, n = 1).
     Box,
@@ -53,17 +53,18 @@ pub enum Filter {
 }
 
 impl Filter {
-    /// Every filter, from the simplest on, in the order of their discriminants.
+    /// All filters from the simplest on, in the order of their discriminants.
     pub const ALL: [Self; 6] =
         [Self::Point, Self::Bilinear, Self::Mip, Self::Box, Self::Tent, Self::Quadratic];
 
-    /// Whether this filter wants more than a point: then neighbours must be traced.
+    /// Returns whether this filter averages over areas. If so, the neighbours of each sample must
+    /// be traced.
     #[must_use]
     pub fn wants_area(self) -> bool {
         !matches!(self, Self::Point | Self::Bilinear)
     }
 
-    /// How often its table is integrated, if it has one.
+    /// Returns the number of integrations of the filter's table, 1 to 3, or `None` without a table.
     #[must_use]
     pub fn order(self) -> Option<usize> {
         match self {
@@ -74,7 +75,8 @@ impl Filter {
         }
     }
 
-    /// Memory in bytes that it takes for a texture, beside the texture.
+    /// Returns the memory of the filter's table or pyramid for a texture, in bytes. The texture
+    /// itself is not included.
     #[must_use]
     pub fn bytes_for(self, texture: &Texture) -> u64 {
         match (self, self.order()) {
@@ -106,7 +108,7 @@ pub struct FilteredTexture<'a> {
     prepared: Prepared,
 }
 
-/// What was worked out before the first average.
+/// Data built before the first average.
 #[derive(Debug)]
 enum Prepared {
     Nothing,
@@ -115,7 +117,7 @@ enum Prepared {
 }
 
 impl<'a> FilteredTexture<'a> {
-    /// Builds what the filter needs.
+    /// Builds the table or pyramid that `filter` needs.
     #[must_use]
     pub fn new(texture: &'a Texture, filter: Filter) -> Self {
         let prepared = match (filter, filter.order()) {
@@ -126,7 +128,7 @@ impl<'a> FilteredTexture<'a> {
         Self { texture, filter, prepared }
     }
 
-    /// The average of the texture over the footprint.
+    /// Returns the average of the texture over the footprint, linear RGB.
     #[must_use]
     pub fn average(&self, footprint: &Footprint) -> Color {
         let (center, half) = match *footprint {
@@ -141,19 +143,20 @@ impl<'a> FilteredTexture<'a> {
         }
     }
 
-    /// The footprint, moved upward or downward as far as its filter reaches past the first or the
-    /// last row of texels.
+    /// Moves a footprint up or down, so that its filter does not reach past the first or the last
+    /// row of texels.
     ///
-    /// On a sphere those rows are poles, and beyond a pole is not the other one, though the texture
-    /// repeats. Footprints end at the poles, so only a table's smallest width moves any, by less
-    /// than a texel, and the square of a pyramid.
+    /// On a sphere these rows are the poles. The texture repeats, but one pole is not next to the
+    /// other. Footprints end at the poles. The function therefore moves only a footprint below a
+    /// table's smallest width, by less than a texel, and the square of a pyramid.
     #[must_use]
     pub fn between_poles(&self, footprint: Footprint) -> Footprint {
         let (center, half) = match footprint {
             Footprint::Point(center) => (center, DVec2::ZERO),
             Footprint::Rectangle { center, half } => (center, half),
         };
-        // Half a texel of the upper of two levels is at most the side of the square.
+        // Interpolation reaches half a texel of the coarser of two levels: at most the side of the
+        // square.
         let smallest = match self.filter {
             Filter::Mip => pyramid::side(self.texture, half).max(0.5),
             _ => 0.5 * self.filter.order().unwrap_or(1) as f64,
@@ -166,8 +169,9 @@ impl<'a> FilteredTexture<'a> {
         }
     }
 
-    /// Texels or table entries that one average reads. Footprints of few texels, which are averaged
-    /// directly, and those larger than the texture, which are folded, read other numbers.
+    /// Returns the nominal number of texels or table entries that one average reads. Footprints of
+    /// few texels, which are averaged directly, and folded ones, which are larger than the texture,
+    /// read other numbers.
     #[must_use]
     pub fn reads(&self) -> u64 {
         match self.filter {
@@ -180,7 +184,7 @@ impl<'a> FilteredTexture<'a> {
         }
     }
 
-    /// Memory of the table or pyramid, in bytes; 0 when there is none.
+    /// Memory of the table or pyramid, in bytes; 0 without one.
     #[must_use]
     pub fn table_bytes(&self) -> usize {
         match &self.prepared {

@@ -1,30 +1,30 @@
-//! Mip-mapping: a pyramid of ever smaller pictures (thesis 3.3.1).
+//! Mip-mapping: averages a texture with a pyramid of ever smaller pictures (thesis 3.3.1).
 //!
-//! Williams, *Pyramidal Parametrics*, SIGGRAPH 1983. Each level has half the texels of the one below
-//! along each axis, rounded down, until one is left. Where a side is odd, a texel of the smaller
-//! level still is the average of exactly the piece that it covers: `w / (w/2)` texels, two to three,
-//! of which those at the border count in part. So every level fills the same unit square and has the
-//! same mean, and no size has to be a power of two. Codes are rounded to 16 bits on each level,
-//! half a code at most.
+//! The method is Williams, *Pyramidal Parametrics*, SIGGRAPH 1983. Each level has half the texels
+//! of the one below along each axis, rounded down, until one is left. Where a side is odd, a texel
+//! of the smaller level still averages exactly the area that it covers. This area is `w / (w/2)`
+//! texels wide, two to three, and the texels at its border count in part. Every level therefore
+//! fills the same unit square and has the same mean, and a size need not be a power of two. Codes
+//! are rounded to 16 bits on each level, with an error of half a code at most.
 //!
-//! A footprint is taken as a square, and `d` as the logarithm of its side in texels, to base 2. The
-//! thesis says that there is no correct way to find it; here the side is half the *longer* side of
-//! the box around 3 x 3 neighbours, one pixel where the texture is most compressed. So it blurs
-//! what is seen at a slant, and does not alias. Between the two nearest levels, and between texels
-//! of each, the result is interpolated linearly.
+//! A footprint is treated as a square, and `d` is the logarithm to base 2 of its side in texels.
+//! The thesis says that no method of finding `d` is correct. Here the side is half the *longer*
+//! side of the box around 3 x 3 neighbours: one pixel, where the texture is most compressed. This
+//! choice blurs surfaces seen at a slant and does not alias. The result is interpolated linearly
+//! between the two nearest levels and between the texels of each.
 
 use crate::color::Color;
 use crate::texture::Texture;
 use glam::DVec2;
 
-/// The levels above a texture.
+/// The levels above a texture, from the largest to a single texel.
 #[derive(Debug)]
 pub struct Pyramid {
     levels: Vec<Texture>,
 }
 
 impl Pyramid {
-    /// Halves the texture until one texel is left.
+    /// Builds the levels by halving the texture until one texel is left.
     #[must_use]
     pub fn build(texture: &Texture) -> Self {
         let mut levels: Vec<Texture> = Vec::new();
@@ -35,20 +35,22 @@ impl Pyramid {
         Self { levels }
     }
 
-    /// Memory of all levels but the texture itself, in bytes: a third of its own.
+    /// Memory of all levels without the texture itself, in bytes. It is about a third of the
+    /// texture's.
     #[must_use]
     pub fn bytes(&self) -> usize {
         self.levels.iter().map(|level| size_of_val(level.texels.as_slice())).sum()
     }
 
-    /// What [`Self::bytes`] would be, without building anything.
+    /// Returns the value of [`Self::bytes`] without building anything.
     #[must_use]
     pub fn bytes_for(texture: &Texture) -> u64 {
         sizes(texture).map(|(width, height)| 6 * width as u64 * height as u64).sum()
     }
 
-    /// The trilinear average over a square of about this half-width, in texture coordinates.
-    /// `texture` is the one the pyramid was built from.
+    /// Returns the trilinear average over a square of about this half-width, linear RGB. `center`
+    /// and `half` are in texture coordinates. `texture` is the one from which the pyramid was
+    /// built.
     #[must_use]
     pub fn average(&self, texture: &Texture, center: DVec2, half: DVec2) -> Color {
         let d = side(texture, half).log2();
@@ -65,13 +67,14 @@ impl Pyramid {
     }
 }
 
-/// The side of the square that stands for a footprint, in texels.
+/// Returns the side of the square that stands for a footprint, in texels. `half` is in texture
+/// coordinates.
 #[must_use]
 pub fn side(texture: &Texture, half: DVec2) -> f64 {
     (half.abs() * DVec2::new(texture.width as f64, texture.height as f64)).max_element()
 }
 
-/// The sizes of the levels above a texture.
+/// Lists the widths and heights of the levels above a texture.
 fn sizes(texture: &Texture) -> impl Iterator<Item = (usize, usize)> {
     let size = (texture.width, texture.height);
     std::iter::successors(Some(size), |&(width, height)| {
@@ -84,7 +87,7 @@ fn half_of(size: usize) -> usize {
     (size / 2).max(1)
 }
 
-/// A texture of half the size, each texel the average of what it covers.
+/// Halves a texture: each texel of the result is the average of the area that it covers.
 fn halved(texture: &Texture) -> Texture {
     let (width, height) = (half_of(texture.width), half_of(texture.height));
     let scale = u64::from(u16::MAX / texture.white);
@@ -107,8 +110,9 @@ fn halved(texture: &Texture) -> Texture {
     Texture { name: String::new(), width, height, wrap: texture.wrap, texels, white: u16::MAX }
 }
 
-/// The texels of `size` that texel `k` of `smaller` covers, each with its part in `smaller`-ths: in
-/// units of a `size * smaller`-th of the axis texels are `smaller` wide, and it is `size` wide.
+/// Lists the texels of `size` that texel `k` of `smaller` covers, each with its part of the covered
+/// area. In units of 1/(`size * smaller`) of the axis, a texel is `smaller` wide and the covered
+/// area `size`.
 fn covered(k: usize, size: usize, smaller: usize) -> impl Iterator<Item = (usize, u64)> {
     let (from, to) = (k * size, (k + 1) * size);
     (from / smaller..to.div_ceil(smaller)).map(move |i| {

@@ -1,34 +1,36 @@
-//! Small integers from the entries of one axis.
+//! Reduces the entries of one axis to small integers.
 //!
-//! The formulas are told in [`super::axis`]: at each point the forward differences of `n + 1`
-//! entries give `D_n`, ..., `D_1` and the texel; from all but the texel the Newton polynomial around
-//! one of the points is taken away, so that no sum from the table's origin is left. All of it is
-//! addition, subtraction and multiplication by whole numbers, exact modulo 2^B.
+//! The formulas are in [`super::axis`]. At each point the forward differences of `n + 1` entries
+//! give `D_n`, ..., `D_1` and the texel. The Newton polynomial around one of the points is
+//! subtracted from all but the texel, which removes the sums from the table's origin. All steps are
+//! additions, subtractions and multiplications by whole numbers, exact modulo 2^B.
 
 use super::axis::MOST_POINTS;
 use super::entry::binomial;
 use super::word::Word;
 
-/// The coefficients `c_k` of an n-th difference, by `n`.
+/// Coefficients `c_k` of an n-th difference, indexed by `n`.
 pub const DIFFERENCES: [[i64; MOST_POINTS]; 4] =
     [[1, 0, 0, 0], [-1, 1, 0, 0], [1, -2, 1, 0], [-1, 3, -3, 1]];
 
-/// How the entries of an axis become small integers.
+/// The reduction of an axis's entries to small integers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reduce {
-    /// The one entry, a sum of all texels, is small already.
+    /// A single entry, the sum of all texels, which is small already.
     Mean,
-    /// `n + 1` points of `n + 1` entries.
+    /// A difference of `n + 1` points with `n + 1` entries each.
     Difference {
-        /// `sum_k c_k C(d_k, j)` for `j` = 1 and 2, which the rounding of the points leaves over.
+        /// `sum_k c_k C(d_k, j)` for `j` = 1 and 2. The moments are not 0 because points are
+        /// rounded.
         moments: [i64; 2],
-        /// The distances `d_k` of the points from the one in the middle, or just below it.
+        /// Distances `d_k` of the points from the middle one, or from the one just below the
+        /// middle.
         distances: [i64; MOST_POINTS],
     },
 }
 
 impl Reduce {
-    /// For points at these places.
+    /// Creates the reduction for a filter of order `n` with these integer points.
     #[must_use]
     #[inline]
     pub fn difference(n: usize, points: &[i64; MOST_POINTS]) -> Self {
@@ -45,7 +47,7 @@ impl Reduce {
         Self::Difference { moments, distances }
     }
 
-    /// How many entries go in, along an axis of order `n`.
+    /// Returns the number of entries that are reduced, along an axis of order `n`.
     #[must_use]
     pub fn entries(self, n: usize) -> usize {
         match self {
@@ -54,7 +56,7 @@ impl Reduce {
         }
     }
 
-    /// How many integers come out, of at most `all`.
+    /// Returns the number of reduced integers, at most `all`.
     #[must_use]
     pub fn reduced(self, all: usize) -> usize {
         match self {
@@ -64,8 +66,8 @@ impl Reduce {
     }
 }
 
-/// The `R` small integers from `E` entries: first `sum_k c_k R_n(k)`, then `R_{n-1}` and so on down
-/// to `R_1` at all points but the middle one, then the texels.
+/// Reduces `E` entries to `R` small integers. The first is `sum_k c_k R_n(k)`. It is followed by
+/// `R_{n-1}` down to `R_1` at all points but the middle one, and then by the texels.
 #[must_use]
 #[inline(always)]
 pub fn difference<W: Word, const N: usize, const E: usize, const R: usize>(
@@ -118,20 +120,20 @@ pub fn difference<W: Word, const N: usize, const E: usize, const R: usize>(
     small
 }
 
-/// Sum of each channel.
+/// Adds channel by channel.
 #[inline(always)]
 pub fn plus<W: Word>(a: [W; 3], b: [W; 3]) -> [W; 3] {
     [a[0].plus(b[0]), a[1].plus(b[1]), a[2].plus(b[2])]
 }
 
-/// Product of each channel with a whole number.
+/// Multiplies each channel by a whole number.
 #[inline(always)]
 pub fn times<W: Word>(a: [W; 3], factor: impl Into<i128>) -> [W; 3] {
     let factor = factor.into();
     a.map(|word| word.times(factor))
 }
 
-/// Difference of each channel.
+/// Subtracts channel by channel.
 #[inline(always)]
 pub fn minus<W: Word>(a: [W; 3], b: [W; 3]) -> [W; 3] {
     [a[0].minus(b[0]), a[1].minus(b[1]), a[2].minus(b[2])]

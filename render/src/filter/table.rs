@@ -1,10 +1,11 @@
 //! Prefiltered tables: textures integrated up to three times, and averages from them at constant
 //! cost.
 //!
-//! Order 1 is Crow's summed area table and averages under a box, order 2 under a tent, order 3
-//! under a quadratic B-spline (thesis 3.3.2, 3.3.3). The sums are wrapping integers of the shortest
-//! sufficient word, so every average is that of the exact real weights on the exact texels, up to
-//! the rounding of its last few operations in `f64`. What one axis does is told in [`super::axis`].
+//! Order 1 is Crow's summed area table and averages under a box. Order 2 averages under a tent and
+//! order 3 under a quadratic B-spline (thesis 3.3.2, 3.3.3). The sums are wrapping integers of the
+//! shortest sufficient word. An average therefore equals the exact real weights applied to the
+//! exact texels, up to the rounding of its last few operations in `f64`. One axis is described in
+//! [`super::axis`].
 
 use super::axis::{self, Axis, HIGHEST, Part};
 use super::direct;
@@ -29,10 +30,10 @@ enum Sums {
     Huge(Vec<[u128; 3]>),
 }
 
-/// Bits of the shortest word that holds every result for such a texture: 32, 64 or 128.
+/// Returns the bits of the shortest word that holds every result for such a texture: 32, 64 or 128.
 ///
-/// The sums themselves may overflow it; only the reduced integers of [`super::reduce`] must fit,
-/// with a sign. They are below the largest code times what [`axis::sum_bound`] allows each axis.
+/// The sums themselves may overflow the word. Only the reduced integers of [`super::reduce`] must
+/// fit, with a sign. Their bound is the largest code times [`axis::sum_bound`] of each axis.
 fn word_bits(texture: &Texture, order: usize) -> u32 {
     let bound = |size| axis::sum_bound(order, size, texture.wrap);
     let largest = f64::from(texture.white) * bound(texture.width) * bound(texture.height);
@@ -44,7 +45,7 @@ impl PrefilteredTable {
     /// Integrates a texture; `order` is 1, 2 or 3.
     ///
     /// # Panics
-    /// On any other order.
+    /// If `order` is any other number.
     #[must_use]
     pub fn build(texture: &Texture, order: usize) -> Self {
         assert!((1..=HIGHEST).contains(&order), "tables of order 1, 2 and 3 exist");
@@ -66,15 +67,16 @@ impl PrefilteredTable {
         }
     }
 
-    /// What [`Self::bytes`] would be, without building anything.
+    /// Returns the value of [`Self::bytes`] without building anything.
     #[must_use]
     pub fn bytes_for(texture: &Texture, order: usize) -> u64 {
         let entries = (texture.width + order) as u64 * (texture.height + order) as u64;
         3 * entries * u64::from(word_bits(texture, order) / 8)
     }
 
-    /// The average of the texture under the filter with the given middle and half-support, in
-    /// texture coordinates. `texture` is the one the table was built from.
+    /// Returns the average of the texture under the filter, linear RGB. `center` is the filter's
+    /// middle and `half` its half-support, both in texture coordinates. `texture` is the one from
+    /// which the table was built.
     #[must_use]
     pub fn average(&self, texture: &Texture, center: DVec2, half: DVec2) -> Color {
         let at = texture.in_texels(center);
@@ -93,7 +95,7 @@ impl PrefilteredTable {
         self.average_from_sums(texture, at, half)
     }
 
-    /// The same for any footprint, from the integers; places and sizes in texels.
+    /// Averages any footprint with the table's integers. Positions and sizes are in texels.
     fn average_from_sums(&self, texture: &Texture, at: DVec2, half: DVec2) -> Color {
         let columns = axis::parts(self.order, at.x, half.x, texture.width, texture.wrap);
         let rows = axis::parts(self.order, at.y, half.y, texture.height, texture.wrap);
@@ -127,12 +129,12 @@ fn of_order<W: Word>(
     }
 }
 
-/// The table `D_n(i, j)`, `i` in `0..width + n`, `j` in `0..height + n`, row by row.
+/// Builds the table `D_n(i, j)`, `i` in `0..width + n`, `j` in `0..height + n`, row by row.
 fn integrate<W: Word>(texture: &Texture, order: usize) -> Vec<[W; 3]> {
     let (width, height) = (texture.width, texture.height);
     let stride = width + order;
     let mut table = vec![[W::default(); 3]; stride * (height + order)];
-    // The texel (i, j) starts n entries further on, so that n exclusive sums bring it home.
+    // Texel (i, j) is stored n entries further on, so that n inclusive sums equal n exclusive ones.
     for (j, texels) in texture.texels.chunks_exact(width).enumerate() {
         let row = &mut table[(j + order) * stride..][..stride];
         for (entry, texel) in row[order..].iter_mut().zip(texels) {

@@ -1,7 +1,8 @@
-//! Both axes of a filter applied to a table.
+//! Applies both axes of a filter to a table.
 //!
-//! First along the rows of the table, then across: each row's entries become small integers, these
-//! become small integers of the column, and only those meet real weights.
+//! The rows of the table are reduced first: the entries of each row become small integers. These
+//! are reduced down the column to small integers again. Only the last integers are multiplied by
+//! real weights.
 
 use super::axis::Axis;
 use super::entry::{Entry, MOST_ENDS};
@@ -9,8 +10,9 @@ use super::reduce::{self, Reduce, plus, times};
 use super::word::Word;
 use glam::DVec3;
 
-/// The average over `column` (places across) and `row` (places down) of a table of order `N`; it
-/// has `E` entries and `R` reduced integers along an axis.
+/// Returns the weighted sum of codes over `column` (positions across) and `row` (positions down),
+/// one value per channel. The table has order `N` and `stride` entries a row; a filter has `E`
+/// entries and `R` reduced integers along each axis.
 #[must_use]
 pub fn weigh<W: Word, const N: usize, const E: usize, const R: usize>(
     table: &[[W; 3]],
@@ -73,7 +75,7 @@ fn reduced<W: Word, const N: usize, const E: usize, const R: usize>(
     }
 }
 
-/// The entries of the columns, found once for all rows.
+/// Entries of the columns, computed once for all rows.
 enum Columns<'a, const E: usize> {
     Plain(&'a Axis),
     Wrapped { axis: &'a Axis, entries: [Entry; E], ends: [usize; MOST_ENDS], count: usize },
@@ -93,7 +95,7 @@ impl<'a, const E: usize> Columns<'a, E> {
         Self::Wrapped { axis, entries, ends, count }
     }
 
-    /// The reduced integers of one row of the table.
+    /// Returns the reduced integers of one row of the table.
     #[inline(always)]
     fn along<W: Word, const N: usize, const R: usize>(&self, stored: &[[W; 3]]) -> [[W; 3]; R] {
         let mut values = [[W::default(); 3]; E];

@@ -1,12 +1,12 @@
 //! The integers of a prefiltered table.
 //!
-//! Sums in a table are taken modulo 2^B and may overflow freely: addition and subtraction modulo
-//! 2^B are exact, so a result is exact as soon as *it* fits, however large the sums it is a
-//! difference of. A table therefore takes the shortest word that holds every result.
+//! Sums in a table are taken modulo 2^B and may overflow freely. Addition and subtraction modulo
+//! 2^B are exact, so a difference of sums is exact if the *difference* fits the word, however large
+//! the sums are. A table therefore takes the shortest word that holds every result.
 
 /// An integer whose sums wrap.
 pub trait Word: Copy + Default + Send + Sync + std::fmt::Debug {
-    /// The word of a texel's code.
+    /// Converts a texel's code to a word.
     fn from_code(code: u16) -> Self;
     /// Sum modulo 2^B.
     #[must_use]
@@ -17,7 +17,7 @@ pub trait Word: Copy + Default + Send + Sync + std::fmt::Debug {
     /// Product with a factor of either sign, modulo 2^B.
     #[must_use]
     fn times(self, factor: i128) -> Self;
-    /// The value of the word taken as signed, rounded to 53 bits.
+    /// Returns the value of the word as a signed integer, rounded to 53 bits.
     fn to_f64(self) -> f64;
 }
 
@@ -70,7 +70,7 @@ impl Word for u128 {
     }
     #[inline(always)]
     fn to_f64(self) -> f64 {
-        // Most results are short, and long ones are slow to turn.
+        // Most results are short, and the conversion of long ones is slow.
         let short = self as u64 as i64;
         if i128::from(short) == self as i128 { short as f64 } else { self as i128 as f64 }
     }

@@ -1,24 +1,26 @@
-//! Which piece of a texture a pixel sees.
+//! The part of a texture that a pixel sees.
 //!
-//! This is the seam of the renderer. Tracing knows nothing of textures, filters nothing of rays: a
-//! way of sampling looks at the nodes of an intersection tree and makes a [`Footprint`], and a
-//! filter averages a texture over it. [`neighbours`] is the thesis's way; another way adds a file
-//! here and, if its shape is new, a variant below.
+//! A [`Footprint`] separates tracing from texture filtering. Tracing knows nothing of textures, and
+//! filtering knows nothing of rays. A sampling method computes a footprint from the nodes of
+//! intersection trees. A filter averages a texture over the footprint. [`neighbours`] is the
+//! thesis's sampling method. Another method adds a file to this module and, if it needs a new
+//! shape, a variant of [`Footprint`].
 
 pub mod neighbours;
 
 use glam::DVec2;
 
-/// A piece of texture, in texture coordinates: across and up, a texture fills the unit square.
+/// A part of a texture, in texture coordinates. A texture fills the unit square, with `x` across
+/// and `y` up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Footprint {
-    /// One point; a filter still smooths it by its smallest width.
+    /// One point. A filter still smooths the texture by the filter's smallest width.
     Point(DVec2),
     /// An axis-parallel rectangle.
     Rectangle {
-        /// Its middle.
+        /// Middle of the rectangle.
         center: DVec2,
-        /// Half its width and height, not negative.
+        /// Half the width and half the height of the rectangle, 0 or more.
         half: DVec2,
     },
 }

@@ -1,49 +1,51 @@
-//! The thesis's footprint: the box around the texture coordinates of 3 x 3 neighbours (4.5.1, fig.
-//! 4.4).
+//! The thesis's footprint: the bounding box of the texture coordinates of 3 x 3 neighbours (4.5.1,
+//! fig. 4.4).
 //!
-//! A node sees the area between its eight neighbours if all of them came to the same textured area
-//! by the same path: reflected and refracted in the same order, at the same objects. If one did
-//! not, the node sees a point. The textured area of a mesh is a chart: [`crate::shape::charts`].
+//! A node sees the area between its eight neighbours if all of them hit the same textured area
+//! along the same path. Paths are the same if they are reflected and refracted in the same order at
+//! the same objects. If one neighbour differs, the node sees a point. On a mesh the textured area
+//! is a chart: [`crate::shape::charts`].
 //!
-//! The thesis asks for the same depths of reflection and refraction; asking for the same objects on
-//! the way as well tells apart two mirrors that show one floor.
+//! The thesis compares only the depths of reflection and refraction. Comparing the objects on the
+//! path as well distinguishes two mirrors that show the same floor.
 
 use super::Footprint;
 use crate::shape::Charts;
 use crate::trace::tree::{Branch, IntersectionTree, Node};
 use glam::{DVec2, DVec3};
 
-/// How many trees are looked at.
+/// Number of trees in a neighbourhood: 3 x 3.
 pub const ALL: usize = 9;
 
-/// The index of the middle one.
+/// Index of the middle tree.
 const MIDDLE: usize = 4;
 
-/// Nine trees walked in step: for each, the branch of it that corresponds to the middle one's.
+/// Nine trees that are walked in step. Each tree has a current branch that corresponds to the
+/// branch of the middle tree.
 #[derive(Debug, Clone, Copy)]
 pub struct Neighbourhood<'a> {
     trees: [&'a IntersectionTree; ALL],
     branches: [Branch; ALL],
-    /// The index of the tree that is shaded: the middle one, unless [`Neighbourhood::seen_by`]
-    /// chose another.
+    /// Index of the tree that is shaded: the middle tree, unless [`Neighbourhood::seen_by`] chose
+    /// another one.
     middle: usize,
 }
 
 impl<'a> Neighbourhood<'a> {
-    /// The roots of nine trees, row by row.
+    /// Starts at the roots of nine trees, given row by row.
     #[must_use]
     pub fn of(trees: [&'a IntersectionTree; ALL]) -> Self {
         Self { trees, branches: trees.map(|tree| tree.root), middle: MIDDLE }
     }
 
-    /// The same nine trees, of which that with index `shaded` takes the place of the middle one:
-    /// nine rays that see their texture through one box, which all of them span.
+    /// Shades the tree with index `shaded` instead of the middle one and keeps the nine trees. With
+    /// it nine rays can all use the one footprint that they span together.
     #[must_use]
     pub fn seen_by(self, shaded: usize) -> Self {
         Self { middle: shaded, ..self }
     }
 
-    /// A tree without neighbours: every node sees a point.
+    /// A tree without neighbours. Every node of the tree sees a point.
     #[must_use]
     pub fn alone(tree: &'a IntersectionTree) -> Self {
         let mut branches = [Branch::Cut; ALL];
@@ -51,31 +53,34 @@ impl<'a> Neighbourhood<'a> {
         Self { trees: [tree; ALL], branches, middle: MIDDLE }
     }
 
-    /// What the middle tree's branch came to.
+    /// Current branch of the tree that is shaded.
     #[must_use]
     pub fn middle(&self) -> Branch {
         self.branches[self.middle]
     }
 
-    /// What the way from the eye to the middle tree's root leaves of the light.
+    /// Transmittance from the eye to the root of the tree that is shaded, linear RGB, [0, 1] per
+    /// channel.
     #[must_use]
     pub fn through(&self) -> DVec3 {
         self.trees[self.middle].through
     }
 
-    /// The middle tree's node, if its branch came to one.
+    /// Node of the current branch of the tree that is shaded, if this branch hit a surface.
     #[must_use]
     pub fn node(&self) -> Option<&'a Node> {
         self.trees[self.middle].node(self.middle())
     }
 
-    /// The direction in which the middle tree's branch left the scene, if it did.
+    /// Unit direction in which the current branch of the tree that is shaded left the scene, if it
+    /// did.
     #[must_use]
     pub fn away(&self) -> Option<DVec3> {
         self.trees[self.middle].away(self.middle())
     }
 
-    /// One step along all trees; neighbours that are on another path are left behind.
+    /// Moves all trees to the branch that `child` selects. Trees whose current node lies on another
+    /// textured area are cut.
     #[must_use]
     pub fn step(&self, child: impl Fn(&Node) -> Branch) -> Self {
         let area = self.node().map(Node::area);
@@ -89,20 +94,22 @@ impl<'a> Neighbourhood<'a> {
         Self { branches, ..*self }
     }
 
-    /// The node of the tree with index `k`, if it came to the same textured area as this one.
+    /// Node of the tree with index `k`, if this node lies on the same textured area as `node`.
     fn agreeing(&self, k: usize, node: &Node) -> Option<&'a Node> {
         self.trees[k].node(self.branches[k]).filter(|other| other.area() == node.area())
     }
 
-    /// The first tree, by its index, that came to another area or by another path, and what it came to
-    /// by the same path: [`Branch::Cut`] if it is on another one.
+    /// Finds the first tree, by index, that does not agree with `node`. Returns its index, its
+    /// current branch and the node of this branch, if any. The branch is [`Branch::Cut`] if the
+    /// tree left the common path before.
     #[must_use]
     pub fn stranger(&self, node: &Node) -> Option<(usize, Branch, Option<&'a Node>)> {
         let k = (0..ALL).find(|&k| self.agreeing(k, node).is_none())?;
         Some((k, self.branches[k], self.trees[k].node(self.branches[k])))
     }
 
-    /// What the middle node sees of its texture; `charts` are those of its shape.
+    /// Returns the footprint of `node`, the node of the tree that is shaded. `charts` are the
+    /// charts of the node's shape.
     #[must_use]
     pub fn footprint(&self, node: &Node, charts: &Charts) -> Footprint {
         let (mut low, mut high) = (node.uv, node.uv);
@@ -119,7 +126,8 @@ impl<'a> Neighbourhood<'a> {
     }
 }
 
-/// The way from the texture coordinates of one node to those of another on the same area.
+/// Difference of the texture coordinates of `to` and `from`, two nodes on the same area, if their
+/// charts connect them.
 fn way(charts: &Charts, from: &Node, to: &Node) -> Option<DVec2> {
     let [from, to] = [from, to].map(|node| (node.piece.triangle, node.uv));
     charts.difference(from, to)

@@ -1,7 +1,7 @@
-//! Prints what a pixel is made of: the intersection trees of its samples, node by node.
+//! Prints one pixel: the intersection trees of its samples, node by node.
 //!
-//! The pixel is exposed by the film like any other, and the nodes are written down as they are
-//! shaded: what is printed is what is rendered.
+//! The film exposes the pixel like any other, and the nodes are recorded while they are shaded. The
+//! printed values are therefore the rendered ones.
 
 mod node;
 
@@ -13,15 +13,15 @@ use crate::shade::observer::{Observer, Seen, Way};
 use glam::DVec3;
 use std::fmt::Write;
 
-/// Spaces that a branch stands further right than the node it leaves.
+/// Number of spaces by which a branch is indented against its parent node.
 const STEP: usize = 2;
 
-/// The trees of a pixel as text, the pixel's colour first. Numbers are rounded to `f32`, the
-/// pixel's own is exactly that.
+/// Returns the trees of a pixel as text, after the pixel's colour. All numbers are rounded to
+/// `f32`; for the pixel's colour this loses nothing.
 ///
-/// With `all`, every sample that counts in the pixel is printed, else the one in its middle.
-/// `encoding` is how the codes of the pixel are made. The pixel lies in the picture, which need
-/// not be cropped to hold it.
+/// With `all`, the text lists every sample with a weight in the pixel, else only the middle one.
+/// `encoding` gives the 8-bit codes of the colour. The pixel must lie in the whole picture, but may
+/// lie outside its crop.
 #[must_use]
 pub fn pixel(
     prepared: &Prepared<'_>,
@@ -51,20 +51,20 @@ pub fn pixel(
     format!("{of}: linear {}, as codes {r} {g} {b}\n{}", numbers(light), recorder.text)
 }
 
-/// Writes down what is shaded.
+/// Records the samples of a pixel while they are shaded.
 struct Recorder<'a> {
     scene: &'a Scene,
     settings: &'a Settings,
     pixel: (u32, u32),
     all: bool,
-    /// Whether neighbours are looked at.
+    /// Whether the neighbours of each sample are traced.
     halo: bool,
     text: String,
-    /// Whether the sample at hand is to be printed.
+    /// Whether the current sample is printed.
     wanted: bool,
-    /// The ways of the branches that are followed, from the eye on.
+    /// How each open branch continues its parent, from the root on; `None` for the root.
     open: Vec<Option<Way>>,
-    /// For each branch on the way, the text of those that left it.
+    /// For each open branch, the text of its finished children.
     branches: Vec<String>,
 }
 

@@ -1,4 +1,4 @@
-//! One node of an intersection tree in words.
+//! Describes one node of an intersection tree in words.
 
 use super::{light, vector};
 use crate::footprint::Footprint;
@@ -7,7 +7,7 @@ use crate::scene::{Scene, SurfaceTexture};
 use crate::shade::observer::{Seen, Textured};
 use crate::trace::tree::{Branch, Node};
 
-/// Where a neighbour is, by its index.
+/// Position of each neighbour relative to the middle, by its index.
 const PLACES: [&str; 9] = [
     "upper left",
     "upper",
@@ -20,7 +20,7 @@ const PLACES: [&str; 9] = [
     "lower right",
 ];
 
-/// What a branch came to; the first line names it.
+/// Describes the result of a branch, line by line. The first line names it.
 pub fn lines(scene: &Scene, halo: bool, seen: &Seen<'_>) -> Vec<String> {
     let Some(node) = seen.around.node() else {
         return vec![nothing(seen.around.middle()).into(), format!("colour {}", light(seen.color))];
@@ -59,7 +59,7 @@ pub fn lines(scene: &Scene, halo: bool, seen: &Seen<'_>) -> Vec<String> {
     lines
 }
 
-/// A branch without a node.
+/// Describes a branch without a node.
 fn nothing(branch: Branch) -> &'static str {
     match branch {
         Branch::Background(_) => "the background",
@@ -67,7 +67,7 @@ fn nothing(branch: Branch) -> &'static str {
     }
 }
 
-/// Which object, and which piece of it.
+/// Describes the object that was hit, and the triangle of a mesh.
 fn piece(scene: &Scene, node: &Node) -> String {
     let index = node.piece.object as usize;
     let kind = scene.objects[index].shape.kind();
@@ -87,7 +87,7 @@ fn named(names: &[String], index: usize) -> String {
         .map_or_else(|| index.to_string(), |name| format!("\"{}\"", files::words::shown(name)))
 }
 
-/// What a node sees of its texture, and why it is a point if it is one.
+/// Describes the part of its texture that a node sees, or why it sees a point.
 fn footprint(
     scene: &Scene,
     halo: bool,
@@ -115,7 +115,7 @@ fn footprint(
     }
 }
 
-/// Which neighbour saw something else, and what.
+/// Describes the first neighbour that does not agree with the node.
 fn disagreement(scene: &Scene, around: &Neighbourhood<'_>, node: &Node) -> String {
     match around.stranger(node) {
         None => "a neighbour lies on another piece of the picture".into(),

@@ -1,49 +1,53 @@
-//! The colours of a thin film: soap, oil on water, the oxide on steel.
+//! Interference colours of a thin film, such as soap, oil on water or the oxide on steel.
 //!
-//! Light is reflected at both faces of the film, and what comes back from the second has gone a
-//! little further. Airy's formula sums all bounces between the two, for each wavelength and each
-//! polarization; the sum over wavelengths is the colour.
+//! Both faces of the film reflect light, and light from the second face has travelled a little
+//! further. Airy's formula sums all reflections between the faces, for each wavelength and each
+//! polarization. The sum over wavelengths is the colour.
 
 use glam::DVec3;
 
-/// Wavelengths that are summed, in nanometres: from, to, step.
+/// Wavelengths that are summed, in nanometres: first, last and step.
 ///
-/// The fringes of the thickest film that a scene may have are 8 nm apart at the blue end, so that
-/// there are four steps to each.
+/// The thickest film that a scene may have shows fringes 8 nm apart at the blue end, so that each
+/// has four steps.
 const WAVELENGTHS: (u32, u32, usize) = (380, 780, 2);
 
-/// A film of a transparent material on another.
+/// A film of one transparent material on another.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ThinFilm {
-    /// Its thickness in nanometres, not negative.
+    /// Thickness in nanometres, 0 or more.
     pub thickness_nm: f64,
-    /// Its index of refraction, positive. Before it is air, of index 1.
+    /// Index of refraction of the film, positive. The medium in front of the film is air, of index
+    /// 1.
     pub index: f64,
-    /// The index of refraction of what is behind it, positive; 1 for a film in air.
+    /// Index of refraction of the medium behind the film, positive; 1 for a film in air.
     pub base_index: f64,
 }
 
 impl ThinFilm {
-    /// The share of unpolarized light of one wavelength (nanometres, in air) that is reflected, in
-    /// `[0, 1]`; `c1` is the cosine of the angle of incidence.
+    /// Returns the reflectance for unpolarized light of one wavelength, in `[0, 1]`. `c1` is the
+    /// cosine of the angle of incidence, [0, 1]. `wavelength` is in nanometres, in air, and
+    /// positive.
     #[must_use]
     pub fn reflectance(&self, c1: f64, wavelength: f64) -> f64 {
         let cosine = |index: f64| super::transmitted_cosine(c1, 1.0 / index);
-        // Beyond a critical angle nothing gets through.
+        // Beyond a critical angle all light is reflected.
         let (Some(c2), Some(c3)) = (cosine(self.index), cosine(self.base_index)) else {
             return 1.0;
         };
         let (n2, n3) = (self.index, self.base_index);
-        // The phase by which one more way through the film and back falls behind.
+        // Phase lag of one more passage through the film and back, in radians.
         let phase = 2.0 * std::f64::consts::TAU * n2 * c2 * self.thickness_nm / wavelength;
-        // Amplitude ratios at both faces; of the two polarizations the average is seen.
+        // Amplitude ratios at both faces. Unpolarized light is the average of the two
+        // polarizations.
         let perpendicular = airy(ratio(c1, n2 * c2), ratio(n2 * c2, n3 * c3), phase);
         let parallel = airy(ratio(n2 * c1, c2), ratio(n3 * c2, n2 * c3), phase);
         (0.5 * (perpendicular + parallel)).clamp(0.0, 1.0)
     }
 
-    /// The colour of white light that the film reflects, linear sRGB, where all light reflected is
-    /// white, `[1, 1, 1]`. What a screen cannot show is clipped at 0.
+    /// Returns the colour of white light that the film reflects, in linear sRGB. A film that
+    /// reflects all light gives `[1, 1, 1]`. Values that a screen cannot show are clipped at 0 from
+    /// below. `c1` is the cosine of the angle of incidence, [0, 1].
     #[must_use]
     pub fn color(&self, c1: f64) -> DVec3 {
         let (mut sum, mut white) = (DVec3::ZERO, DVec3::ZERO);
@@ -57,13 +61,14 @@ impl ThinFilm {
     }
 }
 
-/// `(a - b) / (a + b)`; 1 where both are 0, since grazing light is reflected.
+/// Returns `(a - b) / (a + b)`, or 1 where both are 0, since grazing light is reflected.
 fn ratio(a: f64, b: f64) -> f64 {
     let ratio = (a - b) / (a + b);
     if ratio.is_finite() { ratio } else { 1.0 }
 }
 
-/// Airy's sum: the reflected share, from the amplitude ratios of both faces and the phase between.
+/// Returns the reflectance by Airy's sum, from the amplitude ratios of both faces and the phase
+/// between them in radians.
 fn airy(first: f64, second: f64, phase: f64) -> f64 {
     let both = 2.0 * first * second * phase.cos();
     let (near, far) = (first * first, second * second);
@@ -72,9 +77,9 @@ fn airy(first: f64, second: f64, phase: f64) -> f64 {
     if share.is_finite() { share } else { 1.0 }
 }
 
-/// The CIE 1931 observer at a wavelength in nanometres, by the lobes of Wyman, Sloan and Shirley,
-/// "Simple Analytic Approximations to the CIE XYZ Color Matching Functions" (JCGT 2013), which are
-/// within 1 % of the largest value.
+/// Returns the CIE 1931 colour matching functions at a wavelength in nanometres. They are
+/// approximated by the lobes of Wyman, Sloan and Shirley, "Simple Analytic Approximations to the
+/// CIE XYZ Color Matching Functions" (JCGT 2013), which are within 1 % of the largest value.
 fn observer(wavelength: f64) -> DVec3 {
     let lobe = |height: f64, middle: f64, left: f64, right: f64| {
         let width = if wavelength < middle { left } else { right };
@@ -89,7 +94,7 @@ fn observer(wavelength: f64) -> DVec3 {
     )
 }
 
-/// From CIE XYZ to linear sRGB (IEC 61966-2-1).
+/// Converts CIE XYZ to linear sRGB (IEC 61966-2-1).
 fn linear_srgb(xyz: DVec3) -> DVec3 {
     DVec3::new(
         DVec3::new(3.2406, -1.5372, -0.4986).dot(xyz),
@@ -105,7 +110,8 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// A film of no thickness, and one of the base's own material, are not there.
+        /// A film of no thickness, and a film of the base's own material, do not change the
+        /// reflectance.
         #[test]
         fn a_film_of_nothing_leaves_fresnels_share(
             angle in 0.0..1.55, index in 1.0..3.0, base_index in 1.0..3.0, wavelength in 380.0..780.0,
@@ -134,12 +140,13 @@ mod tests {
 
     #[test]
     fn a_quarter_of_a_wave_in_between_takes_the_reflection_away() {
-        // The classic coating: index sqrt(n), a quarter of the wavelength thick inside.
+        // The classic coating: its index is sqrt(n) and its thickness a quarter of the wavelength
+        // inside it.
         let index = 1.5f64.sqrt();
         let coat = ThinFilm { thickness_nm: 550.0 / (4.0 * index), index, base_index: 1.5 };
         assert!(coat.reflectance(1.0, 550.0) < 1e-12);
         assert!(coat.reflectance(1.0, 400.0) > 1e-3);
-        // Its rest is purple: green is gone.
+        // The reflected rest is purple, since green is removed.
         let rest = coat.color(1.0);
         assert!(rest.y < rest.x && rest.y < rest.z, "{rest}");
     }

@@ -1,28 +1,30 @@
-//! Checker, stripes and bricks: exact, with no noise in them.
+//! Checker, stripes and bricks: exact patterns without noise in their faces.
 //!
-//! Each is a cell number and a place in the cell. A surface that lies in a face between cells, as a
-//! floor does at height 0, would see one side here and the other there as its coordinates are
-//! rounded; so all faces lie [`BELOW`] lower than said, and it sees the upper side everywhere.
-//! These patterns could be averaged over a box in closed form. They are looked up at a point like
-//! all solids, which is the thesis's way; supersampling smooths their edges.
+//! The colour of a point depends on the number of its cell and on its position within the cell. A
+//! surface that lies in a face between cells, as a floor does at height 0, would see either side,
+//! depending on the rounding of its coordinates. All faces therefore lie [`BELOW`] lower than
+//! stated, so that the surface sees the upper side everywhere. These patterns could be averaged
+//! over a box in closed form. They are looked up at a point like all solids, as in the thesis;
+//! supersampling smooths their edges.
 
 use super::lattice::{mixed_at, share};
 use crate::color::Color;
 use glam::DVec3;
 
-/// How far faces are moved, in units of the texture. Larger than the rounding of coordinates up to
-/// a million units, and far smaller than anything that could be seen.
+/// Distance by which faces are moved down, in units of the texture. It is larger than the rounding
+/// of coordinates up to a million units, and far too small to be seen.
 pub const BELOW: f64 = 1.0 / (1u64 << 30) as f64;
 
-/// Cubes of side 1, of two colours in turn.
+/// Cubes of side 1 in two alternating colours.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Checker {
-    /// The cube from the origin to (1, 1, 1) has the first.
+    /// The cube from the origin to (1, 1, 1) has the first colour, and its neighbours have the
+    /// second.
     pub colors: [Color; 2],
 }
 
 impl Checker {
-    /// The colour at a point.
+    /// Returns the colour at a point of texture space, linear RGB.
     #[must_use]
     pub fn color(&self, point: DVec3) -> Color {
         let cube = (point + BELOW).floor();
@@ -34,12 +36,12 @@ impl Checker {
 /// Layers along x that repeat.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stripes {
-    /// The thickness of each, more than 0, and its colour; the first begins at x = 0.
+    /// Thickness of each layer, more than 0, and its colour. The first layer begins at x = 0.
     pub layers: Vec<(f64, Color)>,
 }
 
 impl Stripes {
-    /// The colour at a point.
+    /// Returns the colour at a point of texture space, linear RGB.
     #[must_use]
     pub fn color(&self, point: DVec3) -> Color {
         let period: f64 = self.layers.iter().map(|(thickness, _)| thickness).sum();
@@ -55,21 +57,22 @@ impl Stripes {
     }
 }
 
-/// Brickwork in running bond: rows along x, each half a brick off the one below.
+/// Brickwork in running bond. Rows run along x, and each is half a brick off the row below.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Brick {
-    /// From one brick to the next, joint included, along x, y and z; more than 0.
+    /// Distance from one brick to the next along x, y and z, joint included; more than 0.
     pub size: DVec3,
-    /// The joint, at the upper end of each brick along each axis; at least 0 and less than a brick.
+    /// Thickness of the joint at the upper end of each brick along each axis; 0 or more and less
+    /// than `size`.
     pub joint: f64,
-    /// Colours of bricks and of the joint.
+    /// Colours of the bricks and of the joint.
     pub colors: [Color; 2],
-    /// How much bricks differ in tone, 0 to 1.
+    /// Variation in tone between bricks, 0 to 1.
     pub vary: f64,
 }
 
 impl Brick {
-    /// The colour at a point.
+    /// Returns the colour at a point of texture space, linear RGB.
     #[must_use]
     pub fn color(&self, point: DVec3) -> Color {
         let mut at = (point + BELOW) / self.size;
@@ -105,7 +108,7 @@ mod tests {
                 }
             }
         }
-        // A floor at height 0, rounded this way and that.
+        // A floor at height 0, with coordinates rounded up and down.
         let rounded = [1e-15, 0.0, -1e-15].map(|y| checker.color(DVec3::new(0.5, y, 0.5)));
         assert_eq!(rounded, [Color::ZERO; 3]);
         assert!(checker.color(DVec3::new(1e9 + 0.5, -1e300, 0.5)).is_finite());
@@ -130,12 +133,14 @@ mod tests {
         }
     }
 
-    /// A wall of bricks shows as much brick as the sizes say, and half a brick of offset.
+    /// A wall of bricks shows as much brick as the sizes imply, and rows are offset by half a
+    /// brick.
     #[test]
     fn bricks_and_joints_have_their_sizes() {
         let size = DVec3::new(2.0, 0.75, 1.0);
         let brick = Brick { size, joint: 0.25, colors: [Color::ONE, Color::ZERO], vary: 0.0 };
-        // Middles of cells of 1/16 over two bricks of two rows: edges fall between them.
+        // Samples the middles of cells of 1/16 over two bricks of two rows, so that edges fall
+        // between them.
         let mut bricks = 0;
         for i in 0..64 {
             for j in 0..24 {

@@ -1,13 +1,14 @@
 //! Bump mapping (J. F. Blinn 1978; thesis 2.2, eq. 2.1 and 2.2, fig. 2.2).
 //!
-//! The normal `Ns` of a surface becomes `Ns + k Np`, normalised, with `Np` from a perturbation. Here
-//! a perturbation is a height `h`, and `Np` is minus the part of its gradient along the surface: the
-//! normal, to first order in `k`, of the surface that would be pushed out by `k h`. So a bump and a
-//! true displacement of the same relief have the same shading, and only the outline tells them
-//! apart. The thesis's own perturbation, `dnoise`, is added as it is.
+//! The normal `Ns` of a surface becomes `Ns + k Np`, normalised, where `Np` is a perturbation. Here
+//! a perturbation is given by a height `h`, and `Np` is minus the part of its gradient along the
+//! surface. To first order in `k` the result is the normal of the surface displaced outward by
+//! `k h`. A bump and a true displacement of the same relief therefore have the same shading and
+//! differ only in their outlines. The thesis's own perturbation, `dnoise`, is added unchanged.
 //!
-//! Slopes are what is seen of a bump. Those of trilinear noise jump at the faces of its cells, which
-//! shows as creases; so bumps are interpolated smoothly unless the linear way is asked for.
+//! The slopes of a bump determine its shading. Slopes of trilinear noise jump at the faces of its
+//! cells, which appear as creases. Bumps are therefore interpolated smoothly unless linear
+//! interpolation is asked for.
 
 use super::heights::Heights;
 use super::noise::Noise;
@@ -16,19 +17,19 @@ use super::turbulence::Octaves;
 use super::wall::Wall;
 use glam::{DAffine3, DVec2, DVec3};
 
-/// What turns normals.
+/// A relief that perturbs normals.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bump {
     /// The perturbation.
     pub relief: Relief,
-    /// `k`: for heights, the length in the object's own space of a height of 1, below 0 for dents;
-    /// for `dnoise` a number.
+    /// `k`. For heights it is the length of a height of 1, in the object's own space; a negative
+    /// value makes dents. For `dnoise` it is a plain factor.
     pub strength: f64,
-    /// Where the relief lies in the object.
+    /// Position of the relief in the object.
     pub placement: Placement,
 }
 
-/// A perturbation.
+/// The perturbation of a relief.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Relief {
     /// The fractal sum of noise as a height.
@@ -43,33 +44,34 @@ pub enum Relief {
     Picture(Heights),
 }
 
-/// Where a normal is to be turned, in the scene's space.
+/// A point whose normal is perturbed, in scene space.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Place {
-    /// The point.
+    /// Position of the point.
     pub point: DVec3,
-    /// Its unit normal.
+    /// Unit normal at the point.
     pub normal: DVec3,
-    /// Its texture coordinates.
+    /// Texture coordinates of the point.
     pub uv: DVec2,
-    /// How they change along the surface: their gradients. Used by pictures only.
+    /// Gradients of both texture coordinates along the surface. Only pictures use them.
     pub uv_gradients: [DVec3; 2],
 }
 
 impl Bump {
-    /// Whether it looks at texture coordinates.
+    /// Returns whether the relief uses texture coordinates.
     #[must_use]
     pub fn wants_uv(&self) -> bool {
         matches!(self.relief, Relief::Picture(_))
     }
 
-    /// The unit normal of a place, perturbed; it is left alone where the sum vanishes.
+    /// Returns the perturbed unit normal at `place`, in scene space. The normal is unchanged where
+    /// the sum vanishes.
     ///
-    /// The sum is taken in the object's own space, where the relief lies, and carried back as
-    /// normals are: an object that is stretched stretches its relief.
+    /// The sum is taken in the object's own space, where the relief is defined, and transformed
+    /// back as normals are. A stretched object therefore stretches its relief.
     #[must_use]
     pub fn normal(&self, to_own_space: &DAffine3, place: &Place) -> DVec3 {
-        // Normals go to the scene by the transpose of the way to own space.
+        // Normals are transformed to the scene by the transpose of the map to own space.
         let to_scene = to_own_space.matrix3.transpose();
         let to_own = to_scene.inverse();
         let own = Place {
@@ -82,7 +84,7 @@ impl Bump {
         (to_scene * (own.normal + self.strength * np)).try_normalize().unwrap_or(place.normal)
     }
 
-    /// `Np` of eq. 2.1 at a place of own space.
+    /// Computes `Np` of eq. 2.1 at a point of own space.
     fn perturbation(&self, place: &Place) -> DVec3 {
         let normal = place.normal;
         let at = self.placement.to_texture(place.point);

@@ -1,32 +1,32 @@
-//! Colours by a sum of octaves: turbulence, or clouds.
+//! Turbulence and clouds: colours from a sum of octaves.
 
 use super::ramp::Ramp;
 use super::turbulence::Octaves;
 use crate::color::Color;
 use glam::DVec3;
 
-/// A sum of octaves through a ramp.
+/// A sum of octaves mapped through a ramp.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Clouds {
-    /// Colours from the least that the sum can be, at 0, to the most, at 1.
+    /// Colours from the least possible sum, at 0, to the largest, at 1.
     pub colors: Ramp,
-    /// The octaves.
+    /// The octaves that are summed.
     pub octaves: Octaves,
-    /// Which sum.
+    /// Kind of the sum.
     pub sum: Sum,
 }
 
-/// A sum of octaves.
+/// A kind of sum of octaves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sum {
-    /// Of the noise: soft, and a half as a mean.
+    /// Sum of the noise itself. It is soft and scaled to a mean of one half.
     Fractal,
-    /// Of its size: with creases where it changes sign.
+    /// Sum of the absolute value of the noise. It has creases where the noise changes sign.
     Turbulence,
 }
 
 impl Clouds {
-    /// The colour at a point.
+    /// Returns the colour at a point of texture space, linear RGB.
     #[must_use]
     pub fn color(&self, point: DVec3) -> Color {
         let part = match self.sum {

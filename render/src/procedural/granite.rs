@@ -1,42 +1,43 @@
 //! Granite: crystals of several minerals, grown together.
 //!
-//! Crystals are grains whose boundaries noise has made ragged. Each has a mineral, by chance and
-//! by that mineral's share, and its own tone. Smaller flakes of one mineral more, mica as a rule,
-//! lie over all of them.
+//! Crystals are grains with boundaries that noise makes ragged. The mineral of each crystal is
+//! random, with the probability of the mineral's share, and each crystal has its own tone. Smaller
+//! flakes of one more mineral, usually mica, lie over the crystals.
 
 use super::grains::Grain;
 use super::noise::Noise;
 use crate::color::Color;
 use glam::DVec3;
 
-/// Flakes are smaller than crystals by this.
+/// Factor by which flakes are smaller than crystals.
 const FLAKE: f64 = 1.7;
 
-/// The crystals within a crystal, which break up its tone.
+/// Factor by which the grains within a crystal, which break up its tone, are smaller than the
+/// crystal.
 const FINE: f64 = 4.3;
 
-/// Crystals of about one unit.
+/// Granite with crystals about one unit large.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Granite {
-    /// The share of each mineral, more than 0, and its colour; at least one.
+    /// Share of each mineral, more than 0, and its colour. There is at least one mineral.
     pub minerals: Vec<(f64, Color)>,
-    /// The part of space cells that hold a flake, 0 to 1.
+    /// Part of the cells that hold a flake, 0 to 1.
     pub flakes: f64,
-    /// The colour of flakes.
+    /// Colour of the flakes, linear RGB.
     pub flake: Color,
-    /// How much crystals of one mineral differ in tone, 0 to 1.
+    /// Variation in tone between crystals of one mineral, 0 to 1.
     pub vary: f64,
-    /// What makes boundaries ragged.
+    /// Noise that makes the boundaries ragged.
     pub noise: Noise,
 }
 
 impl Granite {
-    /// The colour at a point.
+    /// Returns the colour at a point of texture space, linear RGB.
     #[must_use]
     pub fn color(&self, point: DVec3) -> Color {
         let ragged = point + 0.22 * self.ragged(2.6 * point) + 0.1 * self.ragged(7.1 * point);
         let flake = Grain::of(FLAKE * ragged, 21);
-        // A flake fills its cell up to a boundary of its own, not to its neighbours.
+        // A flake ends at a boundary of its own and not at the neighbouring flakes.
         if flake.share(0) < self.flakes && flake.distance < 0.35 + 0.35 * flake.share(1) {
             return self.flake * self.tone(flake.share(2), 2.0);
         }
@@ -47,7 +48,7 @@ impl Granite {
         self.mineral(crystal.share(0)) * tone * boundary
     }
 
-    /// The mineral at a part of the sum of all shares.
+    /// Returns the colour of the mineral at `part`, in [0, 1], of the sum of all shares.
     fn mineral(&self, part: f64) -> Color {
         let total: f64 = self.minerals.iter().map(|(share, _)| share).sum();
         let mut left = part * total;
@@ -57,16 +58,16 @@ impl Granite {
             }
             left -= share;
         }
-        // A rounding past the last one.
+        // Rounding can lead past the last mineral.
         self.minerals.last().map_or(Color::ZERO, |&(_, color)| color)
     }
 
-    /// A factor around 1 for a random number.
+    /// Returns a tone factor around 1 for a random number in [0, 1).
     fn tone(&self, random: f64, spread: f64) -> f64 {
         1.0 + self.vary * spread * (random - 0.5)
     }
 
-    /// Noise in each coordinate.
+    /// Returns a vector of noise with independent coordinates.
     fn ragged(&self, point: DVec3) -> DVec3 {
         let shift = |k: f64| self.noise.value(point + k * DVec3::new(13.7, 5.3, 21.1));
         DVec3::new(shift(0.0), shift(1.0), shift(2.0))

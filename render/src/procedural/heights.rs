@@ -1,23 +1,24 @@
-//! Heights from a picture, smooth between its texels.
+//! Heights from a picture, interpolated smoothly between its texels.
 //!
-//! The surface `h(s, t)` of cubic B-splines through the middle of each texel: its first and second
-//! derivatives have no jumps, so a bump made of it has no creases. Coefficients come from the texels
-//! by the recursive filter of M. Unser, A. Aldroubi and M. Eden, "B-spline signal processing: part
-//! II" (1993). A depth picture of a swept surface is read in the same way, so both reliefs agree.
+//! The surface `h(s, t)` consists of cubic B-splines through the middle of each texel. Its first
+//! and second derivatives are continuous, so a bump made of it has no creases. The coefficients are
+//! computed from the texels by the recursive filter of M. Unser, A. Aldroubi and M. Eden, "B-spline
+//! signal processing: part II" (1993). A depth picture of a swept surface is read in the same way,
+//! so both reliefs agree.
 
 use glam::DVec2;
 
-/// The pole of the cubic filter.
+/// Pole of the cubic filter, `sqrt(3) - 2`.
 const POLE: f64 = -0.267_949_192_431_122_7;
 
-/// Texels beyond an edge that the filter looks at: it forgets by the pole with each, and 40 of them
-/// leave less than a rounding.
+/// Number of texels beyond an edge that the filter reads. The influence of a texel decreases by the
+/// factor of the pole with each step, and after 40 steps it is less than a rounding.
 const MARGIN: i64 = 40;
 
 /// A surface of heights over texture coordinates.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Heights {
-    /// Coefficients of the splines, rows from the top.
+    /// Coefficients of the splines, row by row from the top.
     coefficients: Vec<f64>,
     width: usize,
     height: usize,
@@ -26,11 +27,11 @@ pub struct Heights {
 }
 
 impl Heights {
-    /// The heights of a picture with these values, by rows from the top, `width` in each. It is laid
-    /// `repeat` times over the unit square of texture coordinates and goes on beyond it: the same
-    /// again, or with `mirror` mirrored at each of its edges.
+    /// Creates the surface from the values of a picture, row by row from the top, `width` in each
+    /// row. The picture is laid `repeat` times over the unit square of texture coordinates and
+    /// continues beyond it. With `mirror` it is mirrored at each of its edges, else it repeats.
     ///
-    /// Nothing unless the rows are whole and there is at least one.
+    /// Returns `None` unless there is at least one row and all rows are complete.
     #[must_use]
     pub fn new(mut values: Vec<f64>, width: usize, repeat: DVec2, mirror: bool) -> Option<Self> {
         if values.is_empty() || width == 0 || !values.len().is_multiple_of(width) {
@@ -50,13 +51,13 @@ impl Heights {
         Some(Self { coefficients: values, width, height, repeat, mirror })
     }
 
-    /// The height at texture coordinates.
+    /// Returns the height at texture coordinates, in the units of the values.
     #[must_use]
     pub fn height(&self, uv: DVec2) -> f64 {
         self.at(uv).0
     }
 
-    /// Its derivatives by both coordinates.
+    /// Returns the derivatives of the height by both texture coordinates.
     #[must_use]
     pub fn slopes(&self, uv: DVec2) -> DVec2 {
         self.at(uv).1
@@ -64,7 +65,7 @@ impl Heights {
 
     fn at(&self, uv: DVec2) -> (f64, DVec2) {
         let rate = DVec2::new(self.width as f64, self.height as f64) * self.repeat;
-        // Rows are counted from the top, v from below.
+        // Rows are counted from the top, v from the bottom.
         let (columns, x) = taps(uv.x * rate.x - 0.5);
         let (rows, y) = taps(self.height as f64 - uv.y * rate.y - 0.5);
         let columns = columns.map(|column| index(column, self.width, self.mirror));
@@ -83,7 +84,7 @@ impl Heights {
     }
 }
 
-/// The texel that a place on the picture or beyond its edges stands for.
+/// Returns the index of the texel at `at`, which may lie beyond the edges.
 fn index(at: i64, count: usize, mirror: bool) -> usize {
     let count = count as i64;
     let place = if mirror {
@@ -95,7 +96,8 @@ fn index(at: i64, count: usize, mirror: bool) -> usize {
     place as usize
 }
 
-/// The four texels around a place, and the weight of each with its derivative.
+/// Returns the four texels around a position and, for each, its weight and the derivative of the
+/// weight.
 fn taps(place: f64) -> ([i64; 4], [[f64; 2]; 4]) {
     let place = if place.is_finite() { place } else { 0.0 };
     let first = place.floor();
@@ -108,7 +110,7 @@ fn taps(place: f64) -> ([i64; 4], [[f64; 2]; 4]) {
     (steps, [turned(outer(g)), inner(f), turned(inner(g)), outer(f)])
 }
 
-/// The coefficients of the spline through the values of a line.
+/// Returns the coefficients of the spline through the values of a line.
 fn filtered(line: &[f64], mirror: bool) -> Vec<f64> {
     let around = -MARGIN..line.len() as i64 + MARGIN;
     let mut wide: Vec<f64> = around.map(|at| 6.0 * line[index(at, line.len(), mirror)]).collect();
@@ -127,7 +129,7 @@ fn filtered(line: &[f64], mirror: bool) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    /// Numbers without a pattern, from 0 to 1.
+    /// Pseudo-random numbers from 0 to 1.
     fn texels() -> Vec<f64> {
         (0..35).map(|i| f64::from(i * i * 37 % 101) / 100.0).collect()
     }
@@ -164,7 +166,7 @@ mod tests {
                     let [up, down] = [at + step * axis, at - step * axis];
                     (heights.height(up) - heights.height(down)) / (2.0 * step)
                 };
-                // Third derivatives are up to a few times the cube of 15 texels to a unit.
+                // Third derivatives are at most a few times the cube of 15 texels to a unit.
                 let expected = DVec2::new(by(DVec2::X), by(DVec2::Y));
                 assert!(heights.slopes(at).abs_diff_eq(expected, 1e-4), "{at}");
             }

@@ -1,39 +1,42 @@
-//! The lattice of random values that all noise is interpolated from (thesis 2.1).
+//! The lattice of random values from which all noise is interpolated (thesis 2.1).
 //!
-//! Space is divided into cells of side 1. A cell's corners carry random values in `[-1, 1)`, which
-//! are the same in every run and on every machine: they come from an integer hash and not from a
-//! generator with a state. The lattice repeats after [`MAXNOISE`] cells in each direction.
+//! Space is divided into cells of side 1. The corners of a cell carry random values in `[-1, 1)`.
+//! The values come from an integer hash and not from a generator with a state, so they are the same
+//! in every run and on every machine. The lattice repeats after [`MAXNOISE`] cells in each
+//! direction.
 
 use glam::DVec3;
 
-/// Lattice points in each direction before the values repeat; a power of two.
+/// Number of lattice points in each direction before the values repeat; a power of two.
 ///
-/// The thesis does not say its number. Smaller, and the repetition shows on large objects; larger,
-/// and the table (4 bytes for each of its cubed points, 1 MB here) leaves the nearer caches.
+/// The thesis does not state its number. With a smaller number the repetition shows on large
+/// objects. With a larger number the table (4 bytes per point of the cube, 1 MB here) no longer
+/// fits the nearer caches.
 pub const MAXNOISE: usize = 64;
 
-/// Tells this lattice from others that the same hash could fill.
+/// Distinguishes this lattice from others that the same hash could fill.
 const SEED: u32 = 0x1993;
 
-/// Random values at the points of a cube of side [`MAXNOISE`], which fills space.
+/// Random values at the points of a cube of side [`MAXNOISE`], which is repeated to fill space.
 #[derive(Clone, PartialEq)]
 pub struct NoiseLattice {
-    /// x runs fastest, then y, then z. Each is a whole multiple of 2^-23, so `f32` holds it.
+    /// Values with x running fastest, then y, then z. Each is a multiple of 2^-23, which `f32`
+    /// holds exactly.
     values: Vec<f32>,
 }
 
-/// The cell that holds a point.
+/// The lattice cell that contains a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cell {
-    /// Its lower corner, a lattice point.
+    /// Lower corner of the cell, a lattice point.
     pub corner: [i64; 3],
-    /// Where the point lies in it, each in `[0, 1]`.
+    /// Position of the point within the cell, each coordinate in `[0, 1]`.
     pub offset: DVec3,
 }
 
 impl Cell {
-    /// The cell of a point. A coordinate that is not finite is taken as 0; one of 2^53 and more is
-    /// a lattice point itself.
+    /// Returns the cell of a point. If any coordinate is not finite, the point is replaced by the
+    /// origin. A coordinate of 2^53 or more is itself a lattice point.
     #[must_use]
     pub fn of(point: DVec3) -> Self {
         let point = if point.is_finite() { point } else { DVec3::ZERO };
@@ -42,7 +45,7 @@ impl Cell {
         Self { corner: corner.to_array().map(|x| x as i64), offset }
     }
 
-    /// The lattice point that lies `step` cells from the lower corner.
+    /// Returns the lattice point `step` cells from the lower corner.
     #[must_use]
     pub fn at(&self, step: [i64; 3]) -> [i64; 3] {
         std::array::from_fn(|k| self.corner[k].wrapping_add(step[k]))
@@ -57,7 +60,7 @@ impl NoiseLattice {
         Self { values: (0..count).map(|index| signed(mixed(index, SEED))).collect() }
     }
 
-    /// The value at a lattice point, in `[-1, 1)`.
+    /// Returns the value at a lattice point, in `[-1, 1)`.
     #[must_use]
     pub fn value(&self, point: [i64; 3]) -> f64 {
         let [x, y, z] = point.map(|x| x as usize & (MAXNOISE - 1));
@@ -83,12 +86,12 @@ impl std::fmt::Debug for NoiseLattice {
     }
 }
 
-/// A hash of 32 bits as a number in `[-1, 1)`, by its upper 24.
+/// Maps the upper 24 bits of a 32-bit hash to a number in `[-1, 1)`.
 fn signed(hash: u32) -> f32 {
     (hash >> 8) as f32 / (1 << 23) as f32 - 1.0
 }
 
-/// A well mixed number for each number and seed: the finaliser of `MurmurHash3` (A. Appleby).
+/// Hashes a number with a seed, by the finaliser of `MurmurHash3` (A. Appleby).
 #[must_use]
 pub fn mixed(number: u32, seed: u32) -> u32 {
     let mut h = number ^ seed.wrapping_mul(0x9e37_79b9);
@@ -97,13 +100,13 @@ pub fn mixed(number: u32, seed: u32) -> u32 {
     h ^ (h >> 16)
 }
 
-/// A well mixed number for a point of a lattice that does not repeat before 2^32 cells.
+/// Hashes a lattice point with a seed. The result does not repeat before 2^32 cells.
 #[must_use]
 pub fn mixed_at(point: [i64; 3], seed: u32) -> u32 {
     point.into_iter().fold(seed, |h, x| mixed(x as u32, h.wrapping_add(1)))
 }
 
-/// A hash as a number in `[0, 1)`.
+/// Maps a hash to a number in `[0, 1)`.
 #[must_use]
 pub fn share(hash: u32) -> f64 {
     f64::from(hash) / 4_294_967_296.0
@@ -113,7 +116,7 @@ pub fn share(hash: u32) -> f64 {
 mod tests {
     use super::*;
 
-    /// Computed with a program of its own, in another language.
+    /// The values were computed with a separate program in another language.
     #[test]
     fn the_first_values_of_the_lattice_are_these() {
         let lattice = NoiseLattice::new();
@@ -140,9 +143,9 @@ mod tests {
         assert_ne!(lattice.value([0, 0, 0]), lattice.value([32, 0, 0]));
     }
 
-    /// Uniform values in [-1, 1) have mean 0 and mean square 1/3. Of 2^18 of them the mean spreads
-    /// by 0.0011 and the mean square by 0.0006; neighbours are independent, so their products
-    /// spread by 0.00065. Five times as much is let pass.
+    /// Uniform values in [-1, 1) have mean 0 and mean square 1/3. With 2^18 of them the mean
+    /// deviates by 0.0011 and the mean square by 0.0006. Neighbours are independent, so their
+    /// products deviate by 0.00065. The test allows five times as much.
     #[test]
     fn the_values_look_uniform_and_neighbours_independent() {
         let lattice = NoiseLattice::new();

@@ -1,7 +1,7 @@
-//! Marble: layers that turbulence has folded, and veins along them (K. Perlin, 1985).
+//! Marble: layers folded by turbulence, with veins along them (K. Perlin, 1985).
 //!
-//! Layers lie one unit apart along x; a vein is where a folded layer passes. Between the large
-//! veins runs a net of fine ones, and both fade in and out, as veins in stone do.
+//! Layers lie one unit apart along x, and a vein follows each folded layer. A net of fine veins
+//! runs between the large ones. Both fade in and out, as veins in stone do.
 
 use super::ramp::Ramp;
 use super::turbulence::Octaves;
@@ -9,7 +9,7 @@ use crate::color::Color;
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// The fine net is finer by this and lies across the layers.
+/// Factor by which the fine net is finer than the layers, across which it lies.
 const NET: f64 = 2.3;
 
 /// Veined stone.
@@ -17,26 +17,27 @@ const NET: f64 = 2.3;
 pub struct Marble {
     /// Colours from the middle of a vein, at 0, to the ground farthest from it, at 1.
     pub colors: Ramp,
-    /// What folds the layers.
+    /// Octaves of noise that fold the layers.
     pub octaves: Octaves,
-    /// How far they are folded, in layers; at least 0.
+    /// Strength of the folds, in layers; 0 or more.
     pub folds: f64,
-    /// How much of the fine net is seen, 0 to 1.
+    /// Visibility of the fine net, 0 to 1.
     pub net: f64,
 }
 
 impl Marble {
-    /// The colour at a point.
+    /// Returns the colour at a point of texture space, linear RGB.
     #[must_use]
     pub fn color(&self, point: DVec3) -> Color {
         self.colors.color(self.to_vein(point))
     }
 
-    /// How far a point is from a vein: 0 in its middle, up to 1.
+    /// Returns the distance of a point from a vein: 0 in the vein's middle, at most 1.
     fn to_vein(&self, point: DVec3) -> f64 {
         let fold = self.octaves.fractal(point);
         let layer = (PI * (point.x + self.folds * fold)).sin().abs();
-        // Slow noise, different from that of the folds: veins are wide here and lost there.
+        // Slow noise, independent of the folds, by which veins are wide in some regions and fade in
+        // others.
         let noise = &self.octaves.noise;
         let slow = noise.value(0.47 * point + DVec3::new(17.3, 4.7, 29.1));
         let lost = (0.25 + 1.1 * slow).clamp(0.0, 1.0);

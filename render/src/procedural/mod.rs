@@ -1,10 +1,11 @@
 //! Textures that are computed and not looked up (thesis chapter 2).
 //!
-//! A solid texture gives every point of space a colour, and an object is carved out of it. A bump
-//! gives every point a height, and turns normals as if the surface had it. Both are made from one
-//! `noise` on a lattice ([`lattice`], [`noise`]), from sums of it ([`turbulence`]) and from what
-//! needs no noise ([`blocks`]). They are looked up in the object's own space, so that they move
-//! with it, at the point that a ray hits: the thesis filters pictures only.
+//! A solid texture gives every point of space a colour, as if objects were carved out of it. A bump
+//! gives every point a height and perturbs normals as if the surface had this relief. Both use one
+//! `noise` on a lattice ([`lattice`], [`noise`]), sums of this noise ([`turbulence`]) and patterns
+//! without noise ([`blocks`]). Textures are evaluated in the object's own space, so that they move
+//! with the object. They are evaluated at the point that a ray hits: the thesis filters pictures
+//! only.
 
 pub mod blocks;
 pub mod bump;
@@ -45,11 +46,11 @@ use wood::Wood;
 /// All procedural textures of a scene.
 #[derive(Debug, Clone, Default)]
 pub struct Procedural {
-    /// Solid textures; surfaces name them by their index.
+    /// Solid textures; surfaces refer to them by index.
     pub solids: Vec<Solid>,
-    /// Bumps; materials name them by their index.
+    /// Bumps; materials refer to them by index.
     pub bumps: Vec<Bump>,
-    /// The random values that they share, if any of them needs noise.
+    /// The lattice of random values that all noises share, if any is used.
     pub lattice: Option<Arc<NoiseLattice>>,
 }
 
@@ -66,33 +67,34 @@ impl Procedural {
 pub struct Solid {
     /// The pattern.
     pub pattern: Pattern,
-    /// Where it lies in the object.
+    /// Position of the texture in the object.
     pub placement: Placement,
 }
 
-/// What a solid texture shows, described in the texture's own space.
+/// The pattern of a solid texture, defined in the texture's own space.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Pattern {
     /// Veined stone.
     Marble(Marble),
     /// Crystals of several minerals.
     Granite(Granite),
-    /// Rings around y.
+    /// Rings around the axis y.
     Wood(Wood),
-    /// Clamped slow noise and fast noise.
+    /// Clamped slow noise plus fast noise.
     Wall(WallPaint),
     /// A sum of octaves.
     Clouds(Clouds),
-    /// Cubes of two colours.
+    /// Cubes of two alternating colours.
     Checker(Checker),
-    /// Layers.
+    /// Repeating layers along x.
     Stripes(Stripes),
     /// Brickwork.
     Brick(Brick),
 }
 
 impl Solid {
-    /// The colour at a point of the scene on an object with this way to its own space.
+    /// Returns the colour at `point`, a point of the scene, linear RGB. `to_own_space` maps the
+    /// scene to the object's own space.
     #[must_use]
     pub fn color(&self, to_own_space: &DAffine3, point: DVec3) -> Color {
         let at = self.placement.to_texture(to_own_space.transform_point3(point));

@@ -1,10 +1,10 @@
 //! `noise` (thesis 2.1, fig. 2.1): random values of a lattice, interpolated in each cell.
 //!
-//! The figure interpolates linearly. Then the values join from cell to cell and their slopes do
-//! not: a bumped surface shows the faces of the cells as creases. The two other ways put a curve in
-//! place of each offset: `3t^2 - 2t^3`, with which slopes join as well, and `6t^5 - 15t^4 + 10t^3`,
-//! with which curvatures do too (K. Perlin, "Improving Noise", 2002). They level the noise at the
-//! lattice points and keep its range.
+//! The figure interpolates linearly. Values are then continuous from cell to cell, but slopes are
+//! not: a bumped surface shows the faces of the cells as creases. The two other methods replace
+//! each offset by a curve. With `3t^2 - 2t^3` slopes are continuous as well. With
+//! `6t^5 - 15t^4 + 10t^3` curvatures are too (K. Perlin, "Improving Noise", 2002). Both make the
+//! noise flat at the lattice points and keep its range.
 
 use super::lattice::{Cell, NoiseLattice};
 use glam::DVec3;
@@ -12,21 +12,22 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use std::sync::Arc;
 
-/// How values are interpolated in a cell.
+/// Interpolation of lattice values in a cell.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Interpolation {
     /// Linear along each axis, as in the thesis: continuous, with creases at the faces of cells.
     Linear,
-    /// Cubic: continuous slopes.
+    /// Cubic: slopes are continuous.
     #[default]
     Smooth,
-    /// Quintic: continuous curvatures.
+    /// Quintic: curvatures are continuous.
     Smoother,
 }
 
 impl Interpolation {
-    /// The weight of the upper corner at an offset `t` in `[0, 1]`.
+    /// Returns the weight of the upper corner at an offset `t` in `[0, 1]`. The weight is in
+    /// `[0, 1]` too.
     #[must_use]
     pub fn fade(self, t: f64) -> f64 {
         match self {
@@ -36,7 +37,7 @@ impl Interpolation {
         }
     }
 
-    /// The derivative of [`Interpolation::fade`].
+    /// Returns the derivative of [`Interpolation::fade`] at `t` in `[0, 1]`.
     #[must_use]
     pub fn slope(self, t: f64) -> f64 {
         match self {
@@ -47,25 +48,25 @@ impl Interpolation {
     }
 }
 
-/// A noise: a lattice, and how it is interpolated.
+/// A noise: a lattice and its interpolation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Noise {
     /// The random values, which all noises of a scene share.
     pub lattice: Arc<NoiseLattice>,
-    /// How they are interpolated.
+    /// Interpolation between the values.
     pub interpolation: Interpolation,
 }
 
 impl Noise {
-    /// The noise at a point, in `[-1, 1]`.
+    /// Returns the noise at a point of texture space, in `[-1, 1]`.
     #[must_use]
     pub fn value(&self, point: DVec3) -> f64 {
         let cell = Cell::of(point);
         interpolated(self.corners(&cell), self.faded(&cell))
     }
 
-    /// The derivatives of [`Noise::value`] along x, y and z. With linear interpolation, on a face
-    /// between cells, those of the cell above it.
+    /// Returns the derivatives of [`Noise::value`] along x, y and z. On a face between cells, where
+    /// linear interpolation has two derivatives, it returns the one of the upper cell.
     #[must_use]
     pub fn gradient(&self, point: DVec3) -> DVec3 {
         let cell = Cell::of(point);
@@ -91,8 +92,8 @@ impl Noise {
         )
     }
 
-    /// The values at the corners of a cell, in the figure's order: corner `k` lies at the upper x
-    /// when bit 0 of `k` is set, at the upper z for bit 1 and at the upper y for bit 2.
+    /// Returns the values at the corners of a cell, in the figure's order. Bit 0 of the corner's
+    /// index selects the upper x, bit 1 the upper z and bit 2 the upper y.
     fn corners(&self, cell: &Cell) -> [f64; 8] {
         std::array::from_fn(|k| self.lattice.value(cell.at(step(k))))
     }
@@ -102,12 +103,12 @@ impl Noise {
     }
 }
 
-/// Where corner `k` of fig. 2.1 lies in its cell.
+/// Returns the position of corner `k` of fig. 2.1 in its cell.
 pub(super) fn step(k: usize) -> [i64; 3] {
     [k & 1, k >> 2 & 1, k >> 1 & 1].map(|x| x as i64)
 }
 
-/// Fig. 2.1, in its order of operations.
+/// Interpolates as fig. 2.1 does, in its order of operations.
 pub(super) fn interpolated(v: [f64; 8], o: DVec3) -> f64 {
     let n00 = v[0] + o.x * (v[1] - v[0]);
     let n01 = v[2] + o.x * (v[3] - v[2]);

@@ -1,8 +1,8 @@
-//! Where a texture lies in an object.
+//! The position of a texture in an object.
 
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
-/// The way from an object's own space into the space that a texture is described in.
+/// The map from an object's own space to the space in which a texture is defined.
 ///
 /// ```text
 ///   own = translate + rotate (scale texture)
@@ -13,25 +13,26 @@ pub struct Placement {
 }
 
 impl Placement {
-    /// A texture whose unit is `scale` long (more than 0), turned by angles in radians about x,
-    /// then y, then z, all axes standing still, and then moved.
+    /// Places a texture whose unit is `scale` long (more than 0). The texture is rotated by the
+    /// angles `rotate`, in radians, about the fixed axes x, then y, then z. It is then moved by
+    /// `translate`.
     #[must_use]
     pub fn new(scale: f64, rotate: DVec3, translate: DVec3) -> Self {
         let turn = DQuat::from_rotation_z(rotate.z)
             * DQuat::from_rotation_y(rotate.y)
             * DQuat::from_rotation_x(rotate.x);
-        // Without a turn the matrix is exact, and cells keep their faces.
+        // Without a rotation the matrix is exact, and faces between cells stay in place.
         let back = DMat3::from_quat(turn).transpose() * (1.0 / scale);
         Self { to_texture: DAffine3 { matrix3: back, translation: -(back * translate) } }
     }
 
-    /// A point of the object's own space in the texture's.
+    /// Maps a point of the object's own space to texture space.
     #[must_use]
     pub fn to_texture(&self, own: DVec3) -> DVec3 {
         self.to_texture.transform_point3(own)
     }
 
-    /// The gradient in own space of a function with this gradient in texture space.
+    /// Maps the gradient of a function in texture space to the gradient in own space.
     #[must_use]
     pub fn gradient(&self, texture: DVec3) -> DVec3 {
         self.to_texture.matrix3.transpose() * texture
@@ -46,13 +47,13 @@ mod tests {
     #[test]
     fn a_texture_is_scaled_then_turned_then_moved() {
         let place = Placement::new(2.0, DVec3::new(0.0, 0.0, FRAC_PI_2), DVec3::new(5.0, 0.0, 0.0));
-        // The texture's (1, 0, 0) is 2 long, turned to y, and moved by 5.
+        // The texture's (1, 0, 0) is 2 long, rotated to y, and moved by 5.
         let own = DVec3::new(5.0, 2.0, 0.0);
         assert!(place.to_texture(own).abs_diff_eq(DVec3::X, 1e-15));
-        // Its x grows by half as much for a step along own y.
+        // The texture's x increases by 0.5 for a unit step along own y.
         assert!(place.gradient(DVec3::X).abs_diff_eq(DVec3::new(0.0, 0.5, 0.0), 1e-15));
         let both = Placement::new(1.0, DVec3::new(FRAC_PI_2, FRAC_PI_2, 0.0), DVec3::ZERO);
-        // z is turned about x to -y, which stays where it is about y.
+        // z is rotated about x to -y, which the rotation about y leaves unchanged.
         assert!(both.to_texture(DVec3::NEG_Y).abs_diff_eq(DVec3::Z, 1e-15));
     }
 

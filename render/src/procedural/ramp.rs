@@ -1,16 +1,17 @@
-//! Colours along a line.
+//! Colour ramps.
 
 use crate::color::Color;
 
-/// Colours at rising positions, linear between them and constant beyond the ends.
+/// Colours at rising positions. Between positions the ramp is linear, and beyond the ends constant.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ramp {
     stops: Vec<(f64, Color)>,
 }
 
 impl Ramp {
-    /// A ramp through these colours. Nothing without any, or where a position is not finite or
-    /// less than the one before; two at one position make a step.
+    /// Creates a ramp through these positions and colours (linear RGB). Returns `None` without any
+    /// colour, or if a position is not finite or less than the one before. Two colours at one
+    /// position make a step.
     #[must_use]
     pub fn new(stops: Vec<(f64, Color)>) -> Option<Self> {
         let rising = stops.windows(2).all(|pair| pair[0].0 <= pair[1].0);
@@ -18,7 +19,7 @@ impl Ramp {
         (!stops.is_empty() && rising && finite).then_some(Self { stops })
     }
 
-    /// The colour at a position; that of the upper side on a step.
+    /// Returns the linear RGB colour at a position. On a step it returns the upper side's colour.
     #[must_use]
     pub fn color(&self, position: f64) -> Color {
         let above = self.stops.partition_point(|(at, _)| *at <= position);

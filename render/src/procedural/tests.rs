@@ -1,4 +1,4 @@
-//! What noise promises, each told another way.
+//! Properties of noise, each checked against an independent computation.
 
 use super::lattice::{Cell, MAXNOISE};
 use super::*;
@@ -16,12 +16,12 @@ fn place() -> impl Strategy<Value = DVec3> {
     prop::array::uniform3(-100.0..100.0f64).prop_map(DVec3::from)
 }
 
-/// A place without texture coordinates.
+/// A point without texture coordinates.
 fn at(point: DVec3, normal: DVec3) -> Place {
     Place { point, normal, uv: DVec2::ZERO, uv_gradients: [DVec3::ZERO; 2] }
 }
 
-/// Trilinear interpolation as one sum over corners: no order of axes.
+/// Trilinear interpolation as one sum over corners, independent of the order of axes.
 fn summed(noise: &Noise, point: DVec3, value: impl Fn([i64; 3]) -> f64) -> f64 {
     let cell = Cell::of(point);
     let mut sum = 0.0;
@@ -36,7 +36,7 @@ fn summed(noise: &Noise, point: DVec3, value: impl Fn([i64; 3]) -> f64) -> f64 {
     sum
 }
 
-/// A central difference along each axis.
+/// Returns central differences along the three axes.
 fn slopes(of: impl Fn(DVec3) -> f64, point: DVec3, step: f64) -> DVec3 {
     let along = |axis: DVec3| (of(point + step * axis) - of(point - step * axis)) / (2.0 * step);
     DVec3::new(along(DVec3::X), along(DVec3::Y), along(DVec3::Z))
@@ -66,8 +66,8 @@ proptest! {
         prop_assert!(noise.dnoise(point).abs_diff_eq(expected.normalize(), 1e-12));
     }
 
-    /// Inside a cell; the error of a difference is its step squared times a third derivative of
-    /// at most 120, and what rounding leaves of 1e-16 over the step.
+    /// Inside a cell the error of a difference is the square of its step times a third derivative
+    /// of at most 120, plus a rounding of 1e-16 divided by the step.
     #[test]
     fn gradients_agree_with_differences(
         corner in prop::array::uniform3(-70..70i32), offset in prop::array::uniform3(0.01..0.99f64),
@@ -83,10 +83,11 @@ proptest! {
     #[test]
     fn gradients_of_sums_agree_with_differences(point in place()) {
         let octaves = Octaves { noise: noise(Interpolation::Smoother), count: 4 };
-        // The finest octave is 8 times as fast: its third derivative 512 / 8 times as large.
+        // The finest octave has 8 times the frequency, so its third derivative is 512 / 8 times as
+        // large.
         let expected = slopes(|p| octaves.fractal(p), point, 1e-5);
         prop_assert!(octaves.fractal_gradient(point).abs_diff_eq(expected, 1e-5));
-        // |noise| has a crease where the noise is 0; differences across one mean nothing.
+        // |noise| has a crease where the noise is 0. Differences across a crease are meaningless.
         let places: Vec<DVec3> = places_of(point, 4).collect();
         prop_assume!(places.iter().all(|&at| octaves.noise.value(at).abs() > 1e-3));
         let expected = slopes(|p| octaves.turbulence(p), point, 1e-5);
@@ -102,7 +103,7 @@ proptest! {
             fractal += value;
             turbulence += value.abs();
         }
-        // Places are computed in two orders; eight octaves magnify what that rounds by 2^8.
+        // Positions are computed in two orders; eight octaves magnify the rounding by 2^8.
         prop_assert!((octaves.fractal(point) - fractal).abs() < 1e-9);
         prop_assert!((octaves.turbulence(point) - turbulence).abs() < 1e-9);
         prop_assert!(turbulence <= octaves.weight());
@@ -110,7 +111,7 @@ proptest! {
         prop_assert!((octaves.weight() - weights).abs() < 1e-15);
     }
 
-    /// A period away is the same cell; its offset is rounded as far from the origin as it lies.
+    /// A point one period away lies in the same cell. Its offset has the rounding of its distance.
     #[test]
     fn noise_repeats_after_its_period(point in place(), periods in prop::array::uniform3(-9..9i32)) {
         let away = DVec3::from(periods.map(f64::from)) * MAXNOISE as f64;
@@ -121,8 +122,8 @@ proptest! {
     }
 }
 
-/// Where octaves look: a turn by 60 degrees about (1, 1, 1) by Rodrigues' formula, a doubling, a
-/// step; again and again.
+/// Returns the positions at which octaves are evaluated. Each is the one before rotated by 60
+/// degrees about (1, 1, 1) by Rodrigues' formula, doubled and moved.
 fn places_of(point: DVec3, count: u32) -> impl Iterator<Item = DVec3> {
     let axis = DVec3::ONE.normalize();
     let turn = DMat3::from_axis_angle(axis, std::f64::consts::FRAC_PI_3);
@@ -143,8 +144,8 @@ fn at_lattice_points_noise_is_the_lattice() {
     }
 }
 
-/// How far the value, the slope along x and the curvature along x jump over faces x = const, as
-/// root mean squares.
+/// Returns the jumps of the value, of the slope along x and of the curvature along x across faces x
+/// = const, as root mean squares.
 fn jumps(way: Interpolation) -> [f64; 3] {
     let noise = noise(way);
     let step = 1e-4;
@@ -167,8 +168,9 @@ fn jumps(way: Interpolation) -> [f64; 3] {
     sums.map(|sum| (sum / f64::from(count)).sqrt())
 }
 
-/// Differences of random values are about 0.5 after interpolation across the face; slopes jump
-/// by as much with linear interpolation and curvatures, six times the difference, with the cubic.
+/// Differences of random values are about 0.5 after interpolation across the face. Slopes jump by
+/// as much with linear interpolation, and curvatures jump by six times the difference with the
+/// cubic.
 #[test]
 fn each_interpolation_is_as_smooth_as_it_says() {
     let [[c0, c1, _], [d0, d1, d2], [e0, e1, e2]] = WAYS.map(jumps);
@@ -178,12 +180,13 @@ fn each_interpolation_is_as_smooth_as_it_says() {
     assert!(c1 > 0.3, "linear interpolation has creases, found {c1}");
     assert!(d1 < 1e-8 && e1 < 1e-8, "continuous slopes, but for {d1} and {e1}");
     assert!(d2 > 2.0, "the cubic's curvature jumps, found {d2}");
-    // The quintic's grows from 0 by 60 times the step, on both sides.
+    // The quintic's curvature grows from 0 by 60 times the step, on both sides.
     assert!(e2 < 0.05, "continuous curvature, but for {e2}");
 }
 
 /// Trilinear interpolation of values of variance 1/3 has variance (1/3)(2/3)^3 over a cell. Over
-/// 64000 places of one period, about 10 to a cell side, both stay within a hundredth.
+/// 64000 points of one period, whose spacing is 1.6 cells, the mean and the variance stay within a
+/// hundredth.
 #[test]
 fn noise_has_the_mean_and_the_variance_of_its_interpolation() {
     let noise = noise(Interpolation::Linear);
@@ -217,8 +220,8 @@ fn far_places_have_finite_noise() {
     }
 }
 
-/// The sphere of radius 1 pushed out by `k h` has, to first order in `k`, the bumped normal: ten
-/// times less strength leaves a hundred times less difference.
+/// The sphere of radius 1 displaced outward by `k h` has, to first order in `k`, the bumped normal.
+/// A tenth of the strength leaves a hundredth of the difference.
 #[test]
 fn a_bump_is_the_normal_of_the_displaced_surface() {
     let octaves = Octaves { noise: noise(Interpolation::Smoother), count: 2 };
@@ -247,13 +250,13 @@ fn a_bump_is_the_normal_of_the_displaced_surface() {
     assert_eq!(worst_of_none(&octaves, placement), 0.0);
 }
 
-/// A strength of 0 leaves every normal as it is, to rounding of the normalisation.
+/// A strength of 0 leaves every normal unchanged, up to the rounding of the normalisation.
 fn worst_of_none(octaves: &Octaves, placement: Placement) -> f64 {
     let bump = Bump { relief: Relief::Noise(octaves.clone()), strength: 0.0, placement };
     bump.normal(&DAffine3::IDENTITY, &at(DVec3::X, DVec3::Y)).distance(DVec3::Y)
 }
 
-/// Eq. 2.1 and 2.2 with the vector of fig. 2.3, as the thesis has it.
+/// Eq. 2.1 and 2.2 with the vector of fig. 2.3, as in the thesis.
 #[test]
 fn dnoise_is_added_to_the_normal_as_it_is() {
     let noise = noise(Interpolation::Linear);
@@ -264,8 +267,8 @@ fn dnoise_is_added_to_the_normal_as_it_is() {
     assert!(bump.normal(&DAffine3::IDENTITY, &at(point, DVec3::Z)).abs_diff_eq(expected, 1e-15));
 }
 
-/// A moved, turned and stretched object takes its textures along: the bump of the object, carried
-/// to the scene, is the bump of what the scene shows.
+/// A moved, rotated and stretched object takes its textures along. The bumped normal in own space,
+/// transformed to the scene, equals the bumped normal computed in the scene.
 #[test]
 fn textures_move_with_their_object() {
     let octaves = Octaves { noise: noise(Interpolation::Smooth), count: 3 };
@@ -292,7 +295,7 @@ fn a_picture_bumps_as_its_heights_say() {
     let heights = Heights::new(values, size, DVec2::ONE, false).unwrap();
     let placement = Placement::new(1.0, DVec3::ZERO, DVec3::ZERO);
     let bump = Bump { relief: Relief::Picture(heights.clone()), strength: 0.3, placement };
-    // A plane of 4 by 2 that the picture fills.
+    // A plane of 4 by 2 that the picture fills once.
     let uv_gradients = [DVec3::X / 4.0, DVec3::Y / 2.0];
     for k in 0..40 {
         let uv = DVec2::new(0.137 * f64::from(k), 0.291 * f64::from(k));
@@ -303,12 +306,12 @@ fn a_picture_bumps_as_its_heights_say() {
         let by_u = 0.5 * turn * s.cos() * (0.5 + 0.5 * t.sin());
         let by_v = -0.5 * turn * t.cos() * (0.5 + 0.5 * s.sin());
         let expected = DVec3::new(-0.3 * by_u / 4.0, -0.3 * by_v / 2.0, 1.0).normalize();
-        // The splines of 64 texels to a wave are right to a few millionths.
+        // The splines with 64 texels to a wave are exact to a few millionths.
         assert!(bump.normal(&DAffine3::IDENTITY, &place).abs_diff_eq(expected, 1e-5), "{uv}");
     }
 }
 
-/// Flat where clamped; and elsewhere the gradient is the height's.
+/// The gradient is 0 where the wall is clamped, and elsewhere it is the height's.
 #[test]
 fn a_wall_is_level_where_its_slow_noise_is_clamped() {
     let noise = noise(Interpolation::Smoother);
@@ -331,7 +334,7 @@ fn a_wall_is_level_where_its_slow_noise_is_clamped() {
         assert_eq!(height, [-0.1, slow, 0.2][kind]);
         assert_eq!(level.gradient(point) == DVec3::ZERO, kind != 1);
         assert_eq!(rough.height(point), height + 0.3 * noise.value(5.0 * point));
-        // Differences across the edge of a plain mean nothing.
+        // Differences across the edge of a plain are meaningless.
         if (slow + 0.1).abs().min((slow - 0.2).abs()) > 1e-3 {
             let expected = slopes(|p| rough.height(p), point, 1e-5);
             assert!(rough.gradient(point).abs_diff_eq(expected, 1e-6));
@@ -340,7 +343,7 @@ fn a_wall_is_level_where_its_slow_noise_is_clamped() {
     assert!(seen.iter().all(|&count| count > 50), "{seen:?}");
 }
 
-/// Colours between black and white stay there, wherever one looks, and are not all the same.
+/// Colours of a ramp between black and white stay within it everywhere, and they vary.
 #[test]
 fn every_solid_is_finite_and_has_the_colours_of_its_ramp() {
     let colors = Ramp::new(vec![(0.0, Color::ZERO), (1.0, Color::ONE)]).unwrap();

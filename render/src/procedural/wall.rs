@@ -1,38 +1,38 @@
-//! The wall of thesis 2.2 and figure A.8: a slow noise, clamped, plus a fast one (G. D. Abram and
+//! The wall of thesis 2.2 and figure A.8: a clamped slow noise plus a fast noise (G. D. Abram and
 //! T. Whitted, "Building Block Shaders", 1990).
 //!
-//! Where the slow noise is clamped the wall is a level plain, above or below; between them it has
-//! slopes. The fast noise roughens all of it.
+//! Where the slow noise is clamped, the wall is a level plain, high or low. Between the plains it
+//! has slopes. The fast noise roughens the whole wall.
 
 use super::noise::Noise;
 use super::ramp::Ramp;
 use crate::color::Color;
 use glam::DVec3;
 
-/// The heights of a wall.
+/// The height field of a wall.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Wall {
-    /// The slow noise stays between these, within `[-1, 1]`; the first is the lower.
+    /// Lower and upper limit of the slow noise, within `[-1, 1]`.
     pub clamp: [f64; 2],
-    /// Strength of the fast noise, at least 0.
+    /// Strength of the fast noise, 0 or more.
     pub rough: f64,
-    /// How much faster it is, more than 0.
+    /// Frequency of the fast noise relative to the slow one, more than 0.
     pub frequency: f64,
-    /// Both noises.
+    /// The noise that is used for both.
     pub noise: Noise,
 }
 
 /// A wall with colours.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WallPaint {
-    /// The heights.
+    /// The height field of the wall.
     pub wall: Wall,
-    /// Colours from the lowest height that can be, at 0, to the highest, at 1.
+    /// Colours from the lowest possible height, at 0, to the highest, at 1.
     pub colors: Ramp,
 }
 
 impl Wall {
-    /// The height at a point.
+    /// Returns the height at a point of texture space.
     #[must_use]
     pub fn height(&self, point: DVec3) -> f64 {
         let [low, high] = self.clamp;
@@ -40,7 +40,7 @@ impl Wall {
             + self.rough * self.noise.value(self.frequency * point)
     }
 
-    /// Its gradient; none of the slow noise where that is clamped.
+    /// Returns the gradient of the height. The slow noise contributes nothing where it is clamped.
     #[must_use]
     pub fn gradient(&self, point: DVec3) -> DVec3 {
         let [low, high] = self.clamp;
@@ -51,7 +51,7 @@ impl Wall {
 }
 
 impl WallPaint {
-    /// The colour at a point.
+    /// Returns the colour at a point of texture space, linear RGB.
     #[must_use]
     pub fn color(&self, point: DVec3) -> Color {
         let [low, high] = self.wall.clamp;

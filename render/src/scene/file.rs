@@ -33,67 +33,72 @@
 //! }
 //! ```
 //!
-//! Colours are linear, one number for grey or `[red, green, blue]`. Lengths are in any one unit,
-//! axes are right-handed. What each key means, its range and its default stand at the fields below,
-//! which the JSON Schema that `render --emit-schema` prints is made of. Numbers without another range
-//! are at most [`LARGEST`](super::schema::LARGEST) without their sign.
+//! Colours are linear: one number for grey or `[red, green, blue]`. Lengths are in any one unit,
+//! and axes are right-handed. The fields below document the meaning, range and default of each key.
+//! The JSON Schema that `render --emit-schema` prints is made of them. The absolute value of a
+//! number without another range is at most [`LARGEST`](super::schema::LARGEST).
 //!
-//! Of one ray from the eye and all that follow from it the first 8191 hits count, as many as a
-//! `max_depth` of 12 can have.
+//! Of a ray from the eye and all rays that follow from it, only the first 8191 hits count: as many
+//! as a `max_depth` of 12 can have.
 //!
-//! Spheres, boxes, superquadrics, planes (behind them) and closed meshes have an inside. They may contain and overlap each
-//! other, and the camera may stand in them. A rectangle or an open mesh has none: it absorbs
-//! nothing, and a ray that passes it is still in what it was in.
+//! Spheres, boxes, superquadrics, planes (behind them) and closed meshes have an inside. They may
+//! contain and overlap each other, and the camera may stand inside them. A rectangle or an open
+//! mesh has no inside. It absorbs nothing, and a ray that passes it stays in the same medium.
 //!
-//! The background is a colour, or a sky: `"background": { "by_elevation": [[-1, 0.3], [0, 0.8], [90, [0.2,
-//! 0.35, 0.6]]] }` gives colours at degrees above the horizon, where y points up.
+//! The background is a colour or a sky: `"background": { "by_elevation": [[-1, 0.3], [0, 0.8], [90,
+//! [0.2, 0.35, 0.6]]] }` gives colours at degrees above the horizon, where y points up.
 //!
-//! A light is a `point` light or a `directional` one, whose `direction` is the way its light goes. A
-//! point light may fade: `"falloff": { "quadratic": 1, "reference": 4 }` is the inverse square with
-//! the light's colour at a distance of 4, in general `1 / (constant + linear x + quadratic x^2)` with
-//! `x = distance / reference`. Nothing is made brighter by it than a million times.
+//! A light is a `point` light or a `directional` light, whose `direction` is the direction in which
+//! its light travels. A point light may fade: `"falloff": { "quadratic": 1, "reference": 4 }` is
+//! the inverse square, with the light's colour at a distance of 4. In general the colour is
+//! multiplied by `1 / (constant + linear x + quadratic x^2)` with `x = distance / reference`. The
+//! factor is at most a million.
 //!
 //! A texture is a picture (`image`) or a solid, which fills space and is carved by the surface: see
-//! [`solid`]. A picture fills a rectangle, or the unit square of a mesh's or sphere's texture coordinates;
-//! `repeat` lays it several times. A material's `bump` turns normals as a relief would: see [`bump`]. Paths count from the folder of the file that they stand in.
+//! [`solid`]. A picture fills a rectangle, or the unit square of the texture coordinates of a mesh
+//! or sphere; `repeat` lays it several times. A material's `bump` perturbs normals as a relief
+//! would: see [`bump`]. Paths are relative to the folder of the file that contains them.
 //!
-//! Where two surfaces coincide one of them is seen, the other is not behind it: leave a small gap
-//! between glass and what it stands on, and let water and the glass around it overlap a little.
+//! Where two surfaces coincide, one of them is seen and the other is ignored. Leave a small gap
+//! between glass and the object it stands on. Let water and the glass around it overlap a little.
 //!
 //! | an object's shape | keys | its texture |
 //! |---|---|---|
 //! | `sphere` | `center`, `radius` | a map: longitude from -z over +z, latitude from -y to +y |
 //! | `rectangle` | `corner`, `edge_u`, `edge_v` | `repeat` times, default once each way |
-//! | `plane` | `point`, `edge_u`, `edge_v` | once on the parallelogram, and on from there |
+//! | `plane` | `point`, `edge_u`, `edge_v` | once on the parallelogram, continued over the plane |
 //! | `box` | `low`, `high`, two corners | once on each face, upright on the four sides |
 //! | `superquadric` | `center`, `radii`, `exponents`, `ring` | as on a sphere; around the tube of a ring |
 //! | `mesh` | `name`, `file` | by its own coordinates |
 //!
-//! `exponents` are Barr's e1 and e2, of the section through the axis y and of that across it, 0.05 to
-//! 4: near 0 a square, 1 a circle, 2 a square on its corner, above it a pinched star. `[1, 1]` is an
-//! ellipsoid, `[0.1, 1]` a drum, `[1, 0.1]` a pillow, `[0.1, 0.1]` a box with rounded edges. With a
-//! `ring` (1 to 1000) it is a supertoroid: `radii` are those of its tube, the middle of which is `ring`
-//! times as far from the axis.
+//! `exponents` are Barr's e1 and e2, 0.05 to 4: of the section through the axis y and of the
+//! section across it. A section is a square near 0, a circle at 1, a square on its corner at 2, and
+//! a pinched star above 2. `[1, 1]` is an ellipsoid, `[0.1, 1]` a drum, `[1, 0.1]` a pillow,
+//! `[0.1, 0.1]` a box with rounded edges. With a `ring` (1 to 1000) the shape is a supertoroid:
+//! `radii` are the radii of its tube, and the middle of the tube is `ring` times as far from the
+//! axis.
 //!
-//! Any object may have a `"place"`, a list of steps that are taken in their order: `{ "scale": [x, y,
-//! z] }`, `{ "rotate_deg": { "axis": [x, y, z], "angle": a } }` (counter-clockwise as seen from where
-//! the axis points), `{ "translate": [x, y, z] }` and `{ "matrix": [[...], [...], [...]] }` with three
-//! rows of four numbers. All are about the origin of the scene. Mirrors are welcome, and what was
-//! outside stays outside; flat maps are not: the Frobenius norms of the whole matrix and of its inverse
-//! may multiply to at most a million (a turn makes 3).
+//! Any object may have a `"place"`, a list of steps that are applied in order:
+//! `{ "scale": [x, y, z] }`, `{ "rotate_deg": { "axis": [x, y, z], "angle": a } }`
+//! (counter-clockwise as seen from the direction in which the axis points),
+//! `{ "translate": [x, y, z] }` and `{ "matrix": [[...], [...], [...]] }` with three rows of four
+//! numbers. All steps are about the origin of the scene. Mirroring is allowed, and the outside
+//! stays the outside. Flat maps are refused: the product of the Frobenius norms of the whole matrix
+//! and of its inverse may be at most a million (a rotation has 3).
 //!
 //! # Meshes
 //!
 //! A mesh comes from `--mesh NAME=FILE`, or else from its own `"file"`. The surfaces of a mesh that
-//! `triangulate` made are named by a texture id and a surface id: `textures` binds texture ids to
-//! textures, `materials` binds surface ids to materials; `material` and `texture` stand for all that
-//! are not bound. In an OBJ of another tool both maps are keyed by the name that `usemtl` gives, and
-//! `mtl` names the material library that the tool wrote beside it ([what is read](super::mtl)).
+//! `triangulate` made are named by a texture id and a surface id. `textures` binds texture ids to
+//! textures, and `materials` binds surface ids to materials. `material` and `texture` apply to all
+//! ids that are not bound. In an OBJ of another tool both maps are keyed by the name that `usemtl`
+//! gives. `mtl` names the material library that the tool wrote with it ([what is
+//! read](super::mtl)).
 //!
 //! # Parts
 //!
-//! `include` takes in lights, textures, materials and objects from files of format `tb-scene-part`,
-//! which have no camera and may include others:
+//! `include` adds lights, textures, materials and objects from files of format `tb-scene-part`.
+//! These files have no camera and may include others:
 //!
 //! ```json
 //! {
@@ -102,9 +107,10 @@
 //! }
 //! ```
 //!
-//! What is taken in stands before what takes it in: `[a, b]` gives the lights and objects of a, those
-//! of b, then the scene's own, and of surfaces at the same place the first is seen. A name may be given
-//! once in all files together, and used in any of them. A part that is reached on two ways is taken in once.
+//! Included lights and objects come before the including file's own. `[a, b]` gives the lights and
+//! objects of a, then of b, then the scene's own. Of surfaces at the same position the first is
+//! seen. A name may be defined only once in all files together, and may be used in any of them. A
+//! part that is reached by two includes is added once.
 
 mod background;
 pub mod bump;
@@ -132,57 +138,55 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-/// The value of `format` in a scene.
+/// The value of `format` in a scene file.
 pub const FORMAT: &str = "tb-scene";
 
-/// The value of `version` in a scene and its parts.
+/// The value of `version` in a scene file and its parts.
 pub const VERSION: u32 = 1;
 
-/// A scene as its file says it; nothing is checked but its types.
+/// The contents of a scene file, of which only the types are checked.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SceneFile {
-    /// Where an editor finds the schema of this file; passed over.
+    /// Address of this file's JSON Schema, for editors; ignored by the program.
     #[serde(rename = "$schema")]
     pub schema: Option<String>,
-    /// `tb-scene`.
+    /// Format of this file: `tb-scene`.
     #[schemars(extend("const" = FORMAT))]
     pub format: String,
-    /// 1.
+    /// Version of the format: 1.
     #[schemars(extend("const" = VERSION))]
     pub version: u32,
-    /// Files of format `tb-scene-part` whose lights, textures, materials and objects are taken in, in
-    /// this order and before the scene's own; paths count from this file's folder.
+    /// Files of format `tb-scene-part` whose lights, textures, materials and objects are added, in
+    /// this order and before the scene's own. Paths are relative to this file's folder.
     #[serde(default)]
     pub include: Vec<PathBuf>,
-    /// Where the scene is seen from.
+    /// The camera that sees the scene.
     pub camera: CameraFile,
-    /// What a ray sees that leaves the scene: a colour, or colours by the elevation; black if left
-    /// out.
+    /// Colour of rays that leave the scene: one colour, or colours by elevation; black if left out.
     #[serde(default)]
     pub background: BackgroundFile,
-    /// Light from everywhere; 0.1 if left out.
+    /// Ambient light, from all directions; 0.1 if left out.
     #[serde(default = "dim")]
     pub ambient: ColorFile,
-    /// The lights; none if left out.
+    /// Lights of the scene; none if left out.
     #[serde(default)]
     pub lights: Vec<LightFile>,
-    /// How often a ray is reflected or refracted at most: 0 to 64; 12 if left out.
+    /// Largest number of reflections and refractions of a ray: 0 to 64; 12 if left out.
     #[serde(default = "twelve")]
     #[schemars(transform = schema::range(0..=schema::DEEPEST))]
     pub max_depth: u32,
-    /// A ray that would count for less than this in its pixel is not followed: 0 to 1; 0.0001 if
-    /// left out.
+    /// Smallest weight in its pixel with which a ray is followed: 0 to 1; 0.0001 if left out.
     #[serde(default = "one_ten_thousandth")]
     #[schemars(transform = schema::range(0.0..=1.0))]
     pub min_weight: f64,
-    /// Pictures for surfaces, by names of one's choice.
+    /// Textures of surfaces, pictures or solids, by names of your choice; none if left out.
     #[serde(default, deserialize_with = "each_name_once")]
     pub textures: BTreeMap<String, TextureFile>,
-    /// What surfaces are made of, by names of one's choice.
+    /// Materials of surfaces, by names of your choice; none if left out.
     #[serde(default, deserialize_with = "each_name_once")]
     pub materials: BTreeMap<String, MaterialFile>,
-    /// What there is to see; of surfaces at the same place the first is seen.
+    /// Objects of the scene. Of surfaces at the same position the first is seen.
     pub objects: Vec<ObjectFile>,
 }
 
@@ -190,14 +194,14 @@ pub struct SceneFile {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CameraFile {
-    /// Where it stands, in the unit of length.
+    /// Position of the camera, in the unit of length.
     pub eye: [f64; 3],
-    /// A point in the middle of the picture, not at the eye.
+    /// The point seen in the middle of the picture, not at the eye, in the unit of length.
     pub target: [f64; 3],
     /// A direction that points up in the picture, not along the view; y if left out.
     #[serde(default = "y_axis")]
     pub up: [f64; 3],
-    /// The angle between the lower and the upper edge of the picture, in degrees, above 0 and below
+    /// Angle between the lower and the upper edge of the picture, in degrees, above 0 and below
     /// 180.
     #[schemars(transform = schema::between(0.0, 180.0))]
     pub fov_deg: f64,
@@ -224,7 +228,7 @@ mod tests {
     use super::*;
     use files::json::Document;
 
-    /// The JSON on this page, in its order.
+    /// Returns the JSON blocks of this page, in order.
     fn examples() -> Vec<String> {
         let page = include_str!("file.rs");
         let lines = page.lines().map_while(|line| line.strip_prefix("//!"));

@@ -1,8 +1,9 @@
 //! Turns intersection trees into colours (thesis fig. 4.5).
 //!
-//! A node's colour is its local colour plus what its reflected and refracted branches bring, each
-//! with its weight; so the deepest nodes come first and their colours are handed up. The thesis's
-//! figure weighs refraction with the reflectivity; here it is weighed with the transparency.
+//! The colour of a node is its local colour plus the weighted colours of its reflected and
+//! refracted branches. The deepest nodes are therefore shaded first, and their colours are returned
+//! to their parents. The thesis's figure weights refraction with the reflectivity; this module
+//! weights it with the transparency.
 
 pub mod observer;
 mod shadow;
@@ -23,43 +24,46 @@ use observer::{Local, Observer, Seen, Textured, Way};
 /// Shades the trees of one scene.
 #[derive(Debug)]
 pub struct Shader<'a> {
-    /// The scene.
+    /// The scene whose trees are shaded.
     pub scene: &'a Scene,
-    /// What finds the hits of shadow rays.
+    /// Structure that finds the hits of shadow rays.
     pub accel: &'a Accel<'a>,
-    /// The scene's textures, ready; those that are never seen are missing.
+    /// The scene's textures prepared for filtering, by texture index. A texture that no surface
+    /// shows is `None`.
     pub textures: &'a [Option<FilteredTexture<'a>>],
-    /// How each object's texture coordinates hang together; not known if the filter looks at points only.
+    /// Texture coordinate charts of each object, by object index. They are empty if the filter
+    /// averages over points only.
     pub charts: &'a [Charts],
-    /// The scene's volumes.
+    /// The scene's closed volumes, which bend and absorb light.
     pub volumes: &'a Volumes,
-    /// The volumes that each light lies in.
+    /// The volumes that contain each light, in the order of the scene's lights.
     pub around_lights: &'a [Media],
 }
 
-/// How much work shading was.
+/// Counts of the operations that shading performs.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct ShadeCounts {
-    /// Rays to lights.
+    /// Shadow rays sent to lights.
     pub shadow: u64,
-    /// Textures averaged over an area.
+    /// Texture averages over an area.
     pub areas: u64,
-    /// Textures looked up at a point.
+    /// Texture lookups at a point.
     pub points: u64,
-    /// Texels or table entries read for both.
+    /// Texels or table entries read for averages and lookups together.
     pub texels: u64,
-    /// Solid textures looked up.
+    /// Lookups of solid textures.
     pub solids: u64,
 }
 
 impl Shader<'_> {
-    /// Memory of all tables, in bytes.
+    /// Returns the memory of all filter tables, in bytes.
     #[must_use]
     pub fn table_bytes(&self) -> u64 {
         self.textures.iter().flatten().map(|texture| texture.table_bytes() as u64).sum()
     }
 
-    /// The colour that comes to the eye; `observer` is told of all branches that lead to it.
+    /// Returns the linear RGB light that reaches the eye along the tree in the middle of `around`.
+    /// Reports every shaded branch to `observer`.
     #[must_use]
     pub fn shade<O: Observer>(
         &self,
@@ -70,7 +74,8 @@ impl Shader<'_> {
         around.through() * self.branch(around, counts, observer)
     }
 
-    /// The colour that the middle branch starts with; `observer` is told of all that follow.
+    /// Returns the colour at the start of the middle branch. Reports the branch and its descendants
+    /// to `observer`.
     fn branch<O: Observer>(
         &self,
         around: &Neighbourhood<'_>,
@@ -102,7 +107,7 @@ impl Shader<'_> {
         color
     }
 
-    /// The colour of the surface itself under ambient light and the lights that reach it.
+    /// Computes the colour of the surface itself under ambient light and the lights that reach it.
     fn local(&self, node: &Node, around: &Neighbourhood<'_>, counts: &mut ShadeCounts) -> Local {
         let object = &self.scene.objects[node.piece.object as usize];
         let surface = object.parts[node.part as usize];
@@ -140,7 +145,7 @@ impl Shader<'_> {
         Local { textured, color }
     }
 
-    /// What the lights bring to a node.
+    /// Sums the light that the scene's lights send to a node.
     fn lighting(&self, node: &Node, material: &Material, counts: &mut ShadeCounts) -> Lighting {
         let mut sum = Lighting { diffuse: Color::ZERO, highlight: Color::ZERO };
         if !material.sees_lights() {
@@ -166,7 +171,7 @@ impl Shader<'_> {
     }
 }
 
-/// Light on a surface: what its colour multiplies, and the highlight, which it does not.
+/// Light on a surface. `diffuse` is multiplied by the surface's colour and `highlight` is not.
 #[derive(Debug, Clone, Copy)]
 struct Lighting {
     diffuse: Color,

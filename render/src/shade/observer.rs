@@ -1,55 +1,57 @@
-//! Looking on while trees are shaded.
+//! Observers that follow the shading of intersection trees.
 //!
-//! Shading tells an observer of every branch that it follows. `()` looks at nothing and costs
-//! nothing; what prints a pixel looks at everything, and so cannot differ from what is rendered.
+//! The shader reports every branch that it shades to an observer. The observer `()` ignores all
+//! reports and costs nothing. The pixel inspector ([`crate::inspect`]) records them all, so its
+//! output cannot differ from the rendered picture.
 
 use crate::color::Color;
 use crate::footprint::Footprint;
 use crate::footprint::neighbours::Neighbourhood;
 
-/// How light comes along a branch.
+/// How a branch continues the path of light at its parent node.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Way {
-    /// Mirrored at the node before.
+    /// The branch starts with the ray that its parent node mirrors.
     Reflected,
-    /// Through the node before.
+    /// The branch starts with the ray that passes through its parent node.
     Refracted,
 }
 
-/// A texture's share in a colour.
+/// The contribution of a texture to a surface's colour.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Textured {
-    /// What was seen of it.
+    /// The part of the texture that the node sees.
     pub footprint: Footprint,
-    /// Its average there.
+    /// Average of the texture over the footprint, linear RGB.
     pub average: Color,
 }
 
-/// The colour of a surface itself, without what it mirrors and lets through.
+/// The colour of a surface itself, without the reflected and refracted light.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Local {
-    /// The texture, if one was looked at.
+    /// The picture texture's contribution, if one was averaged.
     pub textured: Option<Textured>,
-    /// The colour.
+    /// The surface's own colour, linear RGB.
     pub color: Color,
 }
 
-/// What came along a branch.
+/// A branch that has been shaded.
 #[derive(Debug)]
 pub struct Seen<'a> {
-    /// The branch, in the middle of its neighbours.
+    /// The branch and its neighbours; the branch is the middle one.
     pub around: &'a Neighbourhood<'a>,
-    /// The colour of the surface that it came to, if it came to one.
+    /// Colour of the surface that the branch hits, if the branch hits one.
     pub local: Option<Local>,
-    /// The colour that is handed up.
+    /// Colour that the branch returns to its parent node, linear RGB, not yet multiplied by its
+    /// weight.
     pub color: Color,
 }
 
-/// Is told of the branches of a tree, from the root down and back.
+/// Receives the branches of a tree in the order of shading: depth first, from the root.
 pub trait Observer {
-    /// A branch of the node that was come to last, and is not left, is followed.
+    /// Called before a child of the current node is shaded.
     fn follow(&mut self, way: Way);
-    /// The branch that was followed last, and is not left, has its colour; the root too.
+    /// Called when the current branch has its colour. The root is reported too, as the last branch.
     fn leave(&mut self, seen: &Seen<'_>);
 }
 

@@ -1,49 +1,53 @@
-//! How the texture coordinates of a shape hang together.
+//! Charts of the texture coordinates of a shape.
 //!
-//! Two texture coordinates can be compared when one leads to the other without a jump: over a
-//! connected piece of mesh whose triangles share both places and coordinates, a chart. A mesh with
-//! several areas has a chart for each, though they may show one texture.
+//! Two texture coordinates can be compared if one leads to the other without a jump. This holds
+//! within a chart: a connected piece of mesh whose triangles share positions and texture
+//! coordinates. A mesh with several areas has a chart for each area, even if all areas show one
+//! texture.
 //!
-//! A chart may close on itself, as around a tube: then its coordinates jump at a seam, by a whole
-//! number, and differences are taken the short way round. Seams are read off the mesh, each chart for
-//! itself, since one area may go around with its picture once, another with four, and a third only
-//! halfway: an edge that two triangles of a chart share with coordinates that differ by the same
-//! whole number at both ends lies on a seam. A floor, however often its picture repeats, has none.
+//! A chart may close on itself, as around a tube. Its coordinates then jump by a whole number at a
+//! seam, and differences are taken across the seam if this is shorter. Seams are found in the mesh,
+//! for each chart separately. One area may go around with its picture once, another with four
+//! pictures, and a third only halfway. An edge lies on a seam if two triangles of a chart share it
+//! with coordinates that differ by the same whole number at both ends. A floor has no seam, however
+//! often its picture repeats.
 
 use super::SeamPeriod;
 use super::mesh::{Mesh, NONE};
 use glam::DVec2;
 use std::collections::HashMap;
 
-/// Coordinates of files are rounded: to `f32`, or to six digits.
+/// Largest rounding of a file's texture coordinates, which have the precision of `f32` or six
+/// digits.
 const ROUNDING: f64 = 1e-4;
 
 /// The charts of one shape.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Charts {
-    /// The chart of each triangle; empty when there is but one.
+    /// Chart of each triangle; empty if there is only one chart.
     of_triangle: Vec<u32>,
-    /// The seams of each chart.
+    /// Seam of each chart.
     seams: Vec<Seam>,
 }
 
-/// How the coordinates of one chart jump where it closes on itself.
+/// The jump of a chart's texture coordinates where the chart closes on itself.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 struct Seam {
-    /// By how much, across and up; 0 where it does not.
+    /// Size of the jump, across and up; 0 where the chart does not close.
     period: SeamPeriod,
-    /// Whether the other coordinate is mirrored there, as on a Moebius band.
+    /// For each direction of closing, whether the other coordinate is mirrored, as on a Moebius
+    /// band.
     mirrors: [bool; 2],
 }
 
 impl Charts {
-    /// One chart, whose coordinates jump by `period` at its seams.
+    /// One chart, whose texture coordinates jump by `period` at its seams.
     #[must_use]
     pub fn one(period: SeamPeriod) -> Self {
         Self { of_triangle: Vec::new(), seams: vec![Seam { period, mirrors: [false; 2] }] }
     }
 
-    /// The charts of a mesh. Triangles without texture coordinates are one chart.
+    /// Finds the charts of a mesh. All triangles without texture coordinates form one chart.
     #[must_use]
     pub fn of(mesh: &Mesh) -> Self {
         let places = places(mesh);
@@ -53,9 +57,11 @@ impl Charts {
         Self { of_triangle: if count == 1 { Vec::new() } else { of_triangle }, seams }
     }
 
-    /// The way from one texture coordinate to another, each with its triangle: the short way where
-    /// the chart closes on itself. Nothing when they are of different charts, or when the short way
-    /// leads over a seam that mirrors: nothing tells then what lies between.
+    /// Returns the difference `to - from` of two texture coordinates, each given with its triangle.
+    /// Where the chart closes on itself, the difference is taken across the seam if this is
+    /// shorter. Returns `None` if the coordinates are of different charts. Returns `None` too if
+    /// the shorter difference crosses a seam that mirrors, since the coordinates between are then
+    /// unknown.
     #[must_use]
     pub fn difference(&self, from: (u32, DVec2), to: (u32, DVec2)) -> Option<DVec2> {
         let chart = self.chart(from.0);
@@ -81,18 +87,18 @@ impl Charts {
     }
 }
 
-/// A number for each position, the same for positions that are equal.
+/// Returns a number for each position; equal positions have equal numbers.
 fn places(mesh: &Mesh) -> Vec<u32> {
     let mut known: HashMap<[u32; 3], u32> = HashMap::with_capacity(mesh.positions.len());
     let places = mesh.positions.iter().zip(0..).map(|(position, number)| {
-        // Minus zero is the same place as zero.
+        // Minus zero is the same coordinate as zero.
         *known.entry(position.map(|x| (x + 0.0).to_bits())).or_insert(number)
     });
     places.collect()
 }
 
-/// The chart of each triangle, numbered in their order: triangles of one surface are of one chart
-/// when they share a corner with its place and its texture coordinates.
+/// Returns the chart of each triangle, numbered in the order of triangles. Triangles of one surface
+/// belong to one chart if they share a corner with its position and its texture coordinates.
 fn connected(mesh: &Mesh, places: &[u32]) -> Vec<u32> {
     let mut parents: Vec<u32> = (0..mesh.triangles.len() as u32).collect();
     let mut first: HashMap<(u32, [u32; 2], u32), u32> = HashMap::new();
@@ -109,7 +115,8 @@ fn connected(mesh: &Mesh, places: &[u32]) -> Vec<u32> {
             parents[one.max(other) as usize] = one.min(other);
         }
     }
-    // A root is the first triangle of its chart, so its number is known before it is asked for.
+    // A root is the first triangle of its chart, so its number is known when other triangles need
+    // it.
     let mut charts = vec![0; parents.len()];
     let mut count = 0;
     for triangle in 0..parents.len() as u32 {
@@ -124,7 +131,7 @@ fn connected(mesh: &Mesh, places: &[u32]) -> Vec<u32> {
     charts
 }
 
-/// The root of a tree of parents; the way there is halved for the next time.
+/// Returns the root of `node` in the forest of parents and halves the path to the root.
 fn root(parents: &mut [u32], mut node: u32) -> u32 {
     while parents[node as usize] != node {
         let above = parents[parents[node as usize] as usize];
@@ -134,12 +141,12 @@ fn root(parents: &mut [u32], mut node: u32) -> u32 {
     node
 }
 
-/// An edge between two places, in order, as one triangle has it.
+/// An edge between two numbered positions, the smaller first, as one triangle has it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Edge {
     ends: [u32; 2],
     chart: u32,
-    /// Texture coordinates at both ends, as indices.
+    /// Indices of the texture coordinates at both ends.
     uvs: [u32; 2],
 }
 
@@ -198,22 +205,23 @@ fn uv(mesh: &Mesh, index: u32) -> DVec2 {
     DVec2::from(mesh.uvs[index as usize].map(f64::from))
 }
 
-/// The whole number that a coordinate jumps by at both ends of an edge.
+/// Returns the whole number by which a coordinate jumps at both ends of an edge, if it is the same.
 fn closing(jumps: [f64; 2]) -> Option<f64> {
     let whole = whole(jumps[0])?;
     (self::whole(jumps[1])? == whole).then_some(whole)
 }
 
-/// The whole number that a coordinate jumps by at one end of an edge whose other end is a pole.
+/// Returns the whole number by which a coordinate jumps at one end of an edge whose other end is a
+/// pole.
 ///
-/// There each triangle has the coordinate of its middle, so the jump is less by a triangle's width.
-/// Only a fan, which has no other edges along its seam, is judged by it.
+/// At a pole each triangle has the coordinate of its middle, so the jump there is smaller by a
+/// triangle's width. This rule applies only to a fan, which has no other edges along its seam.
 fn beside_pole(jumps: [f64; 2]) -> Option<f64> {
     let [less, most] = if jumps[0] < jumps[1] { jumps } else { [jumps[1], jumps[0]] };
     whole(most).filter(|_| less > 0.5 * most - ROUNDING)
 }
 
-/// The whole number, at least 1, that a jump is but for rounding.
+/// Returns the whole number, at least 1, that a jump equals up to rounding.
 fn whole(jump: f64) -> Option<f64> {
     let whole = jump.round();
     let rounding = ROUNDING.max(1e-6 * jump);
@@ -226,8 +234,8 @@ mod tests {
     use super::*;
     use std::f32::consts::TAU;
 
-    /// Adds a band around the y axis from height `low` to `low + 1`, of `cells` cells over the part
-    /// `ring` of it, with coordinates from 0 to `repeat`.
+    /// Adds a band around the y axis from height `low` to `low + 1`. It has `cells` cells over the
+    /// fraction `ring` of the circle, with coordinates from 0 to `repeat`.
     fn band(mesh: &mut Mesh, low: f32, cells: u32, ring: f32, repeat: f32, surface: u32) {
         for cell in 0..cells {
             let corner = |mesh: &mut Mesh, dx: u32, dy: u32| {
@@ -251,7 +259,7 @@ mod tests {
         }));
     }
 
-    /// The way between two coordinates on two triangles.
+    /// Returns the difference of two coordinates on two triangles.
     fn way(charts: &Charts, from: (u32, f64), to: (u32, f64)) -> Option<f64> {
         let at = |(triangle, u)| (triangle, DVec2::new(u, 0.5));
         charts.difference(at(from), at(to)).map(|way| (way.x * 1e9).round() / 1e9)
@@ -264,19 +272,19 @@ mod tests {
         band(&mut mesh, 1.0, 8, 1.0, 4.0, 0);
         band(&mut mesh, 2.0, 8, 0.5, 1.0, 0);
         let charts = Charts::of(&mesh);
-        // Once around: the short way is over the seam. Four times: 0.9 is no way round at all.
+        // Once around, the shorter difference crosses the seam. Four times around, 0.9 stays 0.9.
         assert_eq!(way(&charts, (0, 0.05), (15, 0.95)), Some(-0.1));
         assert_eq!(way(&charts, (16, 0.05), (17, 0.95)), Some(0.9));
         assert_eq!(way(&charts, (16, 0.05), (31, 3.95)), Some(-0.1));
-        // Half around: it does not close.
+        // Half around, the area does not close.
         assert_eq!(way(&charts, (32, 0.05), (47, 0.95)), Some(0.9));
-        // From one area to the next there is no way, though all are of one surface.
+        // Different areas have no difference, even on one surface.
         assert_eq!(way(&charts, (0, 0.0), (16, 0.0)), None);
     }
 
     #[test]
     fn areas_side_by_side_on_an_open_sheet_make_no_seam() {
-        // Their coordinates jump by 2 at the border, which is not a way around.
+        // The coordinates jump by 2 at the border, but the areas do not close.
         let mut mesh = Mesh::default();
         for x in 0..2u32 {
             let first = mesh.positions.len() as u32;
@@ -293,8 +301,8 @@ mod tests {
 
     #[test]
     fn a_seam_is_read_off_the_mesh() {
-        // A floor repeats its picture and has none; a tube may be written with zeros of both signs
-        // and six digits.
+        // A floor repeats its picture and has no seam. A tube may be written with zeros of both
+        // signs and six digits.
         let mut floor = Mesh::default();
         band(&mut floor, 0.0, 4, 0.25, 4.0, 0);
         assert_eq!(Charts::of(&floor), Charts::one(DVec2::ZERO));
@@ -310,7 +318,7 @@ mod tests {
 
     #[test]
     fn a_fan_around_a_pole_is_one_chart_that_closes() {
-        // Each triangle has the middle of its side as the coordinate of the tip.
+        // The tip of each triangle has the coordinate of the middle of its base.
         let cone = |ring: f32| {
             let mut mesh = Mesh::default();
             band(&mut mesh, 0.0, 8, ring, 4.0, 0);
@@ -323,7 +331,7 @@ mod tests {
             Charts::of(&mesh)
         };
         assert_eq!(cone(1.0), Charts::one(DVec2::new(4.0, 0.0)));
-        // A part of a cone does not close, though at its tip coordinates lie whole numbers apart.
+        // A part of a cone does not close, although coordinates at its tip differ by whole numbers.
         assert_eq!(cone(0.5), Charts::one(DVec2::ZERO));
     }
 

@@ -1,12 +1,13 @@
-//! Whether a shape has an inside.
+//! Decides whether a shape is closed and therefore has an inside.
 
 use super::{Mesh, Shape};
 use glam::DVec3;
 use std::collections::HashMap;
 
 impl Shape {
-    /// Whether it parts space into an inside and an outside, with its normals pointing out: a
-    /// rectangle does not, a plane does (behind it is the inside), a mesh does if it is closed.
+    /// Returns whether the shape divides space into an inside and an outside, with its normals
+    /// pointing out. A rectangle does not. A plane does, with the inside behind it. A mesh does if
+    /// it is closed.
     #[must_use]
     pub fn is_closed(&self) -> bool {
         match self {
@@ -19,19 +20,20 @@ impl Shape {
 }
 
 impl Mesh {
-    /// Whether each side of each triangle is that of another one, run through the other way, and
-    /// the volume within is positive. Corners in equal places are one corner, and triangles with
-    /// two such are not there.
+    /// Returns whether the mesh is closed: each side of each triangle is matched by a side of
+    /// another triangle that runs in the opposite direction, and the enclosed volume is positive.
+    /// Corners at equal positions count as one corner. Triangles with two equal corners are
+    /// ignored.
     #[must_use]
     pub fn is_closed(&self) -> bool {
         let mut corners: HashMap<[u32; 3], u32> = HashMap::new();
         let mut number = |place: [f32; 3]| {
             let next = corners.len() as u32;
-            // Minus zero is the same place as zero.
+            // Minus zero is the same coordinate as zero.
             *corners.entry(place.map(|x| (x + 0.0).to_bits())).or_insert(next)
         };
         let numbers: Vec<u32> = self.positions.iter().map(|&place| number(place)).collect();
-        // Each side with its smaller corner first; run through backwards it counts as -1.
+        // Each side with its smaller corner first; the reverse direction counts as -1.
         let mut sides: Vec<([u32; 2], i32)> = Vec::with_capacity(3 * self.triangles.len());
         let mut volume = 0.0;
         for (place, triangle) in (0..).zip(&self.triangles) {
@@ -43,8 +45,8 @@ impl Mesh {
                 let way = if from < to { 1 } else { -1 };
                 sides.push(([from.min(to), from.max(to)], way));
             }
-            // Six times the volume between the triangle and one corner, so as to lose no digits far
-            // from the origin.
+            // Six times the volume between the triangle and one corner of the mesh, which loses no
+            // digits far from the origin.
             let origin = dvec3(self.corners(0)[0]);
             let [p, q, r] = self.corners(place).map(|corner| dvec3(corner) - origin);
             volume += p.dot(q.cross(r));
@@ -65,7 +67,7 @@ mod tests {
     use super::*;
     use crate::shape::mesh::{NONE, Triangle};
 
-    /// A tetrahedron whose corners are given for each triangle anew.
+    /// A tetrahedron in which each triangle has corners of its own.
     fn tetrahedron() -> Mesh {
         let corners = [[5., 5., 5.], [6., 5., 5.], [5., 6., 5.], [5., 5., 6.]];
         let faces = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];

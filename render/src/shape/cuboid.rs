@@ -1,6 +1,6 @@
-//! The box, called cuboid since `box` is a word of the language.
+//! The axis-parallel box. It is called cuboid since `box` is a keyword of the language.
 //!
-//! Its faces, each with its number and the directions in which its texture runs across and up:
+//! The drawing shows the number of each face and the directions of its texture, across and up:
 //!
 //! ```text
 //!              +-------+
@@ -15,14 +15,14 @@
 //!              +-------+
 //! ```
 //!
-//! This is the box unfolded, seen from outside: no face is mirrored, and the four sides stand
-//! upright. Each face shows the whole texture and is a textured area by itself: what a pixel sees
-//! of two faces is not averaged as one piece of texture.
+//! The drawing is the box unfolded, seen from outside. No face is mirrored, and the four sides
+//! stand upright. Each face shows the whole texture and is a textured area of its own: a pixel that
+//! sees two faces does not average their textures as one area.
 
 use super::{Start, SurfacePoint};
 use glam::{DVec2, DVec3};
 
-/// How many faces a box has.
+/// Number of faces of a box.
 pub const FACES: usize = 6;
 
 /// An axis-parallel box.
@@ -33,19 +33,20 @@ pub struct Cuboid {
 }
 
 impl Cuboid {
-    /// The box between two corners; nothing unless each coordinate of `low` is less than that of
-    /// `high`.
+    /// Creates the box between two corners. Returns `None` unless each coordinate of `low` is less
+    /// than that of `high`.
     #[must_use]
     pub fn new(low: DVec3, high: DVec3) -> Option<Self> {
         low.cmplt(high).all().then_some(Self { low, high })
     }
 
-    /// The nearest distance above 0 at which the ray meets the box, and the face.
+    /// Returns the nearest distance above 0 at which the ray meets the box, in units of
+    /// `direction`, and the face that it meets.
     ///
-    /// A ray that starts on a face, by `start`, does not meet that face.
+    /// A ray that starts on a face, according to `start`, does not meet that face.
     #[must_use]
     pub fn intersect(&self, origin: DVec3, direction: DVec3, start: Start) -> Option<(f64, u32)> {
-        // Between three pairs of planes: in after the last entry, out at the first exit.
+        // The ray is inside all three pairs of planes between its last entry and its first exit.
         let mut enter = (f64::NEG_INFINITY, 0);
         let mut leave = (f64::INFINITY, 0);
         for axis in 0..3 {
@@ -76,7 +77,7 @@ impl Cuboid {
         [enter, leave].into_iter().find(counts)
     }
 
-    /// The surface point on a face; `near` is the hit as found along the ray.
+    /// Returns the surface point on a face. `near` is the hit as computed along the ray.
     #[must_use]
     pub fn surface_point(&self, face: u32, near: DVec3) -> SurfacePoint {
         let axis = face as usize / 2;
@@ -84,7 +85,7 @@ impl Cuboid {
         position[axis] = self.plane(face);
         let mut normal = DVec3::ZERO;
         normal[axis] = if face.is_multiple_of(2) { -1.0 } else { 1.0 };
-        // From one side to the other, along each axis; and the other way round.
+        // Position along each axis as a part of the side, counted from both ends.
         let to = (position - self.low) / (self.high - self.low);
         let back = (self.high - position) / (self.high - self.low);
         let uv = match face {
@@ -98,7 +99,7 @@ impl Cuboid {
         SurfacePoint { position, geometric_normal: normal, shading_normal: normal, uv, part: face }
     }
 
-    /// As [`Shape::uv_gradients`](super::Shape::uv_gradients).
+    /// Returns gradients as [`Shape::uv_gradients`](super::Shape::uv_gradients) does.
     #[must_use]
     pub fn uv_gradients(&self, face: u32) -> [DVec3; 2] {
         let per_side = (self.high - self.low).recip();
@@ -113,13 +114,13 @@ impl Cuboid {
         }
     }
 
-    /// Lower and upper corner.
+    /// Lower and upper corner of the box.
     #[must_use]
     pub fn bounds(&self) -> [DVec3; 2] {
         [self.low, self.high]
     }
 
-    /// Where the plane of a face crosses its axis.
+    /// Coordinate at which the plane of a face crosses its axis.
     fn plane(&self, face: u32) -> f64 {
         let corner = if face.is_multiple_of(2) { self.low } else { self.high };
         corner[face as usize / 2]
@@ -178,8 +179,8 @@ mod tests {
     }
 
     proptest! {
-        /// The way through a box from a face to another: in at the one, out at the other, and
-        /// nothing before it and after it.
+        /// A ray through two faces enters at the one and leaves at the other. It meets nothing
+        /// before and after them.
         #[test]
         fn a_ray_through_two_faces_meets_both(
             from in 0u32..6, to in 0u32..6, a in prop::array::uniform3(0.01..0.99f64),

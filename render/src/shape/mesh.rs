@@ -1,78 +1,81 @@
-//! The triangle mesh, with the coordinates exactly as its file holds them.
+//! The triangle mesh, with coordinates exactly as in its file.
 
 use super::{Placement, PlacementError, SurfacePoint, triangle};
 use glam::{DVec2, DVec3};
 use thiserror::Error;
 
-/// Marks a corner without texture coordinates or normal.
+/// Index of a corner without texture coordinates or normal.
 pub const NONE: u32 = u32::MAX;
 
 /// Triangles over shared positions, texture coordinates and normals.
 ///
-/// Coordinates are the `f32` of the OBJ file; hits are found and refined on exactly those, in `f64`.
+/// Coordinates are the `f32` values of the OBJ file. Hits are found and refined on exactly these
+/// values, in `f64`.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Mesh {
-    /// Corner positions.
+    /// Corner positions, in the object's units.
     pub positions: Vec<[f32; 3]>,
-    /// Texture coordinates, across and up.
+    /// Texture coordinates, across and up; a texture fills the unit square.
     pub uvs: Vec<[f32; 2]>,
-    /// Shading normals; need not be unit.
+    /// Shading normals, which need not be unit.
     pub normals: Vec<[f32; 3]>,
-    /// The triangles; a triangle's identity is its place here.
+    /// The triangles; a triangle is identified by its index.
     pub triangles: Vec<Triangle>,
-    /// What `usemtl` called the surfaces; `Triangle::surface` counts in here.
+    /// Names of the surfaces, as given by `usemtl`. [`Triangle::surface`] is an index into this
+    /// list.
     pub surfaces: Vec<String>,
 }
 
-/// Three corners of a [`Mesh`]; each has three indices.
+/// A triangle of a [`Mesh`], with indices for each of its three corners.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Triangle {
-    /// Into `positions`.
+    /// Indices into [`Mesh::positions`].
     pub position: [u32; 3],
-    /// Into `uvs`, or [`NONE`].
+    /// Indices into [`Mesh::uvs`], or three times [`NONE`].
     pub uv: [u32; 3],
-    /// Into `normals`, or [`NONE`].
+    /// Indices into [`Mesh::normals`], or three times [`NONE`].
     pub normal: [u32; 3],
-    /// Into `surfaces`.
+    /// Index into [`Mesh::surfaces`].
     pub surface: u32,
 }
 
-/// Why arrays are not a mesh.
+/// The reason why arrays do not form a mesh.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum MeshError {
-    /// There is nothing to see.
+    /// The mesh has no triangles.
     #[error("found no triangles, expected at least one")]
     Empty,
-    /// An index leads out of its array.
+    /// An index is outside its array.
     #[error("triangle {triangle}: found index {index} into {count} {what}, expected less")]
     Index {
-        /// Triangle, from 0.
+        /// Index of the triangle, from 0.
         triangle: usize,
-        /// What the index counts.
+        /// Name of the array.
         what: &'static str,
-        /// The index.
+        /// The index that was found.
         index: u32,
-        /// How many there are.
+        /// Length of the array.
         count: usize,
     },
     /// A coordinate is NaN or infinite.
     #[error("{what} {index}: found a number that is not finite")]
     NotFinite {
-        /// Which array.
+        /// Name of the array.
         what: &'static str,
-        /// Entry, from 0.
+        /// Index of the entry, from 0.
         index: usize,
     },
-    /// More triangles than a picture can number.
+    /// The mesh has more triangles than a picture can number.
     #[error("found {0} triangles, expected at most 4294967295")]
     TooMany(usize),
 }
 
 impl Mesh {
-    /// Checks what the renderer relies on.
+    /// Checks the properties on which the renderer relies.
     ///
     /// # Errors
-    /// When there are no triangles, an index leads nowhere or a number is not finite.
+    /// If there are no triangles or too many, if an index is outside its array, or if a number is
+    /// not finite.
     pub fn check(&self) -> Result<(), MeshError> {
         if self.triangles.is_empty() {
             return Err(MeshError::Empty);
@@ -109,11 +112,12 @@ impl Mesh {
         Ok(())
     }
 
-    /// It moved: coordinates are computed in `f64` and rounded once. In a mirror the corners of
-    /// each triangle are turned round, so that its outside stays its outside.
+    /// Returns the mesh, moved. Coordinates are computed in `f64` and rounded once. If the
+    /// placement mirrors, the order of each triangle's corners is reversed, so that its outside
+    /// stays its outside.
     ///
     /// # Errors
-    /// When a coordinate leaves the range of `f32`.
+    /// If a coordinate leaves the range of `f32`.
     pub fn placed(mut self, placement: &Placement) -> Result<Self, PlacementError> {
         for (number, position) in self.positions.iter_mut().enumerate() {
             let moved = placement.to_scene().transform_point3(as_dvec3(*position)).as_vec3();
@@ -135,13 +139,13 @@ impl Mesh {
         Ok(self)
     }
 
-    /// The three corners of a triangle.
+    /// Returns the three corner positions of a triangle.
     #[must_use]
     pub fn corners(&self, triangle: u32) -> [[f32; 3]; 3] {
         self.triangles[triangle as usize].position.map(|index| self.positions[index as usize])
     }
 
-    /// The surface point with these weights of the second and third corner.
+    /// Returns the surface point with these barycentric weights of the second and third corner.
     #[must_use]
     pub fn surface_point(&self, triangle: u32, barycentric: [f64; 2]) -> SurfacePoint {
         let [b, c] = barycentric;
@@ -166,7 +170,8 @@ impl Mesh {
         SurfacePoint { position, geometric_normal, shading_normal, uv, part: corners.surface }
     }
 
-    /// The gradients of a triangle's texture coordinates; zero if it has none or no area.
+    /// Returns the gradients of a triangle's texture coordinates. They are zero if the triangle has
+    /// no texture coordinates or no area.
     #[must_use]
     pub fn uv_gradients(&self, triangle: u32) -> [DVec3; 2] {
         let corners = &self.triangles[triangle as usize];
@@ -181,13 +186,13 @@ impl Mesh {
         if area_sq == 0.0 {
             return [DVec3::ZERO; 2];
         }
-        // The gradients of the weights of the second and the third corner.
+        // Gradients of the weights of the second and the third corner.
         let (by_b, by_c) = (c.cross(normal) / area_sq, normal.cross(b) / area_sq);
         let (along_b, along_c) = (uvs[1] - uvs[0], uvs[2] - uvs[0]);
         [along_b.x * by_b + along_c.x * by_c, along_b.y * by_b + along_c.y * by_c]
     }
 
-    /// Lower and upper corner of a triangle's box.
+    /// Lower and upper corner of a triangle's bounding box.
     #[must_use]
     pub fn bounds(&self, triangle: u32) -> [DVec3; 2] {
         triangle::bounds(&self.corners(triangle))

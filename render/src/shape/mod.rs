@@ -1,4 +1,4 @@
-//! The shapes of a scene, each in its own file, behind one closed enum.
+//! The shapes of a scene, as one closed enum with a file for each kind.
 
 pub mod charts;
 mod closed;
@@ -28,7 +28,7 @@ use glam::{DVec2, DVec3};
 pub enum Shape {
     /// A sphere.
     Sphere(Sphere),
-    /// A rectangle or parallelogram, or the whole plane it lies in.
+    /// A rectangle or parallelogram, or a whole plane.
     Quad(Quad),
     /// A mesh of triangles.
     Mesh(Mesh),
@@ -36,24 +36,25 @@ pub enum Shape {
     Cuboid(Cuboid),
     /// A superellipsoid or supertoroid.
     Superquadric(Superquadric),
-    /// One of the curved shapes or a box, moved, turned or stretched.
+    /// A sphere, superquadric or box that is moved, rotated or stretched.
     Placed(Placed),
 }
 
-/// What a shape must know of the start of a ray.
+/// The start of a ray, as far as a shape needs it.
 ///
-/// A ray that leaves a surface must not hit it again at its start; what else lies within `skin` of
-/// the start coincides with that surface and is not hit there either.
+/// A ray that leaves a surface must not hit this surface at its start. Any other surface within
+/// `skin` of the start coincides with it and is not hit there either.
 #[derive(Debug, Clone, Copy)]
 pub struct Start {
     /// The face of this shape that the ray leaves, if it leaves this shape.
     pub leaves: Option<u32>,
-    /// How far from the start, measured across the surface, is still the start.
+    /// Distance from the start, in scene units and perpendicular to the surface, that still counts
+    /// as the start.
     pub skin: f64,
 }
 
 impl Shape {
-    /// What a scene file calls a shape of this kind.
+    /// Returns the key of this kind of shape in a scene file.
     #[must_use]
     pub fn kind(&self) -> &'static str {
         match self {
@@ -67,10 +68,12 @@ impl Shape {
         }
     }
 
-    /// The nearest distance above 0 at which a ray meets the shape, and which of its faces it
-    /// meets there: one of six on a box, else 0. `direction` is unit.
+    /// Returns the nearest distance above 0 at which a ray meets the shape, and the number of the
+    /// face that it meets. The number is one of six on a box, and 0 on other shapes. `direction` is
+    /// unit, and distances are in scene units.
     ///
-    /// A mesh is not met as a whole, but triangle by triangle: see [`triangle::ShearedRay`].
+    /// A mesh as a whole is never met; its triangles are tested one by one with
+    /// [`triangle::ShearedRay`].
     #[must_use]
     pub fn intersect(&self, origin: DVec3, direction: DVec3, start: Start) -> Option<(f64, u32)> {
         let leaves = start.leaves.is_some();
@@ -90,9 +93,9 @@ impl Shape {
         }
     }
 
-    /// The surface point at a hit: on a mesh that of the triangle `number` with these weights of
-    /// its second and third corner, else that of the face `number`; `near` is the hit as found
-    /// along the ray.
+    /// Returns the surface point at a hit, in scene space. On a mesh `number` is the triangle, and
+    /// `barycentric` holds the weights of its second and third corner. On other shapes `number` is
+    /// the face, and `near` is the hit as computed along the ray.
     #[must_use]
     pub fn surface_point(&self, number: u32, barycentric: [f64; 2], near: DVec3) -> SurfacePoint {
         match self {
@@ -105,7 +108,7 @@ impl Shape {
         }
     }
 
-    /// Which of the object's parts the triangle or face `number` belongs to.
+    /// Returns the index of the object's part to which the triangle or face `number` belongs.
     #[must_use]
     pub fn part(&self, number: u32) -> u32 {
         match self {
@@ -116,7 +119,7 @@ impl Shape {
         }
     }
 
-    /// How many parts its object has: each is a textured area by itself.
+    /// Returns the number of parts of the shape. Each part is a textured area of its own.
     #[must_use]
     pub fn parts(&self) -> usize {
         match self {
@@ -127,7 +130,7 @@ impl Shape {
         }
     }
 
-    /// Lower and upper corner of its box; nothing for a whole plane.
+    /// Lower and upper corner of the bounding box; `None` for a whole plane.
     #[must_use]
     pub fn bounds(&self) -> Option<[DVec3; 2]> {
         match self {
@@ -142,13 +145,13 @@ impl Shape {
         }
     }
 
-    /// The largest coordinate, without its sign, that its points are computed from.
+    /// Largest absolute value of the coordinates from which the shape's points are computed.
     #[must_use]
     pub fn extent(&self) -> f64 {
         let largest = |corners: [DVec3; 2]| corners[0].abs().max(corners[1].abs()).max_element();
         match self {
             Self::Sphere(sphere) => largest(sphere.bounds()),
-            // Its edges say how far it goes, and not where it is.
+            // The edges determine the size of the rectangle, and the corner its position.
             Self::Quad(quad) => quad.corner().abs().max_element(),
             Self::Mesh(mesh) => {
                 let coordinates = mesh.positions.iter().flatten();
@@ -160,7 +163,7 @@ impl Shape {
         }
     }
 
-    /// How its texture coordinates hang together.
+    /// Returns the charts of the shape's texture coordinates.
     #[must_use]
     pub fn charts(&self) -> Charts {
         match self {
@@ -172,7 +175,8 @@ impl Shape {
         }
     }
 
-    /// Whether its texture ends above and below in a pole, beyond which there is none of it.
+    /// Returns whether the texture ends above and below in poles, beyond which it does not
+    /// continue.
     #[must_use]
     pub fn has_poles(&self) -> bool {
         match self {
@@ -183,14 +187,15 @@ impl Shape {
         }
     }
 
-    /// The shape moved, turned, stretched or mirrored; its outside stays its outside.
+    /// Returns the shape moved, rotated, stretched or mirrored. Its outside stays its outside.
     ///
-    /// Flat shapes have their corners and edges moved, in `f64`; those of a mesh are then rounded
-    /// to `f32`, once. Others stay as they are, and rays are brought to them. A placement that
-    /// changes nothing gives the shape itself.
+    /// The corners and edges of flat shapes are transformed in `f64`, and those of a mesh are then
+    /// rounded once to `f32`. Other shapes stay unchanged, and rays are transformed to their own
+    /// space. The identity returns the shape itself.
     ///
     /// # Errors
-    /// When coordinates of a mesh leave the range of `f32`, or edges of a rectangle become parallel.
+    /// If coordinates of a mesh leave the range of `f32`, or if the edges of a rectangle become
+    /// parallel.
     pub fn placed(self, placement: &Placement) -> Result<Self, PlacementError> {
         if placement.is_identity() {
             return Ok(self);
@@ -202,9 +207,9 @@ impl Shape {
         }
     }
 
-    /// The gradients of both texture coordinates along the surface at one of its points, on the
-    /// triangle or face `number`: the
-    /// directions in which they grow, as long as they grow fast. Zero where they have none.
+    /// Returns the gradients of both texture coordinates along the surface at `position`, a point
+    /// on the triangle or face `number`. The length of a gradient is the rate of change per scene
+    /// unit. Gradients are zero where the shape has none.
     #[must_use]
     pub fn uv_gradients(&self, number: u32, position: DVec3) -> [DVec3; 2] {
         match self {
@@ -218,22 +223,22 @@ impl Shape {
     }
 }
 
-/// What a shape knows of one of its points.
+/// Position, normals and texture coordinates at a point of a shape.
 #[derive(Debug, Clone, Copy)]
 pub struct SurfacePoint {
-    /// Where it is.
+    /// Position of the point, in scene space.
     pub position: DVec3,
-    /// Unit normal of the surface itself; outward for closed shapes.
+    /// Unit normal of the surface itself. It points outward on closed shapes.
     pub geometric_normal: DVec3,
-    /// Unit normal to shade with: interpolated on a mesh, else the geometric one.
+    /// Unit normal for shading: interpolated on a mesh, else the geometric normal.
     pub shading_normal: DVec3,
     /// Texture coordinates, across and up; a texture fills the unit square.
     pub uv: DVec2,
-    /// Which of the object's surfaces this is, an index into its parts.
+    /// Index of the object's part to which the point belongs.
     pub part: u32,
 }
 
-/// The period with which a shape's texture coordinates jump at a seam, across and up; 0 for none.
+/// Period by which texture coordinates jump at a seam, across and up; 0 without a seam.
 pub type SeamPeriod = DVec2;
 
 #[cfg(test)]
@@ -242,7 +247,7 @@ mod tests {
     use super::*;
     use glam::{DAffine3, DMat3};
 
-    /// A step along the surface changes the coordinates by its product with the gradients.
+    /// A step along the surface changes the texture coordinates by its product with the gradients.
     #[test]
     fn gradients_of_coordinates_agree_with_differences() {
         let ball = Sphere { center: DVec3::new(1.0, 2.0, 3.0), radius: 2.0 };
@@ -323,7 +328,8 @@ mod tests {
                     let way = moved.position - here.position;
                     let change = DVec2::from(gradients.map(|gradient| gradient.dot(way)));
                     let expected = moved.uv - here.uv;
-                    // Of second order in the step, where the surface bends by at most 100.
+                    // The error is of second order in the step, where the surface bends by at most
+                    // 100.
                     assert!(change.abs_diff_eq(expected, 1e-9), "{shape:?} {change} {expected}");
                     seen += 1;
                 }

@@ -1,25 +1,26 @@
-//! A shape that is put somewhere by an affine map: a sphere becomes an ellipsoid, a box is turned.
+//! A shape that is placed by an affine map: a sphere becomes an ellipsoid, and a box is rotated.
 //!
-//! The shape stays what it is; rays are brought to its own space and what they find is brought
-//! back. Distances along a ray keep their ratios on the way, so the nearest hit stays the nearest.
+//! The shape itself stays unchanged. Rays are transformed to the shape's own space, and hits are
+//! transformed back. The map keeps the ratios of distances along a ray, so the nearest hit stays
+//! the nearest.
 
 use super::{Placement, Shape, Start, SurfacePoint};
 use glam::DVec3;
 
-/// Roundings of the largest coordinate by which the computed box of a placed shape is widened.
+/// Margin of the bounding box of a placed shape, in roundings of the largest coordinate.
 const ROUNDINGS: f64 = 16.0;
 
-/// A shape and its placement; made by [`Shape::placed`].
+/// A shape and its placement. [`Shape::placed`] creates it.
 #[derive(Debug, Clone)]
 pub struct Placed {
     shape: Box<Shape>,
     placement: Placement,
-    /// The most by which a length grows on the way to the shape's own space.
+    /// Upper bound of the factor by which the map to own space lengthens a vector.
     growth: f64,
 }
 
 impl Placed {
-    /// A curved shape or a box, placed.
+    /// Places a curved shape or a box.
     pub(super) fn new(shape: Shape, placement: Placement) -> Self {
         let columns = placement.to_own().matrix3.to_cols_array();
         let growth = columns.into_iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -32,7 +33,7 @@ impl Placed {
         &self.shape
     }
 
-    /// As [`Shape::intersect`], in the scene's space.
+    /// Finds a hit as [`Shape::intersect`] does, in scene space.
     #[must_use]
     pub fn intersect(&self, origin: DVec3, direction: DVec3, start: Start) -> Option<(f64, u32)> {
         let to_own = self.placement.to_own();
@@ -45,7 +46,7 @@ impl Placed {
         (t > 0.0 && t < f64::INFINITY).then_some((t, face))
     }
 
-    /// As [`Shape::surface_point`], in the scene's space.
+    /// Returns a surface point as [`Shape::surface_point`] does, in scene space.
     #[must_use]
     pub fn surface_point(&self, face: u32, near: DVec3) -> SurfacePoint {
         let near = self.placement.to_own().transform_point3(near);
@@ -59,7 +60,7 @@ impl Placed {
         }
     }
 
-    /// As [`Shape::uv_gradients`], in the scene's space.
+    /// Returns gradients as [`Shape::uv_gradients`] does, in scene space.
     #[must_use]
     pub fn uv_gradients(&self, face: u32, position: DVec3) -> [DVec3; 2] {
         let to_own = self.placement.to_own();
@@ -71,12 +72,13 @@ impl Placed {
         })
     }
 
-    /// Lower and upper corner of its box.
+    /// Lower and upper corner of the bounding box, in scene space.
     #[must_use]
     pub fn bounds(&self) -> [DVec3; 2] {
         let to_scene = self.placement.to_scene();
         let [low, high] = match &*self.shape {
-            // An ellipsoid reaches as far along an axis as that row of the map is long.
+            // The half-width of an ellipsoid along an axis is the length of the map's row times the
+            // radius.
             Shape::Sphere(sphere) => {
                 let rows = to_scene.matrix3.transpose();
                 let rows = [rows.x_axis, rows.y_axis, rows.z_axis].map(DVec3::length);
@@ -90,7 +92,7 @@ impl Placed {
         [low - widening, high + widening]
     }
 
-    /// The largest coordinate, without its sign, that its points are computed from.
+    /// Largest absolute value of the coordinates from which the shape's points are computed.
     #[must_use]
     pub fn extent(&self) -> f64 {
         let own = DVec3::splat(self.shape.extent());
@@ -112,7 +114,7 @@ mod tests {
         prop::array::uniform3(-size..size).prop_map(DVec3::from)
     }
 
-    /// Turned, sheared, stretched, mirrored, moved: not flatter than a hundredth.
+    /// Rotated, sheared, stretched, mirrored and moved placements, not flatter than a hundredth.
     fn placement() -> impl Strategy<Value = Placement> {
         let linear = (vector(2.0), vector(2.0), vector(2.0));
         (linear, vector(10.0)).prop_filter_map("not flat", |((x, y, z), way)| {
@@ -139,9 +141,9 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(1000))]
 
-        /// What a ray meets on a placed shape is what the ray that was brought to the shape meets,
-        /// brought back; its normal is across the surface and points out, also in a mirror; and a
-        /// ray that leaves does not meet its start.
+        /// A hit on a placed shape equals the hit of the transformed ray on the shape, transformed
+        /// back. Its normal is perpendicular to the surface and points out, also after mirroring. A
+        /// ray that leaves the surface does not meet its start.
         #[test]
         fn a_hit_lies_on_the_placed_surface(
             solid in solid(), placement in placement(), from in vector(30.0), aim in vector(0.6),
@@ -154,8 +156,8 @@ mod tests {
             let point = shape.surface_point(face, [0.0; 2], from + t * direction);
             let back = placement.to_own().transform_point3(point.position);
             let own = solid.surface_point(face, [0.0; 2], back);
-            // A hundred roundings of coordinates up to 40, which the way back makes a hundred times
-            // as large at most.
+            // The tolerance is a hundred roundings of coordinates up to 40, which the inverse map
+            // magnifies a hundred times at most.
             prop_assert!(own.position.distance(back) < 1e-10, "{} {back}", own.position);
             prop_assert!((own.uv - point.uv).abs().max_element() < 1e-6 || own.uv.y > 0.99 || own.uv.y < 0.01
                 || (own.uv.x - point.uv.x).abs() > 0.99);
@@ -174,7 +176,7 @@ mod tests {
             prop_assert!(point.position.cmpge(low).all() && point.position.cmple(high).all());
             prop_assert!(shape.extent() >= point.position.abs().max_element());
 
-            // A rounding as the renderer takes it.
+            // The rounding that the renderer uses.
             let skin = 64.0 * f64::EPSILON * (2.0 * shape.extent() + point.position.abs().max_element());
             let start = Start { leaves: Some(face), skin };
             let next = shape.intersect(point.position, normal, start);
@@ -186,8 +188,8 @@ mod tests {
             }
         }
 
-        /// A rectangle and the plane under it, placed: the same place on the picture, and the same
-        /// side outside.
+        /// A placed rectangle, and a placed plane, keep the point's texture coordinates and the
+        /// outer side.
         #[test]
         fn a_placed_rectangle_keeps_its_picture_and_its_outside(
             placement in placement(), a in 0.0..1.0f64, b in 0.0..1.0f64, bounded in any::<bool>(),
@@ -214,7 +216,7 @@ mod tests {
             let angle = f64::from(k) * 0.7;
             let from = DVec3::new(5.0 * angle.cos(), 4.0 * (0.3 * angle).sin(), 6.0 * angle.sin());
             let direction = (DVec3::new(0.3, 0.1, -0.4) - from).normalize();
-            // |(from + t direction) / radii| = 1, by the formula of the quadratic.
+            // Solves |(from + t direction) / radii| = 1 by the quadratic formula.
             let (o, d) = (from / radii, direction / radii);
             let (a, b, c) = (d.length_squared(), o.dot(d), o.length_squared() - 1.0);
             let truth = (-b - (b * b - a * c).sqrt()) / a;

@@ -1,37 +1,37 @@
-//! Where an object is put, and how it is turned and stretched there.
+//! The placement of an object in the scene: an affine map that moves, rotates and stretches it.
 
 use glam::{DAffine3, DMat3, DVec3};
 use thiserror::Error;
 
-/// The most that stretches may differ.
+/// Largest ratio between the stretches of a placement.
 ///
-/// A point that is brought into the object's own space and back has lost as many digits as this
-/// number has; larger, and rounding would be seen, smaller, and thin things could not be made of
-/// thick ones.
+/// A point that is transformed to the object's own space and back loses as many digits as this
+/// number has. A larger number would make rounding visible. A smaller number would not allow thin
+/// objects made of thick ones.
 pub const MOST_SPREAD: f64 = 1e6;
 
-/// The most by which lengths may grow or shrink: squares and products of lengths stay in range.
+/// Largest factor by which lengths may grow or shrink, so that products of lengths stay in range.
 const LARGEST: f64 = 1e60;
 
-/// An affine map from an object's own space to the scene's, and the way back.
+/// An affine map from an object's own space to scene space, and its inverse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Placement {
     to_scene: DAffine3,
     to_own: DAffine3,
 }
 
-/// Why an object cannot be placed so.
+/// The reason why a map is not a valid placement.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum PlacementError {
-    /// A number of the map is not finite, or it stretches by more than can be computed with.
+    /// A number of the map is not finite, or a stretch is outside the range of computation.
     #[error("found a map that stretches too much or too little, expected 1e-60 to 1e60 times")]
     NotFinite,
-    /// All is pressed flat, or nearly so.
+    /// The map flattens the object, or nearly so.
     #[error(
         "found a map that presses things flat, expected stretches that differ at most a million times"
     )]
     Flat,
-    /// A mesh is moved beyond what its coordinates can be.
+    /// A vertex of a mesh is moved beyond the range of its coordinates.
     #[error("found vertex {0} moved to where f32 has no numbers, expected coordinates up to 3e38")]
     Far(usize),
     /// The edges of a rectangle become parallel.
@@ -40,22 +40,23 @@ pub enum PlacementError {
 }
 
 impl Placement {
-    /// The map, checked: finite, and with stretches that differ by at most [`MOST_SPREAD`],
-    /// measured by the Frobenius norms of its linear part and of that of its inverse. It may
-    /// mirror.
+    /// Creates a placement from a map. All numbers of the map must be finite. Its stretches may
+    /// differ by at most [`MOST_SPREAD`], measured by the product of the Frobenius norms of its
+    /// linear part and of the inverse of that part. The map may mirror.
     ///
     /// # Errors
-    /// When it is not so.
+    /// If the map has a number that is not finite, stretches too much or too little, or flattens
+    /// objects.
     pub fn new(to_scene: DAffine3) -> Result<Self, PlacementError> {
         let linear = to_scene.matrix3;
         let size = linear.to_cols_array().into_iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         if !to_scene.is_finite() || size > LARGEST || (size > 0.0 && size < 1.0 / LARGEST) {
             return Err(PlacementError::NotFinite);
         }
-        // Scaled to a largest entry of 1, so that its determinant is a measure of flatness.
+        // Scaled to a largest entry of 1, so that the inverse measures flatness.
         let inverse = (linear * (1.0 / size)).inverse();
         let norm = |m: DMat3| m.to_cols_array().into_iter().map(|x| x * x).sum::<f64>().sqrt();
-        // Not a number, when it is flat.
+        // A flat map gives an inverse that is not finite.
         if norm(linear * (1.0 / size)) * norm(inverse) > MOST_SPREAD || !inverse.is_finite() {
             return Err(PlacementError::Flat);
         }
@@ -67,44 +68,44 @@ impl Placement {
         Ok(Self { to_scene, to_own })
     }
 
-    /// Nothing moved.
+    /// The placement that changes nothing.
     #[must_use]
     pub fn identity() -> Self {
         Self { to_scene: DAffine3::IDENTITY, to_own: DAffine3::IDENTITY }
     }
 
-    /// Whether nothing is moved.
+    /// Returns whether the placement changes nothing.
     #[must_use]
     pub fn is_identity(&self) -> bool {
         self.to_scene == DAffine3::IDENTITY
     }
 
-    /// From the object's own space to the scene's.
+    /// Map from the object's own space to scene space.
     #[must_use]
     pub fn to_scene(&self) -> DAffine3 {
         self.to_scene
     }
 
-    /// From the scene's space to the object's own.
+    /// Map from scene space to the object's own space.
     #[must_use]
     pub fn to_own(&self) -> DAffine3 {
         self.to_own
     }
 
-    /// Whether left and right change places.
+    /// Returns whether the placement mirrors, which exchanges left and right.
     #[must_use]
     pub fn mirrors(&self) -> bool {
         self.to_scene.matrix3.determinant() < 0.0
     }
 
-    /// A normal in the scene's space, not unit: by the transpose of the way back, so that it stays
-    /// across the surface and on its outer side, also in a mirror.
+    /// Transforms a normal to scene space; the result is not unit. The transpose of the inverse
+    /// keeps it perpendicular to the surface and on the outer side, also in a mirror.
     #[must_use]
     pub fn normal(&self, own: DVec3) -> DVec3 {
         self.to_own.matrix3.transpose() * own
     }
 
-    /// Box around a box that is placed.
+    /// Returns the bounding box of a box that is placed, as lower and upper corner.
     #[must_use]
     pub fn bounds(&self, [low, high]: [DVec3; 2]) -> [DVec3; 2] {
         let middle = self.to_scene.transform_point3(0.5 * (low + high));
@@ -147,7 +148,7 @@ mod tests {
         let placement = Placement::new(way).unwrap();
         assert!(placement.mirrors() && !placement.is_identity());
         let there_and_back = placement.to_own() * placement.to_scene();
-        // The spread is 7000, and so many roundings are seen of it.
+        // The spread is 7000, which magnifies the rounding as much.
         assert!(there_and_back.abs_diff_eq(DAffine3::IDENTITY, 7000.0 * 1e-15), "{there_and_back}");
     }
 }

@@ -1,12 +1,12 @@
-//! The rectangle (any parallelogram) and the plane it lies in.
+//! The rectangle (any parallelogram) and the plane that contains it.
 
 use super::{Placement, PlacementError, SurfacePoint};
 use glam::{DVec2, DVec3};
 
-/// A parallelogram `corner + a edge_u + b edge_v` with `a` and `b` in `[0, 1]`, or the whole plane.
+/// A parallelogram `corner + a edge_u + b edge_v` with `a` and `b` in `[0, 1]`, or its whole plane.
 ///
-/// Texture coordinates are `(a, b) * repeat`; the side that `edge_u x edge_v` points to is the
-/// outside, and in a mirror the other one.
+/// Texture coordinates are `(a, b) * repeat`. The outside is the side to which `edge_u x edge_v`
+/// points, or the opposite side if a placement has mirrored the shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Quad {
     corner: DVec3,
@@ -15,14 +15,14 @@ pub struct Quad {
     repeat: DVec2,
     bounded: bool,
     normal: DVec3,
-    /// `a = (p - corner) . dual_u`, and so for `b`.
+    /// Dual vectors of the edges: `a = (p - corner) . dual_u`, and `b` likewise with `dual_v`.
     dual_u: DVec3,
     dual_v: DVec3,
 }
 
 impl Quad {
-    /// The parallelogram, or its plane when not `bounded`; nothing when the edges are parallel,
-    /// zero or not finite.
+    /// Creates the parallelogram, or its plane if not `bounded`. Returns `None` if the edges are
+    /// parallel, zero or not finite.
     #[must_use]
     pub fn new(
         corner: DVec3,
@@ -31,13 +31,14 @@ impl Quad {
         repeat: DVec2,
         bounded: bool,
     ) -> Option<Self> {
-        // In units of their own, since the area of edges that are numbers may be none.
+        // Edges are scaled to unit size, since the area of large or small ones may leave the range
+        // of numbers.
         let [size_u, size_v] = [edge_u, edge_v].map(|edge| edge.abs().max_element());
         let (u, v) = (edge_u / size_u, edge_v / size_v);
         let across = u.cross(v);
         let normal = across.try_normalize()?;
         let area = across.length();
-        // Edges that differ in direction by less than this leave no digits to tell a from b.
+        // Edges closer in direction than this leave too few digits to distinguish a from b.
         if area < 1e-9 * u.length() * v.length() {
             return None;
         }
@@ -46,10 +47,10 @@ impl Quad {
         Some(Self { corner, edge_u, edge_v, repeat, bounded, normal, dual_u, dual_v })
     }
 
-    /// It moved, in `f64`; its outside stays its outside.
+    /// Returns the shape, moved in `f64`. Its outside stays its outside.
     ///
     /// # Errors
-    /// When its edges become parallel.
+    /// If the edges become parallel.
     pub fn placed(&self, placement: &Placement) -> Result<Self, PlacementError> {
         let way = placement.to_scene();
         let [edge_u, edge_v] = [self.edge_u, self.edge_v].map(|edge| way.transform_vector3(edge));
@@ -62,13 +63,13 @@ impl Quad {
         Ok(moved)
     }
 
-    /// The distance above 0 at which the ray meets it; not at all when the ray starts within
-    /// `skin` of its plane.
+    /// Returns the distance above 0 at which the ray meets the shape, in units of `direction`. A
+    /// ray that starts within `skin` of the plane does not meet it.
     #[must_use]
     pub fn intersect(&self, origin: DVec3, direction: DVec3, skin: f64) -> Option<f64> {
         let height = (self.corner - origin).dot(self.normal);
         let t = height / direction.dot(self.normal);
-        // A ray along the plane gives an infinity or NaN, and both are refused here.
+        // A ray along the plane gives an infinity or NaN; both are rejected here.
         if !(t > 0.0 && t < f64::INFINITY) || height.abs() <= skin {
             return None;
         }
@@ -81,7 +82,7 @@ impl Quad {
         Some(t)
     }
 
-    /// The surface point at a hit; `near` is the hit as found along the ray.
+    /// Returns the surface point at a hit. `near` is the hit as computed along the ray.
     #[must_use]
     pub fn surface_point(&self, near: DVec3) -> SurfacePoint {
         let [a, b] = self.coordinates(near);
@@ -94,32 +95,32 @@ impl Quad {
         }
     }
 
-    /// The gradients of its texture coordinates.
+    /// Returns the gradients of the texture coordinates.
     #[must_use]
     pub fn uv_gradients(&self) -> [DVec3; 2] {
         [self.dual_u * self.repeat.x, self.dual_v * self.repeat.y]
     }
 
-    /// The corner at which both edges begin.
+    /// The corner at which both edges start.
     #[must_use]
     pub fn corner(&self) -> DVec3 {
         self.corner
     }
 
-    /// Its corners in their order around it; nothing for a whole plane.
+    /// The corners in order around the parallelogram; `None` for a whole plane.
     #[must_use]
     pub fn corners(&self) -> Option<[DVec3; 4]> {
         let edges = [DVec3::ZERO, self.edge_u, self.edge_u + self.edge_v, self.edge_v];
         self.bounded.then(|| edges.map(|edge| self.corner + edge))
     }
 
-    /// The unit normal, on the side that is outside.
+    /// The unit normal on the outer side.
     #[must_use]
     pub fn normal(&self) -> DVec3 {
         self.normal
     }
 
-    /// Lower and upper corner of its box; nothing for a whole plane.
+    /// Lower and upper corner of the bounding box; `None` for a whole plane.
     #[must_use]
     pub fn bounds(&self) -> Option<[DVec3; 2]> {
         if !self.bounded {

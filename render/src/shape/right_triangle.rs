@@ -1,9 +1,9 @@
-//! The thesis's map from a triangle to a right triangle (3.2, eq. 3.5 to 3.16, fig. 3.4), as it
-//! stands there.
+//! The thesis's map from a triangle to a right triangle (3.2, eq. 3.5 to 3.16, fig. 3.4), without
+//! any change.
 //!
-//! Rendering does not use it: in exact arithmetic it is the barycentric map, and in floating point
-//! it has gaps that the barycentric map has not. It is kept as a reference, so that both can be held
-//! against the truth; `docs/mapping.md` tells how that comes out.
+//! Rendering does not use the map. In exact arithmetic it equals the barycentric map. In floating
+//! point it has gaps that the barycentric map does not have. The map is kept as a reference, so
+//! that both can be compared with the truth; `docs/mapping.md` reports the result.
 //!
 //! ```text
 //!        B1                          B2 ---X--- J_BA ---- A2
@@ -15,13 +15,13 @@
 //!                                    C2
 //! ```
 //!
-//! `H1` is where the ray hits. The lines from `C1` and from `A1` through `H1` cut the opposite sides
-//! in the ratios `r_BA` and `r_BC`; the right triangle's legs are cut in the same ratios, and the
-//! lines back to `C2` and `A2` meet in `H2`.
+//! The ray hits the triangle at `H1`. The lines from `C1` and from `A1` through `H1` cut the
+//! opposite sides in the ratios `r_BA` and `r_BC`. The legs of the right triangle are cut in the
+//! same ratios. The lines from these points back to `C2` and `A2` meet in `H2`.
 
 use glam::{DVec2, DVec3};
 
-/// Which of the thesis's cases a hit fell under.
+/// The case of the thesis to which a hit belongs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Case {
     /// Eq. 3.8 to 3.14.
@@ -32,24 +32,26 @@ pub enum Case {
     Hypotenuse,
 }
 
-/// Where the thesis puts a hit.
+/// The result of mapping a hit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mapped {
-    /// `|B2 X|` along the leg `B2 A2` and `|B2 Y|` along the leg `B2 C2`. NaN or infinite where the
-    /// formula divides zero by zero.
+    /// `|B2 X|` along the leg `B2 A2` and `|B2 Y|` along the leg `B2 C2`. The values are NaN or
+    /// infinite where the formula divides zero by zero.
     pub place: DVec2,
-    /// How it was found.
+    /// The case that applied.
     pub case: Case,
 }
 
-/// Maps the hit point `hit` on the triangle of `corners` `A1`, `B1`, `C1` to the right triangle with
-/// the legs `legs = (|B2 A2|, |B2 C2|)`.
+/// Maps the point `hit` on the triangle with the corners `A1`, `B1`, `C1` to the right triangle
+/// with the legs `legs = (|B2 A2|, |B2 C2|)`.
 ///
-/// No case is added to those of the thesis. Three are missing there, and give NaN: a hit on the side
-/// `A1 B1`, where eq. 3.9 divides by `r_BC = 0`; a triangle that stands upright on the x-y plane
-/// without being parallel to another coordinate plane, of which eq. 3.14 sees a line only; and the
-/// corner `C1`, where `r_BA` is 0/0 as `r_BC` is at `A1`. The last is taken as the thesis
-/// takes `A1`.
+/// No case is added to the cases of the thesis, which lacks three. They give NaN, except the last:
+///
+/// - A hit on the side `A1 B1`, where eq. 3.9 divides by `r_BC = 0`.
+/// - A triangle perpendicular to the x-y plane that is not parallel to another coordinate plane.
+///   Eq. 3.14 sees this triangle only as a line.
+/// - The corner `C1`, where `r_BA` is 0/0, as `r_BC` is at `A1`. It is treated as the thesis treats
+///   `A1`.
 #[must_use]
 pub fn map(corners: [DVec3; 3], hit: DVec3, legs: DVec2) -> Mapped {
     let [a, b, c] = corners;
@@ -76,8 +78,8 @@ pub fn map(corners: [DVec3; 3], hit: DVec3, legs: DVec2) -> Mapped {
     Mapped { place: DVec2::new(x, y), case: Case::General }
 }
 
-/// The coordinates that eq. 3.13 is written in: x and y; z in place of x where all x are the same,
-/// and in place of y where all y are.
+/// Returns the coordinates in which eq. 3.13 is written: x and y. z replaces x if all x are equal,
+/// and replaces y if all y are equal.
 fn axes([a, b, c]: [DVec3; 3]) -> [usize; 2] {
     let same = |axis: usize| a[axis] == b[axis] && b[axis] == c[axis];
     if same(0) {
@@ -89,8 +91,8 @@ fn axes([a, b, c]: [DVec3; 3]) -> [usize; 2] {
     }
 }
 
-/// Eq. 3.14: the part of the side from `from` to `to` at which the line from `opposite` through
-/// `hit` meets it. `r_BC` as it is printed, the others by exchanging corners.
+/// Eq. 3.14: returns the fraction of the side from `from` to `to` at which the line from `opposite`
+/// through `hit` meets the side. It is `r_BC` as printed; the other ratios exchange corners.
 fn ratio(from: DVec2, to: DVec2, opposite: DVec2, hit: DVec2) -> f64 {
     let ahead = hit - opposite;
     let rest = to - hit;
@@ -138,14 +140,15 @@ mod tests {
         // On A1 B1, and at B1, eq. 3.9 is 0/0.
         assert!(map([A, B, C], at([0.5, 0.5, 0.0]), LEGS).place.x.is_nan());
         assert!(map([A, B, C], B, LEGS).place.x.is_nan());
-        // The upright triangle x = y is in no coordinate plane, and x and y tell nothing of z.
+        // The upright triangle x = y lies in no coordinate plane, and x and y do not determine z.
         let upright = [DVec3::ZERO, DVec3::new(4.0, 4.0, 0.0), DVec3::new(2.0, 2.0, 4.0)];
         let hit = DVec3::new(2.0, 2.0, 1.0);
         assert!(!map(upright, hit, LEGS).place.is_finite());
     }
 
     proptest! {
-        /// In the open triangle it is the barycentric map, in every coordinate plane as well.
+        /// In the open triangle the map is the barycentric map, also if the triangle lies in a
+        /// coordinate plane.
         #[test]
         fn it_is_the_barycentric_map(
             a in 0.05..1.0f64, b in 0.05..1.0f64, c in 0.05..1.0f64, flat in 0usize..4,

@@ -1,4 +1,4 @@
-//! The sphere.
+//! The sphere as a shape.
 
 use super::SurfacePoint;
 use glam::{DVec2, DVec3};
@@ -6,22 +6,22 @@ use std::f64::consts::{PI, TAU};
 
 /// A sphere with its poles along y.
 ///
-/// Texture coordinates: `u` is the longitude, eastward (from +z towards +x), one half at +z and with
-/// its seam at -z; `v` is the latitude, 0 at the south pole (-y) and 1 at the north pole. A map is
-/// not mirrored as seen from outside.
+/// Texture coordinates: `u` is the longitude, [0, 1], increasing eastward (from +z towards +x). It
+/// is one half at +z and has its seam at -z. `v` is the latitude, 0 at the south pole (-y) and 1 at
+/// the north pole. A map is not mirrored as seen from outside.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sphere {
-    /// Centre.
+    /// Centre of the sphere.
     pub center: DVec3,
-    /// Radius, positive.
+    /// Radius of the sphere, positive.
     pub radius: f64,
 }
 
 impl Sphere {
-    /// The nearest distance above 0 at which the ray meets the sphere.
+    /// Returns the nearest distance above 0 at which the ray meets the sphere. `direction` is unit.
     ///
-    /// A ray that starts within `skin` of this sphere, or `leaves` it, has its start as one root;
-    /// the other root is then known without cancellation, and counts if it is beyond the skin.
+    /// If the ray starts within `skin` of the sphere, or `leaves` it, the start is one root. The
+    /// other root is then computed without cancellation, and it counts if it is beyond the skin.
     #[must_use]
     pub fn intersect(
         &self,
@@ -30,7 +30,7 @@ impl Sphere {
         leaves: bool,
         skin: f64,
     ) -> Option<f64> {
-        // In units of the radius, whose square may be no number.
+        // Lengths are in units of the radius, whose square may leave the range of numbers.
         let to_center = (self.center - origin) / self.radius;
         let along = to_center.dot(direction);
         // |d^2 - 1| is twice the distance |d - 1| from the surface.
@@ -39,7 +39,7 @@ impl Sphere {
             let far = 2.0 * along * self.radius;
             return (far > skin).then_some(far);
         }
-        // The distance of the centre from the ray, by the vector itself: no cancellation far away.
+        // The vector from the centre to the ray gives their distance without cancellation far away.
         let aside = to_center - along * direction;
         let half_chord_sq = 1.0 - aside.length_squared();
         if half_chord_sq < 0.0 {
@@ -50,7 +50,7 @@ impl Sphere {
         roots.into_iter().find(|&t| t > 0.0)
     }
 
-    /// The surface point at a hit; `near` is the hit as found along the ray.
+    /// Returns the surface point at a hit. `near` is the hit as computed along the ray.
     #[must_use]
     pub fn surface_point(&self, near: DVec3) -> SurfacePoint {
         let normal = ((near - self.center) / self.radius).normalize();
@@ -65,7 +65,8 @@ impl Sphere {
         }
     }
 
-    /// The gradients of its texture coordinates at a point of it; none of the longitude at a pole.
+    /// Returns the gradients of the texture coordinates at a point of the sphere. Both are zero at
+    /// a pole.
     #[must_use]
     pub fn uv_gradients(&self, position: DVec3) -> [DVec3; 2] {
         let normal = (position - self.center).normalize_or_zero();
@@ -75,13 +76,13 @@ impl Sphere {
         [east / (TAU * parallel), north / (PI * self.radius)]
     }
 
-    /// Texture coordinates jump by 1 across the seam meridian.
+    /// Returns the period of the texture coordinates, which jump by 1 across the seam meridian.
     #[must_use]
     pub fn seam(&self) -> super::SeamPeriod {
         DVec2::new(1.0, 0.0)
     }
 
-    /// Lower and upper corner of its box.
+    /// Lower and upper corner of the bounding box.
     #[must_use]
     pub fn bounds(&self) -> [DVec3; 2] {
         [self.center - self.radius, self.center + self.radius]
@@ -113,7 +114,8 @@ mod tests {
     }
 
     proptest! {
-        /// However large or far the sphere, the far hit of a ray that leaves it lies on it.
+        /// The far hit of a ray that leaves a sphere lies on the sphere, however large or far it
+        /// is.
         #[test]
         fn a_ray_that_leaves_lands_on_the_sphere(
             center in prop::array::uniform3(-1e6..1e6f64), log_radius in -3.0..6.0f64,

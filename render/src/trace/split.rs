@@ -1,23 +1,24 @@
-//! How light divides at a surface, into a mirrored and a refracted ray.
+//! Division of light at a surface into a mirrored and a refracted ray.
 
 use crate::optics;
 use crate::scene::Material;
 use glam::DVec3;
 
-/// How light divides at a surface.
+/// Weights of the mirrored and the refracted ray at a surface, and the direction of the latter.
 #[derive(Debug, Clone, Copy)]
 pub struct Split {
-    /// What the mirrored ray counts for.
+    /// Weight of the mirrored ray, [0, 1].
     pub reflect_weight: f64,
-    /// What the refracted ray counts for.
+    /// Weight of the refracted ray, [0, 1].
     pub refract_weight: f64,
-    /// Where the refracted ray goes, if there is one.
+    /// Unit direction of the refracted ray, if there is one.
     pub refracted: Option<DVec3>,
 }
 
 impl Split {
-    /// At a surface between two media; `eta` is the index of refraction on the side that the ray
-    /// came from over that on the other. Both normals are on the side that the ray came from.
+    /// Divides light at a surface between two media. `eta` is the index of refraction on the side
+    /// of the incident ray over the index on the other side. `incident` is a unit vector. Both unit
+    /// normals are on the side of the incident ray.
     #[must_use]
     pub fn at(
         material: &Material,
@@ -37,7 +38,7 @@ impl Split {
         if transparency == 0.0 {
             return Self { reflect_weight: reflectivity * share, ..mirror_only };
         }
-        // Where the interpolated normal would keep the ray on this side, the facet's does not.
+        // The facet's normal replaces an interpolated normal that would keep the ray on this side.
         let refracted = optics::refract(incident, normal, eta).and_then(|direction| {
             if direction.dot(geometric_normal) < 0.0 {
                 Some(direction)
@@ -56,17 +57,17 @@ impl Split {
                 refract_weight: transparency,
                 refracted: Some(direction),
             },
-            // Total internal reflection. Fresnel's share has grown to 1 on the way here, so that
-            // nothing jumps.
+            // Total internal reflection. Fresnel's reflectance reaches 1 continuously at the
+            // critical angle, so the weights have no step there.
             None if material.fresnel => Self { reflect_weight: reflectivity, ..mirror_only },
-            // Without it, what would have passed is mirrored as well.
+            // Without Fresnel, the light that would be refracted is mirrored as well.
             None => Self { reflect_weight: reflectivity.max(transparency), ..mirror_only },
         }
     }
 }
 
-/// The mirrored direction; about the facet itself where the interpolated normal would send the
-/// ray through the surface.
+/// Returns the unit direction of the mirrored ray. The facet's normal replaces the interpolated
+/// normal where the latter would send the ray through the surface.
 #[must_use]
 pub fn mirror(incident: DVec3, normal: DVec3, geometric_normal: DVec3) -> DVec3 {
     let direction = optics::reflect(incident, normal);
@@ -90,8 +91,8 @@ mod tests {
     }
 
     proptest! {
-        /// However wrong the interpolated normal, mirrored light stays on its side of the facet
-        /// and refracted light leaves it, and no light is made.
+        /// For any interpolated normal, mirrored light stays on its side of the facet, refracted
+        /// light leaves that side, and no light is created.
         #[test]
         fn an_interpolated_normal_sends_no_ray_through_the_facet(
             incident in unit(), facet in unit(), normal in unit(), eta in 0.4..2.5,

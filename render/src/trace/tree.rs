@@ -5,74 +5,78 @@ use crate::color::Color;
 use crate::ray::Piece;
 use glam::{DVec2, DVec3};
 
-/// A tree has at most so many nodes; rays that would lead to more are cut.
+/// Largest number of nodes in a tree. Further rays are cut.
 ///
 /// Where many half transparent surfaces stand behind each other, each hit sends two rays and the
-/// number of hits doubles with the depth. Larger, and such a scene ends for want of memory, since
-/// each thread holds two hundred trees; this many hold every ray of a depth of 12, the default.
-/// Rays are followed depth first, so what a full tree lacks is what the first surfaces let through.
+/// number of hits doubles with the depth. A larger limit makes such a scene run out of memory,
+/// since each thread holds two hundred trees. A smaller limit cuts rays at the default depth of 12,
+/// all of which this limit just holds. Rays are followed depth first, so a full tree lacks the rays
+/// that the first surfaces let through.
 pub const MOST_NODES: usize = (1 << 13) - 1;
 
-/// All hits of one ray from the eye and of the rays that follow from it.
+/// All hits of one ray from the eye and of its reflected and refracted descendants.
 ///
-/// The thesis links its nodes in lists, across for reflection and down for refraction; here they
-/// lie in one array and name their children by index, so a tree that is cleared and filled again
-/// allocates nothing.
+/// The thesis links its nodes in lists: across for reflection and down for refraction. Here the
+/// nodes lie in one array and refer to their children by index. A tree that is cleared and filled
+/// again therefore allocates nothing.
 #[derive(Debug, Clone, Default)]
 pub struct IntersectionTree {
-    /// What the ray from the eye came to.
+    /// Result of the ray from the eye.
     pub root: Branch,
-    /// What the way from the eye to there leaves of the light; less than 1 where the eye is in
-    /// something that absorbs it.
+    /// Transmittance from the eye to the root, linear RGB, [0, 1] per channel. It is below 1 where
+    /// the eye is inside an absorbing volume.
     pub through: Color,
     nodes: Vec<Node>,
-    /// Where to those rays went that left the scene, unit.
+    /// Unit directions of the rays that left the scene.
     away: Vec<DVec3>,
-    /// Room for what rays are in while the tree is made.
+    /// Media of the current ray while the tree is made; kept here for its allocation.
     pub(super) media: Media,
 }
 
-/// What became of a ray.
+/// Result of following a ray.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Branch {
-    /// It was not sent: too deep, or it would count for too little, or the tree was full.
+    /// The ray was not sent: the depth was reached, its weight was too small or the tree was full.
     #[default]
     Cut,
-    /// It left the scene: an index into the directions in which rays of the tree did.
+    /// The ray left the scene. The index selects one of the tree's directions; see
+    /// [`IntersectionTree::away`].
     Background(u32),
-    /// It hit something: an index into the tree's nodes.
+    /// The ray hit a surface. The index selects one of the tree's nodes; see
+    /// [`IntersectionTree::node`].
     Node(u32),
 }
 
-/// One hit: what shading needs and no more.
+/// One hit, with only the data that shading needs.
 #[derive(Debug, Clone, Copy)]
 pub struct Node {
-    /// What was hit.
+    /// Object and triangle that the ray hit.
     pub piece: Piece,
-    /// Which of the object's surfaces; with the object it is the textured area.
+    /// Index of the surface within the object. Object and surface together identify the textured
+    /// area.
     pub part: u32,
-    /// Where.
+    /// Point of the hit, in scene space.
     pub position: DVec3,
-    /// Direction of the ray, unit, pointing at the surface.
+    /// Unit direction of the ray, pointing at the surface.
     pub incident: DVec3,
     /// The surface's own unit normal, on the side the ray came from.
     pub geometric_normal: DVec3,
     /// The unit normal to shade with, on the side the ray came from.
     pub normal: DVec3,
-    /// Texture coordinates.
+    /// Texture coordinates of the hit.
     pub uv: DVec2,
-    /// What the mirrored ray came to.
+    /// Branch of the mirrored ray.
     pub reflected: Branch,
-    /// What the refracted ray came to.
+    /// Branch of the refracted ray.
     pub refracted: Branch,
-    /// What the mirrored ray's light counts for in each channel, after what it lost on its way.
+    /// Weight of the mirrored ray's light per channel, including the transmittance along that ray.
     pub reflect_weight: Color,
-    /// What the refracted ray's light counts for, likewise.
+    /// Weight of the refracted ray's light per channel, including the transmittance along that ray.
     pub refract_weight: Color,
 }
 
 impl Node {
-    /// The textured area that was hit: object and surface.
+    /// Returns the textured area that was hit: the object's index and the surface's index.
     #[must_use]
     pub fn area(&self) -> (u32, u32) {
         (self.piece.object, self.part)
@@ -80,7 +84,7 @@ impl Node {
 }
 
 impl IntersectionTree {
-    /// Forgets all hits and keeps the memory.
+    /// Removes all hits and keeps the memory.
     pub fn clear(&mut self) {
         self.root = Branch::Cut;
         self.through = Color::ONE;
@@ -88,19 +92,19 @@ impl IntersectionTree {
         self.away.clear();
     }
 
-    /// Whether it has [`MOST_NODES`] nodes.
+    /// Returns whether the tree has [`MOST_NODES`] nodes.
     #[must_use]
     pub fn is_full(&self) -> bool {
         self.nodes.len() >= MOST_NODES
     }
 
-    /// Adds a node and gives its index.
+    /// Adds a node and returns its index.
     pub fn push(&mut self, node: Node) -> u32 {
         self.nodes.push(node);
         self.nodes.len() as u32 - 1
     }
 
-    /// The node that a branch came to.
+    /// Returns the node of a branch, or `None` if the branch hit nothing.
     #[must_use]
     pub fn node(&self, branch: Branch) -> Option<&Node> {
         match branch {
@@ -109,13 +113,13 @@ impl IntersectionTree {
         }
     }
 
-    /// Adds a ray that left the scene in a direction, unit.
+    /// Records a ray that left the scene in `direction`, a unit vector, and returns its branch.
     pub fn leave(&mut self, direction: DVec3) -> Branch {
         self.away.push(direction);
         Branch::Background(self.away.len() as u32 - 1)
     }
 
-    /// The direction in which a branch left the scene.
+    /// Returns the unit direction in which a branch left the scene, or `None` if it did not.
     #[must_use]
     pub fn away(&self, branch: Branch) -> Option<DVec3> {
         match branch {
@@ -124,7 +128,10 @@ impl IntersectionTree {
         }
     }
 
-    /// The node with an index that [`IntersectionTree::push`] gave.
+    /// Returns the node with an index from [`IntersectionTree::push`].
+    ///
+    /// # Panics
+    /// If there is no such node.
     pub fn node_mut(&mut self, slot: u32) -> &mut Node {
         &mut self.nodes[slot as usize]
     }

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 
 const WRAPS: [Wrap; 3] = [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror];
 
-/// A texture of codes from a counter that leaves no pattern.
+/// A texture of pseudo-random codes.
 fn texture(width: usize, height: usize, white: u16, wrap: Wrap) -> Texture {
     let code = |k: usize| ((k as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40) as u16;
     let texels = (0..width * height)
@@ -14,7 +14,7 @@ fn texture(width: usize, height: usize, white: u16, wrap: Wrap) -> Texture {
     Texture { width, height, wrap, texels, white, ..Texture::default() }
 }
 
-/// The average by the weight of each texel, worked out from the kernel.
+/// Computes the average from the kernel's weight of each texel.
 fn brute_force(texture: &Texture, order: usize, center: DVec2, half: DVec2) -> DVec3 {
     let at = texture.in_texels(center);
     let weights = |x: f64, half: f64, size: usize| {
@@ -55,13 +55,13 @@ fn a_whole_rectangle_is_the_exact_integer_sum() {
     }
 }
 
-/// Averages from the table's own word and from 128-bit sums, in many places.
+/// Compares averages from the table's own word with those from 128-bit sums, at many positions.
 fn words_agree(texture: &Texture, order: usize, bits: u32, overflows: bool) {
     assert_eq!(word_bits(texture, order), bits, "order {order}");
     let table = PrefilteredTable::build(texture, order);
     let exact = PrefilteredTable { order, sums: Sums::Huge(integrate(texture, order)) };
-    // The bottom right sum, the largest, no longer fits the word and its sign. Of order 1 it is a
-    // result itself and does fit.
+    // The bottom right sum, the largest, does not fit the word and its sign. With order 1 this sum
+    // is a result itself and fits.
     if let Sums::Huge(sums) = &exact.sums {
         assert_eq!(sums.last().is_some_and(|sum| sum[0] >> (bits - 1) > 0), overflows);
     }
@@ -77,7 +77,7 @@ fn words_agree(texture: &Texture, order: usize, bits: u32, overflows: bool) {
 
 #[test]
 fn the_short_word_gives_the_same_average_though_it_overflows() {
-    // Bright codes, so that sums overflow.
+    // Codes are bright, so that sums overflow.
     let bright = |width, height, white: u16| {
         let mut texture = texture(width, height, white, Wrap::Repeat);
         texture.texels.iter_mut().flatten().for_each(|code| *code = white - *code % 2);
@@ -179,7 +179,7 @@ fn a_huge_footprint_is_the_mean_of_what_repeats() {
         let table = PrefilteredTable::build(&texture, order);
         let mean = texture.texels.iter().map(|texel| f64::from(texel[0])).sum::<f64>()
             / (37.0 * 21.0 * 65535.0);
-        // A million texels each way: what is left of the last period counts below 1e-4.
+        // A million texels along each axis: the part beyond whole periods counts below 1e-4.
         let half = DVec2::new(1e6 / 37.0, 1e6 / 21.0);
         let average = table.average(&texture, DVec2::new(0.123, -7.7), half).x;
         assert!((average - mean).abs() < 1e-4, "order {order}, {wrap:?}: {average} {mean}");
@@ -196,7 +196,7 @@ proptest! {
         let texture = texture(width, height, u16::MAX, wrap);
         let (center, mut half) = (DVec2::from(center), DVec2::from(half));
         if wrap == Wrap::Clamp {
-            // Within the width up to which clamped footprints are exact.
+            // Clamped footprints are exact up to this width.
             half = half.min(DVec2::splat(2.0));
         }
         let table = PrefilteredTable::build(&texture, order);
@@ -221,7 +221,7 @@ proptest! {
         prop_assert!((average - 12345.0).abs() < 1e-8, "{average}");
     }
 
-    /// A mirrored texture is the repetition of itself beside its mirror image.
+    /// A mirrored texture equals a repeated texture of itself beside its mirror image.
     #[test]
     fn mirroring_is_the_repetition_of_twice_the_texture(
         width in 1usize..9, height in 1usize..9, order in 1usize..=3,

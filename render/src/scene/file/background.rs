@@ -1,4 +1,4 @@
-//! `background` of a scene file.
+//! The key `background` of a scene file.
 
 use super::color::{ColorFile, ColorVisitor};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -11,18 +11,19 @@ use std::fmt;
 /// A colour, or a sky.
 #[derive(Debug, Clone, PartialEq)]
 pub enum BackgroundFile {
-    /// The same colour in all directions.
+    /// One colour in all directions.
     Uniform(ColorFile),
-    /// Colours by the direction.
+    /// Colours that depend on the elevation of the direction.
     Sky(SkyFile),
 }
 
-/// A sky, and what is below the horizon.
+/// A sky, including the directions below the horizon.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SkyFile {
-    /// Colours at degrees above the horizon, y being up: `[degrees, colour]`, rising from -90 to 90,
-    /// linear between; before the first and after the last the colour stays.
+    /// Colours at degrees above the horizon, where y points up: `[degrees, colour]`, rising from
+    /// -90 to 90. Colours are linear between the given degrees, and constant before the first and
+    /// after the last.
     pub by_elevation: Vec<(f64, ColorFile)>,
 }
 

@@ -1,15 +1,16 @@
-//! `bump` of a material.
+//! The key `bump` of a material.
 //!
 //! ```json
 //! { "hammered": { "color": 0.6, "bump": { "noise": { "octaves": 2 }, "strength": 0.02,
 //!                                         "place": { "scale": 0.2 } } } }
 //! ```
 //!
-//! Exactly one relief: `noise` (the fractal sum of octaves), `turbulence`, `wall`, `dnoise` (the
-//! vectors of thesis fig. 2.3), or `image` (a grey picture as heights, laid by the surface's texture
-//! coordinates). The noise of a bump is `smooth` unless `interpolation` says
-//! otherwise: slopes of `linear` noise, the thesis's, jump at the faces of its cells, and the light
-//! shows them as creases.
+//! A bump has exactly one relief. `noise` is the fractal sum of octaves. `turbulence` is the sum of
+//! absolute values. `wall` is clamped slow noise plus fast noise. `dnoise` is the vectors of thesis
+//! fig. 2.3. `image` is a grey picture as heights, laid by the surface's texture coordinates. The
+//! noise of a bump is `smooth` unless `interpolation` says otherwise. With `linear`, the thesis's
+//! interpolation, the slopes of noise jump at the faces of its cells, and shading shows them as
+//! creases.
 
 use super::solid::{PlaceFile, WallFile};
 use crate::procedural::Interpolation;
@@ -17,34 +18,34 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::PathBuf;
 
-/// How a material's normals are turned.
+/// A relief that perturbs the normals of a material.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BumpFile {
-    /// The fractal sum of noise as a height from -2 to 2.
+    /// The fractal sum of noise, as a height from -2 to 2.
     pub noise: Option<OctavesFile>,
-    /// Turbulence as a height from 0 to 2.
+    /// The turbulence, as a height from 0 to 2.
     pub turbulence: Option<OctavesFile>,
-    /// Clamped slow noise and fast noise as a height.
+    /// Clamped slow noise plus fast noise, as a height.
     pub wall: Option<WallFile>,
-    /// The normalised differences of the lattice, added to the normal as they are.
+    /// The normalised differences of the noise lattice, added to the normal unchanged.
     pub dnoise: Option<DnoiseFile>,
-    /// The grey of a picture as a height from 0 to 1.
+    /// The grey of a picture, as a height from 0 to 1.
     pub image: Option<ImageReliefFile>,
-    /// The length of a height of 1 in the object's units, below 0 for dents; of `dnoise` a number.
-    /// -1e6 to 1e6.
+    /// Length of a height of 1 in the object's units, negative for dents; for `dnoise` a plain
+    /// factor. -1e6 to 1e6.
     pub strength: f64,
-    /// Where the relief lies in the object; not of `image`, which lies on the surface.
+    /// Position of the relief in the object. Not allowed with `image`, which lies on the surface.
     pub place: Option<PlaceFile>,
 }
 
-/// Octaves of noise.
+/// A sum of octaves of noise.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct OctavesFile {
-    /// How many, 1 to 12, default 1.
+    /// Number of octaves, 1 to 12, default 1.
     pub octaves: u32,
-    /// How the noise is interpolated.
+    /// Interpolation of the noise.
     pub interpolation: Interpolation,
 }
 
@@ -54,25 +55,25 @@ impl Default for OctavesFile {
     }
 }
 
-/// `dnoise`.
+/// The keys of `dnoise`.
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct DnoiseFile {
-    /// How the differences are interpolated.
+    /// Interpolation of the differences.
     pub interpolation: Interpolation,
 }
 
-/// A picture as a relief.
+/// A picture used as a relief.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ImageReliefFile {
-    /// The path of a PNG or JPEG file, from the scene file's folder; its grey is the height.
+    /// Path of a PNG or JPEG file, relative to the scene file's folder. Its grey is the height.
     pub file: PathBuf,
-    /// How often it is laid over the unit square of texture coordinates, across and up; 1e-6 to
+    /// Number of repetitions over the unit square of texture coordinates, across and up; 1e-6 to
     /// 1e6, default once.
     #[serde(default = "once")]
     pub repeat: [f64; 2],
-    /// Whether it is mirrored at its edges, in place of beginning again; default false.
+    /// Whether the picture is mirrored at its edges instead of repeated; default false.
     #[serde(default)]
     pub mirror: bool,
 }

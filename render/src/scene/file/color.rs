@@ -1,4 +1,4 @@
-//! A colour of a scene file.
+//! Colours of a scene file.
 
 use crate::scene::schema::LARGEST;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -7,7 +7,7 @@ use serde::de::{self, Deserializer, SeqAccess, Visitor};
 use std::borrow::Cow;
 use std::fmt;
 
-/// A linear colour: one number for grey, or three.
+/// A linear colour: one number for grey, or red, green and blue; each 0 or more.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct ColorFile(pub [f64; 3]);
 
@@ -65,7 +65,7 @@ impl<'de> Visitor<'de> for ColorVisitor {
     }
 }
 
-/// The default of most colours.
+/// White, the default of most colours.
 pub(super) fn white() -> ColorFile {
     ColorFile([1.0; 3])
 }

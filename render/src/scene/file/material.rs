@@ -1,4 +1,4 @@
-//! `materials` of a scene file.
+//! The key `materials` of a scene file.
 
 use super::bump::BumpFile;
 use super::color::{ColorFile, white};
@@ -6,23 +6,23 @@ use crate::scene::schema;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// What a surface is made of.
+/// The material of a surface.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct MaterialFile {
-    /// Multiplies the texture, or stands for it; at least 0; 1 if left out.
+    /// Colour of the surface, at least 0; 1 if left out. A texture is multiplied by it.
     pub color: ColorFile,
-    /// Share of the ambient light, 0 to 1; 1 if left out.
+    /// Share of the ambient light that the surface reflects, 0 to 1; 1 if left out.
     #[schemars(transform = schema::range(0.0..=1.0))]
     pub ambient: f64,
-    /// Share of the lights, 0 to 1; 0.9 if left out.
+    /// Share of the light of lights that the surface reflects diffusely, 0 to 1; 0.9 if left out.
     #[schemars(transform = schema::range(0.0..=1.0))]
     pub diffuse: f64,
     /// Strength of the highlight, 0 to 1; 0 if left out.
     #[schemars(transform = schema::range(0.0..=1.0))]
     pub specular: f64,
-    /// Phong's exponent of the highlight, 1 to 1e6: the larger, the smaller the highlight; 50 if
-    /// left out.
+    /// Phong's exponent of the highlight, 1 to 1e6; 50 if left out. A larger exponent makes a
+    /// smaller highlight.
     #[schemars(transform = schema::range(1.0..=1e6))]
     pub shininess: f64,
     /// Weight of the mirrored ray, 0 to 1; 0 if left out.
@@ -31,26 +31,28 @@ pub struct MaterialFile {
     /// Weight of the refracted ray, 0 to 1; 0 if left out.
     #[schemars(transform = schema::range(0.0..=1.0))]
     pub transparency: f64,
-    /// Index of refraction of the inside, 0.1 to 10, where that of air is 1; 1.5 if left out.
+    /// Index of refraction of the inside, 0.1 to 10; 1.5 if left out. The index of air is 1.
     #[schemars(transform = schema::range(0.1..=10.0))]
     pub index_of_refraction: f64,
-    /// Whether the weights of the mirrored and the refracted ray are multiplied by Fresnel's share and
-    /// its rest; false if left out.
+    /// Whether Fresnel's equations divide the light: the weight of the mirrored ray is multiplied
+    /// by their reflectance, and the weight of the refracted ray by the rest; false if left out.
     pub fresnel: bool,
-    /// How normals are turned; not at all if left out.
+    /// Relief that perturbs the normals; none if left out.
     pub bump: Option<BumpFile>,
-    /// How the inside of a closed object absorbs light, per unit of length and at least 0: a way `d`
-    /// leaves `exp(-absorption d)` of it; 0 if left out.
+    /// Absorption of light inside a closed object, per unit of length, at least 0; 0 if left out.
+    /// After a distance `d` light is multiplied by `exp(-absorption d)`.
     pub absorption: ColorFile,
-    /// Where transparent closed objects overlap, the one of the highest priority is there, and of
-    /// equals the one that a ray entered last; 0 to 255; 0 if left out.
+    /// Priority where transparent closed objects overlap, 0 to 255; 0 if left out. The object of
+    /// the highest priority fills the overlap; of equal priorities, the object that a ray entered
+    /// last.
     #[schemars(transform = schema::range(0..=255))]
     pub priority: u8,
-    /// Colours by the angle between light and normal: `[degrees, colour]`, rising from 0 to 90,
-    /// linear between. They multiply what each light brings, and at the angle of the view the
-    /// mirrored ray; none if left out.
+    /// Colours by the angle to the normal: `[degrees, colour]`, rising from 0 to 90, linear
+    /// between; none if left out. The light of each light is multiplied by the colour at the
+    /// light's angle, and the mirrored ray by the colour at the view's angle.
     pub by_angle: Option<Vec<(f64, ColorFile)>>,
-    /// A thin film whose interference gives the colours by the angle; not together with `by_angle`.
+    /// A thin film whose interference gives the colours by angle. Not allowed together with
+    /// `by_angle`.
     pub thin_film: Option<ThinFilmFile>,
 }
 
@@ -61,11 +63,11 @@ pub struct ThinFilmFile {
     /// Thickness in nanometres, 1 to 5000.
     #[schemars(transform = schema::range(1.0..=5000.0))]
     pub thickness_nm: f64,
-    /// Index of refraction of the film, 1 to 5; 1.33, soap, if left out.
+    /// Index of refraction of the film, 1 to 5; 1.33 (soap) if left out.
     #[serde(default = "soap")]
     #[schemars(transform = schema::range(1.0..=5.0))]
     pub index: f64,
-    /// Index of refraction of what it lies on, 1 to 5; 1, air, if left out.
+    /// Index of refraction of the medium behind the film, 1 to 5; 1 (air) if left out.
     #[serde(default = "air")]
     #[schemars(transform = schema::range(1.0..=5.0))]
     pub base_index: f64,

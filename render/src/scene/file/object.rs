@@ -1,4 +1,4 @@
-//! `objects` of a scene file.
+//! The key `objects` of a scene file.
 
 use crate::scene::schema;
 use files::names::each_name_once;
@@ -7,17 +7,17 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-/// One of `objects`.
+/// An object of the scene.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum ObjectFile {
     /// A sphere.
     Sphere(SphereFile),
-    /// A rectangle, or any parallelogram.
+    /// A rectangle or any other parallelogram.
     Rectangle(RectangleFile),
-    /// A plane without end.
+    /// An infinite plane.
     Plane(PlaneFile),
-    /// A box along the axes.
+    /// A box with faces perpendicular to the axes.
     Box(BoxFile),
     /// A superellipsoid or a supertoroid.
     Superquadric(SuperquadricFile),
@@ -26,7 +26,7 @@ pub enum ObjectFile {
 }
 
 impl ObjectFile {
-    /// The key that it stands under.
+    /// Returns the key of the object in its file.
     #[must_use]
     pub fn kind(&self) -> &'static str {
         match self {
@@ -44,102 +44,104 @@ impl ObjectFile {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SphereFile {
-    /// Its centre, in the unit of length.
+    /// Centre of the sphere, in the unit of length.
     pub center: [f64; 3],
-    /// Its radius, in the unit of length, above 0: 1e-30 to 1e30.
+    /// Radius of the sphere, in the unit of length, above 0: 1e-30 to 1e30.
     #[schemars(transform = schema::positive)]
     pub radius: f64,
-    /// The name of its material.
+    /// Name of the material.
     pub material: String,
-    /// The name of the texture that goes once around it; none if left out.
+    /// Name of the texture, which covers the sphere once; none if left out.
     pub texture: Option<String>,
-    /// Steps that place the object, the first one first; none if left out.
+    /// Steps that place the object, in order; none if left out.
     #[serde(default)]
     pub place: Vec<StepFile>,
 }
 
-/// A parallelogram; its outside is where `edge_u` x `edge_v` points to.
+/// A parallelogram. Its outside is the side to which `edge_u` x `edge_v` points.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RectangleFile {
-    /// The corner at which both edges begin, in the unit of length.
+    /// The corner at which both edges start, in the unit of length.
     pub corner: [f64; 3],
-    /// The edge along which the texture goes across.
+    /// The edge along which the texture goes across, in the unit of length.
     pub edge_u: [f64; 3],
-    /// The edge along which the texture goes up; not parallel to the other.
+    /// The edge along which the texture goes up, in the unit of length; not parallel to `edge_u`.
     pub edge_v: [f64; 3],
-    /// The name of its material.
+    /// Name of the material.
     pub material: String,
-    /// The name of its texture; none if left out.
+    /// Name of the texture; none if left out.
     pub texture: Option<String>,
-    /// How often the texture lies on it, across and up, above 0: 1e-30 to 1e30; once if left out.
+    /// Number of repetitions of the texture, across and up, above 0: 1e-30 to 1e30; once if left
+    /// out.
     #[serde(default = "once")]
     #[schemars(transform = schema::positive)]
     pub repeat: [f64; 2],
-    /// Steps that place the object, the first one first; none if left out.
+    /// Steps that place the object, in order; none if left out.
     #[serde(default)]
     pub place: Vec<StepFile>,
 }
 
-/// A plane; its texture fills the parallelogram at `point` and goes on from there.
+/// An infinite plane. Its texture fills the parallelogram at `point` and continues over the plane.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PlaneFile {
-    /// A point of it, in the unit of length.
+    /// A point of the plane, in the unit of length.
     pub point: [f64; 3],
-    /// A direction in it, as long as the texture is wide.
+    /// A vector in the plane, as long as the texture is wide.
     pub edge_u: [f64; 3],
-    /// Another direction in it, as long as the texture is high.
+    /// A vector in the plane, as long as the texture is high; not parallel to `edge_u`.
     pub edge_v: [f64; 3],
-    /// The name of its material.
+    /// Name of the material.
     pub material: String,
-    /// The name of its texture; none if left out.
+    /// Name of the texture; none if left out.
     pub texture: Option<String>,
-    /// Steps that place the object, the first one first; none if left out.
+    /// Steps that place the object, in order; none if left out.
     #[serde(default)]
     pub place: Vec<StepFile>,
 }
 
-/// A box; its texture fills each of its faces, upright on the four sides.
+/// A box. Its texture fills each of its faces and is upright on the four sides.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BoxFile {
     /// The corner with the smallest coordinates, in the unit of length.
     pub low: [f64; 3],
-    /// The opposite corner: more than `low` in each coordinate.
+    /// The opposite corner, larger than `low` in each coordinate.
     pub high: [f64; 3],
-    /// The name of its material.
+    /// Name of the material.
     pub material: String,
-    /// The name of its texture; none if left out.
+    /// Name of the texture; none if left out.
     pub texture: Option<String>,
-    /// Steps that place the object, the first one first; none if left out.
+    /// Steps that place the object, in order; none if left out.
     #[serde(default)]
     pub place: Vec<StepFile>,
 }
 
-/// A superellipsoid, or with a ring a supertoroid, about the axis y; its texture goes round it as on a
-/// sphere, or around the tube of a ring.
+/// A superellipsoid or, with `ring`, a supertoroid about the axis y. Its texture covers it as on a
+/// sphere, or goes around the tube of a ring.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SuperquadricFile {
-    /// Its centre, in the unit of length.
+    /// Centre of the shape, in the unit of length.
     pub center: [f64; 3],
-    /// Half its size along each axis, or that of the tube of a ring, above 0: 1e-30 to 1e30.
+    /// Half the size along each axis, of the shape or of the tube of a ring, above 0: 1e-30 to
+    /// 1e30.
     #[schemars(transform = schema::positive)]
     pub radii: [f64; 3],
-    /// Of the section through the axis and of the one across it, 0.05 to 4: a square near 0, a
-    /// circle at 1, a square on its corner at 2, a star above.
+    /// Exponents of the section through the axis and of the section across it, 0.05 to 4. A section
+    /// is a square near 0, a circle at 1, a square on its corner at 2, and a star above 2.
     #[schemars(transform = schema::range(0.05..=4.0))]
     pub exponents: [f64; 2],
-    /// How far the middle of a ring's tube is from the axis, in units of the radii: 1 to 1000; not a
-    /// ring if left out.
+    /// Distance of the middle of a ring's tube from the axis, in units of the radii: 1 to 1000; not
+    /// a ring if left out.
     #[schemars(transform = schema::range(1.0..=1000.0))]
     pub ring: Option<f64>,
-    /// The name of its material.
+    /// Name of the material.
     pub material: String,
-    /// The name of its texture; none if left out.
+    /// Name of the texture; none if left out.
     pub texture: Option<String>,
-    /// Steps that place the object, the first one first; none if left out.
+    /// Steps that place the object, in order; none if left out.
     #[serde(default)]
     pub place: Vec<StepFile>,
 }
@@ -148,51 +150,51 @@ pub struct SuperquadricFile {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MeshFile {
-    /// The name by which `--mesh` and jobs give it.
+    /// Name of the mesh, to which `--mesh` and jobs refer.
     pub name: String,
-    /// The OBJ file that is read when it is not given; its path counts from this file's folder.
+    /// OBJ file that is read if `--mesh` or a job gives no mesh; relative to this file's folder.
     pub file: Option<PathBuf>,
-    /// A material library of another tool (MTL), by the names that `usemtl` gives; its path counts from
-    /// this file's folder. What `materials` and `textures` bind goes before it. Of the library are read
-    /// `Kd`, `map_Kd`, `Ks`, `Ns`, `d` or `Tr`, and `Ni`; none if left out.
+    /// Material library (MTL) of another tool, by the names that `usemtl` gives; relative to this
+    /// file's folder; none if left out. The bindings of `materials` and `textures` take precedence.
+    /// `Kd`, `map_Kd`, `Ks`, `Ns`, `d` or `Tr`, and `Ni` of the library are read.
     pub mtl: Option<PathBuf>,
-    /// The name of the material of all surfaces that neither `materials` nor `mtl` binds.
+    /// Name of the material of all surfaces that neither `materials` nor `mtl` binds.
     pub material: Option<String>,
-    /// The name of the texture of all surfaces that neither `textures` nor `mtl` binds; none if left
+    /// Name of the texture of all surfaces that neither `textures` nor `mtl` binds; none if left
     /// out.
     pub texture: Option<String>,
-    /// Names of materials by surface ids, or by the names that `usemtl` gives.
+    /// Names of materials by surface ids, or by the names that `usemtl` gives; none if left out.
     #[serde(default, deserialize_with = "each_name_once")]
     pub materials: BTreeMap<String, String>,
-    /// Names of textures by texture ids, or by the names that `usemtl` gives.
+    /// Names of textures by texture ids, or by the names that `usemtl` gives; none if left out.
     #[serde(default, deserialize_with = "each_name_once")]
     pub textures: BTreeMap<String, String>,
-    /// Steps that place the object, the first one first; none if left out.
+    /// Steps that place the object, in order; none if left out.
     #[serde(default)]
     pub place: Vec<StepFile>,
 }
 
-/// One of the steps of `place`.
+/// A step of `place`.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum StepFile {
-    /// Factors along the axes, about the origin; below 0 they mirror.
+    /// Factors along the axes, about the origin; negative factors mirror.
     Scale([f64; 3]),
-    /// A turn about an axis through the origin.
+    /// A rotation about an axis through the origin.
     RotateDeg(RotateDegFile),
-    /// A move.
+    /// A translation, in the unit of length.
     Translate([f64; 3]),
-    /// Any affine map: three rows of four numbers, the last of which is the move.
+    /// Any affine map: three rows of four numbers, of which the last is the translation.
     Matrix([[f64; 4]; 3]),
 }
 
-/// A turn about an axis through the origin.
+/// A rotation about an axis through the origin.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RotateDegFile {
-    /// Its direction, of any length but 0.
+    /// Direction of the axis, of any length but 0.
     pub axis: [f64; 3],
-    /// In degrees, counter-clockwise as seen from where the axis points.
+    /// Angle in degrees, counter-clockwise as seen from the direction in which the axis points.
     pub angle: f64,
 }
 

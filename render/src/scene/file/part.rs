@@ -1,4 +1,4 @@
-//! A part of a scene, taken in by `include`, and what scenes and parts have in common.
+//! Parts of a scene, which `include` adds, and the lists that scenes and parts have in common.
 
 use super::{LightFile, MaterialFile, ObjectFile, SceneFile, TextureFile, VERSION};
 use files::names::each_name_once;
@@ -10,40 +10,40 @@ use std::path::PathBuf;
 /// The value of `format` in a part of a scene.
 pub const FORMAT: &str = "tb-scene-part";
 
-/// A part of a scene as its file says it; nothing is checked but its types.
+/// The contents of a part of a scene, of which only the types are checked.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PartFile {
-    /// Where an editor finds the schema of this file; passed over.
+    /// Address of this file's JSON Schema, for editors; ignored by the program.
     #[serde(rename = "$schema")]
     pub schema: Option<String>,
-    /// `tb-scene-part`.
+    /// Format of this file: `tb-scene-part`.
     #[schemars(extend("const" = FORMAT))]
     pub format: String,
-    /// 1.
+    /// Version of the format: 1.
     #[schemars(extend("const" = VERSION))]
     pub version: u32,
-    /// Other parts, taken in before this one's own; paths count from this file's folder.
+    /// Other parts, added before the contents of this one; relative to this file's folder.
     #[serde(default)]
     pub include: Vec<PathBuf>,
-    /// The lights; none if left out.
+    /// Lights of the part; none if left out.
     #[serde(default)]
     pub lights: Vec<LightFile>,
-    /// Pictures for surfaces, by names of one's choice.
+    /// Textures of surfaces, pictures or solids, by names of your choice; none if left out.
     #[serde(default, deserialize_with = "each_name_once")]
     pub textures: BTreeMap<String, TextureFile>,
-    /// What surfaces are made of, by names of one's choice.
+    /// Materials of surfaces, by names of your choice; none if left out.
     #[serde(default, deserialize_with = "each_name_once")]
     pub materials: BTreeMap<String, MaterialFile>,
-    /// What there is to see; none if left out.
+    /// Objects of the part; none if left out.
     #[serde(default)]
     pub objects: Vec<ObjectFile>,
 }
 
-/// What a scene and its parts have in common.
+/// The lists that a scene and its parts have in common.
 #[derive(Debug, Clone, Copy)]
 pub struct Lists<'a> {
-    /// The files to take in.
+    /// The files to include.
     pub include: &'a [PathBuf],
     /// The lights.
     pub lights: &'a [LightFile],
@@ -56,7 +56,7 @@ pub struct Lists<'a> {
 }
 
 impl SceneFile {
-    /// What it has in common with parts.
+    /// Returns the lists that the scene has in common with parts.
     #[must_use]
     pub fn lists(&self) -> Lists<'_> {
         let Self { include, lights, textures, materials, objects, .. } = self;
@@ -65,7 +65,7 @@ impl SceneFile {
 }
 
 impl PartFile {
-    /// What it has in common with scenes.
+    /// Returns the lists that the part has in common with scenes.
     #[must_use]
     pub fn lists(&self) -> Lists<'_> {
         let Self { include, lights, textures, materials, objects, .. } = self;

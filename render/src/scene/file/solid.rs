@@ -1,4 +1,4 @@
-//! Solid textures of a scene file, and where they lie.
+//! Solid textures of a scene file, and their placement.
 //!
 //! ```json
 //! {
@@ -8,10 +8,10 @@
 //! }
 //! ```
 //!
-//! A solid is described in a space of its own, in units of its pattern: the distance of marble's
-//! veins, a crystal of granite, a ring of wood, a cell of noise, a side of a checker. `place` lays
-//! that space into the object's own space. Colours are linear. A list of `[position, colour]` is a
-//! ramp: positions rise, colours between them are mixed.
+//! A solid is defined in a space of its own, whose unit depends on the pattern: the distance of
+//! marble's veins, a crystal of granite, a ring of wood, a cell of noise, a side of a checker.
+//! `place` maps this space to the object's own space. Colours are linear. A list of
+//! `[position, colour]` is a ramp: positions rise, and colours between them are interpolated.
 //!
 //! | kind | keys | range | default |
 //! |---|---|---|---|
@@ -32,18 +32,18 @@ use crate::procedural::Interpolation;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// Stops of a ramp: position and colour.
+/// Stops of a ramp: position and colour, positions rising.
 pub type RampFile = Vec<(f64, ColorFile)>;
 
-/// `place`: from the texture's space to the object's own.
+/// The key `place`: map from the texture's space to the object's own space.
 #[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct PlaceFile {
-    /// The length of one unit of the texture, in the object's units; 1e-6 to 1e6, default 1.
+    /// Length of one unit of the texture, in the object's units; 1e-6 to 1e6, default 1.
     pub scale: f64,
-    /// Turns about x, then y, then z, in degrees; axes stand still. Default none.
+    /// Rotations about the fixed axes x, then y, then z, in degrees; default none.
     pub rotate_deg: [f64; 3],
-    /// Where the texture's origin lies, in the object's units; default its origin.
+    /// Position of the texture's origin, in the object's units; default the object's origin.
     pub translate: [f64; 3],
 }
 
@@ -53,19 +53,20 @@ impl Default for PlaceFile {
     }
 }
 
-/// `marble`; veins lie one unit apart along x.
+/// The keys of `marble`, whose veins lie one unit apart along x.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct MarbleFile {
-    /// Ramp from the middle of a vein, 0, to the ground between veins, 1.
+    /// Ramp from the middle of a vein, 0, to the ground between veins, 1; default white with grey
+    /// veins.
     pub colors: RampFile,
     /// Octaves of the noise that folds the layers, 1 to 12, default 6.
     pub octaves: u32,
-    /// How far layers are folded, in units, 0 to 100, default 2.
+    /// Strength of the folds, in units, 0 to 100, default 2.
     pub folds: f64,
-    /// How much of a net of fine veins is seen, 0 to 1, default 0.6.
+    /// Visibility of a net of fine veins, 0 to 1, default 0.6.
     pub net: f64,
-    /// How the noise is interpolated.
+    /// Interpolation of the noise.
     pub interpolation: Interpolation,
 }
 
@@ -83,19 +84,19 @@ impl Default for MarbleFile {
     }
 }
 
-/// `granite`; a crystal is about one unit large.
+/// The keys of `granite`, whose crystals are about one unit large.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct GraniteFile {
-    /// The share of each mineral, above 0, and its colour.
+    /// Share of each mineral, above 0, and its colour; default rose, cream and quartz.
     pub minerals: Vec<(f64, ColorFile)>,
-    /// How many flakes there are, 0 to 1, default 0.3.
+    /// Part of the cells that hold a flake, 0 to 1, default 0.3.
     pub flakes: f64,
-    /// Their colour.
+    /// Colour of the flakes; default nearly black.
     pub flake_color: ColorFile,
-    /// How much crystals of one mineral differ in tone, 0 to 1, default 0.6.
+    /// Variation in tone between crystals of one mineral, 0 to 1, default 0.6.
     pub vary: f64,
-    /// How the noise that makes boundaries ragged is interpolated.
+    /// Interpolation of the noise that makes boundaries ragged.
     pub interpolation: Interpolation,
 }
 
@@ -112,17 +113,17 @@ impl Default for GraniteFile {
     }
 }
 
-/// `wood`; the trunk stands along y, and rings are one unit apart.
+/// The keys of `wood`. The trunk stands along y, and rings are one unit apart.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct WoodFile {
-    /// Ramp from early wood, 0, to late wood, 1.
+    /// Ramp from early wood, 0, to late wood, 1; default brown.
     pub colors: RampFile,
-    /// How far rings wander, in units, 0 to 100, default 0.6.
+    /// Distance by which rings wander, in units, 0 to 100, default 0.6.
     pub waver: f64,
-    /// How strong fibres are, 0 to 1, default 0.6.
+    /// Strength of the fibres, 0 to 1, default 0.6.
     pub grain: f64,
-    /// How the noise is interpolated.
+    /// Interpolation of the noise.
     pub interpolation: Interpolation,
 }
 
@@ -137,19 +138,19 @@ impl Default for WoodFile {
     }
 }
 
-/// `wall`, as a texture and as a bump; a cell of the slow noise is one unit.
+/// The keys of `wall`, as a texture and as a bump. A cell of the slow noise is one unit.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct WallFile {
-    /// Ramp from the lowest height, 0, to the highest, 1. Of textures only.
+    /// Ramp from the lowest height, 0, to the highest, 1. For textures only.
     pub colors: Option<RampFile>,
-    /// The slow noise stays between these two, -1 to 1, default -0.15 and 0.15.
+    /// Lower and upper limit of the slow noise, -1 to 1, default -0.15 and 0.15.
     pub clamp: [f64; 2],
     /// Strength of the fast noise, 0 to 10, default 0.06.
     pub rough: f64,
-    /// How much faster it is, 0.001 to 1000, default 8.
+    /// Frequency of the fast noise relative to the slow noise, 0.001 to 1000, default 8.
     pub frequency: f64,
-    /// How the noise is interpolated.
+    /// Interpolation of the noise.
     pub interpolation: Interpolation,
 }
 
@@ -160,15 +161,15 @@ impl Default for WallFile {
     }
 }
 
-/// `turbulence` and `clouds`; a cell of the coarsest noise is one unit.
+/// The keys of `turbulence` and `clouds`. A cell of the coarsest noise is one unit.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct CloudsFile {
-    /// Ramp from the least that the sum can be, 0, to the most, 1.
+    /// Ramp from the least possible sum, 0, to the largest, 1; default black to white.
     pub colors: RampFile,
-    /// Octaves, 1 to 12, default 6.
+    /// Number of octaves, 1 to 12, default 6.
     pub octaves: u32,
-    /// How the noise is interpolated.
+    /// Interpolation of the noise.
     pub interpolation: Interpolation,
 }
 
@@ -179,11 +180,11 @@ impl Default for CloudsFile {
     }
 }
 
-/// `checker`; cubes have side 1.
+/// The keys of `checker`, whose cubes have side 1.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct CheckerFile {
-    /// The colour of the cube from the origin to (1, 1, 1), and that of its neighbours.
+    /// Colour of the cube from the origin to (1, 1, 1), and colour of its neighbours.
     pub colors: [ColorFile; 2],
 }
 
@@ -193,11 +194,11 @@ impl Default for CheckerFile {
     }
 }
 
-/// `stripes`; layers are stacked along x from the origin and repeat.
+/// The keys of `stripes`. Layers are stacked along x from the origin and repeat.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct StripesFile {
-    /// The thickness of each layer, above 0, and its colour.
+    /// Thickness of each layer, above 0, and its colour.
     pub layers: Vec<(f64, ColorFile)>,
 }
 
@@ -207,17 +208,17 @@ impl Default for StripesFile {
     }
 }
 
-/// `brick`; rows run along x and are stacked along y.
+/// The keys of `brick`. Rows run along x and are stacked along y.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct BrickFile {
-    /// From one brick to the next along x, y and z, joint included; above 0.
+    /// Distance from one brick to the next along x, y and z, joint included; above 0.
     pub size: [f64; 3],
     /// Thickness of the joint: at least 0, less than each size; default 0.04.
     pub joint: f64,
-    /// Colours of bricks and of the joint.
+    /// Colours of the bricks and of the joint.
     pub colors: [ColorFile; 2],
-    /// How much bricks differ in tone, 0 to 1, default 0.5.
+    /// Variation in tone between bricks, 0 to 1, default 0.5.
     pub vary: f64,
 }
 

@@ -1,41 +1,42 @@
-//! The function whose level 1 is the surface, along rays and over pieces of them.
+//! The function that is 1 on the surface of a superquadric, along rays and over pieces of rays.
 //!
-//! With h the norm of (x, z) of order 2/e2 it is the norm of (h - ring, y) of order 2/e1, where
-//! "norm" is (|a|^p + |b|^p)^(1/p) for p below 1 too. Barr's inside-outside function is a power of
-//! it, with the same level 1; the norm itself grows evenly, like a distance, and nothing overflows.
+//! Let h be the norm of (x, z) of order 2/e2. The function is the norm of (h - ring, y) of order
+//! 2/e1. Here "norm" means (|a|^p + |b|^p)^(1/p), also for p below 1. Barr's inside-outside
+//! function is a power of it, with the same level 1. The norm itself grows evenly, like a distance,
+//! and does not overflow.
 //!
-//! A norm grows with each of its two sizes. So its range over a box of sizes is that between two
-//! corners, and the same is true of the terms of its slope: bounds over a piece of a ray are exact
-//! for the box around that piece.
+//! A norm increases with each of its two sizes. Its range over a box of sizes therefore lies
+//! between its values at two corners. The same holds for the terms of its slope. Bounds over a
+//! piece of a ray are thus exact for the box around that piece.
 
 use glam::DVec3;
 
-/// The function.
+/// The function, in units of the radii and with the axis along y.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Field {
-    /// The order 2/e1 of the sections through the axis.
+    /// Order 2/e1 of the sections through the axis.
     pub section: f64,
-    /// The order 2/e2 of the sections across it.
+    /// Order 2/e2 of the sections across the axis.
     pub across: f64,
-    /// The middle of the tube, from the axis; 0 for a superellipsoid.
+    /// Distance of the middle of the tube from the axis; 0 for a superellipsoid.
     pub ring: f64,
 }
 
-/// A line through the field.
+/// A line through the field: the points `from + t step`.
 #[derive(Debug, Clone, Copy)]
 pub struct Line {
     /// The field.
     pub field: Field,
-    /// Where `t` is 0.
+    /// Point of the line where `t` is 0.
     pub from: DVec3,
-    /// By how much a `t` of 1 goes on.
+    /// Change of position per unit of `t`.
     pub step: DVec3,
 }
 
-/// A closed range of numbers.
+/// A closed range of numbers: lower and upper bound.
 pub type Range = [f64; 2];
 
-/// `(a^p + b^p)^(1/p)` of two numbers that are at least 0.
+/// Returns `(a^p + b^p)^(1/p)` of two numbers that are 0 or more.
 fn norm(a: f64, b: f64, p: f64) -> f64 {
     let (small, large) = if a < b { (a, b) } else { (b, a) };
     if small == 0.0 {
@@ -47,28 +48,28 @@ fn norm(a: f64, b: f64, p: f64) -> f64 {
     }
 }
 
-/// The slope of the norm in one of its sizes, which is `ratio` times the norm.
+/// Returns the derivative of the norm by one of its sizes. The size is `ratio` times the norm.
 fn slope(ratio: f64, p: f64) -> f64 {
     if p == 2.0 { ratio } else { ratio.powf(p - 1.0) }
 }
 
 impl Field {
-    /// Whether the surface is convex, and then the function too.
+    /// Returns whether the surface is convex. If so, the function is convex too.
     pub fn is_convex(&self) -> bool {
         self.section >= 1.0 && self.across >= 1.0 && self.ring == 0.0
     }
 
-    /// The most of each coordinate.
+    /// Largest absolute value of each coordinate on the surface.
     pub fn reach(&self) -> DVec3 {
         DVec3::new(self.ring + 1.0, 1.0, self.ring + 1.0)
     }
 
-    /// h, the distance from the axis by the norm of the sections across it.
+    /// Returns h, the distance from the axis measured by the norm of the sections across it.
     pub fn axis_norm(&self, point: DVec3) -> f64 {
         norm(point.x.abs(), point.z.abs(), self.across)
     }
 
-    /// The slope of h in each coordinate.
+    /// Returns the derivatives of h by each coordinate.
     pub fn axis_gradient(&self, point: DVec3) -> DVec3 {
         let h = self.axis_norm(point);
         let part = |signed: f64| {
@@ -77,13 +78,13 @@ impl Field {
         DVec3::new(part(point.x), 0.0, part(point.z))
     }
 
-    /// Less than 1 inside.
+    /// Returns the value of the function: below 1 inside, 1 on the surface, above 1 outside.
     pub fn value(&self, point: DVec3) -> f64 {
         norm((self.axis_norm(point) - self.ring).abs(), point.y.abs(), self.section)
     }
 
-    /// Its slope in each coordinate; infinite at creases, and 0 in a coordinate that is 0, where
-    /// the two sides mirror each other.
+    /// Returns the derivatives of the function by each coordinate. They are infinite at creases. A
+    /// derivative is 0 where its coordinate is 0, since the two sides mirror each other there.
     pub fn gradient(&self, point: DVec3) -> DVec3 {
         let h = self.axis_norm(point);
         let tube = h - self.ring;
@@ -100,52 +101,54 @@ impl Field {
         )
     }
 
-    /// The unit direction of the gradient, in a space where the coordinates are `radii` times as
-    /// large.
+    /// Returns the unit direction of the gradient, in a space whose coordinates are `radii` times
+    /// as large.
     pub fn direction(&self, point: DVec3, radii: DVec3) -> DVec3 {
         let gradient = self.gradient(point) / radii;
         let most = gradient.abs().max_element();
         if most.is_finite() {
             return (gradient / most).normalize_or(DVec3::Y);
         }
-        // What is infinite is all that counts.
+        // Only the infinite components count.
         let endless = |x: f64| if x.is_infinite() { x.signum() } else { 0.0 };
         DVec3::from(gradient.to_array().map(endless)).normalize_or(DVec3::Y)
     }
 }
 
 impl Line {
-    /// A point of the line.
+    /// Returns the point of the line at `t`.
     fn at(&self, t: f64) -> DVec3 {
         self.from + t * self.step
     }
 
-    /// The field's value at `t`, less 1: negative inside.
+    /// Returns the field's value at `t` minus 1, which is negative inside.
     pub fn value(&self, t: f64) -> f64 {
         self.field.value(self.at(t)) - 1.0
     }
 
-    /// The slope of that along the line; not a number where two creases meet.
+    /// Returns the derivative of [`Self::value`] along the line. It is NaN where two creases meet.
     pub fn slope(&self, t: f64) -> f64 {
         let gradient = self.field.gradient(self.at(t));
         let along = |k: usize| if self.step[k] == 0.0 { 0.0 } else { gradient[k] * self.step[k] };
         along(0) + along(1) + along(2)
     }
 
-    /// Where coordinates change their sign: between these places each keeps its own.
+    /// Returns the values of `t` at which each coordinate changes its sign. The coordinate keeps
+    /// its sign elsewhere.
     pub fn crossings(&self) -> [f64; 3] {
         [0, 1, 2].map(|k| -self.from[k] / self.step[k])
     }
 
-    /// Bounds of the value and of the slope between `a` and `b`, between which no coordinate changes
-    /// its sign. A bound of the slope may be infinite, or not a number where nothing is known.
+    /// Returns bounds of the value minus 1 and of the slope between `a` and `b`. No coordinate may
+    /// change its sign between them. A bound of the slope may be infinite, or NaN where nothing is
+    /// known.
     pub fn ranges(&self, a: f64, b: f64) -> [Range; 2] {
         let Field { section, across, ring } = self.field;
         let (begin, end) = (self.at(a), self.at(b));
-        // Size and its growth along the line, of each coordinate.
+        // The size of each coordinate, and the growth of this size along the line.
         let size = |k: usize| {
             let (begin, end) = (begin[k], end[k]);
-            // Two signs are a rounding beside a crossing.
+            // Different signs here are a rounding beside a crossing.
             let low = if begin * end < 0.0 { 0.0 } else { begin.abs().min(end.abs()) };
             let sign = if begin + end < 0.0 { -1.0 } else { 1.0 };
             let growth = if begin == 0.0 && end == 0.0 { 0.0 } else { sign * self.step[k] };
@@ -168,19 +171,20 @@ impl Line {
     }
 }
 
-/// The range of a norm and of its growth, from those of its two sizes.
+/// Returns the ranges of a norm and of its growth from the ranges of its two sizes and their
+/// growths.
 fn joined(sizes: [Range; 2], growths: [Range; 2], p: f64) -> (Range, Range) {
-    // In units of the largest size, so that no power of it is lost.
+    // In units of the largest size, so that its powers stay in range.
     let unit = sizes[0][1].max(sizes[1][1]);
     if unit == 0.0 {
-        // Both are 0 all along, and stay so.
+        // Both sizes are 0 along the whole piece.
         return ([0.0; 2], [0.0; 2]);
     }
     let [a, b] = sizes.map(|size| size.map(|x| x / unit));
     let power = |x: f64| if p == 2.0 { x * x } else { x.powf(p) };
     let root = |x: f64| if p == 2.0 { x.sqrt() } else { x.powf(1.0 / p) };
     let [a_p, b_p] = [a, b].map(|size| size.map(power));
-    // Powers of the norms at the four corners of the box, `corner[i][j]` where a is a[i] and b b[j].
+    // Powers of the norms at the four corners of the box; `corner[i][j]` belongs to a[i] and b[j].
     let corner_p = [0, 1].map(|i| [0, 1].map(|j| a_p[i] + b_p[j]));
     let corner = corner_p.map(|row| row.map(root));
     let slope = |x: f64, x_p: f64, norm: f64, norm_p: f64| {
@@ -196,7 +200,8 @@ fn joined(sizes: [Range; 2], growths: [Range; 2], p: f64) -> (Range, Range) {
     };
     let at = |i: usize, j: usize| (corner[i][j], corner_p[i][j]);
     let mut growth = [0.0; 2];
-    // A size is the least part of the norm when it is least and the other is most.
+    // The share of a size in the norm is least when the size is least and the other size is
+    // largest.
     let parts = [(a, a_p, at(0, 1), at(1, 0)), (b, b_p, at(1, 0), at(0, 1))];
     for ((own, own_p, least, most), its) in parts.into_iter().zip(growths) {
         let slopes =

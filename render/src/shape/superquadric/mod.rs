@@ -1,21 +1,22 @@
-//! Superellipsoids and supertoroids: rounded boxes, pillows, pinched stars, and rings of such.
+//! Superellipsoids and supertoroids: rounded boxes, pillows, pinched stars, and rings of these
+//! sections.
 //!
 //! Barr: *Superquadrics and Angle-Preserving Transformations*, IEEE Computer Graphics &
-//! Applications 1(1), 1981. With x, y, z in units of the radii and the axis along y, as the poles
-//! of a sphere are,
+//! Applications 1(1),
+//! 1981. With x, y, z in units of the radii and the axis along y, like the poles of a sphere,
 //!
 //! ```text
 //! superellipsoid   (|x|^(2/e2) + |z|^(2/e2))^(e2/e1) + |y|^(2/e1) = 1
 //! supertoroid      | (|x|^(2/e2) + |z|^(2/e2))^(e2/2) - ring |^(2/e1) + |y|^(2/e1) = 1
 //! ```
 //!
-//! e1 shapes the section through the axis, e2 the one across it: near 0 a square, 1 a circle, 2 a
-//! square on its corner, above 2 a star that is pinched in.
+//! e1 shapes the section through the axis, and e2 the section across it. A section is a square near
+//! 0, a circle at 1, a square on its corner at 2, and a pinched star above 2.
 //!
-//! Texture coordinates are those of the sphere: `u` the longitude, eastward from +z toward +x, one
-//! half at +z, and `v` the latitude, of the direction from the centre in units of the radii. They
-//! are not Barr's own parameters, which crowd at the edges of a boxy shape. On a ring `v` goes
-//! around the tube, one half at its outermost line, with a seam at its innermost.
+//! Texture coordinates are defined as on the sphere. `u` is the longitude, eastward from +z toward
+//! +x, one half at +z. `v` is the latitude of the direction from the centre in units of the radii.
+//! Barr's own parameters are not used, since they crowd at the edges of a boxy shape. On a ring `v`
+//! goes around the tube, one half at its outermost line, with a seam at its innermost.
 
 mod field;
 mod root;
@@ -25,20 +26,20 @@ use field::{Field, Line};
 use glam::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 
-/// The exponents that are taken.
+/// Range of the exponents e1 and e2.
 ///
-/// Smaller, and edges are sharper than a thousandth of the shape can show, which a box does better;
-/// larger, and the points of the star are thinner than rounding.
+/// With smaller exponents edges are sharper than a thousandth of the shape, and a box serves
+/// better. With larger exponents the points of the star are thinner than rounding.
 pub const EXPONENTS: [f64; 2] = [0.05, 4.0];
 
-/// The rings that are taken: from one whose hole is just closed to a thin hoop.
+/// Range of `ring`: from a ring whose hole is just closed to a thin hoop.
 pub const RINGS: [f64; 2] = [1.0, 1000.0];
 
-/// The box in which roots are looked for is so much larger than the shape that its sides are
-/// outside for certain.
+/// Relative margin of the box in which roots are searched, so that its sides are certainly outside
+/// the shape.
 const MARGIN: f64 = 1e-6;
 
-/// A superellipsoid, or with a ring a supertoroid.
+/// A superellipsoid or, with a ring, a supertoroid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Superquadric {
     center: DVec3,
@@ -47,10 +48,12 @@ pub struct Superquadric {
 }
 
 impl Superquadric {
-    /// Half the size along each axis (for a ring, of its tube), `[e1, e2]`, and for a supertoroid
-    /// how far the middle of its tube is from the axis, in units of the radii.
+    /// Creates the shape. `radii` are half its size along each axis, or half the size of the tube
+    /// of a ring. `exponents` are `[e1, e2]`. `ring` makes a supertoroid: it is the distance of the
+    /// middle of the tube from the axis, in units of the radii.
     ///
-    /// Nothing unless radii are above 0, exponents within [`EXPONENTS`] and a ring within [`RINGS`].
+    /// Returns `None` unless radii are above 0, exponents within [`EXPONENTS`] and a ring within
+    /// [`RINGS`].
     #[must_use]
     pub fn new(
         center: DVec3,
@@ -70,23 +73,23 @@ impl Superquadric {
         })
     }
 
-    /// Whether it is a ring.
+    /// Returns whether the shape is a supertoroid.
     #[must_use]
     pub fn is_ring(&self) -> bool {
         self.field.ring > 0.0
     }
 
-    /// The nearest distance above 0 at which the ray meets it.
+    /// Returns the nearest distance above 0 at which the ray meets the surface, in units of
+    /// `direction`.
     ///
-    /// It is the nearest for certain, and none is missed, but for roots that rounding merges: a ray
-    /// that touches the surface to within a few units in the last place may pass or hit. The hit is
-    /// off the surface by about as much: 7e-15, on shapes and rays of size 1 to 6 of every kind. A
-    /// ray that starts on the surface, by `start`, meets it only where it has left it for more than
-    /// the skin.
+    /// No root is missed, except roots that rounding merges: a ray that touches the surface to
+    /// within a few units in the last place may pass or hit. A hit is off the surface by about as
+    /// much: 7e-15 for shapes and rays of size 1 to 6 of every kind. A ray that starts on the
+    /// surface, according to `start`, meets it again only beyond the skin.
     #[must_use]
     pub fn intersect(&self, origin: DVec3, direction: DVec3, start: Start) -> Option<f64> {
-        // In units of the radii, and from the point of the ray nearest to the centre, so that no
-        // digits are lost on a long way.
+        // Lengths are in units of the radii. t starts at the point of the ray nearest to the
+        // centre, so that a long ray loses no digits.
         let from = (origin - self.center) / self.radii;
         let step = direction / self.radii;
         let shift = -from.dot(step) / step.length_squared();
@@ -107,11 +110,11 @@ impl Superquadric {
         (t > 0.0 && (!on_surface || t > start.skin)).then_some(t)
     }
 
-    /// The surface point at a hit; `near` is the hit as found along the ray.
+    /// Returns the surface point at a hit. `near` is the hit as computed along the ray.
     #[must_use]
     pub fn surface_point(&self, near: DVec3) -> SurfacePoint {
         let mut point = (near - self.center) / self.radii;
-        // One step of Newton's, across the surface.
+        // One Newton step, along the gradient.
         let gradient = self.field.gradient(point) / self.radii;
         let step = (self.field.value(point) - 1.0) / gradient.length_squared() * gradient;
         if step.is_finite() {
@@ -135,7 +138,7 @@ impl Superquadric {
         }
     }
 
-    /// As [`Shape::uv_gradients`](super::Shape::uv_gradients).
+    /// Returns gradients as [`Shape::uv_gradients`](super::Shape::uv_gradients) does.
     #[must_use]
     pub fn uv_gradients(&self, position: DVec3) -> [DVec3; 2] {
         let point = (position - self.center) / self.radii;
@@ -145,7 +148,7 @@ impl Superquadric {
             return [DVec3::ZERO; 2];
         }
         let around = DVec3::new(z, 0.0, -x) / (TAU * from_axis_sq);
-        // Across the axis: from it, or from the middle of the tube.
+        // Distance across the axis, from the axis itself or from the middle of the tube.
         let (out, outward, turn) = if self.is_ring() {
             let out = self.field.axis_norm(point) - self.field.ring;
             (out, self.field.axis_gradient(point), TAU)
@@ -162,27 +165,28 @@ impl Superquadric {
         })
     }
 
-    /// Texture coordinates jump by 1 across the seam meridian, and on a ring at its innermost line.
+    /// Returns the period of the texture coordinates. They jump by 1 across the seam meridian, and
+    /// on a ring also at its innermost line.
     #[must_use]
     pub fn seam(&self) -> SeamPeriod {
         DVec2::new(1.0, if self.is_ring() { 1.0 } else { 0.0 })
     }
 
-    /// Lower and upper corner of its box.
+    /// Lower and upper corner of the bounding box.
     #[must_use]
     pub fn bounds(&self) -> [DVec3; 2] {
         let reach = self.radii * self.field.reach();
         [self.center - reach, self.center + reach]
     }
 
-    /// Whether the surface is within `skin` of a point, in the units of the scene: whether it lies
-    /// between two places so far up and down from it.
+    /// Returns whether the surface is within `skin`, in scene units, of a point: whether it
+    /// separates the two points at this distance along the gradient.
     fn is_near(&self, point: DVec3, skin: f64) -> bool {
         let way = skin * self.field.direction(point, self.radii) / self.radii;
         (self.field.value(point + way) < 1.0) != (self.field.value(point - way) < 1.0)
     }
 
-    /// Where a line is inside the box around the shape.
+    /// Returns the range of `t` in which a line is inside the box around the shape.
     fn within_box(&self, line: &Line) -> Option<[f64; 2]> {
         let reach = self.field.reach() * (1.0 + MARGIN);
         let (mut enter, mut leave) = (f64::NEG_INFINITY, f64::INFINITY);

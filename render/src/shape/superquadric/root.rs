@@ -1,44 +1,45 @@
-//! The first place along a line where a field passes the level of its surface.
+//! Finds the first point along a line where a field reaches the level of its surface.
 //!
-//! A convex field is met by Newton's steps: from outside each step ends before the surface, since
-//! the tangent lies below the curve, and when the tangent turns upward the line has passed by. So
-//! the steps prove what they find. Other fields are searched piece by piece from the start: a piece
-//! is passed when the bounds of the value leave no room for a root, has one root at most when those
-//! of the slope leave it one sign, and is halved otherwise.
+//! In a convex field Newton's method is used. A step from outside ends before the surface, since
+//! the tangent lies below the curve. If the tangent turns upward, the line has missed the surface.
+//! The steps thus prove their result. Other fields are searched piece by piece from the start. A
+//! piece is skipped if the bounds of its value exclude a root. It has at most one root if the
+//! bounds of its slope have one sign. Otherwise the piece is halved.
 
 use super::field::{Line, Range};
 
-/// Newton's steps at most; at a root that is nearly double each goes half the way.
+/// Largest number of Newton steps. Near an almost double root each step only halves the distance.
 const MOST_STEPS: usize = 128;
 
-/// A piece of the line this many times smaller than the way through the box is not cut further.
+/// Length of the smallest piece that is still halved, relative to the length of the search.
 ///
-/// Larger, and two roots so near to each other are missed; smaller, and rounding is cut in pieces.
+/// With a larger value two roots so close to each other are missed. With a smaller value pieces are
+/// halved below the rounding.
 const SMALLEST: f64 = 4.0 * f64::EPSILON;
 
-/// How far rounding may take a computed value of the field.
+/// Largest effect of rounding on a computed value of the field.
 const NOISE: f64 = 16.0 * f64::EPSILON;
 
-/// Pieces that are looked at for one ray at most.
+/// Largest number of pieces that are searched for one ray.
 ///
-/// A ray that meets the surface at an angle takes some tens, one that touches it some hundreds.
-/// More are taken only by a ray that runs along the surface for a long way, to within a millionth
-/// of the shape: what it meets there is decided at the ends of pieces so many times smaller than
-/// the way. Without a limit such a ray could take minutes.
+/// A ray that meets the surface at an angle takes some tens, and a ray that touches it some
+/// hundreds. Only a ray that runs along the surface for a long distance, to within a millionth of
+/// the shape, takes more. Its hits are then decided only at the ends of that many pieces. Without a
+/// limit such a ray could take minutes.
 const MOST_PIECES: u32 = 4096;
 
-/// The first root of a convex field after `begin`, where all of it is before `end`; a line that
-/// starts on the surface has a root at `begin`, which does not count.
+/// Returns the first root of a convex field after `begin`. The whole surface lies before `end`. A
+/// line that starts on the surface has a root at `begin`, which does not count.
 pub fn of_convex(line: &Line, begin: f64, end: f64, on_surface: bool) -> Option<f64> {
     let value = if on_surface { 0.0 } else { line.value(begin) };
     if value > 0.0 {
         return newton(line, begin, end);
     }
-    // From inside there is one root ahead; from the surface too, if the way leads inside.
+    // From inside there is one root ahead; from the surface too, if the line leads inside.
     if value < 0.0 || line.slope(begin) < 0.0 { newton(line, end, begin) } else { None }
 }
 
-/// Newton's steps from a place outside toward `limit`, until the surface or past it.
+/// Takes Newton steps from a point outside toward `limit`, until they reach the surface or pass it.
 fn newton(line: &Line, from: f64, limit: f64) -> Option<f64> {
     let way = (limit - from).signum();
     let smallest = SMALLEST * (limit - from).abs();
@@ -64,8 +65,8 @@ fn newton(line: &Line, from: f64, limit: f64) -> Option<f64> {
     Some(t)
 }
 
-/// The first root of any field after `begin`, where all of it is before `end`; a line that starts on
-/// the surface has roots up to `start`, which do not count.
+/// Returns the first root of any field after `begin`. The whole surface lies before `end`. A line
+/// that starts on the surface has roots up to `start`, which do not count.
 pub fn first(line: &Line, begin: f64, end: f64, start: Option<f64>) -> Option<f64> {
     let mut search = Search {
         line,
@@ -87,25 +88,25 @@ pub fn first(line: &Line, begin: f64, end: f64, start: Option<f64>) -> Option<f6
     None
 }
 
-/// Where a search has come to.
+/// State of the search along a line.
 struct Search<'a> {
     line: &'a Line,
     smallest: f64,
     start: f64,
-    /// Which side the line is on, as far as it has been followed.
+    /// Whether the line is outside at the point that the search has reached.
     outside: bool,
-    /// How many pieces may still be looked at.
+    /// Number of pieces that may still be searched.
     pieces: u32,
 }
 
 impl Search<'_> {
-    /// The first root between `a` and `b`, where coordinates keep their signs.
+    /// Returns the first root between `a` and `b`, where coordinates keep their signs.
     fn piece(&mut self, a: f64, b: f64) -> Option<f64> {
         let [value, slope] = self.line.ranges(a, b);
         self.pieces = self.pieces.saturating_sub(1);
         let mut side = side(value);
         if side.is_none() {
-            // The mean value theorem tells more of small pieces than their boxes do.
+            // The mean value theorem gives tighter bounds of small pieces than their boxes do.
             let half = 0.5 * (b - a);
             let reach = half * slope[0].abs().max(slope[1].abs());
             if reach < 1.0 {
@@ -117,7 +118,7 @@ impl Search<'_> {
             }
         }
         if let Some(outside) = side {
-            // On the other side than before: rounding has hidden the root between two pieces.
+            // The side differs from the last one: rounding has hidden the root between two pieces.
             return self.passed(outside, |_| a);
         }
         let one_way = slope[0] > 0.0 || slope[1] < 0.0;
@@ -129,7 +130,7 @@ impl Search<'_> {
         self.piece(a, middle).or_else(|| self.piece(middle, b))
     }
 
-    /// Goes on to a side, and gives the root on the way to it if there is one that counts.
+    /// Moves the search to a side, and returns the root before it, if there is one that counts.
     fn passed(&mut self, outside: bool, root: impl Fn(&Self) -> f64) -> Option<f64> {
         if outside == self.outside {
             return None;
@@ -138,7 +139,7 @@ impl Search<'_> {
         Some(root(self)).filter(|&root| root > self.start)
     }
 
-    /// The root between two places on different sides; `outward` when `b` is the outer one.
+    /// Returns the root between two points on different sides; `b` is the outer point if `outward`.
     fn bracketed(&self, mut a: f64, mut b: f64, outward: bool) -> f64 {
         let mut t = 0.5 * (a + b);
         let mut step = b - a;
@@ -153,9 +154,10 @@ impl Search<'_> {
                 break;
             }
             let newton = value / self.line.slope(t);
-            // Newton's step, unless it leaves the bracket or is not half as long as the last one.
+            // Takes Newton's step unless it leaves the bracket or is at least half as long as the
+            // last step.
             let next = if newton.abs() < 0.5 * step.abs() && t - newton > a && t - newton < b {
-                // At least so far that it is seen to pass the root, if it is as near as that.
+                // The step is lengthened to pass a root that is nearer than the smallest piece.
                 t - newton.abs().max(0.5 * self.smallest).copysign(newton)
             } else {
                 0.5 * (a + b)
@@ -167,7 +169,8 @@ impl Search<'_> {
     }
 }
 
-/// Whether a range of values is outside or inside, if it is all on one side.
+/// Returns whether a range of values is outside (true) or inside (false), or `None` if it is on
+/// both.
 fn side(value: Range) -> Option<bool> {
     if value[0] > 0.0 {
         Some(true)

@@ -1,4 +1,4 @@
-//! Held against the sphere, the box and brute force.
+//! Compares superquadrics with the sphere, the box and brute force.
 
 use super::*;
 use crate::shape::{Cuboid, Sphere};
@@ -7,7 +7,7 @@ use proptest::prelude::*;
 
 const FREE: Start = Start { leaves: None, skin: 0.0 };
 
-/// What a ray that leaves a shape of about unit size knows of its start.
+/// The start of a ray that leaves a shape of about unit size.
 const LEAVING: Start = Start { leaves: Some(0), skin: 1e-13 };
 
 fn shape(exponents: [f64; 2], ring: Option<f64>) -> Superquadric {
@@ -29,7 +29,7 @@ fn any_shape() -> impl Strategy<Value = Superquadric> {
     (exponent(), exponent(), ring).prop_map(|(e1, e2, ring)| shape([e1, e2], ring))
 }
 
-/// Mostly generic, sometimes along an axis or in a plane of two.
+/// Mostly generic points, sometimes on an axis or in a coordinate plane.
 fn place(size: f64) -> impl Strategy<Value = DVec3> {
     let coordinate = move || prop_oneof![4 => -size..size, 1 => Just(0.0)];
     prop::array::uniform3(coordinate()).prop_map(DVec3::from)
@@ -39,8 +39,8 @@ fn value(shape: &Superquadric, point: DVec3) -> f64 {
     shape.field.value((point - shape.center) / shape.radii) - 1.0
 }
 
-/// How far a point is off the surface: to the nearest place where the side changes, along the six
-/// directions of the axes and the gradient's two.
+/// Returns the distance of a point from the surface: to the nearest change of side along the six
+/// directions of the axes and both directions of the gradient.
 fn off(shape: &Superquadric, point: DVec3) -> f64 {
     let here = value(shape, point) > 0.0;
     let mut reach = 1e-16;
@@ -58,8 +58,8 @@ fn off(shape: &Superquadric, point: DVec3) -> f64 {
     reach
 }
 
-/// Checks a root against the sides at many places along the ray: none lies on another side before
-/// it, beginning with `outside`, and behind it lies the other one.
+/// Compares a root with the sides at many points along the ray. All points before the root must be
+/// on the side `outside`, and the root must lie on the surface.
 fn check(
     shape: &Superquadric,
     from: DVec3,
@@ -69,7 +69,7 @@ fn check(
 ) -> Result<(), TestCaseError> {
     let end = root.unwrap_or(14.0);
     for k in 1..3000 {
-        // Nothing is asked of the last rounding before the root.
+        // The last rounding before the root is exempt.
         let t = end * f64::from(k) / 3000.0;
         let value = value(shape, from + t * way);
         let agrees = (value > 0.0) == outside || value.abs() < 1e-11;
@@ -85,8 +85,8 @@ fn check(
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
 
-    /// The hit lies on the surface and no place before it is inside; and if there is no hit, no
-    /// place at all is.
+    /// The hit lies on the surface, and no point before it is inside. Without a hit no point is
+    /// inside.
     #[test]
     fn no_root_is_before_the_first(shape in any_shape(), from in place(6.0), to in place(1.5)) {
         prop_assume!((to - from).length() > 0.1 && value(&shape, from).abs() > 1e-6);
@@ -95,12 +95,12 @@ proptest! {
         check(&shape, from, way, value(&shape, from) > 0.0, root)?;
     }
 
-    /// A ray that leaves the surface comes to the next place where it meets it again, if any.
+    /// A ray that leaves the surface finds the next point where it meets the surface, if any.
     #[test]
     fn a_ray_that_leaves_meets_the_next_root(shape in any_shape(), at in place(2.0), to in place(1.5)) {
         let start = shape.center + at;
         prop_assume!(at.length() > 0.1 && (shape.center + to - start).length() > 0.1);
-        // The last place on the surface along a ray outward.
+        // The last point on the surface along a ray outward.
         let Some(t) = shape.intersect(start + 10.0 * at, -at.normalize(), FREE) else { return Ok(()) };
         let point = shape.surface_point(start + 10.0 * at - t * at.normalize());
         let way = (shape.center + to - point.position).normalize();
@@ -108,14 +108,14 @@ proptest! {
         prop_assume!(cosine.abs() > 1e-3);
         let root = shape.intersect(point.position, way, LEAVING);
         prop_assert!(root.is_none_or(|t| t > LEAVING.skin));
-        // Creases have two normals, and which way is out depends on the side.
+        // Creases have two normals, and the outward direction depends on the side.
         let off_crease = (point.position - shape.center).abs().min_element() > 1e-6;
         if off_crease {
             check(&shape, point.position, way, cosine > 0.0, root)?;
         }
     }
 
-    /// Both ways of finding a root agree where both may be used.
+    /// Both methods of finding a root agree where both apply.
     #[test]
     fn pieces_find_what_newton_proves(
         e1 in 0.05..2.0f64, e2 in 0.05..2.0f64, from in place(4.0), to in place(1.2),
@@ -141,7 +141,7 @@ proptest! {
         let sphere = Sphere { center: DVec3::ZERO, radius: 1.0 };
         let (ours, truth) = (unit([1.0; 2]).intersect(from, way, FREE), sphere.intersect(from, way, false, 0.0));
         let aside = from.cross(way).length();
-        // Where the ray touches, the hit has half the digits.
+        // Where the ray touches the sphere, the hit has half the digits.
         prop_assume!((aside - 1.0).abs() > 1e-4);
         prop_assert_eq!(ours.is_some(), truth.is_some());
         if let (Some(ours), Some(truth)) = (ours, truth) {
@@ -154,7 +154,7 @@ proptest! {
         }
     }
 
-    /// The surface lies between the box and the box shrunk until its corners touch.
+    /// The surface lies between the box and the box shrunk until its corners touch the surface.
     #[test]
     fn with_small_exponents_it_is_nearly_a_box(from in place(5.0), to in place(0.9), e in 0.05..0.2f64) {
         let cuboid = |reach: f64| Cuboid::new(DVec3::splat(-reach), DVec3::splat(reach)).unwrap();
@@ -170,7 +170,7 @@ proptest! {
     fn normals_agree_with_differences(
         shape in any_shape(), toward in prop::array::uniform3(0.2..1.0f64), octant in 0u32..8,
     ) {
-        // Away from creases and from the tips of stars, where the surface bends without bound.
+        // Away from creases and from the tips of stars, where the curvature is unbounded.
         let sign = |k: u32| if octant >> k & 1 == 0 { 1.0 } else { -1.0 };
         let way = -DVec3::new(sign(0), sign(1), sign(2)) * DVec3::from(toward).normalize();
         let from = shape.center - 9.0 * way + DVec3::new(0.0, 0.05, 0.0);
@@ -191,7 +191,8 @@ proptest! {
 
 #[test]
 fn a_ray_that_runs_along_a_straight_line_of_the_surface_ends_soon() {
-    // Between its points a star with e1 of 2 is made of straight lines, and an octahedron of planes.
+    // A star with e1 of 2 consists of straight lines between its points, and an octahedron of
+    // planes.
     for exponents in [[2.0, 4.0], [2.0, 2.0], [2.0, 0.7], [2.0, 2.5]] {
         let star = unit(exponents);
         let h = star.field.axis_norm(DVec3::new(0.6, 0.0, 0.3));
@@ -200,7 +201,7 @@ fn a_ray_that_runs_along_a_straight_line_of_the_surface_ends_soon() {
         for aside in [0.0, 1e-15, 1e-12, 1e-9, 1e-6] {
             for side in [DVec3::Y, DVec3::NEG_Y, DVec3::X] {
                 let from = foot - way + aside * side;
-                // Whatever is found must be on the surface.
+                // Any hit must be on the surface.
                 if let Some(t) = star.intersect(from, way, FREE) {
                     assert!(value(&star, from + t * way).abs() < 1e-14, "{exponents:?} {aside}");
                 }
@@ -225,7 +226,7 @@ fn rays_along_the_axes_hit_the_tips() {
 
 #[test]
 fn what_starts_near_a_crease_but_off_the_surface_is_not_on_it() {
-    // Here the slope is without bound, and says nothing of how far the surface is.
+    // The slope is unbounded here and does not give the distance to the surface.
     let star = unit([4.0, 4.0]);
     let from = DVec3::new(1e-300, 0.1, 0.5);
     let near = Start { leaves: None, skin: 1e-13 };
@@ -237,7 +238,7 @@ fn what_starts_near_a_crease_but_off_the_surface_is_not_on_it() {
 
 #[test]
 fn from_the_edge_of_a_fin_the_next_fin_is_seen() {
-    // The slope at the edge, which knows no side of it, says that the way leads inside; but the fin
+    // The slope at the edge is the same for both sides and says that the ray leads inside. The fin
     // is thinner there than any ray.
     let fins = unit([1.0, 4.0]);
     let (edge, inside) = (DVec3::new(0.0, 0.6, 0.8), DVec3::new(0.5, 0.0, 0.0));
