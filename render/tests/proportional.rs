@@ -36,8 +36,11 @@ fn soup(corners: &[Corners]) -> Mesh {
     }
 }
 
-/// Families of hard triangles by their number.
-const HARD: [(&str, fn(usize, usize) -> Corners); 5] = [
+/// The corners of one of several triangles, by its number and by how many there are.
+type Family = fn(usize, usize) -> Corners;
+
+/// Families of hard triangles.
+const HARD: [(&str, Family); 5] = [
     ("in one place", |_, _| [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.5]]),
     ("of one point", |_, _| [[0.5; 3]; 3]),
     ("long, thin and askew", |k, of| {
