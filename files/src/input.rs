@@ -224,7 +224,10 @@ mod tests {
     #[test]
     fn a_folder_is_said_to_be_one() {
         let error = Disk.read(Path::new("src")).unwrap_err().to_string();
-        assert_eq!(error, "src is a folder, expected a regular file (only - may be a pipe)");
+        assert_eq!(
+            error,
+            "cannot read src: it is a folder, expected a regular file (only - may be a pipe)"
+        );
     }
 
     #[cfg(unix)]
@@ -232,7 +235,10 @@ mod tests {
     fn a_device_that_never_ends_is_refused_before_it_is_read() {
         for read in [Disk.read(Path::new("/dev/zero")), read(Path::new("/dev/zero"))] {
             let error = read.unwrap_err().to_string();
-            assert!(error.starts_with("/dev/zero is a device, expected a regular"), "{error}");
+            assert!(
+                error.starts_with("cannot read /dev/zero: it is a device, expected a regular"),
+                "{error}"
+            );
         }
         assert!(open(Path::new("/dev/zero")).is_err());
     }
@@ -249,7 +255,10 @@ mod tests {
         std::os::unix::fs::symlink(&pipe, &link).unwrap();
         for path in [pipe, link] {
             for error in [Disk.read(&path).unwrap_err(), open(&path).err().unwrap()] {
-                assert!(error.to_string().contains("is a pipe, expected a regular"), "{error}");
+                assert!(
+                    error.to_string().contains(": it is a pipe, expected a regular"),
+                    "{error}"
+                );
             }
         }
     }

@@ -60,7 +60,7 @@ pub enum FileError {
         source: io::Error,
     },
     /// The path leads to something else than a regular file.
-    #[error("{name} is {found}, expected a regular file (only - may be a pipe)")]
+    #[error("cannot read {name}: it is {found}, expected a regular file (only - may be a pipe)")]
     NotRegular {
         /// The file as the user named it.
         name: String,

@@ -41,16 +41,17 @@ fn named_pipes_and_devices_are_no_files() {
     for text in [TEXTURED_WALL.to_string(), bumped(), include] {
         let bench = Bench::with_scene(&text);
         assert!(Command::new("mkfifo").arg(bench.path("checks.png")).status().unwrap().success());
-        let said = ["scene.json:", "checks.png is a pipe, expected a regular file"];
+        let said = ["scene.json:", "cannot read checks.png: it is a pipe, expected a regular file"];
         bench.refuse(&["scene.json"], b"", 5, &said);
         std::fs::remove_file(bench.path("checks.png")).unwrap();
         std::os::unix::fs::symlink("/dev/zero", bench.path("checks.png")).unwrap();
-        let said = ["scene.json:", "checks.png is a device, expected a regular file"];
+        let said =
+            ["scene.json:", "cannot read checks.png: it is a device, expected a regular file"];
         bench.refuse(&["scene.json"], b"", 5, &said);
     }
     let bench = Bench::with_scene(WALL);
-    bench.refuse(&["/dev/zero"], b"", 5, &["/dev/zero is a device"]);
-    bench.refuse(&["."], b"", 5, &[". is a folder"]);
+    bench.refuse(&["/dev/zero"], b"", 5, &["cannot read /dev/zero: it is a device"]);
+    bench.refuse(&["."], b"", 5, &["cannot read .: it is a folder"]);
 }
 
 #[test]

@@ -90,7 +90,8 @@ impl<'a> Reader<'a> {
     ) -> Result<(DynamicImage, Reserved<'a>), SceneError> {
         let bytes = self.named_file(place, path)?;
         let name = || input::name_of(path);
-        let formats = [Format::Png, Format::Jpeg];
+        // An EXR is read to be refused with its own sentence, which names floating point values.
+        let formats = [Format::Png, Format::Jpeg, Format::OpenExr];
         let budget = self.memory.budget;
         picture::decode(&bytes, &formats, Texture::decoding_bytes, budget, name).map_err(|error| {
             match error {
