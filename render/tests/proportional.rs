@@ -1,6 +1,8 @@
 //! The work grows with the input and not with its square: operations counted at one size and at twice
 //! that size, on inputs that are made to be hard.
 
+#![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
 use files::json::Document;
 use files::{Embedded, FileError, Source};
 use glam::{DVec2, DVec3};
@@ -36,8 +38,11 @@ fn soup(corners: &[Corners]) -> Mesh {
     }
 }
 
-/// Families of hard triangles by their number.
-const HARD: [(&str, fn(usize, usize) -> Corners); 5] = [
+/// The corners of a triangle by its number and by how many there are.
+type Make = fn(usize, usize) -> Corners;
+
+/// Families of hard triangles.
+const HARD: [(&str, Make); 5] = [
     ("in one place", |_, _| [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.5]]),
     ("of one point", |_, _| [[0.5; 3]; 3]),
     ("long, thin and askew", |k, of| {
@@ -55,7 +60,7 @@ const HARD: [(&str, fn(usize, usize) -> Corners); 5] = [
     }),
 ];
 
-fn hard(make: fn(usize, usize) -> Corners, count: usize) -> Shape {
+fn hard(make: Make, count: usize) -> Shape {
     Shape::Mesh(soup(&(0..count).map(|k| make(k, count)).collect::<Vec<_>>()))
 }
 

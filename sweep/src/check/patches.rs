@@ -2,7 +2,7 @@
 //!
 //! Boxes along the axes of space overlap in thousands where cells are long, thin and askew. A box that
 //! is turned along its patch is as thin as the patch is, and so meets its neighbours only: after
-//! Gottschalk, Lin and Manocha, *OBBTree: A Hierarchical Structure for Rapid Interference Detection*,
+//! Gottschalk, Lin and Manocha, *`OBBTree`: A Hierarchical Structure for Rapid Interference Detection*,
 //! SIGGRAPH 1996. Two boxes are told apart by the axes of both, and where these do not, by the directions
 //! across an axis of each, which part long thin boxes that pass each other. Patches are rectangles of cells, halved across their longer
 //! side, so that the tree needs no sorting and is `log2 n` deep.
@@ -229,7 +229,7 @@ fn axes(lie: &Lie) -> [Vec3; 2] {
 
 impl Node {
     fn turned(&self) -> Turned {
-        let [first, second] = self.axes.map(|axis| axis.as_dvec3());
+        let [first, second] = self.axes.map(Vec3::as_dvec3);
         let axes = [first, second, first.cross(second)];
         Turned { middle: self.middle, axes, half: self.half.map(f64::from) }
     }
@@ -238,7 +238,7 @@ impl Node {
 impl Turned {
     /// The box around points whose axes are these two and the one across them.
     fn around(axes: [Vec3; 2], points: impl Iterator<Item = DVec3> + Clone) -> Self {
-        let [first, second] = axes.map(|axis| axis.as_dvec3());
+        let [first, second] = axes.map(Vec3::as_dvec3);
         let axes = [first, second, first.cross(second)];
         // Counted from one of the points, so that no digits are lost far from the origin.
         let origin = points.clone().next().unwrap_or(DVec3::ZERO);

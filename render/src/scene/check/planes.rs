@@ -26,7 +26,7 @@ pub fn bits(quad: &Quad) -> Bits {
         None => [quad.corner(), normal(quad), DVec3::ZERO, DVec3::ZERO],
     };
     let mut bits = [0; 13];
-    for (place, number) in points.iter().flat_map(|point| point.to_array()).enumerate() {
+    for (place, number) in points.iter().flat_map(DVec3::to_array).enumerate() {
         // Minus zero is the same number as zero.
         bits[place] = (number + 0.0).to_bits();
     }
@@ -60,12 +60,11 @@ type Key = (f64, f64);
 #[must_use]
 pub fn near_each_other(quads: &[&Quad]) -> Vec<Vec<usize>> {
     let keys: Vec<[Key; 4]> = quads.iter().map(|quad| keys(quad)).collect();
-    let mut groups = vec![(0..quads.len()).collect::<Vec<usize>>()];
-    for number in 0..4 {
+    let all: Vec<usize> = (0..quads.len()).collect();
+    (0..4).fold(vec![all], |groups, number| {
         let parted = groups.into_iter().flat_map(|group| part(group, |k| keys[k][number]));
-        groups = parted.filter(|group| group.len() > 1).collect();
-    }
-    groups
+        parted.filter(|group| group.len() > 1).collect()
+    })
 }
 
 /// The direction of the normal without its sign, and the distance of the plane from the origin.

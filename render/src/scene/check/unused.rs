@@ -17,8 +17,9 @@ pub fn findings(subject: &Subject<'_>) -> Vec<Finding> {
             *shown.entry(texture).or_insert(false) |= shows;
         }
     }
-    let materials = subject.materials.iter().zip(used).filter_map(|([_, path], used)| {
-        (!used).then(|| Finding::new(Severity::Remark, path, "no surface is made of this material"))
+    let unused = subject.materials.iter().zip(used).filter(|(_, used)| !used);
+    let materials = unused.map(|([_, path], _)| {
+        Finding::new(Severity::Remark, path, "no surface is made of this material")
     });
     let textures = subject.textures.iter().filter_map(|(texture, [_, path])| {
         let message = "it is only on materials without ambient and diffuse light, which do not \
