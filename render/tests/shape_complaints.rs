@@ -28,6 +28,11 @@ fn boxes_without_room_are_refused() {
     );
     refuse(&cuboid("[0, 0, 2]", "[1, 1, 1]", ""), &["scene.json:5:", "box.high[2]: found 1"]);
     refuse(&cuboid("[0, 0]", "[1, 1, 1]", ""), &["scene.json:5:", "box.low"]);
+    // Found by the fuzzer: the tree over all boxes panicked.
+    refuse(
+        &cuboid("[0, 0, 0]", "[1, 1, 1e308]", ", \"place\": [ { \"translate\": [1, 0, 0.1] } ]"),
+        &["scene.json:5:", "objects[0].box.high[2]: found 1e308, expected -1e30 to 1e30"],
+    );
     refuse(&cuboid("[0, 0, 0]", "[1, 1, 1]", ", \"radius\": 1"), &["scene.json:5:", "radius"]);
     refuse(
         &cuboid("[0, 0, 0]", "[1, 1, 1]", "").replace("wall", "wal"),
@@ -38,6 +43,10 @@ fn boxes_without_room_are_refused() {
 #[test]
 fn superquadrics_out_of_range_are_refused_with_it() {
     let at = "objects[0].superquadric.";
+    refuse(
+        &superquadric("[1, 1, 1]", "[1, 1]", "").replace("[0, 0, 0]", "[0, -1e308, 0]"),
+        &["scene.json:5:", at, "center[1]: found -1e308, expected -1e30 to 1e30"],
+    );
     refuse(
         &superquadric("[1, 0, 1]", "[1, 1]", ""),
         &["scene.json:5:", at, "radii[1]: found 0, expected more than 0"],
@@ -78,6 +87,10 @@ fn placements_that_cannot_be_are_refused() {
     placed(
         "[ { \"scale\": [1e200, 1, 1] }, { \"scale\": [1e200, 1, 1] } ]",
         &["place: found a map that stretches too much"],
+    );
+    placed(
+        "[ { \"translate\": [0, -1.7e308, 0] } ]",
+        &["place: found a map that moves points by more than 1e60"],
     );
     placed("[ { \"matrix\": [[1, 0, 0], [0, 1, 0], [0, 0, 1]] } ]", &["place[0].matrix"]);
     placed("[ { \"rotate\": 1 } ]", &["place[0]", "expected one of `scale`, `rotate_deg`"]);

@@ -31,8 +31,11 @@ pub enum PlacementError {
         "found a map that presses things flat, expected stretches that differ at most a million times"
     )]
     Flat,
+    /// The map moves points so far that boxes around them have no numbers.
+    #[error("found a map that moves points by more than 1e60, expected at most 1e60")]
+    Away,
     /// A vertex of a mesh is moved beyond the range of its coordinates.
-    #[error("found vertex {0} moved to where f32 has no numbers, expected coordinates up to 3e38")]
+    #[error("found vertex {0} moved to where single precision has no numbers, expected coordinates up to 3e38")]
     Far(usize),
     /// The edges of a rectangle become parallel.
     #[error("found edges that become parallel, expected two directions")]
@@ -52,6 +55,9 @@ impl Placement {
         let size = linear.to_cols_array().into_iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         if !to_scene.is_finite() || size > LARGEST || (size > 0.0 && size < 1.0 / LARGEST) {
             return Err(PlacementError::NotFinite);
+        }
+        if to_scene.translation.abs().max_element() > LARGEST {
+            return Err(PlacementError::Away);
         }
         // Scaled to a largest entry of 1, so that the inverse measures flatness.
         let inverse = (linear * (1.0 / size)).inverse();

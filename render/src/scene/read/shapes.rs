@@ -7,6 +7,8 @@ use crate::shape::{Cuboid, Shape, Superquadric};
 
 impl Reader<'_> {
     pub(super) fn cuboid(&self, path: &str, file: &BoxFile) -> Result<Shape, SceneError> {
+        self.vector(&format!("{path}.low"), file.low)?;
+        self.vector(&format!("{path}.high"), file.high)?;
         for axis in 0..3 {
             let (low, high) = (file.low[axis], file.high[axis]);
             if high <= low {
@@ -25,6 +27,7 @@ impl Reader<'_> {
         path: &str,
         file: &SuperquadricFile,
     ) -> Result<Shape, SceneError> {
+        self.vector(&format!("{path}.center"), file.center)?;
         for (axis, &radius) in file.radii.iter().enumerate() {
             self.above_zero(&format!("{path}.radii[{axis}]"), radius)?;
         }
