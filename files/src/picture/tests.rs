@@ -146,10 +146,12 @@ fn exr_with_data_window(corners: [i32; 4]) -> Vec<u8> {
 fn the_data_window_of_an_exr_is_measured_and_not_only_what_is_displayed() {
     let budget = Budget::new(1 << 30);
     for corners in [[0, 0, 1_000_000, 1000], [-1_000_000_000, -4, 1_000_000_000, 4]] {
-        let error = read(&exr_with_data_window(corners), &budget).unwrap_err();
-        let PictureError::Broken(error) = error else { panic!("{corners:?}: {error:?}") };
-        assert!(error.contains("pixels with 3 channels, which no file of 8"), "{error}");
         let mut file = exr_with_data_window(corners);
+        let error = read(&file, &budget).unwrap_err();
+        let PictureError::Broken(error) = error else { panic!("{corners:?}: {error:?}") };
+        let expected =
+            format!("pixels with 3 channels, which no file of {} bytes holds", file.len());
+        assert!(error.ends_with(&expected), "{error}");
         file.resize(20_000_000, 0);
         let error = read(&file, &budget).unwrap_err();
         let PictureError::Memory(error) = error else { panic!("{corners:?}: {error:?}") };

@@ -35,7 +35,9 @@ pub enum PlacementError {
     #[error("found a map that moves points by more than 1e60, expected at most 1e60")]
     Away,
     /// A vertex of a mesh is moved beyond the range of its coordinates.
-    #[error("found vertex {0} moved to where single precision has no numbers, expected coordinates up to 3e38")]
+    #[error(
+        "found vertex {0} moved to where single precision has no numbers, expected coordinates up to 3e38"
+    )]
     Far(usize),
     /// The edges of a rectangle become parallel.
     #[error("found edges that become parallel, expected two directions")]
