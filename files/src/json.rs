@@ -21,6 +21,9 @@ use thiserror::Error;
 /// grows, and a tree in which a complaint finds its place as much again. 43 were measured.
 pub const BYTES_OF_A_BYTE: u64 = 48;
 
+/// Characters of a message at most; a longer one is cut in its middle.
+const LONGEST_MESSAGE: usize = 440;
+
 /// An error in a JSON text, with its position.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{file}:{line}:{column}: {}{message}", if path.is_empty() { String::new() } else { format!("{path}: ") })]
@@ -126,7 +129,7 @@ impl<'a> Document<'a> {
             line: 1 + before.matches('\n').count(),
             column: 1 + before[line_start..].chars().count(),
             path: words::shortened(path),
-            message: message.into(),
+            message: words::cut(&message.into(), LONGEST_MESSAGE).to_string(),
         }
     }
 
@@ -151,7 +154,7 @@ impl<'a> Document<'a> {
             line: error.line().max(1),
             column: error.column().max(1),
             path: words::shortened(&path),
-            message,
+            message: words::cut(&message, LONGEST_MESSAGE).to_string(),
         }
     }
 }

@@ -150,8 +150,20 @@ fn broken(error: ImageError) -> PictureError {
         ImageError::Limits(_) => {
             format!("more than {} beside its pixels", crate::memory::Bytes(MOST_BESIDE))
         }
-        other => other.to_string(),
+        other => without_types(other.to_string()),
     })
+}
+
+/// A message of the PNG decoder with the name of a chunk in place of its Rust value.
+fn without_types(mut message: String) -> String {
+    const START: &str = "ChunkType { type: ";
+    while let Some(start) = message.find(START) {
+        let Some(length) = message[start..].find('}') else { break };
+        let value = &message[start + START.len()..start + length];
+        let name = value.split(',').next().unwrap_or_default().trim().to_string();
+        message.replace_range(start..=start + length, &name);
+    }
+    message
 }
 
 #[cfg(test)]

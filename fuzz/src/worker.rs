@@ -21,6 +21,8 @@ type LastPanic = Arc<Mutex<Option<String>>>;
 /// # Errors
 /// When there are no seeds, or the parent has gone.
 pub fn run() -> Result<(), FuzzError> {
+    // What a program counts may take this much; the rest is for small values, which it does not count.
+    files::memory::allow(Some(MOST_MEMORY / 4 * 3));
     let bench = Bench::load()?;
     let last_panic = LastPanic::default();
     let said = Arc::clone(&last_panic);

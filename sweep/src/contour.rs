@@ -80,7 +80,16 @@ impl Contour {
     }
 
     fn of(path: Path<DVec2>, reached: Option<f64>) -> Self {
-        let creases = path.joints().filter(|joint| joint.angle.to_degrees() > CREASE_DEG).collect();
+        let mut creases: Vec<Joint> =
+            path.joints().filter(|joint| joint.angle.to_degrees() > CREASE_DEG).collect();
+        // A closed path ends where it starts. A joint whose fraction of the length rounds to 1 is the start.
+        while path.closed()
+            && let Some(last) = creases.pop_if(|joint| joint.s / path.length() >= 1.0)
+        {
+            if creases.first().is_none_or(|first| first.s > 0.0) {
+                creases.insert(0, Joint { s: 0.0, ..last });
+            }
+        }
         Self(Form::Path { path, creases, reached })
     }
 
@@ -251,6 +260,17 @@ mod tests {
         let pace = 1.0 / (4.0 * PI);
         assert_eq!(columns[1], (0.25, Local2 { point, tangent, curvature: 0.5, pace }));
         assert_eq!(us(&columns), [0.0, 0.25, 0.5, 0.75]);
+    }
+
+    /// The last two corners lie within rounding of the start, as fractions of a length of 8e9.
+    #[test]
+    fn corners_within_rounding_of_the_start_of_a_closed_contour_are_at_the_start() {
+        let spike = contour("M0 0H1V4294967296L2 3L0 1e-7L0 1e-8Z");
+        let breaks = spike.breaks();
+        assert!(spike.closed() && spike.length() > 8e9);
+        assert_eq!(breaks[0], 0.0);
+        assert!(breaks.windows(2).all(|pair| pair[0] <= pair[1]), "{breaks:?}");
+        assert!(breaks.iter().all(|&at| at < 1.0), "{breaks:?}");
     }
 
     #[test]

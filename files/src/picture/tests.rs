@@ -146,17 +146,19 @@ fn exr_with_data_window(corners: [i32; 4]) -> Vec<u8> {
 fn the_data_window_of_an_exr_is_measured_and_not_only_what_is_displayed() {
     let budget = Budget::new(1 << 30);
     for corners in [[0, 0, 1_000_000, 1000], [-1_000_000_000, -4, 1_000_000_000, 4]] {
-        let mut file = exr_with_data_window(corners);
+        let file = exr_with_data_window(corners);
         let error = read(&file, &budget).unwrap_err();
         let PictureError::Broken(error) = error else { panic!("{corners:?}: {error:?}") };
         let expected =
             format!("pixels with 3 channels, which no file of {} bytes holds", file.len());
         assert!(error.ends_with(&expected), "{error}");
-        file.resize(20_000_000, 0);
-        let error = read(&file, &budget).unwrap_err();
-        let PictureError::Memory(error) = error else { panic!("{corners:?}: {error:?}") };
-        assert!(error.what.ends_with("pixels with 3 channels"), "{error}");
     }
+    // A file long enough to hold the pixels is refused by the budget.
+    let mut file = exr_with_data_window([0, 0, 1_000_000, 1000]);
+    file.resize(20_000_000, 0);
+    let error = read(&file, &budget).unwrap_err();
+    let PictureError::Memory(error) = error else { panic!("{error:?}") };
+    assert!(error.what.ends_with("pixels with 3 channels"), "{error}");
     // A small data window passes this check, and the file is told to be cut.
     let error = read(&exr_with_data_window([0, 0, 7, 7]), &budget).unwrap_err();
     assert!(matches!(&error, PictureError::Broken(_)), "{error:?}");
@@ -191,4 +193,16 @@ fn damaged_files_of_all_formats_do_not_panic() {
         }
     }
     assert_eq!(budget.left(), 64 << 20);
+}
+
+#[test]
+fn messages_of_the_png_decoder_name_chunks_and_no_rust_values() {
+    let mut file = encoded(GrayImage::new(3, 2), ImageFormat::Png);
+    // The first chunk: its name follows the signature and a length, 13 bytes of content follow its name.
+    file[12..16].copy_from_slice(b"IDAT");
+    let sum = crc(&file[12..29]);
+    file[29..33].copy_from_slice(&sum.to_be_bytes());
+    let budget = Budget::new(1 << 30);
+    let error = read(&file, &budget).unwrap_err().to_string();
+    assert!(error.contains("IDAT") && !error.contains('{'), "{error}");
 }

@@ -27,7 +27,7 @@ pub fn findings(grid: &GridMesh) -> Option<Finding> {
     };
     let away = low.abs().max(high.abs()).max_element();
     let message = format!(
-        "the f32 coordinates of a mesh lose {}, which is more than {of}: the surface is {} large \
+        "the single-precision coordinates of a mesh lose {}, which is more than {of}: the surface is {} large \
          and up to {} from the origin; move it nearer",
         short(lost),
         short(size),
