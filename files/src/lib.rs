@@ -52,7 +52,7 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 pub enum FileError {
     /// The file, or standard input, could not be read.
-    #[error("cannot read {name}: {source}")]
+    #[error("cannot read {}: {source}", words::shown(name))]
     Read {
         /// The file as the user named it, or `<stdin>`.
         name: String,
@@ -60,7 +60,10 @@ pub enum FileError {
         source: io::Error,
     },
     /// The path leads to something else than a regular file.
-    #[error("cannot read {name}: it is {found}, expected a regular file (only - may be a pipe)")]
+    #[error(
+        "cannot read {}: it is {found}, expected a regular file (only - may be a pipe)",
+        words::shown(name)
+    )]
     NotRegular {
         /// The file as the user named it.
         name: String,
@@ -71,7 +74,7 @@ pub enum FileError {
     #[error(transparent)]
     Memory(#[from] MemoryError),
     /// The file, or standard output, could not be written.
-    #[error("cannot write {name}: {source}")]
+    #[error("cannot write {}: {source}", words::shown(name))]
     Write {
         /// The file as the user named it, or `<stdout>`.
         name: String,
@@ -79,7 +82,10 @@ pub enum FileError {
         source: io::Error,
     },
     /// The output exists and the user asked that nothing be replaced.
-    #[error("{name} exists and --no-clobber was given: remove it or choose another name")]
+    #[error(
+        "{} exists and --no-clobber was given: remove it or choose another name",
+        words::shown(name)
+    )]
     Exists {
         /// The file as the user named it.
         name: String,

@@ -20,6 +20,9 @@ const LONGEST_QUOTE: usize = 60;
 /// Characters of a line at most, with all that is quoted in it.
 const LONGEST_LINE: usize = 1000;
 
+/// Characters of a list of known names in a message at most, where the user chose the names.
+pub const LONGEST_LIST: usize = 300;
+
 /// Names longer than this many characters are not held against others: the time taken is the product of
 /// both lengths, for each name that is known.
 const LONGEST_SLIP: usize = 200;

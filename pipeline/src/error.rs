@@ -1,6 +1,7 @@
 //! What can go wrong in a job.
 
 use crate::compare::CompareError;
+use files::words::{LONGEST_LIST, cut, shown};
 use files::{Exit, Failure, FileError, JsonError, MemoryError};
 use render::scene::SceneError;
 use sweep::SweepError;
@@ -50,7 +51,12 @@ pub enum PipelineError {
         file: String,
     },
     /// The job makes a mesh that its scene does not have.
-    #[error("job {job} makes mesh {name}: the scene has no mesh of that name; it has {known}")]
+    #[error(
+        "job {} makes mesh {}: the scene has no mesh of that name; it has {}",
+        shown(job),
+        shown(name),
+        cut(known, LONGEST_LIST)
+    )]
     UnknownMesh {
         /// The job.
         job: String,
@@ -61,7 +67,10 @@ pub enum PipelineError {
     },
     /// The scene has a mesh without a file, and the job does not make it.
     #[error(
-        "job {job} makes no mesh {name}, which {scene} needs: add it to the job's \"meshes\", or a \"file\" to {path} in {scene}"
+        "job {} makes no mesh {}, which {2} needs: add it to the job's \"meshes\", or a \"file\" to {path} in {2}",
+        shown(job),
+        shown(name),
+        shown(scene)
     )]
     MissingMesh {
         /// The job.
@@ -74,7 +83,12 @@ pub enum PipelineError {
         scene: String,
     },
     /// The job has no mode of that name.
-    #[error("job {job} has no mode {name:?}; it has {known}")]
+    #[error(
+        "job {} has no mode \"{}\"; it has {}",
+        shown(job),
+        shown(name),
+        cut(known, LONGEST_LIST)
+    )]
     UnknownMode {
         /// The job.
         job: String,

@@ -1,5 +1,6 @@
 //! Reasons why a grid cannot be turned into triangles.
 
+use files::words::shown;
 use files::{Exit, Failure, FileError, MemoryError};
 use glam::DVec3;
 use std::io;
@@ -29,8 +30,9 @@ pub enum TriangulateError {
     Terminal,
     /// The grid has more points than the mesh can number with 32 bits.
     #[error(
-        "{object}: found {rows} x {cols} points, expected at most {limit}: a mesh numbers its vertices with \
-         32 bits"
+        "{}: found {rows} x {cols} points, expected at most {limit}: a mesh numbers its vertices with \
+         32 bits",
+        shown(object)
     )]
     TooMany {
         /// The object's name.
@@ -43,7 +45,7 @@ pub enum TriangulateError {
         limit: u64,
     },
     /// The grid has too few points for a surface.
-    #[error("{object}: found {rows} rows of {cols} columns, expected at least 2 of each")]
+    #[error("{}: found {rows} rows of {cols} columns, expected at least 2 of each", shown(object))]
     TooFew {
         /// The object's name.
         object: String,
@@ -53,7 +55,7 @@ pub enum TriangulateError {
         cols: usize,
     },
     /// A grid in memory with a seam or a shift that no surface has.
-    #[error("{object}: {fault}")]
+    #[error("{}: {fault}", shown(object))]
     Seam {
         /// The object's name.
         object: String,
@@ -61,7 +63,7 @@ pub enum TriangulateError {
         fault: String,
     },
     /// A grid in memory with an area that does not lie on it.
-    #[error("{object}: {fault}")]
+    #[error("{}: {fault}", shown(object))]
     Area {
         /// The object's name.
         object: String,
@@ -70,8 +72,8 @@ pub enum TriangulateError {
     },
     /// A number that does not fit in f32, the number type of a mesh.
     #[error(
-        "{object}: row {row}, column {col}: found the {what} ({:?}, {:?}, {:?}), expected numbers within 3.4e38, \
-         which is what an OBJ holds", found.x, found.y, found.z
+        "{}: row {row}, column {col}: found the {what} ({:?}, {:?}, {:?}), expected numbers within 3.4e38, \
+         which is what an OBJ holds", shown(object), found.x, found.y, found.z
     )]
     Number {
         /// The object's name.
@@ -86,7 +88,10 @@ pub enum TriangulateError {
         found: DVec3,
     },
     /// The picture repeats more than 1e30 times, far below the end of f32.
-    #[error("{object}: found a picture that repeats {found:?} times, expected at most 1e30 times")]
+    #[error(
+        "{}: found a picture that repeats {found:?} times, expected at most 1e30 times",
+        shown(object)
+    )]
     Repeat {
         /// The object's name.
         object: String,
@@ -95,7 +100,8 @@ pub enum TriangulateError {
     },
     /// A grid in memory whose arrays do not fit each other.
     #[error(
-        "{object}: found a grid with {positions} positions and {normals} normals, expected {expected} of each"
+        "{}: found a grid with {positions} positions and {normals} normals, expected {expected} of each",
+        shown(object)
     )]
     Arrays {
         /// The object's name.
@@ -109,7 +115,8 @@ pub enum TriangulateError {
     },
     /// Rows that do not match the header.
     #[error(
-        "{object}: found row {row} with {cols} points, expected {rows} rows of {expected} points"
+        "{}: found row {row} with {cols} points, expected {rows} rows of {expected} points",
+        shown(object)
     )]
     Rows {
         /// The object's name.

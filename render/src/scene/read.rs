@@ -26,6 +26,7 @@ use crate::shape::Mesh;
 use crate::shape::mesh::MeshError;
 use draft::Indices;
 use files::json::Document;
+use files::words::{LONGEST_LIST, cut, shown};
 use files::{Budget, Exit, Failure, FileError, JsonError, MemoryError, Source, memory};
 use given::Given;
 use glam::DVec3;
@@ -66,7 +67,11 @@ pub enum SceneError {
         source: MeshError,
     },
     /// A mesh was given for a name that the scene does not have.
-    #[error("--mesh {name}: the scene has no mesh of that name; it has {known}")]
+    #[error(
+        "--mesh {}: the scene has no mesh of that name; it has {}",
+        shown(name),
+        cut(known, LONGEST_LIST)
+    )]
     UnknownMesh {
         /// The name given.
         name: String,
@@ -75,7 +80,9 @@ pub enum SceneError {
     },
     /// The scene has a mesh without a file, and none was given.
     #[error(
-        "the scene's mesh {name} was not given: add --mesh {name}=FILE, or a \"file\" to {path} in {scene}"
+        "the scene's mesh {0} was not given: add --mesh {0}=FILE, or a \"file\" to {path} in {1}",
+        shown(name),
+        shown(scene)
     )]
     MissingMesh {
         /// The mesh's name.
