@@ -182,6 +182,7 @@ fn render_refuses_to_write_over_what_it_reads() {
         )
         .unwrap();
         lines.push((format!("render scene.json -o links/{name}.png"), place.into()));
+        lines.push((format!("render scene.json --format png -o {name}"), place.into()));
         if name.ends_with("png") {
             lines.push((format!("render scene.json -o {name}"), place.into()));
         }
@@ -247,16 +248,15 @@ fn a_name_that_belongs_to_another_format_is_refused() {
             ("triangulate rod.grid -o a.glb", "a.glb would hold an OBJ mesh"),
             ("triangulate rod.grid -o a.png", "expected .obj"),
             ("triangulate rod.grid -o a.grid", "expected .obj"),
-            ("triangulate rod.grid -o a.stl --format obj", "a.stl would hold an OBJ mesh"),
             ("triangulate rod.grid -o a.obj --report b.obj", "b.obj would hold a JSON report"),
-            ("render scene.json -o a.obj --format png", "a.obj would hold a PNG picture"),
-            ("render scene.json -o a.png --format exr", "a.png would hold an EXR picture"),
+            ("render scene.json -o b.obj", "cannot tell the kind of picture from b.obj"),
         ],
     );
     for line in [
         "sweep spec.json --format json -o b.json && sweep spec.json -o b.new --preview b",
         "triangulate rod.grid -o c --report c.txt && triangulate rod.grid -o c.mesh --format stl",
         "render scene.json -o d --format png --size 8x8",
+        "triangulate rod.grid -o e.stl --format obj && render scene.json -o e.png --format exr --size 8x8",
     ] {
         let ran = shell(line, folder.path());
         assert!(ran.status.success(), "{line}: {}", words(&ran));

@@ -115,7 +115,6 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
     let ledger = output.ledger();
     let target = output.target(sampling.pixel.is_some(), &ledger)?;
     input.expect(&ledger)?;
-    target.as_ref().map_or(Ok(()), output::OutputArguments::check_name)?;
     let (width, height) = sampling.size;
     let settings = Settings {
         sampling: sampling.sampling()?,

@@ -21,7 +21,8 @@ Examples:
 An output file is replaced only when the whole grid was read and found undamaged. An OBJ on
 standard output is whole when its last line is `# end V F` (numbers of v and f lines).
 Mesh, material file and report are replaced together. None of them is ever a file that is read, and
-none has a name that ends as another format does (a.glb); endings of no known format are free.";
+none has a name that ends as another format does (a.glb), unless --format asks for it; endings of no
+known format are free.";
 
 /// Makes triangles of a grid that `sweep` wrote, as OBJ, STL or PLY.
 #[derive(Debug, Parser)]
@@ -151,10 +152,13 @@ impl Arguments {
         Ok(())
     }
 
-    /// Complains of a name that ends as that of another format.
+    /// Complains of a name that ends as that of another format; a mesh's format that was asked for wins
+    /// over its name.
     pub fn check_names(&self) -> Result<(), WrongExtension> {
         let format = self.format();
-        extension::check(&self.output, format.content(), &[format.extension()])?;
+        if self.format.is_none() {
+            extension::check(&self.output, format.content(), &[format.extension()])?;
+        }
         match &self.report {
             Some(report) => extension::check(report, "a JSON report", &["json"]),
             None => Ok(()),

@@ -228,9 +228,9 @@ fn stl_and_ply_are_chosen_by_flag_or_by_name() {
         assert_eq!(cut.status.code(), Some(3));
         assert!(fs::read(folder.path().join(&file)).unwrap() == named, "the old file stays");
     }
-    let run = triangulate(&["-o", "a", "--format", "stl"], &grid, folder.path());
+    let run = triangulate(&["-o", "a.stl", "--format", "obj"], &grid, folder.path());
     assert_eq!(run.status.code(), Some(0));
-    assert!(fs::read(folder.path().join("a")).unwrap().starts_with(b"topobook"));
+    assert!(fs::read(folder.path().join("a.stl")).unwrap().starts_with(b"# topobook"));
     let run = triangulate(&["--format", "step"], &grid, folder.path());
     assert_eq!(run.status.code(), Some(2));
     assert!(said(&run).contains("possible values: obj, stl, ply"), "{}", said(&run));

@@ -175,7 +175,7 @@ fn a_pipe_cut_between_two_patches_is_noticed() {
     let start = b"{\"format\"";
     let last = file.windows(start.len()).rposition(|window| window == start).unwrap();
     fs::write(folder.path().join("a.grid"), &file[..last]).unwrap();
-    for output in ["a.obj", "a", "-"] {
+    for output in ["a.obj", "a.stl", "-"] {
         let made = run(&["a.grid", "-o", output, "--format", "obj"], folder.path());
         assert_eq!(made.status.code(), Some(3));
         assert_eq!(

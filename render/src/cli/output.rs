@@ -2,7 +2,6 @@
 
 use super::{EncodeError, UseError};
 use clap::{Args, ValueEnum};
-use files::extension::{self, WrongExtension};
 use files::{FileError, Ledger, Output, Report, input, words};
 use render::Picture;
 use render::color::Encoding;
@@ -73,14 +72,6 @@ impl OutputArguments {
         }
         ledger.claim(path, "name another file with -o")?;
         Ok(Some(Target { path, format }))
-    }
-
-    /// Complains of a picture whose name ends as that of another format.
-    pub fn check_name(target: &Target<'_>) -> Result<(), WrongExtension> {
-        match target.format {
-            Format::Png => extension::check(target.path, "a PNG picture", &["png"]),
-            Format::Exr => extension::check(target.path, "an EXR picture", &["exr"]),
-        }
     }
 
     /// The files of a run, with leave to replace an output or not.
