@@ -75,11 +75,11 @@ pub(crate) fn read(argument: &Path) -> Result<Vec<u8>, FileError> {
     whole(io::stdin().lock(), 0, memory::of_process(), || STDIN.into())
 }
 
-/// As [`read`], for JSON: if there is memory to make values of it.
+/// The whole JSON file named on a command line, if there is memory to make values of it; `-` is standard input.
 ///
 /// # Errors
-/// As [`read`], and when the budget of the process is too small.
-pub fn read_json(argument: &Path) -> Result<Vec<u8>, FileError> {
+/// When it cannot be read, and when the budget of the process is too small.
+pub(crate) fn read_json(argument: &Path) -> Result<Vec<u8>, FileError> {
     room_for_values(read(argument)?, || name_of(argument))
 }
 

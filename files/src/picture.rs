@@ -5,7 +5,7 @@
 //! - The size is looked at first, and the memory for the decoder, the picture and what the caller makes
 //!   of it is reserved. Of an EXR file the data window with all channels counts, which is what the
 //!   decoder unpacks, and not the display window, which is what it returns.
-//! - What stands in a PNG beside its pixels (colour profiles, texts) may take [`MOST_BESIDE`] bytes once
+//! - What stands in a PNG beside its pixels (colour profiles, texts) may take `MOST_BESIDE` bytes once
 //!   it is unpacked. A profile that is larger is passed over by the decoder; nothing of ours reads it.
 //! - A panic of a decoder becomes [`PictureError::Broken`]. Release 0.18.1 of the crate `png` panics on
 //!   palettes whose length is not a multiple of three. It is mended upstream and not published; a test

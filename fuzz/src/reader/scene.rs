@@ -48,7 +48,7 @@ pub fn read(bytes: &[u8], source: &dyn Source) -> Tried {
 /// Reads a part by a scene that includes it.
 ///
 /// # Errors
-/// As [`read`].
+/// As [`read()`].
 pub fn read_part(bytes: &[u8], shelf: &Shelf) -> Tried {
     read(WHOLE.as_bytes(), &shelf.with(PART, bytes))
 }
@@ -57,7 +57,7 @@ pub fn read_part(bytes: &[u8], shelf: &Shelf) -> Tried {
 /// tetrahedron.
 ///
 /// # Errors
-/// As [`read`].
+/// As [`read()`].
 pub fn read_with(bytes: &[u8], source: &dyn Source, given: &[(&str, Mesh)]) -> Tried {
     let document = Document::new("scene.json", bytes).map_err(refused)?;
     let file = read::parse(&document).map_err(refused)?;

@@ -2,7 +2,7 @@
 //!
 //! Equal parallelograms are looked at once, however many there are. Others are compared when their
 //! planes are near each other, which sorting tells, and their boxes touch, which a tree tells. So the
-//! work grows with the number of objects and of coincidences, and [`MOST_TRIED`] bounds the latter.
+//! work grows with the number of objects and of coincidences, and `MOST_TRIED` bounds the latter.
 
 use super::boxes::{Boxes, touch};
 use super::planes::{self, NEAR};
