@@ -92,8 +92,9 @@ fn sound(grid: &GridMesh) -> Tried {
     hold(rises(&grid.u) && rises(&grid.v), "u or v falls")
 }
 
-/// Holds a line that `--check` prints against what a message may be.
+/// Holds a line of `--check`, as the programs print it, against what a message may be.
 pub fn said(line: String) -> Tried {
+    let line = files::words::line(&line).to_string();
     match wording_fault(&line) {
         Some(_) => Err(Stop::Refused(line)),
         None => Ok(()),
