@@ -21,7 +21,7 @@ use std::path::Path;
 /// Cells of one grid at most: 3.6 GB of points and normals, and twice that when it is one cell wide.
 pub const MOST_CELLS: usize = 100_000_000;
 
-/// Bytes a cell that the search for a tolerance takes: what two trials measured of it.
+/// Bytes a cell that the search for a tolerance takes: an estimate, not measured.
 const OF_SEARCH: u64 = 128;
 
 /// A surface and a resolution.

@@ -6,8 +6,8 @@ use crate::filter::Filter;
 use crate::scene::Scene;
 use files::memory::{Budget, MemoryError, Reserved};
 
-/// Bytes a triangle: as a mesh with vertices of its own (88), in what finds hits (a tree measures 130 and
-/// takes as much again while it is built), and in charts, which textured meshes have.
+/// Bytes a triangle, an estimate: a mesh with vertices of its own (88), what finds hits (about 130, and
+/// about as much again while it is built), and charts, which textured meshes have.
 const OF_TRIANGLE: u64 = 600;
 
 /// Takes the memory for a scene that was read and for its picture: textures, their tables or pyramids
