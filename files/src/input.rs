@@ -137,7 +137,7 @@ fn regular(path: &Path) -> Result<(File, u64), FileError> {
     Ok((file, length))
 }
 
-/// What a path leads to in words, where it is no regular file.
+/// Names the kind of file that a path leads to, unless the file is a regular one.
 fn kind(found: &std::fs::Metadata) -> Option<&'static str> {
     if found.is_file() {
         return None;

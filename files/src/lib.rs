@@ -16,8 +16,8 @@
 //! | [`picture`]   | the bytes of a picture file into a picture, which never panics        |
 //! | [`words`]     | what messages show of names and values                                |
 //!
-//! It knows nothing of curves or meshes, of pictures only how to decode them, and the libraries above
-//! it never print.
+//! The crate knows nothing of curves or meshes, and of pictures only how to decode them. The libraries
+//! above this crate never print.
 
 pub mod batch;
 pub mod exit;
@@ -67,7 +67,7 @@ pub enum FileError {
     NotRegular {
         /// The file as the user named it.
         name: String,
-        /// What it is.
+        /// The kind of file, such as `a pipe`.
         found: &'static str,
     },
     /// The file takes more memory than is allowed.

@@ -57,7 +57,7 @@ pub struct Reserved<'a> {
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{what} needs {}, {}", Bytes(*needed), Remedy(self))]
 pub struct MemoryError {
-    /// What the memory is for, such as `a picture of 640x480 pixels`.
+    /// The purpose of the memory, such as `a picture of 640x480 pixels`.
     pub what: String,
     /// Bytes that it needs.
     pub needed: u64,

@@ -35,13 +35,13 @@ const DECODER: u64 = 8;
 /// Why a file gives no picture.
 #[derive(Debug, Error)]
 pub enum PictureError {
-    /// It is of another format, or of none. The text says what was found.
+    /// The file is of another format, or of none. The text says what was found.
     #[error("{0}")]
     Format(String),
-    /// It is damaged, or of a kind that is not read. The text is the decoder's.
+    /// The file is damaged, or of a kind that is not read. The text is the decoder's.
     #[error("{0}")]
     Broken(String),
-    /// It takes more memory than is allowed.
+    /// The picture takes more memory than is allowed.
     #[error(transparent)]
     Memory(#[from] MemoryError),
 }

@@ -58,7 +58,7 @@ fn group_folders(cgroup: &str) -> Vec<PathBuf> {
     folders
 }
 
-/// What is left of a group's limit, if it has one. Pages of files that the kernel would let go count
+/// Returns the bytes left of a group's limit, if the group has one. Pages of files that the kernel would let go count
 /// as free.
 fn left_in_group(folder: &Path) -> Option<u64> {
     let number = |name: &str| fs::read_to_string(folder.join(name)).ok()?.trim().parse().ok();
