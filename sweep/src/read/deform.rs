@@ -1,6 +1,6 @@
 //! Reads the deformations of a spec.
 
-use super::Reader;
+use super::{Reader, SMALLEST};
 use crate::SweepError;
 use crate::deform::{Deform, Kind};
 use crate::spec;
@@ -94,6 +94,11 @@ impl Reader<'_> {
             let message = format!("found {to:?}, expected more than {from:?}, where it begins");
             return Err(self.fault(&to_path, message));
         }
+        if to - from < SMALLEST {
+            let message =
+                format!("found {to:?}, expected at least {SMALLEST:?} more than {from:?}");
+            return Err(self.fault(&to_path, message));
+        }
         let x = axis.any_orthonormal_vector();
         let axes = DMat3::from_cols(x, axis.cross(x), axis);
         Ok(Deform { origin: DVec3::from_array(origin), axes, span, kind })
@@ -115,6 +120,10 @@ mod tests {
             (
                 "{\"taper\": {\"from\": 0, \"to\": 0, \"factor\": 1}}",
                 "taper.to: found 0.0, expected",
+            ),
+            (
+                "{\"bend\": {\"from\": 0, \"to\": 5e-324, \"degrees\": 9, \"toward\": [1, 0, 0]}}",
+                "bend.to: found 5e-324, expected at least 1e-60 more than 0.0",
             ),
             ("{\"taper\": {\"from\": 0, \"to\": 1}}", "missing key `factor`"),
             (

@@ -1,7 +1,7 @@
 //! Reads the trajectory of a spec, and the frame at its start.
 
-use super::Reader;
 use super::corners::described;
+use super::{Reader, SMALLEST};
 use crate::curve::{Curve3, Helix, Local3, Path};
 use crate::frame::{Directed, Frame, Lack};
 use crate::trajectory::{Course, Trajectory};
@@ -16,6 +16,9 @@ const MIRRORED: f64 = 1e-9;
 
 /// Largest number of turns of a helix, which leaves enough digits for the position within a turn.
 const MOST_TURNS: f64 = 1e6;
+
+/// Smallest turn of an arc in degrees. A smaller one is lost in the arithmetic of its length.
+const LEAST_TURN: f64 = SMALLEST;
 
 impl Reader<'_> {
     pub(super) fn trajectory(
@@ -231,10 +234,15 @@ impl Reader<'_> {
     }
 
     fn fraction(&self, path: &str, degrees: f64) -> Result<f64, SweepError> {
-        if degrees > 0.0 && degrees <= 360.0 {
+        if (LEAST_TURN..=360.0).contains(&degrees) {
             return Ok(degrees / 360.0);
         }
-        let message = format!("found {degrees:?}, expected degrees above 0 and up to 360");
+        let expected = if degrees > 0.0 && degrees < LEAST_TURN {
+            format!("degrees from {LEAST_TURN:?} to 360")
+        } else {
+            "degrees above 0 and up to 360".into()
+        };
+        let message = format!("found {degrees:?}, expected {expected}");
         Err(self.fault(&format!("{path}.angle_deg"), message))
     }
 
@@ -267,6 +275,11 @@ mod tests {
             (
                 "{\"circle\": {\"radius\": 1, \"angle_deg\": 361}}",
                 "3:53: trajectory.circle.angle_deg: found 361.0, expected degrees above 0 and up to 360",
+                3,
+            ),
+            (
+                "{\"circle\": {\"radius\": 1, \"angle_deg\": 5e-324}}",
+                "3:53: trajectory.circle.angle_deg: found 5e-324, expected degrees from 1e-60 to 360",
                 3,
             ),
             (

@@ -109,6 +109,10 @@ impl Direction {
                 return counts;
             }
             factor = factor.max(least) * 1.1;
+            if !factor.is_finite() {
+                // A density of 0 has no factor that gives the fewest cells: the pieces share them.
+                return vec![self.fewest.div_ceil(shares.len()); shares.len()];
+            }
         }
     }
 }
@@ -188,6 +192,15 @@ mod tests {
         let steep = Density { places: vec![0.0, 0.5, 1.0], cells: vec![3.0, 1.0] };
         let even = Direction { even: Some(vec![0.0]), ..direction(&[0.5], &[0.25]) };
         assert_eq!(even.place(&steep, 2.0), cut::evenly(&[0.5], false, 8));
+    }
+
+    #[test]
+    fn a_density_of_nothing_gives_the_fewest_cells() {
+        for cells in [0.0, f64::NAN, f64::MIN_POSITIVE] {
+            let nothing = Density { places: vec![0.0, 1.0], cells: vec![cells] };
+            let cut = Direction { fewest: 3, ..direction(&[0.5], &[]) };
+            assert!(cut.count(&nothing, 1.0) >= 3, "{cells}");
+        }
     }
 
     #[test]
