@@ -1,7 +1,7 @@
 //! The shape of the house, held against the source: who may import whom, how long a file may be,
 //! and that what the pages name is there.
 
-mod source;
+pub mod source;
 
 use source::{code, has_word, paths, read, root, rust_files, spans, without_tests};
 use std::collections::BTreeSet;

@@ -16,6 +16,7 @@ mod hostile;
 mod kills;
 mod pages;
 mod pipe;
+mod prose;
 mod reliefs;
 mod report;
 mod still_lifes;

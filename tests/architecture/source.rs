@@ -18,8 +18,14 @@ pub fn read(path: &str) -> String {
 
 /// All Rust files under a folder, by their paths from the root, in order; `""` is the root itself.
 pub fn rust_files(folder: &str) -> Vec<String> {
+    files(folder, ".rs")
+}
+
+/// All files under a folder whose names end as given, by their paths from the root, in order.
+pub fn files(folder: &str, ending: &str) -> Vec<String> {
     let mut found = Vec::new();
-    for entry in fs::read_dir(root().join(folder)).expect("the folder is in the tree") {
+    let entries = fs::read_dir(root().join(folder)).unwrap_or_else(|e| panic!("{folder}: {e}"));
+    for entry in entries {
         let entry = entry.expect("the tree stays as it is while it is read");
         let name = entry.file_name().into_string().expect("names in the tree are text");
         let path = if folder.is_empty() { name.clone() } else { format!("{folder}/{name}") };
@@ -28,8 +34,8 @@ pub fn rust_files(folder: &str) -> Vec<String> {
             continue;
         }
         if entry.path().is_dir() {
-            found.extend(rust_files(&path));
-        } else if name.ends_with(".rs") {
+            found.extend(files(&path, ending));
+        } else if name.ends_with(ending) {
             found.push(path);
         }
     }
