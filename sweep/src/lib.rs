@@ -61,6 +61,7 @@ mod rows;
 pub mod schema;
 pub mod shape;
 pub mod spec;
+mod survey;
 mod sweep;
 pub mod trajectory;
 pub mod wall;

@@ -10,7 +10,6 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
-use sweep::check::fold::Survey;
 use sweep::check::resolution::aliases;
 use sweep::check::{self, Finding, Severity};
 use sweep::grid::file::Encoding;
@@ -231,7 +230,7 @@ fn work(arguments: &Arguments) -> Result<(), Report> {
     } else {
         let progress = Progress::new("check", arguments.quiet);
         let tell = |done, total| progress.tell(done, total);
-        check::check(&document, &object, &grids, arguments.check_self.then_some(&tell))?
+        check::check(&object, &grids, arguments.check_self.then_some(&tell))
     };
     if let Some(mut file) = preview {
         let svg = preview::svg(&object, &grids, &findings);
@@ -282,7 +281,7 @@ fn emit_schema() -> Result<(), Report> {
 
 /// Says what is legal and most often not meant.
 fn note(sweep: &Sweep) {
-    let folds = Survey::of(sweep).findings().into_iter();
+    let folds = sweep.survey().findings().into_iter();
     let folds = folds.filter(|finding| finding.severity == Severity::Wrong);
     for finding in folds.chain(aliases(sweep)) {
         say(format_args!("sweep: note: {}: {}", words::shown(sweep.name()), finding.message));

@@ -2,7 +2,7 @@
 
 use crate::grid::file::{Encoding, Patch};
 use crate::rows::{Rows, Spent};
-use crate::spec::Mesh;
+use crate::spec::{Mesh, Parts, Spec};
 use crate::{GridMesh, Sweep, SweepError, read};
 use files::Source;
 use files::json::Document;
@@ -14,6 +14,16 @@ use std::path::Path;
 pub struct Object {
     pub(crate) name: String,
     pub(crate) parts: Vec<Sweep>,
+    pub(crate) specs: Specs,
+}
+
+/// The text of an object, parsed.
+#[derive(Debug, Clone)]
+pub(crate) enum Specs {
+    /// A spec of one sweep.
+    One(Box<Spec>),
+    /// A spec of parts.
+    Several(Parts),
 }
 
 impl Object {
@@ -44,6 +54,15 @@ impl Object {
     #[must_use]
     pub fn parts(&self) -> &[Sweep] {
         &self.parts
+    }
+
+    /// Returns the specs of the sweeps, in the order of [`Object::parts`].
+    #[must_use]
+    pub fn specs(&self) -> &[Spec] {
+        match &self.specs {
+            Specs::One(spec) => std::slice::from_ref(spec),
+            Specs::Several(object) => &object.parts,
+        }
     }
 
     /// Returns a sentence that says by how much the parts miss their tolerances; `None` if all are kept.

@@ -9,6 +9,7 @@ use crate::resolution::{Cells, Distance, Reached, Resolution, Search, Surface, T
 use crate::rows::Rows;
 use crate::shape::Shape;
 use crate::spec::Mesh;
+use crate::survey::Survey;
 use crate::trajectory::Trajectory;
 use crate::wall::{self, Wall};
 use crate::{Object, SweepError};
@@ -17,6 +18,7 @@ use files::{Disk, Source, memory, words};
 use glam::DVec3;
 use rayon::prelude::*;
 use std::path::Path;
+use std::sync::OnceLock;
 
 /// Cells of one grid at most: 3.6 GB of points and normals, and twice that when it is one cell wide.
 pub const MOST_CELLS: usize = 100_000_000;
@@ -34,6 +36,8 @@ pub struct Sweep {
     pub(crate) resolution: Resolution,
     /// What a tolerance comes to.
     pub(crate) fitted: Option<Cells>,
+    /// The survey of the grid of this resolution, once it is made.
+    pub(crate) survey: OnceLock<Survey>,
     pub(crate) uv: UvLayout,
     pub(crate) areas: Vec<Area>,
     pub(crate) texture: Option<u32>,
@@ -170,7 +174,7 @@ impl Sweep {
     }
 
     fn resolved(self, resolution: Resolution) -> Result<Self, SweepError> {
-        let sweep = Self { resolution, fitted: None, ..self };
+        let sweep = Self { resolution, fitted: None, survey: OnceLock::new(), ..self };
         if let Some((key, message)) = sweep.resolution_fault() {
             return Err(SweepError::Resolution(format!("{key}: {message}")));
         }
@@ -194,7 +198,7 @@ impl Sweep {
                 format!("{}: a search for at most {most} cells", words::shown(&self.name))
             })?;
         let cells = self.search(tolerance).run();
-        Ok(Self { fitted: Some(cells), ..self })
+        Ok(Self { fitted: Some(cells), survey: OnceLock::new(), ..self })
     }
 
     /// How near the triangles of [`Sweep::grid`] come to the surface; `tolerance` says in which unit.
@@ -322,6 +326,20 @@ impl Sweep {
         })
     }
 
+    /// Returns where the grid's surface folds back on itself.
+    ///
+    /// The survey is made once: while the grid is made, or by the first call.
+    #[must_use]
+    pub fn survey(&self) -> &Survey {
+        if let Some(survey) = self.survey.get() {
+            return survey;
+        }
+        // Made outside the lock: a thread that waits for other threads may meet this sweep again.
+        let (columns, rows) = self.lines();
+        let survey = Survey::of(&self.shape, &columns, rows);
+        self.survey.get_or_init(|| survey)
+    }
+
     /// The number of rows in which some of the surface folds back on itself, since the trajectory
     /// bends more sharply than the contour is wide. Normals are turned over there.
     #[must_use]
@@ -331,7 +349,7 @@ impl Sweep {
             .par_iter()
             .filter(|&&stop| {
                 let section = self.shape.section(stop);
-                columns.iter().any(|column| self.shape.folds(&section, column))
+                columns.iter().any(|column| self.shape.place(&section, column).folds())
             })
             .count()
     }

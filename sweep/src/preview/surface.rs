@@ -2,7 +2,6 @@
 
 use super::page::{Anchor, Area, Page, Pen, View, ink};
 use crate::Sweep;
-use crate::check::fold::Survey;
 use crate::check::short;
 use crate::grid::{GridMesh, Seam};
 use glam::{DVec2, DVec3};
@@ -175,7 +174,7 @@ fn cells(
     seen: &mut Seen,
 ) {
     let cols = grid.cols();
-    let survey = Survey::of(sweep);
+    let survey = sweep.survey();
     let [row_bends, col_bends] = bends(grid);
     let sums = [&row_bends, &col_bends].map(|bends| bends.iter().sum());
     let [row_step, col_step] = steps(sums, grid.rows(), cols, most);

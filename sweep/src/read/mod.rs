@@ -28,6 +28,7 @@ use files::Source;
 use files::json::Document;
 use glam::DVec3;
 use std::ops::RangeInclusive;
+use std::sync::OnceLock;
 
 /// Largest size of a coordinate; its fourth power fits a double with a wide margin.
 pub(crate) const LARGEST: f64 = 1e60;
@@ -53,11 +54,11 @@ struct Reader<'a> {
 const LONGEST_NAME: usize = 1000;
 
 impl Reader<'_> {
-    fn sweep(&self, spec: Spec) -> Result<Sweep, SweepError> {
-        self.header(&spec)?;
+    fn sweep(&self, spec: &Spec) -> Result<Sweep, SweepError> {
+        self.header(spec)?;
         let trajectory = self.trajectory(&spec.trajectory, spec.frame.as_ref())?;
         let (contour, blend) = self.profile(&spec.contour, &trajectory)?;
-        let (modulation, mirror) = self.modulation(&spec, &contour, &trajectory)?;
+        let (modulation, mirror) = self.modulation(spec, &contour, &trajectory)?;
         let modulation = Modulation { blend, ..modulation };
         let contour = match mirror {
             Some(factors) => contour.mirrored(factors),
@@ -77,15 +78,16 @@ impl Reader<'_> {
             Some(kind) => self.closed(shape, kind)?,
             None => shape,
         };
-        let wall = self.wall(&spec, &shape)?;
+        let wall = self.wall(spec, &shape)?;
         let sweep = Sweep {
-            name: spec.name,
+            name: spec.name.clone(),
             shape,
             wall,
             resolution: self.resolution(&spec.mesh, self.rather)?,
             fitted: None,
+            survey: OnceLock::new(),
             uv: spec.uv,
-            areas: spec.areas,
+            areas: spec.areas.clone(),
             texture: spec.texture,
             surface: spec.surface,
         };

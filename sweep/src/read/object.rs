@@ -1,6 +1,7 @@
 //! Reads a whole spec: of one sweep, or of several.
 
 use super::Reader;
+use crate::object::Specs;
 use crate::spec::{FORMAT, Mesh, Parts, Spec, VERSION};
 use crate::{Object, Sweep, SweepError};
 use files::Source;
@@ -16,19 +17,50 @@ pub fn read(
     source: &dyn Source,
     rather: &Mesh,
 ) -> Result<Object, SweepError> {
-    document.expect(FORMAT, VERSION.into())?;
     let reader = Reader { document, folder, source, rather, prefix: String::new() };
-    if document.parse::<Probe>().is_ok_and(|probe| probe.parts.is_some()) {
-        return reader.parts(document.parse()?);
-    }
-    let spec: Spec = document.parse()?;
-    for (key, missing) in [("format", spec.format.is_none()), ("version", spec.version.is_none())] {
-        if missing {
-            return Err(reader.fault("", format!("missing key `{key}`")));
+    let specs = specs(document)?;
+    match &specs {
+        Specs::One(spec) => {
+            for (key, missing) in
+                [("format", spec.format.is_none()), ("version", spec.version.is_none())]
+            {
+                if missing {
+                    return Err(reader.fault("", format!("missing key `{key}`")));
+                }
+            }
+            Ok(Object { name: spec.name.clone(), parts: vec![reader.sweep(spec)?], specs })
+        }
+        Specs::Several(object) => {
+            Ok(Object { name: object.name.clone(), parts: reader.parts(object)?, specs })
         }
     }
-    let name = spec.name.clone();
-    Ok(Object { name, parts: vec![reader.sweep(spec)?] })
+}
+
+/// Parses a text as a spec of one sweep or of several.
+///
+/// A text that is well formed is parsed as what it is; one of parts fails as one sweep at its key `parts`. A text
+/// with a fault is parsed again for the complaint, which names another format before any key of that format.
+fn specs(document: &Document<'_>) -> Result<Specs, SweepError> {
+    let head = |format: Option<&str>, version: Option<u32>| {
+        let known = format.is_none_or(|found| found == FORMAT);
+        if known && version.is_none_or(|found| found == VERSION) {
+            return Ok(());
+        }
+        document.expect(FORMAT, VERSION.into())
+    };
+    if let Ok(spec) = document.parse::<Spec>() {
+        head(spec.format.as_deref(), spec.version)?;
+        return Ok(Specs::One(Box::new(spec)));
+    }
+    if let Ok(object) = document.parse::<Parts>() {
+        head(Some(&object.format), Some(object.version))?;
+        return Ok(Specs::Several(object));
+    }
+    document.expect(FORMAT, VERSION.into())?;
+    if document.parse::<Probe>().is_ok_and(|probe| probe.parts.is_some()) {
+        return Ok(Specs::Several(document.parse()?));
+    }
+    Ok(Specs::One(Box::new(document.parse()?)))
 }
 
 /// Finds whether a text has parts, and ignores everything else.
@@ -38,13 +70,13 @@ struct Probe {
 }
 
 impl Reader<'_> {
-    fn parts(&self, object: Parts) -> Result<Object, SweepError> {
+    fn parts(&self, object: &Parts) -> Result<Vec<Sweep>, SweepError> {
         self.name(&object.name)?;
         if object.parts.is_empty() {
             return Err(self.fault("parts", "found no parts, expected at least one"));
         }
         let mut parts: Vec<Sweep> = Vec::with_capacity(object.parts.len());
-        for (i, spec) in object.parts.into_iter().enumerate() {
+        for (i, spec) in object.parts.iter().enumerate() {
             let reader = Reader { prefix: format!("parts[{i}]."), ..*self };
             if parts.iter().any(|part| part.name == spec.name) {
                 let message = format!("found {:?} twice, expected a name for each part", spec.name);
@@ -52,7 +84,7 @@ impl Reader<'_> {
             }
             parts.push(reader.sweep(spec)?);
         }
-        Ok(Object { name: object.name, parts })
+        Ok(parts)
     }
 }
 
