@@ -7,8 +7,8 @@ use serde_json::{Value, json};
 use std::io::Write;
 use std::process::{Command, Output, Stdio};
 use sweep::Object;
-use sweep::check::fold::Survey;
 use sweep::check::{self, Finding, Severity};
+use sweep::sampling::Survey;
 use sweep::spec::Mesh;
 
 fn read(document: &Document<'_>) -> Result<Object, sweep::SweepError> {

@@ -1,9 +1,9 @@
 //! Findings about a surface that folds back on itself.
 
 use super::{Finding, Severity, ranges, short};
-pub use crate::survey::Survey;
+use crate::sampling::Survey;
 
-use crate::survey::TOUCHES;
+use crate::sampling::TOUCHES;
 
 impl Survey {
     /// Returns a finding for each reason for which the surface folds.

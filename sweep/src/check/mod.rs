@@ -24,9 +24,10 @@ pub mod rounding;
 pub mod strands;
 pub mod wall;
 
-use crate::cut::Stop;
+use crate::curve::cut::Stop;
 use crate::grid::{GridMesh, Seam};
-use crate::{Object, Sweep};
+use crate::sampling::Object;
+use crate::sampling::Sweep;
 use glam::DVec3;
 use std::fmt::{self, Display};
 

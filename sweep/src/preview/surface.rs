@@ -1,9 +1,9 @@
 //! The panel of the surface: shaded cells drawn from far to near, with seams, creases, rims and folds.
 
 use super::page::{Anchor, Area, Page, Pen, View, ink};
-use crate::Sweep;
 use crate::check::short;
 use crate::grid::{GridMesh, Seam};
+use crate::sampling::Sweep;
 use glam::{DVec2, DVec3};
 
 /// Largest number of cells drawn for all parts together; if there are more, rows and columns are skipped.

@@ -9,6 +9,7 @@ mod deform;
 mod depth;
 mod flat;
 mod height;
+mod joints;
 mod law;
 mod mesh;
 mod modulation;
@@ -18,26 +19,16 @@ mod seam;
 mod trajectory;
 mod wall;
 
-pub use object::read;
-
-use crate::modulation::Modulation;
-use crate::shape::Shape;
+use crate::error::SweepError;
+use crate::limits::{LARGEST, REPEATS, SMALLEST};
+use crate::sampling::Sweep;
 use crate::spec::{Mesh, Spec};
-use crate::{Sweep, SweepError};
+use crate::surface::Shape;
+use crate::surface::modulation::Modulation;
 use files::Source;
 use files::json::Document;
 use glam::DVec3;
-use std::ops::RangeInclusive;
 use std::sync::OnceLock;
-
-/// Largest size of a coordinate; its fourth power fits a double with a wide margin.
-pub(crate) const LARGEST: f64 = 1e60;
-
-/// Smallest size of a curve; its fourth power is above the smallest double by a wide margin.
-pub(crate) const SMALLEST: f64 = 1e-60;
-
-/// Repeats of a picture, whose texture coordinates become f32 in a mesh.
-pub(crate) const REPEATS: RangeInclusive<f64> = 1e-30..=1e30;
 
 /// The reader of a spec, with the document for error positions and the source of its files.
 struct Reader<'a> {

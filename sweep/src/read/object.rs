@@ -1,37 +1,79 @@
 //! Reads a whole spec: of one sweep, or of several.
 
 use super::Reader;
-use crate::object::Specs;
+use crate::error::SweepError;
+use crate::sampling::Object;
+use crate::sampling::Specs;
+use crate::sampling::Sweep;
 use crate::spec::{FORMAT, Mesh, Parts, Spec, VERSION};
-use crate::{Object, Sweep, SweepError};
-use files::Source;
 use files::json::Document;
+use files::{Disk, Source};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use std::path::Path;
 
-/// Reads and checks a spec of one sweep or of several.
-pub fn read(
-    document: &Document<'_>,
-    folder: &Path,
-    source: &dyn Source,
-    rather: &Mesh,
-) -> Result<Object, SweepError> {
-    let reader = Reader { document, folder, source, rather, prefix: String::new() };
-    let specs = specs(document)?;
-    match &specs {
-        Specs::One(spec) => {
-            for (key, missing) in
-                [("format", spec.format.is_none()), ("version", spec.version.is_none())]
-            {
-                if missing {
-                    return Err(reader.fault("", format!("missing key `{key}`")));
+impl Object {
+    /// Reads and checks a [`Spec`](crate::spec::Spec), or a spec of [`Parts`](crate::spec::Parts).
+    ///
+    /// Files named in the spec are relative to `folder` and are read from `source`. Each key of `rather`
+    /// replaces that key in every `mesh`.
+    ///
+    /// # Errors
+    /// When the text is not a spec, a surface does not exist, or a file cannot be read or has the wrong
+    /// content. The message states the position.
+    pub fn read(
+        document: &Document<'_>,
+        folder: &Path,
+        source: &dyn Source,
+        rather: &Mesh,
+    ) -> Result<Self, SweepError> {
+        let reader = Reader { document, folder, source, rather, prefix: String::new() };
+        let specs = specs(document)?;
+        match &specs {
+            Specs::One(spec) => {
+                for (key, missing) in
+                    [("format", spec.format.is_none()), ("version", spec.version.is_none())]
+                {
+                    if missing {
+                        return Err(reader.fault("", format!("missing key `{key}`")));
+                    }
                 }
+                Ok(Object { name: spec.name.clone(), parts: vec![reader.sweep(spec)?], specs })
             }
-            Ok(Object { name: spec.name.clone(), parts: vec![reader.sweep(spec)?], specs })
+            Specs::Several(object) => {
+                Ok(Object { name: object.name.clone(), parts: reader.parts(object)?, specs })
+            }
         }
-        Specs::Several(object) => {
-            Ok(Object { name: object.name.clone(), parts: reader.parts(object)?, specs })
+    }
+}
+
+impl Sweep {
+    /// Reads and checks a spec of one sweep; files that it names count from the working folder.
+    ///
+    /// # Errors
+    /// As [`Object::read`], and when the object has several parts.
+    pub fn read(document: &Document<'_>) -> Result<Self, SweepError> {
+        Self::read_in(document, Path::new(""), &Disk, &Mesh::default())
+    }
+
+    /// The same for files that count from `folder` and lie in `source`, and with each key of `rather`
+    /// in place of that of the spec's `mesh`.
+    ///
+    /// # Errors
+    /// As [`Sweep::read`].
+    pub fn read_in(
+        document: &Document<'_>,
+        folder: &Path,
+        source: &dyn Source,
+        rather: &Mesh,
+    ) -> Result<Self, SweepError> {
+        let mut parts = Object::read(document, folder, source, rather)?.parts;
+        match (parts.pop(), parts.len()) {
+            (Some(sweep), 0) => Ok(sweep),
+            (_, more) => {
+                let message = format!("found {} parts, expected one sweep", more + 1);
+                Err(document.fault("parts", message).into())
+            }
         }
     }
 }
@@ -95,7 +137,7 @@ mod tests {
 
     fn complaint(text: &str) -> (String, Exit) {
         let document = Document::new("a.json", text.as_bytes()).unwrap();
-        let error = read(&document, Path::new(""), &files::Disk, &Mesh::default()).unwrap_err();
+        let error = Object::read(&document, Path::new(""), &Disk, &Mesh::default()).unwrap_err();
         (error.to_string(), error.exit())
     }
 

@@ -1,13 +1,14 @@
 //! The rows of a sweep: all at once as a grid, or block by block into a file.
 
-use crate::cut::Stop;
+use super::Sweep;
+use super::survey::{RowSurvey, Survey};
+use crate::curve::cut::Stop;
+use crate::error::SweepError;
 use crate::grid::file::{Encoding, Header, Patch, Writer};
 use crate::grid::{self, By, GridMesh, Row, Seam};
-use crate::profile::Column;
-use crate::resolution::Surface;
-use crate::survey::{RowSurvey, Survey};
-use crate::wall::Wall;
-use crate::{Sweep, SweepError};
+use crate::surface::Surface;
+use crate::surface::profile::Column;
+use crate::surface::wall::Wall;
 use files::{memory, words};
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;

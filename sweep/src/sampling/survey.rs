@@ -8,10 +8,10 @@
 //! The survey needs each point of the grid once, as do the rows. [`RowSurvey`] is therefore filled while a row is
 //! evaluated, and the surveys of all rows give the [`Survey`].
 
-use crate::cut::Stop;
+use crate::curve::cut::Stop;
 use crate::grid::Fold;
-use crate::profile::Column;
-use crate::shape::{Placed, Shape};
+use crate::surface::profile::Column;
+use crate::surface::shape::{Placed, Shape};
 use rayon::prelude::*;
 
 /// A stretch between this number below 0 and 0 is no fold. Rounding decides its sign; the stretch has no unit.

@@ -1,13 +1,13 @@
 //! The swept surface before it is cut into cells: a point and a normal for each (u, v).
 
-use crate::cap::Cap;
-use crate::closing::Closing;
-use crate::cut::{self, Stop};
-use crate::deform::{Deform, Moved};
+use crate::curve::cut::{self, Stop};
 use crate::grid::Seam;
-use crate::modulation::{Evaluated, Modulation, Section};
-use crate::profile::{Column, Profile};
-use crate::resolution::Surface;
+use crate::surface::Surface;
+use crate::surface::cap::Cap;
+use crate::surface::closing::Closing;
+use crate::surface::deform::{Deform, Moved};
+use crate::surface::modulation::{Evaluated, Modulation, Section};
+use crate::surface::profile::{Column, Profile};
 use crate::trajectory::Trajectory;
 use glam::DVec3;
 

@@ -1,27 +1,23 @@
 //! A sweep that has been checked, and the grid it gives.
 
-use crate::cut::{self, Stop};
+use super::Survey;
+use super::resolution::place::Direction;
+use super::resolution::{Cells, Distance, Reached, Resolution, Search, Tolerance};
+use super::rows::Rows;
+use crate::curve::cut::{self, Stop};
+use crate::error::SweepError;
+use crate::grid::MOST_CELLS;
 use crate::grid::file::MAX_COLS;
 use crate::grid::{self, Area, GridMesh, UvLayout};
-use crate::profile::{Column, Profile};
-use crate::resolution::place::Direction;
-use crate::resolution::{Cells, Distance, Reached, Resolution, Search, Surface, Tolerance};
-use crate::rows::Rows;
-use crate::shape::Shape;
-use crate::spec::Mesh;
-use crate::survey::Survey;
+use crate::surface::Shape;
+use crate::surface::Surface;
+use crate::surface::profile::{Column, Profile};
+use crate::surface::wall::{self, Wall};
 use crate::trajectory::Trajectory;
-use crate::wall::{self, Wall};
-use crate::{Object, SweepError};
-use files::json::Document;
-use files::{Disk, Source, memory, words};
+use files::{memory, words};
 use glam::DVec3;
 use rayon::prelude::*;
-use std::path::Path;
 use std::sync::OnceLock;
-
-/// Cells of one grid at most: 3.6 GB of points and normals, and twice that when it is one cell wide.
-pub const MOST_CELLS: usize = 100_000_000;
 
 /// Bytes a cell that the search for a tolerance takes: an estimate, not measured.
 const OF_SEARCH: u64 = 128;
@@ -45,35 +41,6 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// Reads and checks a spec of one sweep; files that it names count from the working folder.
-    ///
-    /// # Errors
-    /// As [`Object::read`], and when the object has several parts.
-    pub fn read(document: &Document<'_>) -> Result<Self, SweepError> {
-        Self::read_in(document, Path::new(""), &Disk, &Mesh::default())
-    }
-
-    /// The same for files that count from `folder` and lie in `source`, and with each key of `rather`
-    /// in place of that of the spec's `mesh`.
-    ///
-    /// # Errors
-    /// As [`Sweep::read`].
-    pub fn read_in(
-        document: &Document<'_>,
-        folder: &Path,
-        source: &dyn Source,
-        rather: &Mesh,
-    ) -> Result<Self, SweepError> {
-        let mut parts = Object::read(document, folder, source, rather)?.parts;
-        match (parts.pop(), parts.len()) {
-            (Some(sweep), 0) => Ok(sweep),
-            (_, more) => {
-                let message = format!("found {} parts, expected one sweep", more + 1);
-                Err(document.fault("parts", message).into())
-            }
-        }
-    }
-
     /// The object's name.
     #[must_use]
     pub fn name(&self) -> &str {

@@ -1,13 +1,12 @@
 //! An object: one sweep, or several that belong together, such as a cup and its handle.
 
+use super::Sweep;
+use super::rows::{Rows, Spent};
+use crate::error::SweepError;
+use crate::grid::GridMesh;
 use crate::grid::file::{Encoding, Patch};
-use crate::rows::{Rows, Spent};
-use crate::spec::{Mesh, Parts, Spec};
-use crate::{GridMesh, Sweep, SweepError, read};
-use files::Source;
-use files::json::Document;
+use crate::spec::{Parts, Spec};
 use std::io::{self, Write};
-use std::path::Path;
 
 /// One sweep or several, checked.
 #[derive(Debug, Clone)]
@@ -27,23 +26,6 @@ pub(crate) enum Specs {
 }
 
 impl Object {
-    /// Reads and checks a [`Spec`](crate::spec::Spec), or a spec of [`Parts`](crate::spec::Parts).
-    ///
-    /// Files named in the spec are relative to `folder` and are read from `source`. Each key of `rather`
-    /// replaces that key in every `mesh`.
-    ///
-    /// # Errors
-    /// When the text is not a spec, a surface does not exist, or a file cannot be read or has the wrong
-    /// content. The message states the position.
-    pub fn read(
-        document: &Document<'_>,
-        folder: &Path,
-        source: &dyn Source,
-        rather: &Mesh,
-    ) -> Result<Self, SweepError> {
-        read::read(document, folder, source, rather)
-    }
-
     /// Returns the object's name.
     #[must_use]
     pub fn name(&self) -> &str {

@@ -21,13 +21,13 @@ mod pole;
 pub use pole::Pole;
 pub(crate) use pole::Signs;
 
-use crate::cap::Gathered;
-use crate::cut::{Side, Stop};
-use crate::depth::{Depth, Raised, Relief};
+use crate::curve::cut::{Side, Stop};
 use crate::frame::Frame;
 use crate::law::Law;
-use crate::profile::blend::{Mix, Moving};
-use crate::profile::{Blend, Column};
+use crate::surface::cap::Gathered;
+use crate::surface::depth::{Depth, Raised, Relief};
+use crate::surface::profile::blend::{Mix, Moving};
+use crate::surface::profile::{Blend, Column};
 use crate::trajectory::{Station, Trajectory};
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
