@@ -20,7 +20,7 @@ mod graph;
 pub(crate) use graph::{is_graph, parameter};
 
 use crate::curve::Cubic;
-use crate::cut::{Side, Stop};
+use crate::curve::cut::{Side, Stop};
 use glam::DVec2;
 use kurbo::{CubicBez, Point, Shape};
 

@@ -2,29 +2,21 @@
 //!
 //! | module         | what                                                                |
 //! |----------------|---------------------------------------------------------------------|
-//! | [`spec`]       | the spec as JSON, with its keys and conventions                     |
-//! | [`schema`]     | the spec as JSON Schema                                             |
-//! | [`Object`]     | the object of a spec: one sweep or several                          |
-//! | [`Sweep`]      | a checked spec, and its grid                                        |
-//! | [`contour`]    | the curve that is swept; creases                                    |
-//! | [`profile`]    | one contour, or several that blend into each other; columns         |
-//! | [`cut`]        | division of a curve into cells                                      |
-//! | [`trajectory`] | the curve that the contour follows; stations, normals in closed form |
+//! | [`error`]      | why a spec is refused                                               |
+//! | `limits`       | limits of the numbers in a spec, for its reader and its schema      |
+//! | [`curve`]      | cubic Bezier paths by arc length, splines, SVG; division into cells |
 //! | [`law`]        | numbers that change along the trajectory                            |
-//! | [`depth`]      | relief on the contour, in waves                                     |
-//! | [`height`]     | heights from a picture                                              |
-//! | [`modulation`] | the contour scaled and twisted along the trajectory                 |
-//! | [`Shape`]      | the whole surface, before it is cut into cells                      |
-//! | [`cap`]        | surfaces that close the ends                                        |
-//! | [`closing`]    | how the end of the surface meets its start                          |
-//! | [`wall`]       | a one-sided surface given a thickness                               |
-//! | [`deform`]     | taper, twist and bend of the finished surface                       |
 //! | [`frame`]      | rotation-minimizing frames, and frames that a direction fixes       |
-//! | [`curve`]      | cubic Bezier paths by arc length, splines, SVG                      |
-//! | [`resolution`] | cells in rows x cols, or to a tolerance                             |
 //! | [`grid`]       | the grid and its file                                               |
+//! | [`spec`]       | the spec as JSON, with its keys, and its JSON Schema                |
+//! | [`trajectory`] | the curve that the contour follows; stations, normals in closed form |
+//! | [`surface`]    | contour, modulation, relief, caps, deformations: the whole surface  |
+//! | [`sampling`]   | the surface cut into cells: resolution, rows, [`Sweep`], [`Object`] |
+//! | `read`         | from a spec to an [`Object`]; every value is checked                |
 //! | [`check`]      | errors and suspicious values, in words                              |
 //! | [`preview`]    | contour, trajectory, laws and surface drawn on one page             |
+//!
+//! Each module imports only modules above it in this table.
 //!
 //! ```
 //! use files::json::Document;
@@ -38,36 +30,22 @@
 //! # Ok::<(), sweep::SweepError>(())
 //! ```
 
-pub mod cap;
 pub mod check;
-pub mod closing;
-pub mod contour;
 pub mod curve;
-pub mod cut;
-pub mod deform;
-pub mod depth;
 pub mod error;
 pub mod frame;
 pub mod grid;
-pub mod height;
 pub mod law;
-pub mod modulation;
-mod object;
+mod limits;
 pub mod preview;
-pub mod profile;
 mod read;
-pub mod resolution;
-mod rows;
-pub mod schema;
-pub mod shape;
+pub mod sampling;
 pub mod spec;
-mod sweep;
+pub mod surface;
 pub mod trajectory;
-pub mod wall;
 
 pub use error::SweepError;
-pub use grid::GridMesh;
-pub use object::Object;
-pub use rows::Spent;
-pub use shape::Shape;
-pub use sweep::{MOST_CELLS, Sweep};
+pub use grid::{GridMesh, MOST_CELLS};
+pub use sampling::{Object, Spent, Sweep, resolution};
+pub use spec::schema;
+pub use surface::Shape;

@@ -162,6 +162,7 @@ mod helix;
 mod law;
 pub mod mesh;
 mod parts;
+pub mod schema;
 mod seam;
 mod trajectory;
 mod turn;
@@ -183,7 +184,7 @@ pub use trajectory::Trajectory;
 pub use turn::{Circle, Rotation};
 
 use crate::grid::UvLayout;
-use crate::schema;
+use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -209,7 +210,7 @@ pub struct Spec {
     #[schemars(extend("const" = VERSION))]
     pub version: Option<u32>,
     /// The object's name; one word.
-    #[schemars(transform = schema::word)]
+    #[schemars(transform = limits::word)]
     pub name: String,
     /// The curve that is swept.
     pub contour: Contour,
@@ -233,7 +234,7 @@ pub struct Spec {
     /// Thickness of a wall around the surface, in the unit of length, above 0. Needs `"seam": "mirror"` and a
     /// closed contour.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(transform = schema::positive)]
+    #[schemars(transform = limits::positive)]
     pub wall: Option<f64>,
     /// What closes the two ends.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -251,11 +252,11 @@ pub struct Spec {
     pub areas: Vec<Area>,
     /// Texture id of the triangles, which a scene binds to a picture; 0 means none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(transform = schema::id)]
+    #[schemars(transform = limits::id)]
     pub texture: Option<u32>,
     /// Surface id of the triangles, which a scene binds to a material.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(transform = schema::id)]
+    #[schemars(transform = limits::id)]
     pub surface: Option<u32>,
     /// Translation of the finished surface, `[x, y, z]` in the unit of length.
     #[serde(default)]
@@ -271,20 +272,20 @@ pub struct Bezier<P> {
     #[serde(default)]
     pub closed: bool,
     /// Four control points for each segment. At least one segment; each starts where the one before it ends.
-    #[schemars(transform = schema::at_least(1))]
+    #[schemars(transform = limits::at_least(1))]
     pub segments: Vec<[P; 4]>,
 }
 
 /// Points that a C2 spline passes through.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object with the key points, and closed if it is")]
-#[schemars(inline, transform = schema::loop_of_three)]
+#[schemars(inline, transform = limits::loop_of_three)]
 pub struct Free<P> {
     /// Whether the curve returns from the last point to the first, which is not repeated.
     #[serde(default)]
     pub closed: bool,
     /// The points: at least two, or three if closed.
-    #[schemars(transform = schema::at_least(2))]
+    #[schemars(transform = limits::at_least(2))]
     pub points: Vec<P>,
 }
 
@@ -308,7 +309,7 @@ fn up() -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::Mesh;
-    use crate::Object;
+    use crate::sampling::Object;
     use files::Disk;
     use files::json::Document;
     use std::path::Path;

@@ -7,8 +7,8 @@ use serde_json::{Value, json};
 use std::io::Write;
 use std::process::{Command, Output, Stdio};
 use sweep::Object;
-use sweep::check::fold::Survey;
 use sweep::check::{self, Finding, Severity};
+use sweep::sampling::Survey;
 use sweep::spec::Mesh;
 
 fn read(document: &Document<'_>) -> Result<Object, sweep::SweepError> {
@@ -31,7 +31,7 @@ fn found(keys: &Value) -> Vec<Finding> {
     let text = ring(keys);
     let document = Document::new("ring.json", text.as_bytes()).unwrap();
     let object = read(&document).unwrap_or_else(|error| panic!("{error}"));
-    check::check(&document, &object, &object.grids().unwrap(), Some(&|_, _| {})).unwrap()
+    check::check(&object, &object.grids().unwrap(), Some(&|_, _| {}))
 }
 
 /// The one finding about a spec.
@@ -55,7 +55,7 @@ fn nothing(keys: &Value) {
 fn survey(keys: &Value) -> Survey {
     let text = ring(keys);
     let object = read(&Document::new("ring.json", text.as_bytes()).unwrap()).unwrap();
-    Survey::of(&object.parts()[0])
+    object.parts()[0].survey().clone()
 }
 
 fn radius(radius: f64) -> Value {

@@ -5,7 +5,7 @@
 use files::json::Document;
 use glam::{DVec2, DVec3};
 use serde_json::{Value, json};
-use sweep::cut::Stop;
+use sweep::curve::cut::Stop;
 use sweep::{Sweep, SweepError};
 
 fn read(trajectory: &Value, more: &Value) -> Result<Sweep, SweepError> {

@@ -16,7 +16,7 @@ fn page(text: &[u8]) -> String {
         Object::read(&document, Path::new("../examples/curves"), &files::Disk, &Mesh::default())
             .unwrap_or_else(|error| panic!("{error}"));
     let grids = object.grids().unwrap();
-    let findings = check::check(&document, &object, &grids, None).unwrap();
+    let findings = check::check(&object, &grids, None);
     preview::svg(&object, &grids, &findings)
 }
 

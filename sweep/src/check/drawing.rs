@@ -2,10 +2,10 @@
 
 use super::chain::{Crossings, crossings};
 use super::{Finding, Severity, short};
-use crate::Sweep;
+use crate::curve::cut::Stop;
 use crate::curve::vector::extent;
 use crate::curve::{Cubic, Path, Vector, fit, spline, svg};
-use crate::cut::Stop;
+use crate::sampling::Sweep;
 use crate::spec::{Bezier, Contour, Free, FreeContour, Spec, Trajectory};
 use glam::{DVec2, DVec3};
 

@@ -24,11 +24,10 @@ pub mod rounding;
 pub mod strands;
 pub mod wall;
 
-use crate::cut::Stop;
+use crate::curve::cut::Stop;
 use crate::grid::{GridMesh, Seam};
-use crate::spec::{Parts, Spec};
-use crate::{Object, Sweep, SweepError};
-use files::json::Document;
+use crate::sampling::Object;
+use crate::sampling::Sweep;
 use glam::DVec3;
 use std::fmt::{self, Display};
 
@@ -76,26 +75,21 @@ impl Display for Finding {
     }
 }
 
-/// Everything that can be said of an object, by parts and from the worst to the least.
+/// Returns all findings about an object, part by part and the worst first.
 ///
-/// `document` is what the object was read from, and `grids` are its own. With `strands` also parts of a
-/// surface that meet far from each other are looked for, which takes longest; it hears of the progress.
-///
-/// # Errors
-/// When the document is not the object's.
+/// `grids` are the grids of the object. With `strands` the check also looks for parts of a surface that meet far
+/// from each other, which takes longest, and reports its progress.
+#[must_use]
 pub fn check(
-    document: &Document<'_>,
     object: &Object,
     grids: &[GridMesh],
     strands: Option<strands::Tell<'_>>,
-) -> Result<Vec<Finding>, SweepError> {
-    let specs = match document.parse::<Parts>() {
-        Ok(whole) => whole.parts,
-        Err(_) => vec![document.parse::<Spec>()?],
-    };
+) -> Vec<Finding> {
     let several = object.parts().len() > 1;
     let mut all = Vec::new();
-    for (i, ((sweep, grid), spec)) in object.parts().iter().zip(grids).zip(&specs).enumerate() {
+    for (i, ((sweep, grid), spec)) in
+        object.parts().iter().zip(grids).zip(object.specs()).enumerate()
+    {
         let mut found = drawing::findings(spec, sweep);
         found.extend(of_sweep(sweep, grid));
         if let Some(tell) = strands {
@@ -109,15 +103,15 @@ pub fn check(
         }
         all.extend(found);
     }
-    Ok(all)
+    all
 }
 
 /// What a sweep and its grid show without the spec that they come from.
 #[must_use]
 pub fn of_sweep(sweep: &Sweep, grid: &GridMesh) -> Vec<Finding> {
-    let survey = fold::Survey::of(sweep);
+    let survey = sweep.survey();
     let mut found = survey.findings();
-    found.extend(neighbors::findings(sweep, &survey));
+    found.extend(neighbors::findings(sweep, survey));
     found.extend(wall::findings(sweep, grid));
     found.extend(resolution::findings(sweep));
     found.extend(rounding::findings(grid));
@@ -140,7 +134,7 @@ pub fn summary(sweep: &Sweep, grid: &GridMesh) -> String {
         (_, Seam::Mirror) => "closed with its other side out",
     };
     let [made_rows, made_cols] = grid.cells();
-    let survey = fold::Survey::of(sweep);
+    let survey = sweep.survey();
     let folds = match (survey.folded_rows(), survey.worst()) {
         (0, Some(worst)) if worst < 1.0 => format!("no folds (least stretch {})", short(worst)),
         (0, _) => "no folds".into(),

@@ -4,11 +4,11 @@
 //! it, the two rows cross although neither may fold by itself: a bend between them is tighter than
 //! the contour is wide, at a mitre or a hairpin. Only rows that follow each other are compared.
 
-use super::fold::Survey;
 use super::{Finding, Severity, ranges};
-use crate::Sweep;
 use crate::grid::Seam;
-use crate::modulation::Section;
+use crate::sampling::Survey;
+use crate::sampling::Sweep;
+use crate::surface::modulation::Section;
 use rayon::prelude::*;
 
 /// Points behind a plane by less than this part of the contour's size touch it.

@@ -1,11 +1,11 @@
 //! Counts that were raised, and cells too coarse for what they show.
 
 use super::{Finding, Severity, short};
-use crate::Sweep;
+use crate::curve::cut::{self, Stop};
 use crate::curve::vector::angle_between;
-use crate::cut::{self, Stop};
-use crate::profile::Column;
-use crate::resolution::Resolution;
+use crate::sampling::Sweep;
+use crate::sampling::resolution::Resolution;
+use crate::surface::profile::Column;
 
 /// Degrees that a surface may turn or twist from one row or column to the next; beyond, what is seen
 /// is the cells and not the surface.

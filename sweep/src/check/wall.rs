@@ -1,8 +1,8 @@
 //! Walls thicker than the surface is round.
 
 use super::{Finding, Severity, short};
-use crate::Sweep;
 use crate::grid::GridMesh;
+use crate::sampling::Sweep;
 use rayon::prelude::*;
 
 /// Cells of a wall that are turned over, since half of it is more than the surface's radius there.

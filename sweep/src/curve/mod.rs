@@ -6,8 +6,7 @@
 //! | [`path`]       | segments joined, located by arc length; corners                   |
 //! | [`arc_length`] | the length of a segment and its inverse                           |
 //! | [`fit`]        | a few cubics near many points                                     |
-//! | [`flat`]       | a plane curve with a height given by a law                        |
-//! | [`helix`]      | a helix and its frames, in closed form                            |
+//! | [`cut`]        | division of a curve into cells                                    |
 //! | [`spline`]     | a C2 curve through free points                                    |
 //! | [`svg`]        | the path of an SVG file                                           |
 //!
@@ -16,9 +15,8 @@
 
 pub mod arc_length;
 pub mod cubic;
+pub mod cut;
 pub mod fit;
-pub mod flat;
-pub mod helix;
 pub mod path;
 mod quadrature;
 pub mod spline;
@@ -26,8 +24,6 @@ pub mod svg;
 pub mod vector;
 
 pub use cubic::Cubic;
-pub use flat::Flat;
-pub use helix::Helix;
 pub use path::Path;
 pub use vector::Vector;
 

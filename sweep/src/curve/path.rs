@@ -139,12 +139,12 @@ impl<V: Vector> Path<V> {
     }
 
     /// Returns the place at the parameter `t` of a segment.
-    pub(super) fn place(&self, segment: usize, t: f64) -> Place {
+    pub(crate) fn place(&self, segment: usize, t: f64) -> Place {
         Place { segment, t }
     }
 
     /// Returns the arc lengths between which the path is smooth, rising.
-    pub(super) fn knots(&self) -> Vec<f64> {
+    pub(crate) fn knots(&self) -> Vec<f64> {
         self.starts().chain([self.length]).collect()
     }
 

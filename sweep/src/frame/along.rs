@@ -8,9 +8,9 @@
 //! the surface, which divide by their step, would show where nodes lie.
 
 use super::Frame;
+use crate::curve::cut::Side;
 use crate::curve::vector::angle_between;
 use crate::curve::{Curve3, Local3};
-use crate::cut::Side;
 use std::f64::consts::{PI, TAU};
 
 /// Steps from knot to knot before any is halved.

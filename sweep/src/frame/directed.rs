@@ -16,9 +16,9 @@
 //! no halving achieves this. The search then finds the minimum in every valley of `|d|`.
 
 use super::Frame;
+use crate::curve::cut::Side;
 use crate::curve::vector::angle_between;
 use crate::curve::{Curve3, Local3};
-use crate::cut::Side;
 use glam::DVec3;
 
 /// A direction whose part across the trajectory is at most this counts as parallel to it. The number is a

@@ -1,7 +1,8 @@
 //! Areas of a grid with textures of their own (thesis 3.2).
 
 use super::{GridMesh, Seam};
-use crate::{MOST_CELLS, schema};
+use crate::grid::MOST_CELLS;
+use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -19,22 +20,22 @@ use serde::{Deserialize, Serialize};
 )]
 pub struct Area {
     /// First cell along the trajectory, and the cell after the last.
-    #[schemars(transform = schema::range(0..=MOST_CELLS))]
+    #[schemars(transform = limits::range(0..=MOST_CELLS))]
     pub rows: [usize; 2],
     /// First cell along the contour, and the cell after the last.
-    #[schemars(transform = schema::range(0..=MOST_CELLS))]
+    #[schemars(transform = limits::range(0..=MOST_CELLS))]
     pub cols: [usize; 2],
     /// Texture id; if left out, that of the patch.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(transform = schema::id)]
+    #[schemars(transform = limits::id)]
     pub texture: Option<u32>,
     /// Surface id; if left out, that of the patch.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(transform = schema::id)]
+    #[schemars(transform = limits::id)]
     pub surface: Option<u32>,
     /// Repeats of the picture, across and up; positive.
     #[serde(default = "once")]
-    #[schemars(transform = schema::above(0.0, MOST_REPEATS))]
+    #[schemars(transform = limits::above(0.0, MOST_REPEATS))]
     pub repeat: [f64; 2],
 }
 

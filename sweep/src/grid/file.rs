@@ -44,6 +44,7 @@
 //! file only after [`GridReader::next_patch`] has returned `false`.
 
 mod binary;
+mod buffer;
 mod edges;
 mod error;
 mod header;
@@ -58,7 +59,7 @@ pub use header::{Header, Patch};
 pub use reader::{GridReader, read, read_all};
 pub use writer::Writer;
 
-use crate::GridMesh;
+use crate::grid::GridMesh;
 use std::io::{self, Write};
 
 /// Encoding of the rows.

@@ -15,6 +15,9 @@ use glam::{DVec3, Vec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+/// Largest number of cells of one grid: 3.6 GB of points and normals, and twice as much if it is one cell wide.
+pub const MOST_CELLS: usize = 100_000_000;
+
 /// A swept surface as a grid of points, row-major by station: an object, or a patch of an object of several
 /// sweeps.
 ///
@@ -77,7 +80,7 @@ pub struct UvLayout {
     /// The grid direction that runs across the picture.
     pub across: Across,
     /// Repeats of the picture, across and up; above 0.
-    #[schemars(transform = crate::schema::range(crate::schema::REPEATS))]
+    #[schemars(transform = crate::limits::range(crate::limits::REPEATS))]
     pub repeat: [f64; 2],
     /// What `u` and `v` of the grid are proportional to.
     #[serde(skip_serializing_if = "By::is_length")]

@@ -1,9 +1,9 @@
 //! The panel of the contour in its plane: start, direction, creases, axes, and a scale bar.
 
 use super::page::{Anchor, Area, Page, Pen, bounds, ink};
-use crate::Sweep;
 use crate::check::short;
-use crate::cut::{self, Stop};
+use crate::curve::cut::{self, Stop};
+use crate::sampling::Sweep;
 use glam::DVec2;
 
 /// Number of points at which a contour is drawn.

@@ -1,10 +1,10 @@
 //! The panel of the trajectory in space, with the contour's axes along it.
 
 use super::page::{Anchor, Area, Page, Pen, View, ink};
-use crate::Sweep;
 use crate::check::short;
-use crate::cut::Stop;
+use crate::curve::cut::Stop;
 use crate::frame::Frame;
+use crate::sampling::Sweep;
 use glam::{DVec2, DVec3};
 
 /// Number of straight pieces that a trajectory is drawn with.

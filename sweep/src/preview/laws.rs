@@ -1,9 +1,9 @@
 //! The panel of the laws along the trajectory, as small graphs over `v`.
 
 use super::page::{Anchor, Area, Page, Pen, ink};
-use crate::Sweep;
 use crate::check::short;
 use crate::law::Law;
+use crate::sampling::Sweep;
 use glam::DVec2;
 
 /// Number of intervals of a graph.

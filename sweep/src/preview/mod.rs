@@ -22,7 +22,8 @@ mod page;
 mod surface;
 
 use crate::check::{Finding, Severity, short, summary};
-use crate::{GridMesh, Object};
+use crate::grid::GridMesh;
+use crate::sampling::Object;
 use glam::DVec2;
 use page::{Anchor, Area, HEIGHT, Page, WIDTH, ink};
 

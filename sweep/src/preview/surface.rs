@@ -1,10 +1,9 @@
 //! The panel of the surface: shaded cells drawn from far to near, with seams, creases, rims and folds.
 
 use super::page::{Anchor, Area, Page, Pen, View, ink};
-use crate::Sweep;
-use crate::check::fold::Survey;
 use crate::check::short;
 use crate::grid::{GridMesh, Seam};
+use crate::sampling::Sweep;
 use glam::{DVec2, DVec3};
 
 /// Largest number of cells drawn for all parts together; if there are more, rows and columns are skipped.
@@ -175,7 +174,7 @@ fn cells(
     seen: &mut Seen,
 ) {
     let cols = grid.cols();
-    let survey = Survey::of(sweep);
+    let survey = sweep.survey();
     let [row_bends, col_bends] = bends(grid);
     let sums = [&row_bends, &col_bends].map(|bends| bends.iter().sum());
     let [row_step, col_step] = steps(sums, grid.rows(), cols, most);

@@ -1,8 +1,9 @@
 //! Checks the texture areas of a spec against the numbers of cells.
 
 use super::Reader;
+use crate::error::SweepError;
+use crate::sampling::Sweep;
 use crate::spec::Area;
-use crate::{Sweep, SweepError};
 
 impl Reader<'_> {
     pub(super) fn areas(&self, areas: &[Area], sweep: &Sweep) -> Result<(), SweepError> {
@@ -17,10 +18,10 @@ impl Reader<'_> {
 
 #[cfg(test)]
 mod tests {
-    use crate::Sweep;
+    use crate::sampling::Sweep;
     use files::json::Document;
 
-    fn read(cols: &str) -> Result<Sweep, crate::SweepError> {
+    fn read(cols: &str) -> Result<Sweep, crate::error::SweepError> {
         let text = format!(
             "{{\"format\": \"tb-sweep\", \"version\": 1, \"name\": \"tube\",\n\
              \"contour\": {{\"circle\": 1}}, \"trajectory\": {{\"line\": [[0, 0, 0], [0, 0, 1]]}},\n\

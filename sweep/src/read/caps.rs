@@ -1,12 +1,12 @@
 //! Reads the caps of a spec.
 
 use super::Reader;
-use crate::SweepError;
-use crate::cap::{Cap, Form, center_of};
-use crate::cut::{self, Stop};
-use crate::modulation::Modulation;
-use crate::profile::Profile;
+use crate::curve::cut::{self, Stop};
+use crate::error::SweepError;
 use crate::spec::{Cap as Written, Caps};
+use crate::surface::cap::{Cap, Form, center_of};
+use crate::surface::modulation::Modulation;
+use crate::surface::profile::Profile;
 use crate::trajectory::Trajectory;
 use glam::DVec2;
 

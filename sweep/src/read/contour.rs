@@ -1,9 +1,11 @@
 //! Reads the contour of a spec.
 
-use super::{LARGEST, Reader};
-use crate::contour::Contour;
+use super::Reader;
 use crate::curve::{Path, svg};
-use crate::{SweepError, spec};
+use crate::error::SweepError;
+use crate::limits::LARGEST;
+use crate::spec;
+use crate::surface::contour::Contour;
 use glam::DVec2;
 
 impl Reader<'_> {

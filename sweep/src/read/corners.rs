@@ -1,13 +1,14 @@
 //! Reads the corners of a spec's trajectory: refused, rounded or mitred.
 
 use super::Reader;
-use super::trajectory::SMOOTH_DEG;
+use super::joints::{corners_of, described};
 use crate::curve::path::Joint;
 use crate::curve::vector::angle_between;
 use crate::curve::{Cubic, Curve3, Path};
+use crate::error::SweepError;
+use crate::spec;
 use crate::spec::{Bezier, Bezier3, Corners, Polyline3};
 use crate::trajectory::Course;
-use crate::{SweepError, spec};
 use glam::DVec3;
 
 /// Two legs of a hairpin coincide if, at the cuts, their distance is at most this fraction of the cut's
@@ -168,19 +169,5 @@ impl Reader<'_> {
                 Err(self.geometry(&format!("{path}.round"), message))
             }
         }
-    }
-}
-
-fn corners_of(curve: &Path<DVec3>) -> impl Iterator<Item = Joint> {
-    curve.joints().filter(|joint| joint.angle.to_degrees() > SMOOTH_DEG)
-}
-
-/// Describes a corner or a cusp in words.
-pub(super) fn described(joint: &Joint) -> String {
-    let ([before, after], degrees) = (joint.sources, joint.angle.to_degrees());
-    if before == after && joint.s > 0.0 {
-        format!("a cusp of {degrees:.1} degrees inside segment {after}")
-    } else {
-        format!("a corner of {degrees:.1} degrees where segment {before} meets segment {after}")
     }
 }

@@ -1,9 +1,10 @@
 //! Reads curves of two and three dimensions: Beziers that meet, and splines through points.
 
-use super::{Reader, SMALLEST};
-use crate::SweepError;
+use super::Reader;
 use crate::curve::vector::extent;
 use crate::curve::{Cubic, Path, Vector, fit, spline};
+use crate::error::SweepError;
+use crate::limits::SMALLEST;
 use crate::spec::{Bezier, Free, FreeContour};
 use glam::DVec2;
 

@@ -1,9 +1,10 @@
 //! Reads the deformations of a spec.
 
-use super::{Reader, SMALLEST};
-use crate::SweepError;
-use crate::deform::{Deform, Kind};
+use super::Reader;
+use crate::error::SweepError;
+use crate::limits::SMALLEST;
 use crate::spec;
+use crate::surface::deform::{Deform, Kind};
 use glam::{DMat3, DVec3};
 
 /// A bend of less than this, in degrees, is left out, because its radius would exceed the precision of

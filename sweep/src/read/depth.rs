@@ -1,11 +1,11 @@
 //! Reads the relief of a spec and checks it against both curves.
 
 use super::Reader;
-use crate::SweepError;
-use crate::depth::{Depth, Mode, Term};
+use crate::error::SweepError;
 use crate::grid::Across;
-use crate::profile::Profile;
 use crate::spec::{self, DepthMode, DepthTerm};
+use crate::surface::depth::{Depth, Mode, Term};
+use crate::surface::profile::Profile;
 use crate::trajectory::Trajectory;
 use std::sync::Arc;
 

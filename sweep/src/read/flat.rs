@@ -1,10 +1,12 @@
 //! Reads a plane curve with a height as a trajectory.
 
 use super::Reader;
-use super::trajectory::SMOOTH_DEG;
-use crate::curve::{Curve3, Flat, Path};
+use crate::curve::{Curve3, Path};
+use crate::error::SweepError;
+use crate::spec;
+use crate::trajectory::CORNER_DEG;
 use crate::trajectory::Course;
-use crate::{SweepError, spec};
+use crate::trajectory::Flat;
 use glam::DVec2;
 
 /// Heights at the ends of a closed curve that differ by at most this fraction of its size are equal.
@@ -38,7 +40,7 @@ impl Reader<'_> {
         let Some(flat) = Flat::new(plane, &law.graph()) else {
             return Err(self.geometry(path, "found no length, expected a curve of some length"));
         };
-        let corner = flat.joints().find(|(_, angle)| angle.to_degrees() > SMOOTH_DEG);
+        let corner = flat.joints().find(|(_, angle)| angle.to_degrees() > CORNER_DEG);
         let Some((s, angle)) = corner else {
             return Ok(Course::Flat(flat));
         };

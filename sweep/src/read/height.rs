@@ -1,11 +1,11 @@
 //! The picture of heights that a spec names.
 
 use super::Reader;
-use crate::SweepError;
+use crate::error::SweepError;
 use crate::grid::Across;
-use crate::height::{Axis, HeightMap};
-use crate::profile::Profile;
 use crate::spec::DepthImage;
+use crate::surface::height::{Axis, HeightMap};
+use crate::surface::profile::Profile;
 use crate::trajectory::Trajectory;
 use files::picture::{self, Format, PictureError};
 use files::{Failure, FileError, input, memory};

@@ -1,9 +1,10 @@
 //! Reads the laws of a spec.
 
-use super::{LARGEST, Reader};
-use crate::SweepError;
+use super::Reader;
 use crate::curve::Cubic;
+use crate::error::SweepError;
 use crate::law::{Law, is_graph};
+use crate::limits::LARGEST;
 use crate::spec::{self, Ease};
 use glam::DVec2;
 

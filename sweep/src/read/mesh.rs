@@ -1,10 +1,10 @@
 //! Reads the resolution of a spec.
 
 use super::Reader;
-use crate::SweepError;
-use crate::resolution::{Distance, Resolution, Tolerance, View};
+use crate::error::SweepError;
+use crate::grid::MOST_CELLS;
+use crate::sampling::resolution::{Distance, Resolution, Tolerance, View};
 use crate::spec::mesh::{Camera, MAX_QUADS, Mesh};
-use crate::sweep::MOST_CELLS;
 use glam::DVec3;
 
 /// Why there is no resolution: the key and a message.

@@ -9,6 +9,7 @@ mod deform;
 mod depth;
 mod flat;
 mod height;
+mod joints;
 mod law;
 mod mesh;
 mod modulation;
@@ -18,25 +19,16 @@ mod seam;
 mod trajectory;
 mod wall;
 
-pub use object::read;
-
-use crate::modulation::Modulation;
-use crate::shape::Shape;
+use crate::error::SweepError;
+use crate::limits::{LARGEST, REPEATS, SMALLEST};
+use crate::sampling::Sweep;
 use crate::spec::{Mesh, Spec};
-use crate::{Sweep, SweepError};
+use crate::surface::Shape;
+use crate::surface::modulation::Modulation;
 use files::Source;
 use files::json::Document;
 use glam::DVec3;
-use std::ops::RangeInclusive;
-
-/// Largest size of a coordinate; its fourth power fits a double with a wide margin.
-pub(crate) const LARGEST: f64 = 1e60;
-
-/// Smallest size of a curve; its fourth power is above the smallest double by a wide margin.
-pub(crate) const SMALLEST: f64 = 1e-60;
-
-/// Repeats of a picture, whose texture coordinates become f32 in a mesh.
-pub(crate) const REPEATS: RangeInclusive<f64> = 1e-30..=1e30;
+use std::sync::OnceLock;
 
 /// The reader of a spec, with the document for error positions and the source of its files.
 struct Reader<'a> {
@@ -53,11 +45,11 @@ struct Reader<'a> {
 const LONGEST_NAME: usize = 1000;
 
 impl Reader<'_> {
-    fn sweep(&self, spec: Spec) -> Result<Sweep, SweepError> {
-        self.header(&spec)?;
+    fn sweep(&self, spec: &Spec) -> Result<Sweep, SweepError> {
+        self.header(spec)?;
         let trajectory = self.trajectory(&spec.trajectory, spec.frame.as_ref())?;
         let (contour, blend) = self.profile(&spec.contour, &trajectory)?;
-        let (modulation, mirror) = self.modulation(&spec, &contour, &trajectory)?;
+        let (modulation, mirror) = self.modulation(spec, &contour, &trajectory)?;
         let modulation = Modulation { blend, ..modulation };
         let contour = match mirror {
             Some(factors) => contour.mirrored(factors),
@@ -77,15 +69,16 @@ impl Reader<'_> {
             Some(kind) => self.closed(shape, kind)?,
             None => shape,
         };
-        let wall = self.wall(&spec, &shape)?;
+        let wall = self.wall(spec, &shape)?;
         let sweep = Sweep {
-            name: spec.name,
+            name: spec.name.clone(),
             shape,
             wall,
             resolution: self.resolution(&spec.mesh, self.rather)?,
             fitted: None,
+            survey: OnceLock::new(),
             uv: spec.uv,
-            areas: spec.areas,
+            areas: spec.areas.clone(),
             texture: spec.texture,
             surface: spec.surface,
         };

@@ -1,12 +1,12 @@
 //! Reads the changes of a spec's contour along the trajectory, and checks them against both curves.
 
 use super::Reader;
-use crate::SweepError;
+use crate::error::SweepError;
 use crate::law::Law;
-use crate::modulation::{Modulation, Signs};
-use crate::profile::Profile;
-use crate::shape::ON_AXIS;
 use crate::spec::{self, Scale, SeamKind, Spec};
+use crate::surface::modulation::{Modulation, Signs};
+use crate::surface::profile::Profile;
+use crate::surface::shape::ON_AXIS;
 use crate::trajectory::Trajectory;
 use glam::DVec2;
 
@@ -171,8 +171,8 @@ impl Reader<'_> {
 
 #[cfg(test)]
 mod tests {
-    use crate::Sweep;
     use crate::read::tests::complaint;
+    use crate::sampling::Sweep;
     use files::json::Document;
     use files::{Exit, Failure};
 

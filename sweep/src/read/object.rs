@@ -1,34 +1,108 @@
 //! Reads a whole spec: of one sweep, or of several.
 
 use super::Reader;
+use crate::error::SweepError;
+use crate::sampling::Object;
+use crate::sampling::Specs;
+use crate::sampling::Sweep;
 use crate::spec::{FORMAT, Mesh, Parts, Spec, VERSION};
-use crate::{Object, Sweep, SweepError};
-use files::Source;
 use files::json::Document;
+use files::{Disk, Source};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use std::path::Path;
 
-/// Reads and checks a spec of one sweep or of several.
-pub fn read(
-    document: &Document<'_>,
-    folder: &Path,
-    source: &dyn Source,
-    rather: &Mesh,
-) -> Result<Object, SweepError> {
-    document.expect(FORMAT, VERSION.into())?;
-    let reader = Reader { document, folder, source, rather, prefix: String::new() };
-    if document.parse::<Probe>().is_ok_and(|probe| probe.parts.is_some()) {
-        return reader.parts(document.parse()?);
-    }
-    let spec: Spec = document.parse()?;
-    for (key, missing) in [("format", spec.format.is_none()), ("version", spec.version.is_none())] {
-        if missing {
-            return Err(reader.fault("", format!("missing key `{key}`")));
+impl Object {
+    /// Reads and checks a [`Spec`](crate::spec::Spec), or a spec of [`Parts`](crate::spec::Parts).
+    ///
+    /// Files named in the spec are relative to `folder` and are read from `source`. Each key of `rather`
+    /// replaces that key in every `mesh`.
+    ///
+    /// # Errors
+    /// When the text is not a spec, a surface does not exist, or a file cannot be read or has the wrong
+    /// content. The message states the position.
+    pub fn read(
+        document: &Document<'_>,
+        folder: &Path,
+        source: &dyn Source,
+        rather: &Mesh,
+    ) -> Result<Self, SweepError> {
+        let reader = Reader { document, folder, source, rather, prefix: String::new() };
+        let specs = specs(document)?;
+        match &specs {
+            Specs::One(spec) => {
+                for (key, missing) in
+                    [("format", spec.format.is_none()), ("version", spec.version.is_none())]
+                {
+                    if missing {
+                        return Err(reader.fault("", format!("missing key `{key}`")));
+                    }
+                }
+                Ok(Object { name: spec.name.clone(), parts: vec![reader.sweep(spec)?], specs })
+            }
+            Specs::Several(object) => {
+                Ok(Object { name: object.name.clone(), parts: reader.parts(object)?, specs })
+            }
         }
     }
-    let name = spec.name.clone();
-    Ok(Object { name, parts: vec![reader.sweep(spec)?] })
+}
+
+impl Sweep {
+    /// Reads and checks a spec of one sweep; files that it names count from the working folder.
+    ///
+    /// # Errors
+    /// As [`Object::read`], and when the object has several parts.
+    pub fn read(document: &Document<'_>) -> Result<Self, SweepError> {
+        Self::read_in(document, Path::new(""), &Disk, &Mesh::default())
+    }
+
+    /// The same for files that count from `folder` and lie in `source`, and with each key of `rather`
+    /// in place of that of the spec's `mesh`.
+    ///
+    /// # Errors
+    /// As [`Sweep::read`].
+    pub fn read_in(
+        document: &Document<'_>,
+        folder: &Path,
+        source: &dyn Source,
+        rather: &Mesh,
+    ) -> Result<Self, SweepError> {
+        let mut parts = Object::read(document, folder, source, rather)?.parts;
+        match (parts.pop(), parts.len()) {
+            (Some(sweep), 0) => Ok(sweep),
+            (_, more) => {
+                let message = format!("found {} parts, expected one sweep", more + 1);
+                Err(document.fault("parts", message).into())
+            }
+        }
+    }
+}
+
+/// Parses a text as a spec of one sweep or of several.
+///
+/// A text that is well formed is parsed as what it is; one of parts fails as one sweep at its key `parts`. A text
+/// with a fault is parsed again for the complaint, which names another format before any key of that format.
+fn specs(document: &Document<'_>) -> Result<Specs, SweepError> {
+    let head = |format: Option<&str>, version: Option<u32>| {
+        let known = format.is_none_or(|found| found == FORMAT);
+        if known && version.is_none_or(|found| found == VERSION) {
+            return Ok(());
+        }
+        document.expect(FORMAT, VERSION.into())
+    };
+    if let Ok(spec) = document.parse::<Spec>() {
+        head(spec.format.as_deref(), spec.version)?;
+        return Ok(Specs::One(Box::new(spec)));
+    }
+    if let Ok(object) = document.parse::<Parts>() {
+        head(Some(&object.format), Some(object.version))?;
+        return Ok(Specs::Several(object));
+    }
+    document.expect(FORMAT, VERSION.into())?;
+    if document.parse::<Probe>().is_ok_and(|probe| probe.parts.is_some()) {
+        return Ok(Specs::Several(document.parse()?));
+    }
+    Ok(Specs::One(Box::new(document.parse()?)))
 }
 
 /// Finds whether a text has parts, and ignores everything else.
@@ -38,13 +112,13 @@ struct Probe {
 }
 
 impl Reader<'_> {
-    fn parts(&self, object: Parts) -> Result<Object, SweepError> {
+    fn parts(&self, object: &Parts) -> Result<Vec<Sweep>, SweepError> {
         self.name(&object.name)?;
         if object.parts.is_empty() {
             return Err(self.fault("parts", "found no parts, expected at least one"));
         }
         let mut parts: Vec<Sweep> = Vec::with_capacity(object.parts.len());
-        for (i, spec) in object.parts.into_iter().enumerate() {
+        for (i, spec) in object.parts.iter().enumerate() {
             let reader = Reader { prefix: format!("parts[{i}]."), ..*self };
             if parts.iter().any(|part| part.name == spec.name) {
                 let message = format!("found {:?} twice, expected a name for each part", spec.name);
@@ -52,7 +126,7 @@ impl Reader<'_> {
             }
             parts.push(reader.sweep(spec)?);
         }
-        Ok(Object { name: object.name, parts })
+        Ok(parts)
     }
 }
 
@@ -63,7 +137,7 @@ mod tests {
 
     fn complaint(text: &str) -> (String, Exit) {
         let document = Document::new("a.json", text.as_bytes()).unwrap();
-        let error = read(&document, Path::new(""), &files::Disk, &Mesh::default()).unwrap_err();
+        let error = Object::read(&document, Path::new(""), &Disk, &Mesh::default()).unwrap_err();
         (error.to_string(), error.exit())
     }
 

@@ -1,12 +1,12 @@
 //! Reads the profile of a spec: one contour, or sections.
 
 use super::Reader;
-use crate::SweepError;
-use crate::contour::Contour;
-use crate::profile::{Blend, Profile};
-use crate::shape::ON_AXIS;
+use crate::error::SweepError;
 use crate::spec::contour::Sections;
 use crate::spec::{self, Ease};
+use crate::surface::contour::Contour;
+use crate::surface::profile::{Blend, Profile};
+use crate::surface::shape::ON_AXIS;
 use crate::trajectory::Trajectory;
 
 /// Largest number of sections. Each column of the grid stores a point on every section.

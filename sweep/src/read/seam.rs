@@ -1,12 +1,12 @@
 //! Reads how the surface of a spec comes back to its start.
 
 use super::Reader;
-use crate::SweepError;
-use crate::closing::{Closing, Ends, SAMPLES};
-use crate::cut::Stop;
-use crate::modulation::Section;
-use crate::shape::Shape;
+use crate::curve::cut::Stop;
+use crate::error::SweepError;
 use crate::spec::SeamKind;
+use crate::surface::Shape;
+use crate::surface::closing::{Closing, Ends, SAMPLES};
+use crate::surface::modulation::Section;
 
 /// The ends of a trajectory meet if they are at most this fraction of the section's size apart.
 const MEETS: f64 = 1e-6;

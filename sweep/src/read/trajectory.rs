@@ -1,15 +1,15 @@
 //! Reads the trajectory of a spec, and the frame at its start.
 
-use super::corners::described;
-use super::{Reader, SMALLEST};
-use crate::curve::{Curve3, Helix, Local3, Path};
+use super::Reader;
+use super::joints::described;
+use crate::curve::{Curve3, Local3, Path};
+use crate::error::SweepError;
 use crate::frame::{Directed, Frame, Lack};
-use crate::trajectory::{Course, Trajectory};
-use crate::{SweepError, spec};
+use crate::limits::SMALLEST;
+use crate::spec;
+use crate::trajectory::Helix;
+use crate::trajectory::{CORNER_DEG, Course, Trajectory};
 use glam::DVec3;
-
-/// Largest turn of a trajectory at a joint in degrees, for handles that are rounded to a few decimals.
-pub(super) const SMOOTH_DEG: f64 = crate::trajectory::CORNER_DEG;
 
 /// A frame that a mitre reflects with an error above this angle, in radians, would tear the surface.
 const MIRRORED: f64 = 1e-9;
@@ -248,7 +248,7 @@ impl Reader<'_> {
 
     /// Refuses corners and cusps.
     fn smooth(&self, curve: &Path<DVec3>, path: &str) -> Result<(), SweepError> {
-        let Some(joint) = curve.joints().find(|joint| joint.angle.to_degrees() > SMOOTH_DEG) else {
+        let Some(joint) = curve.joints().find(|joint| joint.angle.to_degrees() > CORNER_DEG) else {
             return Ok(());
         };
         let message =

@@ -1,10 +1,10 @@
 //! Reads the wall of a spec.
 
 use super::Reader;
-use crate::SweepError;
-use crate::shape::Shape;
+use crate::error::SweepError;
 use crate::spec::Spec;
-use crate::wall::Wall;
+use crate::surface::Shape;
+use crate::surface::wall::Wall;
 
 impl Reader<'_> {
     /// Returns the wall of a spec; `shape` is the sheet in the middle of the wall.

@@ -18,7 +18,7 @@
 //! A cap shrinks its section toward a point that sees the whole outline of the section. A section without
 //! such a point (a figure of eight, a U) is refused.
 
-use crate::schema;
+use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -42,7 +42,7 @@ pub enum Cap {
     /// sphere.
     Round,
     /// A dome of this height, in the unit of length; above 0.
-    Dome(#[schemars(transform = schema::positive)] f64),
+    Dome(#[schemars(transform = limits::positive)] f64),
     /// A cone of this height, in the unit of length; above 0. Its tip is a pole.
-    Pole(#[schemars(transform = schema::positive)] f64),
+    Pole(#[schemars(transform = limits::positive)] f64),
 }

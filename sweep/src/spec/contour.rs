@@ -62,7 +62,7 @@
 //! then have the same contour. The sections of a rotation must not touch the axis.
 
 use super::{Bezier, Ease, Free, only};
-use crate::schema;
+use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -87,18 +87,18 @@ pub enum Contour {
 /// Points in the plane that a C2 spline passes through, or that few cubics are fitted to.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object with the key points, and any of closed, fit")]
-#[schemars(transform = schema::loop_of_three)]
+#[schemars(transform = limits::loop_of_three)]
 pub struct FreeContour {
     /// Whether the curve returns from the last point to the first, which is not repeated.
     #[serde(default)]
     pub closed: bool,
     /// The points `[x, y]`: at least two, or three if closed.
-    #[schemars(transform = schema::at_least(2))]
+    #[schemars(transform = limits::at_least(2))]
     pub points: Vec<[f64; 2]>,
     /// Largest distance of a point from the curve, in the unit of length, above 0. If left out, the curve
     /// passes through all points.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(transform = schema::positive)]
+    #[schemars(transform = limits::positive)]
     pub fit: Option<f64>,
 }
 
@@ -118,10 +118,10 @@ pub struct Sections {
 #[serde(deny_unknown_fields, expecting = "an object with the keys at and contour")]
 pub struct Section {
     /// Position on the trajectory, as a fraction of its length in `[0, 1]`.
-    #[schemars(transform = schema::range(0.0..=1.0))]
+    #[schemars(transform = limits::range(0.0..=1.0))]
     pub at: f64,
     /// The contour at this position; not `sections`.
-    #[schemars(transform = schema::without(&["sections"]))]
+    #[schemars(transform = limits::without(&["sections"]))]
     pub contour: Contour,
 }
 
@@ -132,11 +132,11 @@ pub struct Section {
     deny_unknown_fields,
     expecting = "an object with one of the keys circle, bezier, svg, free, polyline, sections"
 )]
-#[schemars(extend("dependentRequired" = {"blend": ["sections"], "align": ["sections"]}), transform = schema::one_of)]
+#[schemars(extend("dependentRequired" = {"blend": ["sections"], "align": ["sections"]}), transform = limits::one_of)]
 struct ContourKeys {
     /// A circle about the origin, given by its radius, above 0.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(transform = schema::positive)]
+    #[schemars(transform = limits::positive)]
     circle: Option<f64>,
     /// Cubic Bezier segments.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -152,7 +152,7 @@ struct ContourKeys {
     polyline: Option<Free<[f64; 2]>>,
     /// Contours that blend into each other, from 2 to 1000, with `at` rising.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(transform = schema::at_least(2))]
+    #[schemars(transform = limits::at_least(2))]
     sections: Option<Vec<Section>>,
     /// Interpolation between neighbouring sections; `linear` if left out.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -31,7 +31,7 @@
 //! ```
 
 use super::only;
-use crate::schema;
+use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -46,7 +46,7 @@ pub struct Bezier3 {
     #[serde(default)]
     pub closed: bool,
     /// Four control points `[x, y, z]` for each segment, at least one segment.
-    #[schemars(transform = schema::at_least(1))]
+    #[schemars(transform = limits::at_least(1))]
     pub segments: Vec<[[f64; 3]; 4]>,
     /// Treatment of corners; if left out, corners are errors.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -59,13 +59,13 @@ pub struct Bezier3 {
     deny_unknown_fields,
     expecting = "an object with the key points, closed if it is, and corners if it has any"
 )]
-#[schemars(transform = schema::loop_of_three)]
+#[schemars(transform = limits::loop_of_three)]
 pub struct Polyline3 {
     /// Whether the curve returns from the last point to the first, which is not repeated.
     #[serde(default)]
     pub closed: bool,
     /// The points `[x, y, z]`: at least two, or three if closed.
-    #[schemars(transform = schema::at_least(2))]
+    #[schemars(transform = limits::at_least(2))]
     pub points: Vec<[f64; 3]>,
     /// Treatment of corners; if left out, corners are errors.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -84,13 +84,13 @@ pub enum Corners {
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object with one of the keys round, mitre")]
-#[schemars(transform = schema::one_of)]
+#[schemars(transform = limits::one_of)]
 struct CornersKeys {
     /// Rounds corners: the curve is cut at this arc length before and after each, above 0.
-    #[schemars(transform = schema::positive)]
+    #[schemars(transform = limits::positive)]
     round: Option<f64>,
     /// Mitres corners. The value limits the mitre's length over the section's width; at least 1.
-    #[schemars(transform = schema::range(1.0..=f64::MAX))]
+    #[schemars(transform = limits::range(1.0..=f64::MAX))]
     mitre: Option<f64>,
 }
 

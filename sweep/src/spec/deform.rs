@@ -27,7 +27,7 @@
 //! ```
 
 use super::{Law, only, up};
-use crate::schema;
+use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -103,7 +103,7 @@ pub struct Bend {
     /// Height on the axis where the arc ends; above `from`.
     pub to: f64,
     /// Angle of the arc in degrees, from -3600 to 3600.
-    #[schemars(transform = schema::range(-3600.0..=3600.0))]
+    #[schemars(transform = limits::range(-3600.0..=3600.0))]
     pub degrees: f64,
     /// Direction that the axis bends toward; not parallel to the axis.
     pub toward: [f64; 3],
@@ -112,7 +112,7 @@ pub struct Bend {
 /// The keys of a deformation as they are read.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object with one of the keys taper, twist, bend")]
-#[schemars(transform = schema::one_of)]
+#[schemars(transform = limits::one_of)]
 struct DeformKeys {
     /// Multiplies distances from an axis by a factor.
     taper: Option<Taper>,

@@ -1,14 +1,14 @@
 //! Depth modulation as it is written: a relief on the contour.
 
 use super::Law;
-use crate::schema::{self, SMALLEST};
+use crate::limits::{self, SMALLEST};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A relief on the contour, from waves, a picture or both.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object with the key mode, and terms or image")]
-#[schemars(transform = schema::terms_or_image)]
+#[schemars(transform = limits::terms_or_image)]
 pub struct Depth {
     /// How the relief changes the contour.
     pub mode: DepthMode,
@@ -34,7 +34,7 @@ pub struct DepthImage {
     /// Repeats of the picture, across and up, above 0 and at most a million; whole numbers along closed
     /// curves.
     #[serde(default = "once")]
-    #[schemars(transform = schema::range(SMALLEST..=1e6))]
+    #[schemars(transform = limits::range(SMALLEST..=1e6))]
     pub repeat: [f64; 2],
     /// The grey that leaves the contour unchanged: 0 is black, 1 is white.
     #[serde(default = "half")]
@@ -62,11 +62,11 @@ pub struct DepthTerm {
     pub amp: f64,
     /// Number of waves along the contour; a whole number if the contour is closed.
     #[serde(default)]
-    #[schemars(transform = schema::range(-1e6..=1e6))]
+    #[schemars(transform = limits::range(-1e6..=1e6))]
     pub u: f64,
     /// Number of waves along the trajectory; a whole number if the trajectory is closed.
     #[serde(default)]
-    #[schemars(transform = schema::range(-1e6..=1e6))]
+    #[schemars(transform = limits::range(-1e6..=1e6))]
     pub v: f64,
     /// Phase of the sine at the start of both curves, in degrees.
     #[serde(default)]

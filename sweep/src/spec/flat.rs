@@ -17,7 +17,7 @@
 //! ```
 
 use super::{Contour, Law};
-use crate::schema;
+use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -27,7 +27,7 @@ use serde::{Deserialize, Serialize};
 pub struct Flat {
     /// The curve that gives x and y: any contour except `circle` and `sections`. An SVG path can draw a
     /// circle.
-    #[schemars(transform = schema::without(&["circle", "sections"]))]
+    #[schemars(transform = limits::without(&["circle", "sections"]))]
     pub curve: Contour,
     /// The law that gives z, by the fraction of the curve's length.
     pub z: Law,

@@ -52,7 +52,7 @@
 //! ```
 
 use super::{Trajectory, only};
-use crate::schema;
+use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -77,7 +77,7 @@ pub struct Frenet {}
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object with one of the keys start, up, frenet, guide")]
-#[schemars(transform = schema::one_of)]
+#[schemars(transform = limits::one_of)]
 struct FrameKeys {
     /// Direction `[x, y, z]` that the contour's x is nearest to at the start.
     start: Option<[f64; 3]>,
@@ -86,7 +86,7 @@ struct FrameKeys {
     /// The contour's x points to the centre of curvature.
     frenet: Option<Frenet>,
     /// The contour's x points to the point of this curve at the same fraction of its length; not a rotation.
-    #[schemars(transform = schema::without(&["rotation"]))]
+    #[schemars(transform = limits::without(&["rotation"]))]
     guide: Option<Box<Trajectory>>,
 }
 

@@ -1,6 +1,6 @@
 //! A helix as it is written.
 
-use crate::schema;
+use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -12,13 +12,13 @@ use serde::{Deserialize, Serialize};
 )]
 pub struct Helix {
     /// Distance of the contour's origin from the axis, in the unit of length; positive.
-    #[schemars(transform = schema::positive)]
+    #[schemars(transform = limits::positive)]
     pub radius: f64,
     /// Rise along the axis in one turn, in the unit of length; below 0 the helix descends.
     pub rise: f64,
     /// Number of turns, not 0, from -1,000,000 to 1,000,000. A negative number reverses the direction of
     /// rotation.
-    #[schemars(transform = schema::range(-1e6..=1e6))]
+    #[schemars(transform = limits::range(-1e6..=1e6))]
     #[schemars(extend("not" = {"const": 0}))]
     pub turns: f64,
     /// The point of the axis at the height of the start.

@@ -1,7 +1,7 @@
 //! Laws as they are written: a number, or an object with one key.
 
 use super::only;
-use crate::schema;
+use crate::limits;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Error, MapAccess, SeqAccess, Visitor};
@@ -58,15 +58,15 @@ pub enum Scale {
 /// The keys of a law as they are read.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("dependentRequired" = {"ease": ["keys"]}), transform = schema::one_of)]
+#[schemars(extend("dependentRequired" = {"ease": ["keys"]}), transform = limits::one_of)]
 struct LawKeys {
     /// Pairs `[at, value]`, with `at` strictly rising in `[0, 1]`.
-    #[schemars(transform = schema::graph)]
+    #[schemars(transform = limits::graph)]
     keys: Option<Vec<[f64; 2]>>,
     /// Interpolation between two keys; `linear` if left out.
     ease: Option<Ease>,
     /// Cubics of points `[at, value]`, along which `at` does not fall.
-    #[schemars(transform = schema::graph)]
+    #[schemars(transform = limits::graph)]
     bezier: Option<Vec<[[f64; 2]; 4]>>,
     /// The value at the end of a linear law that starts at 0.
     total: Option<f64>,

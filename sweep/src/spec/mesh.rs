@@ -30,7 +30,8 @@
 //! each cell, of its sides and of its triangles, and hold there. If `max_quads` or the surface (a cusp, a
 //! fold) does not allow the tolerance, the closest mesh found is made, and a note says how close it is.
 
-use crate::{MOST_CELLS, schema};
+use crate::grid::MOST_CELLS;
+use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -43,35 +44,35 @@ pub const MAX_QUADS: usize = 2_000_000;
     deny_unknown_fields,
     expecting = "an object with the keys rows and cols, or with any of tol, angle_deg, pixels"
 )]
-#[schemars(transform = schema::cells_or_tolerance)]
+#[schemars(transform = limits::cells_or_tolerance)]
 pub struct Mesh {
     /// Number of cells along the trajectory.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(transform = schema::range(1..=MOST_CELLS))]
+    #[schemars(transform = limits::range(1..=MOST_CELLS))]
     pub rows: Option<usize>,
     /// Number of cells along the contour. Cells without width at creases are not counted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(transform = schema::range(1..=MOST_CELLS))]
+    #[schemars(transform = limits::range(1..=MOST_CELLS))]
     pub cols: Option<usize>,
     /// Largest distance between triangles and surface, in the unit of length; above 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(transform = schema::below(1e60))]
+    #[schemars(transform = limits::below(1e60))]
     pub tol: Option<f64>,
     /// Largest angle between a triangle and the true normals at its corners, in degrees above 0 and below 90.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(transform = schema::below(90.0))]
+    #[schemars(transform = limits::below(90.0))]
     pub angle_deg: Option<f64>,
     /// Largest distance between triangles and surface, in pixels of the camera's picture; above 0. Not
     /// allowed with `tol`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(transform = schema::below(1e6))]
+    #[schemars(transform = limits::below(1e6))]
     pub pixels: Option<f64>,
     /// The camera whose pixels `pixels` counts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub camera: Option<Camera>,
     /// Largest number of cells; 2,000,000 if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(transform = schema::range(1..=MOST_CELLS))]
+    #[schemars(transform = limits::range(1..=MOST_CELLS))]
     pub max_quads: Option<usize>,
 }
 
@@ -94,7 +95,7 @@ pub struct Camera {
     #[schemars(extend("exclusiveMinimum" = 0.0, "exclusiveMaximum" = 180.0))]
     pub fov_deg: f64,
     /// Width and height of the picture in pixels.
-    #[schemars(transform = schema::range(1..=u32::MAX))]
+    #[schemars(transform = limits::range(1..=u32::MAX))]
     pub size: [u32; 2],
 }
 

@@ -24,7 +24,7 @@
 //! ```
 
 use super::{FORMAT, Spec, VERSION};
-use crate::schema;
+use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -42,9 +42,9 @@ pub struct Parts {
     #[schemars(extend("const" = VERSION))]
     pub version: u32,
     /// The object's name; one word.
-    #[schemars(transform = schema::word)]
+    #[schemars(transform = limits::word)]
     pub name: String,
     /// The parts: at least one sweep, each with a name of its own.
-    #[schemars(transform = schema::at_least(1))]
+    #[schemars(transform = limits::at_least(1))]
     pub parts: Vec<Spec>,
 }

@@ -1,7 +1,7 @@
 //! Trajectories as they are written: the curves that a contour is swept along.
 
 use super::{Bezier3, Circle, Flat, Free, Helix, Polyline3, Rotation, only};
-use crate::schema;
+use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -34,7 +34,7 @@ pub enum Trajectory {
     deny_unknown_fields,
     expecting = "an object with one of the keys line, circle, helix, bezier, polyline, free, flat, rotation"
 )]
-#[schemars(transform = schema::one_of)]
+#[schemars(transform = limits::one_of)]
 struct TrajectoryKeys {
     /// A straight line, given by its two ends `[x, y, z]`, which must differ.
     line: Option<[[f64; 3]; 2]>,

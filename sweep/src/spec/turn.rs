@@ -1,6 +1,6 @@
 //! Trajectories about an axis, as they are written: a circle and a rotation.
 
-use crate::schema;
+use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 )]
 pub struct Circle {
     /// Distance of the contour's origin from the centre, in the unit of length; positive.
-    #[schemars(transform = schema::positive)]
+    #[schemars(transform = limits::positive)]
     pub radius: f64,
     /// The centre `[x, y, z]`.
     #[serde(default)]
@@ -22,7 +22,7 @@ pub struct Circle {
     pub axis: [f64; 3],
     /// Angle of the arc in degrees, above 0 and at most 360, which is a closed circle.
     #[serde(default = "full_turn")]
-    #[schemars(transform = schema::above(0.0, 360.0))]
+    #[schemars(transform = limits::above(0.0, 360.0))]
     pub angle_deg: f64,
 }
 
@@ -32,7 +32,7 @@ pub struct Circle {
 pub struct Rotation {
     /// Angle of the rotation in degrees, above 0 and at most 360, which is closed.
     #[serde(default = "full_turn")]
-    #[schemars(transform = schema::above(0.0, 360.0))]
+    #[schemars(transform = limits::above(0.0, 360.0))]
     pub angle_deg: f64,
     /// Position of the contour's origin, `[x, y, z]`.
     #[serde(default)]

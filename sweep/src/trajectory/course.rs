@@ -1,6 +1,7 @@
 //! The curves that a trajectory or a guide can be.
 
-use crate::curve::{Curve3, Flat, Helix, Local3, Path, turn};
+use super::{Flat, Helix};
+use crate::curve::{Curve3, Local3, Path, turn};
 use crate::frame::Frame;
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;

@@ -10,7 +10,7 @@
 //! The frame after a corner is the frame before it, reflected in the plane, so both legs have the same
 //! section there.
 
-use crate::cut::{Side, Stop};
+use crate::curve::cut::{Side, Stop};
 use crate::frame::Frame;
 use glam::{DVec2, DVec3};
 

@@ -1,14 +1,18 @@
 //! The trajectory that a contour follows, and the stations on it.
 
 mod course;
+pub mod flat;
+pub mod helix;
 mod mitre;
 mod station;
 
 pub use course::{CORNER_DEG, Course};
+pub use flat::Flat;
+pub use helix::Helix;
 pub use station::Station;
 
+use crate::curve::cut::{self, Side, Stop};
 use crate::curve::{Curve3, turn};
-use crate::cut::{self, Side, Stop};
 use crate::frame::{Directed, Frame, Frames};
 use glam::DVec2;
 use mitre::Mitres;

@@ -94,9 +94,13 @@ impl Station {
     /// `S_u x S_v = stretch (q2_u w1 - q1_u w2) + spin (q.q_u) (T - m1 w1 - m2 w2)`.
     #[must_use]
     pub fn normal(&self, q: DVec2, q_u: DVec2) -> DVec3 {
+        self.normal_stretched(q, q_u, self.stretch(q))
+    }
+
+    /// Returns the normal as [`Station::normal`] does, for the known `stretch` at `q`.
+    pub(crate) fn normal_stretched(&self, q: DVec2, q_u: DVec2, stretch: f64) -> DVec3 {
         let Frame { normal, binormal, .. } = self.frame;
         let outward = normal * q_u.y - binormal * q_u.x;
-        let stretch = self.stretch(q);
         if self.spin == 0.0 {
             return if stretch < 0.0 { -outward } else { outward };
         }
@@ -106,13 +110,12 @@ impl Station {
 
     /// Returns the unit normal, as [`Station::normal`] does, for a contour that changes along the trajectory.
     /// `q_u` is its direction, of any length. `q_s` is the derivative of its point on the contour's axes, per
-    /// length of the trajectory.
-    #[must_use]
-    pub(crate) fn normal_of_moving(&self, q: DVec2, q_u: DVec2, q_s: DVec2) -> DVec3 {
+    /// length of the trajectory. `stretch` is the known stretch at `q`.
+    pub(crate) fn normal_of_moving(&self, q: DVec2, q_u: DVec2, q_s: DVec2, stretch: f64) -> DVec3 {
         let Frame { normal, binormal, .. } = self.frame;
         let outward = normal * q_u.y - binormal * q_u.x;
         let moving = q_s + q.perp() * self.spin;
-        let across = outward * self.stretch(q) + self.across() * q_u.perp_dot(moving);
+        let across = outward * stretch + self.across() * q_u.perp_dot(moving);
         // A contour pressed flat has no direction where it turns back.
         across.try_normalize().or(outward.try_normalize()).unwrap_or(normal)
     }

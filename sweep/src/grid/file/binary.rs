@@ -1,7 +1,7 @@
 //! Binary rows and footers of a grid file.
 
 use super::Footer;
-use super::reader::RowBuffer;
+use super::buffer::RowBuffer;
 use crate::grid::Row;
 use glam::{DVec3, Vec3};
 

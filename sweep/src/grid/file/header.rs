@@ -1,7 +1,7 @@
 //! The header line: everything about a grid except its rows.
 
 use super::{Encoding, GridError, stranger};
-use crate::GridMesh;
+use crate::grid::GridMesh;
 use crate::grid::row::{self, Fault, check_parameter};
 use crate::grid::{Fold, PlacedArea, Seam, Tolerance, UvLayout, area, seam};
 use files::json::{BYTES_OF_A_BYTE, Document};

@@ -1,11 +1,12 @@
 //! A reader of grids, row by row, which checks everything it reads.
 
+use super::buffer::RowBuffer;
 use super::edges::Edges;
 use super::{Encoding, Footer, GridError, Header, Patch, binary, header, text};
-use crate::GridMesh;
+use crate::grid::GridMesh;
 use crate::grid::{self, Row};
 use files::memory;
-use glam::{DVec3, Vec3};
+
 use std::io::{self, BufRead, Read};
 
 /// A grid file being read, with one row in memory at a time.
@@ -29,15 +30,6 @@ pub struct GridReader<R> {
     edges: Edges,
     bytes: Vec<u8>,
     row: RowBuffer,
-}
-
-/// The values of the row that was read last.
-#[derive(Debug, Default)]
-pub(super) struct RowBuffer {
-    pub v: f64,
-    pub flags: u8,
-    pub positions: Vec<DVec3>,
-    pub normals: Vec<Vec3>,
 }
 
 /// Reads a file of one grid into memory.

@@ -1,7 +1,7 @@
 //! Rows and footers of a grid file as JSON text, one line each.
 
 use super::Footer;
-use super::reader::RowBuffer;
+use super::buffer::RowBuffer;
 use crate::grid::Row;
 use files::JsonError;
 use files::json::Document;

@@ -12,10 +12,10 @@
 //!     P_sss = (k_l l_s^3 + 3 k l_s l_ss + t l_sss, z_sss)   k_l = dk/dl
 //! ```
 
-use super::path::Place;
-use super::vector::angle_between;
-use super::{Cubic, Curve3, Local3, Path};
-use crate::cut::Side;
+use crate::curve::cut::Side;
+use crate::curve::path::Place;
+use crate::curve::vector::angle_between;
+use crate::curve::{Cubic, Curve3, Local3, Path};
 use crate::law::parameter;
 use glam::DVec2;
 

@@ -1,10 +1,11 @@
 //! Search for the fewest cells that keep a tolerance.
 
 use super::demand::{self, Density};
-use super::measure::{Field, Surface, measure};
+use super::measure::{Field, measure};
 use super::place::Direction;
 use super::{Distance, Reached, Tolerance};
-use crate::cut::Stop;
+use crate::curve::cut::Stop;
+use crate::surface::Surface;
 
 /// Largest number of cells of the first cut, which only has to resolve every wave.
 const MOST_AT_FIRST: usize = 1 << 20;

@@ -1,13 +1,14 @@
 //! The rows of a sweep: all at once as a grid, or block by block into a file.
 
-use crate::check::fold::Survey;
-use crate::cut::Stop;
+use super::Sweep;
+use super::survey::{RowSurvey, Survey};
+use crate::curve::cut::Stop;
+use crate::error::SweepError;
 use crate::grid::file::{Encoding, Header, Patch, Writer};
 use crate::grid::{self, By, GridMesh, Row, Seam};
-use crate::profile::Column;
-use crate::resolution::Surface;
-use crate::wall::Wall;
-use crate::{Sweep, SweepError};
+use crate::surface::Surface;
+use crate::surface::profile::Column;
+use crate::surface::wall::Wall;
 use files::{memory, words};
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
@@ -18,6 +19,10 @@ use std::time::{Duration, Instant};
 /// Points that are found together when a grid is written: some megabytes, and enough work for many
 /// threads.
 const BLOCK: usize = 1 << 16;
+
+/// Largest number of points of a grid that is made whole before it is written, some 19 MB. Larger, and writing takes
+/// more memory; smaller, and more grids are evaluated twice, first for their header.
+const KEPT: usize = 1 << 19;
 
 /// A sweep cut into rows and columns.
 pub struct Rows<'a> {
@@ -83,7 +88,10 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// The whole grid.
+    /// Returns the whole grid. If the sweep has no survey yet, it is made from the same evaluation.
+    ///
+    /// # Errors
+    /// When there is not enough memory for the grid.
     pub fn grid(&self) -> Result<GridMesh, SweepError> {
         let mut grid = self.blank();
         let (rows, cols) = (self.v.len(), self.columns.len());
@@ -93,44 +101,78 @@ impl<'a> Rows<'a> {
         })?;
         grid.positions.resize(count, DVec3::ZERO);
         grid.normals.resize(count, Vec3::ZERO);
-        self.fill(0..rows, &mut grid.positions, &mut grid.normals);
+        let mut surveyed = self.fill(0..rows, &mut grid.positions, &mut grid.normals);
+        // The second side of a wall surveys the sheet again.
+        surveyed.truncate(self.stops.len());
+        let survey = || Survey::from_rows(&self.sweep.shape, cols, self.stops.clone(), &surveyed);
+        grid.fold = self.sweep.survey.get_or_init(survey).fold();
         Ok(grid)
     }
 
-    /// Writes the grid in the memory of one block of rows.
+    /// Writes the grid. The header tells the survey and stands before the rows, so a grid of at most [`KEPT`]
+    /// points is made whole. A larger one is surveyed first and then made in blocks of rows, which takes two
+    /// evaluations of each point and the memory of one block.
+    ///
+    /// # Errors
+    /// When writing to `out` fails.
     pub fn write(
         &self,
         patch: Patch,
         encoding: Encoding,
         out: &mut impl Write,
     ) -> io::Result<Spent> {
-        let header = Header { patch, rows: self.v.len(), ..Header::of(&self.blank()) };
+        let small = self.v.len() * self.columns.len() <= KEPT;
+        let mut clock = Clock::start();
+        // Without memory for the whole grid, blocks may still fit.
+        let whole =
+            if small && self.sweep.survey.get().is_none() { self.grid().ok() } else { None };
+        let mut spent = Spent::default();
+        match whole {
+            Some(grid) => {
+                clock.lap(&mut spent.sweeping);
+                let header = Header { patch, ..Header::of(&grid) };
+                let mut writer = Writer::new(&header, encoding, out)?;
+                grid.row_views().try_for_each(|row| writer.row(&row))?;
+                writer.finish()?;
+                clock.lap(&mut spent.writing);
+            }
+            None => self.write_blocks(patch, encoding, out, &mut clock, &mut spent)?,
+        }
+        Ok(spent)
+    }
+
+    fn write_blocks(
+        &self,
+        patch: Patch,
+        encoding: Encoding,
+        out: &mut impl Write,
+        clock: &mut Clock,
+        spent: &mut Spent,
+    ) -> io::Result<()> {
+        let fold = self.sweep.survey().fold();
+        clock.lap(&mut spent.sweeping);
+        let blank = GridMesh { fold, ..self.blank() };
+        let header = Header { patch, rows: self.v.len(), ..Header::of(&blank) };
         let mut writer = Writer::new(&header, encoding, out)?;
         let cols = self.columns.len();
         let height = (BLOCK / cols).max(1);
-        let (mut spent, mut from) = (Spent::default(), Instant::now());
-        let mut lap = |total: &mut Duration| {
-            let now = Instant::now();
-            *total += now - std::mem::replace(&mut from, now);
-        };
         let (mut positions, mut normals) = (Vec::new(), Vec::new());
         for start in (0..self.v.len()).step_by(height) {
             let rows = start..(start + height).min(self.v.len());
             positions.resize(rows.len() * cols, DVec3::ZERO);
             normals.resize(rows.len() * cols, Vec3::ZERO);
             self.fill(rows.clone(), &mut positions, &mut normals);
-            lap(&mut spent.sweeping);
+            clock.lap(&mut spent.sweeping);
             let points = positions.chunks(cols).zip(normals.chunks(cols));
             for (&v, (positions, normals)) in self.v[rows].iter().zip(points) {
                 writer.row(&Row { v, positions, normals })?;
             }
-            lap(&mut spent.writing);
+            clock.lap(&mut spent.writing);
         }
-        writer.finish()?;
-        Ok(spent)
+        writer.finish()
     }
 
-    /// The grid without its points.
+    /// Returns the grid without its points and its survey.
     fn blank(&self) -> GridMesh {
         let sweep = self.sweep;
         let (seam_v, shift) = if self.wall.is_some() { (Seam::Closed, 0) } else { self.seam };
@@ -144,39 +186,47 @@ impl<'a> Rows<'a> {
             uv: sweep.uv,
             areas: sweep.areas.clone(),
             tolerance: sweep.tolerance(),
-            fold: Survey::of(sweep).fold(),
             u: self.u.clone(),
             v: self.v.clone(),
             ..GridMesh::default()
         }
     }
 
-    /// Finds the points and normals of some rows, on all threads.
-    fn fill(&self, rows: Range<usize>, positions: &mut [DVec3], normals: &mut [Vec3]) {
+    /// Evaluates the points and normals of some rows on all threads, and returns the survey of each row.
+    fn fill(
+        &self,
+        rows: Range<usize>,
+        positions: &mut [DVec3],
+        normals: &mut [Vec3],
+    ) -> Vec<RowSurvey> {
         let cols = self.columns.len();
         positions
             .par_chunks_mut(cols)
             .zip(normals.par_chunks_mut(cols))
             .zip(rows)
-            .for_each(|((points, normals), row)| self.row(row, points, normals));
+            .map(|((points, normals), row)| self.row(row, points, normals))
+            .collect()
     }
 
-    fn row(&self, row: usize, points: &mut [DVec3], normals: &mut [Vec3]) {
+    fn row(&self, row: usize, points: &mut [DVec3], normals: &mut [Vec3]) -> RowSurvey {
         let rows = self.stops.len();
-        self.row_of_sheet(self.stops[row % rows], points, normals);
+        let survey = self.row_of_sheet(self.stops[row % rows], points, normals);
         match &self.wall {
             Some(sides) if row < rows => sides.wall.near(points, normals),
             Some(sides) => sides.wall.far(points, normals, &sides.led),
             None => {}
         }
+        survey
     }
 
-    fn row_of_sheet(&self, stop: Stop, points: &mut [DVec3], normals: &mut [Vec3]) {
+    fn row_of_sheet(&self, stop: Stop, points: &mut [DVec3], normals: &mut [Vec3]) -> RowSurvey {
         let shape = &self.sweep.shape;
         let section = shape.section(stop);
+        let mut survey = RowSurvey::new(shape, stop);
         for ((column, point), normal) in self.columns.iter().zip(points).zip(&mut *normals) {
-            let place = shape.place(&section, column);
-            (*point, *normal) = (place.point, place.normal.as_vec3());
+            let placed = shape.place(&section, column);
+            survey.add(column.u, &placed);
+            (*point, *normal) = (placed.point, placed.normal.as_vec3());
         }
         if shape.closing.is_some() && stop == Stop::before(0.0) {
             // The end has come to the points of the start, with normals of its own.
@@ -188,5 +238,21 @@ impl<'a> Rows<'a> {
                 normals[led] = (shape.place(&end, column).normal * side).as_vec3();
             }
         }
+        survey
+    }
+}
+
+/// A clock that adds up the times of stages that follow each other.
+struct Clock(Instant);
+
+impl Clock {
+    fn start() -> Self {
+        Self(Instant::now())
+    }
+
+    /// Adds the time since the last call to `total`.
+    fn lap(&mut self, total: &mut Duration) {
+        let now = Instant::now();
+        *total += now - std::mem::replace(&mut self.0, now);
     }
 }

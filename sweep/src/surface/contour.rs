@@ -1,8 +1,8 @@
 //! Contours: the curves that are swept.
 
+use crate::curve::cut::{Side, Stop};
 use crate::curve::path::{Joint, Place};
 use crate::curve::{Cubic, Path, turn};
-use crate::cut::{Side, Stop};
 use glam::DVec2;
 use kurbo::{CubicBez, ParamCurveArea, Point, Shape};
 use std::f64::consts::TAU;
@@ -232,8 +232,8 @@ fn kurbo_cubic(points: [DVec2; 4]) -> CubicBez {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::curve::cut;
     use crate::curve::svg;
-    use crate::cut;
     use std::f64::consts::PI;
 
     fn contour(text: &str) -> Contour {

@@ -4,7 +4,7 @@
 //! -1 on both axes do. Its outside stays outside. If one factor alone changed sign, it would mirror the
 //! contour and turn the surface inside out. The parts before and after would then have no common outside.
 
-use crate::cut::{Side, Stop};
+use crate::curve::cut::{Side, Stop};
 use crate::law::Law;
 use glam::DVec2;
 

@@ -1,7 +1,7 @@
 //! Positions of stops for a given density.
 
 use super::demand::Density;
-use crate::cut::{self, Stop};
+use crate::curve::cut::{self, Stop};
 
 /// A density that varies by at most this factor within a piece is even.
 const EVEN: f64 = 1.02;

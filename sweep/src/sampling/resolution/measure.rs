@@ -11,22 +11,11 @@
 
 use super::Tolerance;
 use super::triangle::{Facet, Pair};
-use crate::cut::Stop;
-use crate::profile::Column;
+use crate::curve::cut::Stop;
+use crate::surface::Surface;
+use crate::surface::profile::Column;
 use glam::DVec3;
 use rayon::prelude::*;
-
-/// A surface that can be cut into cells and measured.
-pub trait Surface: Sync {
-    /// Returns the columns at stops of the contour.
-    fn columns(&self, stops: &[Stop]) -> Vec<Column>;
-
-    /// Returns points and unit normals at one stop of the trajectory, one pair for each column.
-    fn station(&self, stop: Stop, columns: &[Column]) -> Vec<(DVec3, DVec3)>;
-
-    /// Returns the points at one stop of the trajectory, one for each column.
-    fn points(&self, stop: Stop, columns: &[Column]) -> Vec<DVec3>;
-}
 
 /// The loads of a cell: errors relative to the tolerance.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

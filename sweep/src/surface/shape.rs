@@ -1,13 +1,13 @@
 //! The swept surface before it is cut into cells: a point and a normal for each (u, v).
 
-use crate::cap::Cap;
-use crate::closing::Closing;
-use crate::cut::{self, Stop};
-use crate::deform::{Deform, Moved};
+use crate::curve::cut::{self, Stop};
 use crate::grid::Seam;
-use crate::modulation::{Modulation, Section};
-use crate::profile::{Column, Profile};
-use crate::resolution::Surface;
+use crate::surface::Surface;
+use crate::surface::cap::Cap;
+use crate::surface::closing::Closing;
+use crate::surface::deform::{Deform, Moved};
+use crate::surface::modulation::{Evaluated, Modulation, Section};
+use crate::surface::profile::{Column, Profile};
 use crate::trajectory::Trajectory;
 use glam::DVec3;
 
@@ -29,6 +29,28 @@ pub struct Shape {
     pub(crate) deforms: Vec<Deform>,
     /// Translation applied after the deformations.
     pub(crate) position: DVec3,
+}
+
+/// A point of the finished surface, with everything that one evaluation of its section gives.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Placed {
+    /// The point, in the unit of length.
+    pub point: DVec3,
+    /// The unit normal.
+    pub normal: DVec3,
+    /// The stretch before deformations: see [`Station::stretch`](crate::trajectory::Station::stretch).
+    pub stretch: f64,
+    /// Whether the contour folds back on itself, because its relief is deeper than it is round.
+    pub contour_folds: bool,
+    /// Whether a deformation turns space inside out at the point.
+    pub space_folds: bool,
+}
+
+impl Placed {
+    /// Returns whether the surface folds back on itself, for any reason.
+    pub(crate) fn folds(&self) -> bool {
+        self.contour_folds || self.stretch < 0.0 || self.space_folds
+    }
 }
 
 impl Shape {
@@ -67,13 +89,13 @@ impl Shape {
                 let t = if end < 1.0 { (stop.at - end) / (1.0 - end) } else { 1.0 };
                 on_trajectory(Stop::before(1.0)).gathered(cap.at(t), 1.0)
             }
-            _ => on_trajectory(Stop { at: self.on_body(stop.at), ..stop }),
+            _ => on_trajectory(Stop { at: self.on_body([start, end], stop.at), ..stop }),
         }
     }
 
     /// Returns a point of a section in space, after deformations and translation, with its unit normal.
-    pub(crate) fn place(&self, section: &Section, column: &Column) -> Moved {
-        let (point, normal) = (section.point(column), section.normal(column));
+    pub(crate) fn place(&self, section: &Section, column: &Column) -> Placed {
+        let Evaluated { point, normal, stretch, contour_folds } = section.evaluate(column);
         let mut moved = Moved { point, normal, folds: false };
         for deform in &self.deforms {
             let next = deform.apply(moved.point, moved.normal);
@@ -83,13 +105,13 @@ impl Shape {
                 ..next
             };
         }
-        Moved { point: moved.point + self.position, ..moved }
-    }
-
-    /// Returns whether the surface folds back on itself at a column, by the section itself or by a
-    /// deformation.
-    pub(crate) fn folds(&self, section: &Section, column: &Column) -> bool {
-        section.folds(column) || (!self.deforms.is_empty() && self.place(section, column).folds)
+        Placed {
+            point: moved.point + self.position,
+            normal: moved.normal,
+            stretch,
+            contour_folds,
+            space_folds: moved.folds,
+        }
     }
 
     /// Returns the `v` of possible edges that run along the contour, rising: at caps, at corners of the
@@ -164,7 +186,7 @@ impl Shape {
         if v < start || v > end {
             return v;
         }
-        self.row_of(self.trajectory.parameter(self.on_body(v)))
+        self.row_of(self.trajectory.parameter(self.on_body([start, end], v)))
     }
 
     /// Returns the fraction of the trajectory's length at a stop of the rows; `None` on a cap.
@@ -172,15 +194,17 @@ impl Shape {
         let [start, end] = self.body();
         let before = stop.at < start || self.caps[0].is_some() && stop == Stop::before(start);
         let after = stop.at > end || self.caps[1].is_some() && stop == Stop::after(end);
-        (!before && !after).then(|| self.on_body(stop.at))
+        (!before && !after).then(|| self.on_body([start, end], stop.at))
     }
 
-    /// Returns the fraction of the trajectory's length at a `v` on the trajectory.
-    fn on_body(&self, v: f64) -> f64 {
-        let [start, end] = self.body();
+    /// Returns the fraction of the trajectory's length at a `v` on the trajectory, which has the range `body`.
+    fn on_body(&self, body: [f64; 2], v: f64) -> f64 {
+        let [start, end] = body;
         // Inverts `row_of` exactly, to the last bit, where a break lies.
-        let same = |at: &f64| self.row_of(*at) == v;
-        let corner = self.trajectory.breaks().iter().copied().find(same);
+        let corners = self.trajectory.breaks();
+        let next = corners.partition_point(|&at| row_between(body, at) < v);
+        let same = |at: &f64| row_between(body, *at) == v;
+        let corner = corners.get(next).copied().filter(same);
         let known = corner.or_else(|| self.modulation.breaks(self.trajectory.closed()).find(same));
         known.unwrap_or_else(|| ((v - start) / (end - start)).clamp(0.0, 1.0))
     }
@@ -197,8 +221,7 @@ impl Shape {
 
     /// Returns the `v` of a fraction of the trajectory's length.
     fn row_of(&self, at: f64) -> f64 {
-        let [start, end] = self.body();
-        start + (end - start) * at
+        row_between(self.body(), at)
     }
 
     /// Sets x to 0 for points of a rotation that lie on its axis up to `ON_AXIS`.
@@ -213,6 +236,11 @@ impl Shape {
             }
         }
     }
+}
+
+/// Returns the `v` of a fraction of the trajectory's length; the trajectory has the range `[start, end]`.
+fn row_between([start, end]: [f64; 2], at: f64) -> f64 {
+    start + (end - start) * at
 }
 
 impl Surface for Shape {

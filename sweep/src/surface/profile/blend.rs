@@ -11,7 +11,7 @@
 //! contour blends into the first.
 
 use super::Column;
-use crate::contour::Local2;
+use crate::surface::contour::Local2;
 use glam::DVec2;
 
 /// Positions of a profile's contours on the trajectory.

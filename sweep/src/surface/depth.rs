@@ -11,11 +11,11 @@
 //! An *offset* changes it into `C + delta n`, where `n` is its outer normal. The relief belongs to the
 //! contour, so scale and twist act on the contour with its relief.
 
-use crate::contour::Local2;
 use crate::curve::turn;
-use crate::height::HeightMap;
 use crate::law::Law;
-use crate::profile::blend::Moving;
+use crate::surface::contour::Local2;
+use crate::surface::height::HeightMap;
+use crate::surface::profile::blend::Moving;
 use glam::DVec2;
 use std::f64::consts::TAU;
 use std::sync::Arc;

@@ -1,25 +1,23 @@
 //! A sweep that has been checked, and the grid it gives.
 
-use crate::cut::{self, Stop};
+use super::Survey;
+use super::resolution::place::Direction;
+use super::resolution::{Cells, Distance, Reached, Resolution, Search, Tolerance};
+use super::rows::Rows;
+use crate::curve::cut::{self, Stop};
+use crate::error::SweepError;
+use crate::grid::MOST_CELLS;
 use crate::grid::file::MAX_COLS;
 use crate::grid::{self, Area, GridMesh, UvLayout};
-use crate::profile::{Column, Profile};
-use crate::resolution::place::Direction;
-use crate::resolution::{Cells, Distance, Reached, Resolution, Search, Surface, Tolerance};
-use crate::rows::Rows;
-use crate::shape::Shape;
-use crate::spec::Mesh;
+use crate::surface::Shape;
+use crate::surface::Surface;
+use crate::surface::profile::{Column, Profile};
+use crate::surface::wall::{self, Wall};
 use crate::trajectory::Trajectory;
-use crate::wall::{self, Wall};
-use crate::{Object, SweepError};
-use files::json::Document;
-use files::{Disk, Source, memory, words};
+use files::{memory, words};
 use glam::DVec3;
 use rayon::prelude::*;
-use std::path::Path;
-
-/// Cells of one grid at most: 3.6 GB of points and normals, and twice that when it is one cell wide.
-pub const MOST_CELLS: usize = 100_000_000;
+use std::sync::OnceLock;
 
 /// Bytes a cell that the search for a tolerance takes: an estimate, not measured.
 const OF_SEARCH: u64 = 128;
@@ -34,6 +32,8 @@ pub struct Sweep {
     pub(crate) resolution: Resolution,
     /// What a tolerance comes to.
     pub(crate) fitted: Option<Cells>,
+    /// The survey of the grid of this resolution, once it is made.
+    pub(crate) survey: OnceLock<Survey>,
     pub(crate) uv: UvLayout,
     pub(crate) areas: Vec<Area>,
     pub(crate) texture: Option<u32>,
@@ -41,35 +41,6 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// Reads and checks a spec of one sweep; files that it names count from the working folder.
-    ///
-    /// # Errors
-    /// As [`Object::read`], and when the object has several parts.
-    pub fn read(document: &Document<'_>) -> Result<Self, SweepError> {
-        Self::read_in(document, Path::new(""), &Disk, &Mesh::default())
-    }
-
-    /// The same for files that count from `folder` and lie in `source`, and with each key of `rather`
-    /// in place of that of the spec's `mesh`.
-    ///
-    /// # Errors
-    /// As [`Sweep::read`].
-    pub fn read_in(
-        document: &Document<'_>,
-        folder: &Path,
-        source: &dyn Source,
-        rather: &Mesh,
-    ) -> Result<Self, SweepError> {
-        let mut parts = Object::read(document, folder, source, rather)?.parts;
-        match (parts.pop(), parts.len()) {
-            (Some(sweep), 0) => Ok(sweep),
-            (_, more) => {
-                let message = format!("found {} parts, expected one sweep", more + 1);
-                Err(document.fault("parts", message).into())
-            }
-        }
-    }
-
     /// The object's name.
     #[must_use]
     pub fn name(&self) -> &str {
@@ -170,7 +141,7 @@ impl Sweep {
     }
 
     fn resolved(self, resolution: Resolution) -> Result<Self, SweepError> {
-        let sweep = Self { resolution, fitted: None, ..self };
+        let sweep = Self { resolution, fitted: None, survey: OnceLock::new(), ..self };
         if let Some((key, message)) = sweep.resolution_fault() {
             return Err(SweepError::Resolution(format!("{key}: {message}")));
         }
@@ -194,7 +165,7 @@ impl Sweep {
                 format!("{}: a search for at most {most} cells", words::shown(&self.name))
             })?;
         let cells = self.search(tolerance).run();
-        Ok(Self { fitted: Some(cells), ..self })
+        Ok(Self { fitted: Some(cells), survey: OnceLock::new(), ..self })
     }
 
     /// How near the triangles of [`Sweep::grid`] come to the surface; `tolerance` says in which unit.
@@ -322,6 +293,20 @@ impl Sweep {
         })
     }
 
+    /// Returns where the grid's surface folds back on itself.
+    ///
+    /// The survey is made once: while the grid is made, or by the first call.
+    #[must_use]
+    pub fn survey(&self) -> &Survey {
+        if let Some(survey) = self.survey.get() {
+            return survey;
+        }
+        // Made outside the lock: a thread that waits for other threads may meet this sweep again.
+        let (columns, rows) = self.lines();
+        let survey = Survey::of(&self.shape, &columns, rows);
+        self.survey.get_or_init(|| survey)
+    }
+
     /// The number of rows in which some of the surface folds back on itself, since the trajectory
     /// bends more sharply than the contour is wide. Normals are turned over there.
     #[must_use]
@@ -331,7 +316,7 @@ impl Sweep {
             .par_iter()
             .filter(|&&stop| {
                 let section = self.shape.section(stop);
-                columns.iter().any(|column| self.shape.folds(&section, column))
+                columns.iter().any(|column| self.shape.place(&section, column).folds())
             })
             .count()
     }

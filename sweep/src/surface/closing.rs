@@ -10,7 +10,7 @@
 //! The turn that the contour still needs to fit is added evenly along the whole length. Among all fits, the
 //! one is taken that turns the contour least against a rotation-minimizing frame.
 
-use crate::cut::{Side, Stop};
+use crate::curve::cut::{Side, Stop};
 use crate::grid::Seam;
 use glam::DVec2;
 
@@ -166,8 +166,8 @@ fn gcd(a: usize, b: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::curve::cut;
     use crate::curve::turn;
-    use crate::cut;
 
     fn sampled(closed: bool, curve: impl Fn(f64) -> DVec2) -> Vec<DVec2> {
         let count = SAMPLES + usize::from(!closed);

@@ -16,8 +16,8 @@ pub mod blend;
 
 pub use blend::Blend;
 
-use crate::contour::{Contour, Local2};
-use crate::cut::{self, Side, Stop};
+use crate::curve::cut::{self, Side, Stop};
+use crate::surface::contour::{Contour, Local2};
 use glam::DVec2;
 
 /// Breaks of two contours at most this fraction of the length apart are one break.

@@ -4,7 +4,7 @@
 //! torsion are constant, and a rotation-minimizing frame turns evenly against a frame whose `w1` points away
 //! from the axis. Nothing is summed, so a point far from the start costs no more than one near it.
 
-use super::{Local3, turn};
+use crate::curve::{Local3, turn};
 use crate::frame::Frame;
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
@@ -89,7 +89,7 @@ impl Helix {
 mod tests {
     use super::*;
     use crate::curve::Curve3;
-    use crate::cut::Side;
+    use crate::curve::cut::Side;
     use crate::frame::Frames;
 
     fn helix(rise: f64, turns: f64) -> Helix {

@@ -22,7 +22,6 @@ mod search;
 mod triangle;
 mod view;
 
-pub use measure::Surface;
 pub use search::{Cells, Search};
 pub use view::View;
 

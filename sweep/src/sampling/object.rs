@@ -1,39 +1,31 @@
 //! An object: one sweep, or several that belong together, such as a cup and its handle.
 
+use super::Sweep;
+use super::rows::{Rows, Spent};
+use crate::error::SweepError;
+use crate::grid::GridMesh;
 use crate::grid::file::{Encoding, Patch};
-use crate::rows::{Rows, Spent};
-use crate::spec::Mesh;
-use crate::{GridMesh, Sweep, SweepError, read};
-use files::Source;
-use files::json::Document;
+use crate::spec::{Parts, Spec};
 use std::io::{self, Write};
-use std::path::Path;
 
 /// One sweep or several, checked.
 #[derive(Debug, Clone)]
 pub struct Object {
     pub(crate) name: String,
     pub(crate) parts: Vec<Sweep>,
+    pub(crate) specs: Specs,
+}
+
+/// The text of an object, parsed.
+#[derive(Debug, Clone)]
+pub(crate) enum Specs {
+    /// A spec of one sweep.
+    One(Box<Spec>),
+    /// A spec of parts.
+    Several(Parts),
 }
 
 impl Object {
-    /// Reads and checks a [`Spec`](crate::spec::Spec), or a spec of [`Parts`](crate::spec::Parts).
-    ///
-    /// Files named in the spec are relative to `folder` and are read from `source`. Each key of `rather`
-    /// replaces that key in every `mesh`.
-    ///
-    /// # Errors
-    /// When the text is not a spec, a surface does not exist, or a file cannot be read or has the wrong
-    /// content. The message states the position.
-    pub fn read(
-        document: &Document<'_>,
-        folder: &Path,
-        source: &dyn Source,
-        rather: &Mesh,
-    ) -> Result<Self, SweepError> {
-        read::read(document, folder, source, rather)
-    }
-
     /// Returns the object's name.
     #[must_use]
     pub fn name(&self) -> &str {
@@ -44,6 +36,15 @@ impl Object {
     #[must_use]
     pub fn parts(&self) -> &[Sweep] {
         &self.parts
+    }
+
+    /// Returns the specs of the sweeps, in the order of [`Object::parts`].
+    #[must_use]
+    pub fn specs(&self) -> &[Spec] {
+        match &self.specs {
+            Specs::One(spec) => std::slice::from_ref(spec),
+            Specs::Several(object) => &object.parts,
+        }
     }
 
     /// Returns a sentence that says by how much the parts miss their tolerances; `None` if all are kept.

@@ -21,13 +21,13 @@ mod pole;
 pub use pole::Pole;
 pub(crate) use pole::Signs;
 
-use crate::cap::Gathered;
-use crate::cut::{Side, Stop};
-use crate::depth::{Depth, Raised, Relief};
+use crate::curve::cut::{Side, Stop};
 use crate::frame::Frame;
 use crate::law::Law;
-use crate::profile::blend::{Mix, Moving};
-use crate::profile::{Blend, Column};
+use crate::surface::cap::Gathered;
+use crate::surface::depth::{Depth, Raised, Relief};
+use crate::surface::profile::blend::{Mix, Moving};
+use crate::surface::profile::{Blend, Column};
 use crate::trajectory::{Station, Trajectory};
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
@@ -78,6 +78,19 @@ struct Local {
     q_s: DVec2,
     /// Whether the contour itself folds back here.
     folds: bool,
+}
+
+/// A point of a section in space, with everything that one evaluation of the contour gives.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Evaluated {
+    /// The point, in the unit of length.
+    pub point: DVec3,
+    /// The unit normal.
+    pub normal: DVec3,
+    /// Speed of the point along the tangent, per length of the trajectory: see [`Station::stretch`].
+    pub stretch: f64,
+    /// Whether the contour itself folds back here, because its relief is deeper than it is round.
+    pub contour_folds: bool,
 }
 
 impl Modulation {
@@ -174,10 +187,31 @@ impl Section {
         Self { station, gathered: Some(gathered), plain: false, ..self }
     }
 
+    /// Returns the point of the surface at a column, with its normal, its stretch and its folds.
+    pub(crate) fn evaluate(&self, column: &Column) -> Evaluated {
+        if self.plain {
+            let (q, q_u) = (column.first.point, column.first.tangent);
+            let stretch = self.station.stretch(q);
+            return Evaluated {
+                point: self.station.point(q),
+                normal: self.station.normal_stretched(q, q_u, stretch),
+                stretch,
+                contour_folds: false,
+            };
+        }
+        let Local { q, q_u, q_s, folds } = self.local(column);
+        let stretch = self.station.stretch(q);
+        Evaluated {
+            point: self.station.point(q),
+            normal: self.station.normal_of_moving(q, q_u, q_s, stretch),
+            stretch,
+            contour_folds: folds,
+        }
+    }
+
     /// Returns the point of the surface at a column.
-    #[must_use]
-    pub fn point(&self, column: &Column) -> DVec3 {
-        self.station.point(self.local(column).q)
+    pub(crate) fn point(&self, column: &Column) -> DVec3 {
+        self.station.point(self.place(column))
     }
 
     /// Returns the frame that carries the contour's axes.
@@ -188,27 +222,7 @@ impl Section {
     /// Returns the contour's point at a column, on the axes `(w1, w2)` of the station.
     #[must_use]
     pub fn place(&self, column: &Column) -> DVec2 {
-        self.local(column).q
-    }
-
-    /// Returns the unit normal of the surface at a column.
-    #[must_use]
-    pub fn normal(&self, column: &Column) -> DVec3 {
-        if self.plain {
-            return self.station.normal(column.first.point, column.first.tangent);
-        }
-        let Local { q, q_u, q_s, .. } = self.local(column);
-        self.station.normal_of_moving(q, q_u, q_s)
-    }
-
-    /// Returns whether the surface folds back on itself at a column.
-    #[must_use]
-    pub fn folds(&self, column: &Column) -> bool {
-        if self.plain {
-            return self.stretch(column) < 0.0;
-        }
-        let local = self.local(column);
-        local.folds || self.station.stretch(local.q) < 0.0
+        if self.plain { column.first.point } else { self.local(column).q }
     }
 
     fn local(&self, column: &Column) -> Local {
@@ -245,6 +259,6 @@ impl Section {
     /// Returns the speed of the point along the tangent, by length of the trajectory: see
     /// [`Station::stretch`].
     pub(crate) fn stretch(&self, column: &Column) -> f64 {
-        self.station.stretch(if self.plain { column.first.point } else { self.local(column).q })
+        self.station.stretch(self.place(column))
     }
 }

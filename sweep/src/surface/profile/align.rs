@@ -18,8 +18,8 @@
 //! shift that brings a corner onto a corner is taken instead if it is nearly as good. Among equally good
 //! shifts the smallest is taken, so that contours that match as drawn are left as drawn.
 
-use crate::contour::{Contour, Local2};
-use crate::cut::Stop;
+use crate::curve::cut::Stop;
+use crate::surface::contour::{Contour, Local2};
 use glam::DVec2;
 
 /// Number of shifts compared. Neighbouring shifts are 1.4 degrees of a circle apart. Finer details do not

@@ -1,0 +1,207 @@
+//! The command line of `sweep`: its arguments, and the work that they ask for.
+
+mod format;
+mod report;
+mod resolution;
+
+use clap::Parser;
+use files::exit::{Exit, Failure, Report, say};
+use files::json::Document;
+use files::progress::Progress;
+use files::{Batch, Ledger, Output, extension, input, memory};
+use format::Format;
+use resolution::ResolutionArguments;
+use std::io::{self, IsTerminal, Write};
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+use sweep::grid::file::Encoding;
+use sweep::{Object, Spent, check, preview, schema};
+use thiserror::Error;
+
+const EXAMPLES: &str = "\
+Examples:
+  sweep examples/curves/vase.json -o vase.grid
+  sweep examples/curves/trefoil.json --rows 1000 --cols 64 --stats -o trefoil.grid
+  sweep examples/curves/vase.json --tol 1e-3 --angle 5 --stats -o vase.grid
+  sweep --emit-schema > tb-sweep.schema.json
+  sweep --format json < examples/curves/cup-handle.json | head -3
+  sweep examples/curves/vase.json | triangulate --texture 2 > vase.obj
+  sweep --check examples/curves/klein-bottle.json
+  sweep --preview trefoil.svg examples/curves/trefoil.json
+
+An output is never a file that the spec is read from, and its name does not end as another format
+does: a grid is .grid (or .json with --format json), a preview .svg; other endings are free.
+The grid and the preview are replaced together.";
+
+/// Sweep a contour along a trajectory: a JSON spec in, a grid of points and normals out.
+#[derive(Debug, Parser)]
+#[command(name = "sweep", version, after_help = EXAMPLES)]
+pub struct Arguments {
+    /// The spec, a JSON file; - is standard input
+    #[arg(default_value = "-", value_name = "SPEC")]
+    spec: PathBuf,
+
+    /// The grid file; - is standard output, and the default without --check and --preview
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+
+    /// Say what is wrong or suspicious on standard output; ends with 4 if something is wrong
+    #[arg(long)]
+    check: bool,
+
+    /// Check also where parts of a surface meet far from each other
+    #[arg(long)]
+    check_self: bool,
+
+    /// Draw contour, trajectory, frames, laws and surface: an SVG file
+    #[arg(long, value_name = "FILE")]
+    preview: Option<PathBuf>,
+
+    /// How the rows of the grid are written
+    #[arg(long, value_enum, default_value_t = Format::Bin)]
+    format: Format,
+
+    #[command(flatten)]
+    resolution: ResolutionArguments,
+
+    /// Memory to take at most, in bytes or with k, M or G; what needs more is refused before it is
+    /// begun [default: 90 % of what is free]
+    #[arg(long, value_name = "BYTES", value_parser = files::memory::bytes)]
+    max_memory: Option<u64>,
+    /// Threads to use, up to 1024; all cores by default
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+
+    /// Print the JSON Schema of specs and do nothing else
+    #[arg(long, exclusive = true)]
+    emit_schema: bool,
+
+    /// Print no notes
+    #[arg(short, long)]
+    quiet: bool,
+
+    /// Print sizes and times on standard error
+    #[arg(long)]
+    stats: bool,
+
+    /// Fail if the output file exists
+    #[arg(long)]
+    no_clobber: bool,
+}
+
+#[derive(Debug, Error)]
+enum UseError {
+    #[error("the binary grid is not for a terminal: name a file with -o, or use --format json")]
+    Terminal,
+    #[error("cannot start {threads} threads: {source}")]
+    Threads { threads: u16, source: rayon::ThreadPoolBuildError },
+    #[error("found two things for standard output, expected one: name files with -o and --preview")]
+    Crowded,
+    #[error("{name}: the check found {count} wrong")]
+    Wrong { name: String, count: NonZeroUsize },
+}
+
+impl Failure for UseError {
+    fn exit(&self) -> Exit {
+        match self {
+            Self::Terminal | Self::Crowded => Exit::Use,
+            Self::Wrong { .. } => Exit::Geometry,
+            Self::Threads { .. } => Exit::Resource,
+        }
+    }
+}
+
+/// Sweeps, checks or draws what the arguments ask for.
+///
+/// # Errors
+/// When the arguments contradict each other, a file cannot be read or written, the spec is refused, or `--check`
+/// finds something wrong.
+pub fn run(arguments: &Arguments) -> Result<(), Report> {
+    if arguments.emit_schema {
+        return emit_schema();
+    }
+    let encoding = arguments.format.encoding();
+    let checks = arguments.check || arguments.check_self;
+    let stdout = Path::new("-");
+    let output = match &arguments.output {
+        None if checks || arguments.preview.is_some() => None,
+        given => Some(given.as_deref().unwrap_or(stdout)),
+    };
+    let to_stdout = output == Some(stdout);
+    let drawn_to_stdout = arguments.preview.as_deref() == Some(stdout);
+    if [to_stdout, drawn_to_stdout, checks].into_iter().filter(|&uses| uses).count() > 1 {
+        return Err(UseError::Crowded.into());
+    }
+    if to_stdout && encoding == Encoding::Binary && io::stdout().is_terminal() {
+        return Err(UseError::Terminal.into());
+    }
+    if let Some(threads) = arguments.threads {
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(threads.into())
+            .build_global()
+            .map_err(|source| UseError::Threads { threads, source })?;
+    }
+
+    let start = Instant::now();
+    memory::allow(arguments.max_memory);
+    let ledger = Ledger::new(!arguments.no_clobber);
+    let file = output.map(|path| ledger.output(path, "name another file with -o")).transpose()?;
+    let draw_to = |path| ledger.output(path, "name another file with --preview");
+    let preview = arguments.preview.as_deref().map(draw_to).transpose()?;
+    ledger.expect(&arguments.spec, "the spec")?;
+    if let Some(output) = output {
+        extension::check(output, "a grid", arguments.format.extensions())?;
+    }
+    if let Some(preview) = &arguments.preview {
+        extension::check(preview, "an SVG drawing", &["svg"])?;
+    }
+    let bytes = ledger.argument_json(&arguments.spec, "the spec")?;
+    let name = input::name_of(&arguments.spec);
+    let folder = arguments.spec.parent().unwrap_or(Path::new(""));
+    let document = Document::new(&name, &bytes)?;
+    let object = Object::read(&document, folder, &ledger, &arguments.resolution.overrides())?;
+    let read = Instant::now();
+    let mut spent = Spent::default();
+    let mut outputs = Vec::new();
+    if let Some(mut file) = file {
+        spent = object.write(encoding, &mut file).map_err(|source| file.failed(source))?;
+        outputs.push(file);
+    }
+    // Whole grids are made only for the check and the preview.
+    let grids = if checks || preview.is_some() { object.grids()? } else { Vec::new() };
+    let findings = if grids.is_empty() {
+        Vec::new()
+    } else {
+        let progress = Progress::new("check", arguments.quiet);
+        let tell = |done, total| progress.tell(done, total);
+        check::check(&object, &grids, arguments.check_self.then_some(&tell))
+    };
+    if let Some(mut file) = preview {
+        let svg = preview::svg(&object, &grids, &findings);
+        file.write_all(svg.as_bytes()).map_err(|source| file.failed(source))?;
+        outputs.push(file);
+    }
+    let remark = Batch::commit(outputs)?;
+    if let Some(remark) = remark.filter(|_| !arguments.quiet) {
+        say(format_args!("sweep: note: {remark}"));
+    }
+    if !arguments.quiet && !checks {
+        object.parts().iter().for_each(report::note);
+    }
+    if arguments.stats {
+        object.parts().iter().for_each(report::stats);
+        let stages = [("read", read - start), ("sweep", spent.sweeping), ("write", spent.writing)];
+        for (stage, time) in stages {
+            say(format_args!("{stage:<11} {:.2} ms", 1e3 * time.as_secs_f64()));
+        }
+    }
+    if checks { report::print_check(&name, &object, &grids, &findings) } else { Ok(()) }
+}
+
+/// Prints the schema of specs.
+fn emit_schema() -> Result<(), Report> {
+    let mut output = Output::create(Path::new("-"), true)?;
+    writeln!(output, "{:#}", schema::of_spec()).map_err(|source| output.failed(source))?;
+    Ok(output.commit()?)
+}

@@ -1,0 +1,43 @@
+//! The swept surface before it is cut into cells.
+//!
+//! | module         | what                                                               |
+//! |----------------|--------------------------------------------------------------------|
+//! | [`contour`]    | the curve that is swept; creases                                   |
+//! | [`profile`]    | one contour, or several that blend into each other; columns        |
+//! | [`depth`]      | relief on the contour, in waves                                    |
+//! | [`height`]     | heights from a picture                                             |
+//! | [`modulation`] | the contour scaled and twisted along the trajectory                |
+//! | [`cap`]        | surfaces that close the ends                                       |
+//! | [`closing`]    | how the end of the surface meets its start                         |
+//! | [`deform`]     | taper, twist and bend of the finished surface                      |
+//! | [`shape`]      | all of these together: a point and a normal for each (u, v)        |
+//! | [`wall`]       | a one-sided surface given a thickness                              |
+
+pub mod cap;
+pub mod closing;
+pub mod contour;
+pub mod deform;
+pub mod depth;
+pub mod height;
+pub mod modulation;
+pub mod profile;
+pub mod shape;
+pub mod wall;
+
+pub use shape::Shape;
+
+use crate::curve::cut::Stop;
+use glam::DVec3;
+use profile::Column;
+
+/// A surface that can be cut into cells and measured.
+pub trait Surface: Sync {
+    /// Returns the columns at stops of the contour.
+    fn columns(&self, stops: &[Stop]) -> Vec<Column>;
+
+    /// Returns points and unit normals at one stop of the trajectory, one pair for each column.
+    fn station(&self, stop: Stop, columns: &[Column]) -> Vec<(DVec3, DVec3)>;
+
+    /// Returns the points at one stop of the trajectory, one for each column.
+    fn points(&self, stop: Stop, columns: &[Column]) -> Vec<DVec3>;
+}
