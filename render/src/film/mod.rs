@@ -18,7 +18,7 @@ pub mod sampling;
 pub use crop::Crop;
 pub use exposure::Witness;
 pub use layer::Layer;
-pub use pattern::Pattern;
+pub use pattern::{Pattern, PatternName};
 pub use picture::Picture;
 pub use sampling::{MOST_SAMPLES, Nine, PixelFilter, Sampling};
 

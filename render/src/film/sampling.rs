@@ -17,6 +17,7 @@
 //! does not depend on tiles.
 
 use super::pattern::Pattern;
+use clap::ValueEnum;
 use glam::DVec2;
 use serde::Deserialize;
 use std::ops::Range;
@@ -49,15 +50,29 @@ pub enum Sampling {
     Nine(Nine),
 }
 
-/// Weights of a grid's samples in a pixel.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
+/// Weights of a grid's samples in a pixel. The name on the command line and in JSON is that of the
+/// variant; the attribute `help` is the text of `--help`.
+///
+/// A new pixel filter provides, and the compiler leads to each `match`:
+///
+/// - its range of samples ([`Sampling::under`]) and its weights ([`Sampling::weight`]): products of
+///   whole numbers along both axes, none negative, whose sum over a pixel is [`Sampling::whole`]
+///   along each axis;
+/// - a weight in a mirrored column that equals the weight in the column itself;
+/// - if it needs more than one sample, a complaint in `cli/sampling.rs` and in pipeline's `job/mode.rs`;
+/// - tests: the three tests below take it from `all()`; a constant picture stays constant.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, ValueEnum)]
 #[serde(rename_all = "snake_case")]
 pub enum PixelFilter {
     /// Equal weights for the samples in the pixel, and none for others.
     #[default]
+    #[value(help = "Those in the pixel, equally")]
     Box,
     /// A tent that reaches to the middles of the neighbouring pixels. With one sample in each pixel
     /// the tent covers only the pixel's own sample.
+    #[value(
+        help = "By a tent that reaches to the middles of the neighbouring pixels; N is at least 2 for it"
+    )]
     Tent,
 }
 
@@ -66,17 +81,19 @@ pub enum PixelFilter {
 ///
 /// With a filter that averages over points only, both choices give the same picture to the last
 /// bit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, ValueEnum)]
 #[serde(rename_all = "snake_case")]
 pub enum Nine {
     /// The picture of twice the size is rendered like any other (thesis 4.5.4). Each of its samples
     /// is averaged over the box of its own eight neighbours, half a pixel away.
+    #[value(help = None::<&'static str>)]
     Image,
     /// The nine rays of a pixel are each other's neighbours (thesis 4.5.1: "row 1 and row 2 must be
     /// cleared and row 3 must be shifted to the place of row 1"). All nine are averaged over the
     /// box that they span together, which is the pixel. Textures are sharper than with
     /// [`Nine::Image`]. Every pixel shades nine trees and shares none of their colours with its
     /// neighbours.
+    #[value(help = None::<&'static str>)]
     Rays,
 }
 
