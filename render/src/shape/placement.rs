@@ -147,13 +147,13 @@ mod tests {
     }
 
     #[test]
-    fn the_way_back_undoes_the_way() {
-        let way = DAffine3::from_scale_rotation_translation(
+    fn the_inverse_undoes_the_map() {
+        let map = DAffine3::from_scale_rotation_translation(
             DVec3::new(0.01, -3.0, 70.0),
             glam::DQuat::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), FRAC_PI_3),
             DVec3::new(5.0, -6.0, 7.0),
         );
-        let placement = Placement::new(way).unwrap();
+        let placement = Placement::new(map).unwrap();
         assert!(placement.mirrors() && !placement.is_identity());
         let there_and_back = placement.to_own() * placement.to_scene();
         // The spread is 7000, which magnifies the rounding as much.
