@@ -160,7 +160,7 @@ fn parts_that_include_each_other_crosswise_are_read_once_each() {
     let document = Document::new("s/scene.json", text.as_bytes()).unwrap();
     let file = read::parse(&document).unwrap();
     let draft = Draft::gather(&document, &file, Path::new("s"), &source).unwrap();
-    assert_eq!(draft.sheets().unwrap().len(), 3 * LEVELS + 1);
+    assert_eq!(draft.texts().unwrap().len(), 3 * LEVELS + 1);
     let reads = source.reads.into_inner().unwrap();
     assert_eq!(reads.len(), 3 * LEVELS);
     assert!(reads.values().all(|&count| count == 1), "{reads:?}");
@@ -184,8 +184,8 @@ fn coincidences(rectangles: impl Iterator<Item = [f64; 4]>) -> Coincidences {
     let file = read::parse(&document).unwrap();
     let draft = Draft::gather(&document, &file, Path::new(""), &Embedded(&[])).unwrap();
     let scene = draft.resolve(&Embedded(&[]), MeshSource::new()).unwrap();
-    let sheets = draft.sheets().unwrap();
-    coincident::findings(&Subject::new(&draft, &sheets, &scene, 1.0))
+    let texts = draft.texts().unwrap();
+    coincident::findings(&Subject::new(&draft, &texts, &scene, 1.0))
 }
 
 #[test]

@@ -1,16 +1,17 @@
-//! Triangles, normals and rims of meshes.
+//! Triangles, normals and textures of meshes.
 
-use super::solid::{self, as_dvec3};
+use super::solid;
 use super::subject::{Item, Subject};
 use super::{Finding, Severity, count};
 use crate::shape::Mesh;
-use crate::shape::mesh::NONE;
+use crate::shape::mesh::{NONE, as_dvec3};
 use glam::{DVec2, DVec3};
 
-/// A picture is stretched where one of its directions is drawn out so many times more than the other.
+/// A texture counts as stretched if one direction is stretched this many times more than another. A
+/// smaller number would report the triangles around poles.
 const STRETCHED: f64 = 100.0;
 
-/// What the meshes show.
+/// Returns the findings about meshes.
 #[must_use]
 pub fn findings(subject: &Subject<'_>) -> Vec<Finding> {
     let meshes = subject.items.iter().filter_map(|item| Some((item, item.mesh()?)));
@@ -48,7 +49,7 @@ fn doubled(item: &Item<'_>) -> Option<Finding> {
     (doubled > 0).then(|| Finding::new(Severity::Hint, &item.path, message))
 }
 
-/// A closed mesh whose corners run clockwise as seen from outside. Glass says so by itself.
+/// Finds a closed mesh whose corners run clockwise as seen from outside. Glass has a finding of its own.
 fn inward(subject: &Subject<'_>, item: &Item<'_>) -> Option<Finding> {
     let skin = item.skin?;
     let message = "its triangles face inward: seen from outside their corners run clockwise, \
@@ -57,7 +58,7 @@ fn inward(subject: &Subject<'_>, item: &Item<'_>) -> Option<Finding> {
         .then(|| Finding::new(Severity::Hint, &item.path, message))
 }
 
-/// Normals of the file that are zero, or on the other side than the corners say.
+/// Finds normals of the file that are zero, or that point to the back of their triangle.
 fn normals(item: &Item<'_>, mesh: &Mesh) -> Vec<Finding> {
     let zero = mesh.normals.iter().filter(|normal| **normal == [0.0; 3]).count();
     let mut averted = 0;
@@ -89,7 +90,7 @@ fn normals(item: &Item<'_>, mesh: &Mesh) -> Vec<Finding> {
     zero.into_iter().chain(averted).collect()
 }
 
-/// Triangles on which a picture is drawn out far more in one direction than in the other.
+/// Finds triangles on which a texture is stretched far more in one direction than in another.
 fn stretched(item: &Item<'_>, mesh: &Mesh) -> Option<Finding> {
     let is_textured = |surface: u32| item.object.parts[surface as usize].picture().is_some();
     let mut stretched = 0;
@@ -109,8 +110,8 @@ fn stretched(item: &Item<'_>, mesh: &Mesh) -> Option<Finding> {
     (stretched > 0).then(|| Finding::new(Severity::Remark, &item.path, message))
 }
 
-/// The ratio of the singular values of the map from the texture to the triangle; nothing where that
-/// is no map.
+/// Returns the ratio of the singular values of the map from the texture to the triangle, at least 1.
+/// Returns `None` if the texture or the triangle has no area.
 fn stretch([a, b, c]: [DVec3; 3], [s, t, u]: [DVec2; 3]) -> Option<f64> {
     let (e, f) = (t - s, u - s);
     let area = e.perp_dot(f);
@@ -122,13 +123,13 @@ fn stretch([a, b, c]: [DVec3; 3], [s, t, u]: [DVec2; 3]) -> Option<f64> {
     let (p, q, r) = (across.length_squared(), up.length_squared(), across.dot(up));
     let half = 0.5 * (p + q);
     let root = (0.25 * (p - q) * (p - q) + r * r).sqrt();
-    // The smaller by the product, which loses no digits.
+    // The product of both values gives the smaller value without loss of digits.
     let product = across.cross(up).length_squared();
     let larger = half + root;
     (product > 0.0).then(|| larger / product.sqrt())
 }
 
-/// A mesh so far from the origin that the steps of its `f32` coordinates show.
+/// Finds a mesh so far from the origin that the steps of its `f32` coordinates are visible.
 fn rounded(item: &Item<'_>, mesh: &Mesh) -> Option<Finding> {
     let [low, high] = solid::bounds(item)?;
     let size = (high - low).max_element();
