@@ -28,7 +28,7 @@ pub enum PlacementError {
     NotFinite,
     /// The map flattens the object, or nearly so.
     #[error(
-        "found a map that presses things flat, expected stretches that differ at most a million times"
+        "found a map that flattens the object, expected stretches that differ at most a million times"
     )]
     Flat,
     /// The map moves points so far that boxes around them have no numbers.
@@ -36,7 +36,7 @@ pub enum PlacementError {
     Away,
     /// A vertex of a mesh is moved beyond the range of its coordinates.
     #[error(
-        "found vertex {0} moved to where single precision has no numbers, expected coordinates up to 3e38"
+        "found vertex {0} moved beyond the range of single precision, expected coordinates up to 3e38"
     )]
     Far(usize),
     /// The edges of a rectangle become parallel.

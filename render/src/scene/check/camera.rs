@@ -35,9 +35,9 @@ fn stands(subject: &Subject<'_>, item: &Item<'_>) -> Option<Finding> {
     }
     if solid::contains(item, eye) == Some(true) {
         let (severity, why) = if subject.is_clear(item) {
-            (Severity::Remark, "the eye is inside of")
+            (Severity::Remark, "the eye is inside")
         } else {
-            (Severity::Hint, "the eye sees nothing but the inside of")
+            (Severity::Hint, "the eye sees only the inside of")
         };
         return said(severity, why.into());
     }
@@ -53,22 +53,22 @@ fn unseen(subject: &Subject<'_>) -> Vec<Finding> {
         match solid::bounds(item).and_then(|bounds| sides.misses(bounds)) {
             Some(Miss::Behind(distance)) => {
                 let message = format!(
-                    "all of it is behind the camera, {} from it: only mirrors and its shadow show it",
+                    "the whole object is behind the camera, at a distance of {}: only mirrors and shadows show it",
                     short(distance)
                 );
                 found.push(Finding::new(Severity::Remark, &item.path, message));
             }
             Some(Miss::Beside) => {
                 let message =
-                    "all of it is outside the picture: only mirrors and its shadow show it";
+                    "the whole object is outside the picture: only mirrors and shadows show it";
                 found.push(Finding::new(Severity::Remark, &item.path, message));
             }
             None => seen = true,
         }
     }
     if !seen && !subject.items.is_empty() {
-        let message = "found no object in front of the camera, expected one at least: the picture \
-                       is nothing but background";
+        let message = "found no object in front of the camera, expected at least one: the picture \
+                       shows only the background";
         found.push(Finding::new(Severity::Wrong, "camera", message));
     }
     found

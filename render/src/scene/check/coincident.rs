@@ -81,7 +81,7 @@ pub fn findings(subject: &Subject<'_>) -> Coincidences {
             match found.with {
                 With::Flat(other) => {
                     let (other, _) = flat[other];
-                    let what = format!("it lies in {} ({}), which is seen", other.path, other.kind);
+                    let what = format!("the surface lies in {} ({}), which is seen", other.path, other.kind);
                     pair(subject, item, other, &what)
                 }
                 With::Triangles { item: other, count: triangles } => {
@@ -100,8 +100,8 @@ pub fn findings(subject: &Subject<'_>) -> Coincidences {
     if others > 0 {
         let least = if search.exhausted { "at least " } else { "" };
         let message = format!(
-            "surfaces lie in each other in {least}{others} more pairs than are named here: of each \
-             only the first in the scene is seen"
+            "surfaces coincide in {least}{others} more pairs: of each pair only the first in the \
+             scene is seen"
         );
         findings.push(Finding::new(Severity::Remark, "objects", message));
     }

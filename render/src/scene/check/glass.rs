@@ -19,28 +19,28 @@ pub fn findings(subject: &Subject<'_>) -> Vec<Finding> {
 fn open_or_inward(item: &Item<'_>) -> Option<Finding> {
     let said = |severity, message: String| Some(Finding::new(severity, &item.path, message));
     if let Shape::Quad(_) = item.object.shape {
-        let message = "it refracts and has no inside: light that goes through stays bent, as if \
-                       all behind it were glass; give it the index of refraction 1, or a thickness";
+        let message = "the surface refracts and has no inside: light behind the surface stays refracted, as \
+                       if all space there were glass; use an index of refraction of 1, or a closed object";
         return said(Severity::Hint, message.into());
     }
     let skin = item.skin?;
     if skin.rims > 0 {
         let message = format!(
-            "it refracts and is not closed ({} with triangles on one side only): light does not \
-             come out of it again",
+            "the mesh refracts and is not closed ({} with triangles on one side only): light does not \
+             leave it",
             count(skin.rims, "edge", "edges")
         );
         return said(Severity::Wrong, message);
     }
     if skin.flips > 0 {
         let message = format!(
-            "it refracts and its triangles do not agree on the outside ({})",
+            "the mesh refracts and its triangles do not agree on the outside ({})",
             count(skin.flips, "edge", "edges")
         );
         return said(Severity::Wrong, message);
     }
-    let message = "it refracts and its triangles face inward, so that its inside counts as outside; \
-                   turn the order of their corners";
+    let message = "the mesh refracts and its triangles face inward, so that its inside counts as outside; \
+                   reverse the order of their corners";
     if skin.volume < 0.0 { said(Severity::Wrong, message.into()) } else { None }
 }
 
@@ -80,8 +80,8 @@ fn too_deep(subject: &Subject<'_>) -> Option<Finding> {
     let most = looked_at.map(|([low, high], _)| crossed(low.midpoint(*high))).max()?;
     let deepest = subject.scene.max_depth as usize;
     let message = format!(
-        "a line of sight goes through {most} transparent surfaces or more, and a ray is followed \
-         through {deepest} only: behind them is black"
+        "a line of sight passes through {most} transparent surfaces or more, and rays are followed \
+         through {deepest} only: what lies behind is black"
     );
     (most > deepest).then(|| Finding::new(Severity::Hint, "max_depth", message))
 }

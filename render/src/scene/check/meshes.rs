@@ -30,7 +30,7 @@ pub fn findings(subject: &Subject<'_>) -> Vec<Finding> {
 fn flat(item: &Item<'_>, mesh: &Mesh) -> Option<Finding> {
     let (flat, all) = (item.skin?.flat, mesh.triangles.len());
     if flat == all {
-        let message = "none of its triangles has an area: nothing of it is seen";
+        let message = "no triangle of the mesh has an area: the mesh is invisible";
         return Some(Finding::new(Severity::Wrong, &item.path, message));
     }
     let message = format!(
@@ -43,7 +43,7 @@ fn flat(item: &Item<'_>, mesh: &Mesh) -> Option<Finding> {
 fn doubled(item: &Item<'_>) -> Option<Finding> {
     let doubled = item.skin?.doubled;
     let message = format!(
-        "{} the corners of one before: only the first is seen",
+        "{} the corners of an earlier triangle: only the first is seen",
         count(doubled, "triangle has", "triangles have")
     );
     (doubled > 0).then(|| Finding::new(Severity::Hint, &item.path, message))
@@ -52,8 +52,8 @@ fn doubled(item: &Item<'_>) -> Option<Finding> {
 /// Finds a closed mesh whose corners run clockwise as seen from outside. Glass has a finding of its own.
 fn inward(subject: &Subject<'_>, item: &Item<'_>) -> Option<Finding> {
     let skin = item.skin?;
-    let message = "its triangles face inward: seen from outside their corners run clockwise, \
-                   expected the other way round";
+    let message = "its triangles face inward: found corners that run clockwise as seen from outside, \
+                   expected counter-clockwise";
     (skin.is_closed() && skin.volume < 0.0 && !subject.bends(item))
         .then(|| Finding::new(Severity::Hint, &item.path, message))
 }
@@ -73,7 +73,7 @@ fn normals(item: &Item<'_>, mesh: &Mesh) -> Vec<Finding> {
     }
     let zero = (zero > 0).then(|| {
         let message = format!(
-            "{} zero: the triangles' own stand for them",
+            "{} zero: the triangles' own normals are used instead",
             count(zero, "normal (vn) is", "normals (vn) are")
         );
         Finding::new(Severity::Hint, &item.path, message)
@@ -103,8 +103,8 @@ fn stretched(item: &Item<'_>, mesh: &Mesh) -> Option<Finding> {
         stretched += usize::from(stretch(corners, uvs).is_some_and(|ratio| ratio > STRETCHED));
     }
     let message = format!(
-        "on {} the texture is drawn out more than {STRETCHED} times as far in one direction as in \
-         the other",
+        "on {} the texture is stretched more than {STRETCHED} times as far in one direction as in \
+         another",
         count(stretched, "triangle", "triangles")
     );
     (stretched > 0).then(|| Finding::new(Severity::Remark, &item.path, message))
@@ -136,7 +136,7 @@ fn rounded(item: &Item<'_>, mesh: &Mesh) -> Option<Finding> {
     let far = low.abs().max(high.abs()).max_element();
     let step = far * f64::from(f32::EPSILON);
     let message = format!(
-        "its coordinates are in steps of {}, a {}th of its size: move it nearer to the origin",
+        "its coordinates have steps of {}, a {}th of its size: move the mesh nearer to the origin",
         super::short(step),
         super::short(size / step)
     );

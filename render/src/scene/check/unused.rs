@@ -22,7 +22,7 @@ pub fn findings(subject: &Subject<'_>) -> Vec<Finding> {
         Finding::new(Severity::Remark, path, "no surface is made of this material")
     });
     let textures = subject.textures.iter().filter_map(|(texture, [_, path])| {
-        let message = "it is only on materials without ambient and diffuse light, which do not \
+        let message = "the texture is only on materials without ambient and diffuse light, which do not \
                        show it";
         match shown.get(texture) {
             None => Some(Finding::new(Severity::Remark, path, "no surface has this texture")),
