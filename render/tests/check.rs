@@ -92,9 +92,17 @@ fn what_is_out_of_sight_is_told() {
         "\"center\": [0, 0, 9]",
         "remark: objects[1].sphere: the whole object is behind the camera, at a distance of 4",
     );
-    finds(ball, "\"center\": [9, 0, 1.5]", "remark: objects[1].sphere: the whole object is outside");
+    finds(
+        ball,
+        "\"center\": [9, 0, 1.5]",
+        "remark: objects[1].sphere: the whole object is outside",
+    );
     // By the picture's shape: a wide picture holds it.
-    finds(ball, "\"center\": [3.5, 0, 1.5]", "remark: objects[1].sphere: the whole object is outside");
+    finds(
+        ball,
+        "\"center\": [3.5, 0, 1.5]",
+        "remark: objects[1].sphere: the whole object is outside",
+    );
     let bench = Bench::with_scene(&ROOM.replace(ball, "\"center\": [3.5, 0, 1.5]"));
     bench.write("checks.png", checks());
     let wide = bench.run(&["--check", "scene.json", "--size", "400x100"], b"");

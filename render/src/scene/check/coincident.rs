@@ -81,7 +81,10 @@ pub fn findings(subject: &Subject<'_>) -> Coincidences {
             match found.with {
                 With::Flat(other) => {
                     let (other, _) = flat[other];
-                    let what = format!("the surface lies in {} ({}), which is seen", other.path, other.kind);
+                    let what = format!(
+                        "the surface lies in {} ({}), which is seen",
+                        other.path, other.kind
+                    );
                     pair(subject, item, other, &what)
                 }
                 With::Triangles { item: other, count: triangles } => {
