@@ -4,15 +4,15 @@ use crate::studio;
 
 use clap::ValueEnum;
 use render::accel::Structure;
-use render::film::{Nine, Pattern, PatternName, PixelFilter};
+use render::film::{Pattern, PatternName, PixelFilter, Supersample};
 use render::filter::Filter;
 use render::{Picture, Prepared, Sampling, Scene, Settings};
 use serde::de::DeserializeOwned;
 use std::fmt::Debug;
 use studio::{FILTERS, assert_near, at, pixels, png, scene};
 
-const IMAGE: Sampling = Sampling::Nine(Nine::Image);
-const RAYS: Sampling = Sampling::Nine(Nine::Rays);
+const IMAGE: Sampling = Sampling::Supersample(Supersample::Image);
+const RAYS: Sampling = Sampling::Supersample(Supersample::Rays);
 
 fn exposed(scene: &Scene, side: u32, sampling: Sampling, filter: Filter) -> Picture {
     let settings = Settings { sampling, ..Settings::new(side, side, filter) };
@@ -145,7 +145,7 @@ fn a_tent_over_an_edge_counts_the_area_beyond_it() {
             let (left, right) = match sampling {
                 Sampling::Grid { pixel_filter: PixelFilter::Box, .. } => (0.0, 1.0),
                 Sampling::Grid { .. } => (0.125, 0.875),
-                Sampling::Nine(_) => (0.25, 1.0),
+                Sampling::Supersample(_) => (0.25, 1.0),
             };
             for (x, _, pixel) in pixels(&picture) {
                 let expected = [0.0, 0.0, left, right, 1.0, 1.0][x as usize];
@@ -194,7 +194,7 @@ fn names_on_the_command_line_are_those_in_json() {
     agree::<Structure>();
     agree::<PatternName>();
     agree::<PixelFilter>();
-    agree::<Nine>();
+    agree::<Supersample>();
     assert_eq!(Filter::value_variants(), Filter::ALL);
     assert_eq!(Structure::value_variants(), Structure::ALL);
 }

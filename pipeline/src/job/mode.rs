@@ -5,7 +5,7 @@ use files::JsonError;
 use files::json::Document;
 use render::Sampling;
 use render::accel::Structure;
-use render::film::{MOST_SAMPLES, Nine, PatternName, PixelFilter};
+use render::film::{MOST_SAMPLES, PatternName, PixelFilter, Supersample};
 use render::filter::Filter;
 use serde::Deserialize;
 use std::collections::HashSet;
@@ -51,7 +51,7 @@ pub(super) struct ModeFile {
     #[serde(default)]
     pixel_filter: Option<PixelFilter>,
     #[serde(default)]
-    supersample: Option<Nine>,
+    supersample: Option<Supersample>,
     #[serde(default)]
     figure: Option<String>,
     #[serde(default)]
@@ -109,7 +109,7 @@ fn sampling(document: &Document<'_>, path: &str, mode: &ModeFile) -> Result<Samp
             Some((key, _)) => {
                 fault(key, format!("found {key} beside supersample, expected one of them"))
             }
-            None => Ok(Sampling::Nine(nine)),
+            None => Ok(Sampling::Supersample(nine)),
         };
     }
     let samples = mode.samples.unwrap_or(1);

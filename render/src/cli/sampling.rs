@@ -3,7 +3,7 @@
 use super::UseError;
 use clap::Args;
 use render::Sampling;
-use render::film::{Crop, MOST_SAMPLES, Nine, PatternName, PixelFilter, crop};
+use render::film::{Crop, MOST_SAMPLES, PatternName, PixelFilter, Supersample, crop};
 
 #[derive(Debug, Args)]
 pub struct SamplingArguments {
@@ -30,7 +30,7 @@ pub struct SamplingArguments {
     /// for the nine rays of a pixel together (rays)
     #[arg(long, value_name = "HOW", num_args = 0..=1, require_equals = true,
         default_missing_value = "image", conflicts_with_all = ["samples", "pattern", "seed", "pixel_filter"])]
-    supersample: Option<Nine>,
+    supersample: Option<Supersample>,
     /// Print what this pixel is made of: the tree of reflections and refractions of the ray in its
     /// middle, and its colour. Column and row count from 0, in the whole picture
     #[arg(long, value_name = "X,Y", value_parser = crop::pixel)]
@@ -59,7 +59,7 @@ impl SamplingArguments {
     /// Returns number, position and weight of the rays of a pixel.
     pub fn sampling(&self) -> Result<Sampling, UseError> {
         if let Some(nine) = self.supersample {
-            return Ok(Sampling::Nine(nine));
+            return Ok(Sampling::Supersample(nine));
         }
         let pattern = self.pattern.pattern(self.seed).ok_or(UseError::SeedOfNothing)?;
         let pixel_filter = match self.pixel_filter {
