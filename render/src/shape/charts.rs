@@ -132,7 +132,7 @@ fn root(parents: &mut [u32], mut node: u32) -> u32 {
     node
 }
 
-/// An edge between two numbered positions, the smaller first, as one triangle has it.
+/// An edge of one triangle, between two numbered positions, the smaller number first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Edge {
     ends: [u32; 2],

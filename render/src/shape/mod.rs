@@ -33,6 +33,8 @@ use glam::{DVec2, DVec3};
 ///   with the meaning of the methods of [`Shape`];
 /// - answers of [`Shape`]: kind, faces, parts, extent, charts, poles, placement, and
 ///   [`Shape::is_closed`] (`closed.rs`). A shape without poles, seams and faces joins an existing arm;
+/// - for an infinite shape, the half space that it encloses (`trace/volume.rs`, where only planes have
+///   one);
 /// - its key in scene files: a variant of [`ObjectFile`](crate::scene::file::ObjectFile), which states
 ///   what a new key provides;
 /// - answers of `--check`: `contains` and `height` in `scene/check/solid.rs`, `None` where not computed;
@@ -55,7 +57,7 @@ pub enum Shape {
     Placed(Placed),
 }
 
-/// The start of a ray, as far as a shape needs it.
+/// The properties of a ray's start on which intersections depend.
 ///
 /// A ray that leaves a surface must not hit this surface at its start. Any other surface within
 /// `skin` of the start coincides with it and is not hit there either.
