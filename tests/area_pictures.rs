@@ -34,7 +34,7 @@ fn tube(areas: &Value) -> GridMesh {
 /// The surface with pictures on it, unlit, by texture id.
 fn shown(grid: &GridMesh, eye: DVec3, textures: &[(u32, usize, Vec<[u8; 3]>)]) -> Scene {
     let mut obj = Vec::new();
-    triangulate::write_grid_obj(grid, &Options::default(), &mut obj).expect("memory takes it");
+    triangulate::write_obj(grid, &Options::default(), &mut obj).expect("memory takes it");
     let mut files = vec![("m.obj".to_string(), obj)];
     let (mut pictures, mut bindings) = (json!({}), json!({}));
     for (id, width, texels) in textures {

@@ -5,7 +5,7 @@ use glam::DVec3;
 use proptest::prelude::*;
 use serde_json::{Value, json};
 use sweep::{GridMesh, Sweep, SweepError};
-use triangulate::{Counts, MeshReport, Options, TriMesh, read_mesh};
+use triangulate::{Counts, MeshReport, Options, Patches, TriMesh};
 
 fn read(keys: &Value) -> Result<Sweep, SweepError> {
     let mut spec = json!({
@@ -37,7 +37,7 @@ fn made(grid: &GridMesh) -> (TriMesh, Counts, MeshReport) {
         .expect("memory takes it");
     let mut reader =
         sweep::grid::file::GridReader::open("test", file.as_slice()).expect("it is a grid");
-    let (mesh, counts) = read_mesh(&mut reader, &Options::default()).expect("f32 holds it");
+    let (mesh, counts) = reader.run(&Options::default(), TriMesh::default()).expect("f32 holds it");
     let report = MeshReport::of(&mesh, &counts);
     (mesh, counts, report)
 }

@@ -268,7 +268,7 @@ impl Work<'_> {
                     .map_err(|source| out.failed(source).into())
             })?;
             self.write(&self.job.obj_file(mesh), |out| {
-                match triangulate::write_grids_obj(&grids, &mesh.options, out) {
+                match triangulate::write_obj(grids.as_slice(), &mesh.options, out) {
                     Ok(_) => Ok(()),
                     Err(TriangulateError::Write(source)) => Err(out.failed(source).into()),
                     Err(error) => Err(error.into()),
@@ -277,7 +277,7 @@ impl Work<'_> {
         }
         let write = started.elapsed() - sweep;
         let started = Instant::now();
-        let triangles = mesh::for_render(triangulate::mesh_all(&grids, &mesh.options)?);
+        let triangles = mesh::for_render(triangulate::mesh(grids.as_slice(), &mesh.options)?);
         let triangulate = started.elapsed();
         self.took(Stages { sweep, triangulate, write, ..Stages::default() });
         (self.tell)(Event::Mesh {

@@ -1,4 +1,4 @@
-//! What the program `render` is asked, and how it does it. Each group of flags has its file.
+//! The arguments of the program `render`, and its run. Each group of flags has its file.
 
 mod input;
 mod output;
@@ -48,7 +48,7 @@ pub struct Arguments {
     work: work::WorkArguments,
 }
 
-/// Bad use that only shows when arguments are put together.
+/// Arguments that contradict each other.
 #[derive(Debug, Error)]
 enum UseError {
     #[error("cannot tell the kind of picture from {0}: name it .png or .exr, or add --format")]
@@ -84,7 +84,16 @@ impl Failure for UseError {
         match self {
             Self::Threads(..) => Exit::Resource,
             Self::Wrong(..) => Exit::Geometry,
-            _ => Exit::Use,
+            Self::UnknownFormat(_)
+            | Self::LayersInPng(_)
+            | Self::TwoFromStdin(..)
+            | Self::SameMesh(_)
+            | Self::BinaryToTerminal
+            | Self::PixelAndPicture
+            | Self::CropOutside(..)
+            | Self::PixelOutside(..)
+            | Self::SeedOfNothing
+            | Self::TentOfOne => Exit::Use,
         }
     }
 }
@@ -120,8 +129,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
         sampling: sampling.sampling()?,
         crop: sampling.crop,
         layers: output.layers(),
-        accel: work.accel(),
-        ..Settings::new(width, height, textures.filter())
+        accel: work.accel,
+        ..Settings::new(width, height, textures.filter)
     };
 
     let started = Instant::now();
@@ -160,12 +169,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
     Ok(())
 }
 
-/// Says what there is in the scene and what of it is wrong or suspicious.
+/// Prints the inventory and the findings of `--check`.
 fn check(arguments: &Arguments) -> Result<(), Report> {
     let Arguments { input, output, sampling, textures, .. } = arguments;
     let (width, height) = sampling.size;
     let aspect = f64::from(width) / f64::from(height);
-    let filter = textures.filter();
+    let filter = textures.filter;
     let tables = |texture: &_| filter.bytes_for(texture);
     let report = input.read_scene(&output.ledger(), |draft, scene| {
         Ok(scene::check::check(draft, &scene, aspect, &tables)?)

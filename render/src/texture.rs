@@ -61,13 +61,10 @@ impl Texture {
     #[must_use]
     pub fn from_picture(picture: &DynamicImage, values: Values, wrap: Wrap) -> Option<Self> {
         let (width, height) = (picture.width() as usize, picture.height() as usize);
-        let wide = match picture {
-            DynamicImage::ImageLuma16(_)
-            | DynamicImage::ImageLumaA16(_)
-            | DynamicImage::ImageRgb16(_)
-            | DynamicImage::ImageRgba16(_) => true,
-            DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_) => return None,
-            _ => false,
+        let wide = match bytes_per_channel(picture.color()) {
+            1 => false,
+            2 => true,
+            _ => return None,
         };
         let (codes, coded_white): (Vec<[u16; 3]>, u16) = if wide {
             (picture.to_rgb16().pixels().map(|pixel| pixel.0).collect(), u16::MAX)
@@ -94,7 +91,7 @@ impl Texture {
     /// codes and as texels, all at once. The decoder's own working memory is not included.
     #[must_use]
     pub fn decoding_bytes(kind: ColorType) -> u64 {
-        let wide = kind.bytes_per_pixel() / kind.channel_count() > 1;
+        let wide = bytes_per_channel(kind) > 1;
         let codes = if wide { 6 } else { 3 };
         u64::from(kind.bytes_per_pixel()) + codes + size_of::<[u16; 3]>() as u64
     }
@@ -205,6 +202,11 @@ impl Wrap {
         // rem_euclid rounds up to the size itself just below a period; NaN becomes 0.
         (inside as usize).min(size - 1)
     }
+}
+
+/// Returns the bytes of one channel: 1 or 2 for whole numbers, 4 for floating point values.
+fn bytes_per_channel(kind: ColorType) -> u8 {
+    kind.bytes_per_pixel() / kind.channel_count()
 }
 
 #[cfg(test)]

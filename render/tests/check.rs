@@ -73,13 +73,13 @@ fn what_is_not_used_is_named() {
     finds("\"wall\": {},", "\"wall\": {}, \"gold\": {},", "remark: materials.gold: no surface");
     finds(", \"texture\": \"checks\"", "", "remark: textures.checks: no surface");
     let hidden = "\"wall\": { \"ambient\": 0, \"diffuse\": 0, \"reflectivity\": 1 },";
-    finds("\"wall\": {},", hidden, "hint: textures.checks: it is only on materials");
+    finds("\"wall\": {},", hidden, "hint: textures.checks: the texture is only on materials");
 }
 
 #[test]
 fn an_eye_in_or_on_a_surface_is_told() {
     let eye = "\"eye\": [0, 0, 4]";
-    finds(eye, "\"eye\": [0.1, 0.1, 1.5]", "hint: camera.eye: the eye sees nothing but the inside");
+    finds(eye, "\"eye\": [0.1, 0.1, 1.5]", "hint: camera.eye: the eye sees only the inside");
     finds(eye, "\"eye\": [0, 1, 1.5]", "hint: camera.eye: the eye is on the surface of objects[1]");
     finds(eye, "\"eye\": [1.5, 1, 0]", "hint: camera.eye: the eye is on the surface of objects[0]");
 }
@@ -90,11 +90,19 @@ fn what_is_out_of_sight_is_told() {
     finds(
         ball,
         "\"center\": [0, 0, 9]",
-        "remark: objects[1].sphere: all of it is behind the camera, 4 from it",
+        "remark: objects[1].sphere: the whole object is behind the camera, at a distance of 4",
     );
-    finds(ball, "\"center\": [9, 0, 1.5]", "remark: objects[1].sphere: all of it is outside");
+    finds(
+        ball,
+        "\"center\": [9, 0, 1.5]",
+        "remark: objects[1].sphere: the whole object is outside",
+    );
     // By the picture's shape: a wide picture holds it.
-    finds(ball, "\"center\": [3.5, 0, 1.5]", "remark: objects[1].sphere: all of it is outside");
+    finds(
+        ball,
+        "\"center\": [3.5, 0, 1.5]",
+        "remark: objects[1].sphere: the whole object is outside",
+    );
     let bench = Bench::with_scene(&ROOM.replace(ball, "\"center\": [3.5, 0, 1.5]"));
     bench.write("checks.png", checks());
     let wide = bench.run(&["--check", "scene.json", "--size", "400x100"], b"");
@@ -127,13 +135,13 @@ fn surfaces_in_the_same_place_are_told() {
              \"edge_v\": [0, {size}, 0], \"material\": \"ball\" }} }}"
         )
     };
-    let in_it = "remark: objects[1].rectangle: it lies in objects[0].rectangle";
+    let in_it = "remark: objects[1].rectangle: the surface lies in objects[0].rectangle";
     finds(ball, &tile("[1, 1, 0]", 0.5), in_it);
     finds(ball, &tile("[1.9, 1.9, 0]", 0.5), in_it);
     // Beside it, with a common edge, and above it there is nothing to be said.
     for corner in ["[2, 0, 0]", "[0, 0, 1e-6]", "[-2.5, -2.5, 0]"] {
         let (_, said) = said(ball, &tile(corner, 0.5));
-        assert!(!said.contains("it lies in"), "{corner}\n{said}");
+        assert!(!said.contains("the surface lies in"), "{corner}\n{said}");
     }
     // A glass mesh whose bottom is exactly in the floor.
     let scene = MESH_WALL.replace("\"diffuse\": 0", "\"diffuse\": 0, \"transparency\": 1").replace(
@@ -158,7 +166,7 @@ fn glass_must_have_an_inside() {
     let (code, said) = glass(&open);
     assert_eq!(code, 4);
     assert!(
-        said.contains("wrong: objects[0].mesh: it refracts and is not closed (3 edges"),
+        said.contains("wrong: objects[0].mesh: the mesh refracts and is not closed (3 edges"),
         "{said}"
     );
     let inward = TETRAHEDRON
@@ -194,7 +202,7 @@ fn a_depth_that_ends_inside_of_glass_is_told() {
         );
         bench.write("checks.png", checks());
         let text = String::from_utf8(bench.run(&["--check", "scene.json"], b"").stdout).unwrap();
-        let finding = "hint: max_depth: a line of sight goes through 6 transparent surfaces";
+        let finding = "hint: max_depth: a line of sight passes through 6 transparent surfaces";
         assert_eq!(text.contains(finding), expected, "{depth}\n{text}");
     }
 }
@@ -207,9 +215,9 @@ fn triangles_and_normals_that_cannot_be_meant_are_counted() {
         (run.status.code().unwrap(), String::from_utf8(run.stdout).unwrap())
     };
     for (obj, code, finding) in [
-        ("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n".into(), 4, "none of its triangles has an area"),
+        ("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n".into(), 4, "no triangle of the mesh has an area"),
         (format!("{WALL_OBJ}f 1 1 2\n"), 0, "remark: objects[0].mesh: 1 triangle is of 3 without"),
-        (format!("{WALL_OBJ}f 3 1 2\n"), 0, "1 triangle has the corners of one before"),
+        (format!("{WALL_OBJ}f 3 1 2\n"), 0, "1 triangle has the corners of an earlier triangle"),
         (
             WALL_OBJ.replace("f 1 2 3 4", "vn 0 0 0\nf 1//1 2//1 3//1 4//1"),
             0,

@@ -5,7 +5,7 @@ use crate::studio;
 
 use bench::{Bench, TEXTURED_WALL, checks, ending};
 use render::color::Encoding;
-use render::film::{Nine, Pattern, PixelFilter};
+use render::film::{Pattern, PixelFilter, Supersample};
 use render::filter::Filter;
 use render::{Prepared, Sampling, Scene, Settings, inspect};
 use studio::{at, png, scene};
@@ -48,8 +48,8 @@ fn a_printed_pixel_is_the_pictures_to_the_last_bit() {
         (Filter::Tent, Sampling::regular(1)),
         (Filter::Point, Sampling::regular(3)),
         (Filter::Box, jitter),
-        (Filter::Tent, Sampling::Nine(Nine::Image)),
-        (Filter::Tent, Sampling::Nine(Nine::Rays)),
+        (Filter::Tent, Sampling::Supersample(Supersample::Image)),
+        (Filter::Tent, Sampling::Supersample(Supersample::Rays)),
     ] {
         let settings = Settings { sampling, ..Settings::new(24, 20, filter) };
         let (picture, _) = render::render(&Prepared::new(&scene), &settings, &|_, _| {});

@@ -160,7 +160,7 @@ fn parts_that_include_each_other_crosswise_are_read_once_each() {
     let document = Document::new("s/scene.json", text.as_bytes()).unwrap();
     let file = read::parse(&document).unwrap();
     let draft = Draft::gather(&document, &file, Path::new("s"), &source).unwrap();
-    assert_eq!(draft.sheets().unwrap().len(), 3 * LEVELS + 1);
+    assert_eq!(draft.texts().unwrap().len(), 3 * LEVELS + 1);
     let reads = source.reads.into_inner().unwrap();
     assert_eq!(reads.len(), 3 * LEVELS);
     assert!(reads.values().all(|&count| count == 1), "{reads:?}");
@@ -184,8 +184,8 @@ fn coincidences(rectangles: impl Iterator<Item = [f64; 4]>) -> Coincidences {
     let file = read::parse(&document).unwrap();
     let draft = Draft::gather(&document, &file, Path::new(""), &Embedded(&[])).unwrap();
     let scene = draft.resolve(&Embedded(&[]), MeshSource::new()).unwrap();
-    let sheets = draft.sheets().unwrap();
-    coincident::findings(&Subject::new(&draft, &sheets, &scene, 1.0))
+    let texts = draft.texts().unwrap();
+    coincident::findings(&Subject::new(&draft, &texts, &scene, 1.0))
 }
 
 #[test]
@@ -196,7 +196,8 @@ fn surfaces_in_one_place_are_all_counted_the_first_named_and_the_work_is_in_prop
     assert!(two.looks as f64 <= TWICE * one.looks as f64, "{} {}", one.looks, two.looks);
     let said: Vec<String> = two.findings.iter().map(ToString::to_string).collect();
     assert_eq!(said.len(), 21);
-    let first = "remark: objects[1].rectangle: it lies in objects[0].rectangle (rectangle)";
+    let first =
+        "remark: objects[1].rectangle: the surface lies in objects[0].rectangle (rectangle)";
     assert!(said[0].starts_with(first), "{}", said[0]);
     let others = format!("in {} more pairs", 2000 * 1999 / 2 - 20);
     assert!(said[20].contains(&others), "{}", said[20]);

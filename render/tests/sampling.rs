@@ -2,13 +2,17 @@
 
 use crate::studio;
 
-use render::film::{Nine, Pattern, PixelFilter};
+use clap::ValueEnum;
+use render::accel::Structure;
+use render::film::{Pattern, PatternName, PixelFilter, Supersample};
 use render::filter::Filter;
 use render::{Picture, Prepared, Sampling, Scene, Settings};
+use serde::de::DeserializeOwned;
+use std::fmt::Debug;
 use studio::{FILTERS, assert_near, at, pixels, png, scene};
 
-const IMAGE: Sampling = Sampling::Nine(Nine::Image);
-const RAYS: Sampling = Sampling::Nine(Nine::Rays);
+const IMAGE: Sampling = Sampling::Supersample(Supersample::Image);
+const RAYS: Sampling = Sampling::Supersample(Supersample::Rays);
 
 fn exposed(scene: &Scene, side: u32, sampling: Sampling, filter: Filter) -> Picture {
     let settings = Settings { sampling, ..Settings::new(side, side, filter) };
@@ -141,7 +145,7 @@ fn a_tent_over_an_edge_counts_the_area_beyond_it() {
             let (left, right) = match sampling {
                 Sampling::Grid { pixel_filter: PixelFilter::Box, .. } => (0.0, 1.0),
                 Sampling::Grid { .. } => (0.125, 0.875),
-                Sampling::Nine(_) => (0.25, 1.0),
+                Sampling::Supersample(_) => (0.25, 1.0),
             };
             for (x, _, pixel) in pixels(&picture) {
                 let expected = [0.0, 0.0, left, right, 1.0, 1.0][x as usize];
@@ -175,4 +179,22 @@ fn jitter_is_right_on_the_average() {
     assert!((mean - 0.75).abs() < 5.0 * (0.75 * 0.25 / 2400f64).sqrt(), "{mean}");
     let [one, other] = [1, 2].map(|seed| exposed(&scene, 6, sampling(seed), Filter::Point));
     assert!(one != other, "another seed is another picture");
+}
+
+/// Each name on the command line is also the name in JSON, since both come from the variant.
+#[test]
+fn names_on_the_command_line_are_those_in_json() {
+    fn agree<T: ValueEnum + DeserializeOwned + PartialEq + Debug>() {
+        for value in T::value_variants() {
+            let name = value.to_possible_value().unwrap().get_name().to_string();
+            assert_eq!(serde_json::from_value::<T>(name.into()).ok().as_ref(), Some(value));
+        }
+    }
+    agree::<Filter>();
+    agree::<Structure>();
+    agree::<PatternName>();
+    agree::<PixelFilter>();
+    agree::<Supersample>();
+    assert_eq!(Filter::value_variants(), Filter::ALL);
+    assert_eq!(Structure::value_variants(), Structure::ALL);
 }

@@ -9,7 +9,7 @@ use files::json::Document;
 use jsonschema::Validator;
 use render::scene::file::{PART_FORMAT, PartFile, SceneFile};
 use render::scene::read::{self, Draft};
-use render::scene::{MeshSource, schema};
+use render::scene::{MeshSource, limits, schema};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -111,7 +111,7 @@ fn what_is_out_of_its_range_both_refuse() {
     assert!(validator.is_valid(&plain));
     assert_eq!(complaint(&plain), None);
     // At the ends of a range both take it, beyond them both refuse it.
-    let (large, small) = (schema::LARGEST, schema::SMALLEST);
+    let (large, small) = (limits::LARGEST, limits::SMALLEST);
     let unit = ["ambient", "diffuse", "specular", "reflectivity", "transparency"];
     let mut ranges: Vec<(String, [f64; 2], [f64; 2])> = vec![
         ("/max_depth".into(), [0.0, 64.0], [-1.0, 65.0]),

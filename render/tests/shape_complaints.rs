@@ -75,10 +75,10 @@ fn placements_that_cannot_be_are_refused() {
         "[ { \"translate\": [1, 0, 1] }, { \"rotate_deg\": { \"axis\": [0, 0, 0], \"angle\": 1 } } ]",
         &["place[1].rotate_deg.axis: found an axis without length"],
     );
-    placed("[ { \"scale\": [1, 1, 1e9] } ]", &["place: found a map that presses things flat"]);
+    placed("[ { \"scale\": [1, 1, 1e9] } ]", &["place: found a map that flattens the object"]);
     placed(
         "[ { \"matrix\": [[1, 0, 0, 0], [0, 1, 0, 0], [1, 1, 0, 0]] } ]",
-        &["place: found a map that presses things flat"],
+        &["place: found a map that flattens the object"],
     );
     placed(
         "[ { \"scale\": [1e70, 1e70, 1e70] } ]",

@@ -8,7 +8,7 @@ use files::json::Document;
 use std::io::sink;
 use sweep::grid::file::{self, Encoding, GridReader};
 use sweep::{GridMesh, Sweep};
-use triangulate::{Options, mesh, write_grid_obj, write_obj};
+use triangulate::{Options, mesh, write_obj};
 
 const SPEC: &[u8] = include_bytes!("../../examples/curves/trefoil.json");
 
@@ -38,9 +38,7 @@ fn in_memory(bencher: Bencher) {
 fn obj(bencher: Bencher) {
     let grid = grid();
     let options = Options::default();
-    bencher
-        .counter(triangles())
-        .bench_local(|| write_grid_obj(&grid, &options, &mut sink()).is_ok());
+    bencher.counter(triangles()).bench_local(|| write_obj(&grid, &options, &mut sink()).is_ok());
 }
 
 /// Text of a grid file, row by row, to nowhere.

@@ -1,13 +1,22 @@
-//! The command line: what may be asked for, and what fits together.
+//! The arguments of the program `triangulate`, and its run.
 
-use clap::{Parser, ValueEnum};
+mod grid;
+mod note;
+mod write;
+
+use clap::Parser;
+use files::exit::say;
 use files::extension::{self, WrongExtension};
-use files::{Exit, Failure};
+use files::{Batch, Exit, Failure, Ledger, Output, Report, input};
+use grid::Grid;
+use std::io::{IsTerminal, Write, stdin, stdout};
 use std::path::{Path, PathBuf};
+use sweep::grid::file::GridReader;
 use thiserror::Error;
-use triangulate::Options;
-use triangulate::mtl::is_map_name;
+use triangulate::mtl::{is_map_name, mtl};
 use triangulate::obj::object_name;
+use triangulate::{Format, MeshReport, Options, TriangulateError};
+use write::Written;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -71,33 +80,22 @@ pub struct Arguments {
     pub no_clobber: bool,
 }
 
-/// How a mesh is written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Format {
-    /// Text, written row by row; what render reads
-    Obj,
-    /// Binary STL: triangles only, for printers; needs the mesh in memory
-    Stl,
-    /// Binary PLY with normals and picture coordinates; needs the mesh in memory
-    Ply,
-}
-
-/// Arguments that do not fit together, or not the place where the program runs.
+/// Arguments that contradict each other, or that do not suit the terminal.
 #[derive(Debug, Error)]
 pub enum UseError {
-    /// Bytes that a terminal would take for commands.
+    /// A binary file for a terminal, which would take its bytes for commands.
     #[error("a binary {0} is not for a terminal: name a file with -o, or use --format obj")]
     Terminal(&'static str),
-    /// Two things from standard input.
+    /// Standard input for the grid and for the areas.
     #[error("--areas - would read from the grid's standard input: name a file for one of them")]
     AreasPlace,
-    /// A material file for a mesh that names none.
+    /// A material file for a format that names none.
     #[error("--mtl is for OBJ, and the format is {0}")]
     MtlFormat(&'static str),
-    /// A material file beside nothing.
+    /// A material file for an output that has no folder.
     #[error("--mtl found {0} as the output, expected a file to lie beside: name one with -o")]
     MtlPlace(String),
-    /// Two things on standard output.
+    /// Standard output for the mesh and for the report.
     #[error("--report - would write into the mesh on standard output: name a file for one of them")]
     ReportPlace,
 }
@@ -108,28 +106,104 @@ impl Failure for UseError {
     }
 }
 
+/// Reads the grid, writes its triangles, and replaces all outputs together.
+pub fn run(arguments: &Arguments) -> Result<(), Report> {
+    files::memory::allow(arguments.max_memory);
+    arguments.check(stdout().is_terminal())?;
+    if input::is_stdin(&arguments.grid) && stdin().is_terminal() {
+        return Err(TriangulateError::Terminal.into());
+    }
+    let ledger = Ledger::new(!arguments.no_clobber);
+    let mut outputs = Outputs::create(arguments, &ledger)?;
+    ledger.expect(&arguments.grid, "the grid")?;
+    if let Some(areas) = &arguments.areas {
+        ledger.expect(areas, "the areas")?;
+    }
+    arguments.check_names()?;
+    let name = input::name_of(&arguments.grid);
+    let file = ledger.open(&arguments.grid, "the grid")?;
+    let mut reader = GridReader::open(&name, file).map_err(TriangulateError::Grid)?;
+    let written = match &arguments.areas {
+        None => write::write(arguments, &mut Grid::File(&mut reader), &mut outputs.mesh),
+        Some(areas) => {
+            let grids = grid::with_areas(areas, &ledger, &mut reader)?;
+            write::write(arguments, &mut Grid::<&[u8]>::Memory(&grids), &mut outputs.mesh)
+        }
+    };
+    let written = written.map_err(|error| outputs.mesh_failure(error))?;
+    let counts = written.counts;
+    let remark = outputs.commit(arguments, written)?;
+    if let Some(remark) = remark.filter(|_| !arguments.quiet) {
+        say(format_args!("triangulate: note: {remark}"));
+    }
+    note::print(arguments, &name, &counts);
+    Ok(())
+}
+
+/// The files that a run writes. None of them replaces its predecessor before [`Outputs::commit`].
+struct Outputs {
+    mesh: Output,
+    mtl: Option<Output>,
+    report: Option<Output>,
+}
+
+impl Outputs {
+    /// Creates the files before anything is read, so that a folder without write permission is an
+    /// error at once.
+    fn create(arguments: &Arguments, ledger: &Ledger) -> Result<Self, Report> {
+        let create = |path: &Path, flag: &str| -> Result<Output, Report> {
+            Ok(ledger.output(path, &format!("name another file with {flag}"))?)
+        };
+        Ok(Self {
+            mesh: create(&arguments.output, "-o")?,
+            mtl: arguments.mtl().map(|path| create(&path, "-o")).transpose()?,
+            report: arguments.report.as_deref().map(|path| create(path, "--report")).transpose()?,
+        })
+    }
+
+    /// Turns a failure to make or write the mesh into a report that names the output.
+    fn mesh_failure(&self, error: TriangulateError) -> Report {
+        if let TriangulateError::Write(source) = error {
+            return self.mesh.failed(source).into();
+        }
+        error.into()
+    }
+
+    /// Writes the material file and the report, and replaces all files together. Returns a remark about
+    /// the replacement, if there is one.
+    fn commit(self, arguments: &Arguments, written: Written) -> Result<Option<String>, Report> {
+        let mut outputs = vec![self.mesh];
+        if let Some(mut output) = self.mtl {
+            let mtl = mtl(&written.materials, arguments.map.as_deref());
+            output.write_all(mtl.as_bytes()).map_err(|source| output.failed(source))?;
+            outputs.push(output);
+        }
+        if let (Some(mut output), Some(mesh)) = (self.report, written.mesh) {
+            let report = MeshReport::of(&mesh, &written.counts);
+            report.write(&mut output).map_err(|source| output.failed(source))?;
+            outputs.push(output);
+        }
+        Ok(Batch::commit(outputs)?)
+    }
+}
+
 impl Arguments {
-    /// What the triangles are bound to, where it is said here.
+    /// Returns the ids that the arguments give to the triangles.
     pub fn options(&self) -> Options {
         Options { texture: self.texture, surface: self.surface }
     }
 
-    /// The format asked for, or the one that the output's name ends with.
+    /// Returns the format of `--format`, or else that of the output's extension, or else OBJ.
     pub fn format(&self) -> Format {
-        let by_name = || {
-            let extension = self.output.extension()?.to_str()?;
-            Format::value_variants()
-                .iter()
-                .find(|format| extension.eq_ignore_ascii_case(format.name()))
-                .copied()
-        };
+        let by_name = || Format::of_extension(self.output.extension()?.to_str()?);
         self.format.or_else(by_name).unwrap_or(Format::Obj)
     }
 
-    /// Complains of what cannot be meant; `terminal` says that standard output is one.
+    /// Refuses arguments that contradict each other. `terminal` tells whether standard output is a
+    /// terminal.
     pub fn check(&self, terminal: bool) -> Result<(), UseError> {
         let format = self.format();
-        if terminal && format != Format::Obj && is_stdout(&self.output) {
+        if terminal && !format.is_text() && is_stdout(&self.output) {
             return Err(UseError::Terminal(format.name()));
         }
         if self.areas.as_deref().is_some_and(is_stdout) && is_stdout(&self.grid) {
@@ -152,8 +226,8 @@ impl Arguments {
         Ok(())
     }
 
-    /// Complains of a name that ends as that of another format; a mesh's format that was asked for wins
-    /// over its name.
+    /// Refuses an output whose extension is that of another format. `--format` allows any extension of
+    /// the mesh.
     pub fn check_names(&self) -> Result<(), WrongExtension> {
         let format = self.format();
         if self.format.is_none() {
@@ -165,12 +239,13 @@ impl Arguments {
         }
     }
 
-    /// The material file, if one is wanted.
+    /// Returns the path of the material file, if `--mtl` asks for one.
     pub fn mtl(&self) -> Option<PathBuf> {
         self.mtl_name().map(|name| self.output.with_file_name(name))
     }
 
-    /// Its name, which the OBJ has too: one word, as an OBJ cannot quote it.
+    /// Returns the name of the material file as the OBJ contains it: one word, since an OBJ has no
+    /// quotation marks.
     pub fn mtl_name(&self) -> Option<String> {
         let path = self.output.with_extension("mtl");
         let name = path.file_name().unwrap_or_default().to_string_lossy();
@@ -178,7 +253,7 @@ impl Arguments {
     }
 }
 
-/// A picture that an MTL can name.
+/// Checks that an MTL can name the picture.
 fn map_name(argument: &str) -> Result<String, String> {
     if is_map_name(argument) {
         Ok(argument.into())
@@ -186,35 +261,6 @@ fn map_name(argument: &str) -> Result<String, String> {
         Err("expected a name without `#`, line breaks, a dash before it or blanks around it, which \
              an MTL cannot hold"
             .into())
-    }
-}
-
-impl Format {
-    /// Its name, in capitals.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Obj => "OBJ",
-            Self::Stl => "STL",
-            Self::Ply => "PLY",
-        }
-    }
-
-    /// What its files hold, in words.
-    fn content(self) -> &'static str {
-        match self {
-            Self::Obj => "an OBJ mesh",
-            Self::Stl => "an STL mesh",
-            Self::Ply => "a PLY mesh",
-        }
-    }
-
-    /// The extension of its files.
-    fn extension(self) -> &'static str {
-        match self {
-            Self::Obj => "obj",
-            Self::Stl => "stl",
-            Self::Ply => "ply",
-        }
     }
 }
 

@@ -36,6 +36,7 @@
 //!
 //! | module           | what                                                         |
 //! |------------------|--------------------------------------------------------------|
+//! | [`patches`]      | the grids of an object, in a file or in memory, and [`Patches::run`] |
 //! | [`triangulator`] | rows to vertices and triangles, and the [`Sink`] they go to  |
 //! | [`diagonal`]     | the choice of a cell's diagonal                              |
 //! | [`tri_mesh`]     | the mesh in memory, and its [`TriMesh::validate`]            |
@@ -44,6 +45,7 @@
 //! | [`report`]       | topology and measures of a mesh, as JSON                     |
 //! | [`area_file`]    | a file of texture areas for a grid                           |
 //! | [`mtl`]          | the material file beside an OBJ                              |
+//! | [`format`]       | the formats of mesh files                                    |
 //! | [`stl`]          | the mesh as binary STL                                       |
 //! | [`split`]        | vertices that carry position, normal and picture coordinates |
 //! | [`ply`]          | the mesh as binary PLY                                       |
@@ -54,9 +56,11 @@ mod cell;
 pub mod diagonal;
 mod error;
 mod forest;
+pub mod format;
 mod material;
 pub mod mtl;
 pub mod obj;
+pub mod patches;
 mod picture;
 pub mod ply;
 pub mod report;
@@ -69,8 +73,10 @@ pub mod triangulator;
 mod validate;
 
 pub use error::TriangulateError;
+pub use format::Format;
 pub use material::{Material, Options};
 pub use obj::ObjWriter;
+pub use patches::Patches;
 pub use ply::write_ply;
 pub use report::MeshReport;
 pub use split::SplitMesh;
@@ -79,131 +85,31 @@ pub use topology::Topology;
 pub use tri_mesh::{TriMesh, Triangle};
 pub use triangulator::{Counts, Sink, Triangulator};
 
-use std::io::{BufRead, Write};
-use sweep::GridMesh;
-use sweep::grid::file::{GridReader, Header};
-
-/// Makes the triangles of a grid, in memory.
-///
-/// # Errors
-/// When the grid's arrays do not fit each other, or hold a number that does not fit in f32.
-pub fn mesh(grid: &GridMesh, options: &Options) -> Result<TriMesh, TriangulateError> {
-    mesh_all(std::slice::from_ref(grid), options)
-}
+use std::io::Write;
 
 /// Makes the triangles of all patches of an object, in memory.
 ///
 /// # Errors
-/// See [`mesh`].
-pub fn mesh_all(grids: &[GridMesh], options: &Options) -> Result<TriMesh, TriangulateError> {
-    let (mesh, _) = run_grids(grids, options, TriMesh::default())?;
+/// When a grid file is cut short or damaged, when the arrays of a grid in memory do not fit each other,
+/// or when a number does not fit in f32.
+pub fn mesh(patches: impl Patches, options: &Options) -> Result<TriMesh, TriangulateError> {
+    let (mesh, _) = patches.run(options, TriMesh::default())?;
     Ok(mesh)
 }
 
-/// Writes the triangles of a grid in memory as OBJ: the same bytes that [`write_obj`] writes for the
-/// file of that grid.
+/// Writes the triangles of all patches of an object as OBJ, row by row. A grid in memory and the file of
+/// this grid give the same bytes.
+///
+/// The closing comment is written only when the last row was read and found right.
 ///
 /// # Errors
 /// See [`mesh`]; also when `out` fails.
-pub fn write_grid_obj(
-    grid: &GridMesh,
-    options: &Options,
-    out: &mut impl Write,
-) -> Result<Counts, TriangulateError> {
-    write_grids_obj(std::slice::from_ref(grid), options, out)
-}
-
-/// Writes the triangles of all patches of an object in memory as OBJ: the same bytes that [`write_obj`]
-/// writes for the file of those patches.
-///
-/// # Errors
-/// See [`write_grid_obj`].
-pub fn write_grids_obj(
-    grids: &[GridMesh],
-    options: &Options,
-    out: &mut impl Write,
-) -> Result<Counts, TriangulateError> {
-    let (writer, counts) = run_grids(grids, options, ObjWriter::new(out))?;
-    writer.finish(&counts).map_err(TriangulateError::Write)?;
-    Ok(counts)
-}
-
-/// Writes the triangles of a grid file with all its patches as OBJ, row by row.
-///
-/// The closing comment is written only when the last footer was read and found right.
-///
-/// # Errors
-/// When the grid is cut short or damaged, holds a number that does not fit in f32, or `out` fails.
 pub fn write_obj(
-    reader: &mut GridReader<impl BufRead>,
+    patches: impl Patches,
     options: &Options,
     out: &mut impl Write,
 ) -> Result<Counts, TriangulateError> {
-    let (writer, counts) = run_rows(reader, options, ObjWriter::new(out))?;
+    let (writer, counts) = patches.run(options, ObjWriter::new(out))?;
     writer.finish(&counts).map_err(TriangulateError::Write)?;
     Ok(counts)
-}
-
-/// Makes the triangles of a grid file with all its patches, in memory.
-///
-/// # Errors
-/// When the grid is cut short or damaged, or holds a number that does not fit in f32.
-pub fn read_mesh(
-    reader: &mut GridReader<impl BufRead>,
-    options: &Options,
-) -> Result<(TriMesh, Counts), TriangulateError> {
-    run_rows(reader, options, TriMesh::default())
-}
-
-/// Passes the triangles of a grid file with all its patches to a sink, row by row.
-///
-/// # Errors
-/// When the grid is cut short or damaged, holds a number that does not fit in f32, or the sink fails.
-pub fn run_rows<S: Sink>(
-    reader: &mut GridReader<impl BufRead>,
-    options: &Options,
-    mut sink: S,
-) -> Result<(S, Counts), TriangulateError> {
-    let mut counts = Counts::default();
-    loop {
-        let header = reader.header().clone();
-        let mut triangulator = Triangulator::following(counts, header, options, sink)?;
-        while let Some(row) = reader.next_row()? {
-            triangulator.row(row)?;
-        }
-        (sink, counts) = triangulator.finish()?;
-        if !reader.next_patch()? {
-            return Ok((sink, counts));
-        }
-    }
-}
-
-/// Passes the triangles of grids in memory, the patches of one object, to a sink.
-///
-/// # Errors
-/// See [`mesh`]; also when the sink fails.
-pub fn run_grids<S: Sink>(
-    grids: &[GridMesh],
-    options: &Options,
-    mut sink: S,
-) -> Result<(S, Counts), TriangulateError> {
-    let mut counts = Counts::default();
-    for grid in grids {
-        let points = grid.rows().saturating_mul(grid.cols());
-        if grid.positions.len() != points || grid.normals.len() != points {
-            let (positions, normals) = (grid.positions.len(), grid.normals.len());
-            let object = grid.name.clone();
-            return Err(TriangulateError::Arrays { object, positions, normals, expected: points });
-        }
-        if let Some((number, key, message)) = grid.area_fault() {
-            let fault = format!("areas[{number}].{key}: {message}");
-            return Err(TriangulateError::Area { object: grid.name.clone(), fault });
-        }
-        let mut triangulator = Triangulator::following(counts, Header::of(grid), options, sink)?;
-        for row in grid.row_views() {
-            triangulator.row(row)?;
-        }
-        (sink, counts) = triangulator.finish()?;
-    }
-    Ok((sink, counts))
 }

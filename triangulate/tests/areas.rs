@@ -13,7 +13,7 @@ use std::process::{Command, Output};
 use sweep::GridMesh;
 use sweep::grid::file::{Encoding, GridReader, write};
 use sweep::grid::{Across, Area, Seam, UvLayout};
-use triangulate::{Material, Options, TriMesh, mesh, write_grid_obj, write_obj};
+use triangulate::{Material, Options, TriMesh, mesh, write_obj};
 
 fn area(rows: [usize; 2], cols: [usize; 2], texture: u32, repeat: [f64; 2]) -> Area {
     Area { rows, cols, texture: Some(texture), surface: None, repeat }
@@ -96,7 +96,7 @@ proptest! {
 
         let (mut from_memory, mut file, mut from_file) = (Vec::new(), Vec::new(), Vec::new());
         let options = Options { texture: Some(3), surface: None };
-        write_grid_obj(&grid, &options, &mut from_memory).unwrap();
+        write_obj(&grid, &options, &mut from_memory).unwrap();
         write(&grid, Encoding::Json, &mut file).unwrap();
         let mut reader = GridReader::open("a", file.as_slice()).unwrap();
         write_obj(&mut reader, &options, &mut from_file).unwrap();
@@ -108,7 +108,7 @@ proptest! {
 fn an_obj_changes_its_material_once_in_each_row_that_has_two() {
     let grid = GridMesh { areas: vec![area([2, 6], [1, 3], 5, [1.0; 2])], ..sheet(9, 4) };
     let mut obj = Vec::new();
-    write_grid_obj(&grid, &Options::default(), &mut obj).unwrap();
+    write_obj(&grid, &Options::default(), &mut obj).unwrap();
     let text = String::from_utf8(obj).unwrap();
     let names: Vec<&str> = text.lines().filter_map(|line| line.strip_prefix("usemtl ")).collect();
     assert_eq!(names, ["tex0_surf0", "tex5_surf0", "tex0_surf0", "tex5_surf0", "tex0_surf0"]);

@@ -11,9 +11,7 @@ use std::process::{Command, Output};
 use sweep::GridMesh;
 use sweep::grid::file::{Encoding, GridReader, write_all};
 use sweep::grid::{Fold, Tolerance};
-use triangulate::{
-    Material, MeshReport, Options, TriMesh, mesh, mesh_all, read_mesh, write_grids_obj, write_obj,
-};
+use triangulate::{Material, MeshReport, Options, Patches, TriMesh, mesh, write_obj};
 
 /// A tube, a ring on it and a ball; the ring has ids of its own.
 fn patches() -> Vec<GridMesh> {
@@ -53,7 +51,7 @@ fn corners(mesh: &TriMesh) -> Vec<Corners> {
 #[test]
 fn the_patches_of_a_mesh_are_the_meshes_of_the_patches() {
     let grids = patches();
-    let whole = mesh_all(&grids, &Options::default()).unwrap();
+    let whole = mesh(grids.as_slice(), &Options::default()).unwrap();
     assert_eq!(whole.validate(), Vec::<String>::new());
     let single: Vec<TriMesh> =
         grids.iter().map(|grid| mesh(grid, &Options::default()).unwrap()).collect();
@@ -70,20 +68,20 @@ fn the_patches_of_a_mesh_are_the_meshes_of_the_patches() {
 fn file_and_memory_give_the_same_mesh() {
     let (grids, options) = (patches(), Options { texture: None, surface: Some(3) });
     let (mut from_memory, mut from_file) = (Vec::new(), Vec::new());
-    let counts = write_grids_obj(&grids, &options, &mut from_memory).unwrap();
+    let counts = write_obj(grids.as_slice(), &options, &mut from_memory).unwrap();
     let file = file_of(&grids);
     let mut reader = GridReader::open("a", file.as_slice()).unwrap();
     assert_eq!(write_obj(&mut reader, &options, &mut from_file).unwrap(), counts);
     assert!(from_memory == from_file);
     let mut reader = GridReader::open("a", file.as_slice()).unwrap();
-    let (mesh, _) = read_mesh(&mut reader, &options).unwrap();
-    assert_eq!(mesh, mesh_all(&grids, &options).unwrap());
+    let (read, _) = reader.run(&options, TriMesh::default()).unwrap();
+    assert_eq!(read, mesh(grids.as_slice(), &options).unwrap());
 }
 
 #[test]
 fn an_obj_has_an_object_for_each_patch_and_indices_run_on() {
     let mut obj = Vec::new();
-    let counts = write_grids_obj(&patches(), &Options::default(), &mut obj).unwrap();
+    let counts = write_obj(patches().as_slice(), &Options::default(), &mut obj).unwrap();
     let text = String::from_utf8(obj.clone()).unwrap();
     let named: Vec<&str> =
         text.lines().filter(|line| line.starts_with("o ") || line.starts_with("usemtl ")).collect();
@@ -122,7 +120,7 @@ fn a_report_has_the_whole_and_every_patch() {
     grids[1].tolerance = Some(Tolerance { asked: Some(0.1), ..Tolerance::default() });
     let file = file_of(&grids);
     let mut reader = GridReader::open("a", file.as_slice()).unwrap();
-    let (mesh, counts) = read_mesh(&mut reader, &Options::default()).unwrap();
+    let (mesh, counts) = reader.run(&Options::default(), TriMesh::default()).unwrap();
     let report = MeshReport::of(&mesh, &counts);
     assert_eq!((report.euler, report.boundary_loops, report.closed), (2, 2, false));
     assert_eq!(report.faces as u64, counts.triangles);
@@ -142,7 +140,7 @@ fn every_format_takes_all_patches_and_flags_stand_in_for_their_ids() {
     fs::write(path("a.grid"), file_of(&patches())).unwrap();
     let made = run(&["a.grid", "-o", "a.stl"], folder.path());
     assert_eq!(made.status.code(), Some(0), "{}", said(&made));
-    let faces = mesh_all(&patches(), &Options::default()).unwrap().triangles.len();
+    let faces = mesh(patches().as_slice(), &Options::default()).unwrap().triangles.len();
     assert_eq!(fs::read(path("a.stl")).unwrap().len(), 84 + 50 * faces);
 
     let made = run(&["a.grid", "-o", "a.ply"], folder.path());

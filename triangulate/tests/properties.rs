@@ -10,11 +10,11 @@ use shapes::{cylinder, grid_of, torus};
 use sweep::GridMesh;
 use sweep::grid::file::{Encoding, GridReader, write};
 use sweep::grid::{Across, Seam, UvLayout};
-use triangulate::{Options, TriMesh, mesh, write_grid_obj, write_obj};
+use triangulate::{Options, TriMesh, mesh, write_obj};
 
 fn obj_of(grid: &GridMesh, options: &Options) -> Vec<u8> {
     let mut bytes = Vec::new();
-    write_grid_obj(grid, options, &mut bytes).unwrap();
+    write_obj(grid, options, &mut bytes).unwrap();
     bytes
 }
 

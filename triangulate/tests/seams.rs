@@ -11,14 +11,14 @@ use std::f64::consts::{PI, TAU};
 use sweep::GridMesh;
 use sweep::grid::Seam;
 use sweep::grid::file::{Encoding, GridReader, write};
-use triangulate::{Counts, MeshReport, Options, TriMesh, read_mesh};
+use triangulate::{Counts, MeshReport, Options, Patches, TriMesh};
 
 /// The mesh as it comes out of a file, and what is said of it.
 fn made(grid: &GridMesh) -> (TriMesh, Counts, MeshReport) {
     let mut file = Vec::new();
     write(grid, Encoding::Json, &mut file).unwrap();
     let mut reader = GridReader::open("a", file.as_slice()).unwrap();
-    let (mesh, counts) = read_mesh(&mut reader, &Options::default()).unwrap();
+    let (mesh, counts) = reader.run(&Options::default(), TriMesh::default()).unwrap();
     let report = MeshReport::of(&mesh, &counts);
     (mesh, counts, report)
 }

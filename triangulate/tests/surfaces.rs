@@ -10,14 +10,14 @@ use std::f64::consts::{PI, TAU};
 use sweep::GridMesh;
 use sweep::grid::Seam;
 use sweep::grid::file::{Encoding, GridReader, write};
-use triangulate::{Counts, MeshReport, Options, Topology, TriMesh, Triangle, read_mesh};
+use triangulate::{Counts, MeshReport, Options, Patches, Topology, TriMesh, Triangle};
 
 /// A mesh of a grid as it comes out of a file, and its report.
 fn report(grid: &GridMesh) -> MeshReport {
     let mut file = Vec::new();
     write(grid, Encoding::Binary, &mut file).unwrap();
     let mut reader = GridReader::open("a", file.as_slice()).unwrap();
-    let (mesh, counts) = read_mesh(&mut reader, &Options::default()).unwrap();
+    let (mesh, counts) = reader.run(&Options::default(), TriMesh::default()).unwrap();
     MeshReport::of(&mesh, &counts)
 }
 

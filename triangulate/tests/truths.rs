@@ -9,7 +9,7 @@ use shapes::{cylinder, grid_of, sphere, torus};
 use std::f64::consts::{PI, TAU};
 use sweep::GridMesh;
 use sweep::grid::{Across, Seam, UvLayout};
-use triangulate::{Options, TriMesh, mesh, write_grid_obj};
+use triangulate::{Options, TriMesh, mesh, write_obj};
 
 fn made(grid: &GridMesh) -> TriMesh {
     let mesh = mesh(grid, &Options::default()).unwrap();
@@ -201,6 +201,6 @@ fn a_cell_with_three_corners_on_a_line_is_cut_so_that_nothing_is_lost() {
 fn a_line_instead_of_a_surface_gives_no_triangles() {
     let line = grid_of([3, 3], [Seam::Open; 2], |u, v| (DVec3::X * (u + v), DVec3::Z));
     let mut obj = Vec::new();
-    let counts = write_grid_obj(&line, &Options::default(), &mut obj).unwrap();
+    let counts = write_obj(&line, &Options::default(), &mut obj).unwrap();
     assert_eq!((counts.triangles, counts.slivers + counts.collapsed), (0, 8));
 }

@@ -22,7 +22,7 @@ pub fn read(bytes: &[u8]) -> Tried {
             return Err(refused(error));
         }
     };
-    let by_rows = triangulate::read_mesh(&mut reader, &Options::default());
+    let by_rows = triangulate::mesh(&mut reader, &Options::default());
     match (whole, by_rows) {
         (Ok(grids), Ok(_)) => follow(&grids),
         (Err(error), Err(_)) => Err(refused(error)),
@@ -50,9 +50,9 @@ pub fn follow(grids: &[GridMesh]) -> Tried {
             .map_err(|error| broken("a grid that was written is refused")(&error))?;
         hold(again == grids, "a grid that was written is read as another one")?;
     }
-    let mesh = triangulate::mesh_all(grids, &Options::default()).map_err(refused)?;
+    let mesh = triangulate::mesh(grids, &Options::default()).map_err(refused)?;
     let mut file = Vec::new();
-    let counts = triangulate::write_grids_obj(grids, &Options::default(), &mut file)
+    let counts = triangulate::write_obj(grids, &Options::default(), &mut file)
         .map_err(|error| broken("triangles in memory are not written")(&error))?;
     valid(&mesh)?;
     let report = MeshReport::of(&mesh, &counts);

@@ -102,7 +102,7 @@ impl Corpus {
     pub fn obj(&self, number: usize) -> Option<Vec<u8>> {
         let mut bytes = Vec::new();
         let options = triangulate::Options::default();
-        triangulate::write_grids_obj(self.grids.get(number)?, &options, &mut bytes).ok()?;
+        triangulate::write_obj(self.grids.get(number)?.as_slice(), &options, &mut bytes).ok()?;
         Some(bytes)
     }
 }

@@ -277,7 +277,7 @@ fn check_word(document: &Document<'_>, path: &str, name: &str) -> Result<(), Jso
 mod tests {
     use super::*;
     use render::Sampling;
-    use render::film::{Nine, Pattern, PixelFilter};
+    use render::film::{Pattern, PixelFilter, Supersample};
     use render::filter::Filter;
 
     fn parse(text: &str) -> Result<Job, JsonError> {
@@ -298,7 +298,7 @@ mod tests {
         assert_eq!(job.modes[0].filter, Filter::Point);
         let pattern = Pattern::Jitter { seed: 7 };
         let jittered = Sampling::Grid { samples: 4, pattern, pixel_filter: PixelFilter::Tent };
-        let nine = Sampling::Nine(Nine::Image);
+        let nine = Sampling::Supersample(Supersample::Image);
         let samplings: Vec<Sampling> = job.modes.iter().map(|mode| mode.sampling).collect();
         assert_eq!(samplings, [Sampling::regular(1), Sampling::regular(1), jittered, nine]);
         assert_eq!(

@@ -5,7 +5,7 @@ use files::JsonError;
 use files::json::Document;
 use render::Sampling;
 use render::accel::Structure;
-use render::film::{MOST_SAMPLES, Nine, Pattern, PixelFilter};
+use render::film::{MOST_SAMPLES, PatternName, PixelFilter, Supersample};
 use render::filter::Filter;
 use serde::Deserialize;
 use std::collections::HashSet;
@@ -51,18 +51,11 @@ pub(super) struct ModeFile {
     #[serde(default)]
     pixel_filter: Option<PixelFilter>,
     #[serde(default)]
-    supersample: Option<Nine>,
+    supersample: Option<Supersample>,
     #[serde(default)]
     figure: Option<String>,
     #[serde(default)]
     thesis_minutes: Option<u32>,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "snake_case")]
-enum PatternName {
-    Regular,
-    Jitter,
 }
 
 /// The modes of a job; one, with the tent filter, if none are written.
@@ -116,22 +109,15 @@ fn sampling(document: &Document<'_>, path: &str, mode: &ModeFile) -> Result<Samp
             Some((key, _)) => {
                 fault(key, format!("found {key} beside supersample, expected one of them"))
             }
-            None => Ok(Sampling::Nine(nine)),
+            None => Ok(Sampling::Supersample(nine)),
         };
     }
     let samples = mode.samples.unwrap_or(1);
     if !(1..=MOST_SAMPLES).contains(&samples) {
         return fault("samples", format!("found {samples}, expected 1 to {MOST_SAMPLES}"));
     }
-    let pattern = match (mode.pattern, mode.seed) {
-        (Some(PatternName::Jitter), seed) => Pattern::Jitter { seed: seed.unwrap_or(0) },
-        (_, None) => Pattern::Regular,
-        (_, Some(_)) => {
-            return fault(
-                "seed",
-                "found a seed, expected it beside \"pattern\": \"jitter\"".into(),
-            );
-        }
+    let Some(pattern) = mode.pattern.unwrap_or_default().pattern(mode.seed) else {
+        return fault("seed", "found a seed, expected it beside \"pattern\": \"jitter\"".into());
     };
     let pixel_filter = mode.pixel_filter.unwrap_or_default();
     if pixel_filter == PixelFilter::Tent && samples < 2 {

@@ -3,7 +3,7 @@
 use super::measured::{Measured, PageMeasured, Table, Trial};
 use crate::compare::Difference;
 use render::Sampling;
-use render::film::{Nine, Pattern, PixelFilter};
+use render::film::{Pattern, PixelFilter, Supersample};
 
 const COLUMNS: [&str; 20] = [
     "page",
@@ -90,8 +90,8 @@ fn row(
 /// name of the thesis's supersampling.
 fn rays(sampling: Sampling) -> String {
     match sampling {
-        Sampling::Nine(Nine::Image) => "supersample=image".into(),
-        Sampling::Nine(Nine::Rays) => "supersample=rays".into(),
+        Sampling::Supersample(Supersample::Image) => "supersample=image".into(),
+        Sampling::Supersample(Supersample::Rays) => "supersample=rays".into(),
         Sampling::Grid { samples, pattern, pixel_filter } => {
             let mut text = samples.to_string();
             if let Pattern::Jitter { seed } = pattern {
@@ -172,6 +172,6 @@ mod tests {
         };
         assert_eq!(rays(Sampling::regular(3)), "3");
         assert_eq!(rays(jittered), "4 jitter 7 tent");
-        assert_eq!(rays(Sampling::Nine(Nine::Rays)), "supersample=rays");
+        assert_eq!(rays(Sampling::Supersample(Supersample::Rays)), "supersample=rays");
     }
 }

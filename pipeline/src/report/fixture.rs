@@ -2,7 +2,7 @@
 
 use super::measured::{Cost, Measured, Method, PageMeasured, Region, Table, Trial, Truth};
 use crate::compare::Difference;
-use render::film::Nine;
+use render::film::Supersample;
 use render::filter::Filter;
 use render::{Picture, Sampling};
 
@@ -44,7 +44,7 @@ pub fn page(name: &str, whole: &Law<'_>, regions: &[(&'static str, &Law<'_>)]) -
         for n in COUNTS {
             methods.push((Method { filter, sampling: Sampling::regular(n) }, f64::from(n)));
         }
-        methods.push((Method { filter, sampling: Sampling::Nine(Nine::Image) }, 2.0));
+        methods.push((Method { filter, sampling: Sampling::Supersample(Supersample::Image) }, 2.0));
     }
     let trials = methods.into_iter().enumerate().map(|(k, (method, n))| {
         let (error, cpu) = whole(method.filter, n);

@@ -2,7 +2,7 @@
 
 use super::measured::Method;
 use render::Sampling;
-use render::film::{Nine, Pattern, PixelFilter};
+use render::film::{Pattern, PixelFilter, Supersample};
 
 impl Method {
     /// Returns filter and rays as tables and sentences name them: `tent, 3 x 3 rays`.
@@ -15,8 +15,8 @@ impl Method {
     #[must_use]
     pub fn rays(&self) -> String {
         match self.sampling {
-            Sampling::Nine(Nine::Image) => "supersampled".into(),
-            Sampling::Nine(Nine::Rays) => "nine rays".into(),
+            Sampling::Supersample(Supersample::Image) => "supersampled".into(),
+            Sampling::Supersample(Supersample::Rays) => "nine rays".into(),
             Sampling::Grid { samples, pattern, pixel_filter } => {
                 let grid = match samples {
                     1 => "1 ray".to_string(),
@@ -38,7 +38,7 @@ impl Method {
             sampling @ Sampling::Grid { samples, .. } => {
                 (sampling == Sampling::regular(samples)).then_some(samples)
             }
-            Sampling::Nine(_) => None,
+            Sampling::Supersample(_) => None,
         }
     }
 }
@@ -58,8 +58,8 @@ mod tests {
         for (sampling, name, evenly) in [
             (Sampling::regular(1), "tent, 1 ray", Some(1)),
             (Sampling::regular(3), "tent, 3 x 3 rays", Some(3)),
-            (Sampling::Nine(Nine::Image), "tent, supersampled", None),
-            (Sampling::Nine(Nine::Rays), "tent, nine rays", None),
+            (Sampling::Supersample(Supersample::Image), "tent, supersampled", None),
+            (Sampling::Supersample(Supersample::Rays), "tent, nine rays", None),
             (jitter, "tent, 4 x 4 rays, jittered, weighed by a tent", None),
         ] {
             let method = Method { filter: Filter::Tent, sampling };

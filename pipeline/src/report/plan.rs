@@ -2,7 +2,7 @@
 
 use super::measured::Method;
 use render::Sampling;
-use render::film::{MOST_SAMPLES, Nine};
+use render::film::{MOST_SAMPLES, Supersample};
 use render::filter::Filter;
 use std::time::Duration;
 
@@ -33,7 +33,8 @@ impl Plan {
     #[must_use]
     pub fn full() -> Self {
         let [one, two, rest @ ..] = SAMPLES.map(Sampling::regular);
-        let thesis = [Sampling::Nine(Nine::Image), Sampling::Nine(Nine::Rays)];
+        let thesis =
+            [Sampling::Supersample(Supersample::Image), Sampling::Supersample(Supersample::Rays)];
         Self {
             size: (128, 128),
             filters: Filter::ALL.into(),
@@ -49,7 +50,8 @@ impl Plan {
     #[must_use]
     pub fn quick() -> Self {
         let samplings =
-            [Sampling::regular(1), Sampling::Nine(Nine::Rays), Sampling::regular(4)].into();
+            [Sampling::regular(1), Sampling::Supersample(Supersample::Rays), Sampling::regular(4)]
+                .into();
         Self {
             size: (64, 64),
             samplings,
@@ -65,8 +67,8 @@ impl Plan {
     /// form is left out.
     #[must_use]
     pub fn methods(&self) -> Vec<Method> {
-        let image = Sampling::Nine(Nine::Image);
-        let rays = Sampling::Nine(Nine::Rays);
+        let image = Sampling::Supersample(Supersample::Image);
+        let rays = Sampling::Supersample(Supersample::Rays);
         let twice = |filter: Filter, sampling| {
             !filter.wants_area() && sampling == rays && self.samplings.contains(&image)
         };
@@ -102,7 +104,8 @@ mod tests {
     fn a_quick_one_has_the_thesis_and_what_it_is_held_against() {
         let methods = Plan::quick().methods();
         assert_eq!(methods.len(), 6 * 3);
-        let nine = Method { filter: Filter::Tent, sampling: Sampling::Nine(Nine::Rays) };
+        let nine =
+            Method { filter: Filter::Tent, sampling: Sampling::Supersample(Supersample::Rays) };
         assert!(methods.contains(&nine) && Plan::quick().truth_samples >= 32);
     }
 }

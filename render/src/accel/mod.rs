@@ -28,6 +28,7 @@ use crate::shape::triangle::{self, ShearedRay};
 use crate::shape::{Shape, Start, SurfacePoint};
 use brute::Brute;
 use bvh::Bvh;
+use clap::ValueEnum;
 use glam::DVec3;
 use grid::Grids;
 use serde::Deserialize;
@@ -54,16 +55,21 @@ const ROUNDINGS: f64 = 64.0;
 /// not seen from a unit above it.
 const EYE_ROUNDINGS: f64 = 4.0;
 
-/// What finds the pieces that a ray may meet. All give the same picture, byte for byte.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
+/// What finds the pieces that a ray may meet. All give the same picture, byte for byte. The name of
+/// a structure on the command line and in JSON is that of the variant; the attribute `help` is the
+/// text of `--help`.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, ValueEnum)]
 #[serde(rename_all = "lowercase")]
 pub enum Structure {
     /// One tree of boxes, a bounding volume hierarchy.
     #[default]
+    #[value(help = "A tree of boxes, the fastest")]
     Bvh,
     /// The thesis's uniform grid for each object (5.2).
+    #[value(help = "A uniform grid for each object, as in the thesis")]
     Grid,
     /// None: every ray tries every piece.
+    #[value(help = "Nothing: every ray tries every triangle")]
     None,
 }
 
@@ -300,7 +306,7 @@ impl<'a> Accel<'a> {
             }
             shape => {
                 let left = ray.leaving.filter(|from| from.object == piece.object);
-                let start = Start { leaves: left.map(|from| from.triangle), skin: skin() };
+                let start = Start { left_face: left.map(|from| from.triangle), skin: skin() };
                 let (t, face) = shape.intersect(ray.origin, ray.direction, start)?;
                 Hit { t, piece: Piece { triangle: face, ..piece }, barycentric: [0.0; 2] }
             }

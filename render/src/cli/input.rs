@@ -1,4 +1,4 @@
-//! What is read: the scene and its meshes.
+//! The flags for the files that are read: the scene and its meshes.
 
 use super::UseError;
 use clap::Args;
@@ -34,7 +34,7 @@ struct MeshArgument {
 }
 
 impl InputArguments {
-    /// Checks that nothing is read twice and no mesh is given twice.
+    /// Checks that standard input is used once and that no mesh is given twice.
     pub fn check(&self) -> Result<(), UseError> {
         let scene = std::iter::once(("the scene".to_string(), self.scene()));
         let meshes =
@@ -51,14 +51,14 @@ impl InputArguments {
         Ok(())
     }
 
-    /// Enters the files that will be read.
+    /// Enters the files that will be read into the ledger, so that no output replaces them.
     pub fn expect(&self, ledger: &Ledger) -> Result<(), FileError> {
         ledger.expect(self.scene(), "the scene")?;
         let mut meshes = self.meshes.iter();
         meshes.try_for_each(|mesh| ledger.expect(&mesh.file, &format!("the mesh {}", mesh.name)))
     }
 
-    /// Reads the scene through the ledger, and does `then` with it while its files are at hand.
+    /// Reads the scene through the ledger, and calls `then` with the scene and its files.
     pub fn read_scene<T>(
         &self,
         ledger: &Ledger,
@@ -86,7 +86,7 @@ impl InputArguments {
         then(&draft, scene)
     }
 
-    /// What messages call the scene.
+    /// Returns the name of the scene in messages.
     pub fn name(&self) -> String {
         input::name_of(self.scene())
     }

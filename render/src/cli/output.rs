@@ -1,7 +1,7 @@
-//! What is written: the picture's file.
+//! The flags for the file that is written, and its writing.
 
 use super::{EncodeError, UseError};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use files::{FileError, Ledger, Output, Report, input, words};
 use render::Picture;
 use render::color::Encoding;
@@ -17,7 +17,7 @@ pub struct OutputArguments {
     output: Option<PathBuf>,
     /// The kind of file, if the extension does not tell
     #[arg(long)]
-    format: Option<FormatName>,
+    format: Option<Format>,
     /// How a PNG, and the codes of --pixel, are encoded: srgb, or a gamma from 0.1 to 10
     #[arg(long, value_name = "srgb|G", default_value = "srgb", value_parser = gamma_argument)]
     pub gamma: Encoding,
@@ -30,13 +30,7 @@ pub struct OutputArguments {
     no_clobber: bool,
 }
 
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum FormatName {
-    Png,
-    Exr,
-}
-
-/// A file that can be written.
+/// A picture file that the run may write.
 #[derive(Debug)]
 pub struct Target<'a> {
     path: &'a Path,
@@ -44,14 +38,15 @@ pub struct Target<'a> {
 }
 
 impl Target<'_> {
-    /// The kind of file.
+    /// Format of the file.
     pub fn format(&self) -> Format {
         self.format
     }
 }
 
 impl OutputArguments {
-    /// Where the picture goes, if it goes anywhere; finds out beforehand whether it can.
+    /// Returns the target of the picture, if there is one, after a check that the file can be written.
+    /// `prints` tells whether text goes to standard output.
     pub fn target(&self, prints: bool, ledger: &Ledger) -> Result<Option<Target<'_>>, Report> {
         let Some(path) = &self.output else { return Ok(None) };
         let to_stdout = input::is_stdin(path);
@@ -62,9 +57,7 @@ impl OutputArguments {
             return Err(UseError::BinaryToTerminal.into());
         }
         let format = match (self.format, Format::of(path)) {
-            (Some(FormatName::Png), _) => Format::Png,
-            (Some(FormatName::Exr), _) => Format::Exr,
-            (None, Some(format)) => format,
+            (Some(format), _) | (None, Some(format)) => format,
             (None, None) => return Err(UseError::UnknownFormat(path.display().to_string()).into()),
         };
         if format == Format::Png && !self.layers.is_empty() {
@@ -74,12 +67,12 @@ impl OutputArguments {
         Ok(Some(Target { path, format }))
     }
 
-    /// The files of a run, with leave to replace an output or not.
+    /// Returns the ledger of the run's files, which may or may not replace an existing output.
     pub fn ledger(&self) -> Ledger {
         Ledger::new(!self.no_clobber)
     }
 
-    /// The layers, each once, in the order of the list that the help gives.
+    /// Returns the layers, each once, in the order of the help text.
     pub fn layers(&self) -> Vec<Layer> {
         let mut layers = self.layers.clone();
         layers.sort_unstable();
@@ -98,7 +91,7 @@ impl OutputArguments {
     }
 }
 
-/// Prints text on standard output; what would steer a terminal is spelled out.
+/// Prints text on standard output, with control characters spelled out.
 pub fn print(text: &str) -> Result<(), FileError> {
     Output::create(Path::new("-"), true)?.commit_all(words::printed(text).as_bytes())
 }

@@ -1,9 +1,9 @@
-//! How large the picture is, which part of it is made, and of which rays.
+//! The flags for the size of the picture, its crop, and the rays of a pixel.
 
 use super::UseError;
-use clap::{Args, ValueEnum};
+use clap::Args;
 use render::Sampling;
-use render::film::{Crop, MOST_SAMPLES, Nine, Pattern, PixelFilter, crop};
+use render::film::{Crop, MOST_SAMPLES, PatternName, PixelFilter, Supersample, crop};
 
 #[derive(Debug, Args)]
 pub struct SamplingArguments {
@@ -24,13 +24,13 @@ pub struct SamplingArguments {
     seed: Option<u64>,
     /// What the rays of a pixel count for
     #[arg(long, value_name = "SHAPE", default_value = "box")]
-    pixel_filter: PixelFilterName,
+    pixel_filter: PixelFilter,
     /// In place of --samples: twice the size, of which each pixel takes its middle with weight 1/4,
     /// its sides with 1/8 and its corners with 1/16. Textures are averaged for each ray (image), or
     /// for the nine rays of a pixel together (rays)
     #[arg(long, value_name = "HOW", num_args = 0..=1, require_equals = true,
         default_missing_value = "image", conflicts_with_all = ["samples", "pattern", "seed", "pixel_filter"])]
-    supersample: Option<NineName>,
+    supersample: Option<Supersample>,
     /// Print what this pixel is made of: the tree of reflections and refractions of the ray in its
     /// middle, and its colour. Column and row count from 0, in the whole picture
     #[arg(long, value_name = "X,Y", value_parser = crop::pixel)]
@@ -38,28 +38,6 @@ pub struct SamplingArguments {
     /// With --pixel: the trees of all rays that count in the pixel
     #[arg(long, requires = "pixel")]
     pub all_samples: bool,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum PatternName {
-    /// In the middle
-    Regular,
-    /// Anywhere, by a hash of the ray's number and --seed
-    Jitter,
-}
-
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum PixelFilterName {
-    /// Those in the pixel, equally
-    Box,
-    /// By a tent that reaches to the middles of the neighbouring pixels; N is at least 2 for it
-    Tent,
-}
-
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum NineName {
-    Image,
-    Rays,
 }
 
 impl SamplingArguments {
@@ -78,22 +56,15 @@ impl SamplingArguments {
         }
     }
 
-    /// How a pixel is made of rays.
+    /// Returns number, position and weight of the rays of a pixel.
     pub fn sampling(&self) -> Result<Sampling, UseError> {
-        match self.supersample {
-            Some(NineName::Image) => return Ok(Sampling::Nine(Nine::Image)),
-            Some(NineName::Rays) => return Ok(Sampling::Nine(Nine::Rays)),
-            None => {}
+        if let Some(nine) = self.supersample {
+            return Ok(Sampling::Supersample(nine));
         }
-        let pattern = match (self.pattern, self.seed) {
-            (PatternName::Jitter, seed) => Pattern::Jitter { seed: seed.unwrap_or(0) },
-            (PatternName::Regular, None) => Pattern::Regular,
-            (PatternName::Regular, Some(_)) => return Err(UseError::SeedOfNothing),
-        };
+        let pattern = self.pattern.pattern(self.seed).ok_or(UseError::SeedOfNothing)?;
         let pixel_filter = match self.pixel_filter {
-            PixelFilterName::Box => PixelFilter::Box,
-            PixelFilterName::Tent if self.samples < 2 => return Err(UseError::TentOfOne),
-            PixelFilterName::Tent => PixelFilter::Tent,
+            PixelFilter::Tent if self.samples < 2 => return Err(UseError::TentOfOne),
+            filter @ (PixelFilter::Box | PixelFilter::Tent) => filter,
         };
         Ok(Sampling::Grid { samples: self.samples, pattern, pixel_filter })
     }

@@ -1,4 +1,4 @@
-//! Threads, and what is said about the work.
+//! The flags for threads, memory, statistics and the progress bar.
 
 use super::UseError;
 use clap::builder::TypedValueParser;
@@ -11,7 +11,7 @@ use render::stats::Stats;
 pub struct WorkArguments {
     /// What finds the surfaces that rays hit; the picture is the same
     #[arg(long, value_name = "STRUCTURE", default_value = "bvh")]
-    accel: AccelName,
+    pub accel: Structure,
     /// Worker threads, 1 to 1024 [default: one for each core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024).map(usize::from))]
     threads: Option<usize>,
@@ -28,16 +28,6 @@ pub struct WorkArguments {
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
-enum AccelName {
-    /// A tree of boxes, the fastest
-    Bvh,
-    /// A uniform grid for each object, as in the thesis
-    Grid,
-    /// Nothing: every ray tries every triangle
-    None,
-}
-
-#[derive(Debug, Clone, Copy, ValueEnum)]
 enum StatsForm {
     /// A table
     Text,
@@ -46,21 +36,14 @@ enum StatsForm {
 }
 
 impl WorkArguments {
-    pub fn accel(&self) -> Structure {
-        match self.accel {
-            AccelName::Bvh => Structure::Bvh,
-            AccelName::Grid => Structure::Grid,
-            AccelName::None => Structure::None,
-        }
-    }
-
+    /// Starts the worker threads.
     pub fn pool(&self) -> Result<rayon::ThreadPool, UseError> {
         let threads = self.threads.unwrap_or(0);
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         pool.map_err(|error| UseError::Threads(threads, error))
     }
 
-    /// Says what `--stats` asks for.
+    /// Prints the statistics that `--stats` asks for, and warns of pixels that are not finite.
     pub fn print_stats(&self, stats: &Stats) {
         if stats.not_finite > 0 {
             let count = stats.not_finite;

@@ -6,18 +6,29 @@
 
 use super::Picture;
 use crate::color::Encoding;
+use clap::ValueEnum;
 use exr::prelude::{AnyChannel, AnyChannels, FlatSamples, Image, SmallVec, WritableImage as _};
 use image::error::EncodingError;
 use image::{ImageError, ImageFormat, Rgb, Rgb32FImage, RgbImage};
 use std::io::Cursor;
 use std::path::Path;
 
-/// The format of a picture file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// The format of a picture file. Its name on the command line is that of the variant, and is also
+/// the extension of its files.
+///
+/// A new format provides, and the compiler leads to each `match`:
+///
+/// - its bytes ([`encode`]), or an error if the picture is too large for the format;
+/// - the memory that encoding takes (`film/memory.rs`);
+/// - whether it holds layers (`cli/output.rs` refuses `--layers` for PNG);
+/// - tests: a decoder of another crate reads back the same pixels, also of a picture of 1 x 1 pixels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Format {
     /// PNG: 24 bits per pixel, encoded with sRGB or a gamma.
+    #[value(help = None::<&'static str>)]
     Png,
     /// EXR: linear 32-bit floats.
+    #[value(help = None::<&'static str>)]
     Exr,
 }
 
@@ -26,11 +37,7 @@ impl Format {
     /// extension is neither `png` nor `exr`.
     #[must_use]
     pub fn of(path: &Path) -> Option<Self> {
-        match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
-            "png" => Some(Self::Png),
-            "exr" => Some(Self::Exr),
-            _ => None,
-        }
+        Self::from_str(path.extension()?.to_str()?, true).ok()
     }
 }
 

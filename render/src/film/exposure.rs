@@ -2,7 +2,7 @@
 
 use super::crop::Crop;
 use super::layer::Layer;
-use super::sampling::{Nine, Sampling};
+use super::sampling::{Sampling, Supersample};
 use super::{Picture, Settings};
 use crate::color::Color;
 use crate::footprint::neighbours::{ALL, Neighbourhood};
@@ -84,7 +84,9 @@ impl Exposure<'_> {
             shading: ShadeCounts::default(),
         };
         match self.settings.sampling {
-            Sampling::Nine(Nine::Rays) => self.expose_nine(tile, &mut exposed, witness),
+            Sampling::Supersample(Supersample::Rays) => {
+                self.expose_nine(tile, &mut exposed, witness)
+            }
             _ => self.expose_rows(tile, &mut exposed, witness),
         }
         let whole = (self.settings.sampling.whole() as f64).powi(2);

@@ -18,9 +18,9 @@ pub mod sampling;
 pub use crop::Crop;
 pub use exposure::Witness;
 pub use layer::Layer;
-pub use pattern::Pattern;
+pub use pattern::{Pattern, PatternName};
 pub use picture::Picture;
-pub use sampling::{MOST_SAMPLES, Nine, PixelFilter, Sampling};
+pub use sampling::{MOST_SAMPLES, PixelFilter, Sampling, Supersample};
 
 use crate::accel::Structure;
 use crate::filter::Filter;
@@ -304,9 +304,9 @@ mod tests {
             (Filter::Point, grid(2, Pattern::Regular, PixelFilter::Tent)),
             (Filter::Box, grid(2, jitter, PixelFilter::Tent)),
             (Filter::Tent, grid(1, jitter, PixelFilter::Box)),
-            (Filter::Tent, Sampling::Nine(Nine::Image)),
-            (Filter::Tent, Sampling::Nine(Nine::Rays)),
-            (Filter::Bilinear, Sampling::Nine(Nine::Rays)),
+            (Filter::Tent, Sampling::Supersample(Supersample::Image)),
+            (Filter::Tent, Sampling::Supersample(Supersample::Rays)),
+            (Filter::Bilinear, Sampling::Supersample(Supersample::Rays)),
         ]
         .map(|(filter, sampling)| Settings {
             sampling,

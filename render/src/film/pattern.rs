@@ -1,6 +1,8 @@
 //! Positions of the samples within their cells of the sampling lattice.
 
+use clap::ValueEnum;
 use glam::DVec2;
+use serde::Deserialize;
 
 /// Position of a sample within its cell of the sampling lattice.
 ///
@@ -18,6 +20,33 @@ pub enum Pattern {
         /// Seed of the hash. Different seeds give different patterns.
         seed: u64,
     },
+}
+
+/// The name of a [`Pattern`], on the command line and in JSON. The attribute `help` is the text of
+/// `--help`.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, ValueEnum)]
+#[serde(rename_all = "snake_case")]
+pub enum PatternName {
+    /// The name of [`Pattern::Regular`].
+    #[default]
+    #[value(help = "In the middle")]
+    Regular,
+    /// The name of [`Pattern::Jitter`].
+    #[value(help = "Anywhere, by a hash of the ray's number and --seed")]
+    Jitter,
+}
+
+impl PatternName {
+    /// Returns the pattern of this name. Without a seed, jitter has the seed 0. Returns `None` if a
+    /// seed is given for a pattern that has none.
+    #[must_use]
+    pub fn pattern(self, seed: Option<u64>) -> Option<Pattern> {
+        match (self, seed) {
+            (Self::Jitter, seed) => Some(Pattern::Jitter { seed: seed.unwrap_or(0) }),
+            (Self::Regular, None) => Some(Pattern::Regular),
+            (Self::Regular, Some(_)) => None,
+        }
+    }
 }
 
 impl Pattern {

@@ -17,6 +17,7 @@
 //! does not depend on tiles.
 
 use super::pattern::Pattern;
+use clap::ValueEnum;
 use glam::DVec2;
 use serde::Deserialize;
 use std::ops::Range;
@@ -46,37 +47,53 @@ pub enum Sampling {
     /// a pixel, since otherwise the small picture would be moved. Pixel `k` uses the columns `2k`,
     /// `2k + 1` and `2k + 2`, and shares the outer two with its neighbours; rows likewise. Samples
     /// on the border of the film and beyond it are traced like all others.
-    Nine(Nine),
+    Supersample(Supersample),
 }
 
-/// Weights of a grid's samples in a pixel.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
+/// Weights of a grid's samples in a pixel. The name on the command line and in JSON is that of the
+/// variant; the attribute `help` is the text of `--help`.
+///
+/// A new pixel filter provides, and the compiler leads to each `match`:
+///
+/// - its range of samples ([`Sampling::under`]) and its weights ([`Sampling::weight`]): products of
+///   whole numbers along both axes, none negative, whose sum over a pixel is [`Sampling::whole`]
+///   along each axis;
+/// - a weight in a mirrored column that equals the weight in the column itself;
+/// - if it needs more than one sample, a complaint in `cli/sampling.rs` and in pipeline's `job/mode.rs`;
+/// - tests: the three tests below take the filter from `all()`; a constant picture stays constant.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, ValueEnum)]
 #[serde(rename_all = "snake_case")]
 pub enum PixelFilter {
     /// Equal weights for the samples in the pixel, and none for others.
     #[default]
+    #[value(help = "Those in the pixel, equally")]
     Box,
     /// A tent that reaches to the middles of the neighbouring pixels. With one sample in each pixel
     /// the tent covers only the pixel's own sample.
+    #[value(
+        help = "By a tent that reaches to the middles of the neighbouring pixels; N is at least 2 for it"
+    )]
     Tent,
 }
 
 /// Choice of the neighbours that span the footprints of a pixel's nine rays; see
-/// [`Sampling::Nine`].
+/// [`Sampling::Supersample`].
 ///
 /// With a filter that averages over points only, both choices give the same picture to the last
 /// bit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, ValueEnum)]
 #[serde(rename_all = "snake_case")]
-pub enum Nine {
+pub enum Supersample {
     /// The picture of twice the size is rendered like any other (thesis 4.5.4). Each of its samples
     /// is averaged over the box of its own eight neighbours, half a pixel away.
+    #[value(help = None::<&'static str>)]
     Image,
     /// The nine rays of a pixel are each other's neighbours (thesis 4.5.1: "row 1 and row 2 must be
     /// cleared and row 3 must be shifted to the place of row 1"). All nine are averaged over the
     /// box that they span together, which is the pixel. Textures are sharper than with
-    /// [`Nine::Image`]. Every pixel shades nine trees and shares none of their colours with its
+    /// [`Supersample::Image`]. Every pixel shades nine trees and shares none of their colours with its
     /// neighbours.
+    #[value(help = None::<&'static str>)]
     Rays,
 }
 
@@ -92,7 +109,7 @@ impl Sampling {
     pub fn per_pixel(self) -> u32 {
         match self {
             Self::Grid { samples, .. } => samples,
-            Self::Nine(_) => 2,
+            Self::Supersample(_) => 2,
         }
     }
 
@@ -105,7 +122,7 @@ impl Sampling {
             Self::Grid { samples, pattern, .. } => {
                 (corner + pattern.offset(x, y)) / f64::from(samples)
             }
-            Self::Nine(_) => 0.5 * corner,
+            Self::Supersample(_) => 0.5 * corner,
         }
     }
 
@@ -126,7 +143,7 @@ impl Sampling {
         match self {
             Self::Grid { pixel_filter: PixelFilter::Box, .. } => start..end,
             Self::Grid { pixel_filter: PixelFilter::Tent, .. } => start - n / 2..end + n / 2,
-            Self::Nine(_) => start..end + 1,
+            Self::Supersample(_) => start..end + 1,
         }
     }
 
@@ -149,7 +166,7 @@ impl Sampling {
             Self::Grid { pixel_filter: PixelFilter::Box, .. } => 1,
             // Distance of the middles of the sample's cell and of the pixel, in halves of a cell.
             Self::Grid { pixel_filter: PixelFilter::Tent, .. } => 2 * n - (2 * into + 1 - n).abs(),
-            Self::Nine(_) => 2 - (into - 1).abs(),
+            Self::Supersample(_) => 2 - (into - 1).abs(),
         }
     }
 
@@ -160,7 +177,7 @@ impl Sampling {
         match self {
             Self::Grid { pixel_filter: PixelFilter::Box, .. } => n,
             Self::Grid { pixel_filter: PixelFilter::Tent, .. } => 2 * n * n,
-            Self::Nine(_) => 4,
+            Self::Supersample(_) => 4,
         }
     }
 }
@@ -170,7 +187,10 @@ mod tests {
     use super::*;
 
     fn all() -> Vec<Sampling> {
-        let mut all = vec![Sampling::Nine(Nine::Image), Sampling::Nine(Nine::Rays)];
+        let mut all = vec![
+            Sampling::Supersample(Supersample::Image),
+            Sampling::Supersample(Supersample::Rays),
+        ];
         for samples in [1, 2, 3, 4, 5, 8, 255, 256] {
             for pixel_filter in [PixelFilter::Box, PixelFilter::Tent] {
                 let pattern = Pattern::Regular;
@@ -210,7 +230,7 @@ mod tests {
 
     #[test]
     fn the_nine_weights_are_those_of_the_thesis() {
-        let nine = Sampling::Nine(Nine::Image);
+        let nine = Sampling::Supersample(Supersample::Image);
         let at =
             |x, y| (nine.weight(7, x) * nine.weight(4, y)) as f64 / (nine.whole().pow(2) as f64);
         let (x, y) = (nine.middle(7), nine.middle(4));

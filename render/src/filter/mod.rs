@@ -29,26 +29,43 @@ pub use table::PrefilteredTable;
 use crate::color::Color;
 use crate::footprint::Footprint;
 use crate::texture::Texture;
+use clap::ValueEnum;
 use glam::DVec2;
 use serde::Deserialize;
 use std::fmt;
 
-/// A method of averaging a texture.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+/// A method of averaging a texture. Its name on the command line, in JSON and in reports is that of
+/// the variant; the attribute `help` is the text of `--help`.
+///
+/// A new filter provides, and the compiler leads to each `match`:
+///
+/// - a variant here and in [`Filter::ALL`], with its row in the table above;
+/// - [`Filter::wants_area`], [`Filter::order`] and [`Filter::bytes_for`], which counts exactly the
+///   bytes that [`FilteredTexture::new`] allocates;
+/// - the data and the average, in a file of this folder;
+/// - tests: a constant texture stays constant; the average equals a direct sum over the texels; it
+///   does not depend on whole periods of a texture that repeats (tests below and in `table`).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, ValueEnum)]
 #[serde(rename_all = "snake_case")]
 pub enum Filter {
     /// The texel at the middle of the footprint.
+    #[value(help = "The texel at the point")]
     Point,
     /// Linear interpolation between the four texels around the middle of the footprint.
+    #[value(help = "Four texels interpolated at the point")]
     Bilinear,
     /// Linear interpolation between texels and levels of a pyramid, over a square about as wide as
     /// the footprint.
+    #[value(help = "Eight texels of a pyramid of smaller pictures, interpolated (mip-mapping)")]
     Mip,
     /// A box over the footprint (summed areas, n = 1).
+    #[value(help = "The average under a box over the footprint (summed areas, n = 1)")]
     Box,
     /// A tent over the footprint (n = 2).
+    #[value(help = "The average under a tent over the footprint (repeated integration, n = 2)")]
     Tent,
     /// A quadratic B-spline over the footprint (n = 3).
+    #[value(help = "The average under a quadratic B-spline over the footprint (n = 3)")]
     Quadratic,
 }
 
@@ -89,14 +106,8 @@ impl Filter {
 
 impl fmt::Display for Filter {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Point => "point",
-            Self::Bilinear => "bilinear",
-            Self::Mip => "mip",
-            Self::Box => "box",
-            Self::Tent => "tent",
-            Self::Quadratic => "quadratic",
-        })
+        let value = self.to_possible_value();
+        f.write_str(value.as_ref().map_or("", |value| value.get_name()))
     }
 }
 

@@ -30,6 +30,14 @@ pub struct Bump {
 }
 
 /// The perturbation of a relief.
+///
+/// A new relief provides, and the compiler leads to each `match`:
+///
+/// - a height and its exact gradient, both continuous, or a vector that is added to the normal;
+/// - its key in scene files: a field of [`BumpFile`](crate::scene::file::bump::BumpFile) and a variant
+///   of `ReliefKind` there;
+/// - tests: the gradient equals differences of the height, and the normal is that of the displaced
+///   surface as the strength goes to 0 (`tests.rs` of this folder).
 #[derive(Debug, Clone, PartialEq)]
 pub enum Relief {
     /// The fractal sum of noise as a height.
@@ -61,7 +69,10 @@ impl Bump {
     /// Returns whether the relief uses texture coordinates.
     #[must_use]
     pub fn wants_uv(&self) -> bool {
-        matches!(self.relief, Relief::Picture(_))
+        match self.relief {
+            Relief::Picture(_) => true,
+            Relief::Noise(_) | Relief::Turbulence(_) | Relief::Wall(_) | Relief::Dnoise(_) => false,
+        }
     }
 
     /// Returns the perturbed unit normal at `place`, in scene space. The normal is unchanged where

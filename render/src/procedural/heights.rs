@@ -3,7 +3,7 @@
 //! The surface `h(s, t)` consists of cubic B-splines through the middle of each texel. Its first
 //! and second derivatives are continuous, so a bump made of it has no creases. The coefficients are
 //! computed from the texels by the recursive filter of M. Unser, A. Aldroubi and M. Eden, "B-spline
-//! signal processing: part II" (1993). A depth picture of a swept surface is read in the same way,
+//! signal processing: part II" (1993). A depth picture of a swept surface is read by the same rule,
 //! so both reliefs agree.
 
 use glam::DVec2;

@@ -72,6 +72,16 @@ pub struct Solid {
 }
 
 /// The pattern of a solid texture, defined in the texture's own space.
+///
+/// A new pattern provides, and the compiler leads to each `match`:
+///
+/// - a file in this folder with the pattern and its `color`, a linear RGB that is finite at every
+///   point, also far from the origin;
+/// - a variant here, and its arm in [`Solid::color`];
+/// - its keys in scene files: a struct in `scene/file/solid.rs` and a variant of
+///   [`TextureKind`](crate::scene::file::TextureKind), which states what a new key provides;
+/// - tests: the pattern against its formula (`tests.rs` of this folder), and its complaints
+///   (`render/tests/solid_complaints.rs`); a texture in examples/scenes shows the pattern.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Pattern {
     /// Veined stone.

@@ -1,20 +1,20 @@
-//! What rays see that leave the scene.
+//! The background, which is seen by rays that leave the scene.
 
 use super::AngleRamp;
 use crate::color::Color;
 use glam::DVec3;
 
-/// What is endlessly far away. It has no texture: a ray sees one direction of it.
+/// Colours at infinite distance. A ray sees the colour of its direction alone; nothing is averaged.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Background {
-    /// The same in all directions.
+    /// One colour in all directions, linear RGB.
     Uniform(Color),
-    /// Colours by degrees above the horizon, -90 to 90; y points up.
+    /// Colours by the elevation above the horizon, -90 to 90 degrees; y points up.
     ByElevation(AngleRamp),
 }
 
 impl Background {
-    /// Its colour in a direction, unit.
+    /// Returns the colour in a direction, linear RGB. `direction` is unit.
     #[must_use]
     pub fn toward(&self, direction: DVec3) -> Color {
         match self {

@@ -1,14 +1,18 @@
-//! The camera: from a place on the film to a ray.
+//! The camera, which turns positions on the film into rays.
 
 use crate::ray::Ray;
 use glam::{DVec2, DVec3};
+
+/// Sine of the angle between `up` and the view below which both count as parallel. A smaller number
+/// would leave few digits for the direction across. A larger number would refuse valid cameras.
+const PARALLEL: f64 = 1e-9;
 
 /// A pinhole camera.
 ///
 /// ```text
 ///   film, in pixels        (0, 0) is the upper left corner of the picture,
 ///   +------> x             pixel (i, j) covers [i, i+1) x [j, j+1);
-///   |                      places outside the picture have rays too
+///   |                      positions outside the picture have rays too
 ///   v y
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,20 +22,19 @@ pub struct Camera {
     right: DVec3,
     up: DVec3,
     forward: DVec3,
-    /// Half the picture's height at distance 1.
+    /// Half the picture's height at distance 1, positive.
     half_height: f64,
 }
 
 impl Camera {
-    /// A camera at `eye` that looks at `target`; `field_of_view` is the angle in radians between
-    /// the lower and the upper edge, in (0, pi). Nothing when the eye is at the target or `up`
-    /// points along the view.
+    /// Creates a camera at `eye` that looks at `target`. `field_of_view` is the angle between the
+    /// lower and the upper edge of the picture, in radians, in (0, pi). Returns `None` if the eye is
+    /// at the target, or if `up` points along the view.
     #[must_use]
     pub fn new(eye: DVec3, target: DVec3, up: DVec3, field_of_view: f64) -> Option<Self> {
         let forward = (target - eye).try_normalize()?;
         let across = forward.cross(up.try_normalize()?);
-        // An up vector this near the view leaves no digits for the direction across.
-        if across.length() < 1e-9 {
+        if across.length() < PARALLEL {
             return None;
         }
         let right = across.normalize();
@@ -39,17 +42,17 @@ impl Camera {
         Some(Self { eye, right, up: right.cross(forward), forward, half_height })
     }
 
-    /// Where it stands.
+    /// Position of the camera, in scene space.
     #[must_use]
     pub fn eye(&self) -> DVec3 {
         self.eye
     }
 
-    /// The ray through a place on a film of `size` pixels.
+    /// Returns the ray through a position on a film of `size` pixels.
     #[must_use]
-    pub fn ray(&self, place: DVec2, size: DVec2) -> Ray {
-        let x = (2.0 * place.x - size.x) / size.y * self.half_height;
-        let y = (size.y - 2.0 * place.y) / size.y * self.half_height;
+    pub fn ray(&self, position: DVec2, size: DVec2) -> Ray {
+        let x = (2.0 * position.x - size.x) / size.y * self.half_height;
+        let y = (size.y - 2.0 * position.y) / size.y * self.half_height;
         let direction = self.forward + x * self.right + y * self.up;
         Ray::from_eye(self.eye, direction.normalize())
     }

@@ -36,7 +36,7 @@
 //! Colours are linear: one number for grey or `[red, green, blue]`. Lengths are in any one unit,
 //! and axes are right-handed. The fields below document the meaning, range and default of each key.
 //! The JSON Schema that `render --emit-schema` prints is made of them. The absolute value of a
-//! number without another range is at most [`LARGEST`](super::schema::LARGEST).
+//! number without another range is at most [`LARGEST`](super::limits::LARGEST).
 //!
 //! Of a ray from the eye and all rays that follow from it, only the first 8191 hits count: as many
 //! as a `max_depth` of 12 can have.
@@ -115,6 +115,7 @@
 mod background;
 pub mod bump;
 mod color;
+mod keywords;
 mod light;
 mod material;
 mod object;
@@ -129,9 +130,9 @@ pub use material::{MaterialFile, ThinFilmFile};
 pub use object::{BoxFile, MeshFile, ObjectFile, PlaneFile, RectangleFile};
 pub use object::{RotateDegFile, SphereFile, StepFile, SuperquadricFile};
 pub use part::{FORMAT as PART_FORMAT, Lists, PartFile};
-pub use texture::TextureFile;
+pub use texture::{TextureFile, TextureKind};
 
-use super::schema;
+use super::limits;
 use files::names::each_name_once;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -174,11 +175,11 @@ pub struct SceneFile {
     pub lights: Vec<LightFile>,
     /// Largest number of reflections and refractions of a ray: 0 to 64; 12 if left out.
     #[serde(default = "twelve")]
-    #[schemars(transform = schema::range(0..=schema::DEEPEST))]
+    #[schemars(transform = keywords::range(0..=limits::DEEPEST))]
     pub max_depth: u32,
     /// Smallest weight in its pixel with which a ray is followed: 0 to 1; 0.0001 if left out.
     #[serde(default = "one_ten_thousandth")]
-    #[schemars(transform = schema::range(0.0..=1.0))]
+    #[schemars(transform = keywords::range(0.0..=1.0))]
     pub min_weight: f64,
     /// Textures of surfaces, pictures or solids, by names of your choice; none if left out.
     #[serde(default, deserialize_with = "each_name_once")]
@@ -203,7 +204,7 @@ pub struct CameraFile {
     pub up: [f64; 3],
     /// Angle between the lower and the upper edge of the picture, in degrees, above 0 and below
     /// 180.
-    #[schemars(transform = schema::between(0.0, 180.0))]
+    #[schemars(transform = keywords::between(0.0, 180.0))]
     pub fov_deg: f64,
 }
 

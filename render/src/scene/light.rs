@@ -1,61 +1,75 @@
-//! Lights.
+//! Lights, as one closed enum.
 
 use crate::color::Color;
 use glam::DVec3;
 
-/// A light; neither kind has a size, so that shadows have sharp edges.
+/// A light. Lights have no size, so that shadows have sharp edges.
+///
+/// A new light provides, and the compiler leads to each `match`:
+///
+/// - a struct in this file and answers of [`Light`]: colour, direction, distance and the light that
+///   arrives at a point. The light that arrives is finite, also at the light's own position;
+/// - its key in scene files: a variant of [`LightFile`](crate::scene::file::LightFile), and the check
+///   of each range in `scene/read/lights.rs`;
+/// - a line of `--check` (`scene/check/inventory.rs`), and whether it can be shut in (`check/lights.rs`);
+/// - the start of its shadow rays (`shade/shadow.rs`, `trace/volume.rs`). A light with a size also needs a
+///   sample number in `Shader::shade`, which today has none;
+/// - tests: a closed form of the light on a plane (`render/tests/light.rs`), and its complaints
+///   (`render/tests/complaints.rs`).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Light {
-    /// At a point.
+    /// A light at a point.
     Point(PointLight),
-    /// Far away.
+    /// A light at infinite distance.
     Directional(DirectionalLight),
 }
 
-/// A light at a point. A surface exactly there is not lit by it.
+/// A light at a point. A surface point at exactly this position is not lit by it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PointLight {
-    /// Where it is.
+    /// Position of the light, in scene space.
     pub position: DVec3,
-    /// How bright it is, where its fall-off is 1.
+    /// Linear RGB where the fall-off is 1; each channel at least 0.
     pub color: Color,
-    /// How it fades with distance; without one it is equally bright at every distance, since the
-    /// thesis names no fall-off.
+    /// Fading with distance. Without a fall-off the light is equally bright at every distance, since
+    /// the thesis names no fall-off.
     pub falloff: Option<Falloff>,
 }
 
-/// A light as far away as the sun: the same direction and brightness everywhere.
+/// A light at infinite distance, such as the sun. Direction and brightness are equal everywhere.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DirectionalLight {
     /// Unit direction toward the light.
     pub toward: DVec3,
-    /// How bright it is.
+    /// Linear RGB; each channel at least 0.
     pub color: Color,
 }
 
-/// How a light fades: `1 / (constant + linear x + quadratic x^2)` with `x = distance / reference`.
+/// Fading of a light: the factor `1 / (constant + linear x + quadratic x^2)` with
+/// `x = distance / reference`.
 ///
-/// The inverse square is `quadratic` alone; the light's colour is then seen at the distance
-/// `reference`. Nothing is made brighter than [`BRIGHTEST`] times the light's colour, so that a
-/// light that lies on a surface leaves every colour finite.
+/// The inverse square has `quadratic` alone; the light then has its own colour at the distance
+/// `reference`. The factor is at most [`BRIGHTEST`], so that a light on a surface leaves every colour
+/// finite.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Falloff {
-    /// Not negative; of the three at least one is more than 0.
+    /// Constant term, at least 0. At least one of the three terms is above 0.
     pub constant: f64,
-    /// Not negative.
+    /// Coefficient of `x`, at least 0.
     pub linear: f64,
-    /// Not negative.
+    /// Coefficient of `x^2`, at least 0.
     pub quadratic: f64,
-    /// Distance at which `x` is 1, in the scene's unit of length; positive.
+    /// Distance at which `x` is 1, in scene units, positive.
     pub reference: f64,
 }
 
-/// How much brighter than its colour a light becomes near to it: as much as the inverse square has
-/// at a thousandth of its reference distance, where a light without size is no picture of a lamp.
+/// Largest factor of a fall-off. The inverse square reaches this factor at a thousandth of its
+/// reference distance. A larger factor would let one highlight outshine the picture. A smaller factor
+/// would show as a flat spot around lights near a surface.
 pub const BRIGHTEST: f64 = 1e6;
 
 impl Light {
-    /// How bright it is, where it has not faded.
+    /// Colour of the light before it fades, linear RGB.
     #[must_use]
     pub fn color(&self) -> Color {
         match self {
@@ -64,7 +78,7 @@ impl Light {
         }
     }
 
-    /// Unit direction from a point toward the light; no direction, zero, where the light is.
+    /// Returns the unit direction from a point toward the light, or zero at the light's position.
     #[must_use]
     pub fn toward(&self, point: DVec3) -> DVec3 {
         match self {
@@ -73,7 +87,8 @@ impl Light {
         }
     }
 
-    /// How far it is from a point; infinitely for a directional light.
+    /// Returns the distance from a point to the light, in scene units; infinite for a directional
+    /// light.
     #[must_use]
     pub fn distance(&self, point: DVec3) -> f64 {
         match self {
@@ -82,7 +97,7 @@ impl Light {
         }
     }
 
-    /// What arrives at a point when nothing is on the way.
+    /// Returns the light that arrives at a point if nothing is between, linear RGB.
     #[must_use]
     pub fn arriving(&self, point: DVec3) -> Color {
         match self {
@@ -96,7 +111,7 @@ impl Light {
 }
 
 impl Falloff {
-    /// What a light is multiplied by at a distance, in `[0, BRIGHTEST]`.
+    /// Returns the factor at a distance in scene units, in `[0, BRIGHTEST]`.
     #[must_use]
     pub fn at(&self, distance: f64) -> f64 {
         let x = distance / self.reference;

@@ -1,49 +1,52 @@
-//! What a surface is made of (thesis 4.5; Whitted 1980).
+//! Materials (thesis 4.5; Whitted 1980).
 
 use super::AngleRamp;
 use crate::color::Color;
 use std::sync::Arc;
 
-/// How a surface answers light, and what it is filled with.
+/// The reflection and transmission of light by a surface, and the medium inside.
 ///
 /// The local colour is `C * (ambient * La + diffuse * sum F L (N.L)) + specular * sum F L (R.L)^shininess`
-/// with `C` the texture, or the material's colour, or their product, and `F` the colour that
-/// [`Material::by_angle`] has at the light's angle; reflected and refracted light come on top with
-/// the weights below.
+/// where `C` is the material's colour times its texture, `La` the ambient light, and `F` the colour of
+/// [`Material::by_angle`] at the light's angle. Reflected and refracted light are added with the
+/// weights below.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Material {
-    /// Linear colour of the surface; multiplies a texture.
+    /// Colour of the surface, linear RGB, each channel at least 0. A texture is multiplied by it.
     pub color: Color,
-    /// Share of the ambient light, in `[0, 1]`.
+    /// Share of the ambient light that is reflected, in `[0, 1]`.
     pub ambient: f64,
-    /// Share of diffuse light, in `[0, 1]`.
+    /// Share of the light of lights that is reflected diffusely, in `[0, 1]`.
     pub diffuse: f64,
-    /// Strength of the highlight, in `[0, 1]`; white, not tinted by the surface.
+    /// Strength of the highlight, in `[0, 1]`. The highlight is not multiplied by the surface's
+    /// colour.
     pub specular: f64,
-    /// Phong's exponent: the larger, the smaller the highlight.
+    /// Phong's exponent, 1 to 1e6. A larger exponent makes a smaller highlight.
     pub shininess: f64,
-    /// Weight of reflected light, in `[0, 1]`.
+    /// Weight of the reflected ray, in `[0, 1]`.
     pub reflectivity: f64,
-    /// Weight of refracted light, in `[0, 1]`; a light behind it is dimmed by it.
+    /// Weight of the refracted ray, in `[0, 1]`. Shadow rays through the surface are multiplied by
+    /// it.
     pub transparency: f64,
-    /// Index of refraction of the inside; outside is what the ray was in, or 1.
+    /// Index of refraction of the inside, 0.1 to 10. The index of air is 1.
     pub index_of_refraction: f64,
-    /// Whether the two weights are multiplied by Fresnel's share and its rest.
+    /// Whether the reflected weight is multiplied by Fresnel's reflectance, and the refracted weight
+    /// by the rest.
     pub fresnel: bool,
-    /// What turns its normals, an index into the scene's bumps.
+    /// Index of the bump that perturbs the normals, in the scene's `procedural.bumps`.
     pub bump: Option<usize>,
-    /// Absorption of the inside: after a way `d` light is multiplied by `exp(-absorption d)`
-    /// (Beer's law). Not negative, per unit of length.
+    /// Absorption of the inside, per scene unit, each channel at least 0. After a distance `d` light
+    /// is multiplied by `exp(-absorption d)` (Beer's law).
     pub absorption: Color,
-    /// Where volumes overlap, the one of the highest priority is there.
+    /// Priority where volumes overlap: the volume of the highest priority fills the overlap.
     pub priority: u8,
-    /// Colour by the angle to the normal: of the light, for what it brings; of the view, for the
-    /// mirrored ray.
+    /// Colours by the angle to the normal. The light of each light is multiplied by the colour at the
+    /// light's angle, and the mirrored ray by the colour at the view's angle.
     pub by_angle: Option<Arc<AngleRamp>>,
 }
 
 impl Default for Material {
-    /// White, matt and opaque: what a scene file leaves out.
+    /// A white, matt and opaque material: the defaults of a scene file.
     fn default() -> Self {
         Self {
             color: Color::ONE,
@@ -64,30 +67,31 @@ impl Default for Material {
 }
 
 impl Material {
-    /// Whether a texture, or the colour itself, has any influence.
+    /// Returns whether the colour and the texture have any influence.
     #[must_use]
     pub fn shows_color(&self) -> bool {
         self.ambient > 0.0 || self.diffuse > 0.0
     }
 
-    /// Whether lights have any influence.
+    /// Returns whether lights have any influence.
     #[must_use]
     pub fn sees_lights(&self) -> bool {
         self.diffuse > 0.0 || self.specular > 0.0
     }
-    /// The part of light that a way of this length through the inside leaves, in each channel
-    /// (Beer's law). An endless way leaves what is not absorbed at all.
+    /// Returns the transmittance of the inside over a distance in scene units, in `[0, 1]` for each
+    /// channel (Beer's law). Over an infinite distance only channels without absorption remain.
     #[must_use]
-    pub fn transmittance(&self, way: f64) -> Color {
+    pub fn transmittance(&self, distance: f64) -> Color {
         if self.absorption == Color::ZERO {
             return Color::ONE;
         }
-        let channel = |a: f64| if a == 0.0 { 1.0 } else { (-a * way).exp() };
+        let channel = |a: f64| if a == 0.0 { 1.0 } else { (-a * distance).exp() };
         let [red, green, blue] = self.absorption.to_array().map(channel);
         Color::new(red, green, blue)
     }
 
-    /// The colour by the angle whose cosine this is; white for most materials.
+    /// Returns the colour of [`Material::by_angle`] at the angle with this cosine, or white without
+    /// such colours.
     #[must_use]
     pub fn tint(&self, cosine: f64) -> Color {
         self.by_angle.as_ref().map_or(Color::ONE, |ramp| ramp.at(cosine))

@@ -1,10 +1,14 @@
-//! The scene: what there is to see, checked and resolved. After it nothing fails on user input.
+//! The scene: camera, lights, materials, textures and objects, checked and resolved.
+//!
+//! [`read`] is the only stage that fails on user input. All names are indices afterwards, and all
+//! numbers are in their ranges.
 
 pub mod background;
 pub mod camera;
 pub mod check;
 pub mod file;
 pub mod light;
+pub mod limits;
 pub mod material;
 pub mod mtl;
 pub mod names;
@@ -27,30 +31,31 @@ use crate::shape::Shape;
 use crate::texture::Texture;
 use glam::DAffine3;
 
-/// Everything a picture is made from.
+/// Everything from which a picture is rendered. Lengths are in the scene's unit, colours are linear
+/// RGB, and axes are right-handed.
 #[derive(Debug, Clone)]
 pub struct Scene {
-    /// Where it is seen from.
+    /// The camera.
     pub camera: Camera,
-    /// What a ray sees that leaves the scene.
+    /// Colours of rays that leave the scene.
     pub background: Background,
-    /// Light from everywhere.
+    /// Ambient light, which comes from all directions; each channel at least 0.
     pub ambient: Color,
-    /// Lights.
+    /// Lights with a position or a direction.
     pub lights: Vec<Light>,
-    /// What surfaces are made of.
+    /// Materials; surfaces refer to them by index.
     pub materials: Vec<Material>,
-    /// Pictures on surfaces.
+    /// Pictures on surfaces; surfaces refer to them by index.
     pub textures: Vec<Texture>,
-    /// Textures that are computed.
+    /// Solid textures and bumps, which are computed.
     pub procedural: Procedural,
-    /// The objects; a ray's hit counts in here.
+    /// The objects. [`Piece::object`](crate::ray::Piece::object) is an index into this list.
     pub objects: Vec<Object>,
-    /// How often a ray may be reflected or refracted.
+    /// Largest number of reflections and refractions of a ray, 0 to [`limits::DEEPEST`].
     pub max_depth: u32,
-    /// A ray that counts for less than this in its pixel is not followed.
+    /// Smallest weight in its pixel with which a ray is followed, in `[0, 1]`.
     pub min_weight: f64,
-    /// What the scene file calls its things.
+    /// Names of the scene file, for messages and reports.
     pub names: Names,
 }
 
@@ -61,17 +66,14 @@ impl Scene {
         self.textures.iter().map(Texture::bytes).sum()
     }
 
-    /// Triangles of all meshes.
+    /// Number of triangles of all meshes together.
     #[must_use]
     pub fn triangles(&self) -> u64 {
-        let meshes = self.objects.iter().filter_map(|object| match &object.shape {
-            Shape::Mesh(mesh) => Some(mesh.triangles.len() as u64),
-            _ => None,
-        });
-        meshes.sum()
+        let meshes = self.objects.iter().filter_map(|object| object.shape.mesh());
+        meshes.map(|mesh| mesh.triangles.len() as u64).sum()
     }
 
-    /// Which textures some surface shows.
+    /// Returns for each of `textures` whether some surface shows it.
     #[must_use]
     pub fn shown_textures(&self) -> Vec<bool> {
         let mut shown = vec![false; self.textures.len()];
@@ -86,39 +88,39 @@ impl Scene {
     }
 }
 
-/// A shape and what its surfaces look like.
+/// A shape and the appearance of its surfaces.
 #[derive(Debug, Clone)]
 pub struct Object {
-    /// Its shape.
+    /// The shape, in scene space.
     pub shape: Shape,
-    /// Its surfaces: one, or for a mesh one for each name that `usemtl` gave, or six alike for a
-    /// box, each a textured area by itself.
+    /// The object's surfaces, of which each is a textured area of its own: one for each name that
+    /// `usemtl` gave in a mesh, six equal surfaces of a box, and one surface of any other shape.
     pub parts: Vec<Surface>,
-    /// From the scene's space to the one that the object was described in: what is solid in the
-    /// object, such as marble, is looked up there and moves with it.
+    /// Map from scene space to the space in which the object was described. Solid textures are
+    /// evaluated there, so that they move with the object.
     pub to_own_space: DAffine3,
 }
 
-/// What a surface looks like; indices into the scene's lists.
+/// The appearance of a surface, as indices into the scene's lists.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Surface {
-    /// What it is made of.
+    /// Index into the scene's `materials`.
     pub material: usize,
-    /// The picture on it, or what it is carved from.
+    /// The picture on the surface, or the solid from which the object is carved.
     pub texture: Option<SurfaceTexture>,
 }
 
 /// A texture of a surface; an index into one of the scene's lists.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum SurfaceTexture {
-    /// A picture on it, of the scene's `textures`: averaged over what a pixel sees.
+    /// Index into the scene's `textures`: a picture, averaged over the part that a pixel sees.
     Picture(usize),
-    /// What it is carved from, of the scene's `procedural.solids`: looked up at a point.
+    /// Index into the scene's `procedural.solids`: a solid, evaluated at a point.
     Solid(usize),
 }
 
 impl Surface {
-    /// The picture on it, if it has one.
+    /// Index of the picture on the surface, if there is one.
     #[must_use]
     pub fn picture(&self) -> Option<usize> {
         match self.texture {
@@ -127,7 +129,7 @@ impl Surface {
         }
     }
 
-    /// The solid it is carved from, if there is one.
+    /// Index of the solid from which the object is carved, if there is one.
     #[must_use]
     pub fn solid(&self) -> Option<usize> {
         match self.texture {

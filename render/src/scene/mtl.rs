@@ -3,36 +3,37 @@
 //! | statement | becomes |
 //! |---|---|
 //! | `Kd` | `color`, taken as linear light |
-//! | `map_Kd` | a texture, `srgb` and `repeat`; its path counts from the MTL file's folder |
+//! | `map_Kd` | a texture, `srgb` and `repeat`; its path is relative to the MTL file's folder |
 //! | `Ks` | `specular`, the mean of its three numbers |
 //! | `Ns` | `shininess`, 1 if it is less |
 //! | `d`, or `Tr` for 1 - d | `ambient` and `diffuse` are d, `transparency` is 1 - d |
 //! | `Ni` | `index_of_refraction`; 1 if left out, so that a `d` alone bends nothing |
 //!
-//! All else is passed over: the illumination model, emission, maps of anything but `Kd`, and with them
-//! mirrors, which no two tools write alike. A material that should mirror is bound by the scene.
+//! All other statements are ignored: the illumination model, emission, and maps of other values. Tools
+//! differ in how they write mirrors, so mirrors are ignored too. A scene binds a material that should
+//! mirror.
 
 use super::Material;
+use super::limits::LARGEST;
 use super::obj::{ObjError, shortened};
-use super::schema::LARGEST;
 use crate::color::Color;
 use std::collections::HashSet;
 
 /// A material of a library.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Entry {
-    /// What `usemtl` calls it.
+    /// Name of the material in `usemtl`.
     pub name: String,
-    /// What it is made of.
+    /// The material.
     pub material: Material,
-    /// The path of its picture, as the file has it but with `/` between folders.
+    /// Path of the picture, as in the file, but with `/` between folders.
     pub picture: Option<String>,
 }
 
-/// Reads the bytes of an MTL file; `file` is its name in messages.
+/// Reads the bytes of an MTL file. `file` is the name of the file in messages.
 ///
 /// # Errors
-/// With the line that is to blame.
+/// If a line is not a valid statement. The error names the line.
 pub fn read(file: &str, bytes: &[u8]) -> Result<Vec<Entry>, ObjError> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let mut entries: Vec<Entry> = Vec::new();
@@ -104,12 +105,12 @@ pub fn read(file: &str, bytes: &[u8]) -> Result<Vec<Entry>, ObjError> {
     Ok(entries)
 }
 
-/// What a material is of which the file says no more than its name.
+/// Returns the material of an entry that has a name alone.
 fn plain() -> Material {
     Material { diffuse: 1.0, index_of_refraction: 1.0, ..Material::default() }
 }
 
-/// Three numbers, or one for all three.
+/// Returns three numbers; a single number stands for all three.
 fn color(text: &str) -> Option<Color> {
     let mut numbers = Vec::new();
     for word in text.split_whitespace() {

@@ -1,32 +1,30 @@
-//! What the scene file calls its things, for people to read.
+//! The names of a scene file, for messages and reports.
 
 use super::file::{Lists, ObjectFile};
 
-/// The names of a scene's things, in the order of its lists; a scene that was not read from a file
-/// may have none.
+/// The names of a scene's materials, textures and objects, in the order of its lists. A scene that
+/// was not read from a file may have no names.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Names {
-    /// Of its materials.
+    /// Names of the materials.
     pub materials: Vec<String>,
-    /// Of its textures that are pictures.
+    /// Names of the textures that are pictures.
     pub textures: Vec<String>,
-    /// Of its textures that are solids.
+    /// Names of the textures that are solids.
     pub solids: Vec<String>,
-    /// Of its objects: only meshes have names.
+    /// Names of the objects; only meshes have one.
     pub objects: Vec<Option<String>>,
 }
 
 impl Names {
-    /// Adds the names that a file gives.
+    /// Appends the names of one file of the scene.
     pub fn add(&mut self, lists: &Lists<'_>) {
         self.materials.extend(lists.materials.keys().cloned());
         for (name, texture) in lists.textures {
             let names = if texture.image.is_some() { &mut self.textures } else { &mut self.solids };
             names.push(name.clone());
         }
-        self.objects.extend(lists.objects.iter().map(|object| match object {
-            ObjectFile::Mesh(mesh) => Some(mesh.name.clone()),
-            _ => None,
-        }));
+        let meshes = lists.objects.iter().map(ObjectFile::mesh);
+        self.objects.extend(meshes.map(|mesh| mesh.map(|mesh| mesh.name.clone())));
     }
 }

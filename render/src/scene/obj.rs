@@ -1,10 +1,9 @@
 //! Reads OBJ files: vertices, texture coordinates, normals, faces of three or four corners, and the
-//! names that `usemtl` gives. Objects, groups, lines, points and material files are passed over.
+//! names that `usemtl` gives. Objects, groups, lines, points and material files are ignored.
 //!
-//! A file is gone through once. Nothing is taken silently: numbers that are not finite, corners that
-//! are not there and faces whose corners differ in kind are refused with their line. One of
-//! `triangulate`'s must end with the comment `# end V F`, without which the program that wrote it has
-//! died.
+//! The reader passes through a file once. It refuses numbers that are not finite, indices without a
+//! vertex, and faces whose corners differ in kind; the error names the line. A file of `triangulate`
+//! must end with the comment `# end V F`. If the comment is missing, the file is incomplete.
 
 mod reader;
 
@@ -14,62 +13,62 @@ use files::{Exit, Failure};
 use reader::Reader;
 use thiserror::Error;
 
-/// How the first line of `triangulate`'s OBJ begins.
+/// Beginning of the first line of an OBJ that `triangulate` wrote.
 const OURS: &str = "# topobook triangulate";
 
-/// Why a file is not a mesh.
+/// The reason why a file cannot be read as a mesh.
 #[derive(Debug, Error)]
 pub enum ObjError {
-    /// Nothing there.
+    /// The file is empty.
     #[error("{file}: found nothing, expected an OBJ mesh; did the program before the pipe fail?")]
     Empty {
-        /// The file.
+        /// Name of the file.
         file: String,
     },
-    /// A file of another kind.
+    /// The file has another format.
     #[error(
         "{file}: found JSON or a grid, expected an OBJ mesh; `triangulate` makes one of a grid"
     )]
     Json {
-        /// The file.
+        /// Name of the file.
         file: String,
     },
-    /// Not text.
+    /// The file is not text.
     #[error("{file}:{line}: found bytes that are not UTF-8, expected the text of an OBJ mesh")]
     NotText {
-        /// The file.
+        /// Name of the file.
         file: String,
-        /// Line, from 1.
+        /// Number of the line, from 1.
         line: usize,
     },
-    /// One of ours that stops early.
+    /// The file was written by `triangulate` and is incomplete.
     #[error(
         "{file}: found {found}, expected the closing comment `# end V F`; the program that wrote it stopped early"
     )]
     NotFinished {
-        /// The file.
+        /// Name of the file.
         file: String,
-        /// Its last line, or what is wrong with it.
+        /// The last line, or a description of its fault.
         found: String,
     },
-    /// A line that cannot be read.
+    /// A line is not a valid statement.
     #[error("{file}:{line}: found `{found}`, expected {expected}")]
     Line {
-        /// The file.
+        /// Name of the file.
         file: String,
-        /// Line, from 1.
+        /// Number of the line, from 1.
         line: usize,
-        /// The line, shortened.
+        /// The text of the line, shortened.
         found: String,
-        /// What would be right.
+        /// The expected statement.
         expected: &'static str,
     },
-    /// Read, but no mesh.
+    /// The file is valid, but its arrays are not a mesh.
     #[error("{file}: {source}")]
     Mesh {
-        /// The file.
+        /// Name of the file.
         file: String,
-        /// What is wrong.
+        /// The fault of the arrays.
         source: MeshError,
     },
 }
@@ -80,14 +79,16 @@ impl Failure for ObjError {
     }
 }
 
-/// Reads the bytes of an OBJ file as one mesh; `file` is its name in messages. Objects, groups and
-/// runs of `usemtl` are joined in the order of the file. Quads are split; larger faces are refused.
+/// Reads the bytes of an OBJ file as one mesh. `file` is the name of the file in messages. Objects,
+/// groups and runs of `usemtl` are joined in the order of the file. A face of four corners becomes two
+/// triangles; larger faces are refused.
 ///
 /// # Errors
-/// With the line that is to blame wherever it can be told.
+/// If the file is empty, incomplete, not an OBJ, or not a mesh. The error names the line if one line is
+/// at fault.
 pub fn read(file: &str, bytes: &[u8]) -> Result<Mesh, ObjError> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    // No line of an OBJ begins so; our grids, and JSON of any kind, do.
+    // No line of an OBJ begins with these characters, but our grids and all JSON files do.
     if bytes.starts_with(b"{") {
         return Err(ObjError::Json { file: file.into() });
     }
@@ -111,8 +112,8 @@ pub fn read(file: &str, bytes: &[u8]) -> Result<Mesh, ObjError> {
     Ok(mesh)
 }
 
-/// Bytes that a mesh of this text takes at most while it is read: its vertices and triangles by the
-/// number of lines that begin them, twice, since lists grow by doubling.
+/// Returns an upper bound of the bytes that the mesh of this text takes while it is read. Vertices and
+/// triangles are counted by the lines that begin them, and twice, since lists grow by doubling.
 #[must_use]
 pub fn needed(bytes: &[u8]) -> u64 {
     const VERTEX: u64 = size_of::<[f32; 3]>() as u64 + 1;
@@ -128,7 +129,7 @@ pub fn needed(bytes: &[u8]) -> u64 {
     2 * lines.sum::<u64>()
 }
 
-/// The texture id and the surface id in a name like `tex2_surf0`, if it is one.
+/// Returns the texture id and the surface id of a name such as `tex2_surf0`; `None` for other names.
 #[must_use]
 pub fn ids(name: &str) -> Option<[&str; 2]> {
     let (texture, surface) = name.strip_prefix("tex")?.split_once("_surf")?;
@@ -136,7 +137,8 @@ pub fn ids(name: &str) -> Option<[&str; 2]> {
     (number(texture) && number(surface)).then_some([texture, surface])
 }
 
-/// The last line of one of ours, which ends with `# end V F`.
+/// Returns the last line of a file that `triangulate` wrote, which begins with `# end`. Returns `None`
+/// for a file of another program.
 fn closing_comment<'a>(file: &str, text: &'a str) -> Result<Option<&'a str>, ObjError> {
     if !text.starts_with(OURS) {
         return Ok(None);
@@ -149,7 +151,7 @@ fn closing_comment<'a>(file: &str, text: &'a str) -> Result<Option<&'a str>, Obj
     Err(ObjError::NotFinished { file: file.into(), found })
 }
 
-/// The line, or its beginning where it is long; what is not seen of it is spelled out.
+/// Returns the line for a message: shortened if it is long, with invisible characters spelled out.
 pub(super) fn shortened(line: &str) -> String {
     let start: String = line.chars().take(60).collect();
     let end = if start.len() < line.len() { "..." } else { "" };

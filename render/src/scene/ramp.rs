@@ -1,33 +1,35 @@
-//! A colour that depends on an angle: the one-dimensional texture that the thesis names for thin
+//! Colours that depend on an angle: the one-dimensional texture that the thesis mentions for thin
 //! films (chapter 2, after Watt).
 
 use crate::color::Color;
 use crate::optics::thin_film::ThinFilm;
 
-/// Steps of a film's ramp over the quarter circle.
+/// Steps of a film's ramp between 0 and 90 degrees.
 ///
-/// The thickest film that a scene may have shows about ten orders on the way, so each has 18 steps.
+/// The thickest film of a scene shows about ten interference orders over these angles, so that each
+/// order has 18 steps. Fewer steps would flatten the orders, and more steps would take memory.
 const STEPS: u32 = 180;
 
-/// Colours at angles, and between them linear in the angle.
+/// Colours at angles, linear RGB. Between two angles the colour is linear in the angle.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AngleRamp {
-    /// Angle in degrees, ascending, and colour; at least one.
+    /// Angles in degrees, ascending, and their colours; at least one.
     stops: Vec<(f64, Color)>,
 }
 
 impl AngleRamp {
-    /// The ramp through `stops`; before the first and after the last the colour stays. Nothing
-    /// when there are none, or their angles do not ascend.
+    /// Creates the ramp through `stops`, which are angles in degrees and colours. The colour is
+    /// constant before the first and after the last stop. Returns `None` if there are no stops, or if
+    /// their angles do not ascend.
     #[must_use]
     pub fn new(stops: Vec<(f64, Color)>) -> Option<Self> {
         let ascend = stops.windows(2).all(|pair| pair[0].0 < pair[1].0);
         (!stops.is_empty() && ascend).then_some(Self { stops })
     }
 
-    /// The colours of a film at all angles of incidence, made so bright that the largest channel up
-    /// to 60 degrees is 1: how much of it is seen is for the material's other weights to say. At
-    /// more grazing angles any film is nearly a mirror, and channels are clipped at 1.
+    /// Computes the colours of a film at all angles of incidence. They are scaled so that the largest
+    /// channel up to 60 degrees is 1, since the material's other weights set the brightness. At more
+    /// grazing angles any film is nearly a mirror, and channels are clipped at 1.
     #[must_use]
     pub fn of_film(film: &ThinFilm) -> Self {
         let color = |k: u32| {
@@ -43,13 +45,13 @@ impl AngleRamp {
         Self { stops }
     }
 
-    /// The colour at an angle given by its cosine.
+    /// Returns the colour at the angle with this cosine.
     #[must_use]
     pub fn at(&self, cosine: f64) -> Color {
         self.at_degrees(cosine.clamp(-1.0, 1.0).acos().to_degrees())
     }
 
-    /// The colour at an angle in degrees.
+    /// Returns the colour at an angle in degrees.
     #[must_use]
     pub fn at_degrees(&self, angle: f64) -> Color {
         let next = self.stops.partition_point(|(stop, _)| *stop <= angle);

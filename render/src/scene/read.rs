@@ -1,8 +1,9 @@
-//! From a scene file to a [`Scene`]: names become indices, pictures and meshes are read, and every
+//! Reads a scene file into a [`Scene`]: names become indices, pictures and meshes are read, and every
 //! number is checked against its range.
 
 mod background;
 mod bumps;
+mod camera;
 mod draft;
 mod given;
 mod libraries;
@@ -10,17 +11,17 @@ mod lights;
 mod materials;
 mod objects;
 mod place;
+mod ranges;
 mod shapes;
 mod solids;
 mod textures;
 
-pub use draft::{Draft, Sheet};
+pub use draft::{Draft, SceneText};
 
-use super::file::{ColorFile, FORMAT, Lists, SceneFile, VERSION};
+use super::file::{FORMAT, Lists, SceneFile, VERSION};
+use super::limits::DEEPEST;
 use super::obj::ObjError;
-use super::schema::{DEEPEST, LARGEST, SMALLEST};
-use super::{Camera, Names, Scene};
-use crate::color::Color;
+use super::{Names, Scene};
 use crate::procedural::{NoiseLattice, Procedural};
 use crate::shape::Mesh;
 use crate::shape::mesh::MeshError;
@@ -29,18 +30,18 @@ use files::json::Document;
 use files::words::{LONGEST_LIST, cut, shown};
 use files::{Budget, Exit, Failure, FileError, JsonError, MemoryError, Source, memory};
 use given::Given;
-use glam::DVec3;
 use libraries::Libraries;
+use ranges::Ranges;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
 use textures::Memory;
 use thiserror::Error;
 
-/// Why there is no scene.
+/// The reason why a scene cannot be read.
 #[derive(Debug, Error)]
 pub enum SceneError {
-    /// The scene file is wrong.
+    /// The scene file is not valid.
     #[error(transparent)]
     Json(#[from] JsonError),
     /// A file cannot be read.
@@ -55,15 +56,15 @@ pub enum SceneError {
     /// The scene takes more memory than is allowed.
     #[error(transparent)]
     Memory(#[from] MemoryError),
-    /// A mesh file is wrong.
+    /// A mesh file is not valid.
     #[error(transparent)]
     Obj(#[from] ObjError),
-    /// Arrays given as a mesh are wrong.
+    /// Arrays given as a mesh are not valid.
     #[error("mesh {name}: {source}")]
     Mesh {
-        /// The mesh's name in the scene.
+        /// Name of the mesh in the scene.
         name: String,
-        /// What is wrong with it.
+        /// The fault of the arrays.
         source: MeshError,
     },
     /// A mesh was given for a name that the scene does not have.
@@ -73,9 +74,9 @@ pub enum SceneError {
         cut(known, LONGEST_LIST)
     )]
     UnknownMesh {
-        /// The name given.
+        /// The name that was given.
         name: String,
-        /// The names there are, with a suggestion.
+        /// The names of the scene's meshes, with a suggestion.
         known: String,
     },
     /// The scene has a mesh without a file, and none was given.
@@ -85,11 +86,11 @@ pub enum SceneError {
         shown(scene)
     )]
     MissingMesh {
-        /// The mesh's name.
+        /// Name of the mesh.
         name: String,
-        /// Its place in the scene file.
+        /// JSON path of the mesh in the scene file.
         path: String,
-        /// The scene file.
+        /// Name of the scene file.
         scene: String,
     },
 }
@@ -102,28 +103,28 @@ impl Failure for SceneError {
             Self::TooLarge(_) => Exit::Resource,
             Self::Memory(error) => error.exit(),
             Self::UnknownMesh { .. } | Self::MissingMesh { .. } => Exit::Use,
-            _ => Exit::Malformed,
+            Self::Json(_) | Self::Obj(_) | Self::Mesh { .. } => Exit::Malformed,
         }
     }
 }
 
-/// Meshes given by name from outside the scene file.
+/// Meshes by name that are given to the reader, besides those that the scene file names.
 pub type MeshSource = BTreeMap<String, Mesh>;
 
-/// Reads a scene file's text, and checks of it no more than its types.
+/// Reads the text of a scene file and checks its types alone.
 ///
 /// # Errors
-/// On JSON that is not a scene of this version.
+/// If the JSON is not a scene of this version.
 pub fn parse(document: &Document<'_>) -> Result<SceneFile, SceneError> {
     document.expect(FORMAT, u64::from(VERSION))?;
     Ok(document.parse()?)
 }
 
-/// Makes the scene of a file and what it includes. Paths count from `folder` and are read from
-/// `source`; a mesh in `given` is taken before its own file.
+/// Reads the scene of a file and of the files that it includes. Paths are relative to `folder` and are
+/// read from `source`. A mesh in `given` replaces the file of the mesh.
 ///
 /// # Errors
-/// On the first thing that is wrong, with its place.
+/// On the first fault. The error names its file, line and column.
 pub fn resolve(
     document: &Document<'_>,
     file: &SceneFile,
@@ -135,20 +136,19 @@ pub fn resolve(
 }
 
 impl Draft<'_> {
-    /// Makes the scene, with files read from `source`; a mesh in `given` is taken before its own
-    /// file.
+    /// Reads the scene, with files read from `source`. A mesh in `given` replaces the file of the mesh.
     ///
     /// # Errors
-    /// On the first thing that is wrong, with its place.
+    /// On the first fault. The error names its file, line and column.
     pub fn resolve(&self, source: &dyn Source, given: MeshSource) -> Result<Scene, SceneError> {
         self.resolve_within(source, given, memory::of_process())
     }
 
-    /// As [`Draft::resolve`], with memory from `budget` in place of that of the process. Pictures and
-    /// meshes are measured before they are decoded.
+    /// Reads the scene as [`Draft::resolve`] does, with memory from `budget` instead of the budget of the
+    /// process. The memory of pictures and meshes is reserved before they are decoded.
     ///
     /// # Errors
-    /// As above.
+    /// See [`Draft::resolve`].
     pub fn resolve_within(
         &self,
         source: &dyn Source,
@@ -156,31 +156,32 @@ impl Draft<'_> {
         budget: &Budget,
     ) -> Result<Scene, SceneError> {
         self.check_mesh_names(given.keys().map(String::as_str))?;
-        let sheets = self.sheets()?;
-        let indices = Indices::of(&sheets)?;
+        let texts = self.texts()?;
+        let indices = Indices::of(&texts)?;
         let lattice = OnceLock::new();
         let memory = Memory::new(budget);
-        let readers: Vec<Reader<'_>> = sheets
+        let readers: Vec<Reader<'_>> = texts
             .iter()
-            .map(|sheet| Reader {
-                document: &sheet.document,
-                file: sheet.lists,
-                folder: sheet.folder,
+            .map(|text| Reader {
+                document: &text.document,
+                file: text.lists,
+                folder: text.folder,
                 source,
                 indices: &indices,
                 lattice: &lattice,
                 memory: &memory,
             })
             .collect();
-        let mut scene = self.view()?;
-        for sheet in &sheets {
-            scene.names.add(&sheet.lists);
+        let mut scene = self.without_lists()?;
+        for text in &texts {
+            scene.names.add(&text.lists);
         }
         let mut bumps = 0..;
+        let mut planned = Vec::with_capacity(readers.len());
         for reader in &readers {
             scene.lights.extend(reader.lights()?);
             scene.materials.extend(reader.materials(&mut bumps)?);
-            reader.objects_without_meshes()?;
+            planned.push(reader.planned_objects()?);
             reader.texture_kinds()?;
         }
         for reader in &readers {
@@ -194,38 +195,30 @@ impl Draft<'_> {
         for reader in &readers {
             reader.libraries(&mut libraries, &mut scene)?;
         }
-        let mut given = Given::new(given, &sheets);
-        for reader in &readers {
-            scene.objects.extend(reader.objects(&mut given, &libraries)?);
+        let mut given = Given::new(given, &texts);
+        for (reader, planned) in readers.iter().zip(planned) {
+            scene.objects.extend(reader.objects(planned, &mut given, &libraries)?);
         }
         scene.procedural.lattice = lattice.into_inner();
         Ok(scene)
     }
 
-    /// What a scene says once: a scene with nothing in it.
-    fn view(&self) -> Result<Scene, SceneError> {
-        let (file, indices) = (self.file, Indices::default());
-        let reader = Reader {
-            document: self.document,
-            file: file.lists(),
-            folder: Path::new(""),
-            source: &files::Embedded(&[]),
-            indices: &indices,
-            lattice: &OnceLock::new(),
-            memory: &Memory::new(memory::of_process()),
-        };
-        reader.within("max_depth", f64::from(file.max_depth), 0.0, f64::from(DEEPEST))?;
+    /// Reads the values of the scene file that no part has, and leaves all lists empty.
+    fn without_lists(&self) -> Result<Scene, SceneError> {
+        let (document, file) = (self.document, self.file);
+        let deepest = f64::from(DEEPEST);
+        document.within("max_depth", f64::from(file.max_depth), 0.0, deepest)?;
         Ok(Scene {
-            camera: reader.camera(file)?,
-            background: reader.background(&file.background)?,
-            ambient: reader.color("ambient", file.ambient)?,
+            camera: camera::read(document, &file.camera)?,
+            background: background::read(document, &file.background)?,
+            ambient: document.color("ambient", file.ambient)?,
             lights: Vec::new(),
             materials: Vec::new(),
             textures: Vec::new(),
             procedural: Procedural::default(),
             objects: Vec::new(),
             max_depth: file.max_depth,
-            min_weight: reader.within("min_weight", file.min_weight, 0.0, 1.0)?,
+            min_weight: document.within("min_weight", file.min_weight, 0.0, 1.0)?,
             names: Names::default(),
         })
     }
@@ -237,98 +230,32 @@ struct Reader<'a> {
     file: Lists<'a>,
     folder: &'a Path,
     source: &'a dyn Source,
-    /// Those of all files of the scene.
+    /// Indices of the names in all files of the scene.
     indices: &'a Indices<'a>,
-    /// What noise is made of, once something asks for it.
+    /// The noise lattice, once a texture or a bump uses noise.
     lattice: &'a OnceLock<Arc<NoiseLattice>>,
     memory: &'a Memory<'a>,
 }
 
-impl Reader<'_> {
-    fn fault<T>(&self, path: &str, message: impl Into<String>) -> Result<T, SceneError> {
-        Err(self.document.fault(path, message).into())
-    }
-
-    /// The file that the scene names at `place`.
-    fn named_file(&self, place: &str, path: &Path) -> Result<Vec<u8>, SceneError> {
-        self.source.read(path).map_err(|error| named(self.document, place, &error))
-    }
-
-    /// The value, if it lies in the closed range.
-    fn within(&self, path: &str, value: f64, low: f64, high: f64) -> Result<f64, SceneError> {
-        if (low..=high).contains(&value) {
-            return Ok(value);
-        }
-        let range = if high == LARGEST && low == 0.0 {
-            format!("at least 0 and at most {LARGEST:e}")
-        } else {
-            format!("{low} to {high}")
-        };
-        self.fault(path, format!("found {}, expected {range}", number(value)))
-    }
-
-    /// The value, if it is above 0 and can be reckoned with.
-    fn above_zero(&self, path: &str, value: f64) -> Result<f64, SceneError> {
-        if (SMALLEST..=LARGEST).contains(&value) {
-            return Ok(value);
-        }
-        let range = format!("more than 0: {SMALLEST:e} to {LARGEST:e}");
-        self.fault(path, format!("found {}, expected {range}", number(value)))
-    }
-
-    /// A point or a direction, if its coordinates can be reckoned with.
-    fn vector(&self, path: &str, coordinates: [f64; 3]) -> Result<DVec3, SceneError> {
-        let too_large = |x: &f64| !(-LARGEST..=LARGEST).contains(x);
-        match coordinates.iter().position(too_large) {
-            None => Ok(coordinates.into()),
-            Some(k) => {
-                let found = coordinates[k];
-                let found = number(found);
-                let message = format!("found {found}, expected {:e} to {LARGEST:e}", -LARGEST);
-                self.fault(&format!("{path}[{k}]"), message)
-            }
-        }
-    }
-
-    fn color(&self, path: &str, color: ColorFile) -> Result<Color, SceneError> {
-        for channel in color.0 {
-            self.within(path, channel, 0.0, LARGEST)?;
-        }
-        Ok(Color::from(color.0))
-    }
-
-    fn camera(&self, file: &SceneFile) -> Result<Camera, SceneError> {
-        let camera = &file.camera;
-        let eye = self.vector("camera.eye", camera.eye)?;
-        let target = self.vector("camera.target", camera.target)?;
-        let up = self.vector("camera.up", camera.up)?;
-        if !(camera.fov_deg > 0.0 && camera.fov_deg < 180.0) {
-            let message =
-                format!("found {}, expected an angle between 0 and 180", number(camera.fov_deg));
-            return self.fault("camera.fov_deg", message);
-        }
-        match Camera::new(eye, target, up, camera.fov_deg.to_radians()) {
-            Some(camera) => Ok(camera),
-            None => self.fault(
-                "camera",
-                "found an eye at its target, or an up along the view; expected three directions apart",
-            ),
-        }
+impl Ranges for Reader<'_> {
+    fn document(&self) -> &Document<'_> {
+        self.document
     }
 }
 
-/// What is said of a file that `document` names at `place` and that cannot be read.
-fn named(document: &Document<'_>, place: &str, error: &FileError) -> SceneError {
-    let fault = document.fault(place, error.to_string());
+impl Reader<'_> {
+    /// Reads the file that the scene names at the JSON path `at`.
+    fn named_file(&self, at: &str, path: &Path) -> Result<Vec<u8>, SceneError> {
+        self.source.read(path).map_err(|error| named(self.document, at, &error))
+    }
+}
+
+/// Returns the error about a file that cannot be read. `document` names the file at the JSON path `at`.
+fn named(document: &Document<'_>, at: &str, error: &FileError) -> SceneError {
+    let fault = document.fault(at, error.to_string());
     if matches!(error, FileError::Memory(_)) {
         SceneError::TooLarge(fault)
     } else {
         SceneError::Named(fault, error.exit())
     }
-}
-
-/// A number as one writes it: whole ones without a point, very large and small ones with a power.
-fn number(value: f64) -> String {
-    let usual = value == 0.0 || (1e-5..1e16).contains(&value.abs());
-    if usual { value.to_string() } else { format!("{value:?}") }
 }

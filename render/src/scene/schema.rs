@@ -1,32 +1,21 @@
 //! JSON Schema of scenes and their parts, for editors and for programs that write them.
 //!
-//! It comes from the types that read a scene, with their pages as descriptions, and is of draft
-//! 2020-12. What it refuses the reader refuses; what it cannot say (edges that are parallel, names
-//! that nothing has, files that are not there) the reader alone knows. It is stricter where the
-//! reader takes more than is meant: `null` for a key that is left out, an array of its values for an
-//! object. It is laxer in one point: to JSON Schema `3.0` is a whole number.
+//! The schema is of draft 2020-12. It is generated from the types that read a scene ([`file`]), whose
+//! documentation becomes its descriptions. The reader refuses every file that the schema refuses, with
+//! two exceptions: the reader accepts `null` for a key that is left out, and an array of values for an
+//! object. Only the reader checks relations between values, such as parallel edges, unknown names and
+//! missing files. JSON Schema takes `3.0` for a whole number, and the reader does not.
 //!
-//! The functions here are what the types in [`file`](super::file) say about themselves beyond their
-//! form, and the ranges are those that the reader checks.
+//! [`file`]: super::file
 
 use super::file::{PartFile, SceneFile};
+use super::limits::LARGEST;
 use schemars::Schema;
 use schemars::generate::SchemaSettings;
 use schemars::transform::RecursiveTransform;
-use serde_json::{Map, Value, json};
-use std::ops::RangeInclusive;
+use serde_json::{Value, json};
 
-/// The largest number of a scene, without its sign. Products of three such numbers still have room
-/// below the largest `f64`, and coordinates below the largest `f32`.
-pub const LARGEST: f64 = 1e30;
-
-/// The smallest number where one above 0 is asked for.
-pub const SMALLEST: f64 = 1e-30;
-
-/// Deeper recursion is refused: it would show nothing more and could exhaust the stack.
-pub const DEEPEST: u32 = 64;
-
-/// The schema of a scene and of a part of one, told apart by `format`.
+/// Returns the schema of scenes and of their parts. `format` decides which of the two applies.
 #[must_use]
 pub fn of_scene() -> Value {
     let settings = SchemaSettings::draft2020_12().with_transform(RecursiveTransform(plain));
@@ -51,7 +40,7 @@ pub fn of_scene() -> Value {
     })
 }
 
-/// Takes out what the types say that means nothing here, and bounds all numbers that nothing bounds.
+/// Removes keywords of Rust types that mean nothing in JSON, and bounds each number without a range.
 fn plain(schema: &mut Schema) {
     let Some(object) = schema.as_object_mut() else {
         return;
@@ -82,32 +71,4 @@ fn plain(schema: &mut Schema) {
         object.insert("minimum".into(), json!(-LARGEST));
         object.insert("maximum".into(), json!(LARGEST));
     }
-}
-
-/// Inserts keywords into a schema, or into that of the innermost elements of an array.
-fn insert(schema: &mut Schema, words: &Value) {
-    fn innermost(object: &mut Map<String, Value>, words: &Value) {
-        match (object.get_mut("items"), words) {
-            (Some(Value::Object(items)), _) => innermost(items, words),
-            (_, Value::Object(words)) => object.extend(words.clone()),
-            _ => {}
-        }
-    }
-    innermost(schema.ensure_object(), words);
-}
-
-/// Numbers from one to another.
-pub fn range<N: Into<Value> + Copy>(range: RangeInclusive<N>) -> impl FnMut(&mut Schema) {
-    let [low, high] = [*range.start(), *range.end()].map(Into::into);
-    move |schema| insert(schema, &json!({ "minimum": low, "maximum": high }))
-}
-
-/// Numbers above one and below another.
-pub fn between(low: f64, high: f64) -> impl FnMut(&mut Schema) {
-    move |schema| insert(schema, &json!({ "exclusiveMinimum": low, "exclusiveMaximum": high }))
-}
-
-/// Numbers above 0 that can be reckoned with.
-pub fn positive(schema: &mut Schema) {
-    range(SMALLEST..=LARGEST)(schema);
 }

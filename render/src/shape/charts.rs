@@ -14,6 +14,7 @@
 
 use super::SeamPeriod;
 use super::mesh::{Mesh, NONE};
+use super::weld::{self, Weld};
 use glam::DVec2;
 use std::collections::HashMap;
 
@@ -50,10 +51,10 @@ impl Charts {
     /// Finds the charts of a mesh. All triangles without texture coordinates form one chart.
     #[must_use]
     pub fn of(mesh: &Mesh) -> Self {
-        let places = places(mesh);
-        let of_triangle = connected(mesh, &places);
+        let weld = Weld::new(&mesh.positions);
+        let of_triangle = connected(mesh, &weld);
         let count = of_triangle.iter().max().map_or(1, |&last| last as usize + 1);
-        let seams = seams(mesh, &places, &of_triangle, count);
+        let seams = seams(mesh, &weld, &of_triangle, count);
         Self { of_triangle: if count == 1 { Vec::new() } else { of_triangle }, seams }
     }
 
@@ -69,17 +70,17 @@ impl Charts {
             return None;
         }
         let Seam { period, mirrors } = self.seams.get(chart).copied().unwrap_or_default();
-        let mut way = to.1 - from.1;
+        let mut difference = to.1 - from.1;
         for k in 0..2 {
             if period[k] > 0.0 {
-                let turns = (way[k] / period[k]).round();
+                let turns = (difference[k] / period[k]).round();
                 if turns != 0.0 && mirrors[k] {
                     return None;
                 }
-                way[k] -= period[k] * turns;
+                difference[k] -= period[k] * turns;
             }
         }
-        Some(way)
+        Some(difference)
     }
 
     fn chart(&self, triangle: u32) -> usize {
@@ -87,19 +88,9 @@ impl Charts {
     }
 }
 
-/// Returns a number for each position; equal positions have equal numbers.
-fn places(mesh: &Mesh) -> Vec<u32> {
-    let mut known: HashMap<[u32; 3], u32> = HashMap::with_capacity(mesh.positions.len());
-    let places = mesh.positions.iter().zip(0..).map(|(position, number)| {
-        // Minus zero is the same coordinate as zero.
-        *known.entry(position.map(|x| (x + 0.0).to_bits())).or_insert(number)
-    });
-    places.collect()
-}
-
 /// Returns the chart of each triangle, numbered in the order of triangles. Triangles of one surface
 /// belong to one chart if they share a corner with its position and its texture coordinates.
-fn connected(mesh: &Mesh, places: &[u32]) -> Vec<u32> {
+fn connected(mesh: &Mesh, weld: &Weld) -> Vec<u32> {
     let mut parents: Vec<u32> = (0..mesh.triangles.len() as u32).collect();
     let mut first: HashMap<(u32, [u32; 2], u32), u32> = HashMap::new();
     for (triangle, number) in mesh.triangles.iter().zip(0..) {
@@ -107,8 +98,8 @@ fn connected(mesh: &Mesh, places: &[u32]) -> Vec<u32> {
             let key = if uv == NONE {
                 (NONE, [NONE; 2], NONE)
             } else {
-                let bits = mesh.uvs[uv as usize].map(|x| (x + 0.0).to_bits());
-                (places[position as usize], bits, triangle.surface)
+                let bits = weld::bits(mesh.uvs[uv as usize]);
+                (weld.number(position), bits, triangle.surface)
             };
             let other = *first.entry(key).or_insert(number);
             let [one, other] = [root(&mut parents, number), root(&mut parents, other)];
@@ -141,7 +132,7 @@ fn root(parents: &mut [u32], mut node: u32) -> u32 {
     node
 }
 
-/// An edge between two numbered positions, the smaller first, as one triangle has it.
+/// An edge of one triangle, between two numbered positions, the smaller number first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Edge {
     ends: [u32; 2],
@@ -150,14 +141,14 @@ struct Edge {
     uvs: [u32; 2],
 }
 
-fn seams(mesh: &Mesh, places: &[u32], of_triangle: &[u32], count: usize) -> Vec<Seam> {
+fn seams(mesh: &Mesh, weld: &Weld, of_triangle: &[u32], count: usize) -> Vec<Seam> {
     let mut edges = Vec::with_capacity(3 * mesh.triangles.len());
     for (triangle, &chart) in mesh.triangles.iter().zip(of_triangle) {
         if triangle.uv[0] == NONE {
             continue;
         }
         for k in 0..3 {
-            let corner = |k: usize| (places[triangle.position[k] as usize], triangle.uv[k]);
+            let corner = |k: usize| (weld.number(triangle.position[k]), triangle.uv[k]);
             let [from, to] = [corner(k), corner((k + 1) % 3)];
             let [low, high] = if from.0 < to.0 { [from, to] } else { [to, from] };
             if low.0 != high.0 {
@@ -259,10 +250,10 @@ mod tests {
         }));
     }
 
-    /// Returns the difference of two coordinates on two triangles.
-    fn way(charts: &Charts, from: (u32, f64), to: (u32, f64)) -> Option<f64> {
+    /// Returns the difference of two coordinates on two triangles, rounded to nine digits.
+    fn difference(charts: &Charts, from: (u32, f64), to: (u32, f64)) -> Option<f64> {
         let at = |(triangle, u)| (triangle, DVec2::new(u, 0.5));
-        charts.difference(at(from), at(to)).map(|way| (way.x * 1e9).round() / 1e9)
+        charts.difference(at(from), at(to)).map(|difference| (difference.x * 1e9).round() / 1e9)
     }
 
     #[test]
@@ -273,17 +264,17 @@ mod tests {
         band(&mut mesh, 2.0, 8, 0.5, 1.0, 0);
         let charts = Charts::of(&mesh);
         // Once around, the shorter difference crosses the seam. Four times around, 0.9 stays 0.9.
-        assert_eq!(way(&charts, (0, 0.05), (15, 0.95)), Some(-0.1));
-        assert_eq!(way(&charts, (16, 0.05), (17, 0.95)), Some(0.9));
-        assert_eq!(way(&charts, (16, 0.05), (31, 3.95)), Some(-0.1));
+        assert_eq!(difference(&charts, (0, 0.05), (15, 0.95)), Some(-0.1));
+        assert_eq!(difference(&charts, (16, 0.05), (17, 0.95)), Some(0.9));
+        assert_eq!(difference(&charts, (16, 0.05), (31, 3.95)), Some(-0.1));
         // Half around, the area does not close.
-        assert_eq!(way(&charts, (32, 0.05), (47, 0.95)), Some(0.9));
+        assert_eq!(difference(&charts, (32, 0.05), (47, 0.95)), Some(0.9));
         // Different areas have no difference, even on one surface.
-        assert_eq!(way(&charts, (0, 0.0), (16, 0.0)), None);
+        assert_eq!(difference(&charts, (0, 0.0), (16, 0.0)), None);
     }
 
     #[test]
-    fn areas_side_by_side_on_an_open_sheet_make_no_seam() {
+    fn areas_side_by_side_on_an_open_grid_make_no_seam() {
         // The coordinates jump by 2 at the border, but the areas do not close.
         let mut mesh = Mesh::default();
         for x in 0..2u32 {
@@ -295,8 +286,8 @@ mod tests {
             triangles(&mut mesh, &[[0, 1, 2], [0, 2, 3]].map(|t| t.map(|k| first + k)), 0);
         }
         let charts = Charts::of(&mesh);
-        assert_eq!(way(&charts, (0, 0.1), (1, 1.9)), Some(1.8));
-        assert_eq!(way(&charts, (0, 1.9), (2, 0.1)), None);
+        assert_eq!(difference(&charts, (0, 0.1), (1, 1.9)), Some(1.8));
+        assert_eq!(difference(&charts, (0, 1.9), (2, 0.1)), None);
     }
 
     #[test]
@@ -336,14 +327,14 @@ mod tests {
     }
 
     #[test]
-    fn over_a_seam_that_mirrors_there_is_no_way() {
+    fn over_a_seam_that_mirrors_there_is_no_difference() {
         let mut mesh = Mesh::default();
         band(&mut mesh, 0.0, 8, 1.0, 1.0, 0);
         // The last cell ends at the first one's corners, upside down.
         mesh.positions.swap(29, 30);
         let charts = Charts::of(&mesh);
-        assert_eq!(way(&charts, (0, 0.05), (15, 0.95)), None);
-        assert_eq!(way(&charts, (0, 0.05), (5, 0.3)), Some(0.25));
+        assert_eq!(difference(&charts, (0, 0.05), (15, 0.95)), None);
+        assert_eq!(difference(&charts, (0, 0.05), (5, 0.3)), Some(0.25));
     }
 
     #[test]

@@ -1,8 +1,8 @@
 //! Decides whether a shape is closed and therefore has an inside.
 
+use super::mesh::as_dvec3;
+use super::weld::Weld;
 use super::{Mesh, Shape};
-use glam::DVec3;
-use std::collections::HashMap;
 
 impl Shape {
     /// Returns whether the shape divides space into an inside and an outside, with its normals
@@ -26,40 +26,30 @@ impl Mesh {
     /// ignored.
     #[must_use]
     pub fn is_closed(&self) -> bool {
-        let mut corners: HashMap<[u32; 3], u32> = HashMap::new();
-        let mut number = |place: [f32; 3]| {
-            let next = corners.len() as u32;
-            // Minus zero is the same coordinate as zero.
-            *corners.entry(place.map(|x| (x + 0.0).to_bits())).or_insert(next)
-        };
-        let numbers: Vec<u32> = self.positions.iter().map(|&place| number(place)).collect();
+        let weld = Weld::new(&self.positions);
         // Each side with its smaller corner first; the reverse direction counts as -1.
         let mut sides: Vec<([u32; 2], i32)> = Vec::with_capacity(3 * self.triangles.len());
         let mut volume = 0.0;
-        for (place, triangle) in (0..).zip(&self.triangles) {
-            let [a, b, c] = triangle.position.map(|corner| numbers[corner as usize]);
+        for (number, triangle) in (0..).zip(&self.triangles) {
+            let [a, b, c] = weld.corners(triangle.position);
             if a == b || b == c || c == a {
                 continue;
             }
             for [from, to] in [[a, b], [b, c], [c, a]] {
-                let way = if from < to { 1 } else { -1 };
-                sides.push(([from.min(to), from.max(to)], way));
+                let sign = if from < to { 1 } else { -1 };
+                sides.push(([from.min(to), from.max(to)], sign));
             }
             // Six times the volume between the triangle and one corner of the mesh, which loses no
             // digits far from the origin.
-            let origin = dvec3(self.corners(0)[0]);
-            let [p, q, r] = self.corners(place).map(|corner| dvec3(corner) - origin);
+            let origin = as_dvec3(self.corners(0)[0]);
+            let [p, q, r] = self.corners(number).map(|corner| as_dvec3(corner) - origin);
             volume += p.dot(q.cross(r));
         }
         sides.sort_unstable_by_key(|(side, _)| *side);
         let matched =
-            |group: &[([u32; 2], i32)]| group.iter().map(|(_, way)| way).sum::<i32>() == 0;
+            |group: &[([u32; 2], i32)]| group.iter().map(|(_, sign)| sign).sum::<i32>() == 0;
         volume > 0.0 && sides.chunk_by(|(a, _), (b, _)| a == b).all(matched)
     }
-}
-
-fn dvec3(place: [f32; 3]) -> DVec3 {
-    DVec3::from(place.map(f64::from))
 }
 
 #[cfg(test)]

@@ -72,7 +72,10 @@ impl Cuboid {
         }
         let counts = |(t, face): &(f64, u32)| {
             let off = self.plane(*face) - origin[*face as usize / 2];
-            *t > 0.0 && *t < f64::INFINITY && start.leaves != Some(*face) && off.abs() > start.skin
+            *t > 0.0
+                && *t < f64::INFINITY
+                && start.left_face != Some(*face)
+                && off.abs() > start.skin
         };
         [enter, leave].into_iter().find(counts)
     }
@@ -132,7 +135,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    const FREE: Start = Start { leaves: None, skin: 0.0 };
+    const FREE: Start = Start { left_face: None, skin: 0.0 };
 
     fn brick() -> Cuboid {
         Cuboid::new(DVec3::new(-1.0, -2.0, -3.0), DVec3::new(1.0, 2.0, 5.0)).unwrap()
@@ -196,12 +199,12 @@ mod tests {
             let (t, face) = brick.intersect(origin, direction, FREE).unwrap();
             prop_assert!(face == from && (t - before).abs() < 1e-12, "{t} {face}");
             let skin = 1e-13;
-            let inside = Start { leaves: Some(from), skin };
+            let inside = Start { left_face: Some(from), skin };
             let (t, face) = brick.intersect(enter, direction, inside).unwrap();
             prop_assert!(face == to && (t - enter.distance(leave)).abs() < 1e-12, "{t} {face}");
-            let outside = Start { leaves: Some(to), skin };
+            let outside = Start { left_face: Some(to), skin };
             prop_assert_eq!(brick.intersect(leave, direction, outside), None);
-            prop_assert_eq!(brick.intersect(leave, direction, Start { leaves: None, skin }), None);
+            prop_assert_eq!(brick.intersect(leave, direction, Start { left_face: None, skin }), None);
         }
     }
 }

@@ -203,7 +203,9 @@ fn weighted(weights: [f64; 3], points: [DVec3; 3]) -> DVec3 {
     weights[0] * points[0] + weights[1] * points[1] + weights[2] * points[2]
 }
 
-fn as_dvec3(v: [f32; 3]) -> DVec3 {
+/// Converts coordinates of a mesh to the precision of the arithmetic.
+#[must_use]
+pub fn as_dvec3(v: [f32; 3]) -> DVec3 {
     DVec3::new(f64::from(v[0]), f64::from(v[1]), f64::from(v[2]))
 }
 

@@ -11,6 +11,7 @@ pub mod right_triangle;
 pub mod sphere;
 pub mod superquadric;
 pub mod triangle;
+pub mod weld;
 
 pub use charts::Charts;
 pub use cuboid::Cuboid;
@@ -20,10 +21,26 @@ pub use placement::{Placement, PlacementError};
 pub use quad::Quad;
 pub use sphere::Sphere;
 pub use superquadric::Superquadric;
+pub use weld::Weld;
 
 use glam::{DVec2, DVec3};
 
 /// A shape of the scene.
+///
+/// A new shape provides, and the compiler leads to each `match`:
+///
+/// - a file in this folder, whose type has `intersect`, `surface_point`, `uv_gradients` and `bounds`,
+///   with the meaning of the methods of [`Shape`];
+/// - answers of [`Shape`]: kind, faces, parts, extent, charts, poles, placement, and
+///   [`Shape::is_closed`] (`closed.rs`). A shape without poles, seams and faces joins an existing arm;
+/// - for an infinite shape, the half space that it encloses (`trace/volume.rs`, where only planes have
+///   one);
+/// - its key in scene files: a variant of [`ObjectFile`](crate::scene::file::ObjectFile), which states
+///   what a new key provides;
+/// - answers of `--check`: `contains` and `height` in `scene/check/solid.rs`, `None` where not computed;
+/// - tests: the nearest hit equals a closed form; `uv_gradients` equals differences (tests below);
+///   a ray that leaves the surface does not meet its start; hits lie within `bounds`; a placed shape
+///   equals the shape seen by a transformed ray (`placed.rs`); a scene in examples/ shows the shape.
 #[derive(Debug, Clone)]
 pub enum Shape {
     /// A sphere.
@@ -40,14 +57,14 @@ pub enum Shape {
     Placed(Placed),
 }
 
-/// The start of a ray, as far as a shape needs it.
+/// The properties of a ray's start on which intersections depend.
 ///
 /// A ray that leaves a surface must not hit this surface at its start. Any other surface within
 /// `skin` of the start coincides with it and is not hit there either.
 #[derive(Debug, Clone, Copy)]
 pub struct Start {
     /// The face of this shape that the ray leaves, if it leaves this shape.
-    pub leaves: Option<u32>,
+    pub left_face: Option<u32>,
     /// Distance from the start, in scene units and perpendicular to the surface, that still counts
     /// as the start.
     pub skin: f64,
@@ -68,6 +85,19 @@ impl Shape {
         }
     }
 
+    /// Returns the mesh, if the shape is one.
+    #[must_use]
+    pub fn mesh(&self) -> Option<&Mesh> {
+        match self {
+            Self::Mesh(mesh) => Some(mesh),
+            Self::Sphere(_)
+            | Self::Quad(_)
+            | Self::Cuboid(_)
+            | Self::Superquadric(_)
+            | Self::Placed(_) => None,
+        }
+    }
+
     /// Returns the nearest distance above 0 at which a ray meets the shape, and the number of the
     /// face that it meets. The number is one of six on a box, and 0 on other shapes. `direction` is
     /// unit, and distances are in scene units.
@@ -76,7 +106,7 @@ impl Shape {
     /// [`triangle::ShearedRay`].
     #[must_use]
     pub fn intersect(&self, origin: DVec3, direction: DVec3, start: Start) -> Option<(f64, u32)> {
-        let leaves = start.leaves.is_some();
+        let leaves = start.left_face.is_some();
         let only_face = |t: f64| (t, 0);
         match self {
             Self::Sphere(sphere) => {
@@ -203,7 +233,10 @@ impl Shape {
         match self {
             Self::Quad(quad) => quad.placed(placement).map(Self::Quad),
             Self::Mesh(mesh) => mesh.placed(placement).map(Self::Mesh),
-            curved => Ok(Self::Placed(Placed::new(curved, *placement))),
+            curved @ (Self::Sphere(_)
+            | Self::Cuboid(_)
+            | Self::Superquadric(_)
+            | Self::Placed(_)) => Ok(Self::Placed(Placed::new(curved, *placement))),
         }
     }
 
@@ -266,21 +299,21 @@ mod tests {
             let at = |point: DVec3| [ball.surface_point(point), quad.surface_point(point)];
             let here = at(ball.center + near);
             let found = [Shape::Sphere(ball), Shape::Quad(quad)].map(|shape| {
-                let place = usize::from(!matches!(shape, Shape::Sphere(_)));
-                shape.uv_gradients(0, here[place].position)
+                let k = usize::from(!matches!(shape, Shape::Sphere(_)));
+                shape.uv_gradients(0, here[k].position)
             });
-            for place in 0..2 {
-                let (tangent, _) = here[place].geometric_normal.any_orthonormal_pair();
-                let moved = at(here[place].position + step * tangent)[place];
-                let way = moved.position - here[place].position;
-                let expected = moved.uv - here[place].uv;
-                let change = DVec2::from(found[place].map(|gradient| gradient.dot(way)));
+            for which in 0..2 {
+                let (tangent, _) = here[which].geometric_normal.any_orthonormal_pair();
+                let moved = at(here[which].position + step * tangent)[which];
+                let step_taken = moved.position - here[which].position;
+                let expected = moved.uv - here[which].uv;
+                let change = DVec2::from(found[which].map(|gradient| gradient.dot(step_taken)));
                 assert!(change.abs_diff_eq(expected, 1e-11), "{change} and {expected}");
             }
             let weights = [(0.1, 0.2), (0.1 + 0.01 * f64::from(k), 0.25)];
             let [from, to] = weights.map(|(b, c)| mesh.surface_point(0, [b, c]));
-            let way = to.position - from.position;
-            let change = DVec2::from(mesh.uv_gradients(0).map(|gradient| gradient.dot(way)));
+            let step_taken = to.position - from.position;
+            let change = DVec2::from(mesh.uv_gradients(0).map(|gradient| gradient.dot(step_taken)));
             assert!(change.abs_diff_eq(to.uv - from.uv, 1e-14));
         }
         assert_eq!(Shape::Mesh(mesh).uv_gradients(1, DVec3::ZERO), [DVec3::ZERO; 2]);
@@ -315,7 +348,7 @@ mod tests {
                 let toward = DVec3::new(1.3, 0.21, 0.17) - eye;
                 let direction = toward.normalize();
                 let Some((t, face)) =
-                    shape.intersect(eye, direction, Start { leaves: None, skin: 0.0 })
+                    shape.intersect(eye, direction, Start { left_face: None, skin: 0.0 })
                 else {
                     continue;
                 };
@@ -325,8 +358,8 @@ mod tests {
                 let (one, other) = here.geometric_normal.any_orthonormal_pair();
                 for tangent in [one, other] {
                     let moved = at(here.position + step * tangent);
-                    let way = moved.position - here.position;
-                    let change = DVec2::from(gradients.map(|gradient| gradient.dot(way)));
+                    let step_taken = moved.position - here.position;
+                    let change = DVec2::from(gradients.map(|gradient| gradient.dot(step_taken)));
                     let expected = moved.uv - here.uv;
                     // The error is of second order in the step, where the surface bends by at most
                     // 100.

@@ -86,7 +86,13 @@ impl Placed {
                 let middle = to_scene.transform_point3(sphere.center);
                 [middle - reach, middle + reach]
             }
-            shape => self.placement.bounds(shape.bounds().unwrap_or([DVec3::ZERO; 2])),
+            shape @ (Shape::Quad(_)
+            | Shape::Mesh(_)
+            | Shape::Cuboid(_)
+            | Shape::Superquadric(_)
+            | Shape::Placed(_)) => {
+                self.placement.bounds(shape.bounds().unwrap_or([DVec3::ZERO; 2]))
+            }
         };
         let widening = ROUNDINGS * f64::EPSILON * self.extent();
         [low - widening, high + widening]
@@ -108,7 +114,7 @@ mod tests {
     use glam::{DAffine3, DMat3, DVec2};
     use proptest::prelude::*;
 
-    const FREE: Start = Start { leaves: None, skin: 0.0 };
+    const FREE: Start = Start { left_face: None, skin: 0.0 };
 
     fn vector(size: f64) -> impl Strategy<Value = DVec3> {
         prop::array::uniform3(-size..size).prop_map(DVec3::from)
@@ -117,10 +123,10 @@ mod tests {
     /// Rotated, sheared, stretched, mirrored and moved placements, not flatter than a hundredth.
     fn placement() -> impl Strategy<Value = Placement> {
         let linear = (vector(2.0), vector(2.0), vector(2.0));
-        (linear, vector(10.0)).prop_filter_map("not flat", |((x, y, z), way)| {
+        (linear, vector(10.0)).prop_filter_map("not flat", |((x, y, z), shift)| {
             let linear = DMat3::from_cols(x, y, z);
             let thick = linear.determinant().abs() > 0.01;
-            thick.then(|| Placement::new(DAffine3::from_mat3_translation(linear, way)).unwrap())
+            thick.then(|| Placement::new(DAffine3::from_mat3_translation(linear, shift)).unwrap())
         })
     }
 
@@ -159,6 +165,7 @@ mod tests {
             // The tolerance is a hundred roundings of coordinates up to 40, which the inverse map
             // magnifies a hundred times at most.
             prop_assert!(own.position.distance(back) < 1e-10, "{} {back}", own.position);
+            // Longitudes near a pole magnify the rounding further, by up to a thousand times.
             prop_assert!((own.uv - point.uv).abs().max_element() < 1e-6 || own.uv.y > 0.99 || own.uv.y < 0.01
                 || (own.uv.x - point.uv.x).abs() > 0.99);
             prop_assert!(point.position.distance(from + t * direction) < 1e-9);
@@ -178,7 +185,7 @@ mod tests {
 
             // The rounding that the renderer uses.
             let skin = 64.0 * f64::EPSILON * (2.0 * shape.extent() + point.position.abs().max_element());
-            let start = Start { leaves: Some(face), skin };
+            let start = Start { left_face: Some(face), skin };
             let next = shape.intersect(point.position, normal, start);
             let convex = !matches!(&solid, Shape::Superquadric(_));
             prop_assert!(next.is_none() || !convex, "{next:?}");

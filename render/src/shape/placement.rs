@@ -28,7 +28,7 @@ pub enum PlacementError {
     NotFinite,
     /// The map flattens the object, or nearly so.
     #[error(
-        "found a map that presses things flat, expected stretches that differ at most a million times"
+        "found a map that flattens the object, expected stretches that differ at most a million times"
     )]
     Flat,
     /// The map moves points so far that boxes around them have no numbers.
@@ -36,7 +36,7 @@ pub enum PlacementError {
     Away,
     /// A vertex of a mesh is moved beyond the range of its coordinates.
     #[error(
-        "found vertex {0} moved to where single precision has no numbers, expected coordinates up to 3e38"
+        "found vertex {0} moved beyond the range of single precision, expected coordinates up to 3e38"
     )]
     Far(usize),
     /// The edges of a rectangle become parallel.
@@ -147,13 +147,13 @@ mod tests {
     }
 
     #[test]
-    fn the_way_back_undoes_the_way() {
-        let way = DAffine3::from_scale_rotation_translation(
+    fn the_inverse_undoes_the_map() {
+        let map = DAffine3::from_scale_rotation_translation(
             DVec3::new(0.01, -3.0, 70.0),
             glam::DQuat::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), FRAC_PI_3),
             DVec3::new(5.0, -6.0, 7.0),
         );
-        let placement = Placement::new(way).unwrap();
+        let placement = Placement::new(map).unwrap();
         assert!(placement.mirrors() && !placement.is_identity());
         let there_and_back = placement.to_own() * placement.to_scene();
         // The spread is 7000, which magnifies the rounding as much.

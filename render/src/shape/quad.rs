@@ -52,9 +52,9 @@ impl Quad {
     /// # Errors
     /// If the edges become parallel.
     pub fn placed(&self, placement: &Placement) -> Result<Self, PlacementError> {
-        let way = placement.to_scene();
-        let [edge_u, edge_v] = [self.edge_u, self.edge_v].map(|edge| way.transform_vector3(edge));
-        let corner = way.transform_point3(self.corner);
+        let map = placement.to_scene();
+        let [edge_u, edge_v] = [self.edge_u, self.edge_v].map(|edge| map.transform_vector3(edge));
+        let corner = map.transform_point3(self.corner);
         let moved = Self::new(corner, edge_u, edge_v, self.repeat, self.bounded);
         let mut moved = moved.ok_or(PlacementError::Parallel)?;
         if moved.normal.dot(placement.normal(self.normal)) < 0.0 {

@@ -11,9 +11,9 @@ use std::f64::consts::{PI, TAU};
 /// the north pole. A map is not mirrored as seen from outside.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sphere {
-    /// Centre of the sphere.
+    /// Centre of the sphere, in scene units.
     pub center: DVec3,
-    /// Radius of the sphere, positive.
+    /// Radius of the sphere, in scene units, positive.
     pub radius: f64,
 }
 

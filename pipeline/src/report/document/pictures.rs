@@ -7,7 +7,7 @@ use crate::html::png_address;
 use crate::number::{error, seconds};
 use maud::{Markup, html};
 use render::color::Encoding;
-use render::film::Nine;
+use render::film::Supersample;
 use render::film::encode::{Format, encode};
 use render::filter::Filter;
 use render::{Picture, Sampling};
@@ -58,8 +58,8 @@ fn chosen(page: &PageMeasured) -> Vec<(&'static str, &Trial, &Picture)> {
             |trial: &&Trial| trial.method.filter == filter && trial.method.sampling == sampling;
         page.trials.iter().find(is)
     };
-    let nine = find(Filter::Tent, Sampling::Nine(Nine::Image))
-        .or_else(|| find(Filter::Tent, Sampling::Nine(Nine::Rays)));
+    let nine = find(Filter::Tent, Sampling::Supersample(Supersample::Image))
+        .or_else(|| find(Filter::Tent, Sampling::Supersample(Supersample::Rays)));
     let one = find(Filter::Tent, Sampling::regular(1));
     let nearest = |of: &dyn Fn(&Trial) -> bool| {
         let own = page.trials.iter().filter(|trial| of(trial));

@@ -5,7 +5,7 @@ use super::super::words::{Claim, Topic, Verdict};
 use crate::number::{error, times};
 use maud::{Markup, html};
 use render::Sampling;
-use render::film::Nine;
+use render::film::Supersample;
 use render::filter::Filter;
 
 const GROUPS: [(Verdict, &str); 5] = [
@@ -72,7 +72,7 @@ fn row(page: &PageMeasured) -> Markup {
         page.trials.iter().find(|trial| trial.method.filter == filter && is(trial.method.sampling))
     };
     let one = |filter| find(filter, &|sampling| sampling == Sampling::regular(1));
-    let nine = |form| find(Filter::Tent, &move |sampling| sampling == Sampling::Nine(form));
+    let nine = |form| find(Filter::Tent, &move |sampling| sampling == Sampling::Supersample(form));
     let nearest = page.trials.iter().min_by(|a, b| a.whole.rmse.total_cmp(&b.whole.rmse));
     let unit = one(Filter::Bilinear).map(|trial| trial.cost.cpu);
     let cell = |trial: Option<&Trial>| {
@@ -92,7 +92,7 @@ fn row(page: &PageMeasured) -> Markup {
         tr {
             td { a href={ "#" (page.name) } { (page.name) } }
             @for filter in SHOWN { td { (cell(one(filter))) } }
-            td { (cell(nine(Nine::Image).or_else(|| nine(Nine::Rays)))) }
+            td { (cell(nine(Supersample::Image).or_else(|| nine(Supersample::Rays)))) }
             td {
                 (cell(nearest))
                 @if let Some(nearest) = nearest { br; span.faint { (super::set(&nearest.method.name())) } }

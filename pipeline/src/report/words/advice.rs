@@ -121,7 +121,7 @@ fn for_aim<'a>(
         Some((rays, ..)) if rays == method => String::new(),
         Some((rays, own, _)) => {
             let rays = match rays.sampling {
-                Sampling::Nine(_) => "the thesis's supersampling".into(),
+                Sampling::Supersample(_) => "the thesis's supersampling".into(),
                 Sampling::Grid { .. } => rays.rays(),
             };
             let longer = in_the_time(own / ratio);

@@ -6,7 +6,7 @@ use super::pool::{counts, evenly, time_ratio, whole};
 use super::{AS_FAST, Claim, Topic, Verdict, as_near, nearer};
 use crate::number::{bytes, error};
 use render::Sampling;
-use render::film::Nine;
+use render::film::Supersample;
 use render::filter::Filter;
 
 /// Returns the sentences on all pages together.
@@ -130,7 +130,7 @@ fn orders(pages: &[PageMeasured]) -> Option<Claim> {
 
 /// Returns a sentence on the thesis's supersampling and 2 x 2 rays, which trace as many rays.
 fn supersampling(pages: &[PageMeasured]) -> Option<Claim> {
-    let nine = Method { filter: Filter::Tent, sampling: Sampling::Nine(Nine::Image) };
+    let nine = Method { filter: Filter::Tent, sampling: Sampling::Supersample(Supersample::Image) };
     let even = method(Filter::Tent, 2);
     let (own, rival) = (whole(pages, &nine)?, whole(pages, &even)?);
     let ratio = time_ratio(pages, &nine, &even)?;

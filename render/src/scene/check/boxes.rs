@@ -1,8 +1,8 @@
-//! Finds boxes among many: a tree that is halved by count, along the longest axis of the middles.
+//! A tree of boxes, which halves the boxes by count along the longest axis of their middles.
 //!
-//! The tree has `log2 n` levels whatever the boxes are, so building takes O(n log n). What a search
-//! costs depends on how many boxes it meets; it counts the boxes that it looks at, so that whoever
-//! searches can stop.
+//! The tree has `log2 n` levels for any boxes, so that building takes O(n log n). The cost of a search
+//! depends on the number of boxes that it meets. A search counts the boxes that it tests, so that the
+//! caller can limit the cost.
 
 use glam::DVec3;
 use std::ops::ControlFlow;
@@ -13,18 +13,19 @@ pub type Bounds = [DVec3; 2];
 /// Boxes in a tree.
 #[derive(Debug)]
 pub struct Boxes {
-    /// The boxes' numbers, in the order of the tree.
+    /// Indices of the boxes, in the order of the tree.
     order: Vec<u32>,
     boxes: Vec<Bounds>,
-    /// The box around each part of the order, in the order in which a search comes to them.
+    /// The box around each node of the tree, in preorder.
     parts: Vec<Bounds>,
 }
 
-/// A leaf has at most so many boxes.
+/// Largest number of boxes in a leaf. A larger leaf costs more tests for each search, and a smaller leaf
+/// more nodes.
 const LEAF: usize = 4;
 
 impl Boxes {
-    /// A tree over boxes.
+    /// Builds a tree over boxes.
     #[must_use]
     pub fn new(boxes: Vec<Bounds>) -> Self {
         let mut order: Vec<u32> = (0..boxes.len() as u32).collect();
@@ -33,8 +34,9 @@ impl Boxes {
         Self { order, boxes, parts }
     }
 
-    /// Gives `see` the number of every box for which `meets` holds, until it breaks. `meets` must hold
-    /// for a box around one for which it holds. Returns how many boxes were looked at.
+    /// Calls `see` with the index of each box for which `meets` holds, until `see` breaks. If `meets`
+    /// holds for a box, it must hold for every box around this box. Returns the number of boxes that were
+    /// tested.
     pub fn search(
         &self,
         meets: impl Fn(&Bounds) -> bool,
@@ -65,7 +67,7 @@ impl Boxes {
     }
 }
 
-/// How many parts a tree over so many boxes has.
+/// Returns the number of nodes of a tree over `count` boxes.
 fn parts_of(count: usize) -> usize {
     if count <= LEAF { 1 } else { 1 + parts_of(count / 2) + parts_of(count - count / 2) }
 }
@@ -90,7 +92,7 @@ fn divide(boxes: &[Bounds], order: &mut [u32], parts: &mut Vec<Bounds>) {
     divide(boxes, second, parts);
 }
 
-/// Whether two boxes share a point.
+/// Returns whether two boxes share a point.
 #[must_use]
 pub fn touch(a: &Bounds, b: &Bounds) -> bool {
     a[0].cmple(b[1]).all() && b[0].cmple(a[1]).all()
@@ -101,7 +103,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_search_finds_what_trying_all_finds_and_looks_at_few() {
+    fn a_search_equals_brute_force_and_tests_few_boxes() {
         let part = |i: usize, golden: f64| (i as f64 * golden).fract();
         for count in [0, 1, 4, 5, 1000, 1001] {
             let boxes: Vec<Bounds> = (0..count)

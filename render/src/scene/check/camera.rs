@@ -1,14 +1,16 @@
-//! Where the eye stands, and what it cannot see.
+//! An eye inside an object, and objects outside the picture.
 
 use super::solid;
 use super::subject::{Item, Subject};
 use super::{Finding, Severity, short};
 use glam::DVec3;
 
-/// An eye nearer to a surface than this part of its distance to the target stands on it.
+/// An eye counts as on a surface if its distance is at most this fraction of its distance to the target.
+/// A smaller fraction would miss an eye that rounding moved off the surface. A larger fraction would
+/// report an eye close to a floor.
 const ON: f64 = 1e-6;
 
-/// What the camera's place shows.
+/// Returns the findings about the camera.
 #[must_use]
 pub fn findings(subject: &Subject<'_>) -> Vec<Finding> {
     let mut found: Vec<Finding> =
@@ -17,7 +19,7 @@ pub fn findings(subject: &Subject<'_>) -> Vec<Finding> {
     found
 }
 
-/// An eye in an object or on its surface.
+/// Finds an eye inside an object or on its surface.
 fn stands(subject: &Subject<'_>, item: &Item<'_>) -> Option<Finding> {
     let eye = subject.eye();
     let near = ON * eye.distance(subject.camera.target.into());
@@ -33,16 +35,16 @@ fn stands(subject: &Subject<'_>, item: &Item<'_>) -> Option<Finding> {
     }
     if solid::contains(item, eye) == Some(true) {
         let (severity, why) = if subject.is_clear(item) {
-            (Severity::Remark, "the eye is inside of")
+            (Severity::Remark, "the eye is inside")
         } else {
-            (Severity::Hint, "the eye sees nothing but the inside of")
+            (Severity::Hint, "the eye sees only the inside of")
         };
         return said(severity, why.into());
     }
     None
 }
 
-/// Objects of which no part is in the picture.
+/// Finds objects of which no part is in the picture.
 fn unseen(subject: &Subject<'_>) -> Vec<Finding> {
     let sides = View::of(subject);
     let mut found = Vec::new();
@@ -51,35 +53,36 @@ fn unseen(subject: &Subject<'_>) -> Vec<Finding> {
         match solid::bounds(item).and_then(|bounds| sides.misses(bounds)) {
             Some(Miss::Behind(distance)) => {
                 let message = format!(
-                    "all of it is behind the camera, {} from it: only mirrors and its shadow show it",
+                    "the whole object is behind the camera, at a distance of {}: only mirrors and shadows show it",
                     short(distance)
                 );
                 found.push(Finding::new(Severity::Remark, &item.path, message));
             }
             Some(Miss::Beside) => {
                 let message =
-                    "all of it is outside the picture: only mirrors and its shadow show it";
+                    "the whole object is outside the picture: only mirrors and shadows show it";
                 found.push(Finding::new(Severity::Remark, &item.path, message));
             }
             None => seen = true,
         }
     }
     if !seen && !subject.items.is_empty() {
-        let message = "found no object in front of the camera, expected one at least: the picture \
-                       is nothing but background";
+        let message = "found no object in front of the camera, expected at least one: the picture \
+                       shows only the background";
         found.push(Finding::new(Severity::Wrong, "camera", message));
     }
     found
 }
 
-/// How a box is not in the picture.
+/// The position of a box outside the picture.
 enum Miss {
-    /// By the distance of its nearest corner along the view.
+    /// Behind the eye, with the distance of the nearest corner along the view, in scene units.
     Behind(f64),
+    /// On the far side of one of the four sides.
     Beside,
 }
 
-/// The four sides and the front of what the camera sees, as planes through the eye.
+/// The front and the four sides of the view, as planes through the eye.
 struct View {
     eye: DVec3,
     forward: DVec3,
@@ -104,8 +107,8 @@ impl View {
         Self { eye, forward, inward }
     }
 
-    /// Why a box is not in the picture, if that is certain: all its corners are behind the eye, or
-    /// on the far side of one of the sides.
+    /// Returns the position of a box that is certainly outside the picture: all its corners are behind
+    /// the eye, or on the far side of one of the sides.
     fn misses(&self, [low, high]: [DVec3; 2]) -> Option<Miss> {
         let corner = |k: usize| {
             let pick = |bit: usize, low: f64, high: f64| if k >> bit & 1 == 0 { low } else { high };

@@ -1,53 +1,54 @@
-//! Surfaces in the same place, of which only one is seen.
+//! Surfaces that coincide, of which only one is seen.
 //!
-//! Equal parallelograms are looked at once, however many there are. Others are compared when their
-//! planes are near each other, which sorting tells, and their boxes touch, which a tree tells. So the
-//! work grows with the number of objects and of coincidences, and `MOST_TRIED` bounds the latter.
+//! Equal parallelograms are examined once, however many there are. Other pairs are compared if their
+//! planes are near each other, which sorting finds, and if their boxes touch, which a tree finds. The
+//! work therefore grows with the number of objects and of coincidences. `MOST_TRIED` bounds the number
+//! of coincidences.
 
 use super::boxes::{Boxes, touch};
 use super::planes::{self, NEAR};
-use super::solid::as_dvec3;
 use super::subject::{Item, Subject};
 use super::{Finding, Severity, count};
+use crate::shape::mesh::as_dvec3;
 use crate::shape::{Mesh, Quad, Shape};
 use glam::DVec3;
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
-/// So many pairs are named; all others are counted.
+/// Largest number of pairs that the report names. All other pairs are counted.
 const MOST_NAMED: usize = 20;
 
-/// For each flat object at most so many others are tried, on the average.
+/// Largest number of other objects that are tried for each flat object, on the average.
 ///
-/// Larger, and a scene of thousands of surfaces through each other takes long; smaller, and the count
-/// that is said of such a scene is lower than the truth, which is said too.
+/// A larger number would make a scene of thousands of intersecting surfaces slow. A smaller number would
+/// lower the count of such a scene further below the truth; the report then says "at least".
 const MOST_TRIED: u64 = 256;
 
-/// What is found, and what finding it took.
+/// The pairs of surfaces that coincide, and the cost of the search.
 #[derive(Debug, Default)]
 pub struct Coincidences {
-    /// The first in the scene's order, and a remark that counts the others.
+    /// The first pairs in the scene's order, and a remark that counts the other pairs.
     pub findings: Vec<Finding>,
-    /// How many pairs of objects coincide.
+    /// Number of pairs of objects that coincide.
     pub pairs: u64,
-    /// How many boxes and pairs were looked at.
+    /// Number of boxes and pairs that were tested.
     pub looks: u64,
 }
 
-/// Two objects that coincide: the later flat one, then the other one, or a mesh with its triangles.
+/// Two objects that coincide: the later flat object, and the other object.
 struct Pair {
     quad: usize,
     with: With,
 }
 
-/// What a flat object coincides with, in the order in which findings name them.
+/// The object with which a flat object coincides, in the order of findings.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum With {
     Flat(usize),
     Triangles { item: usize, count: usize },
 }
 
-/// Every flat object against every other and against the triangles of every mesh.
+/// Compares each flat object with all other flat objects and with the triangles of all meshes.
 #[must_use]
 pub fn findings(subject: &Subject<'_>) -> Coincidences {
     let flat: Vec<(&Item<'_>, &Quad)> = subject
@@ -55,7 +56,11 @@ pub fn findings(subject: &Subject<'_>) -> Coincidences {
         .iter()
         .filter_map(|item| match &item.object.shape {
             Shape::Quad(quad) => Some((item, quad)),
-            _ => None,
+            Shape::Sphere(_)
+            | Shape::Mesh(_)
+            | Shape::Cuboid(_)
+            | Shape::Superquadric(_)
+            | Shape::Placed(_) => None,
         })
         .collect();
     let quads: Vec<&Quad> = flat.iter().map(|(_, quad)| *quad).collect();
@@ -76,7 +81,10 @@ pub fn findings(subject: &Subject<'_>) -> Coincidences {
             match found.with {
                 With::Flat(other) => {
                     let (other, _) = flat[other];
-                    let what = format!("it lies in {} ({}), which is seen", other.path, other.kind);
+                    let what = format!(
+                        "the surface lies in {} ({}), which is seen",
+                        other.path, other.kind
+                    );
                     pair(subject, item, other, &what)
                 }
                 With::Triangles { item: other, count: triangles } => {
@@ -95,8 +103,8 @@ pub fn findings(subject: &Subject<'_>) -> Coincidences {
     if others > 0 {
         let least = if search.exhausted { "at least " } else { "" };
         let message = format!(
-            "surfaces lie in each other in {least}{others} more pairs than are named here: of each \
-             only the first in the scene is seen"
+            "surfaces coincide in {least}{others} more pairs: of each pair only the first in the \
+             scene is seen"
         );
         findings.push(Finding::new(Severity::Remark, "objects", message));
     }
@@ -105,11 +113,11 @@ pub fn findings(subject: &Subject<'_>) -> Coincidences {
 
 /// The pairs found so far.
 struct Search {
-    /// The first ones for each flat object, enough to name the first of all.
+    /// The first pairs of each flat object, which contain the first pairs of all.
     named: Vec<Pair>,
     pairs: u64,
     looks: u64,
-    /// How many may still be tried.
+    /// Number of pairs that may still be tried.
     left: u64,
     exhausted: bool,
 }
@@ -125,7 +133,7 @@ impl Search {
         self.name(quad, with);
     }
 
-    /// Keeps a pair while it may be among the first.
+    /// Keeps a pair as long as it may be among the first pairs.
     fn name(&mut self, quad: usize, with: With) {
         self.named.push(Pair { quad, with });
         if self.named.len() >= 4 * MOST_NAMED {
@@ -134,7 +142,7 @@ impl Search {
         }
     }
 
-    /// Takes one pair for tried; false when no more may be.
+    /// Counts one tried pair. Returns `false` if no more pairs may be tried.
     fn may_try(&mut self) -> bool {
         self.looks += 1;
         self.exhausted |= self.left == 0;
@@ -142,16 +150,16 @@ impl Search {
         !self.exhausted
     }
 
-    /// Flat objects that lie in each other.
+    /// Finds flat objects that coincide with flat objects.
     fn among(&mut self, quads: &[&Quad]) {
-        // Equal ones stand for each other: their places in the list, ascending.
+        // Equal objects form a class: their indices, ascending.
         let mut equal: BTreeMap<planes::Bits, Vec<usize>> = BTreeMap::new();
         for (k, quad) in quads.iter().enumerate() {
             equal.entry(planes::bits(quad)).or_default().push(k);
         }
         let classes: Vec<Vec<usize>> = equal.into_values().collect();
         for class in &classes {
-            // Each lies in itself, and so in its equals, unless its arithmetic fails.
+            // An object coincides with itself, and so with its equals, unless its arithmetic fails.
             let quad = quads[class[0]];
             if class.len() > 1 && coplanar(quad, quad) && overlap(quad, quad) {
                 self.within(class);
@@ -183,19 +191,19 @@ impl Search {
         }
     }
 
-    /// Pairs of equal objects.
+    /// Counts and names the pairs within a class of equal objects.
     fn within(&mut self, class: &[usize]) {
         let count = class.len() as u64;
         self.pairs += count * (count - 1) / 2;
         let firsts = class.iter().take(MOST_NAMED + 1).enumerate();
-        for (place, &later) in firsts {
-            class[..place].iter().for_each(|&earlier| self.name(later, With::Flat(earlier)));
+        for (count, &later) in firsts {
+            class[..count].iter().for_each(|&earlier| self.name(later, With::Flat(earlier)));
         }
     }
 
-    /// Pairs of one class of equal objects and another.
+    /// Counts and names the pairs between two classes, if the classes coincide.
     fn between(&mut self, quads: &[&Quad], one: &[usize], other: &[usize]) {
-        // The later one is held against the earlier one, as far as rounding tells them apart.
+        // The order matters only for rounding: the later object is compared with the earlier one.
         let (late, early) = (one[0].max(other[0]), one[0].min(other[0]));
         if !(coplanar(quads[late], quads[early]) && overlap(quads[late], quads[early])) {
             return;
@@ -208,7 +216,7 @@ impl Search {
         }
     }
 
-    /// Triangles of a mesh that lie in flat objects.
+    /// Finds the triangles of a mesh that lie in flat objects.
     fn on_mesh(&mut self, quads: &[&Quad], item: usize, mesh: &Mesh) {
         if quads.is_empty() {
             return;
@@ -233,7 +241,7 @@ impl Search {
                         return ControlFlow::Break(());
                     }
                     left -= 1;
-                    count += usize::from(stands(quad, corners(n)));
+                    count += usize::from(lies_in(quad, corners(n)));
                     ControlFlow::Continue(())
                 },
             );
@@ -244,7 +252,8 @@ impl Search {
     }
 }
 
-/// What to say of two surfaces that coincide; worse when light should go from one to the other.
+/// Describes two surfaces that coincide. The finding is more severe if light should pass from one to
+/// the other.
 fn pair(subject: &Subject<'_>, item: &Item<'_>, other: &Item<'_>, what: &str) -> Finding {
     if subject.is_clear(item) || subject.is_clear(other) {
         let message = format!(
@@ -264,8 +273,8 @@ fn coplanar(a: &Quad, b: &Quad) -> bool {
     normal.cross(planes::normal(b)).length() < NEAR && apart <= NEAR * size
 }
 
-/// Whether two parallelograms in one plane share an area: no side of either has all of the other
-/// beyond it.
+/// Returns whether two parallelograms in one plane share an area: no side of one separates it from the
+/// other.
 fn overlap(a: &Quad, b: &Quad) -> bool {
     let (Some(a_corners), Some(b_corners)) = (a.corners(), b.corners()) else {
         return true;
@@ -289,8 +298,8 @@ fn overlap(a: &Quad, b: &Quad) -> bool {
     !apart(&a_corners, &b_corners) && !apart(&b_corners, &a_corners)
 }
 
-/// Whether a triangle lies in a flat object.
-fn stands(quad: &Quad, [a, b, c]: [DVec3; 3]) -> bool {
+/// Returns whether a triangle lies in a flat object.
+fn lies_in(quad: &Quad, [a, b, c]: [DVec3; 3]) -> bool {
     let (corner, up) = (quad.corner(), planes::normal(quad));
     let near = |p: DVec3| {
         let size = p.abs().max_element() + corner.abs().max_element();

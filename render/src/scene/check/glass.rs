@@ -1,4 +1,4 @@
-//! What light goes through: whether it has an inside, and whether a ray may follow it far enough.
+//! Transparent objects: whether they have an inside, and whether rays are followed through all of them.
 
 use super::solid;
 use super::subject::{Item, Subject};
@@ -6,7 +6,7 @@ use super::{Finding, Severity, count};
 use crate::shape::Shape;
 use glam::DVec3;
 
-/// What the transparent objects show.
+/// Returns the findings about transparent objects.
 #[must_use]
 pub fn findings(subject: &Subject<'_>) -> Vec<Finding> {
     let bent = subject.items.iter().filter(|item| subject.bends(item));
@@ -15,50 +15,58 @@ pub fn findings(subject: &Subject<'_>) -> Vec<Finding> {
     found
 }
 
-/// Glass that has no inside, or has it outside.
+/// Finds a refracting object without an inside, or with its inside outside.
 fn open_or_inward(item: &Item<'_>) -> Option<Finding> {
     let said = |severity, message: String| Some(Finding::new(severity, &item.path, message));
     if let Shape::Quad(_) = item.object.shape {
-        let message = "it refracts and has no inside: light that goes through stays bent, as if \
-                       all behind it were glass; give it the index of refraction 1, or a thickness";
+        let message = "the surface refracts and has no inside: light behind the surface stays refracted, as \
+                       if all space there were glass; use an index of refraction of 1, or a closed object";
         return said(Severity::Hint, message.into());
     }
     let skin = item.skin?;
     if skin.rims > 0 {
         let message = format!(
-            "it refracts and is not closed ({} with triangles on one side only): light does not \
-             come out of it again",
+            "the mesh refracts and is not closed ({} with triangles on one side only): light does not \
+             leave it",
             count(skin.rims, "edge", "edges")
         );
         return said(Severity::Wrong, message);
     }
     if skin.flips > 0 {
         let message = format!(
-            "it refracts and its triangles do not agree on the outside ({})",
+            "the mesh refracts and its triangles do not agree on the outside ({})",
             count(skin.flips, "edge", "edges")
         );
         return said(Severity::Wrong, message);
     }
-    let message = "it refracts and its triangles face inward, so that its inside counts as outside; \
-                   turn the order of their corners";
+    let message = "the mesh refracts and its triangles face inward, so that its inside counts as outside; \
+                   reverse the order of their corners";
     if skin.volume < 0.0 { said(Severity::Wrong, message.into()) } else { None }
 }
 
-/// Lines of sight are held against boxes so many times, or [`LINES`] times for each box if that is
-/// more. Larger, and scenes of thousands of transparent objects take long; smaller, and the deepest
-/// line of such a scene is missed more often.
+/// Largest number of tests of a line of sight against a box, unless [`LINES`] lines need more. A larger
+/// number would make scenes of thousands of transparent objects slow. A smaller number would miss the
+/// deepest line of such a scene more often.
 const MOST_HELD: usize = 1 << 22;
 
-/// Lines of sight at least, of scenes with so many objects.
+/// Smallest number of lines of sight in a scene with many transparent objects.
 const LINES: usize = 64;
 
-/// Lines of sight to the middle of transparent boxes, and how many surfaces of transparent boxes they
-/// cross at least. Of very many boxes only some, evenly chosen, are looked at.
+/// Finds lines of sight through more transparent surfaces than a ray is followed through. The lines end
+/// in the middles of the bounding boxes of transparent objects, and count the boxes that they meet. Of
+/// very many boxes, only some, evenly chosen, are targets.
 fn too_deep(subject: &Subject<'_>) -> Option<Finding> {
     let clear = subject.items.iter().filter(|item| subject.is_clear(item));
     let boxes: Vec<([DVec3; 2], usize)> = clear
         .filter_map(|item| {
-            let surfaces = if matches!(item.object.shape, Shape::Quad(_)) { 1 } else { 2 };
+            let surfaces = match item.object.shape {
+                Shape::Quad(_) => 1,
+                Shape::Sphere(_)
+                | Shape::Mesh(_)
+                | Shape::Cuboid(_)
+                | Shape::Superquadric(_)
+                | Shape::Placed(_) => 2,
+            };
             Some((solid::bounds(item)?, surfaces))
         })
         .collect();
@@ -72,19 +80,19 @@ fn too_deep(subject: &Subject<'_>) -> Option<Finding> {
     let most = looked_at.map(|([low, high], _)| crossed(low.midpoint(*high))).max()?;
     let deepest = subject.scene.max_depth as usize;
     let message = format!(
-        "a line of sight goes through {most} transparent surfaces or more, and a ray is followed \
-         through {deepest} only: behind them is black"
+        "a line of sight passes through {most} transparent surfaces or more, and rays are followed \
+         through {deepest} only: what lies behind is black"
     );
     (most > deepest).then(|| Finding::new(Severity::Hint, "max_depth", message))
 }
 
-/// Of so many boxes every how many a line of sight is looked at.
+/// Returns the step between boxes that are targets of lines of sight, among `count` boxes.
 fn step(count: usize) -> usize {
     let lines = (MOST_HELD / count.max(1)).max(LINES);
     count.div_ceil(lines).max(1)
 }
 
-/// Whether a line from `eye` meets a box, by its slabs.
+/// Returns whether a ray from `eye` meets a box, by the box's three slabs.
 fn meets(eye: DVec3, direction: DVec3, [low, high]: [DVec3; 2]) -> bool {
     let (mut near, mut far) = (0.0f64, f64::INFINITY);
     for k in 0..3 {

@@ -1,4 +1,4 @@
-//! What there is in a scene, a line for each thing.
+//! The inventory of a scene: a line for the camera, each light, texture and object.
 
 use super::subject::{Item, Subject};
 use super::{count, point, short, solid};
@@ -6,7 +6,8 @@ use crate::scene::{Light, Surface, SurfaceTexture};
 use crate::texture::Texture;
 use glam::DVec3;
 
-/// Camera, lights, textures, objects, and the box around those that have one.
+/// Returns the lines for camera, lights, textures and objects, and a line for the bounding box of all
+/// bounded objects.
 #[must_use]
 pub fn lines(subject: &Subject<'_>, table_bytes: &dyn Fn(&Texture) -> u64) -> Vec<String> {
     let scene = subject.scene;
@@ -44,7 +45,7 @@ pub fn lines(subject: &Subject<'_>, table_bytes: &dyn Fn(&Texture) -> u64) -> Ve
     lines
 }
 
-/// The size of a texture and what it takes in memory.
+/// Describes the size of a texture and its memory.
 fn sizes(texture: &Texture, table_bytes: &dyn Fn(&Texture) -> u64) -> String {
     let texels = texture.bytes();
     let tables = match table_bytes(texture) {
@@ -62,7 +63,7 @@ fn memory(bytes: u64) -> String {
     }
 }
 
-/// An object: what it is, what its surfaces are made of, and where it is.
+/// Describes the kind of an object, its materials, and its bounding box.
 fn object(subject: &Subject<'_>, item: &Item<'_>) -> String {
     let mut said = vec![format!("{}: {}", item.path, item.kind)];
     if let Some(mesh) = item.mesh() {

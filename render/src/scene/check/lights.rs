@@ -8,31 +8,31 @@ use crate::scene::{Light, PointLight};
 use glam::DVec3;
 use std::ops::ControlFlow;
 
-/// What the places of the lights show.
+/// Returns the findings about lights.
 #[must_use]
 pub fn findings(subject: &Subject<'_>) -> Vec<Finding> {
     let lights = subject.scene.lights.iter().zip(&subject.lights);
-    let rooms = Rooms::of(subject);
+    let enclosures = Enclosures::of(subject);
     let mut found: Vec<Finding> =
-        lights.filter_map(|(light, path)| rooms.shut_in(light, path)).collect();
+        lights.filter_map(|(light, path)| enclosures.shut_in(light, path)).collect();
     found.extend(dark(subject));
     found
 }
 
-/// The opaque objects that a light can be shut in.
-struct Rooms<'a> {
+/// The opaque objects, any of which may enclose a light.
+struct Enclosures<'a> {
     items: Vec<&'a Item<'a>>,
     tree: Boxes,
     eye: DVec3,
 }
 
-impl<'a> Rooms<'a> {
+impl<'a> Enclosures<'a> {
     fn of(subject: &'a Subject<'_>) -> Self {
         let mut items = Vec::new();
         let mut bounds = Vec::new();
         for item in subject.items.iter().filter(|item| !subject.is_clear(item)) {
             if let Some([low, high]) = solid::bounds(item) {
-                // A little wider, so that rounding keeps no light out.
+                // Widened, so that rounding excludes no light.
                 let slack = 1e-9 * (low.abs().max(high.abs()).max_element() + 1.0);
                 items.push(item);
                 bounds.push([low - slack, high + slack]);
@@ -41,9 +41,12 @@ impl<'a> Rooms<'a> {
         Self { items, tree: Boxes::new(bounds), eye: subject.eye() }
     }
 
-    /// A light inside an opaque object that the eye is outside of; of several the first is named.
+    /// Finds the first opaque object that contains the light and not the eye.
     fn shut_in(&self, light: &Light, path: &str) -> Option<Finding> {
-        let Light::Point(PointLight { position, .. }) = *light else { return None };
+        let position = match *light {
+            Light::Point(PointLight { position, .. }) => position,
+            Light::Directional(_) => return None,
+        };
         let mut around: Option<u32> = None;
         self.tree.search(
             |bounds| touch(bounds, &[position; 2]),
@@ -68,7 +71,7 @@ impl<'a> Rooms<'a> {
     }
 }
 
-/// Neither lights nor ambient light, so that all surfaces are black.
+/// Finds a scene that has neither lights nor ambient light.
 fn dark(subject: &Subject<'_>) -> Option<Finding> {
     let scene = subject.scene;
     let none = scene.lights.iter().all(|light| light.color() == DVec3::ZERO);

@@ -1,16 +1,17 @@
-//! Triangles, normals and rims of meshes.
+//! Triangles, normals and textures of meshes.
 
-use super::solid::{self, as_dvec3};
+use super::solid;
 use super::subject::{Item, Subject};
 use super::{Finding, Severity, count};
 use crate::shape::Mesh;
-use crate::shape::mesh::NONE;
+use crate::shape::mesh::{NONE, as_dvec3};
 use glam::{DVec2, DVec3};
 
-/// A picture is stretched where one of its directions is drawn out so many times more than the other.
+/// A texture counts as stretched if one direction is stretched this many times more than another. A
+/// smaller number would report the triangles around poles.
 const STRETCHED: f64 = 100.0;
 
-/// What the meshes show.
+/// Returns the findings about meshes.
 #[must_use]
 pub fn findings(subject: &Subject<'_>) -> Vec<Finding> {
     let meshes = subject.items.iter().filter_map(|item| Some((item, item.mesh()?)));
@@ -29,7 +30,7 @@ pub fn findings(subject: &Subject<'_>) -> Vec<Finding> {
 fn flat(item: &Item<'_>, mesh: &Mesh) -> Option<Finding> {
     let (flat, all) = (item.skin?.flat, mesh.triangles.len());
     if flat == all {
-        let message = "none of its triangles has an area: nothing of it is seen";
+        let message = "no triangle of the mesh has an area: the mesh is invisible";
         return Some(Finding::new(Severity::Wrong, &item.path, message));
     }
     let message = format!(
@@ -42,22 +43,22 @@ fn flat(item: &Item<'_>, mesh: &Mesh) -> Option<Finding> {
 fn doubled(item: &Item<'_>) -> Option<Finding> {
     let doubled = item.skin?.doubled;
     let message = format!(
-        "{} the corners of one before: only the first is seen",
+        "{} the corners of an earlier triangle: only the first is seen",
         count(doubled, "triangle has", "triangles have")
     );
     (doubled > 0).then(|| Finding::new(Severity::Hint, &item.path, message))
 }
 
-/// A closed mesh whose corners run clockwise as seen from outside. Glass says so by itself.
+/// Finds a closed mesh whose corners run clockwise as seen from outside. Glass has a finding of its own.
 fn inward(subject: &Subject<'_>, item: &Item<'_>) -> Option<Finding> {
     let skin = item.skin?;
-    let message = "its triangles face inward: seen from outside their corners run clockwise, \
-                   expected the other way round";
+    let message = "its triangles face inward: found corners that run clockwise as seen from outside, \
+                   expected counter-clockwise";
     (skin.is_closed() && skin.volume < 0.0 && !subject.bends(item))
         .then(|| Finding::new(Severity::Hint, &item.path, message))
 }
 
-/// Normals of the file that are zero, or on the other side than the corners say.
+/// Finds normals of the file that are zero, or that point to the back of their triangle.
 fn normals(item: &Item<'_>, mesh: &Mesh) -> Vec<Finding> {
     let zero = mesh.normals.iter().filter(|normal| **normal == [0.0; 3]).count();
     let mut averted = 0;
@@ -72,7 +73,7 @@ fn normals(item: &Item<'_>, mesh: &Mesh) -> Vec<Finding> {
     }
     let zero = (zero > 0).then(|| {
         let message = format!(
-            "{} zero: the triangles' own stand for them",
+            "{} zero: the triangles' own normals are used instead",
             count(zero, "normal (vn) is", "normals (vn) are")
         );
         Finding::new(Severity::Hint, &item.path, message)
@@ -89,7 +90,7 @@ fn normals(item: &Item<'_>, mesh: &Mesh) -> Vec<Finding> {
     zero.into_iter().chain(averted).collect()
 }
 
-/// Triangles on which a picture is drawn out far more in one direction than in the other.
+/// Finds triangles on which a texture is stretched far more in one direction than in another.
 fn stretched(item: &Item<'_>, mesh: &Mesh) -> Option<Finding> {
     let is_textured = |surface: u32| item.object.parts[surface as usize].picture().is_some();
     let mut stretched = 0;
@@ -102,15 +103,15 @@ fn stretched(item: &Item<'_>, mesh: &Mesh) -> Option<Finding> {
         stretched += usize::from(stretch(corners, uvs).is_some_and(|ratio| ratio > STRETCHED));
     }
     let message = format!(
-        "on {} the texture is drawn out more than {STRETCHED} times as far in one direction as in \
-         the other",
+        "on {} the texture is stretched more than {STRETCHED} times as far in one direction as in \
+         another",
         count(stretched, "triangle", "triangles")
     );
     (stretched > 0).then(|| Finding::new(Severity::Remark, &item.path, message))
 }
 
-/// The ratio of the singular values of the map from the texture to the triangle; nothing where that
-/// is no map.
+/// Returns the ratio of the singular values of the map from the texture to the triangle, at least 1.
+/// Returns `None` if the texture or the triangle has no area.
 fn stretch([a, b, c]: [DVec3; 3], [s, t, u]: [DVec2; 3]) -> Option<f64> {
     let (e, f) = (t - s, u - s);
     let area = e.perp_dot(f);
@@ -122,20 +123,20 @@ fn stretch([a, b, c]: [DVec3; 3], [s, t, u]: [DVec2; 3]) -> Option<f64> {
     let (p, q, r) = (across.length_squared(), up.length_squared(), across.dot(up));
     let half = 0.5 * (p + q);
     let root = (0.25 * (p - q) * (p - q) + r * r).sqrt();
-    // The smaller by the product, which loses no digits.
+    // The product of both values gives the smaller value without loss of digits.
     let product = across.cross(up).length_squared();
     let larger = half + root;
     (product > 0.0).then(|| larger / product.sqrt())
 }
 
-/// A mesh so far from the origin that the steps of its `f32` coordinates show.
+/// Finds a mesh so far from the origin that the steps of its `f32` coordinates are visible.
 fn rounded(item: &Item<'_>, mesh: &Mesh) -> Option<Finding> {
     let [low, high] = solid::bounds(item)?;
     let size = (high - low).max_element();
     let far = low.abs().max(high.abs()).max_element();
     let step = far * f64::from(f32::EPSILON);
     let message = format!(
-        "its coordinates are in steps of {}, a {}th of its size: move it nearer to the origin",
+        "its coordinates have steps of {}, a {}th of its size: move the mesh nearer to the origin",
         super::short(step),
         super::short(size / step)
     );

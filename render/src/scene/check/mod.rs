@@ -1,20 +1,21 @@
-//! What there is in a scene, and what is wrong or suspicious about it, in words for people.
+//! The report of `--check`: the contents of a scene, and its faults and suspicious values.
 //!
-//! | module         | looks at                                                                  |
-//! |----------------|---------------------------------------------------------------------------|
-//! | [`subject`]    | the scene beside its files: what each object is called and where it stands |
-//! | [`inventory`]  | what there is, a line for each thing                                      |
-//! | [`unused`]     | materials and textures that nothing shows                                 |
-//! | [`camera`]     | where the eye stands and what it cannot see                               |
-//! | [`lights`]     | lights shut in                                                            |
-//! | [`meshes`]     | triangles, normals and rims                                               |
-//! | [`glass`]      | what light goes through                                                   |
-//! | [`coincident`] | surfaces in the same place                                                |
-//! | [`boxes`]      | which of many boxes a search meets                                        |
-//! | [`planes`]     | which flat objects may lie in one plane                                   |
-//! | [`solid`]      | what those need to know of a shape: its box, its inside, its surface      |
+//! | module         | contents                                                                   |
+//! |----------------|----------------------------------------------------------------------------|
+//! | [`subject`]    | the scene with the name and JSON path of each object                       |
+//! | [`inventory`]  | a line for each light, texture and object                                  |
+//! | [`unused`]     | materials and textures that no surface shows                               |
+//! | [`camera`]     | an eye inside an object, and objects outside the picture                   |
+//! | [`lights`]     | lights inside opaque objects                                               |
+//! | [`meshes`]     | triangles without area, normals, stretched textures                        |
+//! | [`glass`]      | transparent objects                                                        |
+//! | [`coincident`] | surfaces that coincide                                                     |
+//! | [`boxes`]      | search among many boxes                                                    |
+//! | [`planes`]     | flat objects that may lie in one plane                                     |
+//! | [`skin`]       | rims and volume of a mesh                                                  |
+//! | [`solid`]      | bounding box, inside and height of a shape                                 |
 //!
-//! Nothing here changes a scene, and no picture needs it.
+//! No check changes a scene, and no picture needs a check.
 
 pub mod boxes;
 pub mod camera;
@@ -24,6 +25,7 @@ pub mod inventory;
 pub mod lights;
 pub mod meshes;
 pub mod planes;
+pub mod skin;
 pub mod solid;
 pub mod subject;
 pub mod unused;
@@ -36,25 +38,25 @@ use std::cmp::Reverse;
 use std::fmt::{self, Display};
 use subject::Subject;
 
-/// How much a finding weighs.
+/// The severity of a finding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
-    /// Good to know, and often meant.
+    /// Worth knowing, and often intended.
     Remark,
-    /// Most often not meant.
+    /// Probably a mistake.
     Hint,
     /// The picture cannot be what the scene means.
     Wrong,
 }
 
-/// One thing found.
+/// A fault or a suspicious value.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Finding {
-    /// How much it weighs.
+    /// Severity of the finding.
     pub severity: Severity,
-    /// Its place: a JSON path, after the name of the file if it is an included one.
+    /// JSON path of the cause. The name of the file precedes the path if the file is an included one.
     pub path: String,
-    /// What it is, with a number to act on.
+    /// Description, with the numbers that a correction needs.
     pub message: String,
 }
 
@@ -80,17 +82,17 @@ impl Display for Finding {
     }
 }
 
-/// What `--check` says.
+/// The report of `--check`.
 #[derive(Debug, Clone)]
 pub struct Report {
-    /// What there is, a line for each thing.
+    /// A line for each light, texture and object.
     pub inventory: Vec<String>,
-    /// What is wrong or suspicious, from the worst to the least.
+    /// Findings, the most severe first.
     pub findings: Vec<Finding>,
 }
 
 impl Report {
-    /// How many findings say that something is wrong.
+    /// Number of findings of severity [`Severity::Wrong`].
     #[must_use]
     pub fn wrong(&self) -> usize {
         self.findings.iter().filter(|finding| finding.severity == Severity::Wrong).count()
@@ -100,25 +102,25 @@ impl Report {
 impl Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let findings = self.findings.iter().map(Finding::to_string);
-        // Names are those of files: none of them may begin a line or fill a page.
+        // Names come from files, so that line breaks and long names are shortened.
         let mut lines = self.inventory.iter().cloned().chain(findings);
         lines.try_for_each(|line| writeln!(f, "{}", words::line(&line)))
     }
 }
 
-/// Everything that can be said of a scene: `scene` was made of `draft`, and is to fill a picture
-/// `aspect` times as wide as high. `table_bytes` says how much memory the tables of a texture take.
+/// Checks a scene. `scene` was resolved from `draft`. `aspect` is the width of the picture over its
+/// height, positive. `table_bytes` returns the memory of a texture's tables, in bytes.
 ///
 /// # Errors
-/// When the draft's files are not those of a scene.
+/// If the draft's files are not those of a scene.
 pub fn check(
     draft: &Draft<'_>,
     scene: &Scene,
     aspect: f64,
     table_bytes: &dyn Fn(&Texture) -> u64,
 ) -> Result<Report, SceneError> {
-    let sheets = draft.sheets()?;
-    let subject = Subject::new(draft, &sheets, scene, aspect);
+    let texts = draft.texts()?;
+    let subject = Subject::new(draft, &texts, scene, aspect);
     let mut findings = camera::findings(&subject);
     findings.extend(meshes::findings(&subject));
     findings.extend(glass::findings(&subject));
@@ -129,7 +131,7 @@ pub fn check(
     Ok(Report { inventory: inventory::lines(&subject, table_bytes), findings })
 }
 
-/// A number in four digits.
+/// Writes a number with four digits.
 fn short(x: f64) -> String {
     let size = x.abs();
     if size != 0.0 && !(1e-4..1e6).contains(&size) {
@@ -147,12 +149,12 @@ fn short(x: f64) -> String {
     }
 }
 
-/// A point in four digits.
+/// Writes a point, each coordinate with four digits.
 fn point(p: glam::DVec3) -> String {
     format!("({}, {}, {})", short(p.x), short(p.y), short(p.z))
 }
 
-/// A number of things, in words.
+/// Writes a count with its noun, in the singular for 1.
 fn count(number: usize, one: &str, many: &str) -> String {
     if number == 1 { format!("1 {one}") } else { format!("{number} {many}") }
 }

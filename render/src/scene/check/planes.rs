@@ -1,24 +1,24 @@
-//! Which flat objects may lie in one plane.
+//! Groups of flat objects that may lie in one plane.
 //!
-//! Planes are sorted by their normals and by their distance from the origin, one number after another,
-//! and parted wherever two neighbours are farther apart than the rounding of either.
+//! Planes are sorted by each coordinate of their normals and by their distance from the origin. A group
+//! is split where two neighbours differ by more than their roundings.
 
 use super::boxes::Bounds;
 use crate::shape::Quad;
 use glam::DVec3;
 
-/// Points of one surface are computed this near to another that coincides with it, in parts of the
-/// largest coordinate: what a ray takes for the same place.
+/// Largest distance between surfaces that coincide, as a fraction of the largest coordinate. Rays use
+/// the same distance to decide that a hit lies at their start.
 pub const NEAR: f64 = 64.0 * f64::EPSILON;
 
-/// How much wider than [`NEAR`] planes are taken for near: the roundings of the numbers that are sorted.
+/// Factor by which groups are wider than [`NEAR`], for the roundings of the sorted numbers.
 const WIDER: f64 = 8.0;
 
-/// What tells one flat object from another, bit by bit: its corners, or the point and the normal of a
-/// plane without end.
+/// Bits that identify a flat object: of its corners, or of the point and the normal of an infinite
+/// plane.
 pub type Bits = [u64; 13];
 
-/// The bits of a flat object.
+/// Returns the bits of a flat object.
 #[must_use]
 pub fn bits(quad: &Quad) -> Bits {
     let points = match quad.corners() {
@@ -26,21 +26,21 @@ pub fn bits(quad: &Quad) -> Bits {
         None => [quad.corner(), normal(quad), DVec3::ZERO, DVec3::ZERO],
     };
     let mut bits = [0; 13];
-    for (place, number) in points.iter().flat_map(DVec3::to_array).enumerate() {
-        // Minus zero is the same number as zero.
-        bits[place] = (number + 0.0).to_bits();
+    for (k, number) in points.iter().flat_map(DVec3::to_array).enumerate() {
+        // -0 has the bits of +0.
+        bits[k] = (number + 0.0).to_bits();
     }
     bits[12] = u64::from(quad.bounds().is_none());
     bits
 }
 
-/// The unit normal of a flat object.
+/// Returns the unit normal of a flat object.
 #[must_use]
 pub fn normal(quad: &Quad) -> DVec3 {
     quad.surface_point(quad.corner()).geometric_normal
 }
 
-/// The box of a flat object, a little wider than it is; endless for a plane.
+/// Returns the bounding box of a flat object, widened by roundings; infinite for a plane.
 #[must_use]
 pub fn bounds(quad: &Quad) -> Bounds {
     match quad.bounds() {
@@ -52,11 +52,11 @@ pub fn bounds(quad: &Quad) -> Bounds {
     }
 }
 
-/// A number to sort by, and how far off a near one may be.
+/// A number to sort by, and its tolerance.
 type Key = (f64, f64);
 
-/// Groups of flat objects, of at least two each, whose planes may be one; in any order. Objects of
-/// different groups are never in one plane.
+/// Returns groups of at least two flat objects that may lie in one plane, in any order. Objects of
+/// different groups never lie in one plane.
 #[must_use]
 pub fn near_each_other(quads: &[&Quad]) -> Vec<Vec<usize>> {
     let keys: Vec<[Key; 4]> = quads.iter().map(|quad| keys(quad)).collect();
@@ -67,10 +67,11 @@ pub fn near_each_other(quads: &[&Quad]) -> Vec<Vec<usize>> {
     })
 }
 
-/// The direction of the normal without its sign, and the distance of the plane from the origin.
+/// Returns the keys of a plane: three of its normal, which ignore the sign, and the distance from the
+/// origin.
 fn keys(quad: &Quad) -> [Key; 4] {
     let normal = normal(quad);
-    // Squares and products of coordinates do not tell a normal from its opposite.
+    // Squares and products of coordinates are equal for a normal and its opposite.
     let turns = WIDER * NEAR;
     let size = quad.corner().abs().max_element();
     let distance = normal.dot(quad.corner()).abs();
@@ -82,7 +83,7 @@ fn keys(quad: &Quad) -> [Key; 4] {
     ]
 }
 
-/// A group parted where neighbours in rising order are not near.
+/// Splits a group where neighbours in ascending order are not near.
 fn part(mut group: Vec<usize>, key: impl Fn(usize) -> Key) -> Vec<Vec<usize>> {
     let low = |k: usize| key(k).0 - key(k).1;
     group.sort_by(|&a, &b| low(a).total_cmp(&low(b)).then(a.cmp(&b)));
@@ -98,7 +99,7 @@ fn part(mut group: Vec<usize>, key: impl Fn(usize) -> Key) -> Vec<Vec<usize>> {
     parts
 }
 
-/// The plane of a flat object with its box, to find triangles that lie in it.
+/// The plane and the bounding box of a flat object, for the search of triangles in the plane.
 #[derive(Debug)]
 pub struct Slab {
     corner: DVec3,
@@ -107,14 +108,14 @@ pub struct Slab {
 }
 
 impl Slab {
-    /// That of a flat object.
+    /// Returns the slab of a flat object.
     #[must_use]
     pub fn of(quad: &Quad) -> Self {
         Self { corner: quad.corner(), normal: normal(quad), bounds: bounds(quad) }
     }
 
-    /// Whether a box may hold a triangle of which each corner is in the plane and the middle in the
-    /// object's box; never false where that is so.
+    /// Returns whether a box may contain a triangle that has all corners in the plane and its middle in
+    /// the object's box. The result is never `false` for a box that contains such a triangle.
     #[must_use]
     pub fn meets(&self, around: &Bounds) -> bool {
         let [low, high] = *around;

@@ -1,51 +1,56 @@
-//! A scene beside the files that it was made of.
+//! A scene with the names and paths of its files.
 
-use super::solid::Skin;
+use super::skin::Skin;
 use crate::scene::file::{CameraFile, ObjectFile};
-use crate::scene::read::{Draft, Sheet};
+use crate::scene::read::{Draft, SceneText};
 use crate::scene::{Material, Object, Scene, SurfaceTexture};
-use crate::shape::{Mesh, Shape};
+use crate::shape::Mesh;
 use glam::DVec3;
 use std::collections::HashMap;
 
-/// What the checks look at.
+/// The scene as the checks see it.
 #[derive(Debug)]
 pub struct Subject<'a> {
     /// The scene.
     pub scene: &'a Scene,
-    /// Its camera as the file says it.
+    /// The camera as in the file.
     pub camera: &'a CameraFile,
-    /// How many times as wide as high its picture is.
+    /// Width of the picture over its height, positive.
     pub aspect: f64,
-    /// Its objects, in its order.
+    /// The objects, in the scene's order.
     pub items: Vec<Item<'a>>,
-    /// Its lights' paths, in its order.
+    /// Paths of the lights, in the scene's order.
     pub lights: Vec<String>,
-    /// Its materials' names and paths, in its order.
+    /// Names and paths of the materials, in the scene's order.
     pub materials: Vec<[String; 2]>,
-    /// Its textures with their names and paths, pictures and solids each in the scene's order.
+    /// The textures with their names and paths; pictures and solids each in the scene's order.
     pub textures: Vec<(SurfaceTexture, [String; 2])>,
-    /// Where each texture stands in `textures`.
-    texture_places: HashMap<SurfaceTexture, usize>,
+    /// Index of each texture in `textures`.
+    texture_indices: HashMap<SurfaceTexture, usize>,
 }
 
-/// An object with its place.
+/// An object with its path.
 #[derive(Debug)]
 pub struct Item<'a> {
-    /// Where the file says it.
+    /// JSON path of the object, after the name of an included file.
     pub path: String,
-    /// What it is, with the name of a mesh.
+    /// Kind of the object, with the name of a mesh.
     pub kind: String,
     /// The object.
     pub object: &'a Object,
-    /// Of a mesh, what its edges say.
+    /// Rims and volume, if the object is a mesh.
     pub skin: Option<Skin>,
 }
 
 impl<'a> Subject<'a> {
-    /// Puts the paths of `sheets`, which are the draft's, beside what the scene made of them.
+    /// Pairs each object of a scene with its path in `texts`, which are those of `draft`.
     #[must_use]
-    pub fn new(draft: &'a Draft<'_>, sheets: &[Sheet<'a>], scene: &'a Scene, aspect: f64) -> Self {
+    pub fn new(
+        draft: &'a Draft<'_>,
+        texts: &[SceneText<'a>],
+        scene: &'a Scene,
+        aspect: f64,
+    ) -> Self {
         let mut subject = Self {
             scene,
             camera: &draft.file.camera,
@@ -54,14 +59,14 @@ impl<'a> Subject<'a> {
             lights: Vec::new(),
             materials: Vec::new(),
             textures: Vec::new(),
-            texture_places: HashMap::new(),
+            texture_indices: HashMap::new(),
         };
         let mut objects = scene.objects.iter();
         let (mut pictures, mut solids) = (0.., 0..);
-        for (number, sheet) in sheets.iter().enumerate() {
-            let own = number + 1 == sheets.len();
-            let file = if own { String::new() } else { format!("{}: ", sheet.document.file) };
-            let lists = sheet.lists;
+        for (number, text) in texts.iter().enumerate() {
+            let own = number + 1 == texts.len();
+            let file = if own { String::new() } else { format!("{}: ", text.document.file) };
+            let lists = text.lists;
             subject.lights.extend((0..lists.lights.len()).map(|k| format!("{file}lights[{k}]")));
             let named = |key: &str, name: &String| [name.clone(), format!("{file}{key}.{name}")];
             subject.materials.extend(lists.materials.keys().map(|name| named("materials", name)));
@@ -72,52 +77,56 @@ impl<'a> Subject<'a> {
                 };
                 subject.textures.extend(texture.map(|texture| (texture, named("textures", name))));
             }
-            for ((place, entry), object) in lists.objects.iter().enumerate().zip(&mut objects) {
+            for ((number, entry), object) in lists.objects.iter().enumerate().zip(&mut objects) {
                 let kind = match entry {
                     ObjectFile::Mesh(mesh) => format!("mesh {}", mesh.name),
-                    other => other.kind().into(),
+                    other @ (ObjectFile::Sphere(_)
+                    | ObjectFile::Rectangle(_)
+                    | ObjectFile::Plane(_)
+                    | ObjectFile::Box(_)
+                    | ObjectFile::Superquadric(_)) => other.kind().into(),
                 };
-                let path = format!("{file}objects[{place}].{}", entry.kind());
-                let skin = mesh_of(object).map(Skin::of);
+                let path = format!("{file}objects[{number}].{}", entry.kind());
+                let skin = object.shape.mesh().map(Skin::of);
                 subject.items.push(Item { path, kind, object, skin });
             }
         }
         let textures = subject.textures.iter().enumerate();
-        subject.texture_places = textures.map(|(place, (texture, _))| (*texture, place)).collect();
+        subject.texture_indices = textures.map(|(index, (texture, _))| (*texture, index)).collect();
         subject
     }
 
-    /// The camera's place.
+    /// Position of the camera.
     #[must_use]
     pub fn eye(&self) -> DVec3 {
         self.camera.eye.into()
     }
 
-    /// The name of a material; one that no file names is of a material library.
+    /// Returns the name of a material. A material without a name comes from a material library.
     #[must_use]
     pub fn material_name(&self, material: usize) -> &str {
         self.materials.get(material).map_or("of its mtl", |[name, _]| name)
     }
 
-    /// The name of a texture; one that no file names is of a material library.
+    /// Returns the name of a texture. A texture without a name comes from a material library.
     #[must_use]
     pub fn texture_name(&self, texture: SurfaceTexture) -> &str {
-        let known = self.texture_places.get(&texture).map(|&place| &self.textures[place]);
+        let known = self.texture_indices.get(&texture).map(|&index| &self.textures[index]);
         known.map_or("of its mtl", |(_, [name, _])| name)
     }
 
-    /// The materials of an object.
+    /// Returns the materials of an object.
     pub fn materials_of<'s>(&'s self, item: &'s Item<'_>) -> impl Iterator<Item = &'s Material> {
         item.object.parts.iter().map(|part| &self.scene.materials[part.material])
     }
 
-    /// Whether light goes through some surface of an object.
+    /// Returns whether light passes through some surface of an object.
     #[must_use]
     pub fn is_clear(&self, item: &Item<'_>) -> bool {
         self.materials_of(item).any(|material| material.transparency > 0.0)
     }
 
-    /// Whether light is bent in an object.
+    /// Returns whether an object refracts light.
     #[must_use]
     pub fn bends(&self, item: &Item<'_>) -> bool {
         let bends = |material: &Material| {
@@ -128,16 +137,9 @@ impl<'a> Subject<'a> {
 }
 
 impl Item<'_> {
-    /// Its triangles, if it is a mesh.
+    /// Returns the mesh, if the item is one.
     #[must_use]
     pub fn mesh(&self) -> Option<&Mesh> {
-        mesh_of(self.object)
-    }
-}
-
-fn mesh_of(object: &Object) -> Option<&Mesh> {
-    match &object.shape {
-        Shape::Mesh(mesh) => Some(mesh),
-        _ => None,
+        self.object.shape.mesh()
     }
 }

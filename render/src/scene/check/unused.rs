@@ -1,14 +1,14 @@
-//! Materials and textures that nothing shows.
+//! Materials and textures that no surface shows.
 
 use super::subject::Subject;
 use super::{Finding, Severity};
 use std::collections::HashMap;
 
-/// One remark for each name that no surface has.
+/// Returns a finding for each material and texture that no surface shows.
 #[must_use]
 pub fn findings(subject: &Subject<'_>) -> Vec<Finding> {
     let mut used = vec![false; subject.scene.materials.len()];
-    // For each texture of a surface whether some material shows it.
+    // For each texture that is on a surface: whether a material shows it.
     let mut shown = HashMap::new();
     for part in subject.items.iter().flat_map(|item| &item.object.parts) {
         used[part.material] = true;
@@ -22,7 +22,7 @@ pub fn findings(subject: &Subject<'_>) -> Vec<Finding> {
         Finding::new(Severity::Remark, path, "no surface is made of this material")
     });
     let textures = subject.textures.iter().filter_map(|(texture, [_, path])| {
-        let message = "it is only on materials without ambient and diffuse light, which do not \
+        let message = "the texture is only on materials without ambient and diffuse light, which do not \
                        show it";
         match shown.get(texture) {
             None => Some(Finding::new(Severity::Remark, path, "no surface has this texture")),

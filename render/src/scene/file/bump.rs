@@ -39,6 +39,41 @@ pub struct BumpFile {
     pub place: Option<PlaceFile>,
 }
 
+/// The relief of a bump with its keys. Exactly one relief is given for each bump.
+///
+/// A new relief provides a field in [`BumpFile`], a variant here, the check of its ranges in
+/// `read/bumps.rs`, and a variant of [`procedural::Relief`](crate::procedural::Relief).
+#[derive(Debug, Clone, Copy)]
+pub enum ReliefKind<'a> {
+    /// `noise`.
+    Noise(&'a OctavesFile),
+    /// `turbulence`.
+    Turbulence(&'a OctavesFile),
+    /// `wall`.
+    Wall(&'a WallFile),
+    /// `dnoise`.
+    Dnoise(&'a DnoiseFile),
+    /// `image`.
+    Image(&'a ImageReliefFile),
+}
+
+impl BumpFile {
+    /// Returns the key of each relief, with its contents if the file has the key. The order is that of
+    /// messages.
+    #[must_use]
+    pub fn kinds(&self) -> [(&'static str, Option<ReliefKind<'_>>); 5] {
+        // Named one by one, so that a new field does not compile until it has its kind.
+        let Self { noise, turbulence, wall, dnoise, image, strength: _, place: _ } = self;
+        [
+            ("noise", noise.as_ref().map(ReliefKind::Noise)),
+            ("turbulence", turbulence.as_ref().map(ReliefKind::Turbulence)),
+            ("wall", wall.as_ref().map(ReliefKind::Wall)),
+            ("dnoise", dnoise.as_ref().map(ReliefKind::Dnoise)),
+            ("image", image.as_ref().map(ReliefKind::Image)),
+        ]
+    }
+}
+
 /// A sum of octaves of noise.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]

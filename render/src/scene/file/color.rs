@@ -1,6 +1,6 @@
 //! Colours of a scene file.
 
-use crate::scene::schema::LARGEST;
+use crate::scene::limits::LARGEST;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde::de::{self, Deserializer, SeqAccess, Visitor};

@@ -1,7 +1,8 @@
 //! The key `lights` of a scene file.
 
 use super::color::{ColorFile, white};
-use crate::scene::schema;
+use super::keywords;
+use crate::scene::limits;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -49,19 +50,19 @@ pub struct DirectionalLightFile {
 pub struct FalloffFile {
     /// Constant term, 0 to 1e30; 0 if left out. At least one of the three terms must be above 0.
     #[serde(default)]
-    #[schemars(transform = schema::range(0.0..=schema::LARGEST))]
+    #[schemars(transform = keywords::range(0.0..=limits::LARGEST))]
     pub constant: f64,
     /// Coefficient of the distance `x`, 0 to 1e30; 0 if left out.
     #[serde(default)]
-    #[schemars(transform = schema::range(0.0..=schema::LARGEST))]
+    #[schemars(transform = keywords::range(0.0..=limits::LARGEST))]
     pub linear: f64,
     /// Coefficient of the squared distance `x^2`, 0 to 1e30; 0 if left out.
     #[serde(default)]
-    #[schemars(transform = schema::range(0.0..=schema::LARGEST))]
+    #[schemars(transform = keywords::range(0.0..=limits::LARGEST))]
     pub quadratic: f64,
     /// Distance at which `x` is 1, in the unit of length, above 0: 1e-30 to 1e30; 1 if left out.
     #[serde(default = "one")]
-    #[schemars(transform = schema::positive)]
+    #[schemars(transform = keywords::positive)]
     pub reference: f64,
 }
 

@@ -2,7 +2,7 @@
 
 use super::bump::BumpFile;
 use super::color::{ColorFile, white};
-use crate::scene::schema;
+use super::keywords;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -13,26 +13,26 @@ pub struct MaterialFile {
     /// Colour of the surface, at least 0; 1 if left out. A texture is multiplied by it.
     pub color: ColorFile,
     /// Share of the ambient light that the surface reflects, 0 to 1; 1 if left out.
-    #[schemars(transform = schema::range(0.0..=1.0))]
+    #[schemars(transform = keywords::range(0.0..=1.0))]
     pub ambient: f64,
     /// Share of the light of lights that the surface reflects diffusely, 0 to 1; 0.9 if left out.
-    #[schemars(transform = schema::range(0.0..=1.0))]
+    #[schemars(transform = keywords::range(0.0..=1.0))]
     pub diffuse: f64,
     /// Strength of the highlight, 0 to 1; 0 if left out.
-    #[schemars(transform = schema::range(0.0..=1.0))]
+    #[schemars(transform = keywords::range(0.0..=1.0))]
     pub specular: f64,
     /// Phong's exponent of the highlight, 1 to 1e6; 50 if left out. A larger exponent makes a
     /// smaller highlight.
-    #[schemars(transform = schema::range(1.0..=1e6))]
+    #[schemars(transform = keywords::range(1.0..=1e6))]
     pub shininess: f64,
     /// Weight of the mirrored ray, 0 to 1; 0 if left out.
-    #[schemars(transform = schema::range(0.0..=1.0))]
+    #[schemars(transform = keywords::range(0.0..=1.0))]
     pub reflectivity: f64,
     /// Weight of the refracted ray, 0 to 1; 0 if left out.
-    #[schemars(transform = schema::range(0.0..=1.0))]
+    #[schemars(transform = keywords::range(0.0..=1.0))]
     pub transparency: f64,
     /// Index of refraction of the inside, 0.1 to 10; 1.5 if left out. The index of air is 1.
-    #[schemars(transform = schema::range(0.1..=10.0))]
+    #[schemars(transform = keywords::range(0.1..=10.0))]
     pub index_of_refraction: f64,
     /// Whether Fresnel's equations divide the light: the weight of the mirrored ray is multiplied
     /// by their reflectance, and the weight of the refracted ray by the rest; false if left out.
@@ -45,7 +45,7 @@ pub struct MaterialFile {
     /// Priority where transparent closed objects overlap, 0 to 255; 0 if left out. The object of
     /// the highest priority fills the overlap; of equal priorities, the object that a ray entered
     /// last.
-    #[schemars(transform = schema::range(0..=255))]
+    #[schemars(transform = keywords::range(0..=255))]
     pub priority: u8,
     /// Colours by the angle to the normal: `[degrees, colour]`, rising from 0 to 90, linear
     /// between; none if left out. The light of each light is multiplied by the colour at the
@@ -61,15 +61,15 @@ pub struct MaterialFile {
 #[serde(deny_unknown_fields)]
 pub struct ThinFilmFile {
     /// Thickness in nanometres, 1 to 5000.
-    #[schemars(transform = schema::range(1.0..=5000.0))]
+    #[schemars(transform = keywords::range(1.0..=5000.0))]
     pub thickness_nm: f64,
     /// Index of refraction of the film, 1 to 5; 1.33 (soap) if left out.
     #[serde(default = "soap")]
-    #[schemars(transform = schema::range(1.0..=5.0))]
+    #[schemars(transform = keywords::range(1.0..=5.0))]
     pub index: f64,
     /// Index of refraction of the medium behind the film, 1 to 5; 1 (air) if left out.
     #[serde(default = "air")]
-    #[schemars(transform = schema::range(1.0..=5.0))]
+    #[schemars(transform = keywords::range(1.0..=5.0))]
     pub base_index: f64,
 }
 

@@ -1,6 +1,6 @@
 //! The key `objects` of a scene file.
 
-use crate::scene::schema;
+use super::keywords;
 use files::names::each_name_once;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -8,6 +8,15 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// An object of the scene.
+//
+// A new shape provides, and the compiler leads to each `match`:
+//
+// - a struct `XFile` here, with `material`, `texture` and `place` as the others have, and a row in the
+//   table of file.rs; the comments of its fields are the descriptions of the JSON Schema;
+// - its variant, with `kind` and `mesh` below, in scene/read/objects.rs, which checks each number, and in
+//   scene/check/subject.rs;
+// - tests: each complaint in render/tests/shape_complaints.rs; an example in examples/scenes, which
+//   render/tests/schema.rs also mutates.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum ObjectFile {
@@ -38,6 +47,19 @@ impl ObjectFile {
             Self::Mesh(_) => "mesh",
         }
     }
+
+    /// Returns the mesh, if the object is one.
+    #[must_use]
+    pub fn mesh(&self) -> Option<&MeshFile> {
+        match self {
+            Self::Mesh(mesh) => Some(mesh),
+            Self::Sphere(_)
+            | Self::Rectangle(_)
+            | Self::Plane(_)
+            | Self::Box(_)
+            | Self::Superquadric(_) => None,
+        }
+    }
 }
 
 /// A sphere with its poles along y.
@@ -47,7 +69,7 @@ pub struct SphereFile {
     /// Centre of the sphere, in the unit of length.
     pub center: [f64; 3],
     /// Radius of the sphere, in the unit of length, above 0: 1e-30 to 1e30.
-    #[schemars(transform = schema::positive)]
+    #[schemars(transform = keywords::positive)]
     pub radius: f64,
     /// Name of the material.
     pub material: String,
@@ -75,7 +97,7 @@ pub struct RectangleFile {
     /// Number of repetitions of the texture, across and up, above 0: 1e-30 to 1e30; once if left
     /// out.
     #[serde(default = "once")]
-    #[schemars(transform = schema::positive)]
+    #[schemars(transform = keywords::positive)]
     pub repeat: [f64; 2],
     /// Steps that place the object, in order; none if left out.
     #[serde(default)]
@@ -127,15 +149,15 @@ pub struct SuperquadricFile {
     pub center: [f64; 3],
     /// Half the size along each axis, of the shape or of the tube of a ring, above 0: 1e-30 to
     /// 1e30.
-    #[schemars(transform = schema::positive)]
+    #[schemars(transform = keywords::positive)]
     pub radii: [f64; 3],
     /// Exponents of the section through the axis and of the section across it, 0.05 to 4. A section
     /// is a square near 0, a circle at 1, a square on its corner at 2, and a star above 2.
-    #[schemars(transform = schema::range(0.05..=4.0))]
+    #[schemars(transform = keywords::range(0.05..=4.0))]
     pub exponents: [f64; 2],
     /// Distance of the middle of a ring's tube from the axis, in units of the radii: 1 to 1000; not
     /// a ring if left out.
-    #[schemars(transform = schema::range(1.0..=1000.0))]
+    #[schemars(transform = keywords::range(1.0..=1000.0))]
     pub ring: Option<f64>,
     /// Name of the material.
     pub material: String,

@@ -7,7 +7,7 @@ use super::solid::{
 use crate::texture::{Values, Wrap};
 use schemars::JsonSchema;
 use serde::Deserialize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// A texture: one picture or one solid.
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
@@ -39,4 +39,73 @@ pub struct TextureFile {
     pub brick: Option<BrickFile>,
     /// Position of a solid in the object. For solids only.
     pub place: Option<PlaceFile>,
+}
+
+/// The kind of a texture with its keys. Exactly one kind is given for each texture.
+///
+/// A new solid texture provides:
+///
+/// - a struct `XFile` with its keys, ranges and defaults in [`solid`](super::solid), and a row in the
+///   table of that page;
+/// - a field in [`TextureFile`] and a variant here; the compiler then leads to [`TextureFile::kinds`]
+///   and to the reader `read/solids.rs`, which checks each range;
+/// - the pattern itself, as [`procedural::Pattern`](crate::procedural::Pattern) states.
+#[derive(Debug, Clone, Copy)]
+pub enum TextureKind<'a> {
+    /// `image`: the path of a picture.
+    Image(&'a Path),
+    /// `marble`.
+    Marble(&'a MarbleFile),
+    /// `granite`.
+    Granite(&'a GraniteFile),
+    /// `wood`.
+    Wood(&'a WoodFile),
+    /// `wall`.
+    Wall(&'a WallFile),
+    /// `turbulence`.
+    Turbulence(&'a CloudsFile),
+    /// `clouds`.
+    Clouds(&'a CloudsFile),
+    /// `checker`.
+    Checker(&'a CheckerFile),
+    /// `stripes`.
+    Stripes(&'a StripesFile),
+    /// `brick`.
+    Brick(&'a BrickFile),
+}
+
+impl TextureFile {
+    /// Returns the key of each kind, with its contents if the file has the key. The order is that of
+    /// messages.
+    #[must_use]
+    pub fn kinds(&self) -> [(&'static str, Option<TextureKind<'_>>); 10] {
+        // Named one by one, so that a new field does not compile until it has its kind.
+        let Self {
+            image,
+            marble,
+            granite,
+            wood,
+            wall,
+            turbulence,
+            clouds,
+            checker,
+            stripes,
+            brick,
+            wrap: _,
+            values: _,
+            place: _,
+        } = self;
+        [
+            ("image", image.as_deref().map(TextureKind::Image)),
+            ("marble", marble.as_ref().map(TextureKind::Marble)),
+            ("granite", granite.as_ref().map(TextureKind::Granite)),
+            ("wood", wood.as_ref().map(TextureKind::Wood)),
+            ("wall", wall.as_ref().map(TextureKind::Wall)),
+            ("turbulence", turbulence.as_ref().map(TextureKind::Turbulence)),
+            ("clouds", clouds.as_ref().map(TextureKind::Clouds)),
+            ("checker", checker.as_ref().map(TextureKind::Checker)),
+            ("stripes", stripes.as_ref().map(TextureKind::Stripes)),
+            ("brick", brick.as_ref().map(TextureKind::Brick)),
+        ]
+    }
 }

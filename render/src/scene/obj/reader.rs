@@ -1,33 +1,33 @@
-//! The lines of an OBJ file, one after another, into a mesh.
+//! Reads the lines of an OBJ file into a mesh.
 
 use super::{ObjError, shortened};
 use crate::shape::Mesh;
 use crate::shape::mesh::{NONE, Triangle};
 use std::collections::HashMap;
 
-/// The statements that number something a corner may name, in the order of a corner's parts.
+/// Number of indices of a corner: vertex, texture coordinate and normal.
 const NUMBERED: usize = 3;
 
-/// Reads one line after another.
+/// The mesh so far, and the state between two lines.
 #[derive(Debug)]
 pub(super) struct Reader<'a> {
     file: &'a str,
     text: &'a str,
     mesh: Mesh,
-    /// Lines that began with `f`.
+    /// Number of lines that began with `f`.
     pub(super) faces: usize,
-    /// The name that `usemtl` gave last, and its surface once a face has it.
+    /// The last name of `usemtl`, and its surface if a face already uses it.
     name: &'a str,
     surface: Option<u32>,
     surfaces: HashMap<&'a str, u32>,
-    /// Faces with corners further on in the file: their line and the largest index of each part.
+    /// Faces with indices of later lines: the line, and the largest index of each part.
     ahead: Vec<(usize, [usize; NUMBERED])>,
 }
 
-/// A corner: a vertex, and perhaps a texture coordinate and a normal.
+/// Indices of a corner: vertex, texture coordinate and normal. The last two are optional.
 type Corner = [u32; NUMBERED];
 
-/// What a statement should have been.
+/// The expected form of a statement.
 type Expected = &'static str;
 
 impl<'a> Reader<'a> {
@@ -61,12 +61,12 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// How many vertices there are so far.
+    /// Number of vertices so far.
     pub(super) fn vertices(&self) -> usize {
         self.mesh.positions.len()
     }
 
-    /// The mesh, with the vertices that its faces have.
+    /// Returns the mesh without the vertices that no face uses.
     pub(super) fn mesh(mut self) -> Mesh {
         let mut used = vec![false; self.mesh.positions.len()];
         for index in self.mesh.triangles.iter().flat_map(|triangle| triangle.position) {
@@ -74,7 +74,7 @@ impl<'a> Reader<'a> {
         }
         if used.contains(&false) {
             let mut next = 0;
-            let places: Vec<u32> = used
+            let renumbered: Vec<u32> = used
                 .iter()
                 .map(|&used| {
                     next += u32::from(used);
@@ -84,7 +84,7 @@ impl<'a> Reader<'a> {
             let mut used = used.into_iter();
             self.mesh.positions.retain(|_| used.next().unwrap_or(true));
             for triangle in &mut self.mesh.triangles {
-                triangle.position = triangle.position.map(|index| places[index as usize]);
+                triangle.position = triangle.position.map(|index| renumbered[index as usize]);
             }
         }
         self.mesh
@@ -138,7 +138,7 @@ impl<'a> Reader<'a> {
             let corner = corners.get_mut(count).ok_or(FORM)?;
             let indices = parts(word).ok_or(FORM)?;
             for (k, index) in indices.into_iter().enumerate() {
-                let place = match index {
+                let position = match index {
                     0 => continue,
                     1.. => {
                         let index = usize::try_from(index).map_err(|_| THERE)?;
@@ -150,7 +150,7 @@ impl<'a> Reader<'a> {
                         counts[k].checked_sub(back).ok_or(THERE)?
                     }
                 };
-                corner[k] = u32::try_from(place).map_err(|_| THERE)?;
+                corner[k] = u32::try_from(position).map_err(|_| THERE)?;
             }
             count += 1;
         }
@@ -175,7 +175,7 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// The surface of the name that `usemtl` gave last.
+    /// Returns the surface of the last name of `usemtl`.
     fn surface(&mut self) -> u32 {
         if let Some(surface) = self.surface {
             return surface;
@@ -190,21 +190,21 @@ impl<'a> Reader<'a> {
 
 const THERE: Expected = "corners that the file has, counted from 1, or back from -1";
 
-/// The first `N` of at most `most` numbers, all of which must be finite.
+/// Returns the first `N` of at most `most` numbers, all of which must be finite.
 fn numbers<const N: usize>(text: &str, most: usize) -> Option<[f32; N]> {
     let mut numbers = [0.0; N];
     let mut count = 0;
     for word in text.split_whitespace() {
         let number: f32 = word.parse().ok().filter(|number: &f32| number.is_finite())?;
-        if let Some(place) = numbers.get_mut(count) {
-            *place = number;
+        if let Some(entry) = numbers.get_mut(count) {
+            *entry = number;
         }
         count += 1;
     }
     (N..=most).contains(&count).then_some(numbers)
 }
 
-/// The indices of a corner; 0, which is none in a file, where there is none.
+/// Returns the indices of a corner; 0 for a part that the corner does not have.
 fn parts(word: &str) -> Option<[i64; NUMBERED]> {
     let index = |part: &str| part.parse().ok().filter(|&index| index != 0);
     let mut parts = word.split('/');

@@ -1,4 +1,4 @@
-//! A scene's texts: its own, and those of the parts that it includes.
+//! The texts of a scene: the scene file, and the parts that it includes.
 
 use super::{SceneError, named};
 use crate::scene::SurfaceTexture;
@@ -8,22 +8,22 @@ use files::{JsonError, Source, input};
 use std::collections::{BTreeMap, HashSet};
 use std::path::{Path, PathBuf};
 
-/// Parts may include parts this deep.
+/// Largest depth of includes. Deeper includes could exhaust the stack.
 pub const DEEPEST_INCLUDE: usize = 16;
 
-/// A scene may include this many parts.
+/// Largest number of parts of a scene, which bounds the time that hostile files take.
 pub const MOST_PARTS: usize = 1000;
 
-/// A scene file and all that it includes, each read into its types; names are not resolved, and of
-/// the numbers none is checked.
+/// A scene file and all included files, each read into its types. Names are not resolved yet, and
+/// numbers are not checked.
 #[derive(Debug)]
 pub struct Draft<'a> {
     /// The text of the scene file.
     pub document: &'a Document<'a>,
-    /// What it says.
+    /// Contents of the scene file.
     pub file: &'a SceneFile,
     folder: &'a Path,
-    /// In the order in which they are taken in: each after those that it includes itself.
+    /// The included files, each after the files that it includes itself.
     parts: Vec<Part>,
 }
 
@@ -36,22 +36,22 @@ struct Part {
     file: PartFile,
 }
 
-/// One of the files of a draft.
+/// The text of the scene file or of an included file, with its contents.
 #[derive(Debug, Clone, Copy)]
-pub struct Sheet<'a> {
-    /// Its text.
+pub struct SceneText<'a> {
+    /// The text.
     pub document: Document<'a>,
-    /// The folder that its paths count from.
+    /// Folder to which the paths of the file are relative.
     pub folder: &'a Path,
-    /// What it says.
+    /// Lists of lights, textures, materials and objects.
     pub lists: Lists<'a>,
 }
 
 impl<'a> Draft<'a> {
-    /// Reads what `file` includes from `source`; paths count from `folder`.
+    /// Reads the files that `file` includes from `source`. Paths are relative to `folder`.
     ///
     /// # Errors
-    /// When a part cannot be read, is no part of a scene, includes itself, or is included too deep.
+    /// If a part cannot be read, is not a part of a scene, includes itself, or is included too deep.
     pub fn gather(
         document: &'a Document<'a>,
         file: &'a SceneFile,
@@ -59,28 +59,29 @@ impl<'a> Draft<'a> {
         source: &dyn Source,
     ) -> Result<Self, SceneError> {
         let mut gathering =
-            Gathering { source, parts: Vec::new(), read: HashSet::new(), way: Vec::new() };
+            Gathering { source, parts: Vec::new(), read: HashSet::new(), including: Vec::new() };
         gathering.include(document, &file.include, folder)?;
         Ok(Self { document, file, folder, parts: gathering.parts })
     }
 
-    /// The files of the scene in the order in which their lights and objects follow; its own last.
+    /// Returns the texts of the scene in the order of their lights and objects; the scene file is last.
     ///
     /// # Errors
-    /// Never in fact: the text of each was read before.
-    pub fn sheets(&self) -> Result<Vec<Sheet<'_>>, JsonError> {
+    /// If a text is not JSON. This cannot happen, since each text was read before.
+    pub fn texts(&self) -> Result<Vec<SceneText<'_>>, JsonError> {
         let parts = self.parts.iter().map(|part| {
             let document = Document::new(&part.name, &part.bytes)?;
-            Ok(Sheet { document, folder: folder_of(&part.path), lists: part.file.lists() })
+            Ok(SceneText { document, folder: folder_of(&part.path), lists: part.file.lists() })
         });
-        let own = Sheet { document: *self.document, folder: self.folder, lists: self.file.lists() };
+        let own =
+            SceneText { document: *self.document, folder: self.folder, lists: self.file.lists() };
         parts.chain([Ok(own)]).collect()
     }
 
-    /// Checks that each of `given` names a mesh of the scene.
+    /// Checks that each name in `given` is that of a mesh of the scene.
     ///
     /// # Errors
-    /// With the names there are.
+    /// If a name is unknown. The error lists the names of the scene's meshes.
     pub fn check_mesh_names<'n>(
         &self,
         given: impl IntoIterator<Item = &'n str>,
@@ -101,12 +102,9 @@ impl<'a> Draft<'a> {
     }
 }
 
-/// The meshes among a file's objects.
+/// Returns the meshes among the objects of a file.
 pub(super) fn meshes(lists: Lists<'_>) -> impl Iterator<Item = &MeshFile> {
-    lists.objects.iter().filter_map(|object| match object {
-        ObjectFile::Mesh(mesh) => Some(mesh),
-        _ => None,
-    })
+    lists.objects.iter().filter_map(ObjectFile::mesh)
 }
 
 fn folder_of(path: &Path) -> &Path {
@@ -116,10 +114,10 @@ fn folder_of(path: &Path) -> &Path {
 struct Gathering<'a> {
     source: &'a dyn Source,
     parts: Vec<Part>,
-    /// The paths of all parts read so far.
+    /// Paths of all parts read so far.
     read: HashSet<PathBuf>,
-    /// The parts whose includes are being read, each included by the one before.
-    way: Vec<PathBuf>,
+    /// Paths of the parts whose includes are being read, each included by the part before.
+    including: Vec<PathBuf>,
 }
 
 impl Gathering<'_> {
@@ -130,14 +128,14 @@ impl Gathering<'_> {
         folder: &Path,
     ) -> Result<(), SceneError> {
         for (k, path) in include.iter().enumerate() {
-            let place = format!("include[{k}]");
-            let refuse = |message: String| Err(SceneError::Json(document.fault(&place, message)));
+            let at = format!("include[{k}]");
+            let refuse = |message: String| Err(SceneError::Json(document.fault(&at, message)));
             let path = input::normalized(&folder.join(path));
             let name = input::name_of(&path);
-            if self.way.contains(&path) {
+            if self.including.contains(&path) {
                 return refuse(format!("found {name}, which includes itself; expected no circle"));
             }
-            if self.way.len() >= DEEPEST_INCLUDE {
+            if self.including.len() >= DEEPEST_INCLUDE {
                 return refuse(format!(
                     "found files included by files more than {DEEPEST_INCLUDE} deep"
                 ));
@@ -150,20 +148,20 @@ impl Gathering<'_> {
                 return refuse(format!("found more files than {MOST_PARTS} included"));
             }
             let bytes =
-                self.source.read_json(&path).map_err(|error| named(document, &place, &error))?;
+                self.source.read_json(&path).map_err(|error| named(document, &at, &error))?;
             let part = Document::new(&name, &bytes)?;
             part.expect(PART_FORMAT, u64::from(VERSION))?;
             let file: PartFile = part.parse()?;
-            self.way.push(path.clone());
+            self.including.push(path.clone());
             self.include(&part, &file.include, folder_of(&path))?;
-            self.way.pop();
+            self.including.pop();
             self.parts.push(Part { name, bytes, path, file });
         }
         Ok(())
     }
 }
 
-/// The names of a scene's materials and textures, each with its place in the scene's lists.
+/// The names of a scene's materials and textures, with their indices in the scene's lists.
 #[derive(Debug, Default)]
 pub(super) struct Indices<'a> {
     pub(super) materials: BTreeMap<&'a str, usize>,
@@ -171,22 +169,22 @@ pub(super) struct Indices<'a> {
 }
 
 impl<'a> Indices<'a> {
-    /// The names in all files.
+    /// Collects the names of all files.
     ///
     /// # Errors
-    /// When one is given in two files.
-    pub(super) fn of(sheets: &[Sheet<'a>]) -> Result<Self, JsonError> {
+    /// If two files define one name.
+    pub(super) fn of(texts: &[SceneText<'a>]) -> Result<Self, JsonError> {
         let mut names = Self::default();
         let (mut pictures, mut solids) = (0.., 0..);
-        for (k, sheet) in sheets.iter().enumerate() {
-            let Lists { materials, textures, .. } = sheet.lists;
+        for (k, text) in texts.iter().enumerate() {
+            let Lists { materials, textures, .. } = text.lists;
             let clash = |key: &str, kind: &str, name: &str, has: fn(&Lists<'_>, &str) -> bool| {
-                let other = sheets[..k].iter().find(|other| has(&other.lists, name));
+                let other = texts[..k].iter().find(|other| has(&other.lists, name));
                 let other = other.map_or("another file", |other| other.document.file);
                 let message = format!(
                     "found a {kind} {name:?}, which {other} has too; expected each name in one file"
                 );
-                Err(sheet.document.fault(&format!("{key}.{name}"), message))
+                Err(text.document.fault(&format!("{key}.{name}"), message))
             };
             for name in materials.keys() {
                 let index = names.materials.len();
@@ -196,7 +194,7 @@ impl<'a> Indices<'a> {
                 }
             }
             for (name, texture) in textures {
-                // Pictures and solids are counted apart.
+                // Pictures and solids have indices of their own.
                 let index = match texture.image {
                     Some(_) => pictures.next().map(SurfaceTexture::Picture),
                     None => solids.next().map(SurfaceTexture::Solid),

@@ -1,11 +1,11 @@
-//! Meshes given from outside, handed to the objects that name them.
+//! Gives the meshes that the caller passed to the objects that name them.
 
 use super::MeshSource;
-use super::draft::{Sheet, meshes};
+use super::draft::{SceneText, meshes};
 use crate::shape::Mesh;
 use std::collections::BTreeMap;
 
-/// The meshes given, and how many objects are still to take each of them.
+/// The meshes that the caller passed, and for each the number of objects that still need it.
 #[derive(Debug)]
 pub(super) struct Given {
     meshes: MeshSource,
@@ -13,15 +13,16 @@ pub(super) struct Given {
 }
 
 impl Given {
-    pub(super) fn new(given: MeshSource, sheets: &[Sheet<'_>]) -> Self {
+    pub(super) fn new(given: MeshSource, texts: &[SceneText<'_>]) -> Self {
         let mut takers = BTreeMap::new();
-        for mesh in sheets.iter().flat_map(|sheet| meshes(sheet.lists)) {
+        for mesh in texts.iter().flat_map(|text| meshes(text.lists)) {
             *takers.entry(mesh.name.clone()).or_insert(0) += 1;
         }
         Self { meshes: given, takers }
     }
 
-    /// The mesh of that name for the next object that has it; the last one takes the mesh itself.
+    /// Returns the mesh of this name for the next object. The last object takes the mesh itself, and
+    /// objects before it take copies.
     pub(super) fn take(&mut self, name: &str) -> Option<Mesh> {
         let left = self.takers.get_mut(name)?;
         *left = left.saturating_sub(1);

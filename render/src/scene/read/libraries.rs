@@ -1,39 +1,38 @@
-//! The material libraries that a scene's meshes name.
+//! Reads the material libraries that a scene's meshes name.
 
 use super::{Reader, SceneError};
-use crate::scene::file::ObjectFile;
 use crate::scene::{Scene, Surface, SurfaceTexture, mtl};
 use crate::texture::{Values, Wrap};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// The libraries read so far: surfaces by the names that `usemtl` gives them.
+/// The libraries read so far: for each path, the surfaces by their names in `usemtl`.
 #[derive(Debug, Default)]
 pub(super) struct Libraries(BTreeMap<PathBuf, BTreeMap<String, Surface>>);
 
 impl Libraries {
-    /// What the library at `path` says of a surface.
+    /// Returns the surface of this name in the library at `path`.
     pub(super) fn surface(&self, path: &Path, name: &str) -> Option<Surface> {
         self.0.get(path)?.get(name).copied()
     }
 }
 
 impl Reader<'_> {
-    /// Reads the libraries of this file's meshes; their materials and textures stand in the scene
-    /// behind those with names.
+    /// Reads the libraries of this file's meshes. Their materials and textures follow those of the scene
+    /// file in the scene's lists.
     pub(super) fn libraries(
         &self,
         libraries: &mut Libraries,
         scene: &mut Scene,
     ) -> Result<(), SceneError> {
-        for (place, object) in self.file.objects.iter().enumerate() {
-            let ObjectFile::Mesh(mesh) = object else { continue };
+        for (number, object) in self.file.objects.iter().enumerate() {
+            let Some(mesh) = object.mesh() else { continue };
             let Some(path) = &mesh.mtl else { continue };
             let path = self.folder.join(path);
             if libraries.0.contains_key(&path) {
                 continue;
             }
-            let at = format!("objects[{place}].mesh.mtl");
+            let at = format!("objects[{number}].mesh.mtl");
             let bytes = self.named_file(&at, &path)?;
             let mut surfaces = BTreeMap::new();
             let folder = path.parent().unwrap_or(Path::new(""));

@@ -1,8 +1,9 @@
-//! The lights of a scene file.
+//! Reads the lights of a scene file.
 
+use super::ranges::Ranges;
 use super::{Reader, SceneError};
 use crate::scene::file::{DirectionalLightFile, FalloffFile, LightFile, PointLightFile};
-use crate::scene::schema::LARGEST;
+use crate::scene::limits::LARGEST;
 use crate::scene::{DirectionalLight, Falloff, Light, PointLight};
 
 impl Reader<'_> {
@@ -38,7 +39,7 @@ impl Reader<'_> {
             Some(along) => Ok(Light::Directional(DirectionalLight { toward: -along, color })),
             None => self.fault(
                 &format!("{at}.direction"),
-                "found a direction without length, expected the way that the light goes",
+                "found a direction without length, expected the direction in which the light travels",
             ),
         }
     }

@@ -1,5 +1,6 @@
-//! The materials of a scene file.
+//! Reads the materials of a scene file.
 
+use super::ranges::Ranges;
 use super::{Reader, SceneError};
 use crate::optics::thin_film::ThinFilm;
 use crate::scene::file::{MaterialFile, ThinFilmFile};
@@ -7,7 +8,7 @@ use crate::scene::{AngleRamp, Material};
 use std::sync::Arc;
 
 impl Reader<'_> {
-    /// The materials; those with a bump take its number from `bumps`.
+    /// Reads the materials. A material with a bump takes its index from `bumps`.
     pub(super) fn materials(
         &self,
         bumps: &mut impl Iterator<Item = usize>,

@@ -1,7 +1,8 @@
-//! The objects of a scene file: shapes, meshes, and what their surfaces look like.
+//! Reads the objects of a scene file: shapes, meshes, and the appearance of their surfaces.
 
 use super::given::Given;
 use super::libraries::Libraries;
+use super::ranges::Ranges;
 use super::{Reader, SceneError};
 use crate::scene::file::{MeshFile, ObjectFile};
 use crate::scene::{Object, Surface, SurfaceTexture, obj};
@@ -11,73 +12,89 @@ use files::json::nearest;
 use glam::{DVec2, DVec3};
 use std::collections::BTreeMap;
 
-impl Reader<'_> {
-    /// Checks the shapes that need no other file, before any is read.
-    pub(super) fn objects_without_meshes(&self) -> Result<(), SceneError> {
-        for (place, object) in self.file.objects.iter().enumerate() {
-            match object {
-                ObjectFile::Mesh(mesh) => {
-                    self.mesh_bindings(place, mesh)?;
-                    self.placement(&format!("objects[{place}].mesh"), &mesh.place)?;
-                }
-                _ => {
-                    self.object(place, object)?;
-                }
-            }
-        }
-        Ok(())
-    }
+/// An object of which everything is checked that needs no other file.
+#[derive(Debug)]
+pub(super) enum Planned<'a> {
+    /// An object that is not a mesh.
+    Whole(Object),
+    /// A mesh whose triangles are not read yet.
+    Mesh(PlannedMesh<'a>),
+}
 
-    pub(super) fn objects(
-        &self,
-        given: &mut Given,
-        libraries: &Libraries,
-    ) -> Result<Vec<Object>, SceneError> {
-        let objects = self.file.objects.iter().enumerate().map(|(place, object)| match object {
-            ObjectFile::Mesh(mesh) => self.mesh(place, mesh, given.take(&mesh.name), libraries),
-            _ => self.object(place, object),
+/// A mesh whose triangles are not read yet.
+#[derive(Debug)]
+pub(super) struct PlannedMesh<'a> {
+    file: &'a MeshFile,
+    /// JSON path of the mesh.
+    at: String,
+    bindings: Bindings,
+    placement: Placement,
+}
+
+impl<'a> Reader<'a> {
+    /// Reads the objects as far as they need no other file.
+    pub(super) fn planned_objects(&self) -> Result<Vec<Planned<'a>>, SceneError> {
+        let objects: &'a [ObjectFile] = self.file.objects;
+        let objects = objects.iter().enumerate().map(|(number, object)| {
+            let at = format!("objects[{number}].{}", object.kind());
+            self.planned(at, object)
         });
         objects.collect()
     }
 
-    /// Any object but a mesh.
-    fn object(&self, place: usize, object: &ObjectFile) -> Result<Object, SceneError> {
-        let (kind, shape, material, texture, steps) = match object {
+    /// Reads the meshes and completes the objects.
+    pub(super) fn objects(
+        &self,
+        planned: Vec<Planned<'a>>,
+        given: &mut Given,
+        libraries: &Libraries,
+    ) -> Result<Vec<Object>, SceneError> {
+        let objects = planned.into_iter().map(|object| match object {
+            Planned::Whole(object) => Ok(object),
+            Planned::Mesh(mesh) => {
+                let given = given.take(&mesh.file.name);
+                self.mesh(mesh, given, libraries)
+            }
+        });
+        objects.collect()
+    }
+
+    /// Reads the object at the JSON path `at`, as far as it needs no other file.
+    fn planned(&self, at: String, object: &'a ObjectFile) -> Result<Planned<'a>, SceneError> {
+        let (shape, material, texture, steps) = match object {
             ObjectFile::Sphere(sphere) => {
-                let at = format!("objects[{place}].sphere");
                 let center = self.vector(&format!("{at}.center"), sphere.center)?;
                 let radius = self.above_zero(&format!("{at}.radius"), sphere.radius)?;
                 let shape = Shape::Sphere(Sphere { center, radius });
-                ("sphere", shape, &sphere.material, &sphere.texture, &sphere.place)
+                (shape, &sphere.material, &sphere.texture, &sphere.place)
             }
             ObjectFile::Rectangle(quad) => {
-                let at = format!("objects[{place}].rectangle");
                 for (k, &repeat) in quad.repeat.iter().enumerate() {
                     self.above_zero(&format!("{at}.repeat[{k}]"), repeat)?;
                 }
                 let corner = self.vector(&format!("{at}.corner"), quad.corner)?;
                 let corners = [corner, quad.edge_u.into(), quad.edge_v.into()];
                 let shape = self.quad(&at, corners, quad.repeat, true)?;
-                ("rectangle", shape, &quad.material, &quad.texture, &quad.place)
+                (shape, &quad.material, &quad.texture, &quad.place)
             }
             ObjectFile::Plane(plane) => {
-                let at = format!("objects[{place}].plane");
                 let point = self.vector(&format!("{at}.point"), plane.point)?;
                 let corners = [point, plane.edge_u.into(), plane.edge_v.into()];
                 let shape = self.quad(&at, corners, [1.0; 2], false)?;
-                ("plane", shape, &plane.material, &plane.texture, &plane.place)
+                (shape, &plane.material, &plane.texture, &plane.place)
             }
             ObjectFile::Box(file) => {
-                let shape = self.cuboid(&format!("objects[{place}].box"), file)?;
-                ("box", shape, &file.material, &file.texture, &file.place)
+                (self.cuboid(&at, file)?, &file.material, &file.texture, &file.place)
             }
             ObjectFile::Superquadric(file) => {
-                let shape = self.superquadric(&format!("objects[{place}].superquadric"), file)?;
-                ("superquadric", shape, &file.material, &file.texture, &file.place)
+                (self.superquadric(&at, file)?, &file.material, &file.texture, &file.place)
             }
-            ObjectFile::Mesh(_) => return self.fault(&format!("objects[{place}]"), "found a mesh"),
+            ObjectFile::Mesh(file) => {
+                let bindings = self.mesh_bindings(&at, file)?;
+                let placement = self.placement(&at, &file.place)?;
+                return Ok(Planned::Mesh(PlannedMesh { file, at, bindings, placement }));
+            }
         };
-        let at = format!("objects[{place}].{kind}");
         let material = self.material_index(&format!("{at}.material"), material)?;
         let texture = match texture {
             Some(name) => Some(self.texture_index(&format!("{at}.texture"), name)?),
@@ -85,10 +102,10 @@ impl Reader<'_> {
         };
         let parts = vec![Surface { material, texture }; shape.parts()];
         let placement = self.placement(&at, steps)?;
-        self.placed(&at, shape, parts, &placement)
+        self.placed(&at, shape, parts, &placement).map(Planned::Whole)
     }
 
-    /// The object, placed.
+    /// Returns the object after its placement.
     fn placed(
         &self,
         path: &str,
@@ -121,14 +138,14 @@ impl Reader<'_> {
         }
     }
 
+    /// Reads the triangles of a mesh and binds its surfaces to materials and textures.
     fn mesh(
         &self,
-        place: usize,
-        file: &MeshFile,
+        planned: PlannedMesh<'_>,
         given: Option<Mesh>,
         libraries: &Libraries,
     ) -> Result<Object, SceneError> {
-        let at = format!("objects[{place}].mesh");
+        let PlannedMesh { file, at, bindings, placement } = planned;
         let mesh = match (given, &file.file) {
             (Some(mesh), _) => {
                 let named = |source| SceneError::Mesh { name: file.name.clone(), source };
@@ -150,20 +167,18 @@ impl Reader<'_> {
                 });
             }
         };
-        let bindings = self.mesh_bindings(place, file)?;
         let library = file.mtl.as_ref().map(|path| self.folder.join(path));
         let mut parts = Vec::with_capacity(mesh.surfaces.len());
         for name in &mesh.surfaces {
             let own = library.as_ref().and_then(|path| libraries.surface(path, name));
             parts.push(self.bind(&at, file, &bindings, name, own)?);
         }
-        self.places_of_textures(&at, file, &mesh, &parts)?;
-        let placement = self.placement(&at, &file.place)?;
+        self.check_texture_coordinates(&at, file, &mesh, &parts)?;
         self.placed(&at, Shape::Mesh(mesh), parts, &placement)
     }
 
-    /// Refuses a mesh that shows a texture where it does not say which part of it.
-    fn places_of_textures(
+    /// Refuses a mesh with a texture on triangles without texture coordinates.
+    fn check_texture_coordinates(
         &self,
         at: &str,
         file: &MeshFile,
@@ -187,8 +202,7 @@ impl Reader<'_> {
     }
 
     /// Finds the materials and textures that a mesh names.
-    fn mesh_bindings(&self, place: usize, file: &MeshFile) -> Result<Bindings, SceneError> {
-        let at = format!("objects[{place}].mesh");
+    fn mesh_bindings(&self, at: &str, file: &MeshFile) -> Result<Bindings, SceneError> {
         let mut bindings = Bindings::default();
         if let Some(name) = &file.material {
             bindings.material = Some(self.material_index(&format!("{at}.material"), name)?);
@@ -207,7 +221,8 @@ impl Reader<'_> {
         Ok(bindings)
     }
 
-    /// What a surface named `surface` by `usemtl` looks like; `own` is what the mesh's library says.
+    /// Returns the material and texture of the surface that `usemtl` names `surface`. `own` is the entry
+    /// of the mesh's material library.
     fn bind(
         &self,
         at: &str,
@@ -271,7 +286,7 @@ impl Reader<'_> {
     }
 }
 
-/// The materials and textures of a mesh, by surface and texture id.
+/// The materials and textures that a mesh binds, by surface id and by texture id.
 #[derive(Debug, Default)]
 struct Bindings {
     material: Option<usize>,

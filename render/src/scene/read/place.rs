@@ -1,12 +1,13 @@
-//! Where an object is placed: the steps of its `place`, joined to one map.
+//! Reads the placement of an object: joins the steps of `place` to one map.
 
+use super::ranges::Ranges;
 use super::{Reader, SceneError};
 use crate::scene::file::{RotateDegFile, StepFile};
 use crate::shape::Placement;
 use glam::{DAffine3, DMat3, DVec3};
 
 impl Reader<'_> {
-    /// The placement of the object at `path`; that of no steps changes nothing.
+    /// Returns the placement of the object at the JSON path `path`; the identity without steps.
     pub(super) fn placement(
         &self,
         path: &str,
@@ -34,7 +35,7 @@ impl Reader<'_> {
                         );
                     }
                 },
-                StepFile::Translate(way) => DAffine3::from_translation(DVec3::from(*way)),
+                StepFile::Translate(shift) => DAffine3::from_translation(DVec3::from(*shift)),
                 StepFile::Matrix(rows) => {
                     let column = |k: usize| DVec3::new(rows[0][k], rows[1][k], rows[2][k]);
                     DAffine3::from_cols(column(0), column(1), column(2), column(3))
@@ -49,7 +50,8 @@ impl Reader<'_> {
     }
 }
 
-/// A turn; quarters of it are exact about the axes.
+/// Returns the matrix of a rotation; `None` if the axis has no length. Quarter turns about the axes are
+/// exact.
 fn rotation(turn: &RotateDegFile) -> Option<DMat3> {
     let axis = DVec3::from(turn.axis).try_normalize()?;
     let angle = turn.angle % 360.0;
@@ -60,7 +62,7 @@ fn rotation(turn: &RotateDegFile) -> Option<DMat3> {
         270.0 | -90.0 => (-1.0, 0.0),
         _ => angle.to_radians().sin_cos(),
     };
-    // Rodrigues: what lies along the axis stays, the rest is turned.
+    // Rodrigues' formula: the part along the axis is unchanged, and the rest is rotated.
     let turned = |v: DVec3| {
         let along = v.dot(axis) * axis;
         cosine * (v - along) + sine * axis.cross(v) + along

@@ -1,5 +1,6 @@
-//! The boxes and superquadrics of a scene file.
+//! Reads the boxes and superquadrics of a scene file.
 
+use super::ranges::Ranges;
 use super::{Reader, SceneError};
 use crate::scene::file::{BoxFile, SuperquadricFile};
 use crate::shape::superquadric::{EXPONENTS, RINGS};

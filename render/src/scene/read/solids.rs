@@ -1,5 +1,6 @@
-//! The solid textures of a scene file.
+//! Reads the solid textures of a scene file.
 
+use super::ranges::Ranges;
 use super::{Reader, SceneError};
 use crate::color::Color;
 use crate::procedural::blocks::{Brick, Checker, Stripes};
@@ -13,39 +14,34 @@ use crate::procedural::{Interpolation, Noise, Octaves, Pattern, Placement, Ramp,
 use crate::scene::file::solid::{
     BrickFile, CloudsFile, GraniteFile, MarbleFile, PlaceFile, StripesFile, WallFile, WoodFile,
 };
-use crate::scene::file::{ColorFile, TextureFile};
+use crate::scene::file::{ColorFile, TextureFile, TextureKind};
 use glam::DVec3;
 use std::sync::Arc;
 
-/// Colours of a wall that names none: plaster, darker where it is low.
+/// Colours of a wall without colours of its own: plaster, darker in the depths.
 const PLASTER: [(f64, ColorFile); 2] =
     [(0.2, ColorFile([0.50, 0.44, 0.36])), (0.8, ColorFile([0.82, 0.77, 0.68]))];
 
 impl Reader<'_> {
+    /// Reads the solids among the file's textures, in the order of their names.
     pub(super) fn solids(&self) -> Result<Vec<Solid>, SceneError> {
-        let solids = self.file.textures.iter().filter(|(_, texture)| texture.image.is_none());
-        solids.map(|(name, texture)| self.solid(&format!("textures.{name}"), texture)).collect()
+        let mut solids = Vec::new();
+        for (name, file) in self.file.textures {
+            let at = format!("textures.{name}");
+            let place = file.place.unwrap_or_default();
+            let placement = self.texture_place(&format!("{at}.place"), &place)?;
+            if let Some(pattern) = self.pattern(&at, file)? {
+                solids.push(Solid { pattern, placement });
+            }
+        }
+        Ok(solids)
     }
 
-    /// Checks that a texture is of exactly one kind, and has no key that belongs to another.
+    /// Checks that each texture is of exactly one kind, and has no key that belongs to another.
     pub(super) fn texture_kinds(&self) -> Result<(), SceneError> {
         for (name, file) in self.file.textures {
             let at = format!("textures.{name}");
-            self.one_of(
-                &at,
-                &[
-                    ("image", file.image.is_some()),
-                    ("marble", file.marble.is_some()),
-                    ("granite", file.granite.is_some()),
-                    ("wood", file.wood.is_some()),
-                    ("wall", file.wall.is_some()),
-                    ("turbulence", file.turbulence.is_some()),
-                    ("clouds", file.clouds.is_some()),
-                    ("checker", file.checker.is_some()),
-                    ("stripes", file.stripes.is_some()),
-                    ("brick", file.brick.is_some()),
-                ],
-            )?;
+            self.one_of(&at, &file.kinds())?;
             let picture = file.image.is_some();
             for (key, given, of_pictures) in [
                 ("wrap", file.wrap.is_some(), true),
@@ -53,12 +49,12 @@ impl Reader<'_> {
                 ("place", file.place.is_some(), false),
             ] {
                 if given && of_pictures != picture {
-                    let (found, place) = if picture {
+                    let (found, expected) = if picture {
                         ("a picture", "textures that fill space")
                     } else {
                         ("a texture that fills space", "pictures")
                     };
-                    let message = format!("found it on {found}, expected it only on {place}");
+                    let message = format!("found it on {found}, expected it only on {expected}");
                     return self.fault(&format!("{at}.{key}"), message);
                 }
             }
@@ -66,47 +62,49 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Complains unless exactly one of these keys was given.
-    pub(super) fn one_of(&self, at: &str, keys: &[(&str, bool)]) -> Result<(), SceneError> {
-        let given: Vec<&str> =
-            keys.iter().filter(|(_, given)| *given).map(|(key, _)| *key).collect();
-        if given.len() == 1 {
-            return Ok(());
+    /// Returns the one kind that was given. Fails unless exactly one was given.
+    pub(super) fn one_of<T: Copy>(
+        &self,
+        at: &str,
+        kinds: &[(&str, Option<T>)],
+    ) -> Result<T, SceneError> {
+        let given: Vec<(&str, T)> =
+            kinds.iter().filter_map(|(key, kind)| Some((*key, (*kind)?))).collect();
+        if let [(_, kind)] = given[..] {
+            return Ok(kind);
         }
-        let found = if given.is_empty() { "none".into() } else { given.join(" and ") };
-        let names: Vec<&str> = keys.iter().map(|(key, _)| *key).collect();
-        self.fault(at, format!("found {found}, expected exactly one of: {}", names.join(", ")))
+        let join = |keys: Vec<&str>, between: &str| keys.join(between);
+        let found = if given.is_empty() {
+            "none".into()
+        } else {
+            join(given.iter().map(|(key, _)| *key).collect(), " and ")
+        };
+        let names = join(kinds.iter().map(|(key, _)| *key).collect(), ", ");
+        self.fault(at, format!("found {found}, expected exactly one of: {names}"))
     }
 
-    fn solid(&self, at: &str, file: &TextureFile) -> Result<Solid, SceneError> {
-        let placement =
-            self.texture_place(&format!("{at}.place"), &file.place.unwrap_or_default())?;
-        let pattern = if let Some(marble) = &file.marble {
-            self.marble(&format!("{at}.marble"), marble)?
-        } else if let Some(granite) = &file.granite {
-            self.granite(&format!("{at}.granite"), granite)?
-        } else if let Some(wood) = &file.wood {
-            self.wood(&format!("{at}.wood"), wood)?
-        } else if let Some(wall) = &file.wall {
-            let at = format!("{at}.wall");
-            let colors = wall.colors.as_deref().unwrap_or(&PLASTER);
-            let colors = self.ramp(&format!("{at}.colors"), colors)?;
-            Pattern::Wall(WallPaint { wall: self.wall(&at, wall)?, colors })
-        } else if let Some(clouds) = &file.turbulence {
-            self.clouds(&format!("{at}.turbulence"), clouds, Sum::Turbulence)?
-        } else if let Some(clouds) = &file.clouds {
-            self.clouds(&format!("{at}.clouds"), clouds, Sum::Fractal)?
-        } else if let Some(checker) = &file.checker {
-            let colors = self.two(&format!("{at}.checker.colors"), checker.colors)?;
-            Pattern::Checker(Checker { colors })
-        } else if let Some(stripes) = &file.stripes {
-            self.stripes(&format!("{at}.stripes"), stripes)?
-        } else if let Some(brick) = &file.brick {
-            self.brick(&format!("{at}.brick"), brick)?
-        } else {
-            return self.one_of(at, &[]).and_then(|()| self.fault(at, "found no kind"));
+    /// Reads the pattern of a texture; `None` for a picture.
+    fn pattern(&self, at: &str, file: &TextureFile) -> Result<Option<Pattern>, SceneError> {
+        let pattern = match self.one_of(at, &file.kinds())? {
+            TextureKind::Image(_) => return Ok(None),
+            TextureKind::Marble(file) => self.marble(&format!("{at}.marble"), file)?,
+            TextureKind::Granite(file) => self.granite(&format!("{at}.granite"), file)?,
+            TextureKind::Wood(file) => self.wood(&format!("{at}.wood"), file)?,
+            TextureKind::Wall(file) => self.painted_wall(&format!("{at}.wall"), file)?,
+            TextureKind::Turbulence(file) => {
+                self.clouds(&format!("{at}.turbulence"), file, Sum::Turbulence)?
+            }
+            TextureKind::Clouds(file) => {
+                self.clouds(&format!("{at}.clouds"), file, Sum::Fractal)?
+            }
+            TextureKind::Checker(file) => {
+                let colors = self.two(&format!("{at}.checker.colors"), file.colors)?;
+                Pattern::Checker(Checker { colors })
+            }
+            TextureKind::Stripes(file) => self.stripes(&format!("{at}.stripes"), file)?,
+            TextureKind::Brick(file) => self.brick(&format!("{at}.brick"), file)?,
         };
-        Ok(Solid { pattern, placement })
+        Ok(Some(pattern))
     }
 
     fn marble(&self, at: &str, file: &MarbleFile) -> Result<Pattern, SceneError> {
@@ -135,6 +133,12 @@ impl Reader<'_> {
             grain: self.within(&format!("{at}.grain"), file.grain, 0.0, 1.0)?,
             noise: self.noise(file.interpolation),
         }))
+    }
+
+    fn painted_wall(&self, at: &str, file: &WallFile) -> Result<Pattern, SceneError> {
+        let colors = file.colors.as_deref().unwrap_or(&PLASTER);
+        let colors = self.ramp(&format!("{at}.colors"), colors)?;
+        Ok(Pattern::Wall(WallPaint { wall: self.wall(at, file)?, colors }))
     }
 
     pub(super) fn wall(&self, at: &str, file: &WallFile) -> Result<Wall, SceneError> {
@@ -209,7 +213,7 @@ impl Reader<'_> {
         Ok(Octaves { noise: self.noise(interpolation), count })
     }
 
-    /// A noise on the scene's lattice, which is filled for the first that asks.
+    /// Returns a noise on the scene's lattice, which is filled on first use.
     pub(super) fn noise(&self, interpolation: Interpolation) -> Noise {
         let lattice = Arc::clone(self.lattice.get_or_init(Arc::default));
         Noise { lattice, interpolation }
@@ -232,7 +236,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Sizes above 0 with their colours, at least one.
+    /// Returns pairs of a size, 1e-6 to 1e6, and a colour; at least one pair.
     fn parts(
         &self,
         path: &str,

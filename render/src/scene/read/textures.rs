@@ -1,5 +1,6 @@
-//! The textures of a scene file that are pictures.
+//! Reads the textures of a scene file that are pictures.
 
+use super::ranges::Ranges;
 use super::{Reader, SceneError};
 use crate::texture::{Texture, Values, Wrap};
 use files::input;
@@ -9,11 +10,11 @@ use image::DynamicImage;
 use std::cell::Cell;
 use std::path::Path;
 
-/// Memory for what a scene reads.
+/// Memory of the pictures and meshes of a scene, taken from a budget.
 #[derive(Debug)]
 pub(super) struct Memory<'b> {
     budget: &'b Budget,
-    /// Bytes taken by what was read, until the scene is whole.
+    /// Bytes taken by pictures and meshes until the scene is complete.
     kept: Cell<u64>,
 }
 
@@ -28,12 +29,12 @@ impl<'b> Memory<'b> {
         Self { budget, kept: Cell::new(0) }
     }
 
-    /// Keeps what is reserved.
+    /// Keeps a reservation until the scene is complete.
     fn take(&self, reserved: Reserved<'_>) {
         self.kept.set(self.kept.get() + reserved.into_bytes());
     }
 
-    /// Takes memory for something that the scene keeps.
+    /// Reserves memory until the scene is complete.
     pub(super) fn keep(
         &self,
         bytes: u64,
@@ -56,15 +57,15 @@ impl<'a> Reader<'a> {
         pictures.collect()
     }
 
-    /// The texture of the picture file at `path`, which the scene names at `place`.
+    /// Reads the picture file `path`, which the scene names at the JSON path `at`, as a texture.
     pub(super) fn texels(
         &self,
-        place: &str,
+        at: &str,
         path: &Path,
         values: Values,
         wrap: Wrap,
     ) -> Result<Texture, SceneError> {
-        let (picture, mut reserved) = self.picture(place, path)?;
+        let (picture, mut reserved) = self.picture(at, path)?;
         match Texture::from_picture(&picture, values, wrap) {
             Some(texture) => {
                 reserved.shrink(texture.bytes());
@@ -72,7 +73,7 @@ impl<'a> Reader<'a> {
                 Ok(texture)
             }
             None => self.fault(
-                place,
+                at,
                 format!(
                     "found floating point values in {}, expected 8 or 16 bits",
                     input::name_of(path)
@@ -81,29 +82,29 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The picture file at `path`, which the scene names at `place`, and the memory for a texture
-    /// of it.
+    /// Reads the picture file `path`, which the scene names at the JSON path `at`. Returns the picture and
+    /// the memory of a texture made from it.
     pub(super) fn picture(
         &self,
-        place: &str,
+        at: &str,
         path: &Path,
     ) -> Result<(DynamicImage, Reserved<'a>), SceneError> {
-        let bytes = self.named_file(place, path)?;
+        let bytes = self.named_file(at, path)?;
         let name = || input::name_of(path);
-        // An EXR is read to be refused with its own sentence, which names floating point values.
+        // An EXR is decoded and then refused with a message that names floating point values.
         let formats = [Format::Png, Format::Jpeg, Format::OpenExr];
         let budget = self.memory.budget;
         picture::decode(&bytes, &formats, Texture::decoding_bytes, budget, name).map_err(|error| {
             match error {
                 PictureError::Memory(error) => {
-                    SceneError::TooLarge(self.document.fault(place, error.to_string()))
+                    SceneError::TooLarge(self.document.fault(at, error.to_string()))
                 }
-                error => {
+                error @ (PictureError::Format(_) | PictureError::Broken(_)) => {
                     let message = format!(
                         "found no picture in {} ({error}), expected a PNG or JPEG file",
                         name()
                     );
-                    self.document.fault(place, message).into()
+                    self.document.fault(at, message).into()
                 }
             }
         })

@@ -14,11 +14,12 @@ use glam::DVec3;
 /// The function, in units of the radii and with the axis along y.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Field {
-    /// Order 2/e1 of the sections through the axis.
+    /// Order 2/e1 of the sections through the axis, 0.5 to 40.
     pub section: f64,
-    /// Order 2/e2 of the sections across the axis.
+    /// Order 2/e2 of the sections across the axis, 0.5 to 40.
     pub across: f64,
-    /// Distance of the middle of the tube from the axis; 0 for a superellipsoid.
+    /// Distance of the middle of the tube from the axis in units of the radii, 1 to 1000; 0 for a
+    /// superellipsoid.
     pub ring: f64,
 }
 

@@ -100,7 +100,7 @@ impl Superquadric {
             return None;
         }
         let on_surface = begin == -shift
-            && (start.leaves.is_some() || start.skin > 0.0 && self.is_near(from, start.skin));
+            && (start.left_face.is_some() || start.skin > 0.0 && self.is_near(from, start.skin));
         let root = if self.field.is_convex() {
             root::of_convex(&line, begin, leave, on_surface)
         } else {
@@ -182,8 +182,8 @@ impl Superquadric {
     /// Returns whether the surface is within `skin`, in scene units, of a point: whether it
     /// separates the two points at this distance along the gradient.
     fn is_near(&self, point: DVec3, skin: f64) -> bool {
-        let way = skin * self.field.direction(point, self.radii) / self.radii;
-        (self.field.value(point + way) < 1.0) != (self.field.value(point - way) < 1.0)
+        let offset = skin * self.field.direction(point, self.radii) / self.radii;
+        (self.field.value(point + offset) < 1.0) != (self.field.value(point - offset) < 1.0)
     }
 
     /// Returns the range of `t` in which a line is inside the box around the shape.

@@ -41,7 +41,7 @@ pub fn of_convex(line: &Line, begin: f64, end: f64, on_surface: bool) -> Option<
 
 /// Takes Newton steps from a point outside toward `limit`, until they reach the surface or pass it.
 fn newton(line: &Line, from: f64, limit: f64) -> Option<f64> {
-    let way = (limit - from).signum();
+    let sign = (limit - from).signum();
     let smallest = SMALLEST * (limit - from).abs();
     let mut t = from;
     for _ in 0..MOST_STEPS {
@@ -49,15 +49,15 @@ fn newton(line: &Line, from: f64, limit: f64) -> Option<f64> {
         if value <= 0.0 {
             return Some(t);
         }
-        let slope = way * line.slope(t);
+        let slope = sign * line.slope(t);
         if slope >= 0.0 {
             return None;
         }
-        let next = t - way * value / slope;
+        let next = t - sign * value / slope;
         if (next - t).abs() <= smallest {
             return Some(next);
         }
-        if way * (next - limit) > 0.0 {
+        if sign * (next - limit) > 0.0 {
             return None;
         }
         t = next;
