@@ -10,11 +10,11 @@
 //! form, and the ranges are those that the reader checks.
 
 use super::file::{PartFile, SceneFile};
+use files::schema::insert;
 use schemars::Schema;
-use schemars::generate::SchemaSettings;
-use schemars::transform::RecursiveTransform;
-use serde_json::{Map, Value, json};
-use std::ops::RangeInclusive;
+use serde_json::{Value, json};
+
+pub use files::schema::range;
 
 /// The largest number of a scene, without its sign. Products of three such numbers still have room
 /// below the largest `f64`, and coordinates below the largest `f32`.
@@ -29,8 +29,7 @@ pub const DEEPEST: u32 = 64;
 /// The schema of a scene and of a part of one, told apart by `format`.
 #[must_use]
 pub fn of_scene() -> Value {
-    let settings = SchemaSettings::draft2020_12().with_transform(RecursiveTransform(plain));
-    let mut generator = settings.into_generator();
+    let mut generator = files::schema::generator(LARGEST);
     let scene = generator.subschema_for::<SceneFile>();
     let part = generator.subschema_for::<PartFile>();
     let types = generator.take_definitions(true);
@@ -49,57 +48,6 @@ pub fn of_scene() -> Value {
         "else": scene,
         "$defs": types,
     })
-}
-
-/// Takes out what the types say that means nothing here, and bounds all numbers that nothing bounds.
-fn plain(schema: &mut Schema) {
-    let Some(object) = schema.as_object_mut() else {
-        return;
-    };
-    object.remove("format");
-    if object.get("default").is_some_and(Value::is_null) {
-        object.remove("default");
-    }
-    if let Some(Value::Array(types)) = object.get_mut("type") {
-        types.retain(|kind| kind != "null");
-        if let [only] = &types[..] {
-            let only = only.clone();
-            object.insert("type".into(), only);
-        }
-    }
-    if let Some(Value::Array(kinds)) = object.get_mut("anyOf") {
-        kinds.retain(|kind| kind.get("type").is_none_or(|kind| kind != "null"));
-        if let [Value::Object(only)] = &mut kinds[..] {
-            let only = std::mem::take(only);
-            object.remove("anyOf");
-            object.extend(only);
-        }
-    }
-    let bounded = ["minimum", "maximum", "exclusiveMinimum", "exclusiveMaximum", "const"];
-    if object.get("type").is_some_and(|kind| kind == "number")
-        && !bounded.iter().any(|bound| object.contains_key(*bound))
-    {
-        object.insert("minimum".into(), json!(-LARGEST));
-        object.insert("maximum".into(), json!(LARGEST));
-    }
-}
-
-/// Inserts keywords into a schema, or into that of the innermost elements of an array.
-fn insert(schema: &mut Schema, words: &Value) {
-    fn innermost(object: &mut Map<String, Value>, words: &Value) {
-        match (object.get_mut("items"), words) {
-            (Some(Value::Object(items)), _) => innermost(items, words),
-            (_, Value::Object(words)) => object.extend(words.clone()),
-            _ => {}
-        }
-    }
-    innermost(schema.ensure_object(), words);
-}
-
-/// Numbers from one to another.
-pub fn range<N: Into<Value> + Copy>(range: RangeInclusive<N>) -> impl FnMut(&mut Schema) {
-    let [low, high] = [*range.start(), *range.end()].map(Into::into);
-    move |schema| insert(schema, &json!({ "minimum": low, "maximum": high }))
 }
 
 /// Numbers above one and below another.

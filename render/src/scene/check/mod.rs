@@ -31,54 +31,13 @@ pub mod unused;
 use super::Scene;
 use super::read::{Draft, SceneError};
 use crate::texture::Texture;
+use files::check::short;
 use files::words;
 use std::cmp::Reverse;
 use std::fmt::{self, Display};
 use subject::Subject;
 
-/// How much a finding weighs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Severity {
-    /// Good to know, and often meant.
-    Remark,
-    /// Most often not meant.
-    Hint,
-    /// The picture cannot be what the scene means.
-    Wrong,
-}
-
-/// One thing found.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Finding {
-    /// How much it weighs.
-    pub severity: Severity,
-    /// Its place: a JSON path, after the name of the file if it is an included one.
-    pub path: String,
-    /// What it is, with a number to act on.
-    pub message: String,
-}
-
-impl Finding {
-    fn new(severity: Severity, path: impl Into<String>, message: impl Into<String>) -> Self {
-        Self { severity, path: path.into(), message: message.into() }
-    }
-}
-
-impl Display for Severity {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Remark => "remark",
-            Self::Hint => "hint",
-            Self::Wrong => "wrong",
-        })
-    }
-}
-
-impl Display for Finding {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}: {}", self.severity, self.path, self.message)
-    }
-}
+pub use files::check::{Finding, Severity};
 
 /// What `--check` says.
 #[derive(Debug, Clone)]
@@ -127,24 +86,6 @@ pub fn check(
     findings.extend(unused::findings(&subject));
     findings.sort_by_key(|finding| Reverse(finding.severity));
     Ok(Report { inventory: inventory::lines(&subject, table_bytes), findings })
-}
-
-/// A number in four digits.
-fn short(x: f64) -> String {
-    let size = x.abs();
-    if size != 0.0 && !(1e-4..1e6).contains(&size) {
-        return format!("{x:.2e}");
-    }
-    let digits = if size < 1.0 { 4 } else { 3 - (size.log10().floor() as usize).min(3) };
-    let text = format!("{x:.digits$}");
-    match text.split_once('.') {
-        Some((whole, part)) => {
-            let part = part.trim_end_matches('0');
-            let dot = if part.is_empty() { "" } else { "." };
-            format!("{whole}{dot}{part}")
-        }
-        None => text,
-    }
 }
 
 /// A point in four digits.
