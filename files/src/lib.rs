@@ -17,6 +17,7 @@
 //! | [`words`]     | what messages show of names and values                                |
 //! | [`check`]     | what `--check` finds, and how much each finding weighs                |
 //! | [`schema`]    | JSON Schema of the file formats                                       |
+//! | [`svg`]       | drawings as SVG                                                       |
 //!
 //! The crate knows nothing of curves or meshes, and of pictures only how to decode them. The libraries
 //! above this crate never print.
@@ -38,6 +39,7 @@ pub mod schema;
 #[cfg(target_os = "linux")]
 mod stdout;
 pub mod stop;
+pub mod svg;
 mod target;
 pub mod words;
 
