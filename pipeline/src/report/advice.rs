@@ -249,8 +249,9 @@ mod tests {
     #[test]
     fn what_is_advised_keeps_the_time_and_is_nearest() {
         // One ray with the tent costs two bilinear rays, 3 x 3 with the tent 18.
-        let said = said(vec![fixture::page("floor", &floor, &[])]);
-        let uses: Vec<_> = said.iter().filter(|(question, _)| *question == Question::Use).collect();
+        let found = said(vec![fixture::page("floor", &floor, &[])]);
+        let uses: Vec<_> =
+            found.iter().filter(|(question, _)| *question == Question::Use).collect();
         let of = |method: &str, budget: u32| {
             format!(
                 "Use {method} where up to {budget} times the time of one bilinear ray in each pixel \
@@ -261,8 +262,8 @@ mod tests {
         let advised = [of("tent, 1 ray", 5), of("tent, 3 x 3 rays", 20)];
         assert_eq!([&uses[0].1, &uses[1].1], [&advised[0], &advised[1]]);
         // Where filters have no effect, cheaper rays are advised.
-        let said = said(vec![fixture::page("edges", &edges, &[])]);
-        assert!(said[0].1.starts_with("Use point") || said[0].1.starts_with("Use bilinear"));
+        let (_, first) = &said(vec![fixture::page("edges", &edges, &[])])[0];
+        assert!(first.starts_with("Use point") || first.starts_with("Use bilinear"), "{first}");
     }
 
     #[test]
