@@ -8,7 +8,6 @@
 
 pub mod book;
 pub mod cli;
-pub mod compare;
 pub mod contact_sheet;
 pub mod error;
 pub mod html;

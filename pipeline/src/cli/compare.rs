@@ -1,7 +1,7 @@
 //! `pipeline compare`: how far one picture is from another.
 
-use crate::compare::{CompareError, Difference, Scale, difference, map, read, ssim};
 use clap::Args;
+use compare::{CompareError, Difference, Scale, difference, map, read, ssim};
 use files::{Exit, Failure, Ledger, Output, Report, input};
 use render::Picture;
 use render::film::Crop;

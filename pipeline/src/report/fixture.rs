@@ -1,7 +1,7 @@
 //! Made-up measurements for tests of plots and sentences.
 
 use super::measured::{Cost, Measured, Method, PageMeasured, Region, Trial, Truth};
-use crate::compare::Difference;
+use compare::Difference;
 use render::film::Nine;
 use render::filter::Filter;
 use render::{Picture, Sampling};

@@ -7,7 +7,7 @@ use super::measured::{Cost, Method, PageMeasured, Region, Trial, Truth};
 use super::plan::Plan;
 use super::refined::Refined;
 use super::regions;
-use crate::compare::{CompareError, Difference};
+use compare::{CompareError, Difference};
 use cpu_time::ProcessTime;
 use render::{Picture, Prepared, Scene, Settings};
 use std::time::Instant;

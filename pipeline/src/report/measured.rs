@@ -1,7 +1,7 @@
 //! The results of a report's measurements as plain numbers, before they become tables, curves and
 //! sentences.
 
-use crate::compare::Difference;
+use compare::Difference;
 use render::filter::Filter;
 use render::{Picture, Sampling};
 use serde::Serialize;

@@ -1,7 +1,7 @@
 //! Finds trials by their method, and combines the numbers of several pages into one.
 
 use super::measured::{Method, PageMeasured, Trial};
-use crate::compare::Difference;
+use compare::Difference;
 use render::Sampling;
 use render::filter::Filter;
 

@@ -1,7 +1,7 @@
 //! Writes the numbers of a report as comma separated values.
 
 use super::measured::{Measured, PageMeasured, Trial};
-use crate::compare::Difference;
+use compare::Difference;
 use render::Sampling;
 use render::film::{Nine, Pattern, PixelFilter};
 use serde::{Serialize, Serializer};
