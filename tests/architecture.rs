@@ -7,13 +7,14 @@ use source::{code, has_word, paths, read, root, rust_files, spans, without_tests
 use std::collections::BTreeSet;
 
 /// The crates, and which of ours each may import.
-const CRATES: [(&str, &[&str]); 6] = [
+const CRATES: [(&str, &[&str]); 7] = [
     ("files", &[]),
     ("sweep", &["files"]),
     ("triangulate", &["files", "sweep"]),
     ("render", &["files"]),
-    ("pipeline", &["files", "sweep", "triangulate", "render"]),
-    ("fuzz", &["files", "sweep", "triangulate", "render", "pipeline"]),
+    ("compare", &["files", "render"]),
+    ("pipeline", &["files", "sweep", "triangulate", "render", "compare"]),
+    ("fuzz", &["files", "sweep", "triangulate", "render", "compare", "pipeline"]),
 ];
 
 /// The rooms of a crate from the bottom up, and into which others each one looks: only at rooms

@@ -2,8 +2,8 @@
 
 use crate::support;
 
+use compare::Scale;
 use image::{ImageFormat, Rgb, Rgb32FImage, RgbImage};
-use pipeline::compare::Scale;
 use serde_json::Value;
 use std::path::Path;
 use std::process::Output;

@@ -34,7 +34,7 @@ fn a_page_is_measured_by_every_method_of_a_hasty_report() {
     };
     assert!(peak("point") >= 12.0 * 192.0 && peak("tent") > peak("point") + 1e5);
     assert!(read("report.html").contains("glass-sphere"));
-    for file in ["glass-sphere.svg", "tables.csv", "cells.csv", "filters.csv", "mapping.csv"] {
+    for file in ["glass-sphere.svg", "filters.csv", "tessellation.csv", "mapping.csv"] {
         assert!(!read(file).is_empty(), "{file}");
     }
 }

@@ -15,11 +15,15 @@
 //! | [`memory`]    | a budget of bytes, which are asked for before they are taken          |
 //! | [`picture`]   | the bytes of a picture file into a picture, which never panics        |
 //! | [`words`]     | what messages show of names and values                                |
+//! | [`check`]     | what `--check` finds, and how much each finding weighs                |
+//! | [`schema`]    | JSON Schema of the file formats                                       |
+//! | [`svg`]       | drawings as SVG                                                       |
 //!
 //! The crate knows nothing of curves or meshes, and of pictures only how to decode them. The libraries
 //! above this crate never print.
 
 pub mod batch;
+pub mod check;
 pub mod exit;
 pub mod extension;
 mod identity;
@@ -31,9 +35,11 @@ pub mod names;
 pub mod output;
 pub mod picture;
 pub mod progress;
+pub mod schema;
 #[cfg(target_os = "linux")]
 mod stdout;
 pub mod stop;
+pub mod svg;
 mod target;
 pub mod words;
 

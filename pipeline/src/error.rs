@@ -1,6 +1,6 @@
 //! What can go wrong in a job.
 
-use crate::compare::CompareError;
+use compare::CompareError;
 use files::words::{LONGEST_LIST, cut, shown};
 use files::{Exit, Failure, FileError, JsonError, MemoryError};
 use render::scene::SceneError;

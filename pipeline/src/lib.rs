@@ -7,7 +7,8 @@
 //! what each way of rendering a page costs and how wrong it is.
 
 pub mod book;
-pub mod compare;
+pub mod cli;
+pub mod contact_sheet;
 pub mod error;
 pub mod html;
 pub mod job;
@@ -16,7 +17,6 @@ pub mod number;
 pub mod pages;
 pub mod report;
 pub mod run;
-pub mod sheet;
 pub mod stages;
 pub mod truth;
 

@@ -22,8 +22,8 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use sweep::grid::file as grid_file;
 use sweep::spec::{self, Camera};
-use sweep::{Object, SweepError};
-use triangulate::{TriMesh, TriangulateError};
+use sweep::{GridMesh, Object, SweepError};
+use triangulate::{ObjWriter, Patches, TriMesh, TriangulateError};
 
 /// White between the pictures of a strip, in pixels.
 const GAP: u32 = 8;
@@ -70,9 +70,9 @@ pub enum Event<'a> {
     Picture {
         /// The mode.
         mode: &'a str,
-        /// It.
+        /// The picture.
         picture: &'a Picture,
-        /// What it cost.
+        /// The counts and times of the picture.
         stats: &'a Stats,
     },
     /// A file is written.
@@ -120,22 +120,22 @@ pub fn run_in(
     options: &Options,
     tell: &(dyn Fn(Event<'_>) + Sync),
 ) -> Result<Stages, PipelineError> {
-    let work = Work { job, source, options, tell, batch: Some(batch), stages: Cell::default() };
-    let scene = work.scene()?;
+    let run = Run { job, source, options, tell, batch: Some(batch), stages: Cell::default() };
+    let scene = run.scene()?;
     // Sweeping and triangulating are stages of their own.
-    let read_time = work.stages.get().read;
-    let _reserved = work.reserve_pictures()?;
+    let read_time = run.stages.get().read;
+    let _reserved = run.reserve_pictures()?;
     let prepared = Prepared::new(&scene);
     let mut pictures = Vec::with_capacity(job.modes.len());
     for mode in &job.modes {
-        pictures.push(work.picture(&prepared, mode, read_time)?);
+        pictures.push(run.picture(&prepared, mode, read_time)?);
     }
     if let Some(strip) = job.strip_file() {
         let started = Instant::now();
-        work.write_picture(&strip, &Picture::side_by_side(&pictures, GAP))?;
-        work.took(Stages { write: started.elapsed(), ..Stages::default() });
+        run.write_picture(&strip, &Picture::side_by_side(&pictures, GAP))?;
+        run.took(Stages { write: started.elapsed(), ..Stages::default() });
     }
-    Ok(work.stages.get())
+    Ok(run.stages.get())
 }
 
 /// The scene of a job with its meshes in it, as [`run()`] renders it: for those who render it in ways of
@@ -149,7 +149,7 @@ pub fn scene(
     options: &Options,
     tell: &(dyn Fn(Event<'_>) + Sync),
 ) -> Result<Scene, PipelineError> {
-    Work { job, source, options, tell, batch: None, stages: Cell::default() }.scene()
+    Run { job, source, options, tell, batch: None, stages: Cell::default() }.scene()
 }
 
 /// What a mode asks of a picture of this size.
@@ -159,7 +159,8 @@ pub fn settings(mode: &Mode, (width, height): (u32, u32)) -> Settings {
     Settings { sampling, accel, ..Settings::new(width, height, filter) }
 }
 
-struct Work<'a> {
+/// A job while it is done.
+struct Run<'a> {
     job: &'a Job,
     source: &'a dyn Source,
     options: &'a Options,
@@ -169,7 +170,7 @@ struct Work<'a> {
     stages: Cell<Stages>,
 }
 
-impl Work<'_> {
+impl Run<'_> {
     /// Takes the memory for the pictures of all modes, which are kept for the strip, and for it.
     fn reserve_pictures(&self) -> Result<Reserved<'static>, MemoryError> {
         let (width, height) = self.options.size;
@@ -262,22 +263,25 @@ impl Work<'_> {
         of_process().check(bytes, || format!("mesh {} of {points} points", shown(&mesh.name)))?;
         let grids = object.grids()?;
         let sweep = started.elapsed();
-        if self.options.keep && self.batch.is_some() {
-            self.write(&self.job.grid_file(mesh), |out| {
+        let keep = self.batch.filter(|_| self.options.keep);
+        if let Some(batch) = keep {
+            self.write(batch, &self.job.grid_file(mesh), |out| {
                 grid_file::write_all(&grids, grid_file::Encoding::Binary, out)
                     .map_err(|source| out.failed(source).into())
-            })?;
-            self.write(&self.job.obj_file(mesh), |out| {
-                match triangulate::write_obj(grids.as_slice(), &mesh.options, out) {
-                    Ok(_) => Ok(()),
-                    Err(TriangulateError::Write(source)) => Err(out.failed(source).into()),
-                    Err(error) => Err(error.into()),
-                }
             })?;
         }
         let write = started.elapsed() - sweep;
         let started = Instant::now();
-        let triangles = mesh::for_render(triangulate::mesh(grids.as_slice(), &mesh.options)?);
+        let triangles = match keep {
+            Some(batch) => self.write(batch, &self.job.obj_file(mesh), |out| {
+                mesh_and_obj(&grids, &mesh.options, out).map_err(|error| match error {
+                    TriangulateError::Write(source) => out.failed(source).into(),
+                    error => error.into(),
+                })
+            })?,
+            None => triangulate::mesh(grids.as_slice(), &mesh.options)?,
+        };
+        let triangles = mesh::for_render(triangles);
         let triangulate = started.elapsed();
         self.took(Stages { sweep, triangulate, write, ..Stages::default() });
         (self.tell)(Event::Mesh {
@@ -309,22 +313,38 @@ impl Work<'_> {
     }
 
     fn write_picture(&self, name: &str, picture: &Picture) -> Result<(), PipelineError> {
+        let Some(batch) = self.batch else { return Ok(()) };
         let bytes = encode::encode(picture, Format::Png, Encoding::Srgb)
             .map_err(|source| PipelineError::Encode { name: name.into(), source })?;
-        self.write(name, |out| out.write_all(&bytes).map_err(|source| out.failed(source).into()))
+        self.write(batch, name, |out| {
+            out.write_all(&bytes).map_err(|source| out.failed(source).into())
+        })
     }
 
-    fn write(
+    /// Replaces a file of the batch by what `fill` writes, and returns what `fill` returns.
+    fn write<T>(
         &self,
+        batch: &Batch<'_>,
         name: &str,
-        fill: impl FnOnce(&mut Output) -> Result<(), PipelineError>,
-    ) -> Result<(), PipelineError> {
-        let Some(batch) = self.batch else { return Ok(()) };
+        fill: impl FnOnce(&mut Output) -> Result<T, PipelineError>,
+    ) -> Result<T, PipelineError> {
         let path = self.options.folder.join(name);
         let mut output = Output::create(&path, self.options.clobber)?;
-        fill(&mut output)?;
+        let filled = fill(&mut output)?;
         batch.replace(output)?;
         (self.tell)(Event::Written(&path));
-        Ok(())
+        Ok(filled)
     }
+}
+
+/// Makes the triangles of grids in memory, and writes them as OBJ in the same pass.
+fn mesh_and_obj(
+    grids: &[GridMesh],
+    options: &triangulate::Options,
+    out: &mut impl Write,
+) -> Result<TriMesh, TriangulateError> {
+    let sinks = (ObjWriter::new(out), TriMesh::default());
+    let ((writer, mesh), counts) = grids.run(options, sinks)?;
+    writer.finish(&counts).map_err(TriangulateError::Write)?;
+    Ok(mesh)
 }

@@ -10,6 +10,7 @@ pub struct Stages {
     /// Specs to grids.
     pub sweep: Duration,
     /// Grids to triangles with normals and texture coordinates, in the form that `render` takes.
+    /// Includes the OBJ file where the job keeps it.
     pub triangulate: Duration,
     /// Reading and decoding scene files and textures, and building the scene.
     pub read: Duration,

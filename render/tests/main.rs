@@ -20,6 +20,7 @@ mod include;
 mod interrupted;
 mod layers;
 mod light;
+mod literal;
 mod mapping;
 mod media;
 mod memory;

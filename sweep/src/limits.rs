@@ -3,9 +3,12 @@
 //! The reader refuses numbers beyond the limits. The functions add to a type's schema what its Rust form does not
 //! say.
 
+use files::schema::insert;
 use schemars::Schema;
 use serde_json::{Map, Value, json};
 use std::ops::RangeInclusive;
+
+pub(crate) use files::schema::range;
 
 /// Largest size of a coordinate; its fourth power fits a double with a wide margin.
 pub(crate) const LARGEST: f64 = 1e60;
@@ -15,24 +18,6 @@ pub(crate) const SMALLEST: f64 = 1e-60;
 
 /// Repeats of a picture, whose texture coordinates become f32 in a mesh.
 pub(crate) const REPEATS: RangeInclusive<f64> = 1e-30..=1e30;
-
-/// Inserts keywords into a schema, or into the schema of an array's innermost elements.
-fn insert(schema: &mut Schema, words: &Value) {
-    fn innermost(object: &mut Map<String, Value>, words: &Value) {
-        match (object.get_mut("items"), words) {
-            (Some(Value::Object(items)), _) => innermost(items, words),
-            (_, Value::Object(words)) => object.extend(words.clone()),
-            _ => {}
-        }
-    }
-    innermost(schema.ensure_object(), words);
-}
-
-/// Allows numbers in a closed range.
-pub(crate) fn range<N: Into<Value> + Copy>(range: RangeInclusive<N>) -> impl FnMut(&mut Schema) {
-    let [low, high] = [*range.start(), *range.end()].map(Into::into);
-    move |schema| insert(schema, &json!({ "minimum": low, "maximum": high }))
-}
 
 /// Allows numbers above `low`, up to `high`.
 pub(crate) fn above(low: f64, high: f64) -> impl FnMut(&mut Schema) {

@@ -9,7 +9,8 @@ pub fn root() -> PathBuf {
     pipeline.parent().expect("the crate lies in the workspace").to_path_buf()
 }
 
-/// The folder of the programs: the three stand beside `pipeline`.
+/// The folder of the programs: the three stand beside `pipeline`, as does `pipeline-report`, which Cargo
+/// builds with it.
 pub fn programs() -> PathBuf {
     let folder = Path::new(env!("CARGO_BIN_EXE_pipeline")).parent().expect("a file has a folder");
     for program in ["sweep", "triangulate", "render"] {

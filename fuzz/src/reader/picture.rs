@@ -3,7 +3,7 @@
 use super::scene;
 use crate::seeds::shelf::Shelf;
 use crate::verdict::{Stop, Tried, broken, refused};
-use pipeline::compare::{Difference, Scale, map, read, ssim};
+use compare::{Difference, Scale, map, read, ssim};
 use render::Picture;
 use render::color::Encoding;
 use render::film::encode::{self, Format};

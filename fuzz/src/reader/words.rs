@@ -1,8 +1,8 @@
 //! Numbers and names of command lines.
 
 use crate::verdict::{Stop, Tried};
+use compare::Scale;
 use files::memory::bytes;
-use pipeline::compare::Scale;
 use render::film::Layer;
 use render::film::size;
 

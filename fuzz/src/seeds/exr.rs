@@ -66,7 +66,7 @@ mod tests {
     fn there_are_seeds_of_all_compressions_and_they_are_read() {
         let seeds = seeds();
         assert_eq!(seeds.len(), 18);
-        let read = seeds.iter().filter(|seed| pipeline::compare::read::decode("a", seed).is_ok());
+        let read = seeds.iter().filter(|seed| compare::read::decode("a", seed).is_ok());
         // The one that is grey has no channels R, G and B.
         assert!(read.count() >= 15);
     }

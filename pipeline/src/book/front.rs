@@ -5,8 +5,8 @@ use super::leaf::figures_in_words;
 use super::plate::{Plate, Shot};
 use super::{Entry, Options};
 use crate::PipelineError;
+use crate::contact_sheet::thumbnail;
 use crate::number;
-use crate::sheet::thumbnail;
 use maud::{Markup, html};
 use std::time::Duration;
 

@@ -1,6 +1,5 @@
 //! A page of the book as HTML.
 
-use super::argument::argument;
 use super::detail::Detail;
 use super::image::address;
 use super::plate::{Plate, Shot, in_details};
@@ -27,6 +26,7 @@ pub fn leaf(
 ) -> Result<Markup, PipelineError> {
     let job = entry.job;
     let figures = job.figures();
+    let (stage, part) = plate.total().slowest();
     Ok(html! {
         article.plate id=(id) {
             header {
@@ -40,7 +40,7 @@ pub fn leaf(
                 (views(plate, id)?)
                 div.facts {
                     (costs(plate))
-                    p.faint { (argument(plate)) }
+                    p.faint { "Slowest is the stage “" (stage) "”, " (percent(part)) "." }
                     @if !plate.meshes.is_empty() { p.faint { (meshes(plate)) } }
                 }
             }

@@ -5,7 +5,6 @@
 //! shows the time of each stage and the files of the job. The book refers to nothing outside itself.
 //! Its pictures and errors are the same in every run; its times are measured.
 
-pub mod argument;
 pub mod detail;
 pub mod front;
 pub mod image;

@@ -1,15 +1,15 @@
 //! `pipeline book`: the picture book.
 
-use super::asked::{Asked, asked};
-use super::work::Work;
+use super::common::CommonArguments;
+use super::named::{self, NamedJob};
 use super::{OTHER_FOLDER, make_folder};
+use crate::book::{self, Entry, Options};
 use clap::Args;
 use files::MemoryError;
 use files::Report;
 use files::exit::say;
 use files::memory::{Reserved, of_process};
 use files::progress::Progress;
-use pipeline::book::{self, Entry, Options};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
@@ -31,14 +31,14 @@ pub struct BookArguments {
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(0..=256))]
     truth: u32,
     #[command(flatten)]
-    work: Work,
+    common: CommonArguments,
 }
 
 /// Takes the memory for the page: its pictures as PNG files, in base64, and in the text of the page, which
 /// grows by doubling.
-fn reserve_page(jobs: &[Asked], size: (u32, u32)) -> Result<Reserved<'static>, MemoryError> {
+fn reserve_page(jobs: &[NamedJob], size: (u32, u32)) -> Result<Reserved<'static>, MemoryError> {
     const OF_PIXEL: u64 = 3 + 4 + 2 * 4;
-    let pictures: u64 = jobs.iter().map(|asked| asked.job.modes.len() as u64).sum();
+    let pictures: u64 = jobs.iter().map(|named| named.job.modes.len() as u64).sum();
     let pixels = u64::from(size.0) * u64::from(size.1) * pictures;
     let what = || format!("a page with {pictures} pictures of {}x{} pixels", size.0, size.1);
     of_process().reserve(pixels.saturating_mul(OF_PIXEL), what)
@@ -46,22 +46,22 @@ fn reserve_page(jobs: &[Asked], size: (u32, u32)) -> Result<Reserved<'static>, M
 
 /// Makes the book.
 pub fn book(arguments: &BookArguments) -> Result<(), Report> {
-    arguments.work.limit_memory();
-    let ledger = arguments.work.ledger();
+    arguments.common.limit_memory();
+    let ledger = arguments.common.ledger();
     let jobs = if arguments.jobs.is_empty() {
-        asked(&["all".to_owned()], &ledger)?
+        named::jobs(&["all".to_owned()], &ledger)?
     } else {
-        asked(&arguments.jobs, &ledger)?
+        named::jobs(&arguments.jobs, &ledger)?
     };
     make_folder(&arguments.output)?;
     let path = arguments.output.join(book::FILE);
     ledger.claim(&path, OTHER_FOLDER)?;
     let options = Options { size: arguments.size, truth: arguments.truth };
-    let names: Vec<String> = jobs.iter().map(Asked::whole).collect();
+    let names: Vec<String> = jobs.iter().map(NamedJob::whole).collect();
     let entries: Vec<Entry<'_>> = jobs
         .iter()
         .zip(&names)
-        .map(|(Asked { job, path, source, .. }, argument)| Entry {
+        .map(|(NamedJob { job, path, source, .. }, argument)| Entry {
             job,
             path,
             source: *source,
@@ -70,9 +70,9 @@ pub fn book(arguments: &BookArguments) -> Result<(), Report> {
         .collect();
     let _reserved = reserve_page(&jobs, arguments.size)?;
     let started = Instant::now();
-    let progress = Progress::new("book", arguments.work.quiet);
+    let progress = Progress::new("book", arguments.common.quiet);
     let done = AtomicUsize::new(0);
-    let text = arguments.work.pool()?.install(|| {
+    let text = arguments.common.pool()?.install(|| {
         book::book(&entries, &options, &|_| {
             let done = done.fetch_add(1, Ordering::Relaxed) + 1;
             progress.tell(done, entries.len());
@@ -80,7 +80,7 @@ pub fn book(arguments: &BookArguments) -> Result<(), Report> {
     })?;
     drop(progress);
     ledger.create(&path)?.commit_all(text.as_bytes())?;
-    if !arguments.work.quiet {
+    if !arguments.common.quiet {
         let seconds = started.elapsed().as_secs_f64();
         let megabytes = text.len() as f64 / 1e6;
         let pages = entries.len();

@@ -1,8 +1,8 @@
 //! `pipeline compare`: how far one picture is from another.
 
 use clap::Args;
+use compare::{CompareError, Difference, Scale, difference, map, read, ssim};
 use files::{Exit, Failure, Ledger, Output, Report, input};
-use pipeline::compare::{CompareError, Difference, Scale, difference, map, read, ssim};
 use render::Picture;
 use render::film::Crop;
 use render::film::encode::Format;

@@ -1,8 +1,8 @@
 //! `pipeline list`: the pages that are built in.
 
+use crate::job::figure;
+use crate::pages;
 use files::{Output, Report};
-use pipeline::job::figure;
-use pipeline::pages;
 use std::path::Path;
 
 /// Names the pages, one in a line: first those of the thesis, with the numbers of their figures, then the others.

@@ -1,16 +1,19 @@
-//! What the program `pipeline` is asked, and how it does it: a file for each command.
+//! The command line of the program `pipeline`, with a file for each command.
 
-mod asked;
+mod bar;
 mod book;
+mod common;
 mod compare;
 mod list;
+mod named;
 mod report;
 mod run;
-mod work;
 
+use crate::report::measure::Memory;
 use clap::{Parser, Subcommand};
 use files::{FileError, Report};
 use std::path::Path;
+use std::process::ExitCode;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -34,8 +37,8 @@ Exit codes: 1 pictures that differ by more than was allowed, 2 bad use, 3 malfor
 
 /// From curves to pictures: sweep, triangulate and render in one process.
 #[derive(Debug, Parser)]
-#[command(version, after_help = EXAMPLES)]
-pub struct Arguments {
+#[command(name = "pipeline", version, after_help = EXAMPLES)]
+struct Arguments {
     #[command(subcommand)]
     command: Command,
 }
@@ -54,18 +57,30 @@ enum Command {
     Compare(compare::CompareArguments),
 }
 
-/// Does what the arguments ask for.
-pub fn run(arguments: &Arguments) -> Result<(), Report> {
-    match &arguments.command {
+/// Runs the program with the arguments of the process, and prints an error if there is one.
+///
+/// `memory` counts the memory of the process, which only the report needs. Without it, a report is
+/// handed over to the program that counts.
+#[must_use]
+pub fn main(memory: Option<&dyn Memory>) -> ExitCode {
+    let arguments = Arguments::parse();
+    files::exit::run("pipeline", || run(&arguments.command, memory))
+}
+
+fn run(command: &Command, memory: Option<&dyn Memory>) -> Result<(), Report> {
+    match command {
         Command::List => list::list(),
         Command::Run(arguments) => run::run(arguments),
-        Command::Report(arguments) => report::report(arguments),
+        Command::Report(arguments) => match memory {
+            Some(memory) => report::report(arguments, memory),
+            None => Ok(report::hand_over()?),
+        },
         Command::Book(arguments) => book::book(arguments),
         Command::Compare(arguments) => compare::compare(arguments),
     }
 }
 
-/// What to do about an output that is also an input.
+/// The remedy where an output is also an input.
 const OTHER_FOLDER: &str = "choose another folder with -o";
 
 /// Makes the folder for the files of a command.

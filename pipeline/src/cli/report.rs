@@ -1,31 +1,32 @@
-//! `pipeline report`: what each way of rendering a page costs, and how wrong it is.
+//! `pipeline report`: what each method of rendering a page costs, and how wrong its picture is.
 
-use super::asked::{Asked, asked};
-use super::work::Work;
+use super::bar::Bar;
+use super::common::CommonArguments;
+use super::named::{self, NamedJob};
 use super::{OTHER_FOLDER, make_folder};
+use crate::report::measure::{self, Memory};
+use crate::report::measured::{PageMeasured, Truth};
+use crate::report::{self, Measured, Plan};
+use crate::run::Options;
+use crate::{Job, PipelineError};
 use clap::Args;
-use cpu_time::ProcessTime;
 use files::exit::say;
 use files::memory::of_process;
-use files::progress::Progress;
-use files::{Batch, Ledger, Output, Report};
-use pipeline::report::measure::{self, Meter};
-use pipeline::report::measured::{PageMeasured, Truth};
-use pipeline::report::{self, Measured, Plan, accompanying, csv};
-use pipeline::run::Options;
-use pipeline::{Job, PipelineError};
-use render::film::{MOST_SAMPLES, memory};
+use files::{Batch, Exit, Failure, Ledger, Report};
+use render::film::{MOST_SAMPLES, memory as film_memory};
 use render::{Scene, Settings};
-use std::io::Write;
-use std::path::{Path, PathBuf};
-use std::sync::Mutex;
-use std::time::{Duration, Instant};
+use std::env;
+use std::io;
+use std::path::PathBuf;
+use std::process::Command;
+use std::time::Instant;
+use thiserror::Error;
 
 /// The scenes that other renderers were measured on.
 const PEERS: [&str; 2] = ["peer-glass", "peer-tube"];
 
-/// The numbers of all pages.
-const NUMBERS: &str = "report.csv";
+/// The program that counts memory, which stands beside this one.
+const COUNTING: &str = "pipeline-report";
 
 /// What `pipeline report` is asked.
 #[derive(Debug, Args)]
@@ -48,13 +49,43 @@ pub struct ReportArguments {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(32..=MOST_SAMPLES.into()))]
     truth: Option<u32>,
     #[command(flatten)]
-    work: Work,
+    common: CommonArguments,
 }
 
-/// Measures the pages that were named and writes what came of it.
-pub fn report(arguments: &ReportArguments) -> Result<(), Report> {
-    arguments.work.limit_memory();
-    let ledger = arguments.work.ledger();
+/// The program that counts memory cannot be started.
+#[derive(Debug, Error)]
+#[error("cannot start {COUNTING}, which stands beside pipeline and measures for it: {0}")]
+pub struct CountingError(io::Error);
+
+impl Failure for CountingError {
+    fn exit(&self) -> Exit {
+        Exit::ReadWrite
+    }
+}
+
+/// Continues this process as the program that counts memory, with the same arguments.
+///
+/// # Errors
+/// When that program cannot be started.
+pub fn hand_over() -> Result<(), CountingError> {
+    let program = env::current_exe().map_err(CountingError)?;
+    let program = program.with_file_name(COUNTING).with_extension(env::consts::EXE_EXTENSION);
+    let mut command = Command::new(program);
+    command.args(env::args_os().skip(1));
+    #[cfg(unix)]
+    return Err(CountingError(std::os::unix::process::CommandExt::exec(&mut command)));
+    #[cfg(not(unix))]
+    match command.status().map_err(CountingError)?.code() {
+        Some(0) => Ok(()),
+        code => std::process::exit(code.unwrap_or(1)),
+    }
+}
+
+/// Measures the pages that the arguments name, and writes the report.
+pub fn report(arguments: &ReportArguments, memory: &dyn Memory) -> Result<(), Report> {
+    arguments.common.limit_memory();
+    let quiet = arguments.common.quiet;
+    let ledger = arguments.common.ledger();
     let jobs = jobs(&arguments.pages, &ledger)?;
     let mut plan = if arguments.quick { Plan::quick() } else { Plan::full() };
     plan.size = arguments.size.unwrap_or(plan.size);
@@ -63,163 +94,89 @@ pub fn report(arguments: &ReportArguments) -> Result<(), Report> {
         folder: arguments.output.clone(),
         size: plan.size,
         keep: false,
-        clobber: arguments.work.clobber(),
+        clobber: arguments.common.clobber(),
     };
     // Every scene is read before the first is measured, so that a slip in the last costs no waiting.
-    let scenes = jobs.iter().map(|asked| {
-        let scene = pipeline::run::scene(&asked.job, asked.source, &options, &|_| {})?;
+    let scenes = jobs.iter().map(|named| {
+        let scene = crate::run::scene(&named.job, named.source, &options, &|_| {})?;
         for &filter in &plan.filters {
             let settings = Settings::new(options.size.0, options.size.1, filter);
-            memory::reserve(&scene, &settings, None, of_process()).map(drop)?;
+            film_memory::reserve(&scene, &settings, None, of_process()).map(drop)?;
         }
         Ok(scene)
     });
     let scenes: Vec<Scene> = scenes.collect::<Result<_, PipelineError>>()?;
     make_folder(&options.folder)?;
-    let mut files = check_files(&jobs, &options, &ledger)?;
-    let tables = accompanying::measure(arguments.quick)?;
-    for table in &tables {
-        let file = options.folder.join(format!("{}.csv", table.name));
-        ledger.claim(&file, OTHER_FOLDER)?;
-        files.push(file);
-    }
+    let files = check_files(&jobs, &options, &ledger)?;
     let batch = Batch::new(&options.folder, "report", &files)?;
-    if let Some(remark) = batch.remark().filter(|_| !arguments.work.quiet) {
+    if let Some(remark) = batch.remark().filter(|_| !quiet) {
         say(format_args!("pipeline: note: {remark}"));
     }
-    let write = |path: &Path, text: &str, clobber| -> Result<(), PipelineError> {
-        let mut output = Output::create(path, clobber)?;
-        output.write_all(text.as_bytes()).map_err(|source| output.failed(source))?;
-        Ok(batch.replace(output)?)
-    };
-    let pool = arguments.work.pool()?;
+    let pool = arguments.common.pool()?;
     let threads = pool.current_num_threads();
-    let mut measured = Measured { pages: Vec::new(), threads, quick: arguments.quick, tables };
-    let numbers = options.folder.join(NUMBERS);
-    for (Asked { job, .. }, scene) in jobs.iter().zip(&scenes) {
-        let talk = Talk::new(job, arguments.work.quiet);
-        let tell = |doing: &str, done, total| talk.tell(doing, done, total);
-        let usage = Usage::new();
+    let mut measured = Measured { pages: Vec::new(), threads, quick: arguments.quick };
+    for (NamedJob { job, .. }, scene) in jobs.iter().zip(&scenes) {
+        let (bar, started) = (Bar::new(quiet), Instant::now());
+        let tell = |doing: &str, done: usize, total: usize| {
+            bar.tell(&format!("{}: {doing}", job.name), done, total);
+        };
         let page = pool
-            .install(|| measure::page(&job.name, &job.title, scene, &plan, &usage, &tell))
+            .install(|| measure::page(&job.name, &job.title, scene, &plan, memory, &tell))
             .map_err(PipelineError::from)?;
-        talk.finish(&page);
+        bar.clear();
+        if !quiet {
+            say(summary(&page, started.elapsed().as_secs_f64()));
+        }
         measured.pages.push(page);
         // After every page: if a long report is interrupted, the numbers so far are there.
-        write(&numbers, &csv::trials(&measured), true)?;
+        report::write_numbers(&measured, &options.folder, &batch)?;
     }
-    let mut written = vec![numbers];
-    for table in &measured.tables {
-        let path = options.folder.join(format!("{}.csv", table.name));
-        write(&path, &csv::table(table), options.clobber)?;
-        written.push(path);
-    }
-    written.extend(report::write(&measured, &options.folder, options.clobber, &batch)?);
+    let written = report::write(&measured, &options.folder, options.clobber, &batch)?;
     batch.finish()?;
-    if !arguments.work.quiet {
+    if !quiet {
         written.iter().for_each(|path| say(path.display()));
     }
     Ok(())
 }
 
-/// The files of a report, which may be written; no two pages write the same.
+/// Claims the files of a report and returns their paths. No two pages write the same file.
 fn check_files(
-    jobs: &[Asked<'_>],
+    jobs: &[NamedJob<'_>],
     options: &Options,
     ledger: &Ledger,
 ) -> Result<Vec<PathBuf>, PipelineError> {
-    let pages = || jobs.iter().map(|asked| asked.job.name.as_str());
-    let mut files = vec![NUMBERS.to_string()];
-    files.extend(report::files(pages()));
+    let pages = || jobs.iter().map(|named| named.job.name.as_str());
     for (k, name) in pages().enumerate() {
-        if let Some(first) = jobs[..k].iter().find(|asked| asked.job.name == name) {
+        if let Some(first) = jobs[..k].iter().find(|named| named.job.name == name) {
             let (first, second) = (first.argument.clone(), jobs[k].argument.clone());
             return Err(PipelineError::SameFile { first, second, file: format!("{name}.svg") });
         }
     }
-    let files: Vec<PathBuf> = files.iter().map(|file| options.folder.join(file)).collect();
+    let files: Vec<PathBuf> =
+        report::files(pages()).iter().map(|file| options.folder.join(file)).collect();
     for file in &files {
         ledger.claim(file, OTHER_FOLDER)?;
     }
     Ok(files)
 }
 
-/// Shows what is being measured.
-struct Talk<'a> {
-    job: &'a str,
-    quiet: bool,
-    started: Instant,
-    bar: Mutex<Option<(String, Progress)>>,
+/// Returns a line on what was measured of a page in `seconds`.
+fn summary(page: &PageMeasured, seconds: f64) -> String {
+    let Truth { samples, most_samples, noise, .. } = page.truth;
+    let truth = format!("truth of {samples} x {samples} to {most_samples} x {most_samples} rays");
+    let (name, methods) = (&page.name, page.trials.len());
+    format!("{name}: {methods} methods, {truth} twice, noise {noise:.5}  {seconds:.1} s")
 }
 
-impl<'a> Talk<'a> {
-    fn new(job: &'a Job, quiet: bool) -> Self {
-        Self { job: &job.name, quiet, started: Instant::now(), bar: Mutex::new(None) }
-    }
-
-    fn tell(&self, doing: &str, done: usize, total: usize) {
-        let Ok(mut bar) = self.bar.lock() else { return };
-        if bar.as_ref().is_none_or(|(shown, _)| shown != doing) {
-            let label = format!("{}: {doing}", self.job);
-            *bar = Some((doing.into(), Progress::new(&label, self.quiet)));
-        }
-        if let Some((_, progress)) = bar.as_ref() {
-            progress.tell(done, total);
-        }
-    }
-
-    /// Says what was measured.
-    fn finish(self, page: &PageMeasured) {
-        drop(self.bar);
-        if self.quiet {
-            return;
-        }
-        let Truth { samples, most_samples, noise, .. } = page.truth;
-        let (methods, seconds) = (page.trials.len(), self.started.elapsed().as_secs_f64());
-        let truth =
-            format!("truth of {samples} x {samples} to {most_samples} x {most_samples} rays");
-        say(format_args!(
-            "{}: {methods} methods, {truth} twice, noise {noise:.5}  {seconds:.1} s",
-            self.job
-        ));
-    }
-}
-
-/// What this program uses.
-struct Usage {
-    started: Option<ProcessTime>,
-}
-
-impl Usage {
-    fn new() -> Self {
-        Self { started: ProcessTime::try_now().ok() }
-    }
-}
-
-impl Meter for Usage {
-    fn cpu(&self) -> Duration {
-        self.started.and_then(|started| started.try_elapsed().ok()).unwrap_or_default()
-    }
-
-    fn mark(&self) -> usize {
-        crate::MEMORY.reset_peak_usage();
-        crate::MEMORY.current_usage()
-    }
-
-    fn peak(&self) -> usize {
-        crate::MEMORY.peak_usage()
-    }
-}
-
-/// The jobs that were named; without names, the pages that show figures of the thesis, and the scenes that
-/// other renderers were measured on.
-fn jobs<'a>(names: &[String], ledger: &'a Ledger) -> Result<Vec<Asked<'a>>, PipelineError> {
+/// Returns the jobs that arguments name. Without arguments, these are the pages that show figures of the
+/// thesis, and the scenes that other renderers were measured on.
+fn jobs<'a>(names: &[String], ledger: &'a Ledger) -> Result<Vec<NamedJob<'a>>, PipelineError> {
     if !names.is_empty() {
-        return asked(names, ledger);
+        return named::jobs(names, ledger);
     }
-    let all = asked(&["all".into()], ledger)?;
+    let all = named::jobs(&["all".into()], ledger)?;
     let default = |job: &Job| {
         PEERS.contains(&job.name.as_str()) || job.modes.iter().any(|mode| mode.figure.is_some())
     };
-    Ok(all.into_iter().filter(|asked| default(&asked.job)).collect())
+    Ok(all.into_iter().filter(|named| default(&named.job)).collect())
 }

@@ -1,17 +1,17 @@
 //! `pipeline run`: the pictures of pages and jobs.
 
-use super::asked::{Asked, asked};
-use super::work::Work;
+use super::bar::Bar;
+use super::common::CommonArguments;
+use super::named::{self, NamedJob};
 use super::{OTHER_FOLDER, make_folder};
+use crate::contact_sheet::ContactSheet;
+use crate::run as of_job;
+use crate::run::{Event, Options};
+use crate::stages::Stages;
+use crate::{Job, PipelineError};
 use clap::Args;
 use files::exit::say;
-use files::progress::Progress;
 use files::{Batch, Ledger, Report, input};
-use pipeline::run as of_job;
-use pipeline::run::{Event, Options};
-use pipeline::sheet::Sheet;
-use pipeline::stages::Stages;
-use pipeline::{Job, PipelineError};
 use render::Picture;
 use std::collections::BTreeMap;
 use std::io::Write;
@@ -44,29 +44,29 @@ pub struct RunArguments {
     #[arg(long)]
     stats: bool,
     #[command(flatten)]
-    work: Work,
+    common: CommonArguments,
 }
 
 /// Does the jobs that were named.
 pub fn run(arguments: &RunArguments) -> Result<(), Report> {
-    arguments.work.limit_memory();
+    arguments.common.limit_memory();
     // Every job is read before the first is done, so that a slip in a name costs no waiting.
-    let ledger = arguments.work.ledger();
+    let ledger = arguments.common.ledger();
     let jobs = jobs(arguments, &ledger)?;
     make_folder(&arguments.output)?;
-    let sheet_path = arguments.sheet.then(|| arguments.output.join(Sheet::FILE));
-    let names = jobs.iter().flat_map(|asked| asked.job.files(arguments.keep));
+    let sheet_path = arguments.sheet.then(|| arguments.output.join(ContactSheet::FILE));
+    let names = jobs.iter().flat_map(|named| named.job.files(arguments.keep));
     let files: Vec<PathBuf> =
         names.map(|name| arguments.output.join(name)).chain(sheet_path.clone()).collect();
     for file in &files {
         ledger.claim(file, OTHER_FOLDER)?;
     }
-    let pool = arguments.work.pool()?;
+    let pool = arguments.common.pool()?;
     let options = Options {
         folder: arguments.output.clone(),
         size: arguments.size,
         keep: arguments.keep,
-        clobber: arguments.work.clobber(),
+        clobber: arguments.common.clobber(),
     };
     pool.install(|| read_first(&jobs, &files, &options))?;
     let together = arguments.sheet.then(|| Batch::new(&options.folder, "sheet", &files));
@@ -74,9 +74,9 @@ pub fn run(arguments: &RunArguments) -> Result<(), Report> {
     together.iter().for_each(|batch| arguments.remark(batch));
     let mut rows: Vec<(String, Stages)> = Vec::new();
     let mut all = Stages::default();
-    let mut sheet = Sheet::default();
-    for Asked { job, source, .. } in &jobs {
-        let talk = Talk::new(job, arguments);
+    let mut sheet = ContactSheet::default();
+    for NamedJob { job, source, .. } in &jobs {
+        let listener = Listener::new(job, arguments);
         let batch = of_job::batch(job, &options)?;
         arguments.remark(&batch);
         let batch = match &together {
@@ -84,11 +84,11 @@ pub fn run(arguments: &RunArguments) -> Result<(), Report> {
             None => batch,
         };
         let stages = pool.install(|| {
-            of_job::run_in(&batch, job, *source, &options, &|event| talk.hear(&event))
+            of_job::run_in(&batch, job, *source, &options, &|event| listener.hear(&event))
         })?;
         batch.finish()?;
         rows.push((job.name.clone(), stages));
-        let (modes, last) = talk.heard();
+        let (modes, last) = listener.finish();
         rows.extend(modes);
         if let Some(picture) = &last {
             sheet.add(picture);
@@ -104,7 +104,7 @@ pub fn run(arguments: &RunArguments) -> Result<(), Report> {
     if jobs.len() > 1 {
         rows.push(("all".into(), all));
     }
-    if !arguments.work.quiet {
+    if !arguments.common.quiet {
         say(Stages::table(&rows).trim_end());
     }
     Ok(())
@@ -113,7 +113,7 @@ pub fn run(arguments: &RunArguments) -> Result<(), Report> {
 impl RunArguments {
     /// Says that an earlier run stopped between the files of a batch, if one did.
     fn remark(&self, batch: &Batch<'_>) {
-        if let Some(remark) = batch.remark().filter(|_| !self.work.quiet) {
+        if let Some(remark) = batch.remark().filter(|_| !self.common.quiet) {
             say(format_args!("pipeline: note: {remark}"));
         }
     }
@@ -123,12 +123,12 @@ impl RunArguments {
 /// A job whose grids are kept replaces files before it has read its pictures. Where no output is
 /// there yet, none can be an input.
 fn read_first(
-    jobs: &[Asked<'_>],
+    jobs: &[NamedJob<'_>],
     outputs: &[PathBuf],
     options: &Options,
 ) -> Result<(), PipelineError> {
     if (jobs.len() > 1 || options.keep) && outputs.iter().any(|path| path.exists()) {
-        for Asked { job, source, .. } in jobs.iter().filter(|asked| !asked.built_in) {
+        for NamedJob { job, source, .. } in jobs.iter().filter(|named| !named.built_in) {
             of_job::scene(job, *source, options, &|_| {})?;
         }
     }
@@ -136,13 +136,17 @@ fn read_first(
 }
 
 /// The jobs to do, each with the place where its files are; no two write the same file.
-fn jobs<'a>(arguments: &RunArguments, ledger: &'a Ledger) -> Result<Vec<Asked<'a>>, PipelineError> {
-    let mut jobs: Vec<Asked<'a>> = Vec::new();
+fn jobs<'a>(
+    arguments: &RunArguments,
+    ledger: &'a Ledger,
+) -> Result<Vec<NamedJob<'a>>, PipelineError> {
+    let mut jobs: Vec<NamedJob<'a>> = Vec::new();
     let mut written: BTreeMap<String, String> = BTreeMap::new();
     if arguments.sheet {
-        written.insert(Sheet::FILE.into(), "--sheet".into());
+        written.insert(ContactSheet::FILE.into(), "--sheet".into());
     }
-    for Asked { job, path, source, built_in, figures, argument } in asked(&arguments.jobs, ledger)?
+    for NamedJob { job, path, source, built_in, figures, argument } in
+        named::jobs(&arguments.jobs, ledger)?
     {
         let job = if figures.is_empty() { job } else { job.only(&figures) };
         let job = job.with_modes(&arguments.modes)?;
@@ -156,43 +160,38 @@ fn jobs<'a>(arguments: &RunArguments, ledger: &'a Ledger) -> Result<Vec<Asked<'a
             }
             written.insert(file, argument.clone());
         }
-        jobs.push(Asked { job, path, source, built_in, figures, argument });
+        jobs.push(NamedJob { job, path, source, built_in, figures, argument });
     }
     Ok(jobs)
 }
 
-/// Says on standard error what a job is doing.
-struct Talk<'a> {
+/// Says on standard error what a job does, and keeps what the command prints at the end.
+struct Listener<'a> {
     job: &'a str,
     arguments: &'a RunArguments,
     started: Instant,
-    progress: Mutex<Option<(String, Progress)>>,
-    modes: Mutex<Vec<(String, Stages)>>,
-    /// The last picture, where a sheet is to show it.
-    last: Mutex<Option<Picture>>,
+    bar: Bar,
+    heard: Mutex<Heard>,
 }
 
-impl<'a> Talk<'a> {
+/// The times of each mode, if `--stats` asks for them, and the last picture, if a contact sheet shows it.
+type Heard = (Vec<(String, Stages)>, Option<Picture>);
+
+impl<'a> Listener<'a> {
     fn new(job: &'a Job, arguments: &'a RunArguments) -> Self {
-        Self {
-            job: &job.name,
-            arguments,
-            started: Instant::now(),
-            progress: Mutex::default(),
-            modes: Mutex::default(),
-            last: Mutex::default(),
-        }
+        let bar = Bar::new(arguments.common.quiet);
+        Self { job: &job.name, arguments, started: Instant::now(), bar, heard: Mutex::default() }
     }
 
-    /// What each mode took by itself, and the last picture, where either was asked for.
-    fn heard(self) -> (Vec<(String, Stages)>, Option<Picture>) {
-        let modes = self.modes.into_inner().unwrap_or_else(PoisonError::into_inner);
-        (modes, self.last.into_inner().unwrap_or_else(PoisonError::into_inner))
+    fn finish(self) -> Heard {
+        self.heard.into_inner().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn hear(&self, event: &Event<'_>) {
         match event {
-            Event::Progress { mode, done, total } => self.progress(mode, *done, *total),
+            Event::Progress { mode, done, total } => {
+                self.bar.tell(&format!("{} {mode}", self.job), *done, *total);
+            }
             Event::Mesh { name, triangles, sweep, triangulate, missed } => {
                 let seconds = (*sweep + *triangulate).as_secs_f64();
                 self.say(&format!("{}: {name}, {triangles} triangles, {seconds:.2} s", self.job));
@@ -201,11 +200,10 @@ impl<'a> Talk<'a> {
                 }
             }
             Event::Picture { mode, picture, stats } => {
-                self.clear();
-                if self.arguments.sheet
-                    && let Ok(mut last) = self.last.lock()
-                {
-                    *last = Some((*picture).clone());
+                self.bar.clear();
+                let mut heard = self.heard.lock().unwrap_or_else(PoisonError::into_inner);
+                if self.arguments.sheet {
+                    heard.1 = Some((*picture).clone());
                 }
                 if stats.not_finite > 0 {
                     let (job, count) = (self.job, stats.not_finite);
@@ -214,38 +212,19 @@ impl<'a> Talk<'a> {
                 }
                 if self.arguments.stats {
                     self.say(&format!("{} {mode}:\n{stats}", self.job));
-                    if let Ok(mut modes) = self.modes.lock() {
-                        modes.push((format!("  {mode}"), Stages::of_mode(stats)));
-                    }
+                    heard.0.push((format!("  {mode}"), Stages::of_mode(stats)));
                 }
             }
             Event::Written(path) => {
-                self.clear();
+                self.bar.clear();
                 let seconds = self.started.elapsed().as_secs_f64();
                 self.say(&format!("{}  {seconds:.2} s", input::name_of(path)));
             }
         }
     }
 
-    fn progress(&self, mode: &str, done: usize, total: usize) {
-        let Ok(mut progress) = self.progress.lock() else { return };
-        if progress.as_ref().is_none_or(|(shown, _)| shown != mode) {
-            let label = format!("{} {mode}", self.job);
-            *progress = Some((mode.into(), Progress::new(&label, self.arguments.work.quiet)));
-        }
-        if let Some((_, progress)) = progress.as_ref() {
-            progress.tell(done, total);
-        }
-    }
-
-    fn clear(&self) {
-        if let Ok(mut progress) = self.progress.lock() {
-            *progress = None;
-        }
-    }
-
     fn say(&self, words: &str) {
-        if !self.arguments.work.quiet {
+        if !self.arguments.common.quiet {
             say(words.trim_end());
         }
     }

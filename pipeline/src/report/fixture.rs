@@ -1,7 +1,7 @@
 //! Made-up measurements for tests of plots and sentences.
 
-use super::measured::{Cost, Measured, Method, PageMeasured, Region, Table, Trial, Truth};
-use crate::compare::Difference;
+use super::measured::{Cost, Measured, Method, PageMeasured, Region, Trial, Truth};
+use compare::Difference;
 use render::film::Supersample;
 use render::filter::Filter;
 use render::{Picture, Sampling};
@@ -93,26 +93,7 @@ pub fn page(name: &str, whole: &Law<'_>, regions: &[(&'static str, &Law<'_>)]) -
 
 /// Makes a report of pages.
 pub fn measured(pages: Vec<PageMeasured>) -> Measured {
-    let filters = table(
-        "filters",
-        "method,ns,rms 0 deg,rms 45 deg",
-        &["mip,67,0.079,0.093", "tent,352,0.038,0.096", "bilinear,29,0.255,0.250"],
-    );
-    Measured { pages, threads: 2, quick: false, tables: vec![filters] }
-}
-
-/// Makes a table from rows of cells separated by commas.
-pub fn table(name: &'static str, columns: &str, rows: &[&str]) -> Table {
-    let cells = |text: &str| text.split(',').map(str::to_string).collect();
-    Table {
-        name,
-        title: format!("The table {name}"),
-        about: "What was measured.".into(),
-        command: None,
-        columns: cells(columns),
-        rows: rows.iter().map(|row| cells(row)).collect(),
-        drawing: None,
-    }
+    Measured { pages, threads: 2, quick: false }
 }
 
 fn difference(pixels: usize, rmse: f64) -> Difference {

@@ -7,10 +7,10 @@ use super::measured::{Cost, Method, PageMeasured, Region, Trial, Truth};
 use super::plan::Plan;
 use super::refined::Refined;
 use super::regions;
-use crate::compare::{CompareError, Difference};
-use render::stats::Stats;
+use compare::{CompareError, Difference};
+use cpu_time::ProcessTime;
 use render::{Picture, Prepared, Scene, Settings};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 /// Largest number of rounds of a method.
 const MOST_ROUNDS: usize = 9;
@@ -23,13 +23,11 @@ const MOST_REFINEMENTS: usize = 3;
 /// error. Both are root mean squares.
 const SETTLED: f64 = 0.2;
 
-/// Measures processor time and memory of the program, which a library cannot do.
-pub trait Meter: Sync {
-    /// Returns the processor time that the program has used so far, over all threads.
-    fn cpu(&self) -> Duration;
+/// Counts the memory that the process holds, which a library cannot do.
+pub trait Memory: Sync {
     /// Starts a new measurement of peak memory, and returns the memory held now, in bytes.
     fn mark(&self) -> usize;
-    /// Returns the most memory held at once since the last call of [`Meter::mark`], in bytes.
+    /// Returns the most memory held at once since the last call of [`Memory::mark`], in bytes.
     fn peak(&self) -> usize;
 }
 
@@ -48,21 +46,21 @@ pub fn page(
     title: &str,
     scene: &Scene,
     plan: &Plan,
-    meter: &dyn Meter,
+    memory: &dyn Memory,
     tell: Tell<'_>,
 ) -> Result<PageMeasured, CompareError> {
     tell("regions", 0, 1);
     let regions = regions::regions(scene, plan.size);
-    let taken = take_turns(scene, plan, meter, tell);
-    let (pair, settled) = settle(scene, plan, &taken, tell)?;
+    let measured = take_turns(scene, plan, memory, tell);
+    let (pair, settled) = settle(scene, plan, &measured, tell)?;
     let truth = pair.mean();
     let (samples, most_samples) = pair.samples();
     let noise = pair.noise(None);
     let noise_by_region: Vec<f64> =
         regions.iter().map(|region| pair.noise(Some(&region.mask))).collect();
-    let trials = taken.into_iter().map(|turn| {
+    let trials = measured.into_iter().map(|rounds| {
         let against = |mask, noise: f64| {
-            let difference = Difference::between(&turn.picture, &truth, mask)?;
+            let difference = Difference::between(&rounds.picture, &truth, mask)?;
             Ok::<_, CompareError>(without_noise(difference, noise))
         };
         let by_region = regions.iter().zip(&noise_by_region);
@@ -71,9 +69,9 @@ pub fn page(
         Ok(Trial {
             whole: against(None, noise)?,
             by_region: by_region.collect::<Result<_, _>>()?,
-            cost: turn.cost(),
-            method: turn.method,
-            picture: Some(turn.picture),
+            cost: rounds.cost(),
+            method: rounds.method,
+            picture: Some(rounds.picture),
         })
     });
     let trials: Vec<Trial> = trials.collect::<Result<_, CompareError>>()?;
@@ -91,84 +89,77 @@ fn without_noise(difference: Difference, noise: f64) -> Difference {
     Difference { rmse: square.max(0.0).sqrt(), ..difference }
 }
 
-/// A method's picture and the costs of each of its rounds. Times are in seconds, memory in bytes.
-struct Turn {
+/// The picture of a method, and the costs of each of its rounds.
+struct Rounds {
     method: Method,
     picture: Picture,
-    stats: Stats,
-    walls: Vec<f64>,
-    cpus: Vec<f64>,
-    tables: Vec<f64>,
-    peaks: Vec<f64>,
+    costs: Vec<Cost>,
 }
 
-impl Turn {
+impl Rounds {
+    /// Returns the medians of the costs.
     fn cost(&self) -> Cost {
-        let stats = &self.stats;
+        let median = |of: fn(&Cost) -> f64| median(self.costs.iter().map(of).collect());
         Cost {
-            wall: median(&self.walls),
-            cpu: median(&self.cpus),
-            tables: median(&self.tables),
-            rays: stats.primary_rays
-                + stats.reflected_rays
-                + stats.refracted_rays
-                + stats.shadow_rays,
-            texels: stats.texels,
-            peak_bytes: median(&self.peaks) as usize,
+            wall: median(|cost| cost.wall),
+            cpu: median(|cost| cost.cpu),
+            tables: median(|cost| cost.tables),
+            peak_bytes: median(|cost| cost.peak_bytes as f64) as usize,
+            // Counts are equal in all rounds.
+            ..self.costs[0]
         }
     }
 }
 
 /// Returns the median of some numbers: the lower of the two middle ones of an even number, and 0 of
 /// none.
-fn median(values: &[f64]) -> f64 {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    sorted.get(sorted.len().saturating_sub(1) / 2).copied().unwrap_or(0.0)
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len().saturating_sub(1) / 2).copied().unwrap_or(0.0)
 }
 
 /// Measures every method in turn, until each has been measured for the time `plan.patience` or for
 /// [`MOST_ROUNDS`] rounds.
-fn take_turns(scene: &Scene, plan: &Plan, meter: &dyn Meter, tell: Tell<'_>) -> Vec<Turn> {
+fn take_turns(scene: &Scene, plan: &Plan, memory: &dyn Memory, tell: Tell<'_>) -> Vec<Rounds> {
     let methods = plan.methods();
     let count = methods.len();
-    let mut turns: Vec<Turn> = Vec::with_capacity(count);
+    let mut all: Vec<Rounds> = Vec::with_capacity(count);
     for (k, method) in methods.into_iter().enumerate() {
         tell("methods", k, count);
-        turns.push(measure(scene, plan, method, meter));
+        let (picture, cost) = measure(scene, plan, &method, memory);
+        all.push(Rounds { method, picture, costs: vec![cost] });
     }
     for round in 1..MOST_ROUNDS {
-        for (k, turn) in turns.iter_mut().enumerate() {
+        for (k, rounds) in all.iter_mut().enumerate() {
             tell("rounds", round * count + k, MOST_ROUNDS * count);
-            if turn.walls.iter().sum::<f64>() >= plan.patience.as_secs_f64() {
-                continue;
+            let spent: f64 = rounds.costs.iter().map(|cost| cost.wall).sum();
+            if spent < plan.patience.as_secs_f64() {
+                rounds.costs.push(measure(scene, plan, &rounds.method, memory).1);
             }
-            let again = measure(scene, plan, turn.method.clone(), meter);
-            turn.walls.extend(again.walls);
-            turn.cpus.extend(again.cpus);
-            turn.tables.extend(again.tables);
-            turn.peaks.extend(again.peaks);
         }
     }
-    turns
+    all
 }
 
 /// Renders one picture by a method and measures its costs.
-fn measure(scene: &Scene, plan: &Plan, method: Method, meter: &dyn Meter) -> Turn {
+fn measure(scene: &Scene, plan: &Plan, method: &Method, memory: &dyn Memory) -> (Picture, Cost) {
     let (width, height) = plan.size;
     let settings =
         Settings { sampling: method.sampling, ..Settings::new(width, height, method.filter) };
-    let held = meter.mark();
-    let (cpu, started) = (meter.cpu(), Instant::now());
+    let held = memory.mark();
+    let (cpu, started) = (ProcessTime::try_now(), Instant::now());
     // The scene is prepared anew each time, since tables and acceleration structure are part of a
     // method's cost.
     let (picture, stats) = render::render(&Prepared::new(scene), &settings, &|_, _| {});
-    let wall = started.elapsed().as_secs_f64();
-    let cpu = meter.cpu().saturating_sub(cpu).as_secs_f64();
-    let peak = meter.peak().saturating_sub(held) as f64;
-    let tables = vec![stats.table_time.as_secs_f64()];
-    let (walls, cpus, peaks) = (vec![wall], vec![cpu], vec![peak]);
-    Turn { method, picture, stats, walls, cpus, tables, peaks }
+    let cost = Cost {
+        wall: started.elapsed().as_secs_f64(),
+        cpu: cpu.and_then(|start| start.try_elapsed()).unwrap_or_default().as_secs_f64(),
+        tables: stats.table_time.as_secs_f64(),
+        rays: stats.primary_rays + stats.reflected_rays + stats.refracted_rays + stats.shadow_rays,
+        texels: stats.texels,
+        peak_bytes: memory.peak().saturating_sub(held),
+    };
+    (picture, cost)
 }
 
 /// Returns the truth, refined until its two pictures differ little in comparison to the smallest error,
@@ -176,7 +167,7 @@ fn measure(scene: &Scene, plan: &Plan, method: Method, meter: &dyn Meter) -> Tur
 fn settle(
     scene: &Scene,
     plan: &Plan,
-    turns: &[Turn],
+    all: &[Rounds],
     tell: Tell<'_>,
 ) -> Result<(Refined, bool), CompareError> {
     let prepared = Prepared::new(scene);
@@ -184,7 +175,7 @@ fn settle(
         tell("truth", done, total);
     });
     for _ in 0..MOST_REFINEMENTS {
-        let goal = SETTLED * smallest(&pair, turns)?;
+        let goal = SETTLED * smallest(&pair, all)?;
         if pair.difference(None) <= goal {
             break;
         }
@@ -193,15 +184,15 @@ fn settle(
             break;
         }
     }
-    let settled = pair.difference(None) <= SETTLED * smallest(&pair, turns)?;
+    let settled = pair.difference(None) <= SETTLED * smallest(&pair, all)?;
     Ok((pair, settled))
 }
 
 /// Returns the smallest error of all pictures, with the noise of the truth subtracted.
-fn smallest(pair: &Refined, turns: &[Turn]) -> Result<f64, CompareError> {
+fn smallest(pair: &Refined, all: &[Rounds]) -> Result<f64, CompareError> {
     let (truth, noise) = (pair.mean(), pair.noise(None));
-    turns.iter().try_fold(f64::INFINITY, |smallest, turn| {
-        let difference = Difference::between(&turn.picture, &truth, None)?;
+    all.iter().try_fold(f64::INFINITY, |smallest, rounds| {
+        let difference = Difference::between(&rounds.picture, &truth, None)?;
         Ok(without_noise(difference, noise).rmse.min(smallest))
     })
 }
@@ -213,14 +204,10 @@ mod tests {
     use render::Sampling;
     use render::filter::Filter;
 
-    /// A meter that measures nothing.
-    struct None;
+    /// Memory of which 7 bytes are held before a picture, and 10 at most.
+    struct Fixed;
 
-    impl Meter for None {
-        fn cpu(&self) -> Duration {
-            Duration::ZERO
-        }
-
+    impl Memory for Fixed {
         fn mark(&self) -> usize {
             7
         }
@@ -237,7 +224,7 @@ mod tests {
             samplings: [1, 2, 4, 16].map(Sampling::regular).into(),
             truth_samples: 32,
             most_truth_samples: 64,
-            patience: Duration::ZERO,
+            patience: std::time::Duration::ZERO,
             quick: true,
         }
     }
@@ -245,7 +232,7 @@ mod tests {
     fn measured(threads: usize) -> PageMeasured {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let scene = board::scene();
-        pool.install(|| page("board", "Checks", &scene, &plan(), &None, &|_, _, _| {})).unwrap()
+        pool.install(|| page("board", "Checks", &scene, &plan(), &Fixed, &|_, _, _| {})).unwrap()
     }
 
     #[test]
@@ -254,7 +241,7 @@ mod tests {
         let exact = board::exact(20);
         for trial in &page.trials {
             let picture = trial.picture.as_ref().unwrap();
-            let right = Difference::between(picture, &exact, Option::None).unwrap().rmse;
+            let right = Difference::between(picture, &exact, None).unwrap().rmse;
             // A remainder of the truth's noise is left when the squares are subtracted.
             let wrong = (trial.whole.rmse - right).abs();
             assert!(wrong < 0.3 * page.truth.noise + 0.01 * right, "{:?}: {wrong}", trial.method);
@@ -286,7 +273,7 @@ mod tests {
 
     #[test]
     fn the_median_is_the_lower_of_two_middles() {
-        assert_eq!([median(&[]), median(&[3.0]), median(&[4.0, 1.0])], [0.0, 3.0, 1.0]);
-        assert_eq!(median(&[9.0, 1.0, 2.0]), 2.0);
+        assert_eq!([median(vec![]), median(vec![3.0]), median(vec![4.0, 1.0])], [0.0, 3.0, 1.0]);
+        assert_eq!(median(vec![9.0, 1.0, 2.0]), 2.0);
     }
 }

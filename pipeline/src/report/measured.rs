@@ -1,7 +1,7 @@
 //! The results of a report's measurements as plain numbers, before they become tables, curves and
 //! sentences.
 
-use crate::compare::Difference;
+use compare::Difference;
 use render::filter::Filter;
 use render::{Picture, Sampling};
 use serde::Serialize;
@@ -15,27 +15,6 @@ pub struct Measured {
     pub threads: usize,
     /// Whether the report was made in haste: small pictures, few methods.
     pub quick: bool,
-    /// Separate measurements of the modeler and the filters.
-    pub tables: Vec<Table>,
-}
-
-/// A table of measurements that accompany those of the pages.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Table {
-    /// The name of the table, such as `filters`.
-    pub name: &'static str,
-    /// The title of the table, one line.
-    pub title: String,
-    /// A description of the measurement, in a few sentences.
-    pub about: String,
-    /// The command that repeats the measurement, if another program made it.
-    pub command: Option<&'static str>,
-    /// The names of the columns.
-    pub columns: Vec<String>,
-    /// The rows. Each has as many cells as there are columns.
-    pub rows: Vec<Vec<String>>,
-    /// A drawing of the table: an SVG document.
-    pub drawing: Option<&'static str>,
 }
 
 /// A page with its truth, its regions, and the trial of each method.

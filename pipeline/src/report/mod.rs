@@ -2,15 +2,15 @@
 //! is.
 //!
 //! [`measure`] renders a page by the methods of a [`Plan`] and compares the pictures with the
-//! [`refined`] truth, as a whole and by [`regions`]. [`accompanying`] measures the modeler and the
-//! filters separately. [`Measured`] holds the results, and [`write()`] turns the results into words,
-//! plots and pages.
+//! [`refined`] truth, as a whole and by [`regions`]. [`Measured`] holds the results as numbers.
+//! [`write()`] turns the results into rows of numbers, sentences of advice, plots and pages.
+//! [`accompanying`] holds measurements of other programs, which every report shows.
 
 pub mod accompanying;
+pub mod advice;
 mod blocks;
 #[cfg(test)]
 mod board;
-pub mod csv;
 mod document;
 #[cfg(test)]
 mod fixture;
@@ -20,13 +20,13 @@ mod method;
 pub mod pareto;
 pub mod plan;
 pub mod plot;
+mod pool;
 pub mod refined;
 pub mod regions;
+pub mod rows;
 mod sight;
-mod table;
-pub mod words;
 mod write;
 
 pub use measured::Measured;
 pub use plan::Plan;
-pub use write::{files, write};
+pub use write::{files, write, write_numbers};

@@ -1,9 +1,11 @@
 //! Writes the files of a report.
 
+use super::accompanying::{self, Accompanying};
+use super::advice;
 use super::document;
 use super::measured::Measured;
 use super::plot;
-use super::words;
+use super::rows;
 use crate::PipelineError;
 use files::{Batch, Output};
 use std::io::Write;
@@ -12,13 +14,32 @@ use std::path::{Path, PathBuf};
 /// The file name of the HTML page.
 const DOCUMENT: &str = "report.html";
 
-/// Returns the file names of a report of these pages: the HTML page, and the plot of each page.
+/// The file name of the numbers of all pages.
+const NUMBERS: &str = "report.csv";
+
+/// Returns the file names of a report of these pages: the numbers, the accompanying tables, the HTML
+/// page, and the plot of each page.
 pub fn files<'a>(pages: impl Iterator<Item = &'a str>) -> Vec<String> {
-    std::iter::once(DOCUMENT.into()).chain(pages.map(|page| format!("{page}.svg"))).collect()
+    let tables = accompanying::ALL.iter().map(Accompanying::file);
+    let fixed = std::iter::once(NUMBERS.into()).chain(tables).chain([DOCUMENT.into()]);
+    fixed.chain(pages.map(|page| format!("{page}.svg"))).collect()
 }
 
-/// Writes `report.html`, and for each page its plot as `PAGE.svg`, into an existing folder, as a part
-/// of a batch. Returns the paths of the files, in the order in which they were written.
+/// Writes the numbers of the pages measured so far as `report.csv`, as a part of a batch. An existing
+/// file is replaced.
+///
+/// # Errors
+/// When the file cannot be written.
+pub fn write_numbers(
+    measured: &Measured,
+    folder: &Path,
+    batch: &Batch<'_>,
+) -> Result<(), PipelineError> {
+    write_file(&folder.join(NUMBERS), &rows::csv(measured), true, batch)
+}
+
+/// Writes the files of a report into an existing folder, as a part of a batch. [`write_numbers`] has
+/// written the first. Returns the paths of all files in the order of [`files`].
 ///
 /// # Errors
 /// When a file cannot be written, or exists and `clobber` is false; when a picture cannot be encoded.
@@ -28,20 +49,31 @@ pub fn write(
     clobber: bool,
     batch: &Batch<'_>,
 ) -> Result<Vec<PathBuf>, PipelineError> {
-    let claims = words::claims(measured);
-    let mut contents = vec![document::document(measured, &claims)?];
+    let advice = advice::sentences(measured);
+    let mut contents: Vec<String> =
+        accompanying::ALL.iter().map(|own| own.table.to_owned()).collect();
+    contents.push(document::document(measured, &advice)?);
     contents.extend(measured.pages.iter().map(|page| {
         let chart = plot::trials::whole(page);
         chart.file(&document::about_plot(page))
     }));
     let names = files(measured.pages.iter().map(|page| page.name.as_str()));
     let paths: Vec<PathBuf> = names.iter().map(|name| folder.join(name)).collect();
-    for (path, text) in paths.iter().zip(contents) {
-        let mut output = Output::create(path, clobber)?;
-        output.write_all(text.as_bytes()).map_err(|source| output.failed(source))?;
-        batch.replace(output)?;
+    for (path, text) in paths.iter().skip(1).zip(contents) {
+        write_file(path, text.as_bytes(), clobber, batch)?;
     }
     Ok(paths)
+}
+
+fn write_file(
+    path: &Path,
+    content: &[u8],
+    clobber: bool,
+    batch: &Batch<'_>,
+) -> Result<(), PipelineError> {
+    let mut output = Output::create(path, clobber)?;
+    output.write_all(content).map_err(|source| output.failed(source))?;
+    Ok(batch.replace(output)?)
 }
 
 #[cfg(test)]
@@ -56,6 +88,7 @@ mod tests {
         clobber: bool,
     ) -> Result<Vec<PathBuf>, PipelineError> {
         let batch = Batch::new(folder, "report", &[]).unwrap();
+        write_numbers(measured, folder, &batch)?;
         write(measured, folder, clobber, &batch)
     }
 
@@ -77,15 +110,23 @@ mod tests {
         }
         let paths = written(&measured, folder.path(), false).unwrap();
         let names: Vec<_> = paths.iter().map(|path| path.file_name().unwrap()).collect();
-        assert_eq!(names, ["report.html", "floor.svg", "edges.svg"]);
-        let text = fs::read_to_string(&paths[0]).unwrap();
+        let expected = [
+            "report.csv",
+            "filters.csv",
+            "tessellation.csv",
+            "mapping.csv",
+            "report.html",
+            "floor.svg",
+            "edges.svg",
+        ];
+        assert_eq!(names, expected);
+        assert!(paths.iter().all(|path| path.is_file()));
+        let text = fs::read_to_string(&paths[4]).unwrap();
         for outside in ["<script", "<link", "@import", "src=\"http", "href=\"http", "url("] {
             assert!(!text.contains(outside), "{outside}");
         }
-        for claim in words::claims(&measured) {
-            // Tags surround the text in bold.
-            let (_, end) = claim.text.split_once(" where ").unwrap_or(("", &claim.text));
-            assert!(text.contains(&document::set(end)), "{}", claim.text);
+        for sentence in advice::sentences(&measured) {
+            assert!(text.contains(&document::set(&sentence.text)), "{}", sentence.text);
         }
         for page in &measured.pages {
             assert!(text.contains(&page.title) && text.contains(&format!("id=\"{}\"", page.name)));
@@ -94,7 +135,7 @@ mod tests {
             );
             assert!(page.regions.iter().all(|region| text.contains(region.name)));
         }
-        assert!(!text.contains("NaN") && text.contains("The table filters"));
+        assert!(!text.contains("NaN"));
     }
 
     #[test]

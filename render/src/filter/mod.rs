@@ -10,13 +10,12 @@
 //! | `quadratic` | the average under a quadratic B-spline that fills it (the same, order 3)     |
 //!
 //! The last four filters use pyramids or tables, which are built only for textures that a scene
-//! shows. [`literal`] is the thesis's own form of the tables, against which ours are tested.
+//! shows.
 
 mod axis;
 mod direct;
 mod entry;
 mod kernel;
-pub mod literal;
 mod pyramid;
 mod reduce;
 mod table;

@@ -7,7 +7,6 @@ pub mod mesh;
 pub mod placed;
 pub mod placement;
 pub mod quad;
-pub mod right_triangle;
 pub mod sphere;
 pub mod superquadric;
 pub mod triangle;

@@ -5,13 +5,14 @@
 
 pub mod classes;
 pub mod dice;
+pub mod right_triangle;
 
 use glam::{DVec2, DVec3};
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
+use render::shape::Mesh;
 use render::shape::mesh::{NONE, Triangle};
 use render::shape::triangle::ShearedRay;
-use render::shape::{Mesh, right_triangle};
 
 /// A ray and a triangle that it meets.
 #[derive(Debug, Clone, Copy)]

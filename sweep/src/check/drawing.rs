@@ -122,7 +122,7 @@ fn doubled<P: Copy, V: Vector + From<P>>(path: &str, free: &Free<P>, found: &mut
     if dropped > 0 {
         let points = if dropped == 1 { "point" } else { "points" };
         let message = format!("found {dropped} {points} given twice, which count once");
-        found.push(Finding::new(Severity::Remark, &format!("{path}.points"), message));
+        found.push(Finding::new(Severity::Remark, format!("{path}.points"), message));
     }
 }
 

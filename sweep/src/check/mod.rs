@@ -29,51 +29,9 @@ use crate::grid::{GridMesh, Seam};
 use crate::sampling::Object;
 use crate::sampling::Sweep;
 use glam::DVec3;
-use std::fmt::{self, Display};
 
-/// How much a finding weighs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Severity {
-    /// Good to know, and often meant.
-    Remark,
-    /// Most often not meant.
-    Hint,
-    /// The surface is not what a spec can have meant.
-    Wrong,
-}
-
-/// One thing found.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Finding {
-    /// How much it weighs.
-    pub severity: Severity,
-    /// The place in the spec, as a JSON path.
-    pub path: String,
-    /// What it is, with a number to act on.
-    pub message: String,
-}
-
-impl Finding {
-    pub(crate) fn new(severity: Severity, path: &str, message: impl Into<String>) -> Self {
-        Self { severity, path: path.into(), message: message.into() }
-    }
-}
-
-impl Display for Severity {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Remark => "remark",
-            Self::Hint => "hint",
-            Self::Wrong => "wrong",
-        })
-    }
-}
-
-impl Display for Finding {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}: {}", self.severity, self.path, self.message)
-    }
-}
+pub(crate) use files::check::short;
+pub use files::check::{Finding, Severity};
 
 /// Returns all findings about an object, part by part and the worst first.
 ///
@@ -168,24 +126,6 @@ fn over_the_seam(sweep: &Sweep) -> Option<Finding> {
     ))
 }
 
-/// A number in four digits.
-pub(crate) fn short(x: f64) -> String {
-    let size = x.abs();
-    if size != 0.0 && !(1e-4..1e6).contains(&size) {
-        return format!("{x:.2e}");
-    }
-    let digits = if size < 1.0 { 4 } else { 3 - (size.log10().floor() as usize).min(3) };
-    let text = format!("{x:.digits$}");
-    match text.split_once('.') {
-        Some((whole, part)) => {
-            let part = part.trim_end_matches('0');
-            let dot = if part.is_empty() { "" } else { "." };
-            format!("{whole}{dot}{part}")
-        }
-        None => text,
-    }
-}
-
 /// Rows in words: ranges of those for which `is` is true, with their `v`.
 fn ranges(rows: &[Stop], is: &[bool]) -> String {
     const MOST: usize = 4;
@@ -212,22 +152,6 @@ fn ranges(rows: &[Stop], is: &[bool]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn numbers_keep_the_digits_that_say_something() {
-        for (x, text) in [
-            (0.0, "0"),
-            (0.999, "0.999"),
-            (-0.25, "-0.25"),
-            (12.3456, "12.35"),
-            (1234.5, "1234"),
-            (360.0, "360"),
-            (1e-7, "1.00e-7"),
-            (2.5e9, "2.50e9"),
-        ] {
-            assert_eq!(short(x), text);
-        }
-    }
 
     #[test]
     fn rows_are_told_in_ranges() {

@@ -53,7 +53,7 @@ fn counts(sweep: &Sweep, key: &str, asked: usize, made: usize) -> Option<Finding
         _ => "for corners, poles and caps",
     };
     let message = format!("found {asked}, made {made} {why}");
-    (asked != made).then(|| Finding::new(Severity::Remark, &format!("mesh.{key}"), message))
+    (asked != made).then(|| Finding::new(Severity::Remark, format!("mesh.{key}"), message))
 }
 
 /// Pairs of places that follow each other; in a closed direction the last and the end too.

@@ -1,8 +1,10 @@
 //! A page of SVG: shapes and words at pixel coordinates, with y down.
 
-use files::words::unseen;
+use files::svg::Svg;
 use glam::{DVec2, DVec3};
-use std::fmt::Write;
+use std::fmt::{self, Display};
+
+pub use files::svg::Anchor;
 
 /// Width of the page in pixels.
 pub const WIDTH: f64 = 1200.0;
@@ -73,101 +75,78 @@ impl<'a> Pen<'a> {
     }
 }
 
-/// The part of a text that is placed at its position.
-#[derive(Debug, Clone, Copy)]
-pub enum Anchor {
-    Start,
-    Middle,
-    End,
+impl Display for Pen<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.width > 0.0 {
+            write!(f, " stroke=\"{}\" stroke-width=\"{}\"", self.color, self.width)?;
+        }
+        if !self.dashes.is_empty() {
+            write!(f, " stroke-dasharray=\"{}\"", self.dashes)?;
+        }
+        Ok(())
+    }
 }
 
-/// The text of the page written so far.
+/// The page written so far.
 #[derive(Debug)]
-pub struct Page(String);
+pub struct Page(Svg);
 
 impl Page {
     pub fn new() -> Self {
-        let mut page = Self(String::with_capacity(1 << 16));
-        page.put(&format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{HEIGHT}\" \
-             viewBox=\"0 0 {WIDTH} {HEIGHT}\" font-family=\"{}\" stroke-linejoin=\"round\" \
-             stroke-linecap=\"round\">\n\
-             <rect width=\"{WIDTH}\" height=\"{HEIGHT}\" fill=\"{}\"/>\n",
-            ink::FONT,
-            ink::PAPER
-        ));
-        page
+        let font = ink::FONT;
+        let style =
+            format!("font-family=\"{font}\" stroke-linejoin=\"round\" stroke-linecap=\"round\"");
+        let mut svg = Svg::new(WIDTH, HEIGHT, style);
+        svg.background(WIDTH, HEIGHT, format_args!("fill=\"{}\"", ink::PAPER));
+        Self(svg)
     }
 
-    pub fn finish(mut self) -> String {
-        self.put("</svg>\n");
-        self.0
+    pub fn finish(self) -> String {
+        self.0.finish()
     }
 
     /// Opens a group that is filled with this opacity.
     pub fn open_group(&mut self, opacity: f64) {
-        self.put(&format!("<g fill-opacity=\"{opacity}\">\n"));
+        self.0.open_group(format_args!("fill-opacity=\"{opacity}\""));
     }
 
     pub fn close_group(&mut self) {
-        self.put("</g>\n");
-    }
-
-    fn put(&mut self, text: &str) {
-        self.0.push_str(text);
+        self.0.close_group();
     }
 
     /// Draws a panel with its heading and a note.
     pub fn panel(&mut self, area: Area, heading: &str, note: &str) {
         let Area { x, y, width, height } = area;
-        self.put(&format!(
-            "<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" rx=\"8\" fill=\"{}\" \
-             stroke=\"{}\"/>\n",
-            ink::PANEL,
-            ink::RIM
-        ));
+        let style = format_args!("rx=\"8\" fill=\"{}\" stroke=\"{}\"", ink::PANEL, ink::RIM);
+        self.0.rectangle((x, y), (width, height), style);
         let at = DVec2::new(x + 14.0, y + 23.0);
         self.text(at, 13.0, ink::TEXT, Anchor::Start, heading);
         self.text(DVec2::new(x + width - 14.0, at.y), 11.0, ink::MUTED, Anchor::End, note);
     }
 
     pub fn text(&mut self, at: DVec2, size: f64, color: &str, anchor: Anchor, text: &str) {
-        if text.is_empty() {
-            return;
+        if !text.is_empty() {
+            let style = format_args!("font-size=\"{size}\" fill=\"{color}\"");
+            self.0.text(at, anchor, style, text);
         }
-        let anchor = match anchor {
-            Anchor::Start => "",
-            Anchor::Middle => " text-anchor=\"middle\"",
-            Anchor::End => " text-anchor=\"end\"",
-        };
-        let (x, y) = (Digits(at.x), Digits(at.y));
-        let text = escaped(text);
-        let _ = writeln!(
-            self.0,
-            "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\" fill=\"{color}\"{anchor}>{text}</text>"
-        );
     }
 
     /// Draws straight lines from point to point.
     pub fn line(&mut self, points: &[DVec2], closed: bool, pen: Pen<'_>) {
-        self.put("<path d=\"");
-        self.points(points, closed);
-        self.put("\" fill=\"none\"");
-        self.pen(pen);
+        if closed {
+            self.polygon(points, "none", pen);
+        } else {
+            self.0.line(points, format_args!("fill=\"none\"{pen}"));
+        }
     }
 
     /// Draws a filled polygon; with a pen width of 0 it has no outline.
     pub fn polygon(&mut self, points: &[DVec2], fill: &str, pen: Pen<'_>) {
-        self.put("<path d=\"");
-        self.points(points, true);
-        let _ = write!(self.0, "\" fill=\"{fill}\"");
-        self.pen(pen);
+        self.0.polygon(points, format_args!("fill=\"{fill}\"{pen}"));
     }
 
     pub fn dot(&mut self, at: DVec2, radius: f64, fill: &str, pen: Pen<'_>) {
-        let (x, y) = (Digits(at.x), Digits(at.y));
-        let _ = write!(self.0, "<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\" fill=\"{fill}\"");
-        self.pen(pen);
+        self.0.circle(at, radius, format_args!("fill=\"{fill}\"{pen}"));
     }
 
     /// Draws the head of an arrow that ends at `tip`.
@@ -176,52 +155,6 @@ impl Page {
         let (back, side) = (tip - along, along.perp() * 0.42);
         self.polygon(&[tip, back + side, back - side], color, Pen::new(color, 0.0));
     }
-
-    fn pen(&mut self, pen: Pen<'_>) {
-        if pen.width > 0.0 {
-            let _ = write!(self.0, " stroke=\"{}\" stroke-width=\"{}\"", pen.color, pen.width);
-        }
-        if !pen.dashes.is_empty() {
-            let _ = write!(self.0, " stroke-dasharray=\"{}\"", pen.dashes);
-        }
-        self.put("/>\n");
-    }
-
-    fn points(&mut self, points: &[DVec2], closed: bool) {
-        for (i, point) in points.iter().enumerate() {
-            let command = if i == 0 { 'M' } else { 'L' };
-            let _ = write!(self.0, "{command}{} {}", Digits(point.x), Digits(point.y));
-        }
-        if closed {
-            self.put("Z");
-        }
-    }
-}
-
-/// A coordinate, rounded to a tenth of a pixel.
-struct Digits(f64);
-
-impl std::fmt::Display for Digits {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let tenths = (self.0 * 10.0).round() / 10.0;
-        write!(f, "{}", if tenths.is_finite() { tenths + 0.0 } else { 0.0 })
-    }
-}
-
-fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            // XML has no control characters and lacks these two; other invisible characters can reverse text.
-            c if unseen(c) || matches!(c, '\u{fffe}' | '\u{ffff}') => out.push('\u{fffd}'),
-            c => out.push(c),
-        }
-    }
-    out
 }
 
 /// A parallel projection of space along a direction, fitted into a rectangle.

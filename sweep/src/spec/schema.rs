@@ -10,16 +10,12 @@
 
 use super::{Parts, Spec};
 use crate::limits::LARGEST;
-use schemars::Schema;
-use schemars::generate::SchemaSettings;
-use schemars::transform::RecursiveTransform;
 use serde_json::{Value, json};
 
 /// Returns the schema of a spec, of one sweep or of parts.
 #[must_use]
 pub fn of_spec() -> Value {
-    let settings = SchemaSettings::draft2020_12().with_transform(RecursiveTransform(plain));
-    let mut generator = settings.into_generator();
+    let mut generator = files::schema::generator(LARGEST);
     let (sweep, parts) = (generator.subschema_for::<Spec>(), generator.subschema_for::<Parts>());
     let types = generator.take_definitions(true);
     json!({
@@ -33,37 +29,4 @@ pub fn of_spec() -> Value {
         "else": { "allOf": [sweep], "required": ["format", "version"] },
         "$defs": types,
     })
-}
-
-/// Removes keywords of the types that mean nothing here, and bounds all numbers without bounds.
-fn plain(schema: &mut Schema) {
-    let Some(object) = schema.as_object_mut() else {
-        return;
-    };
-    object.remove("format");
-    if object.get("default").is_some_and(Value::is_null) {
-        object.remove("default");
-    }
-    if let Some(Value::Array(types)) = object.get_mut("type") {
-        types.retain(|kind| kind != "null");
-        if let [only] = &types[..] {
-            let only = only.clone();
-            object.insert("type".into(), only);
-        }
-    }
-    if let Some(Value::Array(kinds)) = object.get_mut("anyOf") {
-        kinds.retain(|kind| kind.get("type").is_none_or(|kind| kind != "null"));
-        if let [Value::Object(only)] = &mut kinds[..] {
-            let only = std::mem::take(only);
-            object.remove("anyOf");
-            object.extend(only);
-        }
-    }
-    let bounded = ["minimum", "maximum", "exclusiveMinimum", "exclusiveMaximum", "const"];
-    if object.get("type").is_some_and(|kind| kind == "number")
-        && !bounded.iter().any(|bound| object.contains_key(*bound))
-    {
-        object.insert("minimum".into(), json!(-LARGEST));
-        object.insert("maximum".into(), json!(LARGEST));
-    }
 }

@@ -1,16 +1,16 @@
 //! The section of one page.
 
+use super::super::advice::Sentence;
 use super::super::measured::PageMeasured;
 use super::super::plot::{Chart, Size, trials as plots};
-use super::super::words::Claim;
 use super::{about_plot, chart, pictures, trials};
 use crate::PipelineError;
 use crate::number::error;
 use maud::{Markup, PreEscaped, html};
 
-pub fn section(page: &PageMeasured, claims: &[Claim]) -> Result<Markup, PipelineError> {
-    let own: Vec<&Claim> =
-        claims.iter().filter(|claim| claim.page.as_ref() == Some(&page.name)).collect();
+pub fn section(page: &PageMeasured, advice: &[Sentence]) -> Result<Markup, PipelineError> {
+    let own: Vec<&Sentence> =
+        advice.iter().filter(|sentence| sentence.page.as_ref() == Some(&page.name)).collect();
     let (width, height) = page.size;
     let truth = &page.truth;
     let rays = if truth.samples == truth.most_samples {
@@ -29,7 +29,7 @@ pub fn section(page: &PageMeasured, claims: &[Claim]) -> Result<Markup, Pipeline
                 (width) " \u{d7} " (height) " pixels; the truth is of two times " (rays)
                 " rays in a pixel, and its noise " (error(truth.noise)) "."
             }
-            @if !own.is_empty() { ul { @for claim in own { li { (super::sentence(claim)) } } } }
+            @if !own.is_empty() { ul { @for sentence in own { li { (super::set(&sentence.text)) } } } }
             (pictures)
             div.plots { (chart(&untitled, &about_plot(page))) }
             @if !page.regions.is_empty() {

@@ -2,9 +2,9 @@
 
 use super::super::measured::{PageMeasured, Trial};
 use crate::PipelineError;
-use crate::compare::{Scale, map, scale};
 use crate::html::png_address;
 use crate::number::{error, seconds};
+use compare::{Scale, map, scale};
 use maud::{Markup, html};
 use render::color::Encoding;
 use render::film::Supersample;

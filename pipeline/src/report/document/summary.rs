@@ -1,24 +1,21 @@
 //! The conclusions, and a table of all pages.
 
+use super::super::advice::{Question, Sentence};
 use super::super::measured::{Measured, PageMeasured, Trial};
-use super::super::words::{Claim, Topic, Verdict};
 use crate::number::{error, times};
 use maud::{Markup, html};
 use render::Sampling;
 use render::film::Supersample;
 use render::filter::Filter;
 
-const GROUPS: [(Verdict, &str); 5] = [
-    (Verdict::Use, "Which method to use"),
-    (Verdict::Wins, "Where the thesis\u{2019}s method wins"),
-    (Verdict::Loses, "Where it loses"),
-    (Verdict::Even, "Where it makes no difference"),
-    (Verdict::Doubt, "What is in doubt"),
+const GROUPS: [(Question, &str); 4] = [
+    (Question::Use, "Which filter to use"),
+    (Question::Cost, "What the tent costs"),
+    (Question::Fails, "Where filters fail"),
+    (Question::Doubt, "What is in doubt"),
 ];
 
-pub fn section(measured: &Measured, claims: &[Claim]) -> Markup {
-    // Doubts are about single pages, but readers of the conclusions alone must see them too.
-    let said = |claim: &&Claim| claim.page.is_none() || claim.topic == Topic::Noise;
+pub fn section(measured: &Measured, advice: &[Sentence]) -> Markup {
     html! {
         section id="conclusions" {
             h2 { "What the numbers say" }
@@ -26,13 +23,13 @@ pub fn section(measured: &Measured, claims: &[Claim]) -> Markup {
                 "The thesis\u{2019}s method is prefiltering by repeated integration: box, tent and quadratic (n = "
                 "1, 2, 3). The tent stands for it."
             }
-            @for (verdict, heading) in GROUPS {
-                @let own: Vec<&Claim> =
-                    claims.iter().filter(|claim| claim.verdict == verdict).filter(said).collect();
+            @for (question, heading) in GROUPS {
+                @let own: Vec<&Sentence> =
+                    advice.iter().filter(|sentence| sentence.question == question).collect();
                 @if !own.is_empty() {
                     div.verdict {
                         h3 { (heading) }
-                        ul { @for claim in own { li { (super::sentence(claim)) } } }
+                        ul { @for sentence in own { li { (super::set(&sentence.text)) } } }
                     }
                 }
             }

@@ -2,7 +2,7 @@
 
 use super::axis::{Axis, Tick};
 use super::look::Look;
-use super::svg::{Anchor, Svg};
+use files::svg::{Anchor, Class, Svg};
 
 /// A chart of curves over two logarithmic axes.
 #[derive(Debug, Clone)]
@@ -105,28 +105,30 @@ impl Chart {
     /// Returns an SVG element for an HTML page that has [`super::STYLE`]. `about` describes the chart.
     #[must_use]
     pub fn inline(&self, size: Size, about: &str) -> String {
-        self.drawn(size, about, "")
+        self.drawn(size, about, None)
     }
 
     /// Returns an SVG file of its own, with style and background.
     #[must_use]
     pub fn file(&self, about: &str) -> String {
-        self.drawn(Size::Wide, about, &format!("<style>{}</style>\n", super::STYLE))
+        self.drawn(Size::Wide, about, Some(super::STYLE))
     }
 
-    fn drawn(&self, size: Size, about: &str, style: &str) -> String {
+    /// Draws the chart. A drawing with a style sheet of its own also has a background.
+    fn drawn(&self, size: Size, about: &str, style_sheet: Option<&str>) -> String {
         let (width, height) = size.pixels();
         let top = if self.title.is_some() { 52.0 } else { 32.0 };
         let named = self.series.iter().any(|series| !series.name.is_empty());
         let right = width - if named || !self.key.is_empty() { NAMES } else { 16.0 };
         let frame = Frame { left: 56.0, top, right, bottom: height - 46.0 };
-        let mut svg = Svg::default();
-        svg.named(about);
-        if !style.is_empty() {
-            svg.rectangle("ground", (0.0, 0.0), (width, height));
+        let mut svg = Svg::new(width, height, "class=\"plot\" role=\"img\"");
+        if let Some(rules) = style_sheet {
+            svg.style_sheet(rules);
+            svg.background(width, height, Class("ground"));
         }
+        svg.open_named_group(about);
         if let Some(title) = &self.title {
-            svg.text("title", 12.0, 22.0, Anchor::Start, title);
+            svg.text((12.0, 22.0), Anchor::Start, Class("title"), title);
         }
         self.axes(&mut svg, frame);
         self.shade(&mut svg, frame);
@@ -136,12 +138,8 @@ impl Chart {
         }
         self.notes(&mut svg, frame);
         self.names(&mut svg, frame, size.radius());
-        svg.end();
-        format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot\" role=\"img\" width=\"{width}\" \
-             height=\"{height}\" viewBox=\"0 0 {width} {height}\">\n{style}{}</svg>\n",
-            svg.0
-        )
+        svg.close_group();
+        svg.finish()
     }
 
     fn axes(&self, svg: &mut Svg, frame: Frame) {
@@ -150,26 +148,31 @@ impl Chart {
         for (tick, labelled) in ticks.iter().zip(labels) {
             let Some(x) = self.across.part(tick.at).map(|part| frame.x(part)) else { continue };
             if let Some(label) = tick.label.as_ref().filter(|_| labelled) {
-                svg.line("grid", &[(x, frame.top), (x, frame.bottom)]);
-                svg.text("faint small", x, frame.bottom + 17.0, Anchor::Middle, label);
+                svg.line(&[(x, frame.top), (x, frame.bottom)], Class("grid"));
+                svg.text((x, frame.bottom + 17.0), Anchor::Middle, Class("faint small"), label);
             } else {
-                svg.line("rim", &[(x, frame.bottom), (x, frame.bottom + 3.0)]);
+                svg.line(&[(x, frame.bottom), (x, frame.bottom + 3.0)], Class("rim"));
             }
         }
         for tick in self.up.ticks() {
             let Some(y) = self.up.part(tick.at).map(|part| frame.y(part)) else { continue };
             if let Some(label) = &tick.label {
-                svg.line("grid", &[(frame.left, y), (frame.right, y)]);
-                svg.text("faint small", frame.left - 7.0, y + 4.0, Anchor::End, label);
+                svg.line(&[(frame.left, y), (frame.right, y)], Class("grid"));
+                svg.text((frame.left - 7.0, y + 4.0), Anchor::End, Class("faint small"), label);
             } else {
-                svg.line("rim", &[(frame.left - 3.0, y), (frame.left, y)]);
+                svg.line(&[(frame.left - 3.0, y), (frame.left, y)], Class("rim"));
             }
         }
         let corners = [frame.left, frame.right].map(|x| (x, frame.bottom));
-        svg.line("rim", &[(frame.left, frame.top), corners[0], corners[1]]);
-        svg.text("faint small", 12.0, frame.top - 12.0, Anchor::Start, &self.up.label);
+        svg.line(&[(frame.left, frame.top), corners[0], corners[1]], Class("rim"));
+        svg.text((12.0, frame.top - 12.0), Anchor::Start, Class("faint small"), &self.up.label);
         let middle = 0.5 * (frame.left + frame.right);
-        svg.text("faint small", middle, frame.bottom + 36.0, Anchor::Middle, &self.across.label);
+        svg.text(
+            (middle, frame.bottom + 36.0),
+            Anchor::Middle,
+            Class("faint small"),
+            &self.across.label,
+        );
     }
 
     /// Returns which labels of the horizontal axis fit: powers of ten first, then others in between.
@@ -196,13 +199,14 @@ impl Chart {
         let x = frame.left + 8.0;
         let Some(part) = self.up.part(band.up_to).filter(|&part| part > 0.0) else {
             let label = format!("{}: below", band.label);
-            svg.text("faint tiny halo", x, frame.bottom - 5.0, Anchor::Start, &label);
+            svg.text((x, frame.bottom - 5.0), Anchor::Start, Class("faint tiny halo"), &label);
             return;
         };
         let top = frame.y(part.min(1.0));
-        svg.rectangle("band", (frame.left, top), (frame.right - frame.left, frame.bottom - top));
+        let size = (frame.right - frame.left, frame.bottom - top);
+        svg.rectangle((frame.left, top), size, Class("band"));
         if frame.bottom - top > 14.0 {
-            svg.text("faint tiny", x, frame.bottom - 5.0, Anchor::Start, &band.label);
+            svg.text((x, frame.bottom - 5.0), Anchor::Start, Class("faint tiny"), &band.label);
         }
     }
 
@@ -215,7 +219,7 @@ impl Chart {
         }
         if let Some(&(_, y)) = points.last() {
             points.push((frame.right, y));
-            svg.line("front", &points);
+            svg.line(&points, Class("front"));
         }
     }
 
@@ -224,14 +228,13 @@ impl Chart {
         if series.joined {
             let points: Vec<(f64, f64)> =
                 series.places.iter().filter_map(|p| self.place(frame, p.x, p.y)).collect();
-            let dashed = if series.look.dashed { " dashed" } else { "" };
-            svg.line(&format!("line {class}{dashed}"), &points);
+            svg.line(&points, Class(&format!("line {class}")));
         }
         for place in &series.places {
             let Some((x, y)) = self.place(frame, place.x, place.y) else { continue };
-            svg.named(&place.name);
+            svg.open_named_group(&place.name);
             series.look.draw(svg, x, y, radius);
-            svg.end();
+            svg.close_group();
         }
     }
 
@@ -247,7 +250,7 @@ impl Chart {
                 .iter()
                 .all(|other| (other.0 - at.0).abs() > 16.0 || (other.1 - at.1).abs() > 10.0)
             {
-                svg.text("faint tiny halo", at.0, at.1, Anchor::End, note);
+                svg.text((at.0, at.1), Anchor::End, Class("faint tiny halo"), note);
                 taken.push(at);
             }
         }
@@ -271,10 +274,10 @@ impl Chart {
         let (start, gap) = (frame.right + 14.0, radius + 6.0);
         for ((x, y, series), height) in ends.iter().zip(&heights) {
             let leader = [(x + radius + 2.0, *y), (frame.right, *y), (start - radius, *height)];
-            svg.line(&format!("leader {}", series.look.class()), &leader);
+            svg.line(&leader, Class(&format!("leader {}", series.look.class())));
             series.look.draw(svg, start, *height, radius);
             let class = series.look.class();
-            svg.text(&class, start + gap, height + 4.5, Anchor::Start, &series.name);
+            svg.text((start + gap, height + 4.5), Anchor::Start, Class(&class), &series.name);
         }
         let below = heights.last().map_or(frame.top, |last| last + 0.6 * LINE);
         for (k, (look, words)) in self.key.iter().enumerate() {
@@ -283,7 +286,7 @@ impl Chart {
                 height = frame.top + LINE * k as f64;
             }
             look.draw(svg, start, height, radius - 0.5);
-            svg.text("faint tiny", start + gap, height + 3.5, Anchor::Start, words);
+            svg.text((start + gap, height + 3.5), Anchor::Start, Class("faint tiny"), words);
         }
     }
 

@@ -1,6 +1,6 @@
 //! The look of a curve: its colour, and a mark that identifies it without colour.
 
-use super::svg::Svg;
+use files::svg::{Class, Svg};
 use render::filter::Filter;
 
 /// The shape of a mark.
@@ -29,8 +29,6 @@ pub struct Look {
     pub mark: Mark,
     /// Whether the mark is empty.
     pub hollow: bool,
-    /// Whether the line is dashed.
-    pub dashed: bool,
 }
 
 impl Look {
@@ -40,7 +38,7 @@ impl Look {
         let marks =
             [Mark::Cross, Mark::Circle, Mark::Triangle, Mark::Square, Mark::Diamond, Mark::Wedge];
         let color = k % marks.len();
-        Self { color: color as u8, mark: marks[color], hollow: false, dashed: false }
+        Self { color: color as u8, mark: marks[color], hollow: false }
     }
 
     /// Returns the look of a filter, the same in all plots.
@@ -55,12 +53,6 @@ impl Look {
         Self { hollow: true, ..self }
     }
 
-    /// Returns this look with a dashed line.
-    #[must_use]
-    pub fn dashed(self) -> Self {
-        Self { dashed: true, ..self }
-    }
-
     pub(super) fn class(self) -> String {
         format!("s{}", self.color)
     }
@@ -69,22 +61,23 @@ impl Look {
     pub(super) fn draw(self, svg: &mut Svg, x: f64, y: f64, radius: f64) {
         let fill = if self.hollow { "hollow" } else { "full" };
         let class = format!("mark {fill} {}", self.class());
+        let style = Class(&class);
         // The factors make marks of different shapes look equally large.
         let outline = |svg: &mut Svg, size: f64, corners: &[(f64, f64)]| {
             let points: Vec<(f64, f64)> =
                 corners.iter().map(|&(a, b)| (x + size * a, y + size * b)).collect();
-            svg.polygon(&class, &points);
+            svg.polygon(&points, style);
         };
         match self.mark {
-            Mark::Circle => svg.circle(&class, x, y, radius),
+            Mark::Circle => svg.circle((x, y), radius, style),
             Mark::Cross => {
                 // A cross has no inside, so an empty cross has a circle around it.
                 let arm = if self.hollow { 0.55 } else { 0.85 } * radius;
                 if self.hollow {
-                    svg.circle(&class, x, y, radius);
+                    svg.circle((x, y), radius, style);
                 }
-                svg.line(&class, &[(x - arm, y - arm), (x + arm, y + arm)]);
-                svg.line(&class, &[(x - arm, y + arm), (x + arm, y - arm)]);
+                svg.line(&[(x - arm, y - arm), (x + arm, y + arm)], style);
+                svg.line(&[(x - arm, y + arm), (x + arm, y - arm)], style);
             }
             Mark::Square => {
                 outline(svg, 0.88 * radius, &[(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]);

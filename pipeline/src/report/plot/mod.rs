@@ -6,8 +6,6 @@
 pub mod axis;
 pub mod chart;
 pub mod look;
-mod svg;
-pub mod tables;
 pub mod trials;
 
 pub use axis::{Axis, Unit};

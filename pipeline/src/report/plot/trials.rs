@@ -3,10 +3,10 @@
 use super::axis::{Axis, Unit};
 use super::chart::{Band, Chart, Place, Series};
 use super::look::Look;
-use crate::compare::Difference;
 use crate::number::{error, seconds};
 use crate::report::measured::{PageMeasured, Trial};
 use crate::report::pareto;
+use compare::Difference;
 use render::filter::Filter;
 
 const ACROSS: &str = "processor time";

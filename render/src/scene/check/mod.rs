@@ -33,54 +33,13 @@ pub mod unused;
 use super::Scene;
 use super::read::{Draft, SceneError};
 use crate::texture::Texture;
+use files::check::short;
 use files::words;
 use std::cmp::Reverse;
 use std::fmt::{self, Display};
 use subject::Subject;
 
-/// The severity of a finding.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Severity {
-    /// Worth knowing, and often intended.
-    Remark,
-    /// Probably a mistake.
-    Hint,
-    /// The picture cannot be what the scene means.
-    Wrong,
-}
-
-/// A fault or a suspicious value.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Finding {
-    /// Severity of the finding.
-    pub severity: Severity,
-    /// JSON path of the cause. The name of the file precedes the path if the file is an included one.
-    pub path: String,
-    /// Description, with the numbers that a correction needs.
-    pub message: String,
-}
-
-impl Finding {
-    fn new(severity: Severity, path: impl Into<String>, message: impl Into<String>) -> Self {
-        Self { severity, path: path.into(), message: message.into() }
-    }
-}
-
-impl Display for Severity {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Remark => "remark",
-            Self::Hint => "hint",
-            Self::Wrong => "wrong",
-        })
-    }
-}
-
-impl Display for Finding {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}: {}", self.severity, self.path, self.message)
-    }
-}
+pub use files::check::{Finding, Severity};
 
 /// The report of `--check`.
 #[derive(Debug, Clone)]
@@ -131,25 +90,7 @@ pub fn check(
     Ok(Report { inventory: inventory::lines(&subject, table_bytes), findings })
 }
 
-/// Writes a number with four digits.
-fn short(x: f64) -> String {
-    let size = x.abs();
-    if size != 0.0 && !(1e-4..1e6).contains(&size) {
-        return format!("{x:.2e}");
-    }
-    let digits = if size < 1.0 { 4 } else { 3 - (size.log10().floor() as usize).min(3) };
-    let text = format!("{x:.digits$}");
-    match text.split_once('.') {
-        Some((whole, part)) => {
-            let part = part.trim_end_matches('0');
-            let dot = if part.is_empty() { "" } else { "." };
-            format!("{whole}{dot}{part}")
-        }
-        None => text,
-    }
-}
-
-/// Writes a point, each coordinate with four digits.
+/// Formats a point, each coordinate with four digits.
 fn point(p: glam::DVec3) -> String {
     format!("({}, {}, {})", short(p.x), short(p.y), short(p.z))
 }

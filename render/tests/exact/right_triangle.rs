@@ -52,7 +52,6 @@ pub struct Mapped {
 ///   Eq. 3.14 sees this triangle only as a line.
 /// - The corner `C1`, where `r_BA` is 0/0, as `r_BC` is at `A1`. It is treated as the thesis treats
 ///   `A1`.
-#[must_use]
 pub fn map(corners: [DVec3; 3], hit: DVec3, legs: DVec2) -> Mapped {
     let [a, b, c] = corners;
     if hit == a {

@@ -95,7 +95,7 @@ fn channels((first, second): (&[f32; 3], &[f32; 3])) -> [f64; 3] {
 }
 
 /// Returns the error of a pixel: the largest absolute difference among its channels.
-pub(super) fn magnitude(pair: (&[f32; 3], &[f32; 3])) -> f64 {
+pub(crate) fn magnitude(pair: (&[f32; 3], &[f32; 3])) -> f64 {
     channels(pair).iter().fold(0.0, |most, difference| difference.abs().max(most))
 }
 

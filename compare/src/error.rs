@@ -50,7 +50,7 @@ impl Failure for CompareError {
 }
 
 /// Checks that two pictures have the same size and at least one pixel.
-pub(super) fn check_sizes(first: &Picture, second: &Picture) -> Result<(), CompareError> {
+pub(crate) fn check_sizes(first: &Picture, second: &Picture) -> Result<(), CompareError> {
     let sizes = [first, second].map(|picture| (picture.width, picture.height));
     if sizes[0] != sizes[1] {
         return Err(CompareError::Sizes { first: sizes[0], second: sizes[1] });
@@ -62,7 +62,7 @@ pub(super) fn check_sizes(first: &Picture, second: &Picture) -> Result<(), Compa
 }
 
 /// Checks that the three channels of a pixel are finite.
-pub(super) fn check_finite(
+pub(crate) fn check_finite(
     picture: &'static str,
     width: u32,
     index: usize,
@@ -80,7 +80,7 @@ pub(super) fn check_finite(
 }
 
 /// Returns column and row, from 0, of the pixel with an index.
-pub(super) fn place(width: u32, index: usize) -> (u32, u32) {
+pub(crate) fn place(width: u32, index: usize) -> (u32, u32) {
     let width = width as usize;
     ((index % width) as u32, (index / width) as u32)
 }

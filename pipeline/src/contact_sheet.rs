@@ -16,11 +16,11 @@ const ROW: usize = 6;
 
 /// A contact sheet of small pictures.
 #[derive(Debug, Clone, Default)]
-pub struct Sheet {
+pub struct ContactSheet {
     pictures: Vec<Picture>,
 }
 
-impl Sheet {
+impl ContactSheet {
     /// The file name of the sheet.
     pub const FILE: &str = "sheet.png";
 
@@ -115,7 +115,7 @@ mod tests {
 
     #[test]
     fn pictures_lie_in_rows_of_six_on_white() {
-        let mut sheet = Sheet::default();
+        let mut sheet = ContactSheet::default();
         for k in 1..=7 {
             let mut picture = Picture::black(2, 1);
             picture.pixels.fill([f32::from(k as u8) / 8.0; 3]);

@@ -1,22 +1,18 @@
-//! Combines the errors of several pages into one.
+//! Finds trials by their method, and combines the numbers of several pages into one.
 
-use super::super::measured::{Method, PageMeasured, Trial};
-use crate::compare::Difference;
+use super::measured::{Method, PageMeasured, Trial};
+use compare::Difference;
 use render::Sampling;
 use render::filter::Filter;
-
-/// The thesis's filters, in the order in which one of them represents the thesis's method. The thesis
-/// settles on the tent, so the tent comes first.
-pub const THESIS: [Filter; 3] = [Filter::Tent, Filter::Box, Filter::Quadratic];
 
 /// Returns the trial of a method on a page, if the method was measured.
 pub fn trial<'a>(page: &'a PageMeasured, method: &Method) -> Option<&'a Trial> {
     page.trials.iter().find(|trial| trial.method == *method)
 }
 
-/// Returns the trial of a filter with `samples * samples` evenly spread rays in a pixel.
-pub fn evenly(page: &PageMeasured, filter: Filter, samples: u32) -> Option<&Trial> {
-    trial(page, &Method { filter, sampling: Sampling::regular(samples) })
+/// Returns the method of a filter with `samples * samples` evenly spread rays in a pixel.
+pub fn evenly(filter: Filter, samples: u32) -> Method {
+    Method { filter, sampling: Sampling::regular(samples) }
 }
 
 /// Returns the numbers of evenly spread rays along a side of a pixel with which a filter was measured,
@@ -27,13 +23,6 @@ pub fn counts(page: &PageMeasured, filter: Filter) -> Vec<u32> {
     counts.sort_unstable();
     counts.dedup();
     counts
-}
-
-/// Returns the methods that were measured on every page, in the order of the first page.
-pub fn everywhere(pages: &[PageMeasured]) -> Vec<&Method> {
-    let Some((first, others)) = pages.split_first() else { return Vec::new() };
-    let methods = first.trials.iter().map(|trial| &trial.method);
-    methods.filter(|method| others.iter().all(|page| trial(page, method).is_some())).collect()
 }
 
 /// Returns the root mean square error over the pixels of several pictures. `None` without pixels.
@@ -47,7 +36,8 @@ pub fn pooled<'a>(differences: impl Iterator<Item = &'a Difference>) -> Option<f
     error.is_finite().then_some(error)
 }
 
-/// Returns the root mean square error of a method over all pixels of all pages.
+/// Returns the root mean square error of a method over all pixels of all pages. `None` if the method
+/// was not measured on a page.
 pub fn whole(pages: &[PageMeasured], method: &Method) -> Option<f64> {
     let trials: Option<Vec<&Trial>> = pages.iter().map(|page| trial(page, method)).collect();
     pooled(trials?.iter().map(|trial| &trial.whole))

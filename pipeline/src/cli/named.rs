@@ -1,45 +1,45 @@
 //! The pages, figures and job files that a command line names.
 
+use crate::job::figure;
+use crate::{Job, PipelineError, pages};
 use files::{Ledger, Source};
-use pipeline::job::figure;
-use pipeline::{Job, PipelineError, pages};
 use std::path::{Path, PathBuf};
 
-/// A job that was named.
+/// A job that an argument names.
 #[derive(Debug)]
-pub struct Asked<'a> {
-    /// The job, whole.
+pub struct NamedJob<'a> {
+    /// The whole job.
     pub job: Job,
-    /// Its file.
+    /// The path of the job file.
     pub path: PathBuf,
-    /// Where it and its files are.
+    /// The source of the job file and of the files that it names.
     pub source: &'a dyn Source,
-    /// Whether it is a page that is built in.
+    /// Whether the job is a built-in page.
     pub built_in: bool,
-    /// The figures that were asked for by number; none if the job was named itself.
+    /// The figures that arguments name by number; empty if an argument names the job itself.
     pub figures: Vec<u8>,
-    /// The argument that named it first.
+    /// The first argument that names the job.
     pub argument: String,
 }
 
-impl Asked<'_> {
-    /// What `pipeline run` calls the whole job.
+impl NamedJob<'_> {
+    /// Returns the argument by which `pipeline run` makes the whole job.
     #[must_use]
     pub fn whole(&self) -> String {
         if self.built_in { self.job.name.clone() } else { self.path.display().to_string() }
     }
 }
 
-/// The jobs that were named, job files read through the ledger, in the order in which they were; what is named twice is there once, and a figure
-/// beside the page that shows it is no more than the page.
+/// Returns the jobs that arguments name, in the order of the arguments. Job files are read through the
+/// ledger. A job that is named twice occurs once. A figure beside the page that shows it adds nothing.
 ///
 /// # Errors
 /// When there is no such page or figure, or a job file is wrong.
-pub fn asked<'a>(
+pub fn jobs<'a>(
     arguments: &[String],
     ledger: &'a Ledger,
-) -> Result<Vec<Asked<'a>>, PipelineError> {
-    let mut all: Vec<Asked<'a>> = Vec::new();
+) -> Result<Vec<NamedJob<'a>>, PipelineError> {
+    let mut all: Vec<NamedJob<'a>> = Vec::new();
     for argument in arguments {
         if argument == "all" {
             for job in pages::in_order()? {
@@ -51,7 +51,14 @@ pub fn asked<'a>(
             let argument = argument.clone();
             add(
                 &mut all,
-                Asked { job, path, source: ledger, built_in: false, figures: Vec::new(), argument },
+                NamedJob {
+                    job,
+                    path,
+                    source: ledger,
+                    built_in: false,
+                    figures: Vec::new(),
+                    argument,
+                },
             );
         } else if let Some(number) = figure::number(argument) {
             add(&mut all, page(&pages::of_figure(number)?, argument, vec![number])?);
@@ -62,9 +69,9 @@ pub fn asked<'a>(
     Ok(all)
 }
 
-fn page<'a>(name: &str, argument: &str, figures: Vec<u8>) -> Result<Asked<'a>, PipelineError> {
+fn page<'a>(name: &str, argument: &str, figures: Vec<u8>) -> Result<NamedJob<'a>, PipelineError> {
     let (job, path) = (pages::page(name)?, pages::path(name));
-    Ok(Asked {
+    Ok(NamedJob {
         job,
         path,
         source: &pages::FILES,
@@ -74,7 +81,7 @@ fn page<'a>(name: &str, argument: &str, figures: Vec<u8>) -> Result<Asked<'a>, P
     })
 }
 
-fn add<'a>(all: &mut Vec<Asked<'a>>, new: Asked<'a>) {
+fn add<'a>(all: &mut Vec<NamedJob<'a>>, new: NamedJob<'a>) {
     match all.iter_mut().find(|old| old.path == new.path && old.built_in == new.built_in) {
         None => all.push(new),
         Some(old) if old.figures.is_empty() || new.figures.is_empty() => old.figures.clear(),

@@ -1,4 +1,4 @@
-//! What every command that renders is asked besides.
+//! Arguments of every command that renders.
 
 use clap::Args;
 use clap::builder::TypedValueParser;
@@ -20,9 +20,9 @@ impl Failure for ThreadsError {
     }
 }
 
-/// How a command works, whatever it makes.
+/// Arguments of every command that renders.
 #[derive(Debug, Args)]
-pub struct Work {
+pub struct CommonArguments {
     /// Memory to take at most, in bytes or with k, M or G; what needs more is refused before it is
     /// begun [default: 90 % of what is free]
     #[arg(long, value_name = "BYTES", value_parser = files::memory::bytes)]
@@ -38,25 +38,25 @@ pub struct Work {
     no_clobber: bool,
 }
 
-impl Work {
-    /// Sets the limit of memory of this process; called before anything is read.
+impl CommonArguments {
+    /// Sets the memory limit of this process. It is called before anything is read.
     pub fn limit_memory(&self) {
         files::memory::allow(self.max_memory);
     }
 
-    /// Whether existing files may be replaced.
+    /// Returns whether existing files may be replaced.
     #[must_use]
     pub fn clobber(&self) -> bool {
         !self.no_clobber
     }
 
-    /// The files of a run, with leave to replace existing ones or not.
+    /// Makes the ledger of the files that the command reads and writes.
     #[must_use]
     pub fn ledger(&self) -> Ledger {
         Ledger::new(self.clobber())
     }
 
-    /// As many threads as were asked for, or one for each core.
+    /// Starts as many threads as the arguments say, or one for each core.
     ///
     /// # Errors
     /// When the system does not give them.

@@ -140,7 +140,7 @@ pub fn decode(name: &str, bytes: &[u8]) -> Result<Picture, ReadError> {
             })?;
     let (width, height) = (decoded.width(), decoded.height());
     let fault = |index: usize, found: String, expected: &'static str| {
-        let place = super::error::place(width, index);
+        let place = crate::error::place(width, index);
         Err(ReadError::Pixel { name: name.into(), place, found, expected })
     };
     let mut picture = Picture::black(width, height);

@@ -1,0 +1,363 @@
+//! The sentences of a report: which method to use, what the thesis's method costs, and where it fails.
+//!
+//! Each sentence has one form, which is filled with numbers, and is left out where the numbers are
+//! missing. The tent with one ray stands for the thesis's method, and one bilinear ray in each pixel is
+//! the unit of time.
+
+use super::measured::{Measured, Method, PageMeasured};
+use super::pool::{counts, evenly, mean, pooled, time_ratio, trial, whole};
+use crate::number::{bytes, error, times};
+use render::filter::Filter;
+
+/// Two errors count as equal if the larger is at most this times the smaller.
+///
+/// The noise of the truth changes an error of five times its size by 2 % at most.
+pub const AS_NEAR: f64 = 1.05;
+
+/// No filter helps where even the best leaves more than this fraction of the error of bilinear
+/// interpolation.
+const NO_HELP: f64 = 0.9;
+
+/// Times that may be spent, as multiples of the time of one bilinear ray in each pixel.
+const BUDGETS: [u32; 5] = [2, 5, 20, 80, 300];
+
+/// Largest difference between the truth's two pictures, as a fraction of the smallest error, that
+/// causes no doubt. Both are root mean squares.
+const NOISE: f64 = 0.2;
+
+/// The question that a sentence answers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Question {
+    /// Which method to use.
+    Use,
+    /// What the thesis's method costs, and what it is worth.
+    Cost,
+    /// Where filters fail.
+    Fails,
+    /// Which numbers are in doubt.
+    Doubt,
+}
+
+/// A sentence of a report.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Sentence {
+    /// The question that the sentence answers.
+    pub question: Question,
+    /// The name of the page that the sentence is about; `None` for all pages.
+    pub page: Option<String>,
+    /// The text.
+    pub text: String,
+}
+
+impl Sentence {
+    fn general(question: Question, text: String) -> Self {
+        Self { question, page: None, text }
+    }
+}
+
+/// Returns all sentences that the numbers support.
+#[must_use]
+pub fn sentences(measured: &Measured) -> Vec<Sentence> {
+    let pages = &measured.pages;
+    let mut all = budgets(pages);
+    all.extend(cost(pages));
+    all.extend(many_rays(pages));
+    all.extend(regions(pages));
+    all.extend(pages.iter().flat_map(|page| [worth(page), doubt(page)]).flatten());
+    all
+}
+
+/// Returns for each budget the method that is nearest to the truth. A method is rated on each page by
+/// its error over the least error within the budget. The best has the smallest geometric mean of these
+/// ratios, and keeps the budget on every page. Of equal advice for several budgets the last is kept.
+fn budgets(pages: &[PageMeasured]) -> Vec<Sentence> {
+    let one = evenly(Filter::Bilinear, 1);
+    let best = |budget: u32| {
+        let error = |page: &PageMeasured, method: &Method| {
+            let (own, one) = (trial(page, method)?, trial(page, &one)?);
+            (own.cost.cpu <= f64::from(budget) * one.cost.cpu).then_some(own.whole.rmse)
+        };
+        let least = |page: &PageMeasured| {
+            let errors = page.trials.iter().filter_map(|own| error(page, &own.method));
+            errors.min_by(f64::total_cmp)
+        };
+        let methods = pages.first()?.trials.iter().map(|own| &own.method);
+        let rated = methods.filter_map(|method| {
+            let rating = mean(pages, |page| Some(error(page, method)? / least(page)?))?;
+            Some((method, rating))
+        });
+        rated.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(method, _)| method)
+    };
+    let advice: Vec<_> = BUDGETS.iter().filter_map(|&k| Some((k, best(k)?))).collect();
+    let changes = advice
+        .iter()
+        .enumerate()
+        .filter(|(k, (_, method))| advice.get(k + 1).is_none_or(|(_, next)| next != method));
+    let text = |(_, (budget, method)): (usize, &(u32, &Method))| {
+        format!(
+            "Use {} where up to {budget} times the time of one bilinear ray in each pixel may be spent.",
+            method.name()
+        )
+    };
+    changes.map(|change| Sentence::general(Question::Use, text(change))).collect()
+}
+
+/// Returns the time and the memory of one ray with the tent.
+fn cost(pages: &[PageMeasured]) -> Option<Sentence> {
+    let (tent, one) = (evenly(Filter::Tent, 1), evenly(Filter::Bilinear, 1));
+    let ratio = time_ratio(pages, &tent, &one)?;
+    let more = pages.iter().filter_map(|page| {
+        let [tent, one] = [&tent, &one].map(|method| Some(trial(page, method)?.cost.peak_bytes));
+        Some(tent?.saturating_sub(one?) as u64)
+    });
+    let text = format!(
+        "One ray with the tent takes {} times the time of one bilinear ray, and its tables hold up to {} more.",
+        times(ratio),
+        bytes(more.max()?)
+    );
+    Some(Sentence::general(Question::Cost, text))
+}
+
+/// Returns the number of rays from which bilinear interpolation is as near as the tent.
+fn many_rays(pages: &[PageMeasured]) -> Option<Sentence> {
+    let errors = |n: u32| {
+        let both = [Filter::Tent, Filter::Bilinear].map(|filter| whole(pages, &evenly(filter, n)));
+        Some((n, both[0]?, both[1]?))
+    };
+    let counts = counts(pages.first()?, Filter::Tent);
+    let errors: Vec<(u32, f64, f64)> = counts.into_iter().filter_map(errors).collect();
+    let as_near = errors.iter().rev().take_while(|(_, tent, rays)| *rays <= AS_NEAR * tent);
+    let &(n, tent, rays) = as_near.last()?;
+    let text = format!(
+        "From {n} x {n} rays in a pixel on, bilinear rays are as near to the truth as the tent ({} and {}).",
+        error(rays),
+        error(tent)
+    );
+    Some(Sentence::general(Question::Fails, text))
+}
+
+/// Returns for each region the nearest filter with one ray, and whether it helps.
+fn regions(pages: &[PageMeasured]) -> Vec<Sentence> {
+    let mut names: Vec<&'static str> = Vec::new();
+    for region in pages.iter().flat_map(|page| &page.regions) {
+        if !names.contains(&region.name) {
+            names.push(region.name);
+        }
+    }
+    names.into_iter().filter_map(|name| region(pages, name)).collect()
+}
+
+fn region(pages: &[PageMeasured], name: &str) -> Option<Sentence> {
+    let with_region = pages.iter().filter_map(|page| {
+        Some((page, page.regions.iter().position(|region| region.name == name)?))
+    });
+    let with_region: Vec<(&PageMeasured, usize)> = with_region.collect();
+    let of = |filter: Filter| {
+        let method = evenly(filter, 1);
+        let own = with_region.iter().map(|&(page, k)| trial(page, &method)?.by_region.get(k));
+        pooled(own.collect::<Option<Vec<_>>>()?.into_iter())
+    };
+    let bilinear = of(Filter::Bilinear)?;
+    let areas = Filter::ALL.into_iter().filter(|filter| filter.wants_area());
+    let errors = areas.filter_map(|filter| Some((filter, of(filter)?)));
+    let (best, least) = errors.min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let (question, helps) = match least > NO_HELP * bilinear {
+        true => (Question::Fails, "no filter helps"),
+        false => (Question::Use, "a filter helps"),
+    };
+    let text = format!(
+        "Region {name}: {helps}. With one ray the nearest filter is the {best} ({}); bilinear is {} off.",
+        error(least),
+        error(bilinear)
+    );
+    Some(Sentence::general(question, text))
+}
+
+/// Returns the number of bilinear rays that one ray with the tent is worth on a page, and the time of
+/// both.
+fn worth(page: &PageMeasured) -> Option<Sentence> {
+    let own = trial(page, &evenly(Filter::Tent, 1))?;
+    let counts = counts(page, Filter::Bilinear);
+    let rays = |n: u32| trial(page, &evenly(Filter::Bilinear, n));
+    let enough = |n: &u32| rays(*n).is_some_and(|rays| rays.whole.rmse <= AS_NEAR * own.whole.rmse);
+    let (n, worth) = match counts.iter().copied().find(enough) {
+        Some(n) => (n, "worth"),
+        None => (*counts.last()?, "worth more than"),
+    };
+    let rays = rays(n)?;
+    let ratio = own.cost.cpu / rays.cost.cpu;
+    let text = format!(
+        "On {} one ray with the tent ({}) is {worth} {n} x {n} bilinear rays ({}), and takes {} times their time.",
+        page.name,
+        error(own.whole.rmse),
+        error(rays.whole.rmse),
+        times(ratio)
+    );
+    let question = if ratio > 1.0 { Question::Fails } else { Question::Cost };
+    Some(Sentence { question, page: Some(page.name.clone()), text })
+}
+
+/// Returns the parts of a page in which the truth is too noisy to measure the smallest error.
+fn doubt(page: &PageMeasured) -> Option<Sentence> {
+    let mut parts: Vec<String> = Vec::new();
+    let mut look = |name: &str, noise: f64, errors: &mut dyn Iterator<Item = f64>| {
+        // The two pictures of the truth differ by twice the error of their mean.
+        let least = errors.min_by(f64::total_cmp).filter(|least| 2.0 * noise > NOISE * least);
+        parts.extend(
+            least.map(|least| format!("{name} {} of {}", error(2.0 * noise), error(least))),
+        );
+    };
+    let trials = || page.trials.iter();
+    look("whole picture", page.truth.noise, &mut trials().map(|trial| trial.whole.rmse));
+    for (k, (region, &noise)) in page.regions.iter().zip(&page.truth.noise_by_region).enumerate() {
+        look(
+            region.name,
+            noise,
+            &mut trials().filter_map(|trial| Some(trial.by_region.get(k)?.rmse)),
+        );
+    }
+    let text = format!(
+        "On {} the truth's two seeds differ by more than a fifth of the smallest error: {}.",
+        page.name,
+        parts.join(", ")
+    );
+    let sentence = Sentence { question: Question::Doubt, page: Some(page.name.clone()), text };
+    (!parts.is_empty()).then_some(sentence)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::fixture::{self, edges, floor};
+
+    fn said(pages: Vec<PageMeasured>) -> Vec<(Question, String)> {
+        let all = sentences(&fixture::measured(pages)).into_iter();
+        all.map(|sentence| (sentence.question, sentence.text)).collect()
+    }
+
+    /// Returns the only sentence that contains `words`, or `None`.
+    fn one(said: &[(Question, String)], words: &str) -> Option<(Question, String)> {
+        let own: Vec<_> = said.iter().filter(|(_, text)| text.contains(words)).collect();
+        assert!(own.len() < 2, "{own:?}");
+        own.first().map(|&own| own.clone())
+    }
+
+    fn expected(question: Question, text: &str) -> Option<(Question, String)> {
+        Some((question, text.into()))
+    }
+
+    #[test]
+    fn what_is_advised_keeps_the_time_and_is_nearest() {
+        // One ray with the tent costs two bilinear rays, 3 x 3 with the tent 18.
+        let found = said(vec![fixture::page("floor", &floor, &[])]);
+        let uses: Vec<_> =
+            found.iter().filter(|(question, _)| *question == Question::Use).collect();
+        let of = |method: &str, budget: u32| {
+            format!(
+                "Use {method} where up to {budget} times the time of one bilinear ray in each pixel \
+                 may be spent."
+            )
+        };
+        // For five times the time the advice is the same as for twice.
+        let advised = [of("tent, 1 ray", 5), of("tent, 3 x 3 rays", 20)];
+        assert_eq!([&uses[0].1, &uses[1].1], [&advised[0], &advised[1]]);
+        // Where filters have no effect, cheaper rays are advised.
+        let (_, first) = &said(vec![fixture::page("edges", &edges, &[])])[0];
+        assert!(first.starts_with("Use point") || first.starts_with("Use bilinear"), "{first}");
+    }
+
+    #[test]
+    fn the_cost_of_one_ray_is_its_time_and_its_tables() {
+        let pages = vec![fixture::page("a", &floor, &[]), fixture::page("b", &floor, &[])];
+        let text = "One ray with the tent takes 2.0 times the time of one bilinear ray, and its tables hold \
+                    up to 16 MiB more.";
+        assert_eq!(
+            one(&said(pages), "takes 2.0 times the time of"),
+            expected(Question::Cost, text)
+        );
+    }
+
+    #[test]
+    fn one_ray_is_worth_the_rays_that_are_as_near() {
+        // The tent leaves 0.2 of the error of one bilinear ray, and 8 x 8 rays 0.125.
+        let text = "On floor one ray with the tent (0.040) is worth 8 x 8 bilinear rays (0.025), and takes \
+                    0.031 times their time.";
+        let said = |tent: f64, price: f64| {
+            let law = move |filter, n: f64| match filter {
+                Filter::Tent => (tent / n, price * n * n),
+                filter => floor(filter, n),
+            };
+            one(&said(vec![fixture::page("floor", &law, &[])]), "On floor one ray")
+        };
+        assert_eq!(said(0.04, 0.04), expected(Question::Cost, text));
+        for (tent, price, question, words) in [
+            (0.05, 0.5, Question::Fails, "worth 4 x 4 bilinear rays (0.050), and takes 1.6 times"),
+            (0.2, 0.02, Question::Cost, "worth 1 x 1 bilinear rays (0.20), and takes 1.0 times"),
+            (0.01, 0.04, Question::Cost, "worth more than 8 x 8 bilinear rays (0.025)"),
+        ] {
+            let (found, text) = said(tent, price).unwrap();
+            assert_eq!(found, question, "{text}");
+            assert!(text.contains(words), "{text}");
+        }
+    }
+
+    #[test]
+    fn in_silhouettes_no_filter_helps_unless_one_does() {
+        let page = fixture::page("page", &floor, &[("silhouettes", &edges), ("far floor", &floor)]);
+        let claims = said(vec![page]);
+        let text = "Region silhouettes: no filter helps. With one ray the nearest filter is the mip (0.21); \
+                    bilinear is 0.21 off.";
+        assert_eq!(one(&claims, "silhouettes"), expected(Question::Fails, text));
+        let text = "Region far floor: a filter helps. With one ray the nearest filter is the quadratic \
+                    (0.040); bilinear is 0.20 off.";
+        assert_eq!(one(&claims, "far floor"), expected(Question::Use, text));
+        for (mip, question) in [(0.18, Question::Use), (0.20, Question::Fails)] {
+            let law = |filter, n: f64| match filter {
+                Filter::Mip => (mip / n, 0.1),
+                filter => edges(filter, n),
+            };
+            let claims = said(vec![fixture::page("page", &floor, &[("silhouettes", &law)])]);
+            assert_eq!(one(&claims, "silhouettes").unwrap().0, question, "{mip}");
+        }
+    }
+
+    #[test]
+    fn with_many_rays_the_filter_counts_as_long_as_it_does() {
+        // 0.2 / n^0.8 against 1 / n: the tent stays ahead up to 8 x 8.
+        assert_eq!(one(&said(vec![fixture::page("floor", &floor, &[])]), "From"), None);
+        // The tent stays at 0.1. Bilinear interpolation, 0.2 / n, is as near with n = 2.
+        let law = |filter, n: f64| match filter {
+            Filter::Tent => (0.1, floor(filter, n).1),
+            filter => floor(filter, n),
+        };
+        let text = "From 2 x 2 rays in a pixel on, bilinear rays are as near to the truth as the tent (0.10 \
+                    and 0.10).";
+        let said = said(vec![fixture::page("floor", &law, &[])]);
+        assert_eq!(one(&said, "From"), expected(Question::Fails, text));
+    }
+
+    #[test]
+    fn a_truth_that_is_too_noisy_is_said_to_be() {
+        let mut page = fixture::page("floor", &floor, &[("far floor", &floor)]);
+        assert_eq!(one(&said(vec![page]), "seeds"), None);
+        page = fixture::page("floor", &floor, &[("far floor", &floor)]);
+        page.truth.noise_by_region[0] = 0.01;
+        let text = "On floor the truth's two seeds differ by more than a fifth of the smallest error: far \
+                    floor 0.020 of 0.0075.";
+        assert_eq!(one(&said(vec![page]), "seeds"), expected(Question::Doubt, text));
+    }
+
+    #[test]
+    fn of_few_methods_little_is_said_and_nothing_false() {
+        let mut page = fixture::page("floor", &floor, &[("silhouettes", &edges)]);
+        page.trials.retain(|trial| trial.method.filter == Filter::Point);
+        assert_eq!(said(vec![page]), []);
+        let mut page = fixture::page("floor", &floor, &[]);
+        for trial in &mut page.trials {
+            trial.whole.rmse = 0.0;
+        }
+        // Errors of 0 have no ratios. The remaining sentences must not contain NaN.
+        let claims = said(vec![page]);
+        assert!(claims.iter().all(|(_, text)| !text.contains("NaN") && !text.contains("inf")));
+    }
+}
