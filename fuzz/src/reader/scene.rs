@@ -63,8 +63,8 @@ pub fn read_with(bytes: &[u8], source: &dyn Source, given: &[(&str, Mesh)]) -> T
     let file = read::parse(&document).map_err(refused)?;
     let draft = Draft::gather(&document, &file, SCENES.as_ref(), source).map_err(refused)?;
     let mut meshes = MeshSource::new();
-    for sheet in draft.sheets().map_err(refused)? {
-        for object in sheet.lists.objects {
+    for text in draft.texts().map_err(refused)? {
+        for object in text.lists.objects {
             if let ObjectFile::Mesh(mesh) = object
                 && (mesh.file.is_none() || given.iter().any(|(name, _)| *name == mesh.name))
             {
