@@ -54,7 +54,7 @@ const SWEEP: Rooms = &[
     ("law", &["curve"]),
     ("frame", &["curve"]),
     ("grid", &["limits"]),
-    ("spec", &["grid", "limits"]),
+    ("spec", &["grid", "law", "limits"]),
     ("trajectory", &["curve", "frame", "law"]),
     ("surface", &["curve", "frame", "grid", "law", "trajectory"]),
     ("sampling", &["curve", "error", "grid", "spec", "surface", "trajectory"]),

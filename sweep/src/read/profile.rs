@@ -2,8 +2,8 @@
 
 use super::Reader;
 use crate::error::SweepError;
+use crate::spec;
 use crate::spec::contour::Sections;
-use crate::spec::{self, Ease};
 use crate::surface::contour::Contour;
 use crate::surface::profile::{Blend, Profile};
 use crate::surface::shape::ON_AXIS;
@@ -113,7 +113,7 @@ impl Reader<'_> {
             contours.pop();
         }
         let profile = Profile::blended(contours, given.align);
-        Ok((profile, Blend { at, smooth: given.blend == Ease::Smooth, wraps }))
+        Ok((profile, Blend { at, ease: given.blend, wraps }))
     }
 }
 

@@ -121,7 +121,7 @@ impl Curve3 for Flat {
 mod tests {
     use super::*;
     use crate::curve::{spline, turn};
-    use crate::law::Law;
+    use crate::law::{Ease, Law};
     use glam::DVec3;
 
     #[test]
@@ -151,7 +151,7 @@ mod tests {
     fn it_runs_at_unit_speed_with_three_derivatives() {
         let points = [[0.0, 0.0], [1.0, 0.3], [1.2, 1.0], [3.0, 1.0]].map(DVec2::from_array);
         let plane = Path::new(&spline::through(&points, false), false).unwrap();
-        let law = Law::keys(vec![[0.1, 0.0], [0.5, 1.5], [0.9, -1.0]], true);
+        let law = Law::keys(vec![[0.1, 0.0], [0.5, 1.5], [0.9, -1.0]], Ease::Smooth);
         let flat = Flat::new(plane, &law.graph()).unwrap();
         let (knots, h) = (flat.knots(), 1e-5);
         assert_eq!(knots.len(), 4 + 3);

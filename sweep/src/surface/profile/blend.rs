@@ -11,6 +11,7 @@
 //! contour blends into the first.
 
 use super::Column;
+use crate::law::Ease;
 use crate::surface::contour::Local2;
 use glam::DVec2;
 
@@ -19,8 +20,8 @@ use glam::DVec2;
 pub struct Blend {
     /// Fractions of the trajectory's length, strictly rising, one for each contour.
     pub(crate) at: Vec<f64>,
-    /// Whether the weight has slope 0 at each contour; otherwise it is linear between two contours.
-    pub(crate) smooth: bool,
+    /// Interpolation between two neighbouring contours.
+    pub(crate) ease: Ease,
     /// Whether the last contour blends into the first.
     pub(crate) wraps: bool,
 }
@@ -63,8 +64,7 @@ impl Blend {
             _ => return held(last),
         };
         let x = (v - start) / (end - start);
-        let (part, slope) =
-            if self.smooth { (x * x * (3.0 - 2.0 * x), 6.0 * x * (1.0 - x)) } else { (x, 1.0) };
+        let (part, slope) = self.ease.weight(x);
         Mix { from, to, part, part_v: slope / (end - start) }
     }
 }
@@ -118,20 +118,20 @@ mod tests {
     #[test]
     fn contours_are_held_outside_and_wrap_along_a_closed_trajectory() {
         let at = vec![0.25, 0.5, 0.75];
-        let open = Blend { at: at.clone(), smooth: false, wraps: false };
+        let open = Blend { at: at.clone(), ease: Ease::Linear, wraps: false };
         assert_eq!([0.1, 0.25].map(|v| mix(&open, v)), [(0, 0, 0.0), (0, 1, 0.0)]);
         assert_eq!([0.375, 0.9].map(|v| mix(&open, v)), [(0, 1, 0.5), (2, 2, 0.0)]);
-        let closed = Blend { at, smooth: false, wraps: true };
+        let closed = Blend { at, ease: Ease::Linear, wraps: true };
         assert_eq!([0.0, 0.125].map(|v| mix(&closed, v)), [(2, 0, 0.5), (2, 0, 0.75)]);
         assert_eq!([0.875, 1.0].map(|v| mix(&closed, v)), [(2, 0, 0.25), (2, 0, 0.5)]);
     }
 
     #[test]
     fn the_end_is_met_from_before() {
-        let blend = Blend { at: vec![0.0, 1.0], smooth: false, wraps: false };
+        let blend = Blend { at: vec![0.0, 1.0], ease: Ease::Linear, wraps: false };
         let end = blend.at(1.0);
         assert_eq!((end.from, end.to, end.part, end.part_v), (0, 1, 1.0, 1.0));
-        let smooth = Blend { smooth: true, ..blend };
+        let smooth = Blend { ease: Ease::Smooth, ..blend };
         assert_eq!((smooth.at(1.0).part_v, smooth.at(0.5).part), (0.0, 0.5));
     }
 }
