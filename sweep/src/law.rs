@@ -14,6 +14,11 @@
 //! Keys and Beziers are constant outside their ends, with a derivative of 0. Where the derivative jumps, its
 //! value is that of the side after; at the end of the trajectory it is that of the side before. A Bezier may
 //! be vertical, as at the end of a round cap; its derivative is then [`STEEPEST`].
+//!
+//! A new law must provide its JSON, a variant of [`spec::Law`](crate::spec::Law) that `read/law.rs` checks, and a
+//! variant of `Form` with an arm in each method of this file: its value and derivative at a stop, its graph in cubics,
+//! its range, its negative, its zeros, its detail in cells and its kinks. A law that its graph of cubics expresses needs
+//! no variant of its own: `total` is such a law. A new interpolation of keys is a member of [`Ease`].
 
 mod ease;
 mod graph;

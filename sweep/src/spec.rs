@@ -102,7 +102,7 @@
 //! `scale` is one law for both axes of the contour, or two laws, for x and y. Where both factors are 0 the
 //! surface has a pole. Factors below 0 on both axes turn the contour by half a turn. So both factors may pass
 //! through 0 together: the surface has a pole there, at a row of its own, and the outside stays outside. A
-//! factor below 0 on one axis mirrors the contour, whose columns then run the other way round. One factor
+//! factor below 0 on one axis mirrors the contour, whose columns then run in the other direction. One factor
 //! alone must not change its sign along the trajectory, as the surface would turn inside out.
 //!
 //! `twist` turns the scaled contour about the trajectory, in degrees, right-handed about its direction. Along

@@ -2,6 +2,7 @@
 
 use super::Reader;
 use crate::error::SweepError;
+use crate::frame::LEAST_SINE;
 use crate::limits::SMALLEST;
 use crate::spec;
 use crate::surface::deform::{Deform, Kind};
@@ -63,7 +64,7 @@ impl Reader<'_> {
         self.point(&toward_path, &bend.toward)?;
         let (axis, toward) = (deform.axes.z_axis, DVec3::from_array(bend.toward));
         let across = toward - axis * toward.dot(axis);
-        let x = across.try_normalize().filter(|_| across.length() > 1e-9 * toward.length());
+        let x = across.try_normalize().filter(|_| across.length() > LEAST_SINE * toward.length());
         let Some(x) = x else {
             let message = format!("found {:?}, expected a direction across the axis", bend.toward);
             return Err(self.fault(&toward_path, message));

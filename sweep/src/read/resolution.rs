@@ -138,23 +138,20 @@ mod tests {
                       \"size\": [9, 9]}";
         let pixels = |camera: &str| format!("\"pixels\": 1, {camera}");
         for (mesh, message) in [
-            ("\"rows\": 9".into(), "a.json:4:9: asked.cols: found none beside rows"),
-            ("\"cols\": 9".into(), "a.json:4:9: asked.rows: found none beside cols"),
+            ("\"rows\": 9".into(), "a.json:4:9: mesh.cols: found none beside rows"),
+            ("\"cols\": 9".into(), "a.json:4:9: mesh.rows: found none beside cols"),
             ("\"max_quads\": 9".into(), "mesh: found no resolution, expected rows and cols"),
-            ("\"rows\": 9, \"tol\": 1".into(), "asked.tol: found it beside a number of rows"),
-            ("\"tol\": -1".into(), "asked.tol: found -1.0, expected a number above 0"),
-            ("\"angle_deg\": 90".into(), "asked.angle_deg: found 90.0, expected a number"),
-            ("\"tol\": 1, \"pixels\": 1".into(), "asked.pixels: found it beside tol"),
-            ("\"pixels\": 1".into(), "asked.pixels: found no camera beside it"),
-            (format!("\"tol\": 1, {camera}"), "asked.camera: found it without pixels"),
-            (pixels(&camera.replace("40", "180")), "asked.camera.fov_deg: found 180.0"),
-            (pixels(&camera.replace("0, 0, 1", "0, 0, 0")), "asked.camera: found an eye at its"),
-            (pixels(&camera.replace("9, 9", "9, 0")), "asked.camera.size: found 9 x 0"),
-            (
-                "\"tol\": 1, \"max_quads\": 8".into(),
-                "asked.max_quads: found 8, expected at least 9",
-            ),
-            ("\"tol\": 1, \"max_quads\": 0".into(), "asked.max_quads: found 0, expected 1 to"),
+            ("\"rows\": 9, \"tol\": 1".into(), "mesh.tol: found it beside a number of rows"),
+            ("\"tol\": -1".into(), "mesh.tol: found -1.0, expected a number above 0"),
+            ("\"angle_deg\": 90".into(), "mesh.angle_deg: found 90.0, expected a number"),
+            ("\"tol\": 1, \"pixels\": 1".into(), "mesh.pixels: found it beside tol"),
+            ("\"pixels\": 1".into(), "mesh.pixels: found no camera beside it"),
+            (format!("\"tol\": 1, {camera}"), "mesh.camera: found it without pixels"),
+            (pixels(&camera.replace("40", "180")), "mesh.camera.fov_deg: found 180.0"),
+            (pixels(&camera.replace("0, 0, 1", "0, 0, 0")), "mesh.camera: found an eye at its"),
+            (pixels(&camera.replace("9, 9", "9, 0")), "mesh.camera.size: found 9 x 0"),
+            ("\"tol\": 1, \"max_quads\": 8".into(), "mesh.max_quads: found 8, expected at least 9"),
+            ("\"tol\": 1, \"max_quads\": 0".into(), "mesh.max_quads: found 0, expected 1 to"),
         ] {
             let (text, exit) = complaint("\"rows\": 9, \"cols\": 8", &mesh);
             assert!(text.contains(message), "{text}");

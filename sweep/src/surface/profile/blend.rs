@@ -39,7 +39,7 @@ pub(crate) struct Mix {
 /// A point of a contour, with its change along the trajectory.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Moving {
-    pub place: Local2,
+    pub local: Local2,
     /// Derivative of the point by `v`.
     pub across: DVec2,
     /// Derivative by `v` of the tangent's angle, in radians.
@@ -75,9 +75,9 @@ impl Mix {
         let (a, b) = (column.on(self.from), column.on(self.to));
         let between = |a: DVec2, b: DVec2| a + (b - a) * self.part;
         // Derivatives of the points by `u`.
-        let [a_u, b_u] = [a, b].map(|place| place.tangent / place.pace);
+        let [a_u, b_u] = [a, b].map(|local| local.tangent / local.pace);
         let bend =
-            |place: &Local2, velocity: DVec2| velocity.perp() * (place.curvature / place.pace);
+            |local: &Local2, velocity: DVec2| velocity.perp() * (local.curvature / local.pace);
         let q_u = between(a_u, b_u);
         let speed = q_u.length();
         // Contours that run against each other have a point without a direction.
@@ -85,7 +85,7 @@ impl Mix {
         let tangent = q_u * pace;
         let curvature = tangent.perp_dot(between(bend(a, a_u), bend(b, b_u))) * (pace * pace);
         Moving {
-            place: Local2 { point: between(a.point, b.point), tangent, curvature, pace },
+            local: Local2 { point: between(a.point, b.point), tangent, curvature, pace },
             across: (b.point - a.point) * self.part_v,
             turning: tangent.perp_dot(b_u - a_u) * (self.part_v * pace),
         }
@@ -94,8 +94,8 @@ impl Mix {
 
 impl Moving {
     /// Returns a point of a contour that does not change along the trajectory.
-    pub(crate) fn still(place: Local2) -> Self {
-        Self { place, across: DVec2::ZERO, turning: 0.0 }
+    pub(crate) fn still(local: Local2) -> Self {
+        Self { local, across: DVec2::ZERO, turning: 0.0 }
     }
 }
 
