@@ -21,11 +21,8 @@ pub use along::Frames;
 pub use directed::{Directed, Lack};
 
 use crate::curve::Local3;
+use crate::curve::vector::LEAST_SINE;
 use glam::{DVec2, DVec3};
-
-/// Smallest sine between a direction and an axis across which the direction is taken. A double has 16 digits; below
-/// this sine cancellation leaves fewer than 7 of them.
-pub(crate) const LEAST_SINE: f64 = 1e-9;
 
 /// Cosines that differ by less than this are equal. Larger, and axes that differ visibly would count as equally
 /// aligned; smaller, and rounding of the tangent would choose between equally aligned axes.

@@ -1,8 +1,8 @@
 //! Reads the deformations of a spec.
 
 use super::Reader;
+use crate::curve::vector::LEAST_SINE;
 use crate::error::SweepError;
-use crate::frame::LEAST_SINE;
 use crate::limits::SMALLEST;
 use crate::spec;
 use crate::surface::deform::{Deform, Kind};

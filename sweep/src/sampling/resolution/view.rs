@@ -1,6 +1,6 @@
 //! Size of a pixel at a point seen by a camera.
 
-use crate::frame::LEAST_SINE;
+use crate::curve::vector::LEAST_SINE;
 use glam::DVec3;
 
 /// Factor by which a pixel may be larger outside the picture. A surface not seen directly may be seen in a
