@@ -40,7 +40,7 @@
 //! `mesh` counts cells, which become quads: `rows` along the trajectory and `cols` along the contour. A
 //! closed direction needs at least three cells. A contour needs at least one cell for each piece between
 //! corners. The grid may have at most 100 million cells. Instead of counts, `mesh` can give a tolerance; see
-//! [`mesh`]. A vessel turned on a potter's wheel is a rotation:
+//! [`resolution`]. A vessel turned on a potter's wheel is a rotation:
 //!
 //! ```json
 //! {
