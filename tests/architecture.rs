@@ -55,7 +55,7 @@ const SWEEP: Rooms = &[
     ("law", &["curve"]),
     ("frame", &["curve"]),
     ("grid", &["limits"]),
-    ("spec", &["grid", "limits"]),
+    ("spec", &["grid", "law", "limits"]),
     ("trajectory", &["curve", "frame", "law"]),
     ("surface", &["curve", "frame", "grid", "law", "trajectory"]),
     ("sampling", &["curve", "error", "grid", "spec", "surface", "trajectory"]),

@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
 use sweep::Object;
-use sweep::spec::{Mesh, Parts, Spec};
+use sweep::spec::{Parts, Resolution, Spec};
 use tempfile::tempdir;
 
 /// A PNG of one pixel with a palette of 4 bytes, on which the decoder panics.
@@ -93,7 +93,7 @@ proptest! {
         spec["name"] = json!(name);
         let text = spec.to_string();
         let document = Document::new("a.json", text.as_bytes()).expect("it is text");
-        let Ok(object) = Object::read(&document, Path::new(""), &Disk, &Mesh::default()) else {
+        let Ok(object) = Object::read(&document, Path::new(""), &Disk, &Resolution::default()) else {
             return Ok(());
         };
         let mut grid = Vec::new();

@@ -16,7 +16,8 @@ fn apart(strength: f64) -> f64 {
         assert!(name != "scaly-ring.json" || text.contains("\"amp\": 0.06, \"repeat\": [10, 14]"));
         let text = text.replace("\"amp\": 0.06", &format!("\"amp\": {strength:?}"));
         let document = Document::new(name, text.as_bytes()).expect("it is JSON");
-        Sweep::read_in(&document, &folder, &Disk, &sweep::spec::Mesh::default()).expect("a spec")
+        Sweep::read_in(&document, &folder, &Disk, &sweep::spec::Resolution::default())
+            .expect("a spec")
     };
     let (smooth, scaly) = (read("smooth-ring.json"), read("scaly-ring.json"));
     let picture = image::open(folder.join("../textures/scales.png")).expect("it is there");

@@ -245,7 +245,10 @@ impl Run<'_> {
         let CameraFile { eye, target, up, fov_deg } = *camera;
         let size = [self.options.size.0, self.options.size.1];
         let camera = Some(Camera { eye, target, up, fov_deg, size });
-        let seen = spec::Mesh { camera: mesh.mesh.camera.or(camera), ..mesh.mesh.clone() };
+        let seen = spec::Resolution {
+            camera: mesh.resolution.camera.or(camera),
+            ..mesh.resolution.clone()
+        };
         let document = Document::new(&name, &bytes)?;
         let object =
             Object::read(&document, folder, self.source, &seen).map_err(|error| match error {

@@ -8,7 +8,7 @@ use files::json::Document;
 use std::io::sink;
 use std::path::Path;
 use sweep::grid::file::{self, Encoding};
-use sweep::spec::Mesh;
+use sweep::spec::Resolution;
 use sweep::{Object, Sweep};
 
 const SPEC: &[u8] = include_bytes!("../../examples/curves/trefoil.json");
@@ -20,8 +20,9 @@ fn main() {
 
 fn object() -> Object {
     let document = Document::new("trefoil.json", SPEC).expect("the example is text");
-    let rather = Mesh { rows: Some(CELLS[0]), cols: Some(CELLS[1]), ..Mesh::default() };
-    Object::read(&document, Path::new(""), &files::Disk, &rather).expect("the example is a spec")
+    let overrides =
+        Resolution { rows: Some(CELLS[0]), cols: Some(CELLS[1]), ..Resolution::default() };
+    Object::read(&document, Path::new(""), &files::Disk, &overrides).expect("the example is a spec")
 }
 
 fn pool(threads: usize) -> rayon::ThreadPool {

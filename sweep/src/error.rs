@@ -1,27 +1,27 @@
-//! Why a sweep cannot be made.
+//! The error of this crate.
 
 use files::{Exit, Failure, JsonError, MemoryError};
 use thiserror::Error;
 
-/// What is wrong with a spec or with the resolution asked for.
+/// The reason for which a spec or a requested resolution is refused.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum SweepError {
-    /// The spec is not JSON, not a spec, or holds a value that means nothing.
+    /// The text is not JSON, is not a spec, or has a value out of its range.
     #[error(transparent)]
     Malformed(#[from] JsonError),
-    /// The spec is well formed, but its surface does not exist.
+    /// The spec is well formed, but no surface has its values.
     #[error("{0}")]
     Geometry(JsonError),
-    /// A file that the spec names cannot be read, with the exit code of the reason.
+    /// A file that the spec names cannot be read. The exit code is that of the reason.
     #[error("{0}")]
     Named(JsonError, Exit),
-    /// A file that the spec names holds more than is taken.
+    /// A file that the spec names is larger than the reader accepts.
     #[error("{0}")]
     TooLarge(JsonError),
-    /// The rows or columns asked for beside the spec cannot be made.
+    /// The resolution that replaces that of the spec is refused.
     #[error("{0}")]
     Resolution(String),
-    /// The grid takes more memory than is allowed.
+    /// The grid needs more memory than is allowed.
     #[error(transparent)]
     Memory(#[from] MemoryError),
 }

@@ -14,9 +14,16 @@
 //! Keys and Beziers are constant outside their ends, with a derivative of 0. Where the derivative jumps, its
 //! value is that of the side after; at the end of the trajectory it is that of the side before. A Bezier may
 //! be vertical, as at the end of a round cap; its derivative is then [`STEEPEST`].
+//!
+//! A new law must provide its JSON, a variant of [`spec::Law`](crate::spec::Law) that `read/law.rs` checks, and a
+//! variant of `Form` with an arm in each method of this file: its value and derivative at a stop, its graph in cubics,
+//! its range, its negative, its zeros, its detail in cells and its kinks. A law that its graph of cubics expresses needs
+//! no variant of its own: `total` is such a law. A new interpolation of keys is a member of [`Ease`].
 
+mod ease;
 mod graph;
 
+pub use ease::Ease;
 pub(crate) use graph::{is_graph, parameter};
 
 use crate::curve::Cubic;
@@ -35,7 +42,7 @@ pub struct Law(Form);
 #[derive(Debug, Clone)]
 enum Form {
     Constant(f64),
-    Keys { keys: Vec<[f64; 2]>, smooth: bool },
+    Keys { keys: Vec<[f64; 2]>, ease: Ease },
     Bezier(Vec<Cubic<DVec2>>),
 }
 
@@ -47,8 +54,8 @@ impl Law {
     }
 
     /// Returns a law through keys `[at, value]`: at least one, with `at` strictly rising.
-    pub(crate) fn keys(keys: Vec<[f64; 2]>, smooth: bool) -> Self {
-        Self(Form::Keys { keys, smooth })
+    pub(crate) fn keys(keys: Vec<[f64; 2]>, ease: Ease) -> Self {
+        Self(Form::Keys { keys, ease })
     }
 
     /// Returns a law with a graph of cubics of points `(at, value)`: at least one, which meet and along which
@@ -59,7 +66,7 @@ impl Law {
 
     /// Returns a linear law from 0 at the start to `value` at the end.
     pub(crate) fn total(value: f64) -> Self {
-        Self::keys(vec![[0.0, 0.0], [1.0, value]], false)
+        Self::keys(vec![[0.0, 0.0], [1.0, value]], Ease::Linear)
     }
 
     /// Returns the value and the derivative at `at` in `[0, 1]`; where the derivative jumps, of the side after.
@@ -76,7 +83,7 @@ impl Law {
         let is_end = |end: f64| side == Side::After && is_end(at, end);
         match &self.0 {
             Form::Constant(value) => (*value, 0.0),
-            Form::Keys { keys, smooth } => {
+            Form::Keys { keys, ease } => {
                 let next = keys.partition_point(|key| passed(key[0]));
                 let next = if is_end(keys[keys.len() - 1][0]) { next - 1 } else { next };
                 if next == 0 || next == keys.len() {
@@ -84,8 +91,7 @@ impl Law {
                 }
                 let ([from, a], [to, b]) = (keys[next - 1], keys[next]);
                 let x = (at - from) / (to - from);
-                let (part, slope) =
-                    if *smooth { (x * x * (3.0 - 2.0 * x), 6.0 * x * (1.0 - x)) } else { (x, 1.0) };
+                let (part, slope) = ease.weight(x);
                 // In this form both ends are met exactly.
                 (a * (1.0 - part) + b * part, bounded((b - a) * slope / (to - from)))
             }
@@ -112,16 +118,9 @@ impl Law {
     pub(crate) fn graph(&self) -> Vec<Cubic<DVec2>> {
         let mut graph = match &self.0 {
             Form::Constant(value) => vec![level(0.0, 1.0, *value)],
-            Form::Keys { keys, smooth } => keys
+            Form::Keys { keys, ease } => keys
                 .windows(2)
-                .map(|pair| {
-                    let [a, b] = [pair[0], pair[1]].map(DVec2::from_array);
-                    let mut cubic = Cubic::line(a, b);
-                    if *smooth {
-                        (cubic.0[1].y, cubic.0[2].y) = (a.y, b.y);
-                    }
-                    cubic
-                })
+                .map(|pair| ease.graph(DVec2::from_array(pair[0]), DVec2::from_array(pair[1])))
                 .collect(),
             Form::Bezier(segments) => segments.clone(),
         };
@@ -160,9 +159,9 @@ impl Law {
     pub(crate) fn negated(self) -> Self {
         Self(match self.0 {
             Form::Constant(value) => Form::Constant(-value),
-            Form::Keys { mut keys, smooth } => {
+            Form::Keys { mut keys, ease } => {
                 keys.iter_mut().for_each(|key| key[1] = -key[1]);
-                Form::Keys { keys, smooth }
+                Form::Keys { keys, ease }
             }
             Form::Bezier(segments) => Form::Bezier(
                 segments.iter().map(|one| Cubic(one.0.map(|p| DVec2::new(p.x, -p.y)))).collect(),
@@ -174,10 +173,10 @@ impl Law {
     pub(crate) fn zeros(&self) -> Vec<f64> {
         let mut found: Vec<f64> = match &self.0 {
             Form::Constant(_) => Vec::new(),
-            Form::Keys { keys, smooth } => {
+            Form::Keys { keys, ease } => {
                 let on_key = keys.iter().filter(|key| key[1] == 0.0).map(|key| key[0]);
                 let crossed = keys.windows(2).filter(|pair| pair[0][1] * pair[1][1] < 0.0);
-                on_key.chain(crossed.map(|pair| crossing(pair[0], pair[1], *smooth))).collect()
+                on_key.chain(crossed.map(|pair| crossing(pair[0], pair[1], *ease))).collect()
             }
             Form::Bezier(segments) => segments.iter().flat_map(graph::zeros_of).collect(),
         };
@@ -199,7 +198,8 @@ impl Law {
     pub(crate) fn kinks(&self) -> Vec<f64> {
         let inside = |at: &f64| *at > 0.0 && *at < 1.0;
         match &self.0 {
-            Form::Constant(_) | Form::Keys { smooth: true, .. } => Vec::new(),
+            Form::Constant(_) => Vec::new(),
+            Form::Keys { ease, .. } if !ease.has_kinks() => Vec::new(),
             Form::Keys { keys, .. } => keys.iter().map(|key| key[0]).filter(inside).collect(),
             Form::Bezier(segments) => {
                 let joints = segments.iter().flat_map(|segment| [segment.0[0].x, segment.0[3].x]);
@@ -232,17 +232,8 @@ fn bounded(slope: f64) -> f64 {
 }
 
 /// Returns the position between two keys of different signs where the law is 0.
-fn crossing([from, a]: [f64; 2], [to, b]: [f64; 2], smooth: bool) -> f64 {
-    let part = a / (a - b);
-    if !smooth {
-        return from + (to - from) * part;
-    }
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..60 {
-        let x: f64 = 0.5 * (low + high);
-        if x * x * (3.0 - 2.0 * x) < part { low = x } else { high = x }
-    }
-    from + (to - from) * high
+fn crossing([from, a]: [f64; 2], [to, b]: [f64; 2], ease: Ease) -> f64 {
+    from + (to - from) * ease.crossing(a / (a - b))
 }
 
 #[cfg(test)]
@@ -259,8 +250,8 @@ mod tests {
         let down = cubic([[0.6, 0.5], [0.6, 1.0], [0.9, 1.0], [1.0, 0.0]]);
         vec![
             Law::constant(3.0),
-            Law::keys(keys.clone(), false),
-            Law::keys(keys, true),
+            Law::keys(keys.clone(), Ease::Linear),
+            Law::keys(keys, Ease::Smooth),
             Law::bezier(vec![up, down]),
             Law::total(360.0),
         ]
@@ -314,18 +305,20 @@ mod tests {
             assert_eq!((law.at(0.05).1, law.at(0.95).1, law.at(1.0).1), (0.0, 0.0, 0.0));
             assert_eq!((law.ends(), law.range()), ([2.0, 3.0], (-1.0, 3.0)));
         }
-        assert_eq!(Law::keys(vec![[0.5, 7.0]], true).at(0.2), (7.0, 0.0));
+        assert_eq!(Law::keys(vec![[0.5, 7.0]], Ease::Smooth).at(0.2), (7.0, 0.0));
     }
 
     #[test]
     fn zeros_are_found_and_each_side_has_its_slope() {
-        let keys =
-            Law::keys(vec![[0.0, 2.0], [0.5, -2.0], [0.6, 0.0], [0.7, 0.0], [1.0, 3.0]], false);
+        let keys = Law::keys(
+            vec![[0.0, 2.0], [0.5, -2.0], [0.6, 0.0], [0.7, 0.0], [1.0, 3.0]],
+            Ease::Linear,
+        );
         assert_eq!(keys.zeros(), [0.25, 0.6, 0.7]);
         assert_eq!(keys.on(Stop::before(0.7)), (0.0, 0.0));
         assert!((keys.on(Stop::after(0.7)).1 - 10.0).abs() < 1e-12);
         assert_eq!(keys.clone().negated().zeros(), keys.zeros());
-        assert_eq!(Law::keys(vec![[0.0, 1.0], [1.0, -1.0]], true).zeros(), [0.5]);
+        assert_eq!(Law::keys(vec![[0.0, 1.0], [1.0, -1.0]], Ease::Smooth).zeros(), [0.5]);
         let line = Law::bezier(vec![cubic([[0.0, -1.0], [0.25, 0.0], [0.5, 1.0], [1.0, 2.0]])]);
         let zero = line.zeros();
         assert!(zero.len() == 1 && line.at(zero[0]).0.abs() < 1e-15, "{zero:?}");

@@ -40,7 +40,7 @@
 //! `mesh` counts cells, which become quads: `rows` along the trajectory and `cols` along the contour. A
 //! closed direction needs at least three cells. A contour needs at least one cell for each piece between
 //! corners. The grid may have at most 100 million cells. Instead of counts, `mesh` can give a tolerance; see
-//! [`mesh`]. A vessel turned on a potter's wheel is a rotation:
+//! [`resolution`]. A vessel turned on a potter's wheel is a rotation:
 //!
 //! ```json
 //! {
@@ -102,7 +102,7 @@
 //! `scale` is one law for both axes of the contour, or two laws, for x and y. Where both factors are 0 the
 //! surface has a pole. Factors below 0 on both axes turn the contour by half a turn. So both factors may pass
 //! through 0 together: the surface has a pole there, at a row of its own, and the outside stays outside. A
-//! factor below 0 on one axis mirrors the contour, whose columns then run the other way round. One factor
+//! factor below 0 on one axis mirrors the contour, whose columns then run in the other direction. One factor
 //! alone must not change its sign along the trajectory, as the surface would turn inside out.
 //!
 //! `twist` turns the scaled contour about the trajectory, in degrees, right-handed about its direction. Along
@@ -160,13 +160,14 @@ mod flat;
 mod frame;
 mod helix;
 mod law;
-pub mod mesh;
 mod parts;
+pub mod resolution;
 pub mod schema;
 mod seam;
 mod trajectory;
 mod turn;
 
+pub use crate::law::Ease;
 pub use areas::Area;
 pub use caps::{Cap, Caps};
 pub use contour::{Contour, FreeContour};
@@ -176,9 +177,10 @@ pub use depth::{Depth, DepthImage, DepthMode, DepthTerm};
 pub use flat::Flat;
 pub use frame::{Frame, Frenet};
 pub use helix::Helix;
-pub use law::{Ease, Law, Scale};
-pub use mesh::{Camera, Mesh};
+pub use law::{Law, Scale};
+
 pub use parts::Parts;
+pub use resolution::{Camera, Resolution};
 pub use seam::SeamKind;
 pub use trajectory::Trajectory;
 pub use turn::{Circle, Rotation};
@@ -243,7 +245,8 @@ pub struct Spec {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub deform: Vec<Deform>,
     /// Resolution of the surface: counts of cells, or a tolerance.
-    pub mesh: Mesh,
+    #[serde(rename = "mesh")]
+    pub resolution: Resolution,
     /// How texture coordinates lie on the surface.
     #[serde(default)]
     pub uv: UvLayout,
@@ -308,7 +311,7 @@ fn up() -> [f64; 3] {
 
 #[cfg(test)]
 mod tests {
-    use super::Mesh;
+    use super::Resolution;
     use crate::sampling::Object;
     use files::Disk;
     use files::json::Document;
@@ -323,7 +326,7 @@ mod tests {
         (include_str!("spec/deform.rs"), 1),
         (include_str!("spec/flat.rs"), 1),
         (include_str!("spec/frame.rs"), 3),
-        (include_str!("spec/mesh.rs"), 1),
+        (include_str!("spec/resolution.rs"), 1),
         (include_str!("spec/parts.rs"), 1),
         (include_str!("spec/seam.rs"), 2),
     ];
@@ -339,7 +342,7 @@ mod tests {
             assert_eq!(snippets.len(), count);
             for snippet in snippets {
                 let document = Document::new("snippet", snippet.as_bytes()).unwrap();
-                let object = Object::read(&document, Path::new(""), &Disk, &Mesh::default())
+                let object = Object::read(&document, Path::new(""), &Disk, &Resolution::default())
                     .unwrap_or_else(|error| panic!("{error}"));
                 for grid in object.grids().unwrap() {
                     assert_eq!(grid.positions.len(), grid.rows() * grid.cols());

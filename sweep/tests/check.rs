@@ -9,10 +9,10 @@ use std::process::{Command, Output, Stdio};
 use sweep::Object;
 use sweep::check::{self, Finding, Severity};
 use sweep::sampling::Survey;
-use sweep::spec::Mesh;
+use sweep::spec::Resolution;
 
 fn read(document: &Document<'_>) -> Result<Object, sweep::SweepError> {
-    Object::read(document, std::path::Path::new(""), &files::Disk, &Mesh::default())
+    Object::read(document, std::path::Path::new(""), &files::Disk, &Resolution::default())
 }
 
 /// A ring with some keys of its own.

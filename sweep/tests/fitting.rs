@@ -11,7 +11,7 @@ use sweep::Object;
 use sweep::curve::fit::{Fit, within};
 use sweep::curve::vector::angle_between;
 use sweep::curve::{Cubic, turn};
-use sweep::spec::Mesh;
+use sweep::spec::Resolution;
 
 /// Handles of a fit have one direction; what is left is the rounding of control points.
 const SMOOTH: f64 = 1e-9;
@@ -183,7 +183,7 @@ fn read(contour: &str, trajectory: &str) -> Result<(usize, f64), String> {
         "trajectory": {trajectory}, "mesh": {{"rows": 4, "cols": 60}}}}"#
     );
     let document = Document::new("a.json", text.as_bytes()).unwrap();
-    let object = Object::read(&document, Path::new(""), &Disk, &Mesh::default());
+    let object = Object::read(&document, Path::new(""), &Disk, &Resolution::default());
     let object = object.map_err(|error| error.to_string())?;
     Ok(object.parts()[0].contour().fits().next().unwrap())
 }

@@ -6,7 +6,7 @@
 use files::json::Document;
 use serde_json::{Map, Value, json};
 use std::time::{Duration, Instant};
-use sweep::spec::Mesh;
+use sweep::spec::Resolution;
 use sweep::{Object, SweepError};
 
 /// Random numbers that are the same in each run (`SplitMix64`).
@@ -225,7 +225,7 @@ fn judged(text: &str) -> bool {
             return false;
         }
     };
-    let read = Object::read(&document, FOLDER.as_ref(), &files::Disk, &Mesh::default());
+    let read = Object::read(&document, FOLDER.as_ref(), &files::Disk, &Resolution::default());
     match read.and_then(|object| {
         let cells = |sweep: &sweep::Sweep| sweep.rows().saturating_mul(sweep.cols());
         if object.parts().iter().map(cells).sum::<usize>() > 100_000 {

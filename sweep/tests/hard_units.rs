@@ -6,7 +6,7 @@
 use files::json::Document;
 use glam::DVec3;
 use serde_json::{Value, json};
-use sweep::spec::Mesh;
+use sweep::spec::Resolution;
 use sweep::{GridMesh, Object};
 
 /// Grids of a spec without its header, and of its parts.
@@ -23,7 +23,7 @@ fn grids(keys: &Value) -> Vec<GridMesh> {
     let text = spec.to_string();
     let document = Document::new("test", text.as_bytes()).unwrap();
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples/textures");
-    let object = Object::read(&document, folder.as_ref(), &files::Disk, &Mesh::default())
+    let object = Object::read(&document, folder.as_ref(), &files::Disk, &Resolution::default())
         .unwrap_or_else(|error| panic!("{error}\n{keys}"));
     object.grids().unwrap()
 }

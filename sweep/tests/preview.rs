@@ -7,14 +7,18 @@ use serde_json::json;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
-use sweep::spec::Mesh;
+use sweep::spec::Resolution;
 use sweep::{Object, check, preview};
 
 fn page(text: &[u8]) -> String {
     let document = Document::new("a.json", text).unwrap();
-    let object =
-        Object::read(&document, Path::new("../examples/curves"), &files::Disk, &Mesh::default())
-            .unwrap_or_else(|error| panic!("{error}"));
+    let object = Object::read(
+        &document,
+        Path::new("../examples/curves"),
+        &files::Disk,
+        &Resolution::default(),
+    )
+    .unwrap_or_else(|error| panic!("{error}"));
     let grids = object.grids().unwrap();
     let findings = check::check(&object, &grids, None);
     preview::svg(&object, &grids, &findings)

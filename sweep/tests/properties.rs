@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use serde_json::{Value, json};
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 use sweep::grid::Seam;
-use sweep::spec::Mesh;
+use sweep::spec::Resolution;
 use sweep::{GridMesh, Object, Sweep, SweepError};
 
 fn read(contour: &Value, trajectory: &Value, extra: &Value) -> Result<Sweep, SweepError> {
@@ -254,7 +254,7 @@ fn every_example_is_a_spec() {
         let (name, bytes) = (path.display().to_string(), std::fs::read(&path).unwrap());
         let document = Document::new(&name, &bytes).unwrap();
         let object =
-            Object::read(&document, path.parent().unwrap(), &files::Disk, &Mesh::default())
+            Object::read(&document, path.parent().unwrap(), &files::Disk, &Resolution::default())
                 .unwrap_or_else(|error| panic!("{error}"));
         for sweep in object.parts() {
             assert_eq!(sweep.folded_rows(), 0, "{name}");

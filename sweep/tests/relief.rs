@@ -21,7 +21,7 @@ fn read(folder: &Path, image: &Value, mode: &str) -> Result<Sweep, SweepError> {
         &Document::new("test", text.as_bytes()).unwrap(),
         folder,
         &Disk,
-        &sweep::spec::Mesh::default(),
+        &sweep::spec::Resolution::default(),
     )
 }
 

@@ -7,7 +7,7 @@ use files::json::Document;
 use jsonschema::Validator;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
-use sweep::spec::{Mesh, Parts, Spec};
+use sweep::spec::{Parts, Resolution, Spec};
 use sweep::{Object, schema};
 
 fn validator() -> Validator {
@@ -23,7 +23,7 @@ fn complaint(spec: &Value) -> Option<String> {
     let text = spec.to_string();
     let document = Document::new("a.json", text.as_bytes()).unwrap();
     let folder = root().join("examples/curves");
-    let read = Object::read(&document, &folder, &Disk, &Mesh::default());
+    let read = Object::read(&document, &folder, &Disk, &Resolution::default());
     read.err().map(|error| error.to_string())
 }
 

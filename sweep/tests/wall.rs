@@ -26,8 +26,13 @@ fn with_wall(mut spec: Value, wall: f64) -> Value {
 fn object(spec: &Value) -> Object {
     let text = spec.to_string();
     let document = Document::new("test", text.as_bytes()).unwrap();
-    Object::read(&document, std::path::Path::new(""), &files::Disk, &sweep::spec::Mesh::default())
-        .unwrap()
+    Object::read(
+        &document,
+        std::path::Path::new(""),
+        &files::Disk,
+        &sweep::spec::Resolution::default(),
+    )
+    .unwrap()
 }
 
 fn grid(spec: &Value) -> GridMesh {

@@ -7,7 +7,7 @@ use crate::verdict::{Stop, Tried, hold, refused, wording_fault};
 use files::Source;
 use files::json::Document;
 use serde_json::json;
-use sweep::spec::Mesh;
+use sweep::spec::Resolution;
 use sweep::{GridMesh, Object, Sweep, check, preview};
 
 /// Cells of a spec at most that is swept.
@@ -28,8 +28,8 @@ pub fn read(bytes: &[u8], source: &dyn Source) -> Tried {
     if small::asks_for_much(bytes) {
         return Ok(());
     }
-    let object =
-        Object::read(&document, CURVES.as_ref(), source, &Mesh::default()).map_err(refused)?;
+    let object = Object::read(&document, CURVES.as_ref(), source, &Resolution::default())
+        .map_err(refused)?;
     let of = |sweep: &Sweep| sweep.rows().saturating_mul(sweep.cols());
     let cells = object.parts().iter().map(of).fold(0, usize::saturating_add);
     if cells > MOST_CELLS {

@@ -15,7 +15,7 @@ use files::json::Document;
 use serde_json::Value;
 use shelf::Shelf;
 use std::path::{Path, PathBuf};
-use sweep::spec::Mesh;
+use sweep::spec::Resolution;
 use sweep::{GridMesh, Object};
 use thiserror::Error;
 
@@ -125,7 +125,7 @@ fn grids_of(spec: &Value, shelf: &Shelf) -> Result<Vec<GridMesh>, Stop> {
     small::bound_to(&mut spec, 10, 200);
     let text = spec.to_string();
     let document = Document::new("spec.json", text.as_bytes()).map_err(refused)?;
-    let object = Object::read(&document, CURVES.as_ref(), shelf, &Mesh::default());
+    let object = Object::read(&document, CURVES.as_ref(), shelf, &Resolution::default());
     object.and_then(|object| object.grids()).map_err(refused)
 }
 

@@ -21,7 +21,7 @@
 //!
 //! `meshes` says which spec makes each mesh that the scene names, and the texture and surface ids
 //! that its triangles carry (those of the spec, or 0, when left out); `mesh` is resolution in place of the
-//! spec's, in the same words ([`sweep::spec::Mesh`]). The scene is rendered once in each mode; without
+//! spec's, in the same words ([`sweep::spec::Resolution`]). The scene is rendered once in each mode; without
 //! `modes`, once with the tent filter. Paths count from the job file's folder.
 //!
 //! Of a mode, `filter` must be there; the rest is what the flags of `render` are: `samples` (1 to 256,
@@ -81,7 +81,7 @@ pub struct MeshJob {
     /// The ids on its triangles.
     pub options: Options,
     /// What of its resolution is said here, in place of what the spec says.
-    pub mesh: spec::Mesh,
+    pub resolution: spec::Resolution,
     /// The text of the job, which says so.
     said: Arc<JobText>,
 }
@@ -146,7 +146,7 @@ struct MeshFile {
     #[serde(default)]
     surface: Option<u32>,
     #[serde(default)]
-    mesh: spec::Mesh,
+    mesh: spec::Resolution,
 }
 
 impl Job {
@@ -248,7 +248,7 @@ impl Job {
             name,
             spec: folder.join(mesh.spec),
             options: Options { texture: mesh.texture, surface: mesh.surface },
-            mesh: mesh.mesh,
+            resolution: mesh.mesh,
         });
         Ok(Self {
             name: name.into(),
@@ -305,7 +305,7 @@ mod tests {
             (job.modes[3].figure.as_deref(), job.modes[3].thesis_minutes),
             (Some("A.4"), Some(90))
         );
-        assert_eq!(job.meshes[0].mesh.rows, Some(60));
+        assert_eq!(job.meshes[0].resolution.rows, Some(60));
         assert_eq!(job.crops[0].at, [0.2, 0.45]);
     }
 

@@ -1,32 +1,32 @@
-//! Where a chain of straight pieces crosses itself.
+//! Crossings of a chain of straight pieces with itself.
 //!
-//! Boxes around stretches of the chain, each halved down to single pieces, tell which pieces may cross:
-//! neighbours on the chain are near each other, so that the boxes are small where the chain is cut fine.
+//! A tree of boxes around intervals of the chain finds the pieces that may cross. Each interval is halved down to single
+//! pieces. Neighbours on the chain are near each other, so the boxes are small where the chain is cut finely.
 
 use glam::DVec2;
 
-/// For each piece so many others are tried at most.
+/// Largest number of pieces that are tested against one piece.
 ///
-/// Larger, and a drawing of thousands of strokes through each other takes long; smaller, and the count
-/// that is said of such a drawing is lower than the truth, which is said too.
+/// Larger, and a drawing of thousands of crossing strokes takes long. Smaller, and the reported count of such a drawing
+/// is further below the true one; the report says "at least".
 const MOST_TRIED: u64 = 1 << 12;
 
-/// How often a chain crosses itself.
+/// The crossings of a chain with itself.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Crossings {
-    /// How many crossings there are.
+    /// Number of crossings.
     pub count: usize,
-    /// Where the first one on the chain is.
+    /// Position of the first crossing along the chain.
     pub first: Option<DVec2>,
-    /// Whether there may be more than were counted.
+    /// Whether the search was cut short, so that more crossings are possible.
     pub more: bool,
-    /// How many boxes and pieces were looked at.
+    /// Number of boxes and pieces that were tested.
     pub looks: u64,
 }
 
 type Bounds = [DVec2; 2];
 
-/// The crossings of a chain through these points; touching is no crossing.
+/// Returns the crossings of the chain through these points. A chain that touches itself does not cross there.
 #[must_use]
 pub fn crossings(points: &[DVec2], closed: bool) -> Crossings {
     let mut found = Crossings::default();
@@ -50,7 +50,7 @@ pub fn crossings(points: &[DVec2], closed: bool) -> Crossings {
             }
             if to - from > 1 {
                 let half = from + (to - from) / 2;
-                // The earlier half is looked at first, since the first crossing is wanted.
+                // The earlier half is tested first, because the first crossing is reported.
                 open.push((half, to, part + 2 * (half - from)));
                 open.push((from, half, part + 1));
                 continue;
@@ -74,10 +74,10 @@ pub fn crossings(points: &[DVec2], closed: bool) -> Crossings {
     found
 }
 
-/// The boxes around a stretch of pieces and its halves, each before those of its halves: of `n` pieces
-/// there are `2 n - 1`.
+/// Appends the boxes around an interval of pieces and around its halves, a box before those of its halves. An interval
+/// of `n` pieces has `2 n - 1` boxes. Returns the box of the interval.
 fn divide(points: &[DVec2], from: usize, to: usize, parts: &mut Vec<Bounds>) -> Bounds {
-    let place = parts.len();
+    let index = parts.len();
     parts.push([DVec2::ZERO; 2]);
     let bounds = if to - from > 1 {
         let half = from + (to - from) / 2;
@@ -88,16 +88,16 @@ fn divide(points: &[DVec2], from: usize, to: usize, parts: &mut Vec<Bounds>) -> 
         let [a, b] = [points[from], points[to]];
         [a.min(b), a.max(b)]
     };
-    parts[place] = bounds;
+    parts[index] = bounds;
     bounds
 }
 
-/// Where one straight piece crosses a later one.
+/// Returns the point at which one straight piece crosses a later one.
 fn crossing([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> Option<DVec2> {
     let of = |p: DVec2, q: DVec2, r: DVec2| (q - p).perp_dot(r - p);
     let (at_c, at_d) = (of(a, b, c), of(a, b, d));
-    // A piece that starts on another one crosses it there, if the one before came from the other
-    // side; each such place is met by one of the two pieces alone.
+    // A piece that starts on another piece crosses it there if the chain came from the other side. Exactly one of the
+    // two pieces that share the point crosses.
     let passes = |x: f64, y: f64| (x < 0.0 && y >= 0.0) || (x >= 0.0 && y < 0.0);
     (passes(at_c, at_d) && passes(of(c, d, a), of(c, d, b)))
         .then(|| c.lerp(d, at_c / (at_c - at_d)))

@@ -1,4 +1,4 @@
-//! Curves as they were drawn: what was dropped, closed or turned round, and what they nearly are.
+//! Findings about curves as they were drawn: points dropped, gaps closed, directions reversed, ends that nearly meet.
 
 use super::chain::{Crossings, crossings};
 use super::{Finding, Severity, short};
@@ -9,22 +9,22 @@ use crate::sampling::Sweep;
 use crate::spec::{Bezier, Contour, Free, FreeContour, Spec, Trajectory};
 use glam::{DVec2, DVec3};
 
-/// Ends of an open curve within this part of its size were most likely to meet.
+/// Ends of an open curve that are closer than this fraction of its size were most likely meant to meet.
 const NEARLY: f64 = 1e-3;
 
-/// Points within this part of a curve's size are one, as the reader has it.
+/// Points that are closer than this fraction of a curve's size are one point, as for the reader.
 const COINCIDENT: f64 = 1e-12;
 
-/// A contour runs clockwise with an area below this part of its squared length...
+/// A contour runs clockwise if its area is below minus this fraction of its squared length.
 const NO_AREA: f64 = 1e-9;
 
-/// ... and with less than this of either sign it is a line there and back to the eye.
+/// A contour whose area has at most this fraction of its squared length looks like a line, drawn forth and back.
 const THIN: f64 = 1e-6;
 
-/// Straight pieces of a whole contour when its crossings are looked for.
+/// Number of straight pieces into which a contour is cut for the search for crossings.
 const PIECES: usize = 1536;
 
-/// What is to be said of a sweep's curves.
+/// Returns the findings about the curves of a sweep.
 #[must_use]
 pub fn findings(spec: &Spec, sweep: &Sweep) -> Vec<Finding> {
     let mut found = Vec::new();
@@ -55,24 +55,32 @@ pub fn findings(spec: &Spec, sweep: &Sweep) -> Vec<Finding> {
             doubled::<_, DVec3>("trajectory.polyline", &points, &mut found);
         }
         Trajectory::Free(free) => doubled::<_, DVec3>("trajectory.free", free, &mut found),
-        _ => {}
+        Trajectory::Line(_)
+        | Trajectory::Circle(_)
+        | Trajectory::Helix(_)
+        | Trajectory::Flat(_)
+        | Trajectory::Rotation(_) => {}
     }
     found.extend(nearly_closed(sweep));
     found
 }
 
-/// The contours of a spec that are swept, and their paths.
+/// Returns the contours of a spec with their JSON paths.
 fn contours(contour: &Contour) -> Vec<(String, &Contour)> {
     match contour {
         Contour::Sections(sections) => {
             let path = |i: usize| format!("contour.sections[{i}].contour");
             sections.sections.iter().enumerate().map(|(i, s)| (path(i), &s.contour)).collect()
         }
-        _ => vec![("contour".into(), contour)],
+        Contour::Circle(_)
+        | Contour::Bezier(_)
+        | Contour::Svg(_)
+        | Contour::Free(_)
+        | Contour::Polyline(_) => vec![("contour".into(), contour)],
     }
 }
 
-/// A contour as it was drawn; `None` for a circle, about which there is nothing to say.
+/// Returns the cubics of a contour as it was drawn, and whether it is closed; `None` for a circle, which has no faults.
 fn cubics(contour: &Contour) -> Option<(Vec<Cubic<DVec2>>, bool)> {
     match contour {
         Contour::Bezier(bezier) => {
@@ -104,7 +112,7 @@ fn points_of(free: &FreeContour) -> Free<[f64; 2]> {
     Free { closed: free.closed, points: free.points.clone() }
 }
 
-/// The points of a curve, each once.
+/// Returns the points of a curve without those that repeat the point before.
 fn distinct<P: Copy, V: Vector + From<P>>(free: &Free<P>) -> Vec<V> {
     let mut points: Vec<V> = free.points.iter().map(|&point| V::from(point)).collect();
     let narrow = COINCIDENT * extent(points.iter().copied());
@@ -117,6 +125,7 @@ fn distinct<P: Copy, V: Vector + From<P>>(free: &Free<P>) -> Vec<V> {
     points
 }
 
+/// Reports points given twice.
 fn doubled<P: Copy, V: Vector + From<P>>(path: &str, free: &Free<P>, found: &mut Vec<Finding>) {
     let dropped = free.points.len() - distinct::<P, V>(free).len();
     if dropped > 0 {
@@ -126,7 +135,7 @@ fn doubled<P: Copy, V: Vector + From<P>>(path: &str, free: &Free<P>, found: &mut
     }
 }
 
-/// Gaps between segments that were closed, and segments of no size.
+/// Reports gaps between segments, which were closed, and segments without size, which were dropped.
 fn joints<P, V: Vector + From<P>>(path: &str, bezier: &Bezier<P>, found: &mut Vec<Finding>)
 where
     P: Copy,
@@ -149,7 +158,7 @@ where
     }
 }
 
-/// The direction, the area and the crossings of a contour.
+/// Reports the crossings of a contour, and its direction and area if it is closed.
 fn shape(path: &str, cubics: &[Cubic<DVec2>], closed: bool, found: &mut Vec<Finding>) {
     let Some(curve) = Path::new(cubics, closed) else { return };
     let count = cubics.len().max(1);
@@ -195,7 +204,7 @@ fn shape(path: &str, cubics: &[Cubic<DVec2>], closed: bool, found: &mut Vec<Find
     }
 }
 
-/// Open curves whose ends all but meet.
+/// Returns a finding for each open curve whose ends nearly meet.
 fn nearly_closed(sweep: &Sweep) -> Vec<Finding> {
     let close = |path: &str, gap: f64, size: f64| {
         let message = format!(

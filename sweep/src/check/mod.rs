@@ -1,18 +1,18 @@
-//! What is wrong or suspicious about a spec and its surface, in words for people.
+//! The check: findings about a spec and its surface, as sentences.
 //!
-//! | module         | looks at                                                           |
+//! | module         | checks                                                             |
 //! |----------------|--------------------------------------------------------------------|
 //! | [`fold`]       | where the surface folds back on itself                             |
-//! | [`neighbors`]  | rows that cross the next one                                       |
+//! | [`neighbors`]  | rows that cross the next row                                       |
 //! | [`patches`]    | a tree over the triangles of a surface, for [`strands`]            |
-//! | [`resolution`] | counts that were raised, and cells too coarse for what they show   |
-//! | [`chain`]      | where a chain of straight pieces crosses itself, for [`drawing`]   |
+//! | [`resolution`] | numbers of cells that were raised, and cells that are too coarse   |
+//! | [`chain`]      | crossings of a chain of straight pieces, for [`drawing`]           |
 //! | [`drawing`]    | curves as they were drawn: doubled points, crossings, near misses  |
-//! | [`rounding`]   | what the f32 numbers of a mesh lose                                |
+//! | [`rounding`]   | rounding of coordinates to f32                                     |
 //! | [`strands`]    | parts of the surface that meet far from each other                 |
-//! | [`wall`]       | walls thicker than the surface is round                            |
+//! | [`wall`]       | walls that are thicker than the radius of curvature                |
 //!
-//! A finding says a number that one can act on, and where in the spec.
+//! A finding states a number to act on, and its JSON path in the spec.
 
 pub mod chain;
 pub mod drawing;
@@ -64,7 +64,7 @@ pub fn check(
     all
 }
 
-/// What a sweep and its grid show without the spec that they come from.
+/// Returns the findings about a sweep and its grid that need no spec.
 #[must_use]
 pub fn of_sweep(sweep: &Sweep, grid: &GridMesh) -> Vec<Finding> {
     let survey = sweep.survey();
@@ -77,7 +77,7 @@ pub fn of_sweep(sweep: &Sweep, grid: &GridMesh) -> Vec<Finding> {
     found
 }
 
-/// A sweep in one line: its cells, how it closes, and how near it is to folding.
+/// Returns one line about a sweep: its cells, how it closes, and its least stretch or its folds.
 #[must_use]
 pub fn summary(sweep: &Sweep, grid: &GridMesh) -> String {
     let around = match (grid.seam_u.joins(), grid.seam_v) {
@@ -102,7 +102,7 @@ pub fn summary(sweep: &Sweep, grid: &GridMesh) -> String {
     format!("{}: {made_rows} x {made_cols} cells (rows x cols), {around}, {folds}", sweep.name())
 }
 
-/// How many of the first and the last row are one point.
+/// Returns how many of the first and the last row are contracted to a point.
 fn poles(grid: &GridMesh) -> usize {
     let cols = grid.cols();
     let ends = [grid.positions.chunks(cols).next(), grid.positions.chunks(cols).next_back()];
@@ -110,9 +110,9 @@ fn poles(grid: &GridMesh) -> usize {
     ends.iter().flatten().filter(|row| point(row)).count()
 }
 
-/// A mirrored seam takes a picture to its mirror image.
+/// Returns a remark about a mirrored seam, which continues a picture as its mirror image.
 fn over_the_seam(sweep: &Sweep) -> Option<Finding> {
-    // The picture of a wall goes around twice, and joins.
+    // The picture of a wall runs around twice and joins.
     let sheet = sweep.shape.closing.filter(|_| sweep.wall.is_none());
     let closing = sheet.filter(|closing| closing.mirrored)?;
     let middle = 0.5 * closing.offset.0 as f64 / closing.offset.1 as f64;
@@ -126,7 +126,7 @@ fn over_the_seam(sweep: &Sweep) -> Option<Finding> {
     ))
 }
 
-/// Rows in words: ranges of those for which `is` is true, with their `v`.
+/// Describes the rows for which `is` is true, as ranges with their `v`.
 fn ranges(rows: &[Stop], is: &[bool]) -> String {
     const MOST: usize = 4;
     let mut ranges: Vec<[usize; 2]> = Vec::new();

@@ -1,8 +1,8 @@
-//! Rows that cross the next one.
+//! Rows that cross the next row.
 //!
-//! Every station lies in a plane across the trajectory. Where the next station's points lie behind
-//! it, the two rows cross although neither may fold by itself: a bend between them is tighter than
-//! the contour is wide, at a mitre or a hairpin. Only rows that follow each other are compared.
+//! Every station lies in a plane across the trajectory. If points of the next station lie behind this plane, the two
+//! rows cross. Neither of them need fold by itself: the trajectory bends between them more sharply than the contour is
+//! wide, at a mitre or a hairpin. Only neighbouring rows are compared.
 
 use super::{Finding, Severity, ranges};
 use crate::grid::Seam;
@@ -11,17 +11,17 @@ use crate::sampling::Sweep;
 use crate::surface::modulation::Section;
 use rayon::prelude::*;
 
-/// Points behind a plane by less than this part of the contour's size touch it.
+/// Points that lie behind a plane by less than this fraction of the contour's length touch it.
 const TOUCHES: f64 = 1e-9;
 
-/// The cosine between directions that all but oppose each other: some 155 degrees.
+/// Largest cosine between directions that count as opposed: an angle of some 155 degrees.
 const AGAINST: f64 = -0.9;
 
-/// Rows of which some point lies behind the row before, those left out that fold by themselves.
+/// Returns a finding about rows that cross the next row. Rows that fold by themselves are not counted.
 #[must_use]
 pub fn findings(sweep: &Sweep, survey: &Survey) -> Option<Finding> {
     let (columns, rows) = sweep.lines();
-    // Of the sheet, where the grid is that of a wall around it.
+    // The seam is that of the sheet, also if a wall is built around it.
     let (seam, shift) = sweep.shape.seam(&sweep.col_stops()).unwrap_or_default();
     let sections: Vec<Section> = rows.par_iter().map(|&stop| sweep.shape.section(stop)).collect();
     let rotation = sweep.shape.trajectory.is_rotation();
@@ -40,7 +40,7 @@ pub fn findings(sweep: &Sweep, survey: &Survey) -> Option<Finding> {
         let ahead = here.frame().tangent;
         // A mirrored seam may come back against its direction.
         let arriving = if wraps { ahead } else { there.frame().tangent };
-        // Planes that look against each other tell nothing.
+        // Between opposed planes there is no order.
         if ahead.dot(arriving) < AGAINST || !rotation && step.dot(ahead) <= 0.0 {
             return false;
         }

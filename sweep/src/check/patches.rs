@@ -1,49 +1,48 @@
-//! A tree of boxes over the triangles of a surface, each box turned as its patch of the surface lies.
+//! A tree of oriented boxes over the triangles of a surface.
 //!
-//! Boxes along the axes of space overlap in thousands where cells are long, thin and askew. A box that
-//! is turned along its patch is as thin as the patch is, and so meets its neighbours only: after
-//! Gottschalk, Lin and Manocha, *`OBBTree`: A Hierarchical Structure for Rapid Interference Detection*,
-//! SIGGRAPH 1996. Two boxes are told apart by the axes of both, and where these do not, by the directions
-//! across an axis of each, which part long thin boxes that pass each other. Patches are rectangles of cells, halved across their longer
-//! side, so that the tree needs no sorting and is `log2 n` deep.
+//! Boxes along the axes of space overlap by the thousand if cells are long, thin and askew. A box oriented along its
+//! patch of the surface is as thin as the patch and overlaps only its neighbours: see Gottschalk, Lin and Manocha,
+//! *`OBBTree`: A Hierarchical Structure for Rapid Interference Detection*, SIGGRAPH 1996. Two boxes are disjoint if a
+//! plane perpendicular to an axis of either separates them. Long thin boxes that pass each other are separated along the
+//! cross product of an axis of each. Patches are rectangles of cells, halved across their longer side, so the tree needs
+//! no sorting and is `log2 n` deep.
 
 use super::strands::Triangle;
 use glam::{DVec3, Vec3};
 use std::ops::Range;
 
-/// A leaf has triangles of at most so many cells. Larger, and more pairs are tried; smaller, and the
-/// tree takes more memory.
+/// Largest number of cells in a leaf. Larger, and more pairs are tested; smaller, and the tree takes more memory.
 const LEAF: usize = 2;
 
-/// Patches of at most so many triangles are bounded by their corners, larger ones by the boxes of
+/// Largest number of triangles of a patch that is bounded by its corners. Larger patches are bounded by the boxes of
 /// their halves, which takes less time and is looser.
 const BOUNDED_BY_CORNERS: usize = 1 << 12;
 
-/// How much wider than measured boxes are, in parts of their size: the roundings of `f32` axes.
+/// Fraction of its size by which a box is widened, for the rounding of its `f32` axes.
 const SLACK: f64 = 1e-5;
 
-/// The tree.
+/// A tree of oriented boxes.
 #[derive(Debug)]
 pub struct Patches {
     nodes: Vec<Node>,
-    /// The triangles' numbers, leaf by leaf.
+    /// Indices of the triangles, leaf by leaf.
     order: Vec<u32>,
 }
 
-/// A patch: its first half, if there are halves, is the next node.
+/// A patch. Its first half, if it has halves, is the next node.
 #[derive(Debug, Clone)]
 struct Node {
     middle: DVec3,
-    /// Two unit axes; the third is across both.
+    /// Two unit axes; the third is their cross product.
     axes: [Vec3; 2],
     half: [f32; 3],
-    /// Its triangles, in the order of the tree.
+    /// The range of its triangles in the order of the tree.
     triangles: Range<u32>,
-    /// The second half; 0 for a leaf.
+    /// Index of the second half; 0 for a leaf.
     second: u32,
 }
 
-/// A turned box.
+/// An oriented box.
 #[derive(Debug, Clone, Copy)]
 struct Turned {
     middle: DVec3,
@@ -51,18 +50,18 @@ struct Turned {
     half: [f64; 3],
 }
 
-/// Sums over a patch that tell how it lies: sides of cells across and along, and normals, each with
-/// the sum of their lengths.
+/// Sums over a patch that give its orientation: of the sides of cells across and along, and of the normals, each with the
+/// sum of their lengths.
 type Lie = [(DVec3, f64); 3];
 
 impl Patches {
-    /// A tree over triangles, which are given row by row.
+    /// Builds a tree over triangles, which are given row by row.
     #[must_use]
     pub fn new(triangles: &[Triangle]) -> Self {
         let [rows, cols] = triangles.iter().fold([0, 0], |[rows, cols], triangle| {
             [rows.max(triangle.cell[0] + 1), cols.max(triangle.cell[1] + 1)]
         });
-        // Where the triangles of each row begin.
+        // Index of the first triangle of each row.
         let mut starts = vec![0; rows as usize + 1];
         triangles.iter().for_each(|triangle| starts[triangle.cell[0] as usize + 1] += 1);
         for row in 0..rows as usize {
@@ -81,22 +80,22 @@ impl Patches {
         builder.tree
     }
 
-    /// The leaves, as numbers of nodes.
+    /// Returns the leaves, as indices of nodes.
     #[must_use]
     pub fn leaves(&self) -> Vec<u32> {
         let leaves = (0..self.nodes.len() as u32).filter(|&k| self.nodes[k as usize].second == 0);
         leaves.collect()
     }
 
-    /// The numbers of a leaf's triangles.
+    /// Returns the indices of the triangles of a leaf.
     #[must_use]
     pub fn triangles(&self, leaf: u32) -> &[u32] {
         let Range { start, end } = self.nodes[leaf as usize].triangles;
         &self.order[start as usize..end as usize]
     }
 
-    /// Gives `see` the leaf itself and every later one whose box may meet its box; returns how many
-    /// boxes were held against that of the leaf.
+    /// Calls `see` with the leaf itself and with every later leaf whose box may meet its box. Returns the number of boxes
+    /// that were tested against the box of the leaf.
     pub fn near(&self, leaf: u32, mut see: impl FnMut(u32)) -> u64 {
         let own = self.nodes[leaf as usize].turned();
         let own_end = self.nodes[leaf as usize].triangles.end;
@@ -105,7 +104,7 @@ impl Patches {
         see(leaf);
         while let Some(number) = open.pop() {
             let node = &self.nodes[number as usize];
-            // All of it was before the leaf, or is the leaf.
+            // The whole node lies before the leaf or is the leaf.
             if node.triangles.end <= own_end {
                 continue;
             }
@@ -126,7 +125,7 @@ impl Patches {
 struct Builder<'a> {
     triangles: &'a [Triangle],
     starts: Vec<usize>,
-    /// The mean length of a cell along a column and along a row.
+    /// Mean length of a cell along a column and along a row.
     steps: [f64; 2],
     tree: Patches,
 }
@@ -185,7 +184,7 @@ impl Builder<'_> {
         }
     }
 
-    /// How the triangles lie that stand in the order from `start` on.
+    /// Returns the orientation of the triangles in the order from `start` on.
     fn lie(&self, start: usize) -> Lie {
         let mut lie = [(DVec3::ZERO, 0.0); 3];
         for &k in &self.tree.order[start..] {
@@ -214,7 +213,7 @@ impl Builder<'_> {
     }
 }
 
-/// Axes for a patch: first the direction in which its parts agree the most, then the next.
+/// Returns the axes for a patch: first the direction in which its parts agree most, then the next.
 fn axes(lie: &Lie) -> [Vec3; 2] {
     let agreement = |k: usize| if lie[k].1 > 0.0 { lie[k].0.length() / lie[k].1 } else { 0.0 };
     let mut order = [0, 1, 2];
@@ -236,11 +235,11 @@ impl Node {
 }
 
 impl Turned {
-    /// The box around points whose axes are these two and the one across them.
+    /// Returns the box around points with these two axes and their cross product.
     fn around(axes: [Vec3; 2], points: impl Iterator<Item = DVec3> + Clone) -> Self {
         let [first, second] = axes.map(DVec3::from);
         let axes = [first, second, first.cross(second)];
-        // Counted from one of the points, so that no digits are lost far from the origin.
+        // Positions are relative to one of the points, so that no digits are lost far from the origin.
         let origin = points.clone().next().unwrap_or(DVec3::ZERO);
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         for point in points {
@@ -270,7 +269,7 @@ impl Turned {
         })
     }
 
-    /// Whether a plane parts the boxes: across an axis of one, or along an axis of each.
+    /// Returns whether a plane separates the boxes: perpendicular to an axis of one, or parallel to an axis of each.
     fn misses(&self, other: &Self) -> bool {
         let apart = other.middle - self.middle;
         let reach = |one: &Self, axis: DVec3| -> f64 {

@@ -1,4 +1,4 @@
-//! Counts that were raised, and cells too coarse for what they show.
+//! Numbers of cells that were raised, and cells that are too coarse for the surface.
 
 use super::{Finding, Severity, short};
 use crate::curve::cut::{self, Stop};
@@ -7,17 +7,17 @@ use crate::sampling::Sweep;
 use crate::sampling::resolution::Resolution;
 use crate::surface::profile::Column;
 
-/// Degrees that a surface may turn or twist from one row or column to the next; beyond, what is seen
-/// is the cells and not the surface.
+/// Largest turn or twist of a surface from one row or column to the next, in degrees. Beyond it the cells are visible
+/// instead of the surface.
 const COARSE_DEG: f64 = 60.0;
 
-/// Degrees that are equal: those of even steps differ by rounding.
+/// Angles that differ by less than this, in degrees, are equal. The angles of even steps differ by rounding.
 const ROUNDING: f64 = 1e-6;
 
-/// Cells that a wave of a relief needs at least.
+/// Smallest number of cells that shows a wave of a relief.
 const CELLS_A_WAVE: f64 = 4.0;
 
-/// What the numbers of cells leave to be said.
+/// Returns the findings about the numbers of cells.
 #[must_use]
 pub fn findings(sweep: &Sweep) -> Vec<Finding> {
     let (columns, rows) = sweep.lines();
@@ -34,7 +34,7 @@ pub fn findings(sweep: &Sweep) -> Vec<Finding> {
     found
 }
 
-/// Twists and waves that fall between the rows and columns, so that another surface is seen.
+/// Returns findings about twists and waves that rows and columns sample too coarsely, so that they show another surface.
 #[must_use]
 pub fn aliases(sweep: &Sweep) -> Vec<Finding> {
     let mut found = waves(sweep);
@@ -42,7 +42,7 @@ pub fn aliases(sweep: &Sweep) -> Vec<Finding> {
     found
 }
 
-/// Numbers of cells that are not those asked for.
+/// Returns a remark if the number of cells differs from the requested number.
 fn counts(sweep: &Sweep, key: &str, asked: usize, made: usize) -> Option<Finding> {
     let why = match (key, &sweep.shape.closing) {
         ("cols", Some(closing)) if closing.mirrored => {
@@ -56,19 +56,19 @@ fn counts(sweep: &Sweep, key: &str, asked: usize, made: usize) -> Option<Finding
     (asked != made).then(|| Finding::new(Severity::Remark, format!("mesh.{key}"), message))
 }
 
-/// Pairs of places that follow each other; in a closed direction the last and the end too.
-fn steps(places: &[f64], closed: bool) -> Vec<[f64; 2]> {
+/// Returns the intervals between neighbouring positions; in a closed direction also from the last to 1.
+fn steps(positions: &[f64], closed: bool) -> Vec<[f64; 2]> {
     let end = closed.then_some(1.0);
-    let next = places.iter().copied().skip(1).chain(end);
-    places.iter().copied().zip(next).filter(|(a, b)| a < b).map(|(a, b)| [a, b]).collect()
+    let next = positions.iter().copied().skip(1).chain(end);
+    positions.iter().copied().zip(next).filter(|(a, b)| a < b).map(|(a, b)| [a, b]).collect()
 }
 
-/// How many cells would bring an angle down to what is smooth.
+/// Returns the number of cells that would reduce an angle to the largest smooth one.
 fn enough(cells: usize, angle_deg: f64) -> usize {
     (cells as f64 * angle_deg / COARSE_DEG - ROUNDING).ceil() as usize
 }
 
-/// The first step with the largest angle, if that is too large.
+/// Returns the first step with the largest angle, if this angle is too large.
 fn coarsest(angles: impl Iterator<Item = (f64, f64)>) -> Option<(f64, f64)> {
     let larger = |largest: (f64, f64), next: (f64, f64)| {
         if next.0 > largest.0 + ROUNDING { next } else { largest }
@@ -78,9 +78,9 @@ fn coarsest(angles: impl Iterator<Item = (f64, f64)>) -> Option<(f64, f64)> {
 }
 
 fn row_steps(sweep: &Sweep, rows: &[Stop], closed: bool) -> Vec<[f64; 2]> {
-    let places: Vec<f64> =
+    let positions: Vec<f64> =
         rows.iter().filter(|stop| sweep.shape.along(**stop).is_some()).map(|s| s.at).collect();
-    steps(&places, closed)
+    steps(&positions, closed)
 }
 
 fn twist(sweep: &Sweep, rows: &[Stop], closed: bool) -> Option<Finding> {
@@ -106,7 +106,7 @@ fn twist(sweep: &Sweep, rows: &[Stop], closed: bool) -> Option<Finding> {
 fn bends(sweep: &Sweep, rows: &[Stop], closed: bool) -> Option<Finding> {
     let direction = |stop: Stop| sweep.shape.section(stop).frame().tangent;
     let angles = row_steps(sweep, rows, closed).into_iter().map(|[a, b]| {
-        // By way of the middle, which a turn of more than half cannot hide from.
+        // The sum over the middle also finds a turn of more than half.
         let middle = direction(Stop::after(0.5 * (a + b)));
         let [from, to] = [direction(Stop::after(a)), direction(Stop::before(b))];
         ((angle_between(from, middle) + angle_between(middle, to)).to_degrees(), a)
@@ -123,7 +123,7 @@ fn bends(sweep: &Sweep, rows: &[Stop], closed: bool) -> Option<Finding> {
 }
 
 fn turns(sweep: &Sweep, columns: &[Column]) -> Option<Finding> {
-    let places = |column: &Column| -> Vec<_> {
+    let tangents = |column: &Column| -> Vec<_> {
         std::iter::once(column.first.tangent)
             .chain(column.others.iter().map(|o| o.tangent))
             .collect()
@@ -131,8 +131,8 @@ fn turns(sweep: &Sweep, columns: &[Column]) -> Option<Finding> {
     let us: Vec<f64> = columns.iter().map(|column| column.u).collect();
     let angles = steps(&us, sweep.shape.contour.closed()).into_iter().map(|[a, b]| {
         let stops = [Stop::after(a), Stop::after(0.5 * (a + b)), Stop::before(b)];
-        let looked = sweep.shape.contour.columns(&stops);
-        let [from, middle, to] = [0, 1, 2].map(|i| places(&looked[i]));
+        let sampled = sweep.shape.contour.columns(&stops);
+        let [from, middle, to] = [0, 1, 2].map(|i| tangents(&sampled[i]));
         let turn = |i: usize| angle_between(from[i], middle[i]) + angle_between(middle[i], to[i]);
         ((0..from.len()).map(turn).fold(0.0, f64::max).to_degrees(), a)
     });

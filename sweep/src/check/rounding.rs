@@ -1,13 +1,14 @@
-//! What the f32 numbers of a mesh lose.
+//! Rounding of the coordinates of a mesh to f32.
 
 use super::{Finding, Severity, short};
 use crate::grid::GridMesh;
 use glam::DVec3;
 
-/// A loss beyond this part of the object's size is seen.
+/// Rounding errors beyond this fraction of the object's size are visible.
 const SEEN: f64 = 1e-4;
 
-/// What is lost when the points of a grid become f32, as they do in an OBJ.
+/// Returns a finding if rounding the points of a grid to f32, as in an OBJ file, loses more than the requested tolerance
+/// or than is visible.
 #[must_use]
 pub fn findings(grid: &GridMesh) -> Option<Finding> {
     let none = (DVec3::INFINITY, DVec3::NEG_INFINITY, 0.0_f64);

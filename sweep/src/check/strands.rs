@@ -1,8 +1,7 @@
-//! Parts of a surface that meet far from each other.
+//! Parts of a surface that meet although they are far apart on the surface.
 //!
-//! Triangles that share no corner are tested in pairs, by the edges of each against the other. A tree
-//! of turned boxes ([`super::patches`]) finds the pairs, each once. Triangles in one plane do not
-//! count.
+//! Two triangles without a common corner cross if an edge of one passes through the other. A tree of oriented boxes
+//! ([`super::patches`]) finds the pairs to test, each once. Triangles in one plane do not cross.
 
 use super::patches::Patches;
 use super::{Finding, Severity, short};
@@ -12,45 +11,45 @@ use rayon::prelude::*;
 use std::collections::HashMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Pairs of triangles tried for one leaf at most.
+/// Largest number of pairs of triangles that are tested for one leaf.
 ///
-/// Larger, and a surface whose triangles all lie through each other takes long; smaller, and the count
-/// that is said of such a surface is lower than the truth, which is said too.
+/// Larger, and a surface whose triangles all cross takes long. Smaller, and the reported count of such a surface is
+/// further below the true one; the report says "at least".
 const MOST_TRIED: u64 = 1 << 15;
 
-/// The search tells its progress after so many leaves.
+/// Number of leaves after which the search reports its progress.
 const TELL_AFTER: usize = 1 << 12;
 
-/// Hears of progress: how much is done, and of how much.
+/// Receives the progress of the search: the number of leaves done, and of all leaves.
 pub type Tell<'a> = &'a (dyn Fn(usize, usize) + Sync);
 
 /// A triangle of a cell.
 #[derive(Debug)]
 pub struct Triangle {
-    /// Its corners.
+    /// The corners, in the unit of length.
     pub corners: [DVec3; 3],
-    /// Numbers of its corners; corners at one place have one number.
+    /// Numbers of the corners; corners with equal positions have one number.
     pub ids: [u32; 3],
-    /// Its cell by row and column.
+    /// Row and column of its cell.
     pub cell: [u32; 2],
-    /// Whether it is the half of its cell at the end of the row.
+    /// Whether this triangle is the upper half of its cell, on the side of the next row.
     pub upper: bool,
 }
 
 /// Pairs of triangles that cross and share no corner.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Crossings {
-    /// How many there are.
+    /// Number of pairs.
     pub count: u64,
-    /// The first by the numbers of its triangles, the smaller number first.
+    /// The first pair by the indices of its triangles, the smaller index first.
     pub first: Option<[usize; 2]>,
-    /// Whether there may be more than were counted.
+    /// Whether the search was cut short, so that more pairs are possible.
     pub more: bool,
-    /// How many boxes and pairs were looked at.
+    /// Number of boxes and pairs that were tested.
     pub looks: u64,
 }
 
-/// The places where a surface meets itself; `tell` hears of the progress.
+/// Returns a finding if a surface meets itself; `tell` receives the progress.
 #[must_use]
 pub fn findings(grid: &GridMesh, tell: Tell<'_>) -> Option<Finding> {
     let triangles = triangles(grid);
@@ -73,7 +72,7 @@ pub fn findings(grid: &GridMesh, tell: Tell<'_>) -> Option<Finding> {
     Some(Finding::new(Severity::Remark, "trajectory", message))
 }
 
-/// The triangles of all cells, but for those without area; corners at one place have one id.
+/// Returns the triangles of all cells except those with two equal corners. Corners with equal positions have one id.
 fn triangles(grid: &GridMesh) -> Vec<Triangle> {
     let (rows, cols) = (grid.rows(), grid.cols());
     let mut ids: HashMap<[u64; 3], u32> = HashMap::with_capacity(grid.positions.len());
@@ -82,7 +81,7 @@ fn triangles(grid: &GridMesh) -> Vec<Triangle> {
         .iter()
         .map(|p| {
             let next = ids.len() as u32;
-            // Adding 0 takes -0 to 0.
+            // Adding 0 turns -0 into 0.
             *ids.entry(p.to_array().map(|x| (x + 0.0).to_bits())).or_insert(next)
         })
         .collect();
@@ -113,7 +112,7 @@ fn bounds(corners: &[DVec3; 3]) -> [DVec3; 2] {
     [a.min(b).min(c), a.max(b).max(c)]
 }
 
-/// All pairs of triangles that cross and share no corner.
+/// Returns all pairs of triangles that cross and share no corner.
 #[must_use]
 pub fn crossings(triangles: &[Triangle], tell: Tell<'_>) -> Crossings {
     let patches = Patches::new(triangles);
@@ -130,15 +129,15 @@ pub fn crossings(triangles: &[Triangle], tell: Tell<'_>) -> Crossings {
         .reduce(Crossings::default, Crossings::and)
 }
 
-/// Pairs of a triangle of a leaf and one of the leaf itself or of a later one.
+/// Tests each pair of a triangle of a leaf with a triangle of the same leaf or of a later one.
 fn of_leaf(triangles: &[Triangle], patches: &Patches, leaf: u32) -> Crossings {
     let mut found = Crossings::default();
     let own = patches.triangles(leaf);
     let mut tried = 0;
     found.looks = patches.near(leaf, |other| {
-        for (place, &i) in own.iter().enumerate() {
-            // In the leaf itself each pair once.
-            let later = if other == leaf { place + 1 } else { 0 };
+        for (index, &i) in own.iter().enumerate() {
+            // Within the leaf itself, each pair is tested once.
+            let later = if other == leaf { index + 1 } else { 0 };
             for &j in &patches.triangles(other)[later..] {
                 tried += 1;
                 if tried > MOST_TRIED {
@@ -156,7 +155,7 @@ fn of_leaf(triangles: &[Triangle], patches: &Patches, leaf: u32) -> Crossings {
 }
 
 impl Crossings {
-    /// Those of two searches together.
+    /// Returns the crossings of two searches together.
     fn and(self, other: Self) -> Self {
         let first = match (self.first, other.first) {
             (Some(a), Some(b)) => Some(a.min(b)),
@@ -171,7 +170,7 @@ impl Crossings {
     }
 }
 
-/// Whether two triangles cross and share no corner.
+/// Returns whether two triangles cross and share no corner.
 fn cross(a: &Triangle, b: &Triangle) -> bool {
     let ([a_low, a_high], [b_low, b_high]) = (bounds(&a.corners), bounds(&b.corners));
     a_low.max(b_low).cmple(a_high.min(b_high)).all()
@@ -179,7 +178,7 @@ fn cross(a: &Triangle, b: &Triangle) -> bool {
         && crosses(&a.corners, &b.corners)
 }
 
-/// Whether an edge of one triangle passes through the other.
+/// Returns whether an edge of one triangle passes through the other.
 fn crosses(a: &[DVec3; 3], b: &[DVec3; 3]) -> bool {
     let through = |edges: &[DVec3; 3], triangle: &[DVec3; 3]| {
         (0..3).any(|i| pierces(edges[i], edges[(i + 1) % 3], triangle))
@@ -187,7 +186,7 @@ fn crosses(a: &[DVec3; 3], b: &[DVec3; 3]) -> bool {
     through(a, b) || through(b, a)
 }
 
-/// Whether a segment passes through a triangle; along its plane it does not.
+/// Returns whether a segment passes through a triangle. A segment in the plane of the triangle does not.
 fn pierces(from: DVec3, to: DVec3, [a, b, c]: &[DVec3; 3]) -> bool {
     let normal = (*b - *a).cross(*c - *a);
     let (before, after) = (normal.dot(from - *a), normal.dot(to - *a));

@@ -1,11 +1,12 @@
-//! Walls thicker than the surface is round.
+//! Walls that are thicker than the radius of curvature of the surface.
 
 use super::{Finding, Severity, short};
 use crate::grid::GridMesh;
 use crate::sampling::Sweep;
 use rayon::prelude::*;
 
-/// Cells of a wall that are turned over, since half of it is more than the surface's radius there.
+/// Returns a finding about cells of a wall that are turned over, because half the wall's thickness exceeds the radius at
+/// which the surface bends there.
 #[must_use]
 pub fn findings(sweep: &Sweep, grid: &GridMesh) -> Option<Finding> {
     let wall = sweep.wall?;

@@ -1,7 +1,7 @@
 //! The flags that replace the resolution of a spec.
 
 use clap::Args;
-use sweep::spec::Mesh;
+use sweep::spec::Resolution;
 
 #[derive(Debug, Args)]
 pub struct ResolutionArguments {
@@ -32,8 +32,8 @@ pub struct ResolutionArguments {
 
 impl ResolutionArguments {
     /// Returns the keys of `mesh` that replace those of the spec.
-    pub fn overrides(&self) -> Mesh {
-        Mesh {
+    pub fn overrides(&self) -> Resolution {
+        Resolution {
             rows: self.rows,
             cols: self.cols,
             tol: self.tol,

@@ -17,6 +17,10 @@ use kurbo::common::solve_cubic;
 /// With a much smaller value, a cusp whose control points are rounded to decimals would be missed.
 pub const ZERO_SPEED: f64 = 1e-9;
 
+/// Smallest difference of the parameters of two cusps, and of a cusp and an end. A cusp found twice differs by rounding;
+/// a segment shorter than this part of another has no digits for a direction.
+const APART: f64 = 1e-6;
+
 /// A cubic Bezier segment, given by its four control points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cubic<V>(pub [V; 4]);
@@ -171,11 +175,11 @@ impl<V: Vector> Cubic<V> {
                     if step.is_finite() { t - step } else { t }
                 })
             })
-            .filter(|&t| t > 1e-6 && t < 1.0 - 1e-6)
+            .filter(|&t| t > APART && t < 1.0 - APART)
             .filter(|&t| (a + b * t + c * (t * t)).length() <= ZERO_SPEED)
             .collect();
         found.sort_by(f64::total_cmp);
-        found.dedup_by(|later, earlier| *later - *earlier < 1e-6);
+        found.dedup_by(|later, earlier| *later - *earlier < APART);
         found
     }
 

@@ -35,6 +35,16 @@ impl Stop {
     }
 }
 
+/// Positions on a curve whose distance is below this fraction of its length are one position.
+///
+/// Positions are sums of a few fractions and agree to some 1e-15. Smaller, and their rounding would make a cell; larger,
+/// and short pieces of a curve would vanish.
+pub(crate) const SAME_POSITION: f64 = 1e-9;
+
+/// Fraction of a cell that is added to a number of cells before it is rounded. Pieces of equal length get equal numbers
+/// of cells, although their lengths differ by rounding.
+const ROUNDED_UP: f64 = 1e-6;
+
 /// Returns the number of pieces between `breaks`. A piece that runs over the start of a closed curve counts
 /// as two.
 #[must_use]
@@ -71,20 +81,18 @@ pub fn evenly(breaks: &[f64], closed: bool, cells: usize) -> Vec<Stop> {
 /// equal length have equal numbers of cells.
 #[must_use]
 pub fn between(breaks: &[f64], closed: bool, cells: usize, anchors: &[f64]) -> Vec<Stop> {
-    let near = |a: f64, b: f64| (a - b).abs() < 1e-9;
+    let near = |a: f64, b: f64| (a - b).abs() < SAME_POSITION;
     let mut ends: Vec<f64> = breaks.iter().copied().filter(|&at| at > 0.0).chain([1.0]).collect();
     let known = ends.clone();
-    ends.extend(
-        anchors
-            .iter()
-            .filter(|&&at| at > 1e-9 && at < 1.0 && !known.iter().any(|&other| near(other, at))),
-    );
+    ends.extend(anchors.iter().filter(|&&at| {
+        at > SAME_POSITION && at < 1.0 && !known.iter().any(|&other| near(other, at))
+    }));
     ends.sort_by(f64::total_cmp);
     let mut inner = vec![Vec::new()];
     let mut from = 0.0;
     for to in ends {
         // Rounding must not distinguish pieces of equal length.
-        let count = ((cells as f64 * (to - from) + 1e-6).round() as usize).max(1);
+        let count = ((cells as f64 * (to - from) + ROUNDED_UP).round() as usize).max(1);
         let part = |cell: usize| from + (to - from) * (cell as f64 / count as f64);
         if let Some(piece) = inner.last_mut() {
             piece.extend((1..count).map(part));
@@ -152,15 +160,15 @@ fn shares(ends: &[f64], cells: usize) -> Vec<usize> {
 mod tests {
     use super::*;
 
-    fn places(stops: &[Stop]) -> Vec<f64> {
+    fn positions(stops: &[Stop]) -> Vec<f64> {
         stops.iter().map(|stop| stop.at).collect()
     }
 
     #[test]
     fn a_smooth_curve_is_cut_evenly() {
-        assert_eq!(places(&evenly(&[], true, 4)), [0.0, 0.25, 0.5, 0.75]);
-        assert_eq!(places(&evenly(&[], false, 4)), [0.0, 0.25, 0.5, 0.75, 1.0]);
-        assert_eq!(places(&evenly(&[], false, 0)), [0.0, 1.0]);
+        assert_eq!(positions(&evenly(&[], true, 4)), [0.0, 0.25, 0.5, 0.75]);
+        assert_eq!(positions(&evenly(&[], false, 4)), [0.0, 0.25, 0.5, 0.75, 1.0]);
+        assert_eq!(positions(&evenly(&[], false, 0)), [0.0, 1.0]);
     }
 
     #[test]
@@ -169,7 +177,7 @@ mod tests {
         let (before, after) = (Stop::before, Stop::after);
         assert_eq!(stops, [before(0.0), after(0.0), before(0.5), after(0.5)]);
         let stops = evenly(&[0.01], false, 3);
-        assert_eq!(places(&stops), [0.0, 0.01, 0.01, 0.505, 1.0]);
+        assert_eq!(positions(&stops), [0.0, 0.01, 0.01, 0.505, 1.0]);
         assert_eq!(stops[0], after(0.0));
         assert_eq!(stops[4], before(1.0));
         assert_eq!(pieces(&[0.0, 0.5]), 2);
@@ -186,6 +194,6 @@ mod tests {
     #[test]
     fn places_may_be_given() {
         let stops = at(&[0.5], false, &[vec![0.4], vec![]]);
-        assert_eq!(places(&stops), [0.0, 0.4, 0.5, 0.5, 1.0]);
+        assert_eq!(positions(&stops), [0.0, 0.4, 0.5, 0.5, 1.0]);
     }
 }

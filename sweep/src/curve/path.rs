@@ -32,7 +32,7 @@ struct Segment<V> {
 
 /// A point on a path: a segment and the parameter on it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Place {
+pub struct Position {
     segment: usize,
     t: f64,
 }
@@ -43,9 +43,9 @@ pub struct Joint {
     /// Arc length from the start of the path; 0 for the joint that closes it.
     pub s: f64,
     /// The end of the segment before.
-    pub before: Place,
+    pub before: Position,
     /// The start of the segment after.
-    pub after: Place,
+    pub after: Position,
     /// Angle by which the tangent turns here, in radians from 0 to pi.
     pub angle: f64,
     /// Indices of the given segments before and after; both are the same at a cusp inside one segment.
@@ -91,39 +91,39 @@ impl<V: Vector> Path<V> {
     }
 
     /// Returns the start of the path.
-    pub fn start(&self) -> Place {
-        Place { segment: 0, t: 0.0 }
+    pub fn start(&self) -> Position {
+        Position { segment: 0, t: 0.0 }
     }
 
     /// Returns the end of the path.
-    pub fn end(&self) -> Place {
-        Place { segment: self.segments.len() - 1, t: 1.0 }
+    pub fn end(&self) -> Position {
+        Position { segment: self.segments.len() - 1, t: 1.0 }
     }
 
-    /// Returns the place at arc length `s` from the start; `s` outside the path gives its ends.
+    /// Returns the position at arc length `s` from the start; `s` outside the path gives its ends.
     ///
     /// At a joint, returns the start of the segment after.
-    pub fn locate(&self, s: f64) -> Place {
+    pub fn locate(&self, s: f64) -> Position {
         let after = self.segments.partition_point(|segment| segment.start <= s);
         let index = after.max(1) - 1;
         let segment = &self.segments[index];
-        Place { segment: index, t: segment.lengths.parameter_at(s - segment.start) }
+        Position { segment: index, t: segment.lengths.parameter_at(s - segment.start) }
     }
 
-    /// Returns the place at arc length `s`, as [`Path::locate`] does, but at a joint the end of the segment
+    /// Returns the position at arc length `s`, as [`Path::locate`] does, but at a joint the end of the segment
     /// before.
-    pub fn locate_before(&self, s: f64) -> Place {
+    pub fn locate_before(&self, s: f64) -> Position {
         let after = self.segments.partition_point(|segment| segment.start < s);
         let index = after.max(1) - 1;
         let segment = &self.segments[index];
         let last = self.segments.get(index + 1).is_some_and(|next| next.start <= s);
         let t = if last { 1.0 } else { segment.lengths.parameter_at(s - segment.start) };
-        Place { segment: index, t }
+        Position { segment: index, t }
     }
 
-    /// Returns the segment that contains a place.
-    pub fn cubic(&self, place: Place) -> &Cubic<V> {
-        &self.segments[place.segment].cubic
+    /// Returns the segment that contains a position.
+    pub fn cubic(&self, position: Position) -> &Cubic<V> {
+        &self.segments[position.segment].cubic
     }
 
     /// Returns the cubics between two arc lengths.
@@ -138,9 +138,9 @@ impl<V: Vector> Path<V> {
             .collect()
     }
 
-    /// Returns the place at the parameter `t` of a segment.
-    pub(crate) fn place(&self, segment: usize, t: f64) -> Place {
-        Place { segment, t }
+    /// Returns the position at the parameter `t` of a segment.
+    pub(crate) fn position(&self, segment: usize, t: f64) -> Position {
+        Position { segment, t }
     }
 
     /// Returns the arc lengths between which the path is smooth, rising.
@@ -148,35 +148,35 @@ impl<V: Vector> Path<V> {
         self.starts().chain([self.length]).collect()
     }
 
-    /// Returns the parameter of a place along the whole path, from 0 to 1. Every segment has an equal share.
-    pub fn parameter(&self, place: Place) -> f64 {
-        (place.segment as f64 + place.t) / self.segments.len() as f64
+    /// Returns the parameter of a position along the whole path, from 0 to 1. Every segment has an equal share.
+    pub fn parameter(&self, position: Position) -> f64 {
+        (position.segment as f64 + position.t) / self.segments.len() as f64
     }
 
-    /// Returns the length of the path before a place.
-    pub fn length_to(&self, place: Place) -> f64 {
-        let segment = &self.segments[place.segment];
-        segment.start + segment.lengths.length_to(place.t)
+    /// Returns the length of the path before a position.
+    pub fn length_to(&self, position: Position) -> f64 {
+        let segment = &self.segments[position.segment];
+        segment.start + segment.lengths.length_to(position.t)
     }
 
-    /// Returns the point at a place.
-    pub fn point(&self, place: Place) -> V {
-        self.segments[place.segment].cubic.point(place.t)
+    /// Returns the point at a position.
+    pub fn point(&self, position: Position) -> V {
+        self.segments[position.segment].cubic.point(position.t)
     }
 
-    /// Returns the unit tangent at a place.
-    pub fn tangent(&self, place: Place) -> V {
-        self.segments[place.segment].cubic.tangent(place.t)
+    /// Returns the unit tangent at a position.
+    pub fn tangent(&self, position: Position) -> V {
+        self.segments[position.segment].cubic.tangent(position.t)
     }
 
     /// Returns the derivative of the tangent by arc length; zero where the speed is zero.
-    pub fn curvature(&self, place: Place) -> V {
-        self.segments[place.segment].cubic.curvature(place.t)
+    pub fn curvature(&self, position: Position) -> V {
+        self.segments[position.segment].cubic.curvature(position.t)
     }
 
     /// Returns the derivative of the curvature by arc length; zero where the speed is zero.
-    pub fn third(&self, place: Place) -> V {
-        self.segments[place.segment].cubic.third(place.t)
+    pub fn third(&self, position: Position) -> V {
+        self.segments[position.segment].cubic.third(position.t)
     }
 
     /// Returns all joints by rising `s`; in a closed path the first is the joint that closes it.
@@ -184,14 +184,14 @@ impl<V: Vector> Path<V> {
         let first = usize::from(!self.closed);
         (first..self.segments.len()).map(|index| {
             let last = self.segments.len() - 1;
-            let before = Place { segment: if index == 0 { last } else { index - 1 }, t: 1.0 };
-            let after = Place { segment: index, t: 0.0 };
+            let before = Position { segment: if index == 0 { last } else { index - 1 }, t: 1.0 };
+            let after = Position { segment: index, t: 0.0 };
             Joint {
                 s: self.segments[index].start,
                 before,
                 after,
                 angle: angle_between(self.tangent(before), self.tangent(after)),
-                sources: [before, after].map(|place| self.segments[place.segment].source),
+                sources: [before, after].map(|position| self.segments[position.segment].source),
             }
         })
     }
@@ -225,13 +225,13 @@ impl Curve3 for Path<DVec3> {
 }
 
 impl Path<DVec3> {
-    /// Returns the point at a place, with its derivatives.
-    pub fn local(&self, place: Place) -> Local3 {
+    /// Returns the point at a position, with its derivatives.
+    pub fn local(&self, position: Position) -> Local3 {
         Local3 {
-            position: self.point(place),
-            tangent: self.tangent(place),
-            curvature: self.curvature(place),
-            third: self.third(place),
+            position: self.point(position),
+            tangent: self.tangent(position),
+            curvature: self.curvature(position),
+            third: self.third(position),
         }
     }
 }
@@ -268,8 +268,8 @@ mod tests {
         assert_eq!(path.point(path.end()), DVec2::Y);
         assert_eq!(path.point(path.locate(1e9)), DVec2::Y);
         assert_eq!(path.point(path.locate(-1.0)), DVec2::ZERO);
-        let place = path.locate(1.7);
-        assert!((path.length_to(place) - 1.7).abs() < 1e-15);
+        let position = path.locate(1.7);
+        assert!((path.length_to(position) - 1.7).abs() < 1e-15);
     }
 
     #[test]

@@ -185,13 +185,18 @@ impl Reader<'_> {
             self.line(to);
             return Ok(());
         };
-        let place = |p: Point| self.pen + DVec2::new(p.x, p.y) * unit;
+        let transformed = |p: Point| self.pen + DVec2::new(p.x, p.y) * unit;
         let mut from = self.pen;
         let tolerance = ARC_TOLERANCE * arc.radii.x.max(arc.radii.y);
         for element in arc.append_iter(tolerance) {
             if let PathEl::CurveTo(p1, p2, p3) = element {
-                self.segments.push(Cubic([from, place(p1), place(p2), place(p3)]));
-                from = place(p3);
+                self.segments.push(Cubic([
+                    from,
+                    transformed(p1),
+                    transformed(p2),
+                    transformed(p3),
+                ]));
+                from = transformed(p3);
             }
         }
         if let Some(last) = self.segments.last_mut() {
@@ -270,10 +275,10 @@ impl Lexer<'_> {
     }
 
     fn expected(&self, what: &str) -> String {
-        let place = 1 + self.text[..self.at].chars().count();
+        let position = 1 + self.text[..self.at].chars().count();
         match self.text[self.at..].chars().next() {
-            Some(found) => format!("found `{found}` at character {place}, expected {what}"),
-            None => format!("found the end at character {place}, expected {what}"),
+            Some(found) => format!("found `{found}` at character {position}, expected {what}"),
+            None => format!("found the end at character {position}, expected {what}"),
         }
     }
 }

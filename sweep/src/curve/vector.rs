@@ -4,6 +4,10 @@ use glam::{DVec2, DVec3};
 use std::fmt::Debug;
 use std::ops::{Add, Mul, Neg, Sub};
 
+/// Smallest sine between a direction and an axis across which the direction is taken. A double has 16 digits; below
+/// this sine cancellation leaves fewer than 7 of them.
+pub const LEAST_SINE: f64 = 1e-9;
+
 /// A point or a vector; also a plain number, for the solver of the splines.
 pub trait Vector:
     Copy

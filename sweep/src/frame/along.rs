@@ -68,15 +68,15 @@ impl Frames {
         self.spin
     }
 
-    /// Returns the frame at arc length `s`. `place` is the curve at `s`; `side` selects the node if `s` is a
+    /// Returns the frame at arc length `s`. `local` is the curve at `s`; `side` selects the node if `s` is a
     /// joint.
-    pub fn at(&self, s: f64, place: &Local3, side: Side) -> Frame {
+    pub fn at(&self, s: f64, local: &Local3, side: Side) -> Frame {
         let after = match side {
             Side::Before => self.nodes.partition_point(|node| node.0 < s),
             Side::After => self.nodes.partition_point(|node| node.0 <= s),
         };
         let (_, node) = &self.nodes[after.max(1) - 1];
-        node.carried_to(place).turned(self.spin * s)
+        node.carried_to(local).turned(self.spin * s)
     }
 }
 
@@ -115,23 +115,23 @@ fn nodes_of(curve: &impl Curve3, first: Frame) -> Vec<(f64, Frame)> {
 fn extend_to(
     curve: &impl Curve3,
     s: f64,
-    place: &Local3,
+    local: &Local3,
     halvings: u32,
     nodes: &mut Vec<(f64, Frame)>,
 ) {
     let Some(&(from, last)) = nodes.last() else { return };
     let half = 0.5 * (from + s);
     let middle = curve.at(half);
-    let turned = angle_between(last.tangent, place.tangent);
+    let turned = angle_between(last.tangent, local.tangent);
     let between = last.carried_to(&middle);
-    let there = between.carried_to(place);
+    let there = between.carried_to(local);
     // Points far from the origin are rounded, which tilts their chord by the rounding over its length.
-    let tilt = f64::EPSILON * last.origin.length() / (place.position - last.origin).length();
+    let tilt = f64::EPSILON * last.origin.length() / (local.position - last.origin).length();
     let agreed = AGREED + 4.0 * tilt.min(1.0) * turned;
-    let apart = last.carried_to(place).angle_to(there.normal);
+    let apart = last.carried_to(local).angle_to(there.normal);
     if halvings > 0 && nodes.len() < MOST_NODES && (turned > LARGEST_TURN || apart.abs() > agreed) {
         extend_to(curve, half, &middle, halvings - 1, nodes);
-        extend_to(curve, s, place, halvings - 1, nodes);
+        extend_to(curve, s, local, halvings - 1, nodes);
         return;
     }
     // Richardson extrapolation: the error falls with the fifth power of the step.

@@ -67,18 +67,18 @@ pub enum Lack {
 impl<C: Curve3> Directed<C> {
     /// Returns the frame at arc length `s` of a curve of this `length`, and its spin in radians per length.
     ///
-    /// `place` is the curve at `s`, on the given side. `None` where the direction is parallel to the tangent.
-    pub fn at(&self, s: f64, length: f64, place: &Local3, side: Side) -> Option<(Frame, f64)> {
-        let (wanted, change) = self.direction(s, length, place, side);
-        let along = wanted.dot(place.tangent);
-        let across = wanted - place.tangent * along;
+    /// `local` is the curve at `s`, on the given side. `None` where the direction is parallel to the tangent.
+    pub fn at(&self, s: f64, length: f64, local: &Local3, side: Side) -> Option<(Frame, f64)> {
+        let (wanted, change) = self.direction(s, length, local, side);
+        let along = wanted.dot(local.tangent);
+        let across = wanted - local.tangent * along;
         let normal = across.try_normalize()?;
-        let frame = Frame::new(place, normal);
+        let frame = Frame::new(local, normal);
         let (b, size) = (frame.binormal, across.length());
-        let spin = (change.dot(b) - along * place.curvature.dot(b)) / size;
+        let spin = (change.dot(b) - along * local.curvature.dot(b)) / size;
         Some(match self {
             Self::Up(_) => (Frame { normal: -b, binormal: normal, ..frame }, spin),
-            _ => (frame, spin),
+            Self::Guide(_) | Self::Frenet => (frame, spin),
         })
     }
 
@@ -128,19 +128,19 @@ impl<C: Curve3> Directed<C> {
     }
 
     /// Returns the direction and its derivative by arc length.
-    fn direction(&self, s: f64, length: f64, place: &Local3, side: Side) -> (DVec3, DVec3) {
+    fn direction(&self, s: f64, length: f64, local: &Local3, side: Side) -> (DVec3, DVec3) {
         match self {
             Self::Up(up) => (*up, DVec3::ZERO),
             Self::Frenet => {
                 // A curve that ends straight, as a natural spline does, has a limit of the direction. A cubic
                 // that is straight at one point lies in a plane, and there the limit is the third derivative.
-                let straight = place.curvature.length() * length <= NONE;
+                let straight = local.curvature.length() * length <= NONE;
                 if straight && s <= 0.0 {
-                    (place.third, DVec3::ZERO)
+                    (local.third, DVec3::ZERO)
                 } else if straight && s >= length {
-                    (-place.third, DVec3::ZERO)
+                    (-local.third, DVec3::ZERO)
                 } else {
-                    (place.curvature, place.third)
+                    (local.curvature, local.third)
                 }
             }
             Self::Guide(guide) => {
@@ -151,20 +151,20 @@ impl<C: Curve3> Directed<C> {
                     Side::After => guide.at(at),
                 };
                 let pace = whole / length;
-                (there.position - place.position, there.tangent * pace - place.tangent)
+                (there.position - local.position, there.tangent * pace - local.tangent)
             }
         }
     }
 
     /// Returns the part of the direction across the trajectory, scaled so that [`NONE`] applies to its
     /// length.
-    fn across(&self, s: f64, length: f64, place: &Local3, side: Side) -> DVec3 {
-        let (wanted, _) = self.direction(s, length, place, side);
-        let across = wanted - place.tangent * wanted.dot(place.tangent);
+    fn across(&self, s: f64, length: f64, local: &Local3, side: Side) -> DVec3 {
+        let (wanted, _) = self.direction(s, length, local, side);
+        let across = wanted - local.tangent * wanted.dot(local.tangent);
         match self {
             Self::Up(_) => across,
             Self::Frenet
-                if place.curvature.length() * length <= NONE && wanted != place.curvature =>
+                if local.curvature.length() * length <= NONE && wanted != local.curvature =>
             {
                 // At a straight end only the direction of this vector matters.
                 across.normalize_or_zero() * (2.0 * NONE)
@@ -192,11 +192,11 @@ struct Sample {
 
 impl<C: Curve3, D: Curve3> Search<'_, C, D> {
     fn look(&self, s: f64, side: Side) -> Sample {
-        let place = match side {
+        let local = match side {
             Side::Before => self.curve.before(s),
             Side::After => self.curve.at(s),
         };
-        Sample { s, across: self.directed.across(s, self.length, &place, side) }
+        Sample { s, across: self.directed.across(s, self.length, &local, side) }
     }
 
     /// Adds a sample, after as many samples in between as its turn needs. The error is the arc length of a

@@ -21,7 +21,12 @@ pub use along::Frames;
 pub use directed::{Directed, Lack};
 
 use crate::curve::Local3;
+use crate::curve::vector::LEAST_SINE;
 use glam::{DVec2, DVec3};
+
+/// Cosines that differ by less than this are equal. Larger, and axes that differ visibly would count as equally
+/// aligned; smaller, and rounding of the tangent would choose between equally aligned axes.
+const EQUALLY_ALIGNED: f64 = 1e-6;
 
 /// A point on a curve with the tangent and two directions across it, three orthogonal unit vectors.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,24 +42,24 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// Returns the frame at `place` whose `w1` is nearest to `direction`, which may have any length.
+    /// Returns the frame at `local` whose `w1` is nearest to `direction`, which may have any length.
     ///
-    /// `None` if the direction is parallel to the tangent, to a sine of 1e-9.
-    pub fn toward(place: &Local3, direction: DVec3) -> Option<Self> {
-        let across = direction - place.tangent * direction.dot(place.tangent);
+    /// `None` if the direction is parallel to the tangent, to a sine of [`LEAST_SINE`].
+    pub fn toward(local: &Local3, direction: DVec3) -> Option<Self> {
+        let across = direction - local.tangent * direction.dot(local.tangent);
         let normal = across.try_normalize()?;
         // This close to the tangent, cancellation leaves no correct digits of the direction.
-        (across.length() > 1e-9 * direction.length()).then(|| Self::new(place, normal))
+        (across.length() > LEAST_SINE * direction.length()).then(|| Self::new(local, normal))
     }
 
     /// Returns the frame whose `w1` is nearest to the coordinate axis least aligned with the tangent.
     ///
     /// Among axes that are equally aligned, x comes before y and y before z. A line along z has its contour
     /// on (x, y), one along y on (x, -z), one along x on (y, z).
-    pub fn seed(place: &Local3) -> Self {
-        let aligned = place.tangent.abs();
+    pub fn seed(local: &Local3) -> Self {
+        let aligned = local.tangent.abs();
         // Rounding must not choose between equally aligned axes.
-        let least = aligned.min_element() + 1e-6;
+        let least = aligned.min_element() + EQUALLY_ALIGNED;
         let axis = if aligned.x <= least {
             DVec3::X
         } else if aligned.y <= least {
@@ -62,26 +67,26 @@ impl Frame {
         } else {
             DVec3::Z
         };
-        let across = axis - place.tangent * axis.dot(place.tangent);
-        Self::new(place, across.normalize())
+        let across = axis - local.tangent * axis.dot(local.tangent);
+        Self::new(local, across.normalize())
     }
 
-    fn new(place: &Local3, normal: DVec3) -> Self {
-        let binormal = place.tangent.cross(normal);
-        Self { origin: place.position, tangent: place.tangent, normal, binormal }
+    fn new(local: &Local3, normal: DVec3) -> Self {
+        let binormal = local.tangent.cross(normal);
+        Self { origin: local.position, tangent: local.tangent, normal, binormal }
     }
 
-    /// Returns this frame carried to `place` by one double reflection.
-    fn carried_to(&self, place: &Local3) -> Self {
-        let chord = place.position - self.origin;
+    /// Returns this frame carried to `local` by one double reflection.
+    fn carried_to(&self, local: &Local3) -> Self {
+        let chord = local.position - self.origin;
         // A chord that is not along the curve is pure rounding, between two points that coincide. Reflection
         // in it could mirror the frame, so the limit of short chords replaces it.
-        let mean = self.tangent + place.tangent;
+        let mean = self.tangent + local.tangent;
         let along = chord.dot(mean).abs() > 0.5 * chord.length() * mean.length();
         let chord = if along { chord } else { mean };
         let reflected = |v: DVec3| v - chord * (2.0 * chord.dot(v) / chord.length_squared());
         let (normal, tangent) = (reflected(self.normal), reflected(self.tangent));
-        let second = place.tangent - tangent;
+        let second = local.tangent - tangent;
         let length_sq = second.length_squared();
         let normal = if length_sq > 0.0 {
             normal - second * (2.0 * second.dot(normal) / length_sq)
@@ -89,8 +94,8 @@ impl Frame {
             normal
         };
         // Rounding errors accumulate over many steps, so each step removes its own.
-        let across = normal - place.tangent * normal.dot(place.tangent);
-        Self::new(place, across.try_normalize().unwrap_or(self.normal))
+        let across = normal - local.tangent * normal.dot(local.tangent);
+        Self::new(local, across.try_normalize().unwrap_or(self.normal))
     }
 
     /// Returns the frame turned about its tangent by `angle` radians, from `w1` toward `w2`.
@@ -121,8 +126,8 @@ mod tests {
     #[test]
     fn the_seed_is_the_axis_least_aligned() {
         let seed = |tangent: DVec3| {
-            let place = Local3::straight(DVec3::ZERO, tangent);
-            let frame = Frame::seed(&place);
+            let local = Local3::straight(DVec3::ZERO, tangent);
+            let frame = Frame::seed(&local);
             (frame.normal, frame.binormal)
         };
         assert_eq!(seed(DVec3::Z), (DVec3::X, DVec3::Y));
@@ -134,9 +139,9 @@ mod tests {
     #[test]
     fn a_direction_along_the_curve_gives_no_frame() {
         let tangent = DVec3::new(0.6, 0.0, 0.8);
-        let place = Local3::straight(DVec3::ONE, tangent);
-        assert!(Frame::toward(&place, place.tangent * 3.0).is_none());
-        assert!(Frame::toward(&place, DVec3::ZERO).is_none());
+        let local = Local3::straight(DVec3::ONE, tangent);
+        assert!(Frame::toward(&local, local.tangent * 3.0).is_none());
+        assert!(Frame::toward(&local, DVec3::ZERO).is_none());
     }
 
     #[test]
@@ -151,9 +156,9 @@ mod tests {
 
     #[test]
     fn a_point_that_stays_turns_the_frame_with_its_tangent() {
-        let place = |tangent| Local3::straight(DVec3::ONE, tangent);
-        let frame = Frame::toward(&place(DVec3::X), DVec3::Y).unwrap();
-        let turned = frame.carried_to(&place(DVec3::Y));
+        let local = |tangent| Local3::straight(DVec3::ONE, tangent);
+        let frame = Frame::toward(&local(DVec3::X), DVec3::Y).unwrap();
+        let turned = frame.carried_to(&local(DVec3::Y));
         assert!((turned.normal - DVec3::NEG_X).length() < 1e-15);
     }
 }

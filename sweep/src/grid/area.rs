@@ -119,8 +119,8 @@ impl GridMesh {
 /// Returns where cells that have a size begin and end, along `u` or `v`. Cell `i` lies between edges `i` and
 /// `i + 1`.
 #[must_use]
-pub fn edges(places: &[f64], seam: Seam) -> Vec<f64> {
-    let mut edges = places.to_vec();
+pub fn edges(positions: &[f64], seam: Seam) -> Vec<f64> {
+    let mut edges = positions.to_vec();
     if seam.joins() {
         edges.push(1.0);
     }

@@ -18,14 +18,14 @@ pub struct Row<'a> {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Fault {
     /// Name of the value, such as `u[3]` or `the position of column 3`.
-    pub place: String,
+    pub subject: String,
     /// What was found, and what was expected.
     pub message: String,
 }
 
 impl std::fmt::Display for Fault {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{}: {}", self.place, self.message)
+        write!(f, "{}: {}", self.subject, self.message)
     }
 }
 
@@ -47,16 +47,16 @@ impl Row<'_> {
     /// Checks the numbers of a row; `before` is the `v` of the row before, if any.
     pub(super) fn check(&self, seam_v: Seam, before: Option<f64>) -> Result<(), Fault> {
         check_parameter(self.v, before, seam_v)
-            .map_err(|message| Fault { place: "v".into(), message })?;
+            .map_err(|message| Fault { subject: "v".into(), message })?;
         let position = self.positions.iter().position(|p| !p.is_finite());
         let normal = self.normals.iter().position(|n| !n.is_finite());
-        let place = match (position, normal) {
+        let subject = match (position, normal) {
             (None, None) => return Ok(()),
             (Some(col), _) => format!("the position of column {col}"),
             (None, Some(col)) => format!("the normal of column {col}"),
         };
         let message = "found a number that is not finite, expected finite numbers".into();
-        Err(Fault { place, message })
+        Err(Fault { subject, message })
     }
 }
 

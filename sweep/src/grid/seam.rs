@@ -51,7 +51,7 @@ impl Seam {
 /// Checks the seams and the shift of a grid with `cols` columns.
 pub(super) fn check(seams: [Seam; 2], shift: usize, cols: usize) -> Result<(), Fault> {
     let [seam_u, seam_v] = seams;
-    let fault = |place: &str, message| Err(Fault { place: place.into(), message });
+    let fault = |subject: &str, message| Err(Fault { subject: subject.into(), message });
     if seam_u == Seam::Mirror {
         return fault("seam_u", "found mirror, expected open or closed".into());
     }

@@ -25,8 +25,8 @@ pub fn draw(page: &mut Page, area: Area, parts: &[Sweep]) {
     page.panel(area, if parts.len() > 1 { "Contours" } else { "Contour" }, &note);
     let width = area.width / shown.len() as f64;
     for (i, sweep) in shown.iter().enumerate() {
-        let place = Area::new(area.x + width * i as f64, area.y, width, area.height);
-        one(page, place, sweep, parts.len() > 1);
+        let panel = Area::new(area.x + width * i as f64, area.y, width, area.height);
+        one(page, panel, sweep, parts.len() > 1);
     }
 }
 
@@ -81,10 +81,10 @@ fn one(page: &mut Page, area: Area, sweep: &Sweep, named: bool) {
             page.polygon(&diamond, ink::PANEL, Pen::new(ink::CREASE, 1.1));
         }
         for u in if one == 0 { &[0.12, 0.62][..] } else { &[0.12][..] } {
-            let place = contour.at(smooth(contour.breaks(), *u));
-            let place = if one == 0 { place.first } else { place.others[one - 1] };
-            let along = DVec2::new(place.tangent.x, -place.tangent.y);
-            page.arrow(flat(place.point) + along * 5.0, along, 10.0, color);
+            let local = contour.at(smooth(contour.breaks(), *u));
+            let local = if one == 0 { local.first } else { local.others[one - 1] };
+            let along = DVec2::new(local.tangent.x, -local.tangent.y);
+            page.arrow(flat(local.point) + along * 5.0, along, 10.0, color);
         }
         let first = contour.columns(&[Stop::after(0.0)]);
         let first = if one == 0 { first[0].first } else { first[0].others[one - 1] };

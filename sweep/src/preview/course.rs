@@ -65,14 +65,14 @@ pub fn draw(page: &mut Page, area: Area, parts: &[Sweep]) {
 /// widest point.
 fn frames(sweep: &Sweep, pieces: usize) -> Vec<Frame> {
     let (radius, height) = widest(sweep);
-    let place = |i: usize| {
+    let frame_at = |i: usize| {
         let v = i as f64 / pieces as f64;
         let stop = if i == pieces { Stop::before(v) } else { Stop::after(v) };
         let frame = *sweep.shape.modulation.section(&sweep.shape.trajectory, stop).frame();
         let out = frame.normal * radius + frame.binormal * height;
         Frame { origin: frame.origin + out + sweep.shape.position, ..frame }
     };
-    (0..=pieces).map(place).collect()
+    (0..=pieces).map(frame_at).collect()
 }
 
 /// Returns the widest point of a rotation's contour; the origin for other trajectories.
@@ -132,8 +132,8 @@ fn curve(page: &mut Page, view: &View, sweep: &Sweep, course: &[Frame], arm: f64
     }
     let closed = sweep.shape.trajectory.closed();
     for frame in frames(sweep, if closed { STATIONS } else { STATIONS - 1 }).iter().take(STATIONS) {
-        for (way, color) in [(frame.normal, ink::W1), (frame.binormal, ink::W2)] {
-            let tip = frame.origin + way * arm;
+        for (direction, color) in [(frame.normal, ink::W1), (frame.binormal, ink::W2)] {
+            let tip = frame.origin + direction * arm;
             let depth = view.depth(0.5 * (frame.origin + tip));
             items.push((depth, Item::Arm([view.page(frame.origin), view.page(tip)], color)));
         }
@@ -152,10 +152,10 @@ fn curve(page: &mut Page, view: &View, sweep: &Sweep, course: &[Frame], arm: f64
             page.dot(view.page(last.origin), 4.6, ink::END, Pen::new(ink::PANEL, 1.4));
         }
         let ahead = &course[PIECES / 12];
-        let way = along(&course[PIECES / 12 - 1], ahead);
+        let direction = along(&course[PIECES / 12 - 1], ahead);
         page.arrow(
-            view.page(ahead.origin) + way.normalize_or(DVec2::X) * 5.0,
-            way,
+            view.page(ahead.origin) + direction.normalize_or(DVec2::X) * 5.0,
+            direction,
             10.0,
             ink::CURVE,
         );

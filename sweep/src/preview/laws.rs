@@ -31,13 +31,13 @@ pub fn draw(page: &mut Page, area: Area, parts: &[Sweep]) {
     page.panel(area, "Laws", &note);
     let width = (area.width - 28.0) / shown as f64;
     for (i, graph) in graphs.iter().take(MOST).enumerate() {
-        let place = Area::new(area.x + 14.0 + width * i as f64, area.y, width, area.height);
-        one(page, place.inside(6.0, 58.0, 34.0), graph);
+        let panel = Area::new(area.x + 14.0 + width * i as f64, area.y, width, area.height);
+        one(page, panel.inside(6.0, 58.0, 34.0), graph);
     }
 }
 
 fn graphs(parts: &[Sweep]) -> Vec<Graph> {
-    let of = |law: &Law| places().map(|v| law.at(v).0).collect::<Vec<f64>>();
+    let of = |law: &Law| positions().map(|v| law.at(v).0).collect::<Vec<f64>>();
     let mut graphs = Vec::new();
     for sweep in parts {
         let mut add = |what: &str, curves| {
@@ -60,13 +60,13 @@ fn graphs(parts: &[Sweep]) -> Vec<Graph> {
             let height = |v: f64| -> f64 {
                 depth.terms.iter().map(|term| (term.amp * term.along.at(v).0).abs()).sum()
             };
-            add("depth", vec![(places().map(height).collect(), ink::CURVE)]);
+            add("depth", vec![(positions().map(height).collect(), ink::CURVE)]);
         }
     }
     graphs
 }
 
-fn places() -> impl Iterator<Item = f64> {
+fn positions() -> impl Iterator<Item = f64> {
     (0..=PLACES).map(|i| i as f64 / PLACES as f64)
 }
 
@@ -88,7 +88,8 @@ fn one(page: &mut Page, area: Area, graph: &Graph) {
     }
     page.line(&[flat(0.0, 0.0), flat(1.0, 0.0)], false, Pen::new(ink::MUTED, 0.9));
     for (values, color) in &graph.curves {
-        let points: Vec<DVec2> = places().zip(values).map(|(v, &value)| flat(v, value)).collect();
+        let points: Vec<DVec2> =
+            positions().zip(values).map(|(v, &value)| flat(v, value)).collect();
         page.line(&points, false, Pen::new(color, 1.8));
     }
     let range =

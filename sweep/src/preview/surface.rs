@@ -91,7 +91,7 @@ fn color(kind: usize, light: f64) -> String {
 
 /// Returns the pairs of rows or columns between which cells are drawn, about one for each `step` of each
 /// smooth piece and more where `bends` are large. The flag says whether a crease lies on the first of a pair.
-fn pairs(places: &[f64], joins: bool, step: usize, bends: &[f64]) -> Vec<([usize; 2], bool)> {
+fn pairs(positions: &[f64], joins: bool, step: usize, bends: &[f64]) -> Vec<([usize; 2], bool)> {
     // Chords are equally far from the curve if the density of cells is the square root of the bend. A least
     // density everywhere keeps cells from becoming long.
     let mean = bends.iter().map(|bend| bend.sqrt()).sum::<f64>() / bends.len().max(1) as f64;
@@ -104,19 +104,19 @@ fn pairs(places: &[f64], joins: bool, step: usize, bends: &[f64]) -> Vec<([usize
     let sums: Vec<f64> = bends.iter().map(weight).collect();
     let mut pairs = Vec::new();
     let mut from = 0;
-    for at in 1..=places.len() {
-        if at < places.len() && places[at] > places[at - 1] {
+    for at in 1..=positions.len() {
+        if at < positions.len() && positions[at] > positions[at - 1] {
             continue;
         }
         let last = at - 1;
         let steps = (last - from).div_ceil(step).max(1);
-        let place = |i: usize| {
+        let index_of = |i: usize| {
             let aim = sums[from] + (sums[last] - sums[from]) * (i as f64 / steps as f64);
             from + sums[from..=last].partition_point(|&sum| sum < aim).min(last - from)
         };
         let mut chosen: Vec<usize> = match step {
             1 => (from..=last).collect(),
-            _ => (0..=steps).map(place).collect(),
+            _ => (0..=steps).map(index_of).collect(),
         };
         chosen.dedup();
         let crease = |i: usize| i == from && from > 0;
@@ -124,7 +124,7 @@ fn pairs(places: &[f64], joins: bool, step: usize, bends: &[f64]) -> Vec<([usize
         from = at;
     }
     if joins {
-        pairs.push(([places.len() - 1, 0], false));
+        pairs.push(([positions.len() - 1, 0], false));
     }
     pairs
 }

@@ -43,7 +43,8 @@ impl Reader<'_> {
         let columns = contour.columns(&stops);
         let cap = |key: &str, cap: Option<Written>, stop: Stop| {
             let section = modulation.section(trajectory, stop);
-            let polygon: Vec<DVec2> = columns.iter().map(|column| section.place(column)).collect();
+            let polygon: Vec<DVec2> =
+                columns.iter().map(|column| section.local_point(column)).collect();
             cap.map(|cap| self.cap(&format!("caps.{key}"), cap, &polygon)).transpose()
         };
         Ok([cap("start", start, Stop::after(0.0))?, cap("end", end, Stop::before(1.0))?])
@@ -64,13 +65,13 @@ impl Reader<'_> {
                 self.geometry(path, message)
             })?;
         let closing = polygon.iter().cycle().skip(1);
-        let (mut way, mut moment) = (0.0, 0.0);
+        let (mut length_along, mut moment) = (0.0, 0.0);
         for (from, to) in polygon.iter().zip(closing) {
             let length = from.distance(*to);
-            way += length;
+            length_along += length;
             moment += length * 0.5 * (from.distance(center) + to.distance(center));
         }
-        let radius = moment / way;
+        let radius = moment / length_along;
         let form = match cap {
             Written::Flat => Form::Flat,
             Written::Round => Form::Dome(radius),

@@ -25,15 +25,15 @@ impl Reader<'_> {
     pub(super) fn bezier3(&self, path: &str, bezier: &Bezier3) -> Result<Course, SweepError> {
         let curve = Bezier { closed: bezier.closed, segments: bezier.segments.clone() };
         let curve = self.bezier(path, &curve)?;
-        let place = |segment| format!("{path}.segments[{segment}]");
-        self.cornered(path, curve, bezier.corners, place)
+        let path_of = |segment| format!("{path}.segments[{segment}]");
+        self.cornered(path, curve, bezier.corners, path_of)
     }
 
     pub(super) fn polyline3(&self, path: &str, line: &Polyline3) -> Result<Course, SweepError> {
         let free = spec::Free { closed: line.closed, points: line.points.clone() };
         let curve = self.polyline(path, &free)?;
-        let place = |segment| format!("{path}.points[{segment}]");
-        self.cornered(path, curve, line.corners, place)
+        let path_of = |segment| format!("{path}.points[{segment}]");
+        self.cornered(path, curve, line.corners, path_of)
     }
 
     fn cornered(
@@ -41,14 +41,14 @@ impl Reader<'_> {
         path: &str,
         curve: Path<DVec3>,
         corners: Option<Corners>,
-        place: impl Fn(usize) -> String,
+        path_of: impl Fn(usize) -> String,
     ) -> Result<Course, SweepError> {
         let path = format!("{path}.corners");
         let found: Vec<Joint> = corners_of(&curve).collect();
         match corners {
             Some(Corners::Round(cut)) => {
                 self.positive(&format!("{path}.round"), cut)?;
-                self.rounded(&path, curve, &found, cut, place)
+                self.rounded(&path, curve, &found, cut, path_of)
             }
             Some(Corners::Mitre(limit)) => {
                 if limit < 1.0 {
@@ -56,7 +56,7 @@ impl Reader<'_> {
                     return Err(self.fault(&format!("{path}.mitre"), message));
                 }
                 for joint in &found {
-                    self.mitre(&curve, joint, limit, &place)?;
+                    self.mitre(&curve, joint, limit, &path_of)?;
                 }
                 Ok(Course::Path(curve))
             }
@@ -68,7 +68,7 @@ impl Reader<'_> {
                          {{\"round\": length}} or {{\"mitre\": limit}}",
                         described(joint)
                     );
-                    Err(self.geometry(&place(joint.sources[1]), message))
+                    Err(self.geometry(&path_of(joint.sources[1]), message))
                 }
             },
         }
@@ -80,7 +80,7 @@ impl Reader<'_> {
         curve: &Path<DVec3>,
         joint: &Joint,
         limit: f64,
-        place: impl Fn(usize) -> String,
+        path_of: impl Fn(usize) -> String,
     ) -> Result<(), SweepError> {
         let straight =
             [joint.before, joint.after].iter().all(|&at| curve.cubic(at).is_straight(STRAIGHT));
@@ -96,7 +96,7 @@ impl Reader<'_> {
             return Ok(());
         };
         let message = format!("found {}, expected {expected}", described(joint));
-        Err(self.geometry(&place(joint.sources[1]), message))
+        Err(self.geometry(&path_of(joint.sources[1]), message))
     }
 
     /// Returns the curve with its corners cut off and bridged by cubics.
@@ -106,7 +106,7 @@ impl Reader<'_> {
         curve: Path<DVec3>,
         corners: &[Joint],
         cut: f64,
-        place: impl Fn(usize) -> String,
+        path_of: impl Fn(usize) -> String,
     ) -> Result<Course, SweepError> {
         let length = curve.length();
         let rounding = ROUNDING * length;
@@ -147,7 +147,7 @@ impl Reader<'_> {
                          round it",
                         described(joint)
                     );
-                    return Err(self.geometry(&place(joint.sources[1]), message));
+                    return Err(self.geometry(&path_of(joint.sources[1]), message));
                 }
                 // The length of the handles of a circular arc's cubic.
                 let turn = angle_between(a.tangent, b.tangent);

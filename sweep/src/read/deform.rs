@@ -1,6 +1,7 @@
 //! Reads the deformations of a spec.
 
 use super::Reader;
+use crate::curve::vector::LEAST_SINE;
 use crate::error::SweepError;
 use crate::limits::SMALLEST;
 use crate::spec;
@@ -63,7 +64,7 @@ impl Reader<'_> {
         self.point(&toward_path, &bend.toward)?;
         let (axis, toward) = (deform.axes.z_axis, DVec3::from_array(bend.toward));
         let across = toward - axis * toward.dot(axis);
-        let x = across.try_normalize().filter(|_| across.length() > 1e-9 * toward.length());
+        let x = across.try_normalize().filter(|_| across.length() > LEAST_SINE * toward.length());
         let Some(x) = x else {
             let message = format!("found {:?}, expected a direction across the axis", bend.toward);
             return Err(self.fault(&toward_path, message));

@@ -1,4 +1,4 @@
-//! The picture of heights that a spec names.
+//! Reads the picture of heights that a spec names.
 
 use super::Reader;
 use crate::error::SweepError;
@@ -11,20 +11,20 @@ use files::picture::{self, Format, PictureError};
 use files::{Failure, FileError, input, memory};
 use image::ColorType;
 
-/// Texels of a picture at most, each of which takes 8 bytes.
+/// Largest number of texels of a picture, each of which takes 8 bytes.
 const MOST_TEXELS: u64 = 1 << 24;
 
-/// Repeats at most, so that a texel is still a place that a double tells from the next.
+/// Largest number of repeats, so that a double still distinguishes neighbouring texels.
 const MOST_REPEATS: f64 = 1e6;
 
-/// Bytes a texel while heights are made: as decoded, as three 16-bit codes, as a number, and as a column
-/// and a row of coefficients at most.
+/// Returns the bytes for each texel while heights are made: the decoded texel, three 16-bit codes, a number, and at most
+/// a column and a row of coefficients.
 fn each(kind: ColorType) -> u64 {
     u64::from(kind.bytes_per_pixel()) + 6 + 8 + 16
 }
 
 impl Reader<'_> {
-    /// The heights on a surface.
+    /// Reads the heights on a surface.
     pub(super) fn heights(
         &self,
         image: &DepthImage,
@@ -62,13 +62,13 @@ impl Reader<'_> {
         Ok(HeightMap::new(values, [axis(0), axis(1)], across, image.amp))
     }
 
-    /// The texels of a grey picture, from 0 to 1, by rows from the top.
+    /// Reads the texels of a grey picture, from 0 to 1, row by row from the top.
     fn greys(&self, file: &str) -> Result<([usize; 2], Vec<f64>), SweepError> {
-        let place = "depth.image.file";
+        let key = "depth.image.file";
         let path = self.folder.join(file);
         let name = input::name_of(&path);
         let bytes = self.source.read(&path).map_err(|error| {
-            let fault = self.document.fault(place, error.to_string());
+            let fault = self.document.fault(key, error.to_string());
             match error {
                 FileError::Memory(_) => SweepError::TooLarge(fault),
                 error => SweepError::Named(fault, error.exit()),
@@ -76,17 +76,17 @@ impl Reader<'_> {
         })?;
         let broken = |error: PictureError| match error {
             PictureError::Memory(error) => {
-                SweepError::TooLarge(self.document.fault(place, error.to_string()))
+                SweepError::TooLarge(self.document.fault(key, error.to_string()))
             }
             error => self
-                .fault(place, format!("found no picture in {name} ({error}), expected a PNG file")),
+                .fault(key, format!("found no picture in {name} ({error}), expected a PNG file")),
         };
         let (width, height) = picture::size(&bytes, &[Format::Png]).map_err(broken)?;
         if u64::from(width) * u64::from(height) > MOST_TEXELS {
             let message = format!(
                 "found {width} x {height} texels in {name}, expected at most {MOST_TEXELS}"
             );
-            return Err(SweepError::TooLarge(self.document.fault(place, message)));
+            return Err(SweepError::TooLarge(self.document.fault(key, message)));
         }
         let budget = memory::of_process();
         let (picture, _reserved) =
@@ -98,7 +98,7 @@ impl Reader<'_> {
         {
             let message =
                 format!("found a colour at texel ({x}, {y}) of {name}, expected a grey picture");
-            return Err(self.fault(place, message));
+            return Err(self.fault(key, message));
         }
         let values = picture.pixels().map(|p| f64::from(p.0[0]) / f64::from(u16::MAX)).collect();
         Ok(([width as usize, height as usize], values))

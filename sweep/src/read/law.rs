@@ -3,9 +3,9 @@
 use super::Reader;
 use crate::curve::Cubic;
 use crate::error::SweepError;
-use crate::law::{Law, is_graph};
+use crate::law::{Ease, Law, is_graph};
 use crate::limits::LARGEST;
-use crate::spec::{self, Ease};
+use crate::spec;
 use glam::DVec2;
 
 impl Reader<'_> {
@@ -40,7 +40,7 @@ impl Reader<'_> {
                 return Err(self.fault(&path, message));
             }
         }
-        Ok(Law::keys(keys.to_vec(), ease == Ease::Smooth))
+        Ok(Law::keys(keys.to_vec(), ease))
     }
 
     fn graph(&self, path: &str, segments: &[[[f64; 2]; 4]]) -> Result<Law, SweepError> {

@@ -11,10 +11,10 @@ mod flat;
 mod height;
 mod joints;
 mod law;
-mod mesh;
 mod modulation;
 mod object;
 mod profile;
+mod resolution;
 mod seam;
 mod trajectory;
 mod wall;
@@ -22,7 +22,7 @@ mod wall;
 use crate::error::SweepError;
 use crate::limits::{LARGEST, REPEATS, SMALLEST};
 use crate::sampling::Sweep;
-use crate::spec::{Mesh, Spec};
+use crate::spec::{Resolution, Spec};
 use crate::surface::Shape;
 use crate::surface::modulation::Modulation;
 use files::Source;
@@ -35,8 +35,8 @@ struct Reader<'a> {
     document: &'a Document<'a>,
     folder: &'a std::path::Path,
     source: &'a dyn Source,
-    /// Keys that replace those of every `mesh`.
-    rather: &'a Mesh,
+    /// Keys that replace those of the resolution of every sweep.
+    overrides: &'a Resolution,
     /// Prefix of all JSON paths.
     prefix: String,
 }
@@ -74,7 +74,7 @@ impl Reader<'_> {
             name: spec.name.clone(),
             shape,
             wall,
-            resolution: self.resolution(&spec.mesh, self.rather)?,
+            resolution: self.resolution(&spec.resolution)?,
             fitted: None,
             survey: OnceLock::new(),
             uv: spec.uv,
@@ -83,7 +83,7 @@ impl Reader<'_> {
             surface: spec.surface,
         };
         if let Some(fault) = sweep.resolution_fault() {
-            return Err(self.of_mesh(self.rather, fault));
+            return Err(self.resolution_fault(fault));
         }
         let sweep = sweep.fitted()?;
         self.areas(&sweep.areas, &sweep).map(|()| sweep)

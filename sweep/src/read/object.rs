@@ -5,7 +5,7 @@ use crate::error::SweepError;
 use crate::sampling::Object;
 use crate::sampling::Specs;
 use crate::sampling::Sweep;
-use crate::spec::{FORMAT, Mesh, Parts, Spec, VERSION};
+use crate::spec::{FORMAT, Parts, Resolution, Spec, VERSION};
 use files::json::Document;
 use files::{Disk, Source};
 use serde::Deserialize;
@@ -15,7 +15,7 @@ use std::path::Path;
 impl Object {
     /// Reads and checks a [`Spec`](crate::spec::Spec), or a spec of [`Parts`](crate::spec::Parts).
     ///
-    /// Files named in the spec are relative to `folder` and are read from `source`. Each key of `rather`
+    /// Files named in the spec are relative to `folder` and are read from `source`. Each key of `overrides`
     /// replaces that key in every `mesh`.
     ///
     /// # Errors
@@ -25,9 +25,9 @@ impl Object {
         document: &Document<'_>,
         folder: &Path,
         source: &dyn Source,
-        rather: &Mesh,
+        overrides: &Resolution,
     ) -> Result<Self, SweepError> {
-        let reader = Reader { document, folder, source, rather, prefix: String::new() };
+        let reader = Reader { document, folder, source, overrides, prefix: String::new() };
         let specs = specs(document)?;
         match &specs {
             Specs::One(spec) => {
@@ -48,16 +48,16 @@ impl Object {
 }
 
 impl Sweep {
-    /// Reads and checks a spec of one sweep; files that it names count from the working folder.
+    /// Reads and checks a spec of one sweep. Files that it names are relative to the working folder.
     ///
     /// # Errors
     /// As [`Object::read`], and when the object has several parts.
     pub fn read(document: &Document<'_>) -> Result<Self, SweepError> {
-        Self::read_in(document, Path::new(""), &Disk, &Mesh::default())
+        Self::read_in(document, Path::new(""), &Disk, &Resolution::default())
     }
 
-    /// The same for files that count from `folder` and lie in `source`, and with each key of `rather`
-    /// in place of that of the spec's `mesh`.
+    /// Reads and checks a spec of one sweep. Files that it names are relative to `folder` and are read from
+    /// `source`. Each key of `overrides` replaces that key in the spec's `mesh`.
     ///
     /// # Errors
     /// As [`Sweep::read`].
@@ -65,9 +65,9 @@ impl Sweep {
         document: &Document<'_>,
         folder: &Path,
         source: &dyn Source,
-        rather: &Mesh,
+        overrides: &Resolution,
     ) -> Result<Self, SweepError> {
-        let mut parts = Object::read(document, folder, source, rather)?.parts;
+        let mut parts = Object::read(document, folder, source, overrides)?.parts;
         match (parts.pop(), parts.len()) {
             (Some(sweep), 0) => Ok(sweep),
             (_, more) => {
@@ -137,7 +137,8 @@ mod tests {
 
     fn complaint(text: &str) -> (String, Exit) {
         let document = Document::new("a.json", text.as_bytes()).unwrap();
-        let error = Object::read(&document, Path::new(""), &Disk, &Mesh::default()).unwrap_err();
+        let error =
+            Object::read(&document, Path::new(""), &Disk, &Resolution::default()).unwrap_err();
         (error.to_string(), error.exit())
     }
 

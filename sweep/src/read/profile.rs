@@ -2,8 +2,8 @@
 
 use super::Reader;
 use crate::error::SweepError;
+use crate::spec;
 use crate::spec::contour::Sections;
-use crate::spec::{self, Ease};
 use crate::surface::contour::Contour;
 use crate::surface::profile::{Blend, Profile};
 use crate::surface::shape::ON_AXIS;
@@ -72,11 +72,11 @@ impl Reader<'_> {
         let mut contours: Vec<Contour> = Vec::with_capacity(count);
         for (i, section) in given.sections.iter().enumerate() {
             let path = format!("{path}[{i}]");
-            let place = format!("{path}.at");
+            let key = format!("{path}.at");
             if !(0.0..=1.0).contains(&section.at) {
                 let message =
                     format!("found {:?}, expected a part of the length from 0 to 1", section.at);
-                return Err(self.fault(&place, message));
+                return Err(self.fault(&key, message));
             }
             if let Some(before) = at.last()
                 && section.at <= *before
@@ -85,7 +85,7 @@ impl Reader<'_> {
                     "found {:?}, expected more than {before:?}, where the section before lies",
                     section.at
                 );
-                return Err(self.fault(&place, message));
+                return Err(self.fault(&key, message));
             }
             let contour = self.contour(&format!("{path}.contour"), &section.contour)?;
             if let Some(first) = contours.first()
@@ -113,7 +113,7 @@ impl Reader<'_> {
             contours.pop();
         }
         let profile = Profile::blended(contours, given.align);
-        Ok((profile, Blend { at, smooth: given.blend == Ease::Smooth, wraps }))
+        Ok((profile, Blend { at, ease: given.blend, wraps }))
     }
 }
 

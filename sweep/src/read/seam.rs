@@ -46,7 +46,8 @@ impl Reader<'_> {
         let [first, last] = [Stop::after(0.0), Stop::before(1.0)]
             .map(|stop| shape.modulation.section(&shape.trajectory, stop));
         let [from, to] = [&first, &last].map(Section::frame);
-        let size = columns.iter().map(|column| first.place(column).length()).fold(0.0, f64::max);
+        let size =
+            columns.iter().map(|column| first.local_point(column).length()).fold(0.0, f64::max);
         let gap = from.origin.distance(to.origin);
         if gap > MEETS * size {
             return refused(format!(
@@ -63,7 +64,7 @@ impl Reader<'_> {
             ));
         }
         let ends = Ends {
-            start: &columns.iter().map(|column| first.place(column)).collect::<Vec<_>>(),
+            start: &columns.iter().map(|column| first.local_point(column)).collect::<Vec<_>>(),
             end: &columns
                 .iter()
                 .map(|column| from.across(last.point(column) - to.origin))

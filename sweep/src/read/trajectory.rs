@@ -34,7 +34,9 @@ impl Reader<'_> {
                 self.point("frame.start", start)?;
                 Some(start)
             }
-            _ => None,
+            None | Some(spec::Frame::Up(_) | spec::Frame::Guide(_) | spec::Frame::Frenet(_)) => {
+                None
+            }
         };
         let course = self.course("trajectory", trajectory, start)?;
         match frame {
@@ -203,11 +205,11 @@ impl Reader<'_> {
     }
 
     /// Returns the frame at the start: the one the spec asks for, or the seed.
-    fn first_frame(&self, place: &Local3, start: Option<&[f64; 3]>) -> Result<Frame, SweepError> {
+    fn first_frame(&self, local: &Local3, start: Option<&[f64; 3]>) -> Result<Frame, SweepError> {
         let Some(start) = start else {
-            return Ok(Frame::seed(place));
+            return Ok(Frame::seed(local));
         };
-        Frame::toward(place, DVec3::from_array(*start)).ok_or_else(|| {
+        Frame::toward(local, DVec3::from_array(*start)).ok_or_else(|| {
             let message =
                 format!("found {start:?}, expected a direction across the trajectory's start");
             self.fault("frame.start", message)

@@ -11,7 +11,7 @@
 use crate::curve::cut::Stop;
 use crate::grid::Fold;
 use crate::surface::profile::Column;
-use crate::surface::shape::{Placed, Shape};
+use crate::surface::shape::{Shape, SurfacePoint};
 use rayon::prelude::*;
 
 /// A stretch between this number below 0 and 0 is no fold. Rounding decides its sign; the stretch has no unit.
@@ -54,15 +54,15 @@ impl RowSurvey {
     }
 
     /// Adds the point at `u`.
-    pub(crate) fn add(&mut self, u: f64, placed: &Placed) {
-        let stretch = placed.stretch;
+    pub(crate) fn add(&mut self, u: f64, point: &SurfacePoint) {
+        let stretch = point.stretch;
         if self.measured && self.least.is_none_or(|(least, _)| stretch < least) {
             self.least = Some((stretch, u));
         }
         // A pole of a rotation rounds to either side of 0.
         self.bent |= stretch < -TOUCHES;
-        self.relief |= placed.contour_folds && stretch >= 0.0;
-        self.deformed |= placed.space_folds;
+        self.relief |= point.contour_folds && stretch >= 0.0;
+        self.deformed |= point.space_folds;
     }
 }
 
@@ -73,7 +73,7 @@ impl Survey {
         let row = |&stop: &Stop| {
             let section = shape.section(stop);
             let mut row = RowSurvey::new(shape, stop);
-            columns.iter().for_each(|column| row.add(column.u, &shape.place(&section, column)));
+            columns.iter().for_each(|column| row.add(column.u, &shape.evaluate(&section, column)));
             row
         };
         let found: Vec<RowSurvey> = rows.par_iter().map(row).collect();
@@ -138,7 +138,7 @@ impl Survey {
 
 /// Returns the smallest stretch within a cell around the point (u, v) in each direction, and its position.
 /// `least` is the stretch at the point itself.
-fn closely(shape: &Shape, place: [f64; 2], cell: [f64; 2], least: f64) -> (f64, [f64; 2]) {
+fn closely(shape: &Shape, position: [f64; 2], cell: [f64; 2], least: f64) -> (f64, [f64; 2]) {
     let stretch_at = |[u, v]: [f64; 2]| {
         let u = if shape.contour.closed() { u.rem_euclid(1.0) } else { u.clamp(0.0, 1.0) };
         let stop = Stop::after(v.clamp(0.0, 1.0));
@@ -147,13 +147,13 @@ fn closely(shape: &Shape, place: [f64; 2], cell: [f64; 2], least: f64) -> (f64, 
             None => f64::INFINITY,
         }
     };
-    let mut best = (least, place);
+    let mut best = (least, position);
     for direction in [0, 1, 0, 1] {
         let (_, from) = best;
         let moved = |by: f64| {
-            let mut place = from;
-            place[direction] += by;
-            place
+            let mut position = from;
+            position[direction] += by;
+            position
         };
         let (mut low, mut high) = (-cell[direction], cell[direction]);
         let golden = 0.5 * (5.0_f64.sqrt() - 1.0);

@@ -1,7 +1,7 @@
 //! A sweep that has been checked, and the grid it gives.
 
 use super::Survey;
-use super::resolution::place::Direction;
+use super::resolution::stops::Direction;
 use super::resolution::{Cells, Distance, Reached, Resolution, Search, Tolerance};
 use super::rows::Rows;
 use crate::curve::cut::{self, Stop};
@@ -19,20 +19,20 @@ use glam::DVec3;
 use rayon::prelude::*;
 use std::sync::OnceLock;
 
-/// Bytes a cell that the search for a tolerance takes: an estimate, not measured.
+/// Bytes for each cell that the search for a tolerance takes: an estimate, not measured.
 const OF_SEARCH: u64 = 128;
 
-/// A surface and a resolution.
+/// A checked surface with its resolution.
 #[derive(Debug, Clone)]
 pub struct Sweep {
     pub(crate) name: String,
     pub(crate) shape: Shape,
-    /// The thickness that the surface is given.
+    /// The wall around the surface, if it is given a thickness.
     pub(crate) wall: Option<Wall>,
     pub(crate) resolution: Resolution,
-    /// What a tolerance comes to.
+    /// The rows and columns that keep the tolerance, if one is requested.
     pub(crate) fitted: Option<Cells>,
-    /// The survey of the grid of this resolution, once it is made.
+    /// The survey of the grid of this resolution, once the grid or the survey was made.
     pub(crate) survey: OnceLock<Survey>,
     pub(crate) uv: UvLayout,
     pub(crate) areas: Vec<Area>,
@@ -41,38 +41,38 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// The object's name.
+    /// Returns the name of the sweep.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// What is swept: one contour or several.
+    /// Returns the profile that is swept: one contour or several.
     #[must_use]
     pub fn contour(&self) -> &Profile {
         &self.shape.contour
     }
 
-    /// The trajectory.
+    /// Returns the trajectory.
     #[must_use]
     pub fn trajectory(&self) -> &Trajectory {
         &self.shape.trajectory
     }
 
-    /// The surface, before it is cut into cells.
+    /// Returns the surface before it is cut into cells.
     #[must_use]
     pub fn shape(&self) -> &Shape {
         &self.shape
     }
 
-    /// The surface at any place: the point and the unit normal, as in [`Shape::at`].
+    /// Returns the point and the unit normal of the surface at (u, v), as [`Shape::at`] does.
     #[must_use]
     pub fn at(&self, u: f64, v: f64) -> (DVec3, DVec3) {
         self.shape.at(u, v)
     }
 
-    /// Cells along the trajectory and its caps, those of no height at corners not counted; a wall has
-    /// twice as many.
+    /// Returns the number of cells along the trajectory and its caps, without the cells of no height at corners. A wall
+    /// has twice as many.
     #[must_use]
     pub fn rows(&self) -> usize {
         match (&self.resolution, &self.fitted) {
@@ -82,26 +82,26 @@ impl Sweep {
         }
     }
 
-    /// Cells along the contour, those of no width at creases not counted.
+    /// Returns the number of cells along the contour, without the cells of no width at creases.
     #[must_use]
     pub fn cols(&self) -> usize {
         cut::cells(&self.col_stops(), self.contour().closed())
     }
 
-    /// Rows and columns of points in the grid.
+    /// Returns the numbers of rows and columns of points in the grid.
     #[must_use]
     pub fn points(&self) -> [usize; 2] {
         let sides = if self.wall.is_some() { wall::SIDES } else { 1 };
         [sides * self.row_stops().len(), self.col_stops().len()]
     }
 
-    /// How well a tolerance is kept; nothing where rows and columns were asked for.
+    /// Returns the accuracy that a tolerance reached; `None` if rows and columns were requested.
     #[must_use]
     pub fn reached(&self) -> Option<Reached> {
         self.fitted.as_ref().map(|cells| cells.reached)
     }
 
-    /// By how much a tolerance is missed, in words; nothing where it is kept or none was asked for.
+    /// Returns a sentence that says by how much a tolerance is missed; `None` if it is kept or none was requested.
     #[must_use]
     pub fn missed(&self) -> Option<String> {
         match &self.resolution {
@@ -112,16 +112,16 @@ impl Sweep {
         }
     }
 
-    /// The resolution asked for.
+    /// Returns the requested resolution.
     #[must_use]
     pub fn resolution(&self) -> &Resolution {
         &self.resolution
     }
 
-    /// The same sweep with other numbers of cells; `None` keeps a number.
+    /// Returns this sweep with other numbers of cells; `None` keeps a number.
     ///
     /// # Errors
-    /// When there are too few for the contour or the trajectory, or more than [`MOST_CELLS`].
+    /// When the cells are too few for the contour or the trajectory, or more than [`MOST_CELLS`].
     pub fn with_resolution(
         self,
         rows: Option<usize>,
@@ -132,7 +132,7 @@ impl Sweep {
         self.resolved(Resolution::Cells { rows, cols })
     }
 
-    /// The same sweep with as many cells as keep a tolerance.
+    /// Returns this sweep with the fewest cells that keep a tolerance.
     ///
     /// # Errors
     /// When `max_quads` is too few for the contour and the trajectory.
@@ -153,7 +153,7 @@ impl Sweep {
         }
     }
 
-    /// This with the cells that its tolerance asks for.
+    /// Returns this sweep with the cells that its tolerance needs.
     ///
     /// # Errors
     /// When there is no memory for the search among as many cells as are allowed.
@@ -168,7 +168,7 @@ impl Sweep {
         Ok(Self { fitted: Some(cells), survey: OnceLock::new(), ..self })
     }
 
-    /// How near the triangles of [`Sweep::grid`] come to the surface; `tolerance` says in which unit.
+    /// Returns the distance of the triangles of [`Sweep::grid`] from the surface, in the units of `tolerance`.
     #[must_use]
     pub fn measure(&self, tolerance: &Tolerance) -> Reached {
         self.search(tolerance).measured([&self.row_stops(), &self.col_stops()])
@@ -202,14 +202,14 @@ impl Sweep {
         }
     }
 
-    /// The most cells along the contour that a row of the grid has place for.
+    /// Returns the largest number of cells along the contour for which a row of the grid has columns.
     fn most_cols(&self) -> usize {
-        // What is given besides the cells' first points: corners twice, an open end.
+        // A row has the first point of each cell, a second point at each crease, and the end of an open contour.
         let more = self.contour().creases() + usize::from(!self.contour().closed());
         MAX_COLS.saturating_sub(more)
     }
 
-    /// What is wrong with the numbers of cells: the key and a sentence.
+    /// Returns the fault of the numbers of cells, if any: the key and a sentence.
     pub(crate) fn resolution_fault(&self) -> Option<(&'static str, String)> {
         let [fewest_rows, fewest_cols] = [self.shape.fewest_rows(), self.contour().fewest_cells()];
         let (rows, cols) = match &self.resolution {
@@ -252,27 +252,27 @@ impl Sweep {
         })
     }
 
-    /// The surface's points and normals.
+    /// Returns the grid of points and normals.
     ///
-    /// Rows and columns lie at equal lengths of the trajectory and of each smooth piece of the
-    /// contour, or where a tolerance asks for them. The grid is the same for any number of threads.
+    /// Rows and columns lie at equal lengths of the trajectory and of each smooth piece of the contour, or where a
+    /// tolerance needs them. The grid does not depend on the number of threads.
     ///
     /// # Panics
-    /// When there is no memory for it; see [`Sweep::try_grid`].
+    /// When there is not enough memory for the grid; see [`Sweep::try_grid`].
     #[must_use]
     pub fn grid(&self) -> GridMesh {
         self.try_grid().unwrap_or_else(|error| panic!("{error}"))
     }
 
-    /// The same as [`Sweep::grid`].
+    /// Returns the grid, as [`Sweep::grid`] does.
     ///
     /// # Errors
-    /// When there is no memory for it.
+    /// When there is not enough memory for the grid.
     pub fn try_grid(&self) -> Result<GridMesh, SweepError> {
         Rows::of(self).grid()
     }
 
-    /// What the grid says of a tolerance.
+    /// Returns the tolerance as the grid file records it.
     pub(crate) fn tolerance(&self) -> Option<grid::Tolerance> {
         let (Resolution::Tolerance(asked), Some(reached)) = (&self.resolution, self.reached())
         else {
@@ -281,14 +281,14 @@ impl Sweep {
         Some(grid::Tolerance {
             asked: match asked.distance {
                 Some(Distance::Everywhere(tol)) => Some(tol),
-                _ => None,
+                Some(Distance::Pixels(..)) | None => None,
             },
             reached: Some(reached.tol),
             angle_asked_deg: asked.angle.map(f64::to_degrees),
             angle_reached_deg: Some(reached.angle_deg),
             pixels: match asked.distance {
                 Some(Distance::Pixels(pixels, _)) => Some(pixels),
-                _ => None,
+                Some(Distance::Everywhere(_)) | None => None,
             },
         })
     }
@@ -307,8 +307,7 @@ impl Sweep {
         self.survey.get_or_init(|| survey)
     }
 
-    /// The number of rows in which some of the surface folds back on itself, since the trajectory
-    /// bends more sharply than the contour is wide. Normals are turned over there.
+    /// Returns the number of rows in which part of the surface folds back on itself. Normals are turned over there.
     #[must_use]
     pub fn folded_rows(&self) -> usize {
         let columns = self.shape.columns(&self.col_stops());
@@ -316,7 +315,7 @@ impl Sweep {
             .par_iter()
             .filter(|&&stop| {
                 let section = self.shape.section(stop);
-                columns.iter().any(|column| self.shape.place(&section, column).folds())
+                columns.iter().any(|column| self.shape.evaluate(&section, column).folds())
             })
             .count()
     }
@@ -336,7 +335,7 @@ impl Sweep {
         }
     }
 
-    /// The columns and the rows of the grid.
+    /// Returns the columns and the rows of the grid.
     pub(crate) fn lines(&self) -> (Vec<Column>, Vec<Stop>) {
         (self.shape.columns(&self.col_stops()), self.row_stops())
     }

@@ -1,6 +1,7 @@
 //! Laws as they are written: a number, or an object with one key.
 
 use super::only;
+use crate::law::Ease;
 use crate::limits;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::MapAccessDeserializer;
@@ -32,17 +33,6 @@ pub enum Law {
         /// The number at the end.
         total: f64,
     },
-}
-
-/// Interpolation between two keys.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Ease {
-    /// Linear interpolation.
-    #[default]
-    Linear,
-    /// Cubic interpolation with slope 0 at every key.
-    Smooth,
 }
 
 /// One law for both axes of the contour, or one for each.

@@ -133,11 +133,16 @@ fn area_and_center(polygon: &[DVec2]) -> Option<(f64, DVec2)> {
     (twice != 0.0 && center.is_finite()).then_some((0.5 * twice, center))
 }
 
+/// An edge seen from its end spans with the centre at most this fraction of the polygon's area. Rounding of its points
+/// decides the sign of so small an area.
+const SEEN_FROM_ITS_END: f64 = 1e-9;
+
 /// Returns whether all edges are seen from their inner side. An edge seen from its end, or too short to
 /// judge, counts as seen.
-fn sees_all(place: DVec2, polygon: &[DVec2], area: f64) -> bool {
-    let slack = 1e-9 * area.abs();
-    edges(polygon).all(|(from, to)| (from - place).perp_dot(to - place) * area.signum() > -slack)
+fn sees_all(viewpoint: DVec2, polygon: &[DVec2], area: f64) -> bool {
+    let slack = SEEN_FROM_ITS_END * area.abs();
+    edges(polygon)
+        .all(|(from, to)| (from - viewpoint).perp_dot(to - viewpoint) * area.signum() > -slack)
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@
 //! The turn that the contour still needs to fit is added evenly along the whole length. Among all fits, the
 //! one is taken that turns the contour least against a rotation-minimizing frame.
 
-use crate::curve::cut::{Side, Stop};
+use crate::curve::cut::{SAME_POSITION, Side, Stop};
 use crate::grid::Seam;
 use glam::DVec2;
 
@@ -23,6 +23,10 @@ const PARTS: [usize; 10] = [1, 2, 3, 4, 5, 6, 7, 8, 10, 12];
 
 /// Sections whose points differ by at most this fraction of their size coincide.
 const SAME: f64 = 1e-6;
+
+/// Turns that differ by less than this fraction of a full turn are equal. The turns come from sums over [`SAMPLES`]
+/// points, so rounding must choose neither among closings nor the sign of half a turn.
+const SAME_TURN: f64 = 1e-9;
 
 /// How the columns at the end continue as columns at the start.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,8 +47,8 @@ pub(crate) struct Ends<'a> {
     pub end: &'a [DVec2],
     /// Whether the contour is closed.
     pub closed: bool,
-    /// Whether the trajectory ends against the direction of its start. A turn one way at the end is then a
-    /// turn the other way at the start.
+    /// Whether the trajectory ends against the direction of its start. A turn to the left at the end is then
+    /// a turn to the right at the start.
     pub against: bool,
     /// Turn that already brought the frame back at the end, as a fraction of a full turn.
     pub turned: f64,
@@ -63,7 +67,7 @@ impl Ends<'_> {
             missed = missed.min(miss);
             let found = Closing { mirrored, offset, turn, edge: false };
             // Among closings that differ by rounding, the first is taken.
-            if miss <= SAME && best.is_none_or(|best| total(&found) < total(&best) - 1e-9) {
+            if miss <= SAME && best.is_none_or(|best| total(&found) < total(&best) - SAME_TURN) {
                 best = Some(found);
             }
         }
@@ -95,8 +99,8 @@ impl Ends<'_> {
         let size = self.start.iter().map(|s| s.length()).fold(0.0, f64::max);
         let miss = pairs().map(|(e, s)| (turn.rotate(e) - s).length()).fold(0.0, f64::max);
         let angle = turn.to_angle() / std::f64::consts::TAU;
-        // Half a turn either way is the same; rounding must not decide between them.
-        let angle = if angle < -0.5 + 1e-9 { 0.5 } else { angle };
+        // Half a turn left and half a turn right are equal; rounding must not decide between them.
+        let angle = if angle < -0.5 + SAME_TURN { 0.5 } else { angle };
         (if self.against { -angle } else { angle }, miss / size)
     }
 }
@@ -120,7 +124,7 @@ impl Closing {
         for at in breaks.iter().copied().chain([0.0]) {
             let mut stop = Stop::after(at);
             for _ in 0..self.offset.1.max(2) {
-                if !anchors.iter().any(|&other| same_place(other, stop.at, closed)) {
+                if !anchors.iter().any(|&other| same_position(other, stop.at, closed)) {
                     anchors.push(stop.at);
                 }
                 stop = self.leads_to(closed, stop);
@@ -140,9 +144,9 @@ impl Closing {
     ) -> Option<(Seam, usize)> {
         let seam = if self.mirrored { Seam::Mirror } else { Seam::Closed };
         let first = self.leads_to(closed, stops[0]);
-        let is_break = |at: f64| breaks.iter().any(|&other| same_place(other, at, closed));
+        let is_break = |at: f64| breaks.iter().any(|&other| same_position(other, at, closed));
         let meet = |a: &Stop, b: Stop| {
-            same_place(a.at, b.at, closed) && (a.side == b.side || !is_break(a.at))
+            same_position(a.at, b.at, closed) && (a.side == b.side || !is_break(a.at))
         };
         let shift = stops.iter().position(|stop| meet(stop, first))?;
         let all = stops.iter().enumerate().all(|(col, &stop)| {
@@ -154,9 +158,9 @@ impl Closing {
 }
 
 /// Returns whether two positions on a contour coincide up to rounding.
-fn same_place(a: f64, b: f64, closed: bool) -> bool {
+fn same_position(a: f64, b: f64, closed: bool) -> bool {
     let apart = (a - b).abs();
-    apart < 1e-9 || (closed && apart > 1.0 - 1e-9)
+    apart < SAME_POSITION || (closed && apart > 1.0 - SAME_POSITION)
 }
 
 fn gcd(a: usize, b: usize) -> usize {

@@ -1,7 +1,13 @@
 //! Contours: the curves that are swept.
+//!
+//! Each contour of a spec becomes a circle or a path of cubics. A new kind that cubics can express must provide its
+//! JSON, a variant of [`spec::Contour`](crate::spec::Contour), and its cubics: in `read/contour.rs` for
+//! the surface and in `check/drawing.rs` as it was drawn. A kind in closed form also needs a variant of `Form` here,
+//! with an arm in each method: its length, creases, range of x, parameter, detail, and at each stop its point, unit
+//! tangent and curvature. No `match` over these enums has a wildcard arm, so the compiler names each missing arm.
 
 use crate::curve::cut::{Side, Stop};
-use crate::curve::path::{Joint, Place};
+use crate::curve::path::{Joint, Position};
 use crate::curve::{Cubic, Path, turn};
 use glam::DVec2;
 use kurbo::{CubicBez, ParamCurveArea, Point, Shape};
@@ -171,7 +177,7 @@ impl Contour {
             Form::Path { path, creases, .. } => match stop {
                 // Both sides of the start have parameter 0.
                 Stop { at: 0.0, .. } => 0.0,
-                _ => path.parameter(place(path, creases, stop)),
+                _ => path.parameter(position_of(path, creases, stop)),
             },
         }
     }
@@ -190,17 +196,22 @@ impl Contour {
                 }
             }
             Form::Path { path, creases, .. } => {
-                let place = place(path, creases, stop);
-                let tangent = path.tangent(place);
-                let curvature = tangent.perp_dot(path.curvature(place));
-                Local2 { point: path.point(place), tangent, curvature, pace: 1.0 / path.length() }
+                let position = position_of(path, creases, stop);
+                let tangent = path.tangent(position);
+                let curvature = tangent.perp_dot(path.curvature(position));
+                Local2 {
+                    point: path.point(position),
+                    tangent,
+                    curvature,
+                    pace: 1.0 / path.length(),
+                }
             }
         }
     }
 }
 
-/// Returns the place of a stop; at a crease, on the stop's side.
-fn place(path: &Path<DVec2>, creases: &[Joint], stop: Stop) -> Place {
+/// Returns the position of a stop; at a crease, on the stop's side.
+fn position_of(path: &Path<DVec2>, creases: &[Joint], stop: Stop) -> Position {
     let length = path.length();
     match (creases.binary_search_by(|joint| (joint.s / length).total_cmp(&stop.at)), stop.side) {
         (Ok(index), Side::Before) => creases[index].before,

@@ -107,6 +107,7 @@ impl Deform {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::law::Ease;
 
     fn deform(kind: Kind) -> Deform {
         let axes = DMat3::from_cols(DVec3::Z, DVec3::X, DVec3::Y);
@@ -114,7 +115,8 @@ mod tests {
     }
 
     fn kinds() -> [Deform; 3] {
-        let smooth = |values: [f64; 2]| Law::keys(vec![[0.0, values[0]], [1.0, values[1]]], true);
+        let smooth =
+            |values: [f64; 2]| Law::keys(vec![[0.0, values[0]], [1.0, values[1]]], Ease::Smooth);
         [
             deform(Kind::Taper(smooth([1.0, 0.3]))),
             deform(Kind::Twist(smooth([0.0, 200.0]))),
@@ -169,7 +171,7 @@ mod tests {
 
     #[test]
     fn a_taper_to_a_point_keeps_the_normals_of_the_cone() {
-        let cone = deform(Kind::Taper(Law::keys(vec![[0.0, 1.0], [1.0, 0.0]], false)));
+        let cone = deform(Kind::Taper(Law::keys(vec![[0.0, 1.0], [1.0, 0.0]], Ease::Linear)));
         let tip = cone.origin + DVec3::Y * 2.0;
         // A cylinder of radius 1 becomes a cone of radius 1 and height 1.5.
         let moved = cone.apply(tip + DVec3::X, DVec3::X);

@@ -120,8 +120,8 @@ impl Depth {
 impl Relief {
     /// Returns the contour's point at `u` with the relief on it.
     pub(crate) fn on(&self, u: f64, moving: &Moving) -> Raised {
-        let Moving { place, across, turning } = *moving;
-        let Local2 { point, tangent, curvature, pace } = place;
+        let Moving { local, across, turning } = *moving;
+        let Local2 { point, tangent, curvature, pace } = local;
         let (mut delta, mut delta_u, mut delta_v) = (0.0, 0.0, 0.0);
         for wave in &self.waves {
             let angle = turn(wave.u * u + wave.phase);

@@ -110,20 +110,20 @@ impl Axis {
     /// Returns the index of a texel of the picture for an index that may lie beyond its edges.
     fn texel(&self, index: isize) -> usize {
         let count = self.texels as isize;
-        let place = if self.closed {
+        let wrapped = if self.closed {
             index.rem_euclid(count)
         } else {
-            let place = index.rem_euclid(2 * count);
-            place.min(2 * count - 1 - place)
+            let wrapped = index.rem_euclid(2 * count);
+            wrapped.min(2 * count - 1 - wrapped)
         };
-        place as usize
+        wrapped as usize
     }
 }
 
 /// Returns the four texels around a position, and the weight of each with its derivative.
-fn taps(place: f64) -> ([isize; 4], [[f64; 2]; 4]) {
-    let first = place.floor();
-    let (f, g) = (place - first, 1.0 - (place - first));
+fn taps(position: f64) -> ([isize; 4], [[f64; 2]; 4]) {
+    let first = position.floor();
+    let (f, g) = (position - first, 1.0 - (position - first));
     let first = first as isize;
     let inner = |f: f64| (4.0 - 6.0 * f * f + 3.0 * f * f * f) / 6.0;
     let inner_slope = |f: f64| 1.5 * f * f - 2.0 * f;

@@ -6,7 +6,7 @@ use crate::surface::Surface;
 use crate::surface::cap::Cap;
 use crate::surface::closing::Closing;
 use crate::surface::deform::{Deform, Moved};
-use crate::surface::modulation::{Evaluated, Modulation, Section};
+use crate::surface::modulation::{Modulation, Section, SectionPoint};
 use crate::surface::profile::{Column, Profile};
 use crate::trajectory::Trajectory;
 use glam::DVec3;
@@ -33,7 +33,7 @@ pub struct Shape {
 
 /// A point of the finished surface, with everything that one evaluation of its section gives.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Placed {
+pub(crate) struct SurfacePoint {
     /// The point, in the unit of length.
     pub point: DVec3,
     /// The unit normal.
@@ -46,7 +46,7 @@ pub(crate) struct Placed {
     pub space_folds: bool,
 }
 
-impl Placed {
+impl SurfacePoint {
     /// Returns whether the surface folds back on itself, for any reason.
     pub(crate) fn folds(&self) -> bool {
         self.contour_folds || self.stretch < 0.0 || self.space_folds
@@ -62,8 +62,8 @@ impl Shape {
     pub fn at(&self, u: f64, v: f64) -> (DVec3, DVec3) {
         let mut column = self.contour.at(u);
         self.snap_to_axis(std::slice::from_mut(&mut column));
-        let place = self.place(&self.section(Stop::after(v)), &column);
-        (place.point, place.normal)
+        let point = self.evaluate(&self.section(Stop::after(v)), &column);
+        (point.point, point.normal)
     }
 
     /// Returns whether the last row leads back to the first.
@@ -94,8 +94,8 @@ impl Shape {
     }
 
     /// Returns a point of a section in space, after deformations and translation, with its unit normal.
-    pub(crate) fn place(&self, section: &Section, column: &Column) -> Placed {
-        let Evaluated { point, normal, stretch, contour_folds } = section.evaluate(column);
+    pub(crate) fn evaluate(&self, section: &Section, column: &Column) -> SurfacePoint {
+        let SectionPoint { point, normal, stretch, contour_folds } = section.evaluate(column);
         let mut moved = Moved { point, normal, folds: false };
         for deform in &self.deforms {
             let next = deform.apply(moved.point, moved.normal);
@@ -105,7 +105,7 @@ impl Shape {
                 ..next
             };
         }
-        Placed {
+        SurfacePoint {
             point: moved.point + self.position,
             normal: moved.normal,
             stretch,
@@ -228,11 +228,11 @@ impl Shape {
     fn snap_to_axis(&self, columns: &mut [Column]) {
         if self.trajectory.is_rotation() {
             let on_axis = ON_AXIS * self.contour.x_range().1;
-            let places = columns
+            let locals = columns
                 .iter_mut()
                 .flat_map(|column| std::iter::once(&mut column.first).chain(&mut column.others));
-            for place in places.filter(|place| place.point.x <= on_axis) {
-                place.point.x = 0.0;
+            for local in locals.filter(|local| local.point.x <= on_axis) {
+                local.point.x = 0.0;
             }
         }
     }
@@ -252,15 +252,15 @@ impl Surface for Shape {
 
     fn station(&self, stop: Stop, columns: &[Column]) -> Vec<(DVec3, DVec3)> {
         let section = self.section(stop);
-        let place = |column| {
-            let place = self.place(&section, column);
-            (place.point, place.normal)
+        let pair = |column| {
+            let point = self.evaluate(&section, column);
+            (point.point, point.normal)
         };
-        columns.iter().map(place).collect()
+        columns.iter().map(pair).collect()
     }
 
     fn points(&self, stop: Stop, columns: &[Column]) -> Vec<DVec3> {
         let section = self.section(stop);
-        columns.iter().map(|column| self.place(&section, column).point).collect()
+        columns.iter().map(|column| self.evaluate(&section, column).point).collect()
     }
 }

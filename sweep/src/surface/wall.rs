@@ -34,8 +34,8 @@ impl Wall {
         let sheet: Vec<(DVec3, Vec3)> =
             points.iter().copied().zip(normals.iter().copied()).collect();
         for ((point, normal), &col) in points.iter_mut().zip(normals).zip(led) {
-            let (place, up) = sheet[col];
-            *point = place - self.half * up.as_dvec3();
+            let (middle, up) = sheet[col];
+            *point = middle - self.half * up.as_dvec3();
             *normal = -up;
         }
     }

@@ -1,4 +1,17 @@
 //! The curves that a trajectory or a guide can be.
+//!
+//! A new curve must provide:
+//!
+//! - its JSON: a variant of [`spec::Trajectory`](crate::spec::Trajectory), read in `read/trajectory.rs`, which
+//!   checks its numbers against the limits;
+//! - a variant of [`Course`] with an arm in each method of this file. The compiler names them, since no `match` here has
+//!   a wildcard arm;
+//! - as [`Curve3`]: its length, whether it is closed, the knots between which it is smooth, and at each arc length its
+//!   position, unit tangent and curvature;
+//! - its corners if it can have any, its own parameter, its detail in cells, and its frame if a closed form is known;
+//! - its drawing for `--check`, in `check/drawing.rs`, if points of the file can coincide.
+//!
+//! A rotation is no curve: see [`Trajectory`](super::Trajectory).
 
 use super::{Flat, Helix};
 use crate::curve::{Curve3, Local3, Path, turn};
@@ -50,7 +63,7 @@ impl Course {
                 .filter(|joint| joint.angle.to_degrees() > CORNER_DEG)
                 .map(|joint| joint.s)
                 .collect(),
-            _ => Vec::new(),
+            Self::Line { .. } | Self::Circle { .. } | Self::Helix(_) | Self::Flat(_) => Vec::new(),
         }
     }
 
@@ -59,7 +72,7 @@ impl Course {
         match self {
             Self::Path(path) if v >= 1.0 => path.parameter(path.end()),
             Self::Path(path) => path.parameter(path.locate(v * path.length())),
-            _ => v,
+            Self::Line { .. } | Self::Circle { .. } | Self::Helix(_) | Self::Flat(_) => v,
         }
     }
 
@@ -143,7 +156,7 @@ impl Curve3 for Course {
                     third: -tangent / (radius * radius),
                 }
             }
-            Self::Helix(helix) => helix.place((s / self.length()).clamp(0.0, 1.0)),
+            Self::Helix(helix) => helix.local((s / self.length()).clamp(0.0, 1.0)),
             Self::Path(path) => path.at(s),
             Self::Flat(flat) => flat.at(s),
         }
@@ -153,7 +166,7 @@ impl Curve3 for Course {
         match self {
             Self::Path(path) => path.before(s),
             Self::Flat(flat) => flat.before(s),
-            _ => self.at(s),
+            Self::Line { .. } | Self::Circle { .. } | Self::Helix(_) => self.at(s),
         }
     }
 }

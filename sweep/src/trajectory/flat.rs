@@ -13,7 +13,7 @@
 //! ```
 
 use crate::curve::cut::Side;
-use crate::curve::path::Place;
+use crate::curve::path::Position;
 use crate::curve::vector::angle_between;
 use crate::curve::{Cubic, Curve3, Local3, Path};
 use crate::law::parameter;
@@ -62,15 +62,15 @@ impl Flat {
     fn over(&self, l: f64) -> f64 {
         let next = self.graph.cubics().take_while(|cubic| cubic.0[3].x <= l).count();
         match self.graph.cubics().nth(next) {
-            Some(cubic) => self.graph.length_to(self.graph.place(next, parameter(cubic, l))),
+            Some(cubic) => self.graph.length_to(self.graph.position(next, parameter(cubic, l))),
             None => self.graph.length(),
         }
     }
 
-    fn local(&self, place: Place, side: Side) -> Local3 {
+    fn local(&self, position: Position, side: Side) -> Local3 {
         let graph = &self.graph;
-        let (g, g1) = (graph.point(place), graph.tangent(place));
-        let (g2, g3) = (graph.curvature(place), graph.third(place));
+        let (g, g1) = (graph.point(position), graph.tangent(position));
+        let (g2, g3) = (graph.curvature(position), graph.third(position));
         let below = match side {
             Side::Before => self.plane.locate_before(g.x),
             Side::After => self.plane.locate(g.x),
@@ -121,7 +121,7 @@ impl Curve3 for Flat {
 mod tests {
     use super::*;
     use crate::curve::{spline, turn};
-    use crate::law::Law;
+    use crate::law::{Ease, Law};
     use glam::DVec3;
 
     #[test]
@@ -130,8 +130,8 @@ mod tests {
         let ring = Path::new(&spline::through(&points, true), true).unwrap();
         let flat = Flat::new(ring.clone(), &Law::constant(3.0).graph()).unwrap();
         assert!((flat.length() - ring.length()).abs() < 1e-13);
-        let place = flat.at(1.0);
-        assert!((place.position - ring.point(ring.locate(1.0)).extend(3.0)).length() < 1e-14);
+        let local = flat.at(1.0);
+        assert!((local.position - ring.point(ring.locate(1.0)).extend(3.0)).length() < 1e-14);
         // An open ring, because the ends of a helix differ.
         let cubics: Vec<_> = ring.cubics().copied().collect();
         let ring = Path::new(&cubics, false).unwrap();
@@ -140,10 +140,10 @@ mod tests {
         assert!((helix.length() - around.hypot(5.0)).abs() < 1e-13);
         let slope = 5.0 / around.hypot(5.0);
         for i in 0..=40 {
-            let place = helix.at(helix.length() * f64::from(i) / 40.0);
-            assert!((place.tangent.z - slope).abs() < 1e-14);
+            let local = helix.at(helix.length() * f64::from(i) / 40.0);
+            assert!((local.tangent.z - slope).abs() < 1e-14);
             // The ring is a spline through 64 points, whose curvature is that of a circle to 1e-3.
-            assert!((place.curvature.length() - (1.0 - slope * slope) / 2.0).abs() < 1e-3);
+            assert!((local.curvature.length() - (1.0 - slope * slope) / 2.0).abs() < 1e-3);
         }
     }
 
@@ -151,7 +151,7 @@ mod tests {
     fn it_runs_at_unit_speed_with_three_derivatives() {
         let points = [[0.0, 0.0], [1.0, 0.3], [1.2, 1.0], [3.0, 1.0]].map(DVec2::from_array);
         let plane = Path::new(&spline::through(&points, false), false).unwrap();
-        let law = Law::keys(vec![[0.1, 0.0], [0.5, 1.5], [0.9, -1.0]], true);
+        let law = Law::keys(vec![[0.1, 0.0], [0.5, 1.5], [0.9, -1.0]], Ease::Smooth);
         let flat = Flat::new(plane, &law.graph()).unwrap();
         let (knots, h) = (flat.knots(), 1e-5);
         assert_eq!(knots.len(), 4 + 3);
@@ -160,16 +160,16 @@ mod tests {
             if knots.iter().any(|knot| (knot - s).abs() < 2.0 * h) {
                 continue;
             }
-            let (place, before, after) = (flat.at(s), flat.at(s - h), flat.at(s + h));
-            assert!((place.tangent.length() - 1.0).abs() < 1e-14);
+            let (local, before, after) = (flat.at(s), flat.at(s - h), flat.at(s + h));
+            assert!((local.tangent.length() - 1.0).abs() < 1e-14);
             let off = |a: DVec3, b: DVec3, slope: DVec3| ((b - a) / (2.0 * h) - slope).length();
-            assert!(off(before.position, after.position, place.tangent) < 1e-6);
-            assert!(off(before.tangent, after.tangent, place.curvature) < 1e-5);
-            let third = off(before.curvature, after.curvature, place.third);
-            assert!(third < 1e-5 * (1.0 + place.third.length()), "{i} {third}");
+            assert!(off(before.position, after.position, local.tangent) < 1e-6);
+            assert!(off(before.tangent, after.tangent, local.curvature) < 1e-5);
+            let third = off(before.curvature, after.curvature, local.third);
+            assert!(third < 1e-5 * (1.0 + local.third.length()), "{i} {third}");
             let on_graph = flat.graph.point(flat.graph.locate(s));
             let height = law.at(on_graph.x / flat.plane.length()).0;
-            assert!((height - place.position.z).abs() < 1e-13);
+            assert!((height - local.position.z).abs() < 1e-13);
         }
     }
 }

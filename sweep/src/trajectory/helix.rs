@@ -36,7 +36,7 @@ impl Helix {
 
     /// Returns the point and derivatives at `v`, a fraction of the length in `[0, 1]`.
     #[must_use]
-    pub fn place(&self, v: f64) -> Local3 {
+    pub fn local(&self, v: f64) -> Local3 {
         let (outward, around) = self.spoke(v);
         let (c, h) = self.slope();
         // Rotation about the axis, in radians per length.
@@ -58,7 +58,7 @@ impl Helix {
     pub fn at(&self, v: f64) -> (Frame, DVec2) {
         let (outward, _) = self.spoke(v);
         let (c, h) = self.slope();
-        let Local3 { position, tangent, .. } = self.place(v);
+        let Local3 { position, tangent, .. } = self.local(v);
         let sideways = tangent.cross(outward);
         // If w1 pointed away from the axis everywhere, it would turn toward w2 by -c h / r radians per
         // length.
@@ -115,7 +115,7 @@ mod tests {
         }
 
         fn at(&self, s: f64) -> Local3 {
-            self.0.place(s / self.length())
+            self.0.local(s / self.length())
         }
     }
 
@@ -127,11 +127,11 @@ mod tests {
             for i in 0..=50 {
                 let v = f64::from(i) / 50.0;
                 let (frame, curvature) = helix.at(v);
-                let place = helix.place(v);
-                let other = frames.at(v * helix.length(), &place, Side::After);
+                let local = helix.local(v);
+                let other = frames.at(v * helix.length(), &local, Side::After);
                 assert!((frame.normal - other.normal).length() < 1e-9, "{rise} {turns} {v}");
                 let in_space = frame.normal * curvature.x + frame.binormal * curvature.y;
-                assert!((place.curvature - in_space).length() < 1e-14);
+                assert!((local.curvature - in_space).length() < 1e-14);
                 assert!((frame.normal.cross(frame.binormal) - frame.tangent).length() < 1e-14);
             }
         }
@@ -149,8 +149,8 @@ mod tests {
                 assert!(((after.origin - before.origin) / step - frame.tangent).length() < 1e-8);
                 let curvature = frame.normal * k.x + frame.binormal * k.y;
                 assert!(((after.tangent - before.tangent) / step - curvature).length() < 1e-8);
-                let bending = helix.place(v + h).curvature - helix.place(v - h).curvature;
-                assert!((bending / step - helix.place(v).third).length() < 1e-8);
+                let bending = helix.local(v + h).curvature - helix.local(v - h).curvature;
+                assert!((bending / step - helix.local(v).third).length() < 1e-8);
             }
         }
     }

@@ -115,7 +115,8 @@ impl Trajectory {
             Form::Along { course, framing: Framing::Carried(frames), .. } => {
                 frames.spin() * course.length() / TAU
             }
-            _ => 0.0,
+            Form::Rotation { .. }
+            | Form::Along { framing: Framing::Own | Framing::Directed(_), .. } => 0.0,
         }
     }
 
@@ -190,20 +191,20 @@ fn station(course: &Course, framing: &Framing, mitres: &Mitres, stop: Stop) -> S
 
 /// Returns the station at arc length `s`, without mitres, and its spin in radians per length.
 fn placed(course: &Course, framing: &Framing, s: f64, side: Side) -> (Station, f64) {
-    let place = match side {
+    let local = match side {
         Side::Before => course.before(s),
         Side::After => course.at(s),
     };
     let (frame, spin) = match framing {
-        Framing::Carried(frames) => (frames.at(s, &place, side), frames.spin()),
+        Framing::Carried(frames) => (frames.at(s, &local, side), frames.spin()),
         Framing::Directed(directed) => directed
-            .at(s, course.length(), &place, side)
+            .at(s, course.length(), &local, side)
             // The reader has searched for points without a frame. At a point it missed, any frame will do.
-            .unwrap_or_else(|| (Frame::seed(&place), 0.0)),
-        Framing::Own => (Frame::seed(&place), 0.0),
+            .unwrap_or_else(|| (Frame::seed(&local), 0.0)),
+        Framing::Own => (Frame::seed(&local), 0.0),
     };
     let curvature =
-        DVec2::new(place.curvature.dot(frame.normal), place.curvature.dot(frame.binormal));
+        DVec2::new(local.curvature.dot(frame.normal), local.curvature.dot(frame.binormal));
     (Station { bend: -curvature, spin, ..Station::along(frame) }, spin)
 }
 
@@ -224,8 +225,8 @@ mod tests {
 
     /// Returns the frame of a turn about the y axis, from +x toward +z.
     fn upright() -> Frame {
-        let place = Local3::straight(DVec3::ZERO, DVec3::Z);
-        Frame::toward(&place, DVec3::X).unwrap()
+        let local = Local3::straight(DVec3::ZERO, DVec3::Z);
+        Frame::toward(&local, DVec3::X).unwrap()
     }
 
     #[test]

@@ -63,9 +63,9 @@ impl Station {
         Self { frame, bend, shear, spin: self.spin + rate, ..self }
     }
 
-    /// Returns a station straight ahead at the distance `way`, which moves forward at `rate`.
-    pub(crate) fn beyond(self, way: f64, rate: f64) -> Self {
-        let origin = self.frame.origin + self.frame.tangent * way;
+    /// Returns a station straight ahead at this `distance`, which moves forward at `rate`.
+    pub(crate) fn beyond(self, distance: f64, rate: f64) -> Self {
+        let origin = self.frame.origin + self.frame.tangent * distance;
         Self { forward: rate, ..Self::along(Frame { origin, ..self.frame }) }
     }
 

@@ -78,20 +78,20 @@ impl Search<'_> {
     fn turn(&self, at: usize) -> Option<Turn> {
         let count = self.kept.len();
         let end = |next: fn(usize, usize) -> usize, last: usize| {
-            let mut place = at;
+            let mut index = at;
             for _ in 0..MOST_STEPS.min(count / 2) {
-                if !self.closed && place == last {
+                if !self.closed && index == last {
                     return None;
                 }
-                place = next(place, count);
-                if self.point(place).distance(self.point(at)) >= self.leg {
-                    return Some(place);
+                index = next(index, count);
+                if self.point(index).distance(self.point(at)) >= self.leg {
+                    return Some(index);
                 }
             }
             None
         };
-        let before = end(|place, count| (place + count - 1) % count, 0)?;
-        let after = end(|place, count| (place + 1) % count, count - 1)?;
+        let before = end(|index, count| (index + count - 1) % count, 0)?;
+        let after = end(|index, count| (index + 1) % count, count - 1)?;
         let here = self.point(at);
         let angle = (here - self.point(before)).angle_to(self.point(after) - here).abs();
         Some(Turn { angle, before, after })

@@ -13,7 +13,7 @@ const SMALL: f64 = 0.05;
 #[derive(Debug, Clone, Copy)]
 pub struct Joint {
     /// Position of the joint.
-    pub place: DVec2,
+    pub point: DVec2,
     /// Unit direction in which the piece before arrives.
     pub before: DVec2,
     /// Unit direction in which the piece after leaves; equal to `before` unless the joint is a corner.
@@ -26,14 +26,14 @@ impl Run<'_> {
         let [before, after] = self.around(i);
         let end = before == 0 || after == 0;
         if end || self.corners.contains(&i) {
-            let place = self.point(i);
+            let point = self.point(i);
             let side = |steps: [usize; 2]| self.parabola(i, steps, true).1;
             let leaving = if after > 0 { side([0, after]) } else { side([before, 0]) };
             let reaching = if before > 0 { side([before, 0]) } else { leaving };
-            return Joint { place, before: reaching, after: leaving };
+            return Joint { point, before: reaching, after: leaving };
         }
-        let (place, direction) = self.parabola(i, [before, after], false);
-        Joint { place, before: direction, after: direction }
+        let (point, direction) = self.parabola(i, [before, after], false);
+        Joint { point, before: direction, after: direction }
     }
 
     /// Returns the number of points before and after point `i`, up to corners and ends. In a closed sequence
@@ -85,7 +85,7 @@ impl Run<'_> {
             }
             steps *= 2;
         }
-        best.map(|(_, place, direction)| (place, direction)).unwrap_or_else(|| {
+        best.map(|(_, point, direction)| (point, direction)).unwrap_or_else(|| {
             let count = self.points.len();
             let from = self.point(i + count - most[0].min(1));
             let to = self.point(i + most[1].min(1));
@@ -122,9 +122,9 @@ impl Run<'_> {
             lengths.push(length + ends[0].distance(ends[1]));
         }
         let (middle, whole) = (lengths[before], lengths[before + after]);
-        let places: Vec<f64> = lengths.iter().map(|length| (length - middle) / whole).collect();
+        let positions: Vec<f64> = lengths.iter().map(|length| (length - middle) / whole).collect();
         let (mut sums, mut x, mut y) = ([0.0; 5], DVec3::ZERO, DVec3::ZERO);
-        for (s, offset) in places.iter().zip(&offsets) {
+        for (s, offset) in positions.iter().zip(&offsets) {
             let powers = DVec3::new(1.0, *s, s * s);
             x += powers * offset.x;
             y += powers * offset.y;
@@ -145,7 +145,7 @@ impl Run<'_> {
         };
         let [c0, c1, c2] = [0, 1, 2].map(|k| DVec2::new(x[k], y[k]));
         let direction = c1.try_normalize()?;
-        let error = places
+        let error = positions
             .iter()
             .zip(&offsets)
             .map(|(&s, &offset)| (c0 + c1 * s + c2 * (s * s)).distance(offset))

@@ -27,11 +27,11 @@ impl Piece {
     /// Fits the cubic from one joint to another to the points between.
     pub fn through(points: &[DVec2], [start, end]: [Joint; 2], tolerance: f64) -> Self {
         let mut at = chord_lengths(points);
-        let way: f64 = points.windows(2).map(|ends| ends[0].distance(ends[1])).sum();
-        let ends = [start.place, end.place];
+        let length_along: f64 = points.windows(2).map(|ends| ends[0].distance(ends[1])).sum();
+        let ends = [start.point, end.point];
         let directions = [start.after, -end.before];
         let weights = vec![None; points.len()];
-        let first = least_squares(points, &at, &weights, ends, directions, way);
+        let first = least_squares(points, &at, &weights, ends, directions, length_along);
         let mut best = Self::measured(first, points, &at);
         let mut cubic = best.cubic;
         for _ in 0..ROUNDS {
@@ -46,7 +46,7 @@ impl Piece {
                 best = moved;
             }
             let normals: Vec<_> = at.iter().map(|&t| Some(cubic.tangent(t).perp())).collect();
-            cubic = least_squares(points, &at, &normals, ends, directions, way);
+            cubic = least_squares(points, &at, &normals, ends, directions, length_along);
         }
         best
     }
@@ -60,12 +60,12 @@ impl Piece {
 /// Returns the parameters of points by chord length, from 0 to 1.
 fn chord_lengths(points: &[DVec2]) -> Vec<f64> {
     let mut at = vec![0.0];
-    let mut way = 0.0;
+    let mut length_along = 0.0;
     for ends in points.windows(2) {
-        way += ends[0].distance(ends[1]);
-        at.push(way);
+        length_along += ends[0].distance(ends[1]);
+        at.push(length_along);
     }
-    at.iter().map(|length| length / way).collect()
+    at.iter().map(|length| length / length_along).collect()
 }
 
 /// Returns the cubic whose handles have given directions and the lengths with the least sum of squared
@@ -79,7 +79,7 @@ fn least_squares(
     normals: &[Option<DVec2>],
     [start, end]: [DVec2; 2],
     [leaving, reaching]: [DVec2; 2],
-    way: f64,
+    length_along: f64,
 ) -> Cubic<DVec2> {
     // The equations for the two lengths: [aa ab; ab bb] (a, b) = (ra, rb).
     let (mut aa, mut ab, mut bb, mut ra, mut rb) = (0.0, 0.0, 0.0, 0.0, 0.0);
@@ -101,7 +101,7 @@ fn least_squares(
     let chord = start.distance(end);
     let det = aa * bb - ab * ab;
     let lengths = [(ra * bb - rb * ab) / det, (rb * aa - ra * ab) / det];
-    let fits = |&length: &f64| length >= SHORTEST * chord && length <= LONGEST * way;
+    let fits = |&length: &f64| length >= SHORTEST * chord && length <= LONGEST * length_along;
     let third = chord / 3.0;
     let [a, b] = if lengths.iter().all(fits) { lengths } else { [third; 2] };
     Cubic([start, start + leaving * a, end + reaching * b, end])

@@ -24,15 +24,15 @@ pub(super) fn encode(row: &Row<'_>, bytes: &mut Vec<u8>) {
     let (head, points) = bytes[start..].split_at_mut(HEAD);
     head[..8].copy_from_slice(&row.v.to_le_bytes());
     let (positions, normals) = points.split_at_mut(row.positions.len() * POSITION);
-    for (place, p) in positions.chunks_exact_mut(POSITION).zip(row.positions) {
-        place[..8].copy_from_slice(&p.x.to_le_bytes());
-        place[8..16].copy_from_slice(&p.y.to_le_bytes());
-        place[16..].copy_from_slice(&p.z.to_le_bytes());
+    for (slot, p) in positions.chunks_exact_mut(POSITION).zip(row.positions) {
+        slot[..8].copy_from_slice(&p.x.to_le_bytes());
+        slot[8..16].copy_from_slice(&p.y.to_le_bytes());
+        slot[16..].copy_from_slice(&p.z.to_le_bytes());
     }
-    for (place, n) in normals.chunks_exact_mut(NORMAL).zip(row.normals) {
-        place[..4].copy_from_slice(&n.x.to_le_bytes());
-        place[4..8].copy_from_slice(&n.y.to_le_bytes());
-        place[8..].copy_from_slice(&n.z.to_le_bytes());
+    for (slot, n) in normals.chunks_exact_mut(NORMAL).zip(row.normals) {
+        slot[..4].copy_from_slice(&n.x.to_le_bytes());
+        slot[4..8].copy_from_slice(&n.y.to_le_bytes());
+        slot[8..].copy_from_slice(&n.z.to_le_bytes());
     }
 }
 

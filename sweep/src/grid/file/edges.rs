@@ -26,7 +26,7 @@ impl Edges {
             for (k, (&row, &found)) in area.rows.iter().zip(ends).enumerate() {
                 if row == edge && found != v {
                     let message = format!("found {found:?}, expected {v:?}, where that row lies");
-                    return Err(Fault { place: format!("areas[{i}].v[{k}]"), message });
+                    return Err(Fault { subject: format!("areas[{i}].v[{k}]"), message });
                 }
             }
         }
@@ -45,7 +45,7 @@ impl Edges {
         let cells = [self.count.saturating_sub(1), usize::MAX];
         for (i, placed) in areas.iter().enumerate() {
             if let Some((key, message)) = placed.area.fault(cells) {
-                return Err(Fault { place: format!("areas[{i}].area.{key}"), message });
+                return Err(Fault { subject: format!("areas[{i}].area.{key}"), message });
             }
         }
         Ok(())

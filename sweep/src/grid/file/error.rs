@@ -84,7 +84,7 @@ pub enum GridError {
         rows: usize,
     },
     /// A row holds a number that is not valid in a grid.
-    #[error("{name}: row {row} of {rows}: {place}: {message}")]
+    #[error("{name}: row {row} of {rows}: {subject}: {message}")]
     Row {
         /// The file as the user named it.
         name: String,
@@ -93,7 +93,7 @@ pub enum GridError {
         /// Number of rows according to the header.
         rows: usize,
         /// Name of the value, such as `v` or `the position of column 3`.
-        place: String,
+        subject: String,
         /// What was found, and what was expected.
         message: String,
     },
@@ -178,7 +178,21 @@ impl Failure for GridError {
         match self {
             Self::Read { .. } => Exit::ReadWrite,
             Self::Memory(error) => error.exit(),
-            _ => Exit::Malformed,
+            Self::Empty { .. }
+            | Self::NotAGrid { .. }
+            | Self::HeaderCut { .. }
+            | Self::LongLine { .. }
+            | Self::Version { .. }
+            | Self::Json(_)
+            | Self::RowCut { .. }
+            | Self::Row { .. }
+            | Self::FooterCut { .. }
+            | Self::Count { .. }
+            | Self::Checksum { .. }
+            | Self::Trailing { .. }
+            | Self::PatchCut { .. }
+            | Self::PatchOrder { .. }
+            | Self::Several { .. } => Exit::Malformed,
         }
     }
 }

@@ -218,16 +218,16 @@ impl Header {
         if !(1..=of).contains(&number) {
             let message =
                 format!("found [{number}, {of}], expected a number from 1 and how many there are");
-            return Err(Fault { place: "patch".into(), message });
+            return Err(Fault { subject: "patch".into(), message });
         }
-        for (place, count, seam, limit) in [
+        for (subject, count, seam, limit) in [
             ("rows", self.rows, self.seam_v, MAX_ROWS),
             ("cols", self.cols(), self.seam_u, MAX_COLS),
         ] {
             let least = if seam.joins() { 3 } else { 2 };
             if !(least..=limit).contains(&count) {
                 let message = format!("found {count}, expected from {least} to {limit}");
-                return Err(Fault { place: place.into(), message });
+                return Err(Fault { subject: subject.into(), message });
             }
         }
         seam::check([self.seam_u, self.seam_v], self.shift, self.cols())?;
@@ -235,20 +235,20 @@ impl Header {
             ("fold", self.fold.is_none_or(|fold| fold.is_finite())),
             ("tolerance", self.tolerance.is_none_or(|tolerance| tolerance.is_finite())),
         ];
-        if let Some((place, _)) = finite.into_iter().find(|(_, finite)| !finite) {
+        if let Some((subject, _)) = finite.into_iter().find(|(_, finite)| !finite) {
             let message = "found a number that is not finite, expected finite numbers".into();
-            return Err(Fault { place: place.into(), message });
+            return Err(Fault { subject: subject.into(), message });
         }
         for (i, found) in self.uv.repeat.iter().enumerate() {
             if !(found.is_finite() && *found > 0.0) {
                 let message = format!("found {}, expected a positive number", row::number(*found));
-                return Err(Fault { place: format!("uv.repeat[{i}]"), message });
+                return Err(Fault { subject: format!("uv.repeat[{i}]"), message });
             }
         }
         let mut before = None;
         for (i, &found) in self.u.iter().enumerate() {
             check_parameter(found, before, self.seam_u)
-                .map_err(|message| Fault { place: format!("u[{i}]"), message })?;
+                .map_err(|message| Fault { subject: format!("u[{i}]"), message })?;
             before = Some(found);
         }
         self.check_areas()
@@ -260,11 +260,11 @@ impl Header {
         let rows = if self.seam_v.joins() { self.rows } else { self.rows.saturating_sub(1) };
         for (i, PlacedArea { area, v }) in self.areas.iter().enumerate() {
             if let Some((key, message)) = area.fault([rows, cols]) {
-                return Err(Fault { place: format!("areas[{i}].area.{key}"), message });
+                return Err(Fault { subject: format!("areas[{i}].area.{key}"), message });
             }
             if !(v[0] >= 0.0 && v[0] < v[1] && v[1] <= 1.0) {
                 let message = format!("found {v:?}, expected two rising numbers from 0 to 1");
-                return Err(Fault { place: format!("areas[{i}].v"), message });
+                return Err(Fault { subject: format!("areas[{i}].v"), message });
             }
         }
         Ok(())
@@ -368,6 +368,6 @@ pub(super) fn read(
         uv,
         u,
     };
-    header.check().map_err(|fault| placed(document.fault(&fault.place, fault.message)))?;
+    header.check().map_err(|fault| placed(document.fault(&fault.subject, fault.message)))?;
     Ok((header, encoding, bytes))
 }

@@ -200,7 +200,7 @@ impl<R: BufRead> GridReader<R> {
             self.read_footer()?;
             if let Err(fault) = self.edges.finish(self.header.seam_v, &self.header.areas) {
                 self.given = self.given.saturating_sub(1);
-                return Err(self.row_error(fault.place, fault.message));
+                return Err(self.row_error(fault.subject, fault.message));
             }
             self.finished = true;
             return Ok(None);
@@ -220,7 +220,7 @@ impl<R: BufRead> GridReader<R> {
         if let Err(fault) =
             row.check(self.header.seam_v, before).and_then(|()| self.edges.row(row.v, areas))
         {
-            return Err(self.row_error(fault.place, fault.message));
+            return Err(self.row_error(fault.subject, fault.message));
         }
         self.given += 1;
         Ok(Some(Row { v: self.row.v, positions: &self.row.positions, normals: &self.row.normals }))
@@ -315,9 +315,9 @@ impl<R: BufRead> GridReader<R> {
         GridError::RowCut { name, row: self.given + 1, rows }
     }
 
-    fn row_error(&self, place: String, message: String) -> GridError {
+    fn row_error(&self, subject: String, message: String) -> GridError {
         let (name, rows) = (self.label.clone(), self.header.rows);
-        GridError::Row { name, row: self.given + 1, rows, place, message }
+        GridError::Row { name, row: self.given + 1, rows, subject, message }
     }
 
     fn footer_cut(&self) -> GridError {

@@ -37,8 +37,8 @@ pub const ALIKE: f64 = 1e-9;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Density {
     /// Positions at which the density changes, rising from 0 to 1.
-    pub places: Vec<f64>,
-    /// Number of cells in each interval between two `places`, not whole, for a largest load of 1.
+    pub positions: Vec<f64>,
+    /// Number of cells in each interval between two `positions`, not whole, for a largest load of 1.
     pub cells: Vec<f64>,
 }
 
@@ -96,7 +96,7 @@ pub fn fewest(field: &Field, even: bool) -> [Density; 2] {
     let sizes = problem.solve(even);
     let scale = sizes.worst.sqrt();
     let density = |spans: &[[f64; 2]], sizes: &[f64]| Density {
-        places: spans.iter().map(|span| span[0]).chain([1.0]).collect(),
+        positions: spans.iter().map(|span| span[0]).chain([1.0]).collect(),
         cells: spans
             .iter()
             .zip(sizes)

@@ -17,6 +17,10 @@ use crate::surface::profile::Column;
 use glam::DVec3;
 use rayon::prelude::*;
 
+/// Distance of a position beside a kink from the kink, as a fraction of the cell's height. Larger, and the normal there
+/// differs from the limit; smaller, and it rounds to the kink itself.
+const BESIDE: f64 = 1e-9;
+
 /// The loads of a cell: errors relative to the tolerance.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Load {
@@ -144,7 +148,7 @@ fn strip(
     let (lower, mut upper) = (row(below), row(above));
     if kinks.contains(&to) {
         // The point is that of the row itself; the normal is that of this side.
-        let near = row(Stop::before(to - 1e-9 * (to - from)));
+        let near = row(Stop::before(to - BESIDE * (to - from)));
         upper.iter_mut().zip(near).for_each(|(here, near)| here.1 = near.1);
     }
     let (lower_middle, upper_middle) = (points(below, middle), points(above, middle));

@@ -7,7 +7,7 @@
 //!    surface, and how the cell's width and height contribute to that.
 //! 2. `demand` finds the widths of columns and heights of rows that keep the tolerance with the fewest cells.
 //!    The product of two integrals is minimized under a bound on every cell, which is a convex problem in the
-//!    logarithms. `place` puts the stops accordingly.
+//!    logarithms. `stops` puts the stops accordingly.
 //! 3. The result is measured again, and the steps are repeated until the tolerance is kept. Then columns and
 //!    rows are removed until one less would break it.
 //!
@@ -17,8 +17,8 @@
 
 mod demand;
 mod measure;
-pub(crate) mod place;
 mod search;
+pub(crate) mod stops;
 mod triangle;
 mod view;
 
@@ -94,7 +94,7 @@ impl Tolerance {
             (Some(Distance::Pixels(pixels, _)), Some(most)) => {
                 Some(format!("{most:.3} pixels from the surface, not {pixels:?}"))
             }
-            _ => None,
+            (Some(Distance::Pixels(..)), None) | (None, _) => None,
         };
         let angle = self.angle.map(|angle| {
             let asked = angle.to_degrees();

@@ -2,7 +2,7 @@
 
 use super::demand::{self, Density};
 use super::measure::{Field, measure};
-use super::place::Direction;
+use super::stops::Direction;
 use super::{Distance, Reached, Tolerance};
 use crate::curve::cut::Stop;
 use crate::surface::Surface;
@@ -116,7 +116,7 @@ impl Search<'_> {
     fn reached(&self, field: &Field, rounds: usize) -> Reached {
         let pixels = match self.tolerance.distance {
             Some(Distance::Pixels(pixels, _)) => Some(pixels * field.part),
-            _ => None,
+            Some(Distance::Everywhere(_)) | None => None,
         };
         Reached {
             tol: field.distance,
@@ -289,7 +289,7 @@ impl Search<'_> {
     fn tried(&self, plan: Plan, rounds: &mut usize) -> Tried {
         *rounds += 1;
         let stops =
-            [0, 1].map(|at| self.directions[at].place(&plan.densities[at], plan.factors[at]));
+            [0, 1].map(|at| self.directions[at].stops(&plan.densities[at], plan.factors[at]));
         let field = self.measure([&stops[0], &stops[1]]);
         let worst = field.worst();
         Tried { plan, stops, field, worst }

@@ -8,6 +8,10 @@ const NEARER: f64 = 1e-6;
 /// Fraction of the squared length by which the second diagonal must be shorter to be chosen.
 const SHORTER: f64 = 1e-5;
 
+/// A triangle whose doubled area is below this fraction of its squared longest side has no direction: rounding of its
+/// corners decides it.
+const NO_AREA: f64 = 1e-12;
+
 /// The two triangles of a cell with corners A, B, C, D, counter-clockwise from its first corner.
 #[derive(Debug, Clone, Copy)]
 pub struct Pair {
@@ -59,7 +63,7 @@ impl Facet {
         let across = p.cross(q);
         let long_sq = p.length_squared().max(q.length_squared());
         // Below this bound, rounding alone decides the direction.
-        let has_area = across.length_squared() > (1e-12 * long_sq).powi(2);
+        let has_area = across.length_squared() > (NO_AREA * long_sq).powi(2);
         let inward = [b - a, c - b, a - c].map(|side| across.cross(side));
         Self { corners, inward, normal: has_area.then(|| across.normalize()) }
     }

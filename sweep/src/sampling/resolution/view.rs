@@ -1,5 +1,6 @@
 //! Size of a pixel at a point seen by a camera.
 
+use crate::curve::vector::LEAST_SINE;
 use glam::DVec3;
 
 /// Factor by which a pixel may be larger outside the picture. A surface not seen directly may be seen in a
@@ -43,7 +44,7 @@ impl View {
         let forward = (target - eye).try_normalize()?;
         let across = forward.cross(up.try_normalize()?);
         // An up vector this close to the view leaves no correct digits for the direction across.
-        if across.length() < 1e-9 {
+        if across.length() < LEAST_SINE {
             return None;
         }
         let right = across.normalize();

@@ -82,7 +82,7 @@ struct Local {
 
 /// A point of a section in space, with everything that one evaluation of the contour gives.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Evaluated {
+pub(crate) struct SectionPoint {
     /// The point, in the unit of length.
     pub point: DVec3,
     /// The unit normal.
@@ -188,11 +188,11 @@ impl Section {
     }
 
     /// Returns the point of the surface at a column, with its normal, its stretch and its folds.
-    pub(crate) fn evaluate(&self, column: &Column) -> Evaluated {
+    pub(crate) fn evaluate(&self, column: &Column) -> SectionPoint {
         if self.plain {
             let (q, q_u) = (column.first.point, column.first.tangent);
             let stretch = self.station.stretch(q);
-            return Evaluated {
+            return SectionPoint {
                 point: self.station.point(q),
                 normal: self.station.normal_stretched(q, q_u, stretch),
                 stretch,
@@ -201,7 +201,7 @@ impl Section {
         }
         let Local { q, q_u, q_s, folds } = self.local(column);
         let stretch = self.station.stretch(q);
-        Evaluated {
+        SectionPoint {
             point: self.station.point(q),
             normal: self.station.normal_of_moving(q, q_u, q_s, stretch),
             stretch,
@@ -211,7 +211,7 @@ impl Section {
 
     /// Returns the point of the surface at a column.
     pub(crate) fn point(&self, column: &Column) -> DVec3 {
-        self.station.point(self.place(column))
+        self.station.point(self.local_point(column))
     }
 
     /// Returns the frame that carries the contour's axes.
@@ -221,7 +221,7 @@ impl Section {
 
     /// Returns the contour's point at a column, on the axes `(w1, w2)` of the station.
     #[must_use]
-    pub fn place(&self, column: &Column) -> DVec2 {
+    pub fn local_point(&self, column: &Column) -> DVec2 {
         if self.plain { column.first.point } else { self.local(column).q }
     }
 
@@ -233,8 +233,8 @@ impl Section {
         let Raised { point, along, across, folds } = match &self.relief {
             Some(relief) => relief.on(column.u, &moving),
             None => Raised {
-                point: moving.place.point,
-                along: moving.place.tangent,
+                point: moving.local.point,
+                along: moving.local.tangent,
                 across: moving.across,
                 folds: false,
             },
@@ -259,6 +259,6 @@ impl Section {
     /// Returns the speed of the point along the tangent, by length of the trajectory: see
     /// [`Station::stretch`].
     pub(crate) fn stretch(&self, column: &Column) -> f64 {
-        self.station.stretch(self.place(column))
+        self.station.stretch(self.local_point(column))
     }
 }

@@ -102,9 +102,10 @@ impl Pole {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::law::Ease;
 
     fn keys(keys: &[[f64; 2]]) -> Law {
-        Law::keys(keys.to_vec(), false)
+        Law::keys(keys.to_vec(), Ease::Linear)
     }
 
     #[test]

@@ -98,12 +98,12 @@ fn sampled(contour: &Contour, start: f64) -> Vec<Local2> {
 }
 
 /// Returns the points moved so that their centroid is the origin.
-fn centred(mut places: Vec<Local2>) -> Vec<Local2> {
-    let centre = places.iter().map(|place| place.point).sum::<DVec2>() / places.len() as f64;
-    for place in &mut places {
-        place.point -= centre;
+fn centred(mut samples: Vec<Local2>) -> Vec<Local2> {
+    let centre = samples.iter().map(|sample| sample.point).sum::<DVec2>() / samples.len() as f64;
+    for sample in &mut samples {
+        sample.point -= centre;
     }
-    places
+    samples
 }
 
 fn correlation(a: &[Local2], contour: &Contour, shift: f64) -> f64 {

@@ -11,6 +11,7 @@
 //! contour blends into the first.
 
 use super::Column;
+use crate::law::Ease;
 use crate::surface::contour::Local2;
 use glam::DVec2;
 
@@ -19,8 +20,8 @@ use glam::DVec2;
 pub struct Blend {
     /// Fractions of the trajectory's length, strictly rising, one for each contour.
     pub(crate) at: Vec<f64>,
-    /// Whether the weight has slope 0 at each contour; otherwise it is linear between two contours.
-    pub(crate) smooth: bool,
+    /// Interpolation between two neighbouring contours.
+    pub(crate) ease: Ease,
     /// Whether the last contour blends into the first.
     pub(crate) wraps: bool,
 }
@@ -38,7 +39,7 @@ pub(crate) struct Mix {
 /// A point of a contour, with its change along the trajectory.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Moving {
-    pub place: Local2,
+    pub local: Local2,
     /// Derivative of the point by `v`.
     pub across: DVec2,
     /// Derivative by `v` of the tangent's angle, in radians.
@@ -63,8 +64,7 @@ impl Blend {
             _ => return held(last),
         };
         let x = (v - start) / (end - start);
-        let (part, slope) =
-            if self.smooth { (x * x * (3.0 - 2.0 * x), 6.0 * x * (1.0 - x)) } else { (x, 1.0) };
+        let (part, slope) = self.ease.weight(x);
         Mix { from, to, part, part_v: slope / (end - start) }
     }
 }
@@ -75,9 +75,9 @@ impl Mix {
         let (a, b) = (column.on(self.from), column.on(self.to));
         let between = |a: DVec2, b: DVec2| a + (b - a) * self.part;
         // Derivatives of the points by `u`.
-        let [a_u, b_u] = [a, b].map(|place| place.tangent / place.pace);
+        let [a_u, b_u] = [a, b].map(|local| local.tangent / local.pace);
         let bend =
-            |place: &Local2, velocity: DVec2| velocity.perp() * (place.curvature / place.pace);
+            |local: &Local2, velocity: DVec2| velocity.perp() * (local.curvature / local.pace);
         let q_u = between(a_u, b_u);
         let speed = q_u.length();
         // Contours that run against each other have a point without a direction.
@@ -85,7 +85,7 @@ impl Mix {
         let tangent = q_u * pace;
         let curvature = tangent.perp_dot(between(bend(a, a_u), bend(b, b_u))) * (pace * pace);
         Moving {
-            place: Local2 { point: between(a.point, b.point), tangent, curvature, pace },
+            local: Local2 { point: between(a.point, b.point), tangent, curvature, pace },
             across: (b.point - a.point) * self.part_v,
             turning: tangent.perp_dot(b_u - a_u) * (self.part_v * pace),
         }
@@ -94,8 +94,8 @@ impl Mix {
 
 impl Moving {
     /// Returns a point of a contour that does not change along the trajectory.
-    pub(crate) fn still(place: Local2) -> Self {
-        Self { place, across: DVec2::ZERO, turning: 0.0 }
+    pub(crate) fn still(local: Local2) -> Self {
+        Self { local, across: DVec2::ZERO, turning: 0.0 }
     }
 }
 
@@ -118,20 +118,20 @@ mod tests {
     #[test]
     fn contours_are_held_outside_and_wrap_along_a_closed_trajectory() {
         let at = vec![0.25, 0.5, 0.75];
-        let open = Blend { at: at.clone(), smooth: false, wraps: false };
+        let open = Blend { at: at.clone(), ease: Ease::Linear, wraps: false };
         assert_eq!([0.1, 0.25].map(|v| mix(&open, v)), [(0, 0, 0.0), (0, 1, 0.0)]);
         assert_eq!([0.375, 0.9].map(|v| mix(&open, v)), [(0, 1, 0.5), (2, 2, 0.0)]);
-        let closed = Blend { at, smooth: false, wraps: true };
+        let closed = Blend { at, ease: Ease::Linear, wraps: true };
         assert_eq!([0.0, 0.125].map(|v| mix(&closed, v)), [(2, 0, 0.5), (2, 0, 0.75)]);
         assert_eq!([0.875, 1.0].map(|v| mix(&closed, v)), [(2, 0, 0.25), (2, 0, 0.5)]);
     }
 
     #[test]
     fn the_end_is_met_from_before() {
-        let blend = Blend { at: vec![0.0, 1.0], smooth: false, wraps: false };
+        let blend = Blend { at: vec![0.0, 1.0], ease: Ease::Linear, wraps: false };
         let end = blend.at(1.0);
         assert_eq!((end.from, end.to, end.part, end.part_v), (0, 1, 1.0, 1.0));
-        let smooth = Blend { smooth: true, ..blend };
+        let smooth = Blend { ease: Ease::Smooth, ..blend };
         assert_eq!((smooth.at(1.0).part_v, smooth.at(0.5).part), (0.0, 0.5));
     }
 }

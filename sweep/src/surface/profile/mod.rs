@@ -29,7 +29,7 @@ pub struct Profile {
     contours: Vec<Aligned>,
     /// Positions of the creases as fractions of the length, rising.
     breaks: Vec<f64>,
-    /// Factors of both axes, 1 or -1, if the profile is mirrored. A mirrored profile runs the other way
+    /// Factors of both axes, 1 or -1, if the profile is mirrored. A mirrored profile runs in the other direction
     /// round.
     mirror: Option<DVec2>,
 }
@@ -80,12 +80,12 @@ impl Profile {
         let mut contours: Vec<Aligned> = placed
             .into_iter()
             .map(|(contour, start)| {
-                let place = |own: f64| {
+                let crease = |own: f64| {
                     let u = if own < start { own - start + 1.0 } else { own - start };
                     let at_start = start > 0.0 && !(SAME..=1.0 - SAME).contains(&u);
                     [if at_start { 0.0 } else { u }, own]
                 };
-                let mut creases: Vec<_> = contour.breaks().into_iter().map(place).collect();
+                let mut creases: Vec<_> = contour.breaks().into_iter().map(crease).collect();
                 creases.sort_by(|a, b| a[0].total_cmp(&b[0]));
                 Aligned { contour, start, creases }
             })
@@ -105,7 +105,7 @@ impl Profile {
 
     /// Returns the profile mirrored by two factors of 1 or -1.
     ///
-    /// The mirrored profile runs the other way round, from the same start if it is closed. So its outside
+    /// The mirrored profile runs in the other direction, from the same start if it is closed. So its outside
     /// stays to the right of its direction.
     pub(crate) fn mirrored(self, factors: DVec2) -> Self {
         Self { mirror: Some(factors), ..self }.reversed()
@@ -114,11 +114,11 @@ impl Profile {
     fn reversed(mut self) -> Self {
         let closed = self.closed();
         let other = |at: f64| if closed && at == 0.0 { 0.0 } else { 1.0 - at };
-        let turn = |places: &mut Vec<f64>| {
-            for at in places.iter_mut() {
+        let turn = |positions: &mut Vec<f64>| {
+            for at in positions.iter_mut() {
                 *at = other(*at);
             }
-            places.sort_by(f64::total_cmp);
+            positions.sort_by(f64::total_cmp);
         };
         turn(&mut self.breaks);
         for one in &mut self.contours {
@@ -244,10 +244,10 @@ impl Aligned {
             Side::Before => Side::After,
             Side::After => Side::Before,
         };
-        let place = self.contour.at(Stop { at: own, side });
+        let local = self.contour.at(Stop { at: own, side });
         // Both the mirror and the reversed direction change the sign of the turn, so the curvature keeps its
         // sign.
-        Local2 { point: place.point * factors, tangent: -place.tangent * factors, ..place }
+        Local2 { point: local.point * factors, tangent: -local.tangent * factors, ..local }
     }
 }
 

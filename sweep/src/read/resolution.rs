@@ -4,30 +4,33 @@ use super::Reader;
 use crate::error::SweepError;
 use crate::grid::MOST_CELLS;
 use crate::sampling::resolution::{Distance, Resolution, Tolerance, View};
-use crate::spec::mesh::{Camera, MAX_QUADS, Mesh};
+use crate::spec;
+use crate::spec::resolution::{Camera, MAX_QUADS};
 use glam::DVec3;
 
 /// Why there is no resolution: the key and a message.
 type Fault = (&'static str, String);
 
 impl Reader<'_> {
-    /// Returns the resolution that a spec's `mesh` asks for, with its keys replaced by those of `rather`.
-    pub(super) fn resolution(&self, mesh: &Mesh, rather: &Mesh) -> Result<Resolution, SweepError> {
-        resolution(&mesh.or_rather(rather)).map_err(|fault| self.of_mesh(rather, fault))
+    /// Returns the resolution that a spec asks for, after the overrides of the reader.
+    pub(super) fn resolution(&self, asked: &spec::Resolution) -> Result<Resolution, SweepError> {
+        let asked = asked.overridden_by(self.overrides);
+        resolution(&asked).map_err(|fault| self.resolution_fault(fault))
     }
 
-    /// Returns an error about a key of `mesh`, or about the key of `rather` that replaced it.
-    pub(super) fn of_mesh(&self, rather: &Mesh, (key, message): Fault) -> SweepError {
-        let asked = match key {
-            "rows" => rather.rows.is_some() || rather.cols.is_some(),
-            "cols" => rather.cols.is_some() || rather.rows.is_some(),
-            "tol" => rather.tol.is_some(),
-            "angle_deg" => rather.angle_deg.is_some(),
-            "pixels" => rather.pixels.is_some(),
-            "max_quads" => rather.max_quads.is_some(),
-            _ => key.starts_with("camera") && rather.camera.is_some(),
+    /// Returns an error about a key of `mesh`, or about the override that replaced this key.
+    pub(super) fn resolution_fault(&self, (key, message): Fault) -> SweepError {
+        let overrides = self.overrides;
+        let overridden = match key {
+            "rows" => overrides.rows.is_some() || overrides.cols.is_some(),
+            "cols" => overrides.cols.is_some() || overrides.rows.is_some(),
+            "tol" => overrides.tol.is_some(),
+            "angle_deg" => overrides.angle_deg.is_some(),
+            "pixels" => overrides.pixels.is_some(),
+            "max_quads" => overrides.max_quads.is_some(),
+            _ => key.starts_with("camera") && overrides.camera.is_some(),
         };
-        if asked {
+        if overridden {
             return SweepError::Resolution(format!("{key}: {message}"));
         }
         let path = if key.is_empty() { "mesh".into() } else { format!("mesh.{key}") };
@@ -35,14 +38,14 @@ impl Reader<'_> {
     }
 }
 
-fn resolution(mesh: &Mesh) -> Result<Resolution, Fault> {
-    let counted = mesh.rows.is_some() || mesh.cols.is_some();
+fn resolution(asked: &spec::Resolution) -> Result<Resolution, Fault> {
+    let counted = asked.rows.is_some() || asked.cols.is_some();
     let tolerance = [
-        ("tol", mesh.tol.is_some()),
-        ("angle_deg", mesh.angle_deg.is_some()),
-        ("pixels", mesh.pixels.is_some()),
-        ("max_quads", mesh.max_quads.is_some()),
-        ("camera", mesh.camera.is_some()),
+        ("tol", asked.tol.is_some()),
+        ("angle_deg", asked.angle_deg.is_some()),
+        ("pixels", asked.pixels.is_some()),
+        ("max_quads", asked.max_quads.is_some()),
+        ("camera", asked.camera.is_some()),
     ];
     let first = tolerance.into_iter().find_map(|(key, given)| given.then_some(key));
     match (counted, first) {
@@ -50,19 +53,21 @@ fn resolution(mesh: &Mesh) -> Result<Resolution, Fault> {
             let message = "found it beside a number of rows or cols, expected one or the other";
             Err((key, message.into()))
         }
-        (true, None) => match (mesh.rows, mesh.cols) {
+        (true, None) => match (asked.rows, asked.cols) {
             (Some(rows), Some(cols)) => Ok(Resolution::Cells { rows, cols }),
             (Some(_), None) => Err(("cols", "found none beside rows, expected both".into())),
             _ => Err(("rows", "found none beside cols, expected both".into())),
         },
-        (false, _) => tolerance_of(mesh).map(Resolution::Tolerance),
+        (false, _) => tolerance_of(asked).map(Resolution::Tolerance),
     }
 }
 
-fn tolerance_of(mesh: &Mesh) -> Result<Tolerance, Fault> {
-    for (key, number, most) in
-        [("tol", mesh.tol, 1e60), ("angle_deg", mesh.angle_deg, 90.0), ("pixels", mesh.pixels, 1e6)]
-    {
+fn tolerance_of(asked: &spec::Resolution) -> Result<Tolerance, Fault> {
+    for (key, number, most) in [
+        ("tol", asked.tol, 1e60),
+        ("angle_deg", asked.angle_deg, 90.0),
+        ("pixels", asked.pixels, 1e6),
+    ] {
         if let Some(number) = number
             && !(number >= 1e-60 && number < most)
         {
@@ -70,7 +75,7 @@ fn tolerance_of(mesh: &Mesh) -> Result<Tolerance, Fault> {
             return Err((key, message));
         }
     }
-    let distance = match (mesh.tol, mesh.pixels, &mesh.camera) {
+    let distance = match (asked.tol, asked.pixels, &asked.camera) {
         (Some(_), Some(_), _) => {
             return Err(("pixels", "found it beside tol, expected one or the other".into()));
         }
@@ -86,17 +91,17 @@ fn tolerance_of(mesh: &Mesh) -> Result<Tolerance, Fault> {
         }
         (None, None, None) => None,
     };
-    if distance.is_none() && mesh.angle_deg.is_none() {
+    if distance.is_none() && asked.angle_deg.is_none() {
         let message =
             "found no resolution, expected rows and cols, or any of tol, angle_deg, pixels";
         return Err(("", message.into()));
     }
-    let max_quads = mesh.max_quads.unwrap_or(MAX_QUADS);
+    let max_quads = asked.max_quads.unwrap_or(MAX_QUADS);
     if !(1..=MOST_CELLS).contains(&max_quads) {
         let message = format!("found {max_quads}, expected 1 to {MOST_CELLS}");
         return Err(("max_quads", message));
     }
-    Ok(Tolerance { distance, angle: mesh.angle_deg.map(f64::to_radians), max_quads })
+    Ok(Tolerance { distance, angle: asked.angle_deg.map(f64::to_radians), max_quads })
 }
 
 fn view(camera: &Camera) -> Result<View, Fault> {

@@ -41,8 +41,8 @@ impl Direction {
 
     /// Returns the stops of an even cut with about `cells` cells.
     pub fn evenly(&self, cells: usize) -> Vec<Stop> {
-        let flat = Density { places: vec![0.0, 1.0], cells: vec![cells as f64] };
-        self.place(&flat, 1.0)
+        let flat = Density { positions: vec![0.0, 1.0], cells: vec![cells as f64] };
+        self.stops(&flat, 1.0)
     }
 
     /// Returns the number of cells for a density times a factor.
@@ -63,7 +63,7 @@ impl Direction {
     }
 
     /// Returns the stops for a density times a factor.
-    pub fn place(&self, density: &Density, factor: f64) -> Vec<Stop> {
+    pub fn stops(&self, density: &Density, factor: f64) -> Vec<Stop> {
         let counts = self.counts(density, factor);
         if let Some(anchors) = &self.even {
             return cut::between(&self.breaks, self.closed, counts.iter().sum(), anchors);
@@ -71,10 +71,10 @@ impl Direction {
         let mut inner: Vec<Vec<f64>> = vec![Vec::new()];
         let mut from = 0.0;
         for (to, count) in self.ends().into_iter().zip(counts) {
-            if let Some(places) = inner.last_mut() {
-                places.extend(between(density, [from, to], count));
+            if let Some(positions) = inner.last_mut() {
+                positions.extend(between(density, [from, to], count));
                 if to < 1.0 && !self.breaks.contains(&to) {
-                    places.push(to);
+                    positions.push(to);
                 }
             }
             if self.breaks.contains(&to) {
@@ -120,7 +120,7 @@ impl Direction {
 /// Returns the number of cells, not whole, from the start to a position.
 fn cells_to(density: &Density, at: f64) -> f64 {
     let mut before = 0.0;
-    for (span, cells) in density.places.windows(2).zip(&density.cells) {
+    for (span, cells) in density.positions.windows(2).zip(&density.cells) {
         if at < span[1] {
             return before + cells * ((at - span[0]) / (span[1] - span[0])).max(0.0);
         }
@@ -132,7 +132,7 @@ fn cells_to(density: &Density, at: f64) -> f64 {
 /// Returns the positions that divide a piece into `count` cells of equal shares of the density.
 fn between(density: &Density, [from, to]: [f64; 2], count: usize) -> Vec<f64> {
     let part = |cell: usize| cell as f64 / count as f64;
-    let spans = density.places.windows(2).zip(&density.cells);
+    let spans = density.positions.windows(2).zip(&density.cells);
     // The part of each span within the piece, with the number of cells up to its start.
     let (mut before, mut pieces) = (0.0, Vec::new());
     let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
@@ -150,7 +150,7 @@ fn between(density: &Density, [from, to]: [f64; 2], count: usize) -> Vec<f64> {
         return (1..count).map(|cell| from + (to - from) * part(cell)).collect();
     }
     let mut piece = 0;
-    let place = |cell: usize| {
+    let position = |cell: usize| {
         let wanted = before * part(cell);
         while piece + 1 < pieces.len() && pieces[piece].2 + pieces[piece].3 < wanted {
             piece += 1;
@@ -158,11 +158,11 @@ fn between(density: &Density, [from, to]: [f64; 2], count: usize) -> Vec<f64> {
         let (start, end, done, within) = pieces[piece];
         start + (end - start) * ((wanted - done) / within).clamp(0.0, 1.0)
     };
-    let mut places: Vec<f64> = (1..count).map(place).collect();
+    let mut positions: Vec<f64> = (1..count).map(position).collect();
     // Rounding must not put two stops at one position.
-    places.retain(|&at| at > from && at < to);
-    places.dedup();
-    places
+    positions.retain(|&at| at > from && at < to);
+    positions.dedup();
+    positions
 }
 
 #[cfg(test)]
@@ -174,30 +174,30 @@ mod tests {
         Direction { breaks, kinks, closed: false, meets: true, fewest: 1, even: None }
     }
 
-    fn places(stops: &[Stop]) -> Vec<f64> {
+    fn positions(stops: &[Stop]) -> Vec<f64> {
         stops.iter().map(|stop| stop.at).collect()
     }
 
     #[test]
     fn a_density_that_does_not_vary_is_cut_evenly() {
-        let flat = Density { places: vec![0.0, 0.3, 1.0], cells: vec![1.2, 2.8] };
+        let flat = Density { positions: vec![0.0, 0.3, 1.0], cells: vec![1.2, 2.8] };
         for breaks in [vec![], vec![0.5]] {
-            let placed = direction(&breaks, &[]).place(&flat, 2.0);
+            let placed = direction(&breaks, &[]).stops(&flat, 2.0);
             assert_eq!(placed, cut::evenly(&breaks, false, 8));
         }
     }
 
     #[test]
     fn even_stops_take_no_heed_of_the_density() {
-        let steep = Density { places: vec![0.0, 0.5, 1.0], cells: vec![3.0, 1.0] };
+        let steep = Density { positions: vec![0.0, 0.5, 1.0], cells: vec![3.0, 1.0] };
         let even = Direction { even: Some(vec![0.0]), ..direction(&[0.5], &[0.25]) };
-        assert_eq!(even.place(&steep, 2.0), cut::evenly(&[0.5], false, 8));
+        assert_eq!(even.stops(&steep, 2.0), cut::evenly(&[0.5], false, 8));
     }
 
     #[test]
     fn a_density_of_nothing_gives_the_fewest_cells() {
         for cells in [0.0, f64::NAN, f64::MIN_POSITIVE] {
-            let nothing = Density { places: vec![0.0, 1.0], cells: vec![cells] };
+            let nothing = Density { positions: vec![0.0, 1.0], cells: vec![cells] };
             let cut = Direction { fewest: 3, ..direction(&[0.5], &[]) };
             assert!(cut.count(&nothing, 1.0) >= 3, "{cells}");
         }
@@ -205,17 +205,17 @@ mod tests {
 
     #[test]
     fn stops_follow_the_density_and_lie_on_kinks() {
-        let steep = Density { places: vec![0.0, 0.5, 1.0], cells: vec![3.0, 1.0] };
+        let steep = Density { positions: vec![0.0, 0.5, 1.0], cells: vec![3.0, 1.0] };
         let plain = direction(&[], &[]);
         let third = 0.5 / 3.0;
-        assert_eq!(places(&plain.place(&steep, 1.0)), [0.0, third, 2.0 * third, 0.5, 1.0]);
+        assert_eq!(positions(&plain.stops(&steep, 1.0)), [0.0, third, 2.0 * third, 0.5, 1.0]);
         let kinked = direction(&[0.5], &[0.25]);
-        assert_eq!(places(&kinked.place(&steep, 0.5)), [0.0, 0.25, 0.5, 0.5, 1.0]);
+        assert_eq!(positions(&kinked.stops(&steep, 0.5)), [0.0, 0.25, 0.5, 0.5, 1.0]);
     }
 
     #[test]
     fn the_next_smaller_factor_drops_a_cell_of_a_piece() {
-        let steep = Density { places: vec![0.0, 0.5, 1.0], cells: vec![3.0, 1.0] };
+        let steep = Density { positions: vec![0.0, 0.5, 1.0], cells: vec![3.0, 1.0] };
         let cut = direction(&[0.5], &[]);
         let mut factor = 2.0;
         let mut counts = vec![cut.count(&steep, factor)];

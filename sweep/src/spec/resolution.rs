@@ -44,8 +44,8 @@ pub const MAX_QUADS: usize = 2_000_000;
     deny_unknown_fields,
     expecting = "an object with the keys rows and cols, or with any of tol, angle_deg, pixels"
 )]
-#[schemars(transform = limits::cells_or_tolerance)]
-pub struct Mesh {
+#[schemars(rename = "Mesh", transform = limits::cells_or_tolerance)]
+pub struct Resolution {
     /// Number of cells along the trajectory.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(transform = limits::range(1..=MOST_CELLS))]
@@ -99,35 +99,34 @@ pub struct Camera {
     pub size: [u32; 2],
 }
 
-impl Mesh {
-    /// Returns this resolution with every key of `other` in place of its own.
+impl Resolution {
+    /// Merges `overrides` into this resolution. Counts (`rows`, `cols`) replace a tolerance, and a tolerance
+    /// replaces counts.
     ///
-    /// Counts (`rows`, `cols`) in `other` remove the tolerance of this resolution, and a tolerance in `other`
-    /// removes its counts. A distance in `other` (`tol` or `pixels`) removes both distances of this
-    /// resolution. The camera of `other` is used only if the result has `pixels` and this resolution has no
-    /// camera.
+    /// A distance (`tol` or `pixels`) replaces both distances of this resolution. The camera of `overrides` is used
+    /// only if the result has `pixels` and this resolution has no camera.
     #[must_use]
-    pub fn or_rather(&self, other: &Self) -> Self {
-        let counted = other.rows.is_some() || other.cols.is_some();
-        let near = other.tol.is_some() || other.pixels.is_some();
-        let tolerance = near || other.angle_deg.is_some();
+    pub fn overridden_by(&self, overrides: &Self) -> Self {
+        let counted = overrides.rows.is_some() || overrides.cols.is_some();
+        let near = overrides.tol.is_some() || overrides.pixels.is_some();
+        let tolerance = near || overrides.angle_deg.is_some();
         let old = |kept: bool| if kept { self.clone() } else { Self::default() };
         let (cells, bounds) = (old(!tolerance), old(!counted));
         let distance = old(!counted && !near);
-        let pixels = other.pixels.or(distance.pixels);
+        let pixels = overrides.pixels.or(distance.pixels);
         let camera = match pixels {
-            Some(_) => bounds.camera.or(other.camera),
-            None if other.tol.is_some() => None,
+            Some(_) => bounds.camera.or(overrides.camera),
+            None if overrides.tol.is_some() => None,
             None => bounds.camera,
         };
         Self {
-            rows: other.rows.or(cells.rows),
-            cols: other.cols.or(cells.cols),
-            tol: other.tol.or(distance.tol),
-            angle_deg: other.angle_deg.or(bounds.angle_deg),
+            rows: overrides.rows.or(cells.rows),
+            cols: overrides.cols.or(cells.cols),
+            tol: overrides.tol.or(distance.tol),
+            angle_deg: overrides.angle_deg.or(bounds.angle_deg),
             pixels,
             camera,
-            max_quads: other.max_quads.or(bounds.max_quads),
+            max_quads: overrides.max_quads.or(bounds.max_quads),
         }
     }
 }
