@@ -45,7 +45,7 @@
 //! | [`report`]       | topology and measures of a mesh, as JSON                     |
 //! | [`area_file`]    | a file of texture areas for a grid                           |
 //! | [`mtl`]          | the material file beside an OBJ                              |
-//! | [`format`]       | the formats of mesh files                                    |
+//! | [`mod@format`]   | the formats of mesh files                                    |
 //! | [`stl`]          | the mesh as binary STL                                       |
 //! | [`split`]        | vertices that carry position, normal and picture coordinates |
 //! | [`ply`]          | the mesh as binary PLY                                       |

@@ -85,7 +85,7 @@ impl Exposure<'_> {
         };
         match self.settings.sampling {
             Sampling::Supersample(Supersample::Rays) => {
-                self.expose_nine(tile, &mut exposed, witness)
+                self.expose_nine(tile, &mut exposed, witness);
             }
             _ => self.expose_rows(tile, &mut exposed, witness),
         }
