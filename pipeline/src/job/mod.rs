@@ -50,43 +50,43 @@ pub use mode::Mode;
 
 use crate::PipelineError;
 
-/// A job, checked; the files that it names are not yet read.
+/// A checked job. The files that it names are not yet read.
 #[derive(Debug, Clone)]
 pub struct Job {
-    /// What its files are called: the job file's name without its extension.
+    /// The name of the job file without its extension. Names of output files begin with it.
     pub name: String,
-    /// What it shows, in one line.
+    /// The title, one line.
     pub title: String,
-    /// What there is to see in it, in a few sentences; or nothing.
+    /// A few sentences on what the pictures show; may be empty.
     pub caption: String,
-    /// Places worth looking at pixel by pixel.
+    /// Parts of the picture that the book shows pixel by pixel.
     pub crops: Vec<Place>,
     /// The meshes to make, by the names that the scene gives them.
     pub meshes: Vec<MeshJob>,
     /// The scene file.
     pub scene: PathBuf,
-    /// The ways to render it, at least one.
+    /// The modes in which the scene is rendered, at least one.
     pub modes: Vec<Mode>,
-    /// Whether these are all the modes that its file has; if not, they are not put side by side.
+    /// Whether `modes` are all modes of the job file. Only then are the pictures put side by side.
     pub whole: bool,
 }
 
 /// A mesh to make.
 #[derive(Debug, Clone)]
 pub struct MeshJob {
-    /// Its name in the scene.
+    /// The name of the mesh in the scene.
     pub name: String,
-    /// The curve spec.
+    /// The path of the curve spec.
     pub spec: PathBuf,
     /// The ids on its triangles.
     pub options: Options,
-    /// What of its resolution is said here, in place of what the spec says.
+    /// Keys that replace those of the spec's resolution.
     pub mesh: spec::Mesh,
-    /// The text of the job, which says so.
+    /// The text of the job file, for the positions of complaints.
     said: Arc<JobText>,
 }
 
-/// The text of a job file, kept for complaints that only its meshes bring up.
+/// The text of a job file, kept for complaints that arise when a mesh is made.
 #[derive(Debug)]
 struct JobText {
     /// The file as the user named it.
@@ -95,7 +95,7 @@ struct JobText {
 }
 
 impl MeshJob {
-    /// A complaint about what the job says of this mesh's resolution.
+    /// Returns a complaint about the resolution that the job gives this mesh.
     ///
     /// The text is parsed for the position here and not for each mesh of a job.
     pub(crate) fn resolution_fault(&self, message: String) -> JsonError {
@@ -107,13 +107,14 @@ impl MeshJob {
     }
 }
 
-/// A place in a picture.
+/// A part of a picture that deserves a look pixel by pixel.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Place {
-    /// What is seen there.
+    /// A description of what the part shows.
     pub title: String,
-    /// Its middle, as fractions of the width from the left and of the height from the top, 0 to 1.
+    /// The middle of the part: fractions of the width from the left and of the height from the top, in
+    /// [0, 1].
     pub at: [f64; 2],
 }
 
@@ -162,11 +163,11 @@ impl Job {
         Ok(Self::parse(&name, &bytes, &stem, folder)?)
     }
 
-    /// The job with only the modes of these names, in its own order; with all of them where there are
-    /// no names.
+    /// Returns the job with only the modes of these names, in the order of the job. Without names, all
+    /// modes stay.
     ///
     /// # Errors
-    /// When it has no mode of one of the names.
+    /// When the job has no mode of one of the names.
     pub fn with_modes(mut self, names: &[String]) -> Result<Self, PipelineError> {
         let has = |name: &&String| self.modes.iter().any(|mode| mode.name == **name);
         if let Some(name) = names.iter().find(|name| !has(name)) {
@@ -180,7 +181,7 @@ impl Job {
         Ok(self)
     }
 
-    /// The numbers of the figures of the thesis that it shows, ascending.
+    /// Returns the numbers of the thesis's figures that the job shows, ascending.
     #[must_use]
     pub fn figures(&self) -> Vec<u8> {
         let mut numbers: Vec<u8> = self.modes.iter().filter_map(Mode::figure_number).collect();
@@ -189,7 +190,7 @@ impl Job {
         numbers
     }
 
-    /// The same job with only those of its modes that show one of these figures.
+    /// Returns the job with only the modes that show one of these figures.
     #[must_use]
     pub fn only(mut self, figures: &[u8]) -> Self {
         let all = self.modes.len();
@@ -198,7 +199,7 @@ impl Job {
         self
     }
 
-    /// The names of all files that it writes; with `keep` also of its grids and OBJ files.
+    /// Returns the names of all files that the job writes, with `keep` also those of grids and OBJ files.
     #[must_use]
     pub fn files(&self, keep: bool) -> Vec<String> {
         let kept = self.meshes.iter().filter(|_| keep);
@@ -208,27 +209,27 @@ impl Job {
             .collect()
     }
 
-    /// The file of a mode's picture.
+    /// Returns the file name of a mode's picture.
     pub(crate) fn picture_file(&self, mode: &Mode) -> String {
         format!("{}-{}.png", self.name, mode.name)
     }
 
-    /// The file of all pictures side by side, when there are several.
+    /// Returns the file name of all pictures side by side, if there are several.
     pub(crate) fn strip_file(&self) -> Option<String> {
         (self.whole && self.modes.len() > 1).then(|| format!("{}.png", self.name))
     }
 
-    /// The file of a mesh's grid.
+    /// Returns the file name of a mesh's grid.
     pub(crate) fn grid_file(&self, mesh: &MeshJob) -> String {
         format!("{}-{}.grid", self.name, mesh.name)
     }
 
-    /// The file of a mesh's triangles.
+    /// Returns the file name of a mesh's triangles.
     pub(crate) fn obj_file(&self, mesh: &MeshJob) -> String {
         format!("{}-{}.obj", self.name, mesh.name)
     }
 
-    /// The job in the bytes of a file; its paths count from `folder`.
+    /// Reads a job from the bytes of a file. Its paths count from `folder`.
     fn parse(file: &str, bytes: &[u8], name: &str, folder: &Path) -> Result<Self, JsonError> {
         let document = &Document::new(file, bytes)?;
         let said = Arc::new(JobText { file: file.into(), bytes: bytes.into() });
@@ -263,7 +264,7 @@ impl Job {
     }
 }
 
-/// Names become parts of file names.
+/// Checks that a name can be a part of file names.
 fn check_word(document: &Document<'_>, path: &str, name: &str) -> Result<(), JsonError> {
     let plain = |c: char| c.is_alphanumeric() || matches!(c, '-' | '_' | '.');
     if !name.is_empty() && !name.starts_with('.') && name.chars().all(plain) {

@@ -10,25 +10,25 @@ use render::filter::Filter;
 use serde::Deserialize;
 use std::collections::HashSet;
 
-/// A way to render a scene.
+/// A method of rendering a scene.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Mode {
-    /// What its picture is called, after the job.
+    /// The name of the mode, which follows that of the job in the picture's file name.
     pub name: String,
-    /// How textures are averaged.
+    /// The filter that averages textures.
     pub filter: Filter,
-    /// How a pixel is made of rays.
+    /// The pattern of rays in a pixel.
     pub sampling: Sampling,
-    /// What finds the hits; the picture is the same.
+    /// The structure that finds hits. The picture does not depend on it.
     pub accel: Structure,
-    /// The figure of the thesis that this is made after, such as `A.5`.
+    /// The figure of the thesis that the picture follows, such as `A.5`.
     pub figure: Option<String>,
-    /// How long that took in 1993, in minutes.
+    /// The time that the thesis reports for that figure, in minutes.
     pub thesis_minutes: Option<u32>,
 }
 
 impl Mode {
-    /// The number of the figure that it is made after.
+    /// Returns the number of the figure that the picture follows.
     #[must_use]
     pub fn figure_number(&self) -> Option<u8> {
         figure::number(self.figure.as_deref()?)
@@ -65,7 +65,7 @@ enum PatternName {
     Jitter,
 }
 
-/// The modes of a job; one, with the tent filter, if none are written.
+/// Checks the modes of a job. A job file without modes has one, with the tent filter.
 pub(super) fn modes(
     document: &Document<'_>,
     modes: Option<Vec<ModeFile>>,
@@ -102,7 +102,7 @@ pub(super) fn modes(
     Ok(checked)
 }
 
-/// How a pixel is made of rays, in the mode at `path`.
+/// Returns the pattern of rays of the mode at `path`.
 fn sampling(document: &Document<'_>, path: &str, mode: &ModeFile) -> Result<Sampling, JsonError> {
     let fault = |key: &str, message: String| Err(document.fault(&format!("{path}.{key}"), message));
     if let Some(nine) = mode.supersample {
