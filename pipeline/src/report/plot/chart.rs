@@ -365,7 +365,7 @@ mod tests {
         for (x, y) in [(0.0, 0.1), (1.0, f64::NAN), (1e9, 0.1), (-1.0, 0.1)] {
             assert_eq!(chart.place(FRAME, x, y), None);
         }
-        chart.series[0].places.push(Point { x: f64::NAN, y: 0.0, ..Point::default() });
+        chart.series[0].points.push(Point { x: f64::NAN, y: 0.0, ..Point::default() });
         let circles = chart.inline(Size::Wide, "about").matches("<circle").count();
         // Three points, and the mark beside the name.
         assert_eq!(circles, 4);
