@@ -14,7 +14,8 @@ use render::film::Crop;
 use std::path::Path;
 use thiserror::Error;
 
-/// Bytes a pixel while a picture is read: decoded, as linear light with alpha, and in the [`Picture`].
+/// Returns the bytes for each pixel while a picture is read: decoded, as linear light with alpha, and in
+/// the [`Picture`].
 fn each(kind: ColorType) -> u64 {
     u64::from(kind.bytes_per_pixel()) + 16 + 12
 }
@@ -25,7 +26,7 @@ pub enum ReadError {
     /// The file cannot be read.
     #[error(transparent)]
     File(#[from] FileError),
-    /// It holds no picture that we read.
+    /// The file holds no PNG or EXR picture.
     #[error("{name}: found no picture ({found}), expected a PNG or EXR file")]
     NoPicture {
         /// The file.
@@ -33,10 +34,10 @@ pub enum ReadError {
         /// What was found, in words.
         found: String,
     },
-    /// It takes more memory than is allowed.
+    /// The picture takes more memory than is allowed.
     #[error(transparent)]
     Memory(#[from] MemoryError),
-    /// A pixel holds what cannot be compared.
+    /// A pixel is not opaque or not finite.
     #[error("{name}: found {found} in pixel {},{}, expected {expected}", place.0, place.1)]
     Pixel {
         /// The file.
@@ -58,7 +59,7 @@ pub enum ReadError {
         /// Pixels across and down of both.
         sizes: [(u32, u32); 2],
     },
-    /// The part to be compared does not lie in the picture.
+    /// The part to compare does not lie in the picture.
     #[error("the crop {},{},{}x{} does not lie in {name}, which is {}x{} pixels", crop.x, crop.y, crop.width, crop.height, size.0, size.1)]
     Crop {
         /// The file.
@@ -81,20 +82,20 @@ impl Failure for ReadError {
     }
 }
 
-/// The picture in the file named on a command line; `-` is standard input. Its format is told by its
-/// first bytes.
+/// Reads the picture file that an argument names; `-` is standard input. The first bytes tell the format.
 ///
 /// # Errors
-/// When it cannot be read, is no PNG or EXR file, is broken, is not opaque or not finite.
+/// When the file cannot be read, is no PNG or EXR file, or is broken; when a pixel is not opaque or not
+/// finite.
 pub fn read(ledger: &Ledger, argument: &Path) -> Result<Picture, ReadError> {
     let name = input::name_of(argument);
     decode(&name, &ledger.argument(argument, "a picture")?)
 }
 
-/// Two pictures of the same size from the files named on a command line, or the same part of both.
+/// Reads two pictures of the same size, or the same part of both, from the files that arguments name.
 ///
 /// # Errors
-/// When one of them cannot be read, their sizes differ, or the part does not lie in them.
+/// When a file cannot be read, the sizes differ, or the part does not lie in the pictures.
 pub fn pair(
     ledger: &Ledger,
     first: &Path,
@@ -117,7 +118,7 @@ pub fn pair(
     }
 }
 
-/// A part of a picture, which lies in it; without its layers.
+/// Returns a part of a picture without layers. The part must lie in the picture.
 #[must_use]
 pub fn part(whole: &Picture, crop: &Crop) -> Picture {
     let (start, end) = (crop.x as usize, (crop.x + crop.width) as usize);
@@ -127,7 +128,7 @@ pub fn part(whole: &Picture, crop: &Crop) -> Picture {
     Picture { pixels, ..Picture::black(crop.width, crop.height) }
 }
 
-/// The picture in the bytes of a file, which messages call `name`.
+/// Reads a picture from the bytes of a file, which messages call `name`.
 ///
 /// # Errors
 /// As [`read`], but for reading.

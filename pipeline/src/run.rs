@@ -1,4 +1,4 @@
-//! Does a job: specs to grids to meshes to pictures.
+//! Runs a job: from specs to grids, meshes and pictures.
 
 use crate::job::{MeshJob, Mode};
 use crate::stages::Stages;
@@ -28,12 +28,12 @@ use triangulate::{ObjWriter, Patches, TriMesh, TriangulateError};
 /// White between the pictures of a strip, in pixels.
 const GAP: u32 = 8;
 
-/// Where the results of a job go, and how large they are.
+/// The folder of a job's results, and their size.
 #[derive(Debug, Clone)]
 pub struct Options {
-    /// The folder for all files; it exists.
+    /// The folder for all files. It must exist.
     pub folder: PathBuf,
-    /// Pixels across and down.
+    /// Width and height of each picture, in pixels.
     pub size: (u32, u32),
     /// Whether grids and OBJ files are written too.
     pub keep: bool,
@@ -41,23 +41,23 @@ pub struct Options {
     pub clobber: bool,
 }
 
-/// What a job wants to say while it works.
+/// An event in the course of a job.
 #[derive(Debug)]
 pub enum Event<'a> {
     /// A mesh is made.
     Mesh {
-        /// Its name in the scene.
+        /// The name of the mesh in the scene.
         name: &'a str,
-        /// How many triangles it has.
+        /// The number of triangles.
         triangles: usize,
-        /// How long its grid took.
+        /// The time for its grid.
         sweep: Duration,
-        /// How long its triangles took.
+        /// The time for its triangles.
         triangulate: Duration,
-        /// By how much its tolerance is missed, in words.
+        /// A sentence on the tolerance, if it is missed.
         missed: Option<String>,
     },
-    /// Some of a mode's picture is done.
+    /// A part of a mode's picture is done.
     Progress {
         /// The mode.
         mode: &'a str,
@@ -79,15 +79,14 @@ pub enum Event<'a> {
     Written(&'a Path),
 }
 
-/// Does a job, whose files are read from `source`.
+/// Runs a job, whose files are read from `source`.
 ///
 /// Each mode gives a picture `JOB-MODE.png`; several modes also give `JOB.png`, all of them side by
 /// side. With `keep`, each mesh gives `JOB-MESH.grid` and `JOB-MESH.obj`, the bytes that the programs
-/// would have piped. Returned is where the time went.
+/// would have piped. Returns the time of each stage.
 ///
 /// # Errors
-/// On the first thing that is wrong; files already written stay, and so does their marker, as [`Batch`]
-/// explains.
+/// On the first fault. Files already written stay, and so does their marker, as [`Batch`] explains.
 pub fn run(
     job: &Job,
     source: &dyn Source,
@@ -100,16 +99,16 @@ pub fn run(
     Ok(stages)
 }
 
-/// The files of a job, which belong together; their marker is `JOB.incomplete`.
+/// Returns the batch of a job's files. Their marker is `JOB.incomplete`.
 ///
 /// # Errors
-/// When a file that is no marker has its name.
+/// When another file than a marker has the marker's name.
 pub fn batch<'a>(job: &Job, options: &Options) -> Result<Batch<'a>, PipelineError> {
     let files = job.files(options.keep).into_iter().map(|file| options.folder.join(file));
     Ok(Batch::new(&options.folder, &job.name, &files.collect::<Vec<_>>())?)
 }
 
-/// Does a job as [`run()`] and replaces its files in a batch, which is not finished.
+/// Runs a job as [`run()`] does, with its files in a batch that stays unfinished.
 ///
 /// # Errors
 /// As [`run()`].
@@ -138,8 +137,7 @@ pub fn run_in(
     Ok(run.stages.get())
 }
 
-/// The scene of a job with its meshes in it, as [`run()`] renders it: for those who render it in ways of
-/// their own. Nothing is written.
+/// Returns the scene of a job with its meshes, as [`run()`] renders it. Nothing is written.
 ///
 /// # Errors
 /// When a file cannot be read or is wrong, or the textures take too much memory in one of the job's modes.
@@ -152,7 +150,7 @@ pub fn scene(
     Run { job, source, options, tell, batch: None, stages: Cell::default() }.scene()
 }
 
-/// What a mode asks of a picture of this size.
+/// Returns the settings of a mode for a picture of this width and height.
 #[must_use]
 pub fn settings(mode: &Mode, (width, height): (u32, u32)) -> Settings {
     let Mode { filter, sampling, accel, .. } = *mode;
@@ -165,13 +163,13 @@ struct Run<'a> {
     source: &'a dyn Source,
     options: &'a Options,
     tell: &'a (dyn Fn(Event<'_>) + Sync),
-    /// What replaces files; none where nothing is written.
+    /// The batch of the job's files; `None` if nothing is written.
     batch: Option<&'a Batch<'a>>,
     stages: Cell<Stages>,
 }
 
 impl Run<'_> {
-    /// Takes the memory for the pictures of all modes, which are kept for the strip, and for it.
+    /// Reserves memory for the pictures of all modes and for the strip of them.
     fn reserve_pictures(&self) -> Result<Reserved<'static>, MemoryError> {
         let (width, height) = self.options.size;
         let count = self.job.modes.len() as u64;
@@ -188,7 +186,7 @@ impl Run<'_> {
         self.stages.set(stages);
     }
 
-    /// The scene with the job's meshes in it.
+    /// Makes the scene with the job's meshes.
     fn scene(&self) -> Result<Scene, PipelineError> {
         let started = Instant::now();
         let path = &self.job.scene;
@@ -219,7 +217,7 @@ impl Run<'_> {
         Ok(scene)
     }
 
-    /// What is wrong with a scene, where it is the job that has a mesh too many or too few.
+    /// Turns an error of the scene into one of the job, if the job has a mesh too many or too few.
     fn of_meshes(&self, error: SceneError) -> PipelineError {
         let job = self.job.name.clone();
         match error {

@@ -2,6 +2,7 @@
 
 use crate::job::Place;
 use crate::truth::Pair;
+use compare::read;
 use render::film::{Crop, Layer};
 use render::filter::Filter;
 use render::{Picture, Prepared, Settings};
@@ -46,7 +47,8 @@ impl Detail {
     pub fn new(scene: &Prepared<'_>, place: &Place, pictures: &[&Picture], samples: u32) -> Self {
         let size = pictures.first().map_or((1, 1), |picture| (picture.width, picture.height));
         let crop = around(place, size);
-        let pictures: Vec<Picture> = pictures.iter().map(|picture| cut(picture, crop)).collect();
+        let pictures: Vec<Picture> =
+            pictures.iter().map(|picture| read::part(picture, &crop)).collect();
         let judged = (samples > 0).then(|| {
             let truth = Pair::render(scene, size, crop, samples, &|_, _| {});
             let wide = wide_pixels(scene, size, crop);
@@ -108,16 +110,6 @@ fn around(place: &Place, (width, height): (u32, u32)) -> Crop {
     Crop { x: start(x, wide, width), y: start(y, high, height), width: wide, height: high }
 }
 
-/// Cuts a part out of a picture.
-fn cut(picture: &Picture, crop: Crop) -> Picture {
-    let mut part = Picture::black(crop.width, crop.height);
-    let rows = picture.pixels.chunks_exact(picture.width as usize).skip(crop.y as usize);
-    for (to, from) in part.pixels.chunks_exact_mut(crop.width as usize).zip(rows) {
-        to.copy_from_slice(&from[crop.x as usize..(crop.x + crop.width) as usize]);
-    }
-    part
-}
-
 /// Returns for each pixel whether it is wide. The ray through the middle of a wide pixel first hits an
 /// object with a texture, and there the pixel spans more than two texels in both directions.
 fn wide_pixels(prepared: &Prepared<'_>, (width, height): (u32, u32), crop: Crop) -> Vec<bool> {
@@ -160,7 +152,7 @@ mod tests {
         for (at, corner) in [([0.0, 0.0], (0, 0)), ([1.0, 1.0], (116, 16)), ([0.5, 0.5], (58, 8))] {
             let crop = around(&Place { title: String::new(), at }, size);
             assert_eq!((crop.x, crop.y, crop.width, crop.height), (corner.0, corner.1, SIDE, SIDE));
-            let part = cut(&picture, crop);
+            let part = read::part(&picture, &crop);
             let last = (corner.1 + SIDE - 1) * size.0 + corner.0 + SIDE - 1;
             assert_eq!(part.pixels[(SIDE * SIDE - 1) as usize][0], last as f32);
         }

@@ -11,18 +11,19 @@ use std::path::{Component, Path, PathBuf};
 /// A file of a page.
 #[derive(Debug)]
 pub struct SourceText {
-    /// What it is: `job`, `scene`, `part of the scene` or `curves`.
+    /// The kind of the file: `job`, `scene`, `part of the scene` or `curves`.
     pub kind: &'static str,
-    /// Its path.
+    /// The path of the file.
     pub path: String,
-    /// What it says.
+    /// The content of the file.
     pub text: String,
 }
 
-/// The job file, its scene with the parts that it includes, and its specs; each once.
+/// Returns the texts of the job file, of its scene with the parts that it includes, and of its specs.
+/// Each file occurs once.
 ///
 /// # Errors
-/// When one cannot be read, or the scene is none.
+/// When a file cannot be read, or the scene is malformed.
 pub fn texts(entry: &Entry<'_>) -> Result<Vec<SourceText>, PipelineError> {
     let mut texts = Texts { source: entry.source, known: HashSet::new(), texts: Vec::new() };
     texts.add("job", entry.path)?;
@@ -46,7 +47,7 @@ pub fn texts(entry: &Entry<'_>) -> Result<Vec<SourceText>, PipelineError> {
     Ok(texts.texts)
 }
 
-/// The paths that `file` names, from its folder and without detours.
+/// Returns the paths that `file` names, from the folder of `file` and without detours.
 fn beside(file: &Path, others: &[PathBuf]) -> Vec<PathBuf> {
     let folder = file.parent().unwrap_or(Path::new(""));
     others.iter().map(|other| plain(&folder.join(other))).collect()
@@ -61,7 +62,7 @@ struct Texts<'a> {
 }
 
 impl Texts<'_> {
-    /// Reads and adds a file, and returns its bytes; nothing when the file was added before.
+    /// Reads and adds a file, and returns its bytes. Returns `None` if the file was added before.
     fn add(&mut self, kind: &'static str, path: &Path) -> Result<Option<Vec<u8>>, PipelineError> {
         let plain = plain(path);
         if self.known.contains(&plain) {
@@ -75,7 +76,7 @@ impl Texts<'_> {
     }
 }
 
-/// The path without steps up that undo a step down.
+/// Returns the path without steps up that undo a step down.
 fn plain(path: &Path) -> PathBuf {
     let mut plain = PathBuf::new();
     for part in path.components() {
@@ -104,7 +105,7 @@ mod tests {
         assert_eq!(shown("../../b/../a.json"), "../../a.json");
     }
 
-    /// Files that count how often any is read.
+    /// A source that counts the files read.
     #[derive(Debug, Default)]
     struct Counted {
         files: BTreeMap<PathBuf, String>,

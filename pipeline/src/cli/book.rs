@@ -14,7 +14,7 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
-/// What `pipeline book` is asked.
+/// Arguments of `pipeline book`.
 #[derive(Debug, Args)]
 pub struct BookArguments {
     /// Pages by name, figures of the thesis by number, which stand for their pages, or job files; all pages if none are
@@ -34,7 +34,7 @@ pub struct BookArguments {
     common: CommonArguments,
 }
 
-/// Takes the memory for the page: its pictures as PNG files, in base64, and in the text of the page, which
+/// Reserves memory for the page: pictures as PNG files, as base64, and in the text of the page, which
 /// grows by doubling.
 fn reserve_page(jobs: &[NamedJob], size: (u32, u32)) -> Result<Reserved<'static>, MemoryError> {
     const OF_PIXEL: u64 = 3 + 4 + 2 * 4;

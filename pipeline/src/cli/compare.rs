@@ -21,7 +21,7 @@ Measures, in linear light where white is 1:
 
 Ends with 1 if one of the limits given is passed. A PNG is taken as sRGB, an EXR as linear.";
 
-/// What `pipeline compare` is asked.
+/// Arguments of `pipeline compare`.
 #[derive(Debug, Args)]
 #[command(after_help = MEASURES)]
 pub struct CompareArguments {
@@ -64,19 +64,19 @@ pub struct CompareArguments {
     no_clobber: bool,
 }
 
-/// Reads a difference that is allowed.
+/// Reads a limit of a difference: a finite number of at least 0.
 fn limit(text: &str) -> Result<f64, String> {
     let number = text.parse().ok().filter(|x: &f64| x.is_finite() && *x >= 0.0);
     number.ok_or_else(|| "expected a number of at least 0".into())
 }
 
-/// Reads a similarity.
+/// Reads a limit of the similarity: a number in [-1, 1].
 fn similarity(text: &str) -> Result<f64, String> {
     let number = text.parse().ok().filter(|x| (-1.0..=1.0).contains(x));
     number.ok_or_else(|| "expected a number from -1 to 1".into())
 }
 
-/// Why a comparison does not end well.
+/// Why a comparison fails.
 #[derive(Debug, Error)]
 enum Unequal {
     #[error("{first} differs from {second} by more than was allowed: {passed}")]
@@ -101,11 +101,11 @@ impl Failure for Unequal {
     }
 }
 
-/// Bytes a pixel while pictures are compared: both of them, their differences, sorted once, and the sums of
+/// Bytes for each pixel while two pictures are compared: both pictures, their differences, and the sums of
 /// the similarity.
 const OF_PIXEL: u64 = 2 * 12 + 2 * 8 + 10 * 8;
 
-/// What was measured, in the order in which it is printed.
+/// The measures, in the order in which they are printed.
 #[derive(Debug, Serialize)]
 struct Measures {
     width: u32,
@@ -119,7 +119,7 @@ struct Measures {
     ssim: Option<f64>,
 }
 
-/// Compares two pictures, draws the map, prints the numbers and holds them against the limits.
+/// Compares two pictures, draws the map, prints the measures and checks the limits.
 pub fn compare(arguments: &CompareArguments) -> Result<(), Report> {
     files::memory::allow(arguments.max_memory);
     let (first, second) = (&arguments.first, &arguments.second);
@@ -176,7 +176,7 @@ impl Measures {
         })
     }
 
-    /// Prints the numbers: as lines of words rounded to `f32`, or as JSON in full.
+    /// Prints the measures: as lines with the digits of an `f32`, or as JSON in full.
     fn write(&self, json: bool, out: &mut impl Write) -> io::Result<()> {
         if json {
             serde_json::to_writer(&mut *out, self)?;
@@ -196,7 +196,7 @@ impl Measures {
         }
     }
 
-    /// The limits that are passed, in words.
+    /// Returns a sentence for each limit that a measure passes.
     fn passed(&self, limits: &CompareArguments) -> Vec<String> {
         let above = [
             ("rmse", self.rmse, limits.rmse),
@@ -213,7 +213,7 @@ impl Measures {
     }
 }
 
-/// A number with the digits of an `f32`: more are rounding.
+/// Formats a number with the digits of an `f32`. More digits would be rounding errors.
 fn number(x: f64) -> String {
     format!("{:?}", x as f32)
 }

@@ -5,7 +5,8 @@ use crate::pages;
 use files::{Output, Report};
 use std::path::Path;
 
-/// Names the pages, one in a line: first those of the thesis, with the numbers of their figures, then the others.
+/// Prints one line for each page: first the pages of the thesis, with the numbers of their figures, then
+/// the others.
 pub fn list() -> Result<(), Report> {
     let rows: Vec<[String; 3]> = pages::in_order()?
         .into_iter()

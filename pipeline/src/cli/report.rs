@@ -28,7 +28,7 @@ const PEERS: [&str; 2] = ["peer-glass", "peer-tube"];
 /// The program that counts memory, which stands beside this one.
 const COUNTING: &str = "pipeline-report";
 
-/// What `pipeline report` is asked.
+/// Arguments of `pipeline report`.
 #[derive(Debug, Args)]
 pub struct ReportArguments {
     /// Pages by name, all of them, or job files, whose names end in .json [default: the figures of the

@@ -19,7 +19,7 @@ use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
-/// What `pipeline run` is asked.
+/// Arguments of `pipeline run`.
 #[derive(Debug, Args)]
 pub struct RunArguments {
     /// Pages by name, all of them, figures of the thesis by number, or job files, whose names end in .json
@@ -47,7 +47,7 @@ pub struct RunArguments {
     common: CommonArguments,
 }
 
-/// Does the jobs that were named.
+/// Runs the jobs that the arguments name.
 pub fn run(arguments: &RunArguments) -> Result<(), Report> {
     arguments.common.limit_memory();
     // Every job is read before the first is done, so that a slip in a name costs no waiting.
@@ -111,7 +111,7 @@ pub fn run(arguments: &RunArguments) -> Result<(), Report> {
 }
 
 impl RunArguments {
-    /// Says that an earlier run stopped between the files of a batch, if one did.
+    /// Prints a note if an earlier run stopped between the files of the batch.
     fn remark(&self, batch: &Batch<'_>) {
         if let Some(remark) = batch.remark().filter(|_| !self.common.quiet) {
             say(format_args!("pipeline: note: {remark}"));
@@ -119,9 +119,9 @@ impl RunArguments {
     }
 }
 
-/// Reads all that several jobs are made of, before the first replaces a file that the next one reads.
-/// A job whose grids are kept replaces files before it has read its pictures. Where no output is
-/// there yet, none can be an input.
+/// Reads all files of the jobs before the first job replaces a file that another one reads. A job that
+/// keeps its grids replaces files before it has read its textures. An output that does not exist yet
+/// cannot be an input.
 fn read_first(
     jobs: &[NamedJob<'_>],
     outputs: &[PathBuf],
@@ -135,7 +135,7 @@ fn read_first(
     Ok(())
 }
 
-/// The jobs to do, each with the place where its files are; no two write the same file.
+/// Returns the jobs that the arguments name, and checks that no two write the same file.
 fn jobs<'a>(
     arguments: &RunArguments,
     ledger: &'a Ledger,

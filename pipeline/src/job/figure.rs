@@ -1,6 +1,6 @@
 //! The figures of the thesis's appendix, A.1 and on, by their numbers.
 
-/// The number of the figure that a text names: `A.` and a number from 1 without a leading 0.
+/// Returns the number of the figure that a text names: `A.` and a number from 1 without a leading 0.
 #[must_use]
 pub fn number(text: &str) -> Option<u8> {
     let number = text.strip_prefix("A.")?;
@@ -8,7 +8,7 @@ pub fn number(text: &str) -> Option<u8> {
     if plain { number.parse().ok() } else { None }
 }
 
-/// Figures in a few letters, as `A.2-A.4, A.9`; their numbers ascend.
+/// Returns a short list of figures, such as `A.2-A.4, A.9`. The numbers must ascend.
 #[must_use]
 pub fn listed(numbers: &[u8]) -> String {
     let mut runs: Vec<(u8, u8)> = Vec::new();

@@ -80,9 +80,9 @@ pub struct MeshJob {
     pub spec: PathBuf,
     /// The ids on its triangles.
     pub options: Options,
-    /// What of its resolution is said here, in place of what the spec says.
+    /// Keys that replace those of the spec's resolution.
     pub resolution: spec::Resolution,
-    /// The text of the job, which says so.
+    /// The text of the job file, for the positions of complaints.
     said: Arc<JobText>,
 }
 

@@ -58,7 +58,7 @@ pub(super) struct ModeFile {
     thesis_minutes: Option<u32>,
 }
 
-/// The modes of a job; one, with the tent filter, if none are written.
+/// Checks the modes of a job. A job file without modes has one, with the tent filter.
 pub(super) fn modes(
     document: &Document<'_>,
     modes: Option<Vec<ModeFile>>,

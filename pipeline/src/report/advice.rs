@@ -173,25 +173,26 @@ fn region(pages: &[PageMeasured], name: &str) -> Option<Sentence> {
     Some(Sentence::general(question, text))
 }
 
-/// Returns the number of bilinear rays that one ray with the tent is worth on a page, and the time of
-/// both.
+/// Returns the time of one ray with the tent on a page, by that of the fewest bilinear rays that are as
+/// near to the truth.
 fn worth(page: &PageMeasured) -> Option<Sentence> {
     let own = trial(page, &evenly(Filter::Tent, 1))?;
     let counts = counts(page, Filter::Bilinear);
     let rays = |n: u32| trial(page, &evenly(Filter::Bilinear, n));
-    let enough = |n: &u32| rays(*n).is_some_and(|rays| rays.whole.rmse <= AS_NEAR * own.whole.rmse);
-    let (n, worth) = match counts.iter().copied().find(enough) {
-        Some(n) => (n, "worth"),
-        None => (*counts.last()?, "worth more than"),
+    let as_near =
+        |n: &u32| rays(*n).is_some_and(|rays| rays.whole.rmse <= AS_NEAR * own.whole.rmse);
+    let (n, which) = match counts.iter().copied().find(as_near) {
+        Some(n) => (n, "the fewest measured that are as near"),
+        None => (*counts.last()?, "the most measured, which are not as near"),
     };
     let rays = rays(n)?;
     let ratio = own.cost.cpu / rays.cost.cpu;
     let text = format!(
-        "On {} one ray with the tent ({}) is {worth} {n} x {n} bilinear rays ({}), and takes {} times their time.",
+        "On {} one ray with the tent ({}) takes {} times the time of {n} x {n} bilinear rays ({}), {which}.",
         page.name,
         error(own.whole.rmse),
-        error(rays.whole.rmse),
-        times(ratio)
+        times(ratio),
+        error(rays.whole.rmse)
     );
     let question = if ratio > 1.0 { Question::Fails } else { Question::Cost };
     Some(Sentence { question, page: Some(page.name.clone()), text })
@@ -280,8 +281,8 @@ mod tests {
     #[test]
     fn one_ray_is_worth_the_rays_that_are_as_near() {
         // The tent leaves 0.2 of the error of one bilinear ray, and 8 x 8 rays 0.125.
-        let text = "On floor one ray with the tent (0.040) is worth 8 x 8 bilinear rays (0.025), and takes \
-                    0.031 times their time.";
+        let text = "On floor one ray with the tent (0.040) takes 0.031 times the time of 8 x 8 bilinear rays \
+                    (0.025), the fewest measured that are as near.";
         let said = |tent: f64, price: f64| {
             let law = move |filter, n: f64| match filter {
                 Filter::Tent => (tent / n, price * n * n),
@@ -291,9 +292,14 @@ mod tests {
         };
         assert_eq!(said(0.04, 0.04), expected(Question::Cost, text));
         for (tent, price, question, words) in [
-            (0.05, 0.5, Question::Fails, "worth 4 x 4 bilinear rays (0.050), and takes 1.6 times"),
-            (0.2, 0.02, Question::Cost, "worth 1 x 1 bilinear rays (0.20), and takes 1.0 times"),
-            (0.01, 0.04, Question::Cost, "worth more than 8 x 8 bilinear rays (0.025)"),
+            (0.05, 0.5, Question::Fails, "takes 1.6 times the time of 4 x 4 bilinear rays (0.050)"),
+            (0.2, 0.02, Question::Cost, "takes 1.0 times the time of 1 x 1 bilinear rays (0.20)"),
+            (
+                0.01,
+                0.04,
+                Question::Cost,
+                "8 x 8 bilinear rays (0.025), the most measured, which are not",
+            ),
         ] {
             let (found, text) = said(tent, price).unwrap();
             assert_eq!(found, question, "{text}");

@@ -39,7 +39,7 @@ pub fn write_numbers(
 }
 
 /// Writes the files of a report into an existing folder, as a part of a batch. [`write_numbers`] has
-/// written the first. Returns the paths of all files in the order of [`files`].
+/// written the first. Returns the paths of all files in the order of [`files()`].
 ///
 /// # Errors
 /// When a file cannot be written, or exists and `clobber` is false; when a picture cannot be encoded.

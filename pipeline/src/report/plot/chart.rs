@@ -33,12 +33,12 @@ pub struct Series {
     /// Whether a line joins the points.
     pub joined: bool,
     /// The points, in the order in which the line joins them.
-    pub places: Vec<Place>,
+    pub points: Vec<Point>,
 }
 
 /// A point of a curve. A point that the axes cannot show, such as one at 0, is left out.
 #[derive(Debug, Clone, Default)]
-pub struct Place {
+pub struct Point {
     /// Value on the horizontal axis.
     pub x: f64,
     /// Value on the vertical axis.
@@ -227,10 +227,10 @@ impl Chart {
         let class = series.look.class();
         if series.joined {
             let points: Vec<(f64, f64)> =
-                series.places.iter().filter_map(|p| self.place(frame, p.x, p.y)).collect();
+                series.points.iter().filter_map(|p| self.place(frame, p.x, p.y)).collect();
             svg.line(&points, Class(&format!("line {class}")));
         }
-        for place in &series.places {
+        for place in &series.points {
             let Some((x, y)) = self.place(frame, place.x, place.y) else { continue };
             svg.open_named_group(&place.name);
             series.look.draw(svg, x, y, radius);
@@ -242,7 +242,7 @@ impl Chart {
     /// would overlap another is left out.
     fn notes(&self, svg: &mut Svg, frame: Frame) {
         let mut taken: Vec<(f64, f64)> = Vec::new();
-        for place in self.series.iter().flat_map(|series| &series.places) {
+        for place in self.series.iter().flat_map(|series| &series.points) {
             let Some(note) = &place.note else { continue };
             let Some((x, y)) = self.place(frame, place.x, place.y) else { continue };
             let at = (x - 6.0, y + 14.0);
@@ -264,7 +264,7 @@ impl Chart {
             .iter()
             .filter(|series| !series.name.is_empty())
             .filter_map(|series| {
-                let last = series.places.iter().rev();
+                let last = series.points.iter().rev();
                 let mut last = last.filter_map(|p| self.place(frame, p.x, p.y));
                 last.next().map(|(x, y)| (x, y, series))
             })
@@ -332,7 +332,7 @@ mod tests {
     fn chart(places: &[(f64, f64)]) -> Chart {
         let values = |k: fn(&(f64, f64)) -> f64| places.iter().map(k).collect::<Vec<_>>();
         let axis = |v: Vec<f64>| Axis::around("a & b", Unit::Plain, v.into_iter());
-        let place = |&(x, y): &(f64, f64)| Place { x, y, name: "<p>".into(), note: None };
+        let place = |&(x, y): &(f64, f64)| Point { x, y, name: "<p>".into(), note: None };
         Chart {
             title: None,
             across: axis(values(|p| p.0)),
@@ -341,7 +341,7 @@ mod tests {
                 name: "curve".into(),
                 look: Look::number(1),
                 joined: true,
-                places: places.iter().map(place).collect(),
+                points: places.iter().map(place).collect(),
             }],
             band: Some(Band { up_to: 1e-9, label: "noise".into() }),
             front: Vec::new(),
@@ -365,7 +365,7 @@ mod tests {
         for (x, y) in [(0.0, 0.1), (1.0, f64::NAN), (1e9, 0.1), (-1.0, 0.1)] {
             assert_eq!(chart.place(FRAME, x, y), None);
         }
-        chart.series[0].places.push(Place { x: f64::NAN, y: 0.0, ..Place::default() });
+        chart.series[0].points.push(Point { x: f64::NAN, y: 0.0, ..Point::default() });
         let circles = chart.inline(Size::Wide, "about").matches("<circle").count();
         // Three points, and the mark beside the name.
         assert_eq!(circles, 4);

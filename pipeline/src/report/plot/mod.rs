@@ -9,7 +9,7 @@ pub mod look;
 pub mod trials;
 
 pub use axis::{Axis, Unit};
-pub use chart::{Band, Chart, Place, Series, Size};
+pub use chart::{Band, Chart, Point, Series, Size};
 pub use look::{Look, Mark};
 
 /// The style of plots, for a `style` element of an HTML page that contains plots.

@@ -1,7 +1,7 @@
 //! Plots of a page: error against processor time.
 
 use super::axis::{Axis, Unit};
-use super::chart::{Band, Chart, Place, Series};
+use super::chart::{Band, Chart, Point, Series};
 use super::look::Look;
 use crate::number::{error, seconds};
 use crate::report::measured::{PageMeasured, Trial};
@@ -75,11 +75,11 @@ fn chart(page: &PageMeasured, of: &Error<'_>, noise: f64, across: Axis, up: Axis
         .map(|trial| (trial.cost.cpu, of(trial).map_or(f64::NAN, |found| found.rmse)))
         .collect();
     let front = pareto::front(&points);
-    let place = |k: usize| {
+    let point = |k: usize| {
         let (trial, (x, y)) = (&page.trials[k], points[k]);
         let name = format!("{}: {} off, {}", trial.method.name(), error(y), seconds(x));
         let samples = trial.method.evenly().filter(|_| front.contains(&k));
-        Place { x, y, name, note: samples.map(|n| n.to_string()) }
+        Point { x, y, name, note: samples.map(|n| n.to_string()) }
     };
     let mut series: Vec<Series> = Vec::new();
     let mut key = Vec::new();
@@ -91,13 +91,13 @@ fn chart(page: &PageMeasured, of: &Error<'_>, noise: f64, across: Axis, up: Axis
             .partition(|&k| page.trials[k].method.evenly().is_some());
         even.sort_by_key(|&k| page.trials[k].method.evenly());
         if !other.is_empty() {
-            let places = other.into_iter().map(place).collect();
-            series.push(Series { name: String::new(), look: look.hollow(), joined: false, places });
+            let points = other.into_iter().map(point).collect();
+            series.push(Series { name: String::new(), look: look.hollow(), joined: false, points });
             key = vec![(Look::filter(Filter::Tent).hollow(), SUPERSAMPLED.to_string())];
         }
         if !even.is_empty() {
-            let places = even.into_iter().map(place).collect();
-            series.push(Series { name: filter.to_string(), look, joined: true, places });
+            let points = even.into_iter().map(point).collect();
+            series.push(Series { name: filter.to_string(), look, joined: true, points });
         }
     }
     let front = front.iter().map(|&k| points[k]).collect();
@@ -117,14 +117,14 @@ mod tests {
         let joined: Vec<&Series> = chart.series.iter().filter(|series| series.joined).collect();
         assert_eq!(joined.len(), Filter::ALL.len());
         for series in joined {
-            assert_eq!(series.places.len(), fixture::COUNTS.len());
-            assert!(series.places.windows(2).all(|w| w[0].x < w[1].x && w[0].y > w[1].y));
+            assert_eq!(series.points.len(), fixture::COUNTS.len());
+            assert!(series.points.windows(2).all(|w| w[0].x < w[1].x && w[0].y > w[1].y));
         }
         // A method that another one beats in cost and error is not on the front: no quadratic, no
         // point.
         let points = |name: &str| {
             let named = chart.series.iter().find(|series| series.name == name).unwrap();
-            named.places.iter().filter(|place| place.note.is_some()).count()
+            named.points.iter().filter(|place| place.note.is_some()).count()
         };
         assert!(points("tent") > 0 && points("bilinear") > 0);
         assert!(chart.front.windows(2).all(|w| w[0].0 <= w[1].0 && w[0].1 >= w[1].1));
