@@ -28,7 +28,7 @@ const ROOMS: [(&str, &[&str]); 16] = [
     ("scene", &["color", "optics", "procedural", "ray", "shape", "texture"]),
     ("accel", &["ray", "shape"]),
     ("trace", &["accel", "color", "optics", "procedural", "ray", "scene", "shape"]),
-    ("footprint", &["shape", "trace"]),
+    ("footprint", &["color", "shape", "trace"]),
     ("filter", &["color", "footprint", "texture"]),
     (
         "shade",
