@@ -32,7 +32,7 @@ const RENDER: Rooms = &[
     ("scene", &["color", "optics", "procedural", "ray", "shape", "texture"]),
     ("accel", &["ray", "shape"]),
     ("trace", &["accel", "color", "optics", "procedural", "ray", "scene", "shape"]),
-    ("footprint", &["shape", "trace"]),
+    ("footprint", &["color", "shape", "trace"]),
     ("filter", &["color", "footprint", "texture"]),
     (
         "shade",

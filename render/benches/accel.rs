@@ -65,7 +65,7 @@ fn rays(accel: &Accel<'_>, side: u32) -> [Vec<(Ray, f64)>; 3] {
             let direction = (forward + 0.9 * (place(x) * right - place(y) * up)).normalize();
             let ray = Ray::from_eye(eye, direction);
             sets[0].push((ray, f64::INFINITY));
-            if let Some(hit) = accel.nearest(&ray) {
+            if let Some(hit) = accel.closest(&ray, f64::INFINITY) {
                 let point = accel.surface_point(&ray, &hit);
                 let normal = point.geometric_normal;
                 let mirrored = direction - 2.0 * direction.dot(normal) * normal;
@@ -88,12 +88,12 @@ fn time(accel: &Accel<'_>, rays: &[(Ray, f64)], brute: bool, best: &mut Vec<f64>
         let started = Instant::now();
         for (ray, t_max) in few {
             if t_max.is_finite() {
-                accel.all_before(ray, *t_max, |hit| {
+                accel.any(ray, *t_max, |hit| {
                     black_box(hit);
-                    false
+                    true
                 });
             } else {
-                black_box(accel.nearest(ray));
+                black_box(accel.closest(ray, f64::INFINITY));
             }
         }
         *best = best.min(started.elapsed().as_secs_f64() / few.len() as f64);
@@ -112,7 +112,7 @@ fn leaks(accel: &Accel<'_>, mesh: &Mesh, rows: u32, count: usize) -> usize {
         let eye = DVec3::new(v.cos(), 0.2 * (3.0 * v).sin(), v.sin()) + 0.01 * (k as f64).sin();
         Ray::from_eye(eye, (a + part * (b - a) - eye).normalize())
     });
-    aimed.filter(|ray| accel.nearest(ray).is_none()).count()
+    aimed.filter(|ray| accel.closest(ray, f64::INFINITY).is_none()).count()
 }
 
 /// Million rays a second.

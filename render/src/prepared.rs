@@ -100,17 +100,15 @@ impl<'a> Prepared<'a> {
             built.tables = tables.count() as u64;
             textures
         });
-        // Only filters that average over neighbours need charts.
-        let charts = if filter.wants_area() {
-            self.charts.get_or_init(|| self.charted())
-        } else {
-            &self.no_charts
-        };
+        let wants_area = filter.wants_area() && textures.iter().any(Option::is_some);
+        let charts =
+            if wants_area { self.charts.get_or_init(|| self.charted()) } else { &self.no_charts };
         let around_lights =
             self.around_lights.get_or_init(|| self.volumes.around_lights(self.scene, accel));
         built.table_time = started.elapsed();
         let volumes = &self.volumes;
-        (Shader { scene: self.scene, accel, textures, charts, volumes, around_lights }, built)
+        let scene = self.scene;
+        (Shader { scene, accel, textures, charts, wants_area, volumes, around_lights }, built)
     }
 
     /// Prepares the textures that surfaces show for a filter.

@@ -107,7 +107,7 @@ fn a_light_at_the_eye_shows_no_shadow() {
         let [a, b] = on_film(x, y, 64);
         let eye = DVec3::new(0.0, 0.0, 1.0);
         let ray = render::ray::Ray::from_eye(eye, DVec3::new(a, b, -1.0).normalize());
-        let hit = accel.nearest(&ray).unwrap();
+        let hit = accel.closest(&ray, f64::INFINITY).unwrap();
         let cosine = accel.surface_point(&ray, &hit).shading_normal.dot(ray.direction).abs();
         dark += usize::from((f64::from(pixel[0]) - 0.8 * cosine).abs() > 1e-6);
     }

@@ -52,7 +52,7 @@ fn grazing_rays_hit_where_they_should() {
                 let accel = Accel::build(vec![&shape], Structure::Bvh);
                 // A rounding of the coordinates, seen at this angle.
                 let bound = 16.0 * f64::EPSILON / angle;
-                let hit = accel.nearest(&ray);
+                let hit = accel.closest(&ray, f64::INFINITY);
                 let error = hit.map_or(f64::INFINITY, |hit| (hit.t / truth - 1.0).abs());
                 assert!(error < bound, "{angle:e}: off by {error:e}, expected {bound:e}");
                 hits += 1;
@@ -73,7 +73,7 @@ fn grazing_rays_along_a_sphere_hit_it_where_they_should() {
             // middle is what is left of it.
             let aside = angle.cos();
             let origin = center + scale * DVec3::new(-4.0, aside, 0.0);
-            let hit = accel.nearest(&Ray::from_eye(origin, DVec3::X)).unwrap();
+            let hit = accel.closest(&Ray::from_eye(origin, DVec3::X), f64::INFINITY).unwrap();
             let truth = scale * (4.0 - angle.sin());
             // Half the chord is a root of a difference: half of its digits go.
             let bound = scale * 4.0 * (2.0 * f64::EPSILON / angle).min(f64::EPSILON.sqrt());
@@ -83,7 +83,7 @@ fn grazing_rays_along_a_sphere_hit_it_where_they_should() {
     let ball = Shape::Sphere(Sphere { center: DVec3::ZERO, radius: 1.0 });
     let accel = Accel::build(vec![&ball], Structure::Bvh);
     let past = Ray::from_eye(DVec3::new(-4.0, 1f64.next_up(), 0.0), DVec3::X);
-    assert!(accel.nearest(&past).is_none());
+    assert!(accel.closest(&past, f64::INFINITY).is_none());
 }
 
 #[test]
@@ -120,14 +120,14 @@ fn a_mirrored_grazing_ray_leaves_flat_and_round_surfaces_for_good() {
                 let along = dice.direction().reject_from(normal).normalize();
                 let from = angle.cos() * along + angle.sin() * normal;
                 let ray = Ray::from_eye(place + 3.0 * from, -from);
-                let Some(hit) = accel.nearest(&ray) else { continue };
+                let Some(hit) = accel.closest(&ray, f64::INFINITY) else { continue };
                 hits += 1;
                 let point = accel.surface_point(&ray, &hit);
                 let normal = point.geometric_normal;
                 let normal = if ray.direction.dot(normal) > 0.0 { -normal } else { normal };
                 let mirrored = reflect(ray.direction, normal);
                 let next = Ray::leaving(hit.piece, point.position, mirrored);
-                again += usize::from(accel.nearest(&next).is_some());
+                again += usize::from(accel.closest(&next, f64::INFINITY).is_some());
             }
         }
     }
@@ -167,7 +167,7 @@ fn in_a_hollow_mirror_a_ray_goes_round_for_ever() {
                 let mut ray = Ray::from_eye(start, (along - grazing * normal).normalize());
                 let spin = (start - center).cross(ray.direction);
                 for bounce in 0..1000 {
-                    let hit = accel.nearest(&ray);
+                    let hit = accel.closest(&ray, f64::INFINITY);
                     let hit = hit.unwrap_or_else(|| panic!("escaped after {bounce} bounces"));
                     let point = accel.surface_point(&ray, &hit);
                     let direction = reflect(ray.direction, -point.geometric_normal);
@@ -193,7 +193,7 @@ fn in_a_closed_mirror_mesh_no_ray_escapes() {
         for _ in 0..400 {
             let mut ray = Ray::from_eye(DVec3::new(0.15, 0.1, -0.25), dice.direction());
             for _ in 0..50 {
-                let Some(hit) = accel.nearest(&ray) else {
+                let Some(hit) = accel.closest(&ray, f64::INFINITY) else {
                     escaped += 1;
                     break;
                 };

@@ -112,7 +112,9 @@ fn hard_triangles_are_hit_as_brute_force_hits_them() {
             let target = DVec3::new(part(0.569_84), part(0.819_17), part(0.671_04));
             let ray = Ray::from_eye(eye, (target - eye).normalize());
             let seen = |accel: &Accel<'_>| {
-                accel.nearest(&ray).map(|hit| (hit.t.to_bits(), hit.piece, hit.barycentric))
+                accel
+                    .closest(&ray, f64::INFINITY)
+                    .map(|hit| (hit.t.to_bits(), hit.piece, hit.barycentric))
             };
             assert_eq!(seen(&tree), seen(&brute), "{name}");
             assert_eq!(seen(&grid), seen(&brute), "{name}");

@@ -20,15 +20,17 @@ fn all_structures(shapes: &[Shape]) -> [Accel<'_>; 3] {
 type Exact = (u64, Piece, [u64; 2]);
 
 fn nearest(accel: &Accel<'_>, ray: &Ray) -> Option<Exact> {
-    accel.nearest(ray).map(|hit| (hit.t.to_bits(), hit.piece, hit.barycentric.map(f64::to_bits)))
+    accel
+        .closest(ray, f64::INFINITY)
+        .map(|hit| (hit.t.to_bits(), hit.piece, hit.barycentric.map(f64::to_bits)))
 }
 
 /// All hits before `t_max`, sorted.
 fn all_before(accel: &Accel<'_>, ray: &Ray, t_max: f64) -> Vec<Exact> {
     let mut hits = Vec::new();
-    accel.all_before(ray, t_max, |hit| {
+    accel.any(ray, t_max, |hit| {
         hits.push((hit.t.to_bits(), hit.piece, hit.barycentric.map(f64::to_bits)));
-        true
+        false
     });
     hits.sort_unstable();
     hits
@@ -135,7 +137,7 @@ proptest! {
             for direction in directions.iter().copied().chain(aimed) {
                 let ray = Ray::from_eye(eye, direction);
                 see_the_same(&accels, &ray)?;
-                if let Some(hit) = accels[0].nearest(&ray) {
+                if let Some(hit) = accels[0].closest(&ray, f64::INFINITY) {
                     let point = accels[0].surface_point(&ray, &hit).position;
                     for &direction in &directions {
                         see_the_same(&accels, &Ray::leaving(hit.piece, point, direction))?;
@@ -303,7 +305,7 @@ fn no_ray_leaks_out_of_a_closed_mesh() {
                     let ray = Ray::from_eye(eye, (target - eye).normalize());
                     see_the_same(&accels, &ray).unwrap_or_else(|error| panic!("{name}: {error}"));
                     rays += 1;
-                    leaks += usize::from(accels[0].nearest(&ray).is_none());
+                    leaks += usize::from(accels[0].closest(&ray, f64::INFINITY).is_none());
                 }
             }
             assert_eq!(leaks, 0, "{name} times {scale} plus {shift}: of {rays} rays");
@@ -346,7 +348,7 @@ fn from_far_away_all_see_alike() {
         for target in targets(&torus(7, 5, 0.4)) {
             let ray = Ray::from_eye(eye, (target - eye).normalize());
             see_the_same(&accels, &ray).unwrap_or_else(|error| panic!("{error}"));
-            seen += usize::from(accels[0].nearest(&ray).is_some());
+            seen += usize::from(accels[0].closest(&ray, f64::INFINITY).is_some());
         }
     }
     assert!(seen > 100, "{seen}");
@@ -369,7 +371,7 @@ fn a_thousand_coincident_triangles_are_one_hit_the_first() {
     let ray = Ray::from_eye(DVec3::new(0.2, 0.2, 1.0), DVec3::NEG_Z);
     for accel in all_structures(&shapes) {
         assert_eq!(
-            accel.nearest(&ray).map(|hit| hit.piece),
+            accel.closest(&ray, f64::INFINITY).map(|hit| hit.piece),
             Some(Piece { object: 0, triangle: 0 })
         );
         assert_eq!(all_before(&accel, &ray, 2.0).len(), 1000);

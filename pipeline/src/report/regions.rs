@@ -18,7 +18,7 @@
 //! even light of the surface at its end. A path that leaves the scene counts as if it ended on white.
 
 use super::measured::Region;
-use super::sight::{self, Looker, Sight};
+use super::sight::{self, Looker, Seen};
 use rayon::prelude::*;
 use render::Scene;
 use render::trace::volume::Volumes;
@@ -33,10 +33,10 @@ pub const MINIFIED: f64 = 2.0;
 pub fn regions(scene: &Scene, size: (u32, u32)) -> Vec<Region> {
     let seen = sights(scene, size);
     let silhouettes = silhouettes(&seen, size.0 as usize);
-    let elsewhere = |belongs: &dyn Fn(&Sight) -> bool| -> Vec<bool> {
+    let elsewhere = |belongs: &dyn Fn(&Seen) -> bool| -> Vec<bool> {
         seen.iter().zip(&silhouettes).map(|(sight, edge)| !edge && belongs(sight)).collect()
     };
-    let far = |sight: &Sight| sight.flat.is_some_and(|minor| minor > MINIFIED);
+    let far = |sight: &Seen| sight.flat.is_some_and(|minor| minor > MINIFIED);
     let regions = [
         Region { name: "far floor", mask: elsewhere(&far) },
         Region { name: "in mirrors", mask: elsewhere(&|sight| sight.mirrored > 0.5) },
@@ -56,7 +56,7 @@ pub fn minified(scene: &Scene, size: (u32, u32)) -> Vec<bool> {
 }
 
 /// Returns the sight of every pixel, row by row.
-fn sights(scene: &Scene, size: (u32, u32)) -> Vec<Sight> {
+fn sights(scene: &Scene, size: (u32, u32)) -> Vec<Seen> {
     let accel = sight::accel_of(scene);
     let volumes = Volumes::of(scene);
     let looker = Looker::new(scene, &accel, &volumes, size);
@@ -68,7 +68,7 @@ fn sights(scene: &Scene, size: (u32, u32)) -> Vec<Sight> {
 }
 
 /// Returns a mask of the pixels whose neighbours do not all see the same object first.
-fn silhouettes(seen: &[Sight], width: usize) -> Vec<bool> {
+fn silhouettes(seen: &[Seen], width: usize) -> Vec<bool> {
     let height = seen.len().checked_div(width).unwrap_or(0);
     let edge = |k: usize| {
         let (x, y) = (k % width, k / width);

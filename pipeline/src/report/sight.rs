@@ -9,9 +9,10 @@ use glam::{DMat2, DVec2};
 use render::Scene;
 use render::accel::{Accel, Structure};
 use render::color::Color;
+use render::footprint::{Bundle, Footprint, PointReason, Sight};
 use render::scene::Material;
 use render::shape::{Charts, Shape};
-use render::trace::tree::{Branch, IntersectionTree, Node};
+use render::trace::tree::{Branch, Child, IntersectionTree, Node};
 use render::trace::volume::Volumes;
 use render::trace::{RayCounts, Tracer};
 
@@ -31,12 +32,15 @@ const PLACES: [DVec2; 5] = [
     DVec2::new(0.0, -STEP),
 ];
 
+/// Names of the five points.
+const NAMES: [&str; 5] = ["middle", "right", "left", "lower", "upper"];
+
 /// The trees of a pixel's rays, reused for each pixel.
 pub(super) type Trees = [IntersectionTree; PLACES.len()];
 
 /// What the middle of a pixel sees.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct Sight {
+pub(super) struct Seen {
     /// The object that is hit first; `None` where the ray leaves the scene.
     pub object: Option<u32>,
     /// Minor axis of the footprint at the first hit, in texels, if the object there is flat and shows a
@@ -51,7 +55,7 @@ pub(super) struct Sight {
     pub minor: Option<f64>,
 }
 
-/// Finds the sights of a scene's pixels.
+/// Finds what the pixels of a scene see.
 pub(super) struct Looker<'a> {
     scene: &'a Scene,
     tracer: Tracer<'a>,
@@ -74,23 +78,22 @@ impl<'a> Looker<'a> {
         }
     }
 
-    /// Returns the sight of the pixel in column `x` and row `y`. The trees are overwritten.
-    pub(super) fn look(&self, x: u32, y: u32, trees: &mut Trees) -> Sight {
+    /// Returns what the pixel sees that lies in column `x` and row `y`. The trees are overwritten.
+    pub(super) fn look(&self, x: u32, y: u32, trees: &mut Trees) -> Seen {
         let middle = DVec2::new(f64::from(x), f64::from(y)) + 0.5;
         let mut counts = RayCounts::default();
         for (tree, offset) in trees.iter_mut().zip(PLACES) {
             let ray = self.scene.camera.ray(middle + offset, self.size);
             self.tracer.trace(&ray, tree, &mut counts);
         }
-        let five =
-            Five { trees: trees.each_ref(), branches: trees.each_ref().map(|tree| tree.root) };
+        let five = Five(Bundle::of(trees.each_ref(), 0));
         let mut found = Found::default();
-        self.weigh(&five, five.trees[0].through, Way::default(), &mut found);
+        self.weigh(&five, five.through(), Way::default(), &mut found);
         let first = five.node();
         let flat =
             first.filter(|node| is_flat(&self.scene.objects[node.piece.object as usize].shape));
         let part = |weight: f64| if found.all > 0.0 { weight / found.all } else { 0.0 };
-        Sight {
+        Seen {
             object: first.map(|node| node.piece.object),
             flat: flat.and_then(|node| self.minor_axis(&five, node)),
             mirrored: part(found.mirrored),
@@ -103,7 +106,7 @@ impl<'a> Looker<'a> {
     /// factors up to the branch.
     fn weigh(&self, five: &Five<'_>, weight: Color, way: Way, found: &mut Found) {
         let Some(node) = five.node() else {
-            if matches!(five.branches[0], Branch::Background(_)) {
+            if matches!(five.branch(), Branch::Background(_)) {
                 found.all += mean(weight);
             }
             return;
@@ -123,11 +126,11 @@ impl<'a> Looker<'a> {
         }
         if node.reflect_weight != Color::ZERO {
             let way = Way { reflected: true, ..way };
-            self.weigh(&five.step(|node| node.reflected), weight * node.reflect_weight, way, found);
+            self.weigh(&five.step(Child::Reflected), weight * node.reflect_weight, way, found);
         }
         if node.refract_weight != Color::ZERO {
             let way = Way { refracted: true, ..way };
-            self.weigh(&five.step(|node| node.refracted), weight * node.refract_weight, way, found);
+            self.weigh(&five.step(Child::Refracted), weight * node.refract_weight, way, found);
         }
     }
 
@@ -138,19 +141,9 @@ impl<'a> Looker<'a> {
         let object = &self.scene.objects[node.piece.object as usize];
         let texture = &self.scene.textures[object.parts[node.part as usize].picture()?];
         let charts = &self.charts[node.piece.object as usize];
-        let way = |k: usize| {
-            let to = five.agreeing(k, node)?;
-            charts.difference((node.piece.triangle, node.uv), (to.piece.triangle, to.uv))
-        };
-        // Where one of two opposite rays misses the surface, the other gives a one-sided difference.
-        let along = |ahead: usize, back: usize| match (way(ahead), way(back)) {
-            (Some(ahead), Some(back)) => Some((ahead - back) / (2.0 * STEP)),
-            (Some(ahead), None) => Some(ahead / STEP),
-            (None, Some(back)) => Some(-back / STEP),
-            (None, None) => None,
-        };
         let texels = DVec2::new(texture.width as f64, texture.height as f64);
-        Some(smaller_singular_value(DMat2::from_cols(texels * along(1, 2)?, texels * along(3, 4)?)))
+        let [across, down] = five.derivatives(node, charts)?;
+        Some(smaller_singular_value(DMat2::from_cols(texels * across, texels * down)))
     }
 }
 
@@ -172,31 +165,52 @@ struct Found {
     minor: Option<f64>,
 }
 
-/// Five trees walked in step. `branches` holds the current branch of each tree, on the same path in all
-/// of them.
-struct Five<'t> {
-    trees: [&'t IntersectionTree; PLACES.len()],
-    branches: [Branch; PLACES.len()],
+/// Five trees walked in step; the middle one is shaded.
+#[derive(Debug, Clone, Copy)]
+struct Five<'t>(Bundle<'t, { PLACES.len() }>);
+
+impl Five<'_> {
+    /// Returns the derivatives of the texture coordinates of `node`, the current node, with respect to
+    /// film position: per pixel to the right, and per pixel down. `None` where they cannot be found.
+    fn derivatives(&self, node: &Node, charts: &Charts) -> Option<[DVec2; 2]> {
+        let difference = |k: usize| self.0.difference(k, node, charts);
+        // Where one of two opposite rays misses the surface, the other gives a one-sided difference.
+        let along = |ahead: usize, back: usize| match (difference(ahead), difference(back)) {
+            (Some(ahead), Some(back)) => Some((ahead - back) / (2.0 * STEP)),
+            (Some(ahead), None) => Some(ahead / STEP),
+            (None, Some(back)) => Some(-back / STEP),
+            (None, None) => None,
+        };
+        Some([along(1, 2)?, along(3, 4)?])
+    }
 }
 
-impl<'t> Five<'t> {
-    /// Returns the node of the middle tree, if its branch ends in a node.
-    fn node(&self) -> Option<&'t Node> {
-        self.trees[0].node(self.branches[0])
+impl Sight for Five<'_> {
+    fn tree(&self) -> &IntersectionTree {
+        self.0.tree()
     }
 
-    /// Returns the node of tree `k`, if it lies on the same textured area as the middle tree's node.
-    fn agreeing(&self, k: usize, node: &Node) -> Option<&'t Node> {
-        self.trees[k].node(self.branches[k]).filter(|other| other.area() == node.area())
+    fn branch(&self) -> Branch {
+        self.0.branch()
     }
 
-    /// Moves one step down all trees. Trees on another path than the middle one are cut off.
-    fn step(&self, child: impl Fn(&Node) -> Branch) -> Self {
-        let branches = std::array::from_fn(|k| {
-            let node = self.node().and_then(|node| self.agreeing(k, node));
-            node.map_or(Branch::Cut, &child)
-        });
-        Self { branches, ..*self }
+    fn step(&self, child: Child) -> Self {
+        Self(self.0.step(child))
+    }
+
+    /// The parallelogram that the pixel becomes on the texture, to first order.
+    fn footprint(&self, node: &Node, charts: &Charts) -> Footprint {
+        let Some([across, down]) = self.derivatives(node, charts) else {
+            return Footprint::Point(node.uv);
+        };
+        let corners = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)];
+        Footprint::Quadrilateral(corners.map(|(x, y)| node.uv + x * across + y * down))
+    }
+
+    fn point_reason(&self, _: &Node) -> PointReason<'_> {
+        self.0.stranger().map_or(PointReason::OtherChart, |(k, branch, node)| {
+            PointReason::Stranger { position: NAMES[k], branch, node }
+        })
     }
 }
 

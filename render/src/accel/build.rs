@@ -60,7 +60,8 @@ impl Bounds {
     }
 
     /// Half the surface, in `f64`, where no sides of `f32` are too long; 0 for the box of nothing.
-    fn half_area(&self) -> f64 {
+    #[must_use]
+    pub fn half_area(&self) -> f64 {
         let [x, y, z] = (self.high - self.low).to_array().map(|side| f64::from(side.max(0.0)));
         x * y + y * z + z * x
     }

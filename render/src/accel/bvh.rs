@@ -1,7 +1,7 @@
 //! A bounding volume hierarchy, built by [`super::build`] and walked here.
 //!
-//! For the walk the boxes of two siblings lie in one cache line as `f32`, counted from the middle of
-//! the tree, and are tested together.
+//! For the walk the binary tree is collapsed into groups of up to four boxes ([`super::wide`]). The
+//! boxes of a group are `f32`, counted from the middle of the tree, and are tested together.
 //!
 //! **Nothing missed.** [`SlabRay::crosses`] decides in `f64` which boxes a ray crosses. The test in
 //! `f32` lets through all of those: the ray is first moved to where it enters the whole tree, so
@@ -12,13 +12,14 @@
 
 use super::build::{Bounds, Builder, Part};
 use super::slabs::SlabRay;
-use glam::{DVec3, Vec4, Vec4Swizzles};
+use super::wide::{self, Group, WIDTH};
+use glam::{DVec3, Vec4};
 
-/// How many nodes may wait at once before the walk recurses.
+/// How many nodes may wait at once before the walk recurses, at least [`WIDTH`].
 ///
 /// Larger, and every ray clears memory that it does not use; smaller, and large meshes recurse,
 /// which tests are made to do.
-const STACK: usize = if cfg!(test) { 2 } else { 24 };
+const STACK: usize = if cfg!(test) { WIDTH } else { 32 };
 
 /// A tree over boxes, which are renumbered in the tree's order.
 #[derive(Debug)]
@@ -29,52 +30,62 @@ pub struct Bvh {
     /// The largest coordinate of any box, from the middle and without its sign.
     half: f64,
     root: Child,
-    pairs: Vec<Pair>,
+    groups: Vec<Group>,
     looks: u64,
 }
 
-/// Two siblings: along each axis the lower sides of both boxes and then the upper ones.
+/// Two siblings of the binary tree.
 #[derive(Debug, Clone, Copy)]
-struct Pair {
-    x: Vec4,
-    y: Vec4,
-    z: Vec4,
-    children: [Child; 2],
+pub struct Pair {
+    /// The boxes of both.
+    pub bounds: [Bounds; 2],
+    /// Both without their boxes.
+    pub children: [Child; 2],
 }
 
 /// A node without its box.
 #[derive(Debug, Clone, Copy, Default)]
-struct Child {
+pub struct Child {
     /// Its first box, or where its own children are.
-    first: u32,
+    pub first: u32,
     /// How many boxes it has; 0 for children.
-    count: u32,
+    pub count: u32,
 }
 
 /// A ray prepared for the tests of one tree.
 #[derive(Debug, Clone, Copy)]
-struct PairRay {
+struct GroupRay {
     /// Where the ray enters the tree; distances count from here.
     start: f64,
-    x: Vec4,
-    y: Vec4,
-    z: Vec4,
+    /// Along each axis, which of a box's sides the ray meets first: 0 the lower, 1 the upper.
+    near: [usize; 3],
+    /// Where the ray starts along each axis, moved for the near sides and for the far ones.
+    near_start: [Vec4; 3],
+    far_start: [Vec4; 3],
     inverse: [Vec4; 3],
 }
 
-impl PairRay {
+impl GroupRay {
     fn new(tree: &Bvh, ray: &SlabRay, start: f64) -> Self {
         let widening = (1e-6 * tree.half + 64.0 * f64::EPSILON * ray.scale) as f32 + 1e-37;
         let place = ray.origin + start * ray.direction - tree.middle;
-        let sides = |axis: usize| {
-            let place = place[axis].clamp(f64::from(f32::MIN), f64::from(f32::MAX)) as f32;
-            let (above, below) = (place + widening, place - widening);
-            Vec4::new(above, above, below, below)
-        };
         // Where this cuts, the ray stays on one side of all planes in the tree.
         let inverse = ray.inverse.clamp(DVec3::splat(-1e30), DVec3::splat(1e30)).as_vec3();
-        let inverse = inverse.to_array().map(Vec4::splat);
-        Self { start, x: sides(0), y: sides(1), z: sides(2), inverse }
+        let inverse = inverse.to_array();
+        // Lower sides are moved down and upper sides up, which is the same as widening every box.
+        let starts = |axis: usize| {
+            let place = place[axis].clamp(f64::from(f32::MIN), f64::from(f32::MAX)) as f32;
+            let (for_lower, for_upper) = (place + widening, place - widening);
+            if inverse[axis] < 0.0 { [for_upper, for_lower] } else { [for_lower, for_upper] }
+        };
+        let starts = [0, 1, 2].map(starts);
+        Self {
+            start,
+            near: inverse.map(|inverse| usize::from(inverse < 0.0)),
+            near_start: starts.map(|[near, _]| Vec4::splat(near)),
+            far_start: starts.map(|[_, far]| Vec4::splat(far)),
+            inverse: inverse.map(Vec4::splat),
+        }
     }
 
     /// A distance of the ray as one in the tree, not less.
@@ -82,18 +93,19 @@ impl PairRay {
         ((t - self.start) as f32).next_up()
     }
 
-    /// For both siblings where the ray enters, and whether it does before `t_max`.
+    /// For each box of a group where the ray enters it, and a mask of those that it enters before
+    /// `t_max`.
     #[inline]
-    fn enters(&self, pair: &Pair, t_max: f32) -> ([f32; 2], [bool; 2]) {
-        let x = (pair.x - self.x) * self.inverse[0];
-        let y = (pair.y - self.y) * self.inverse[1];
-        let z = (pair.z - self.z) * self.inverse[2];
-        // Upper sides come first where the ray goes down.
-        let (a, b, c) = (x.zwxy(), y.zwxy(), z.zwxy());
-        let enter = x.min(a).max(y.min(b)).max(z.min(c)).max(Vec4::ZERO);
-        let leave = x.max(a).min(y.max(b)).min(z.max(c)).min(Vec4::splat(t_max));
-        let met = enter.cmple(leave).bitmask();
-        ([enter.x, enter.y], [met & 1 != 0, met & 2 != 0])
+    fn enters(&self, group: &Group, t_max: f32) -> ([f32; WIDTH], u32) {
+        let near = |axis: usize| {
+            (group.sides[axis][self.near[axis] & 1] - self.near_start[axis]) * self.inverse[axis]
+        };
+        let far = |axis: usize| {
+            (group.sides[axis][!self.near[axis] & 1] - self.far_start[axis]) * self.inverse[axis]
+        };
+        let enter = near(0).max(near(1)).max(near(2)).max(Vec4::ZERO);
+        let leave = far(0).min(far(1)).min(far(2)).min(Vec4::splat(t_max));
+        (enter.to_array(), enter.cmple(leave).bitmask())
     }
 }
 
@@ -112,7 +124,8 @@ impl Bvh {
         let whole = Bounds::around(bounds.map(|corner| corner - middle));
         let mut builder = Builder::new(&boxes);
         let (root, pairs, order) = laid_out(&mut builder, whole, boxes.len());
-        Some((Self { bounds, middle, half, root, pairs, looks: builder.looks }, order))
+        let (root, groups) = wide::collapsed(root, &pairs);
+        Some((Self { bounds, middle, half, root, groups, looks: builder.looks }, order))
     }
 
     /// How many boxes were looked at to build the tree, each time counted.
@@ -124,21 +137,21 @@ impl Bvh {
     /// Memory in bytes.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        size_of_val(&*self.pairs)
+        size_of_val(&*self.groups)
     }
 
     /// Gives `visit` every box that the ray may meet within `t_max`, nearer ones first as far as
     /// the tree tells; `visit` takes the current `t_max` and returns the one to go on with.
     pub fn walk(&self, ray: &SlabRay, t_max: f64, mut visit: impl FnMut(u32, f64) -> f64) {
         if let Some([enter, _]) = ray.crosses(self.bounds).filter(|[enter, _]| *enter <= t_max) {
-            self.walk_from(self.root, &PairRay::new(self, ray, enter), t_max, &mut visit);
+            self.walk_from(self.root, &GroupRay::new(self, ray, enter), t_max, &mut visit);
         }
     }
 
     fn walk_from(
         &self,
         start: Child,
-        ray: &PairRay,
+        ray: &GroupRay,
         mut t_max: f64,
         visit: &mut impl FnMut(u32, f64) -> f64,
     ) -> f64 {
@@ -152,38 +165,25 @@ impl Bvh {
                     t_max = visit(place, t_max);
                 }
                 limit = ray.distance(t_max);
+            } else if count + WIDTH > STACK {
+                // A tree deeper than the stack.
+                t_max = self.walk_from(current, ray, t_max, visit);
+                limit = ray.distance(t_max);
             } else {
-                let pair = &self.pairs[current.first as usize];
-                let (enter, met) = ray.enters(pair, limit);
-                let [a, b] = pair.children;
-                match met {
-                    [false, false] => {}
-                    [true, false] => {
-                        current = a;
-                        continue;
+                let group = &self.groups[current.first as usize];
+                let (enter, mut met) = ray.enters(group, limit);
+                let first = count;
+                while met != 0 {
+                    let k = met.trailing_zeros() as usize & (WIDTH - 1);
+                    met &= met - 1;
+                    // The nearest of them comes last.
+                    let mut at = count;
+                    while at > first && waiting[at - 1].1 < enter[k] {
+                        waiting[at] = waiting[at - 1];
+                        at -= 1;
                     }
-                    [false, true] => {
-                        current = b;
-                        continue;
-                    }
-                    [true, true] => {
-                        let (near, far) = if enter[0] <= enter[1] {
-                            (a, (b, enter[1]))
-                        } else {
-                            (b, (a, enter[0]))
-                        };
-                        if count < STACK {
-                            waiting[count] = far;
-                            count += 1;
-                            current = near;
-                        } else {
-                            // A tree deeper than the stack: finish the near side first.
-                            t_max = self.walk_from(near, ray, t_max, visit);
-                            limit = ray.distance(t_max);
-                            current = far.0;
-                        }
-                        continue;
-                    }
+                    waiting[at] = (group.children[k], enter[k]);
+                    count += 1;
                 }
             }
             // The nearest node that still matters.
@@ -224,11 +224,8 @@ fn laid_out(
         let child = match builder.divide(&mut order[boxes.clone()], &bounds, depth) {
             Part::Leaf => Child { first: boxes.start as u32, count: boxes.len() as u32 },
             Part::Cut(at, [a, b]) => {
-                let sides =
-                    |axis: usize| Vec4::new(a.low[axis], b.low[axis], a.high[axis], b.high[axis]);
                 let pair = pairs.len();
-                let children = [Child::default(); 2];
-                pairs.push(Pair { x: sides(0), y: sides(1), z: sides(2), children });
+                pairs.push(Pair { bounds: [a, b], children: [Child::default(); 2] });
                 let depth = depth + 1;
                 let at = boxes.start + at;
                 let part =

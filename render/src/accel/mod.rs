@@ -3,10 +3,10 @@
 //! A few shapes stand apart and are tried one by one: planes, which have no box, and shapes so
 //! large beside the rest (a floor under a vase) that they would spoil any structure. All others are
 //! leaves of a [`Structure`]: one tree of boxes, or the thesis's grids, or none. One function,
-//! `Accel::try_piece`, decides for all, and one rule, [`Hit::before`], says which hit is seen.
+//! `Probe::meet`, decides for all, and one rule, [`Hit::before`], says which hit is seen.
 //!
 //! So that all structures see the same to the last bit, a hit lies where the ray crosses the box of
-//! its piece, widened by the roundings of the hit function (`Accel::meet`). A structure then has to
+//! its piece, widened by the roundings of the hit function (`Probe::meet`). A structure then has to
 //! give every piece whose box the ray crosses before the nearest hit, and needs to know no more.
 //! Where the arithmetic is sound this changes nothing; it holds triangles that are seen edge on,
 //! whose distance is all rounding, to a place where they are.
@@ -21,18 +21,19 @@ mod brute;
 mod build;
 mod bvh;
 mod grid;
+mod leaf;
 mod slabs;
+mod wide;
 
 use crate::ray::{Hit, Piece, Ray};
-use crate::shape::triangle::{self, ShearedRay};
-use crate::shape::{Shape, Start, SurfacePoint};
+use crate::shape::{Shape, SurfacePoint, triangle};
 use brute::Brute;
 use bvh::Bvh;
 use clap::ValueEnum;
 use glam::DVec3;
 use grid::Grids;
+use leaf::{Leaf, Probe};
 use serde::Deserialize;
-use slabs::SlabRay;
 
 /// A shape is outsized when its box is longer than this part of the box around everything.
 ///
@@ -82,7 +83,7 @@ impl Structure {
 #[derive(Debug)]
 pub struct Accel<'a> {
     shapes: Vec<&'a Shape>,
-    apart: Vec<Piece>,
+    apart: Vec<Leaf>,
     index: Index,
     leaves: Vec<Leaf>,
     /// The boxes of shapes that are one piece; none for meshes and for planes.
@@ -101,13 +102,6 @@ enum Index {
     All(Brute),
 }
 
-/// Which piece, and for a triangle its corners, kept near each other.
-#[derive(Debug, Clone, Copy)]
-struct Leaf {
-    piece: Piece,
-    corners: [[f32; 3]; 3],
-}
-
 impl<'a> Accel<'a> {
     /// Gets the shapes ready; the index of a shape becomes [`Piece::object`].
     #[must_use]
@@ -117,7 +111,7 @@ impl<'a> Accel<'a> {
         let mut bounds = vec![None; shapes.len()];
         for (object, shape) in shapes.iter().enumerate() {
             let piece = Piece { object: object as u32, triangle: 0 };
-            let leaf = Leaf { piece, corners: [[0.0; 3]; 3] };
+            let leaf = Leaf::whole(piece.object);
             bounds[object] = match shape {
                 Shape::Mesh(_) => None,
                 _ => shape.bounds(),
@@ -128,13 +122,13 @@ impl<'a> Accel<'a> {
                         .map(|n| (Piece { triangle: n, ..piece }, mesh.corners(n)))
                         .filter(|(_, corners)| !triangle::is_segment(corners))
                         .map(|(piece, corners)| {
-                            (Leaf { piece, corners }, triangle::bounds(&corners))
+                            (Leaf::of_triangle(piece, corners), triangle::bounds(&corners))
                         });
                     bounded.extend(triangles);
                 }
                 _ => match bounds[object] {
                     Some(bounds) => bounded.push((leaf, bounds)),
-                    None => apart.push(piece),
+                    None => apart.push(leaf),
                 },
             }
         }
@@ -146,7 +140,7 @@ impl<'a> Accel<'a> {
         bounded.retain(|(leaf, [low, high])| {
             let outsized = room > 0 && (*high - *low).max_element() > limit;
             if outsized {
-                apart.push(leaf.piece);
+                apart.push(*leaf);
                 room -= 1;
             }
             !outsized
@@ -158,7 +152,7 @@ impl<'a> Accel<'a> {
                 tree
             })),
             Structure::Grid => {
-                let object = |a: &Leaf, b: &Leaf| a.piece.object == b.piece.object;
+                let object = |a: &Leaf, b: &Leaf| a.object() == b.object();
                 let ranges = leaves.chunk_by(object).scan(0, |end, leaves| {
                     let start = std::mem::replace(end, *end + leaves.len() as u32);
                     Some(start..*end)
@@ -193,22 +187,51 @@ impl<'a> Accel<'a> {
         }
     }
 
-    /// The hit that is seen: the nearest, and of equally near ones the first by [`Piece`].
+    /// Returns the hit that is seen among those with `t` up to `t_max`: the nearest, and of equally
+    /// near ones the first by [`Piece`].
     #[must_use]
-    pub fn nearest(&self, ray: &Ray) -> Option<Hit> {
+    pub fn closest(&self, ray: &Ray, t_max: f64) -> Option<Hit> {
         let mut best: Option<Hit> = None;
-        self.walk(ray, f64::INFINITY, |hit| {
+        self.walk(ray, t_max, |hit| {
             if best.is_none_or(|best| hit.before(&best)) {
                 best = Some(hit);
             }
-            best.map_or(f64::INFINITY, |best| best.t)
+            best.map_or(t_max, |best| best.t)
         });
         best
     }
 
-    /// Gives `see` every hit nearer than `t_max`, in no particular order, until it returns false.
-    pub fn all_before(&self, ray: &Ray, t_max: f64, mut see: impl FnMut(Hit) -> bool) {
-        self.walk(ray, t_max, |hit| if hit.t >= t_max || see(hit) { t_max } else { -1.0 });
+    /// Returns whether `test` accepts a hit nearer than `t_max`. Shows the hits to `test` in no
+    /// particular order until it accepts one. A test that accepts none sees all of them.
+    pub fn any(&self, ray: &Ray, t_max: f64, mut test: impl FnMut(Hit) -> bool) -> bool {
+        let mut found = false;
+        self.walk(ray, t_max, |hit| {
+            found = hit.t < t_max && test(hit);
+            if found { -1.0 } else { t_max }
+        });
+        found
+    }
+
+    /// Finds the closest hits of several rays, each given with its `t_max`. The results are those of
+    /// [`Accel::closest`] for each ray. `hits` has one element for each ray.
+    pub fn closest_of(&self, rays: &[(Ray, f64)], hits: &mut [Option<Hit>]) {
+        for ((ray, t_max), hit) in rays.iter().zip(hits) {
+            *hit = self.closest(ray, *t_max);
+        }
+    }
+
+    /// Finds for several rays, each given with its `t_max`, whether `test` accepts a hit. The
+    /// results are those of [`Accel::any`] for each ray. `test` also gets the index of the ray;
+    /// hits of different rays may come in any order. `found` has one element for each ray.
+    pub fn any_of(
+        &self,
+        rays: &[(Ray, f64)],
+        mut test: impl FnMut(usize, Hit) -> bool,
+        found: &mut [bool],
+    ) {
+        for (k, ((ray, t_max), found)) in rays.iter().zip(found).enumerate() {
+            *found = self.any(ray, *t_max, |hit| test(k, hit));
+        }
     }
 
     /// The surface point of a hit of `ray`.
@@ -216,6 +239,14 @@ impl<'a> Accel<'a> {
     pub fn surface_point(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         let shape = self.shapes[hit.piece.object as usize];
         shape.surface_point(hit.piece.triangle, hit.barycentric, ray.at(hit.t))
+    }
+
+    /// Returns the unit normal of the surface itself at a hit of `ray`: that of
+    /// [`Accel::surface_point`], without the rest.
+    #[must_use]
+    pub fn geometric_normal(&self, ray: &Ray, hit: &Hit) -> DVec3 {
+        let shape = self.shapes[hit.piece.object as usize];
+        shape.geometric_normal(hit.piece.triangle, ray.at(hit.t))
     }
 
     /// How far a point that was computed for a surface of this object may lie off it.
@@ -232,99 +263,39 @@ impl<'a> Accel<'a> {
     }
 
     /// Shows `see` hits up to the distance it last returned, which starts as `t_max`.
-    fn walk(&self, ray: &Ray, t_max: f64, mut see: impl FnMut(Hit) -> f64) {
-        let sheared = ShearedRay::new(ray.origin, ray.direction);
-        let slabs = SlabRay::new(ray.origin, ray.direction, self.extent);
-        let mut t_max = t_max;
-        for &piece in &self.apart {
-            let corners = match self.shapes[piece.object as usize] {
-                Shape::Mesh(mesh) => mesh.corners(piece.triangle),
-                _ => [[0.0; 3]; 3],
-            };
-            if let Some(hit) = self.meet(ray, &sheared, &slabs, &Leaf { piece, corners }, t_max) {
+    #[inline]
+    fn walk(&self, ray: &Ray, mut t_max: f64, mut see: impl FnMut(Hit) -> f64) {
+        let probe = Probe::new(self, ray);
+        for leaf in &self.apart {
+            if let Some(hit) = probe.meet(self, leaf, t_max) {
                 t_max = see(hit);
             }
         }
         let visit = |leaf: u32, t_max: f64| {
-            let hit = self.meet(ray, &sheared, &slabs, &self.leaves[leaf as usize], t_max);
+            let hit = probe.meet(self, &self.leaves[leaf as usize], t_max);
             hit.map_or(t_max, &mut see)
         };
         match &self.index {
-            Index::Tree(Some(tree)) => tree.walk(&slabs, t_max, visit),
+            Index::Tree(Some(tree)) => tree.walk(&probe.slabs, t_max, visit),
             Index::Tree(None) => {}
-            Index::Grids(grids) => grids.walk(&slabs, t_max, visit),
+            Index::Grids(grids) => grids.walk(&probe.slabs, t_max, visit),
             Index::All(brute) => brute.walk(t_max, visit),
         }
-    }
-
-    /// The hit of `ray` with one piece where the ray crosses the piece's widened box, with `t` in
-    /// `(0, t_max]`. Whether there is one, and where, does not depend on `t_max`.
-    fn meet(
-        &self,
-        ray: &Ray,
-        sheared: &ShearedRay,
-        slabs: &SlabRay,
-        leaf: &Leaf,
-        t_max: f64,
-    ) -> Option<Hit> {
-        let hit = self.try_piece(ray, sheared, leaf)?;
-        let object = hit.piece.object as usize;
-        let bounds = match self.shapes[object] {
-            Shape::Mesh(_) => Some(triangle::bounds(&leaf.corners)),
-            _ => self.bounds[object],
-        };
-        let t = match bounds {
-            Some(bounds) => {
-                let [enter, leave] = slabs.crosses(bounds)?;
-                hit.t.clamp(enter, leave)
-            }
-            None => hit.t,
-        };
-        (t > 0.0 && t <= t_max).then_some(Hit { t, ..hit })
-    }
-
-    /// The one hit function: the hit of `ray` with one piece, with `t` above 0.
-    fn try_piece(&self, ray: &Ray, sheared: &ShearedRay, leaf: &Leaf) -> Option<Hit> {
-        let piece = leaf.piece;
-        // What lies this near to the start is the surface that the ray leaves, or coincides with it;
-        // or the eye is on it, and sees past it.
-        let skin = || match ray.leaving {
-            Some(from) => {
-                self.rounding(from.object, ray.origin) + self.rounding(piece.object, DVec3::ZERO)
-            }
-            // What is meant to be on a surface is off it by the rounding of its own digits.
-            None => EYE_ROUNDINGS / ROUNDINGS * self.rounding(piece.object, ray.origin),
-        };
-        let hit = match self.shapes[piece.object as usize] {
-            Shape::Mesh(_) if ray.leaving == Some(piece) => return None,
-            Shape::Mesh(_) => {
-                let (t, barycentric) = sheared.intersect(&leaf.corners, f64::INFINITY)?;
-                if sheared.starts_on(&leaf.corners, skin()) {
-                    return None;
-                }
-                Hit { t, piece, barycentric }
-            }
-            shape => {
-                let left = ray.leaving.filter(|from| from.object == piece.object);
-                let start = Start { left_face: left.map(|from| from.triangle), skin: skin() };
-                let (t, face) = shape.intersect(ray.origin, ray.direction, start)?;
-                Hit { t, piece: Piece { triangle: face, ..piece }, barycentric: [0.0; 2] }
-            }
-        };
-        Some(hit)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::accel::slabs::SlabRay;
+    use crate::shape::Sphere;
     use proptest::prelude::*;
 
     #[test]
     fn an_empty_scene_has_no_hits() {
         let ray = Ray::from_eye(DVec3::ZERO, DVec3::X);
         for structure in [Structure::Bvh, Structure::Grid, Structure::None] {
-            assert!(Accel::build(vec![], structure).nearest(&ray).is_none());
+            assert!(Accel::build(vec![], structure).closest(&ray, f64::INFINITY).is_none());
         }
     }
 
@@ -333,6 +304,31 @@ mod tests {
     }
 
     proptest! {
+        /// Rays that are traced together see what each of them sees alone.
+        #[test]
+        fn a_slice_of_rays_is_traced_as_one_by_one(
+            centers in prop::collection::vec(place(), 1..20),
+            rays in prop::collection::vec((place(), place(), any::<bool>()), 0..20),
+        ) {
+            let ball = |center| Shape::Sphere(Sphere { center, radius: 0.2 });
+            let balls: Vec<Shape> = centers.into_iter().map(ball).collect();
+            let accel = Accel::build(balls.iter().collect(), Structure::Bvh);
+            let rays: Vec<(Ray, f64)> = rays.into_iter().map(|(eye, toward, near)| {
+                let direction = (toward - eye).normalize_or(DVec3::X);
+                (Ray::from_eye(eye, direction), if near { 0.75 } else { f64::INFINITY })
+            }).collect();
+            let bits = |hit: Hit| (hit.t.to_bits(), hit.piece);
+            let mut hits = vec![None; rays.len()];
+            accel.closest_of(&rays, &mut hits);
+            let mut met = vec![false; rays.len()];
+            let odd = |hit: &Hit| hit.piece.object % 2 == 1;
+            accel.any_of(&rays, |_, hit| odd(&hit), &mut met);
+            for (k, (ray, t_max)) in rays.iter().enumerate() {
+                prop_assert_eq!(hits[k].map(bits), accel.closest(ray, *t_max).map(bits));
+                prop_assert_eq!(met[k], accel.any(ray, *t_max, |hit| odd(&hit)));
+            }
+        }
+
         /// What the structures promise, without any hit function: the boxes that a ray crosses
         /// before `t_max`, and no box twice.
         #[test]

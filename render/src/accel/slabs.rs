@@ -44,6 +44,13 @@ impl SlabRay {
         Self { origin, direction, inverse, scale, above, below }
     }
 
+    /// Returns a bound on the error of distances to planes across the direction's largest component,
+    /// in scene units: twice the widening along the ray, and the roundings of the distances.
+    #[must_use]
+    pub fn slack(&self) -> f64 {
+        64.0 * f64::EPSILON * self.scale
+    }
+
     /// Where the ray enters the box and where it leaves it, from its start on; nothing if it does
     /// not meet it.
     #[must_use]

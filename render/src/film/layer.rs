@@ -1,9 +1,11 @@
 //! Layers of an EXR file: values of a pixel besides its colour.
 
-use crate::footprint::Footprint;
-use crate::footprint::neighbours::Neighbourhood;
+use crate::footprint::Sight;
 use crate::shade::Shader;
 use std::str::FromStr;
+
+/// Largest number of channels of a layer.
+pub(super) const MOST_CHANNELS: usize = 3;
 
 /// A value of the first hit of each pixel's middle ray.
 ///
@@ -56,32 +58,27 @@ impl Layer {
         }
     }
 
-    /// Appends the values of the layer's channels for the root of the tree in the middle of
-    /// `around`.
-    pub(super) fn push(self, around: &Neighbourhood<'_>, shader: &Shader<'_>, to: &mut Vec<f32>) {
-        let Some(node) = around.node() else {
-            let nothing = match self {
-                Self::Depth => f32::INFINITY,
-                Self::Object => -1.0,
-                _ => 0.0,
+    /// Returns the values of the layer's channels for the root of a sight, followed by zeros.
+    pub(super) fn values<S: Sight>(self, sight: &S, shader: &Shader<'_>) -> [f32; MOST_CHANNELS] {
+        let Some(node) = sight.node() else {
+            return match self {
+                Self::Depth => [f32::INFINITY, 0.0, 0.0],
+                Self::Object => [-1.0, 0.0, 0.0],
+                Self::Normal | Self::Uv | Self::Footprint => [0.0; MOST_CHANNELS],
             };
-            to.extend(self.channels().iter().map(|_| nothing));
-            return;
         };
         match self {
-            Self::Normal => to.extend(node.normal.as_vec3().to_array()),
+            Self::Normal => node.normal.as_vec3().to_array(),
             Self::Depth => {
-                to.push((node.position - shader.scene.camera.eye()).length() as f32);
+                let depth = (node.position - shader.scene.camera.eye()).length();
+                [depth as f32, 0.0, 0.0]
             }
-            Self::Uv => to.extend(node.uv.as_vec2().to_array()),
-            Self::Object => to.push(node.piece.object as f32),
+            Self::Uv => node.uv.as_vec2().extend(0.0).to_array(),
+            Self::Object => [node.piece.object as f32, 0.0, 0.0],
             Self::Footprint => {
                 let charts = &shader.charts[node.piece.object as usize];
-                let size = match around.footprint(node, charts) {
-                    Footprint::Point(_) => [0.0; 2],
-                    Footprint::Rectangle { half, .. } => (2.0 * half).as_vec2().to_array(),
-                };
-                to.extend(size);
+                let (_, half) = sight.footprint(node, charts).bounds();
+                (2.0 * half).as_vec2().extend(0.0).to_array()
             }
         }
     }

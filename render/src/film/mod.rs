@@ -1,14 +1,15 @@
 //! Renders the picture: traces and shades tiles of samples and averages the samples into pixels.
 //!
-//! A tile traces its samples row by row. With a filter that averages over areas, it keeps three
-//! rows of trees and shades the middle one. It then also traces one sample more on each side than
-//! it shades (a halo). Where pixels share samples, a tile shades the shared samples of its
-//! neighbours too. Each tile is therefore complete by itself, and the picture does not depend on
-//! the tiles or on the threads.
+//! A tile of the thesis's lattice traces its samples row by row. With a filter that averages over
+//! areas, it keeps three rows of trees and shades the middle one. It then also traces one sample
+//! more on each side than it shades (a halo). Where pixels share samples, a tile shades the shared
+//! samples of its neighbours too. Each tile is therefore complete by itself, and the picture does
+//! not depend on the tiles or on the threads. `exposure.rs` is the interface for other methods.
 
 pub mod crop;
 pub mod encode;
 mod exposure;
+mod lattice;
 pub mod layer;
 pub mod memory;
 pub mod pattern;
@@ -16,7 +17,7 @@ pub mod picture;
 pub mod sampling;
 
 pub use crop::Crop;
-pub use exposure::Witness;
+pub use exposure::{Sample, Witness};
 pub use layer::Layer;
 pub use pattern::{Pattern, PatternName};
 pub use picture::Picture;
@@ -37,10 +38,6 @@ use std::time::Instant;
 /// A smaller tile makes the halo of two samples a row a larger part of the work (6 % of the rays at
 /// 64). A larger tile leaves more cores idle while the last tiles are rendered.
 const TILE_SAMPLES: u32 = 64;
-
-/// Smallest side of a tile in pixels, where pixels share samples. A smaller tile increases the part
-/// of the work that is repeated for the next tile (a half at 4).
-const LEAST_SHARING: u32 = 4;
 
 /// The size, the sampling and the parts of a picture to render.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -122,10 +119,8 @@ fn render_in_tiles(
 ) -> (Picture, Stats) {
     with_exposure(prepared, settings, |exposure, stats| {
         let started = Instant::now();
-        let sampling = settings.sampling;
-        let least = if sampling.shares() { LEAST_SHARING } else { 1 };
         let crop = Crop::of(settings);
-        let tiles = crop.tiles((tile_samples / sampling.per_pixel()).max(least));
+        let tiles = crop.tiles(exposure.tile_side(tile_samples));
         let film = Mutex::new(Film::new(crop, &settings.layers, stats));
         // One tile per task. In longer runs, which one core takes as a whole, the last run would
         // leave the other cores idle.
@@ -142,8 +137,7 @@ fn render_in_tiles(
     })
 }
 
-/// Renders one pixel of a scene and reports all of its samples to a witness. `witness` makes the
-/// observer; its argument tells whether the neighbours of each sample are traced.
+/// Renders one pixel of a scene and reports all of its samples to a witness.
 ///
 /// The pixel is exposed as a tile of its own, by the code that exposes all other tiles. Its colour
 /// therefore equals that of the picture to the last bit. The pixel must lie in the picture.
@@ -151,15 +145,14 @@ pub fn expose_pixel<W: Witness>(
     prepared: &Prepared<'_>,
     settings: &Settings,
     (x, y): (u32, u32),
-    witness: impl FnOnce(bool) -> W,
-) -> (Picture, W) {
+    witness: &mut W,
+) -> Picture {
     with_exposure(prepared, settings, |exposure, stats| {
         let tile = Crop { x, y, width: 1, height: 1 };
         let mut film = Film::new(tile, &settings.layers, stats);
-        let mut witness = witness(exposure.halo);
-        film.take(&tile, &exposure.expose(&tile, &mut witness));
+        film.take(&tile, &exposure.expose(&tile, witness));
         film.picture.remove_not_finite();
-        (film.picture, witness)
+        film.picture
     })
 }
 
@@ -181,12 +174,8 @@ fn with_exposure<T>(
         lattice_bytes: scene.procedural.lattice_bytes(),
         ..Stats::default()
     };
-    let exposure = Exposure {
-        tracer: Tracer::new(scene, shader.accel, shader.volumes),
-        halo: settings.filter.wants_area() && shader.textures.iter().any(Option::is_some),
-        shader,
-        settings,
-    };
+    let exposure =
+        Exposure { tracer: Tracer::new(scene, shader.accel, shader.volumes), shader, settings };
     work(&exposure, stats)
 }
 

@@ -53,15 +53,17 @@ impl Picture {
     }
 
     /// Copies the values of all channels for a rectangle of pixels, as [`Picture::place`] does for
-    /// colours. Each element of `pixels` holds the values of one pixel, in the order of the
-    /// channels.
-    pub fn place_layers(&mut self, x: u32, y: u32, columns: u32, pixels: &[Vec<f32>]) {
-        for (row, pixels) in pixels.chunks_exact(columns as usize).enumerate() {
-            let start = (y as usize + row) * self.width as usize + x as usize;
-            for (place, values) in (start..).zip(pixels) {
-                for (channel, &value) in self.channels.iter_mut().zip(values) {
-                    channel.values[place] = value;
-                }
+    /// colours. `values` holds for each pixel its values in the order of the channels.
+    pub fn place_layers(&mut self, x: u32, y: u32, columns: u32, values: &[f32]) {
+        if self.channels.is_empty() {
+            return;
+        }
+        let pixels = values.chunks_exact(self.channels.len());
+        for (k, values) in pixels.enumerate() {
+            let (row, column) = (k / columns as usize, k % columns as usize);
+            let at = (y as usize + row) * self.width as usize + x as usize + column;
+            for (channel, &value) in self.channels.iter_mut().zip(values) {
+                channel.values[at] = value;
             }
         }
     }

@@ -141,10 +141,7 @@ impl<'a> FilteredTexture<'a> {
     /// Returns the average of the texture over the footprint, linear RGB.
     #[must_use]
     pub fn average(&self, footprint: &Footprint) -> Color {
-        let (center, half) = match *footprint {
-            Footprint::Point(at) => (at, DVec2::ZERO),
-            Footprint::Rectangle { center, half } => (center, half),
-        };
+        let (center, half) = footprint.bounds();
         match &self.prepared {
             Prepared::Table(table) => table.average(self.texture, center, half),
             Prepared::Pyramid(pyramid) => pyramid.average(self.texture, center, half),
@@ -161,22 +158,18 @@ impl<'a> FilteredTexture<'a> {
     /// table's smallest width, by less than a texel, and the square of a pyramid.
     #[must_use]
     pub fn between_poles(&self, footprint: Footprint) -> Footprint {
-        let (center, half) = match footprint {
-            Footprint::Point(center) => (center, DVec2::ZERO),
-            Footprint::Rectangle { center, half } => (center, half),
-        };
+        let (center, half) = footprint.bounds();
         // Interpolation reaches half a texel of the coarser of two levels: at most the side of the
         // square.
         let smallest = match self.filter {
             Filter::Mip => pyramid::side(self.texture, half).max(0.5),
-            _ => 0.5 * self.filter.order().unwrap_or(1) as f64,
+            Filter::Point | Filter::Bilinear => 0.5,
+            Filter::Box | Filter::Tent | Filter::Quadratic => {
+                0.5 * self.filter.order().unwrap_or(1) as f64
+            }
         };
         let reach = half.y.max(smallest / self.texture.height as f64).min(0.5);
-        let center = DVec2::new(center.x, center.y.clamp(reach, 1.0 - reach));
-        match footprint {
-            Footprint::Point(_) => Footprint::Point(center),
-            Footprint::Rectangle { .. } => Footprint::Rectangle { center, half },
-        }
+        footprint.centered_at(DVec2::new(center.x, center.y.clamp(reach, 1.0 - reach)))
     }
 
     /// Returns the nominal number of texels or table entries that one average reads. Footprints of

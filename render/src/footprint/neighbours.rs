@@ -2,17 +2,12 @@
 //! fig. 4.4).
 //!
 //! A node sees the area between its eight neighbours if all of them hit the same textured area
-//! along the same path. Paths are the same if they are reflected and refracted in the same order at
-//! the same objects. If one neighbour differs, the node sees a point. On a mesh the textured area
-//! is a chart: [`crate::shape::charts`].
-//!
-//! The thesis compares only the depths of reflection and refraction. Comparing the objects on the
-//! path as well distinguishes two mirrors that show the same floor.
+//! along the same path ([`super::bundle`]). If one neighbour differs, the node sees a point. On a
+//! mesh the textured area is a chart: [`crate::shape::charts`].
 
-use super::Footprint;
+use super::{Bundle, Footprint, PointReason, Sight};
 use crate::shape::Charts;
-use crate::trace::tree::{Branch, IntersectionTree, Node};
-use glam::{DVec2, DVec3};
+use crate::trace::tree::{Branch, Child, IntersectionTree, Node};
 
 /// Number of trees in a neighbourhood: 3 x 3.
 pub const ALL: usize = 9;
@@ -20,123 +15,77 @@ pub const ALL: usize = 9;
 /// Index of the middle tree.
 const MIDDLE: usize = 4;
 
-/// Nine trees that are walked in step. Each tree has a current branch that corresponds to the
-/// branch of the middle tree.
+/// Position of each neighbour beside the middle, by its index.
+const POSITIONS: [&str; ALL] = [
+    "upper left",
+    "upper",
+    "upper right",
+    "left",
+    "middle",
+    "right",
+    "lower left",
+    "lower",
+    "lower right",
+];
+
+/// Nine trees that are walked in step.
 #[derive(Debug, Clone, Copy)]
-pub struct Neighbourhood<'a> {
-    trees: [&'a IntersectionTree; ALL],
-    branches: [Branch; ALL],
-    /// Index of the tree that is shaded: the middle tree, unless [`Neighbourhood::seen_by`] chose
-    /// another one.
-    middle: usize,
-}
+pub struct Neighbourhood<'a>(Bundle<'a, ALL>);
 
 impl<'a> Neighbourhood<'a> {
-    /// Starts at the roots of nine trees, given row by row.
+    /// Starts at the roots of nine trees, given row by row. The middle tree is shaded.
     #[must_use]
     pub fn of(trees: [&'a IntersectionTree; ALL]) -> Self {
-        Self { trees, branches: trees.map(|tree| tree.root), middle: MIDDLE }
+        Self::seen_by(trees, MIDDLE)
     }
 
-    /// Shades the tree with index `shaded` instead of the middle one and keeps the nine trees. With
-    /// it nine rays can all use the one footprint that they span together.
+    /// Starts at the roots of nine trees and shades the one with index `shaded`, less than nine.
+    /// With it nine rays can all use the one footprint that they span together.
     #[must_use]
-    pub fn seen_by(self, shaded: usize) -> Self {
-        Self { middle: shaded, ..self }
+    pub fn seen_by(trees: [&'a IntersectionTree; ALL], shaded: usize) -> Self {
+        Self(Bundle::of(trees, shaded))
+    }
+}
+
+impl Sight for Neighbourhood<'_> {
+    fn tree(&self) -> &IntersectionTree {
+        self.0.tree()
     }
 
-    /// A tree without neighbours. Every node of the tree sees a point.
-    #[must_use]
-    pub fn alone(tree: &'a IntersectionTree) -> Self {
-        let mut branches = [Branch::Cut; ALL];
-        branches[MIDDLE] = tree.root;
-        Self { trees: [tree; ALL], branches, middle: MIDDLE }
+    fn branch(&self) -> Branch {
+        self.0.branch()
     }
 
-    /// Current branch of the tree that is shaded.
-    #[must_use]
-    pub fn middle(&self) -> Branch {
-        self.branches[self.middle]
+    fn step(&self, child: Child) -> Self {
+        Self(self.0.step(child))
     }
 
-    /// Transmittance from the eye to the root of the tree that is shaded, linear RGB, [0, 1] per
-    /// channel.
-    #[must_use]
-    pub fn through(&self) -> DVec3 {
-        self.trees[self.middle].through
-    }
-
-    /// Node of the current branch of the tree that is shaded, if this branch hit a surface.
-    #[must_use]
-    pub fn node(&self) -> Option<&'a Node> {
-        self.trees[self.middle].node(self.middle())
-    }
-
-    /// Unit direction in which the current branch of the tree that is shaded left the scene, if it
-    /// did.
-    #[must_use]
-    pub fn away(&self) -> Option<DVec3> {
-        self.trees[self.middle].away(self.middle())
-    }
-
-    /// Moves all trees to the branch that `child` selects. Trees whose current node lies on another
-    /// textured area are cut.
-    #[must_use]
-    pub fn step(&self, child: impl Fn(&Node) -> Branch) -> Self {
-        let area = self.node().map(Node::area);
-        let mut branches = [Branch::Cut; ALL];
-        for (k, branch) in branches.iter_mut().enumerate() {
-            let node = self.trees[k].node(self.branches[k]);
-            if let Some(node) = node.filter(|node| Some(node.area()) == area) {
-                *branch = child(node);
-            }
-        }
-        Self { branches, ..*self }
-    }
-
-    /// Node of the tree with index `k`, if this node lies on the same textured area as `node`.
-    fn agreeing(&self, k: usize, node: &Node) -> Option<&'a Node> {
-        self.trees[k].node(self.branches[k]).filter(|other| other.area() == node.area())
-    }
-
-    /// Finds the first tree, by index, that does not agree with `node`. Returns its index, its
-    /// current branch and the node of this branch, if any. The branch is [`Branch::Cut`] if the
-    /// tree left the common path before.
-    #[must_use]
-    pub fn stranger(&self, node: &Node) -> Option<(usize, Branch, Option<&'a Node>)> {
-        let k = (0..ALL).find(|&k| self.agreeing(k, node).is_none())?;
-        Some((k, self.branches[k], self.trees[k].node(self.branches[k])))
-    }
-
-    /// Returns the footprint of `node`, the node of the tree that is shaded. `charts` are the
-    /// charts of the node's shape.
-    #[must_use]
-    pub fn footprint(&self, node: &Node, charts: &Charts) -> Footprint {
+    fn footprint(&self, node: &Node, charts: &Charts) -> Footprint {
         let (mut low, mut high) = (node.uv, node.uv);
         for k in 0..ALL {
-            let other = self.agreeing(k, node);
-            let Some(way) = other.and_then(|other| way(charts, node, other)) else {
+            let Some(difference) = self.0.difference(k, node, charts) else {
                 return Footprint::Point(node.uv);
             };
-            let uv = node.uv + way;
+            let uv = node.uv + difference;
             low = low.min(uv);
             high = high.max(uv);
         }
         Footprint::Rectangle { center: 0.5 * (low + high), half: 0.5 * (high - low) }
     }
-}
 
-/// Difference of the texture coordinates of `to` and `from`, two nodes on the same area, if their
-/// charts connect them.
-fn way(charts: &Charts, from: &Node, to: &Node) -> Option<DVec2> {
-    let [from, to] = [from, to].map(|node| (node.piece.triangle, node.uv));
-    charts.difference(from, to)
+    fn point_reason(&self, _: &Node) -> PointReason<'_> {
+        self.0.stranger().map_or(PointReason::OtherChart, |(k, branch, node)| {
+            PointReason::Stranger { position: POSITIONS[k], branch, node }
+        })
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::footprint::Alone;
     use crate::ray::Piece;
+    use glam::{DVec2, DVec3};
 
     fn tree(object: u32, uv: DVec2) -> IntersectionTree {
         let mut tree = IntersectionTree::default();
@@ -183,7 +132,7 @@ mod tests {
     fn one_neighbour_elsewhere_makes_it_a_point() {
         let trees = grid(|k| u32::from(k == 7), |x, _| DVec2::new(x, 0.0));
         assert_eq!(footprint(&trees, DVec2::ZERO), Footprint::Point(DVec2::ZERO));
-        let alone = Neighbourhood::alone(&trees[0]);
+        let alone = Alone::of(&trees[0]);
         let at = DVec2::new(-1.0, 0.0);
         assert_eq!(
             alone.footprint(alone.node().unwrap(), &Charts::default()),
@@ -203,8 +152,26 @@ mod tests {
     #[test]
     fn a_step_leaves_others_behind() {
         let trees = grid(|k| u32::from(k == 0), |_, _| DVec2::ZERO);
-        let next = Neighbourhood::of(trees.each_ref()).step(|node| node.reflected);
-        assert_eq!(next.branches[0], Branch::Cut);
-        assert_eq!(next.middle(), Branch::Background(0));
+        let next = Neighbourhood::of(trees.each_ref()).step(Child::Reflected);
+        assert_eq!(next.0.stranger().map(|(k, branch, _)| (k, branch)), Some((0, Branch::Cut)));
+        assert_eq!(next.branch(), Branch::Background(0));
+    }
+
+    /// Shading cannot tell one ray from nine but by the footprint.
+    #[test]
+    fn a_single_ray_walks_as_the_middle_of_nine() {
+        let trees = grid(|_| 0, |x, y| DVec2::new(0.5 + 0.1 * x, 0.5 + 0.1 * y));
+        let (nine, one) = (Neighbourhood::of(trees.each_ref()), Alone::of(&trees[MIDDLE]));
+        assert_eq!((one.branch(), one.through()), (nine.branch(), nine.through()));
+        let node = one.node().unwrap();
+        assert_eq!(one.footprint(node, &Charts::default()), Footprint::Point(node.uv));
+        let (center, _) = nine.footprint(node, &Charts::default()).bounds();
+        assert!(center.abs_diff_eq(node.uv, 1e-15));
+        for child in [Child::Reflected, Child::Refracted] {
+            let (nine, one) = (nine.step(child), one.step(child));
+            assert_eq!((one.branch(), one.away()), (nine.branch(), nine.away()));
+            assert_eq!(one.step(child).branch(), Branch::Cut);
+            assert_eq!(nine.step(child).branch(), Branch::Cut);
+        }
     }
 }

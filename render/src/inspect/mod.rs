@@ -6,10 +6,12 @@
 mod node;
 
 use crate::color::{Color, Encoding};
-use crate::film::{Settings, Witness, expose_pixel};
+use crate::film::{Sample, Settings, Witness, expose_pixel};
+use crate::footprint::Sight;
 use crate::prepared::Prepared;
 use crate::scene::Scene;
-use crate::shade::observer::{Observer, Seen, Way};
+use crate::shade::observer::{Observer, Seen};
+use crate::trace::tree::Child;
 use glam::DVec3;
 use std::fmt::Write;
 
@@ -30,19 +32,17 @@ pub fn pixel(
     encoding: Encoding,
     all: bool,
 ) -> String {
-    let scene = prepared.scene();
     let settings = Settings { layers: Vec::new(), ..settings.clone() };
-    let (picture, recorder) = expose_pixel(prepared, &settings, (x, y), |halo| Recorder {
-        scene,
-        settings: &settings,
+    let mut recorder = Recorder {
+        scene: prepared.scene(),
         pixel: (x, y),
         all,
-        halo,
         text: String::new(),
         wanted: false,
         open: Vec::new(),
         branches: Vec::new(),
-    });
+    };
+    let picture = expose_pixel(prepared, &settings, (x, y), &mut recorder);
     let light = picture.pixels[0];
     let codes = light.map(|light| encoding.to_byte(f64::from(light)));
     let (width, height) = (settings.width, settings.height);
@@ -54,38 +54,30 @@ pub fn pixel(
 /// Records the samples of a pixel while they are shaded.
 struct Recorder<'a> {
     scene: &'a Scene,
-    settings: &'a Settings,
     pixel: (u32, u32),
     all: bool,
-    /// Whether the neighbours of each sample are traced.
-    halo: bool,
     text: String,
     /// Whether the current sample is printed.
     wanted: bool,
     /// How each open branch continues its parent, from the root on; `None` for the root.
-    open: Vec<Option<Way>>,
+    open: Vec<Option<Child>>,
     /// For each open branch, the text of its finished children.
     branches: Vec<String>,
 }
 
-impl Recorder<'_> {
-    fn heading(&self, x: i64, y: i64) -> String {
-        let sampling = self.settings.sampling;
-        let weight = sampling.weight(self.pixel.0, x) * sampling.weight(self.pixel.1, y);
-        let whole = sampling.whole().pow(2);
-        let place = sampling.place(x, y);
-        let share = if weight == whole { "1".into() } else { format!("{weight}/{whole}") };
-        format!("sample {x},{y} at {},{} on the film, weight {share}\n", place.x, place.y)
-    }
-}
-
 impl Witness for Recorder<'_> {
-    fn sample(&mut self, x: i64, y: i64) {
-        let middle = [self.pixel.0, self.pixel.1].map(|pixel| self.settings.sampling.middle(pixel));
-        self.wanted = self.all || [x, y] == middle;
+    fn sample(&mut self, sample: &impl Sample) {
+        self.wanted = self.all || sample.represents(self.pixel);
         if self.wanted {
-            let heading = self.heading(x, y);
-            self.text.push_str(&heading);
+            let (weight, whole) = sample.weight(self.pixel);
+            let share = if weight == whole { "1".into() } else { format!("{weight}/{whole}") };
+            let (name, at) = (sample.name(), sample.position());
+            // Writing to a string does not fail.
+            let _ = writeln!(
+                self.text,
+                "sample {name} at {},{} on the film, weight {share}",
+                at.x, at.y
+            );
             self.open.push(None);
             self.branches.push(String::new());
         }
@@ -93,14 +85,14 @@ impl Witness for Recorder<'_> {
 }
 
 impl Observer for Recorder<'_> {
-    fn follow(&mut self, way: Way) {
+    fn follow(&mut self, child: Child) {
         if self.wanted {
-            self.open.push(Some(way));
+            self.open.push(Some(child));
             self.branches.push(String::new());
         }
     }
 
-    fn leave(&mut self, seen: &Seen<'_>) {
+    fn leave<S: Sight>(&mut self, seen: &Seen<'_, S>) {
         if !self.wanted {
             return;
         }
@@ -108,11 +100,11 @@ impl Observer for Recorder<'_> {
         let depth = self.open.len();
         let way = match way {
             None => "from the eye",
-            Some(Way::Reflected) => "reflected",
-            Some(Way::Refracted) => "refracted",
+            Some(Child::Reflected) => "reflected",
+            Some(Child::Refracted) => "refracted",
         };
         let margin = " ".repeat(STEP * (depth + 1));
-        let mut lines = node::lines(self.scene, self.halo, seen).into_iter();
+        let mut lines = node::lines(self.scene, seen).into_iter();
         let first = lines.next().unwrap_or_default();
         let mut text = format!("{margin}{depth} {way}: {first}\n");
         for line in lines {

@@ -1,29 +1,15 @@
 //! Describes one node of an intersection tree in words.
 
 use super::{light, vector};
-use crate::footprint::Footprint;
-use crate::footprint::neighbours::Neighbourhood;
+use crate::footprint::{Footprint, PointReason, Sight};
 use crate::scene::{Scene, SurfaceTexture};
 use crate::shade::observer::{Seen, Textured};
 use crate::trace::tree::{Branch, Node};
 
-/// Position of each neighbour relative to the middle, by its index.
-const PLACES: [&str; 9] = [
-    "upper left",
-    "upper",
-    "upper right",
-    "left",
-    "middle",
-    "right",
-    "lower left",
-    "lower",
-    "lower right",
-];
-
 /// Describes the result of a branch, line by line. The first line names it.
-pub fn lines(scene: &Scene, halo: bool, seen: &Seen<'_>) -> Vec<String> {
-    let Some(node) = seen.around.node() else {
-        return vec![nothing(seen.around.middle()).into(), format!("colour {}", light(seen.color))];
+pub fn lines<S: Sight>(scene: &Scene, seen: &Seen<'_, S>) -> Vec<String> {
+    let Some(node) = seen.sight.node() else {
+        return vec![nothing(seen.sight.branch()).into(), format!("colour {}", light(seen.color))];
     };
     let object = &scene.objects[node.piece.object as usize];
     let surface = object.parts[node.part as usize];
@@ -48,7 +34,7 @@ pub fn lines(scene: &Scene, halo: bool, seen: &Seen<'_>) -> Vec<String> {
     ];
     if let Some(local) = seen.local {
         if let (Some(textured), Some(index)) = (local.textured, surface.picture()) {
-            lines.push(footprint(scene, halo, seen.around, node, &textured, index));
+            lines.push(footprint(scene, seen.sight, node, &textured, index));
             lines.push(format!("texture average {}", light(textured.average)));
         }
         lines.push(format!("local colour {}", light(local.color)));
@@ -88,47 +74,49 @@ fn named(names: &[String], index: usize) -> String {
 }
 
 /// Describes the part of its texture that a node sees, or why it sees a point.
-fn footprint(
+fn footprint<S: Sight>(
     scene: &Scene,
-    halo: bool,
-    around: &Neighbourhood<'_>,
+    sight: &S,
     node: &Node,
     textured: &Textured,
     texture: usize,
 ) -> String {
-    match textured.footprint {
-        Footprint::Point(_) if !halo => "sees a point, as the filter asks".into(),
-        Footprint::Point(_) => format!("sees a point, since {}", disagreement(scene, around, node)),
-        Footprint::Rectangle { center, half } => {
-            let texture = &scene.textures[texture];
-            let (width, height) = (2.0 * half.x, 2.0 * half.y);
-            format!(
-                "sees a rectangle of {} x {} in uv, {} x {} in texels, around {} {}",
-                width as f32,
-                height as f32,
-                (width * texture.width as f64) as f32,
-                (height * texture.height as f64) as f32,
-                center.x as f32,
-                center.y as f32
-            )
-        }
-    }
+    let kind = match textured.footprint {
+        Footprint::Point(_) => return point(scene, sight.point_reason(node)),
+        Footprint::Rectangle { .. } => "a rectangle",
+        Footprint::Quadrilateral(_) => "a quadrilateral within a rectangle",
+    };
+    let (center, half) = textured.footprint.bounds();
+    let texture = &scene.textures[texture];
+    let (width, height) = (2.0 * half.x, 2.0 * half.y);
+    format!(
+        "sees {kind} of {} x {} in uv, {} x {} in texels, around {} {}",
+        width as f32,
+        height as f32,
+        (width * texture.width as f64) as f32,
+        (height * texture.height as f64) as f32,
+        center.x as f32,
+        center.y as f32
+    )
 }
 
-/// Describes the first neighbour that does not agree with the node.
-fn disagreement(scene: &Scene, around: &Neighbourhood<'_>, node: &Node) -> String {
-    match around.stranger(node) {
-        None => "a neighbour lies on another piece of the picture".into(),
-        Some((k, branch, other)) => {
-            let came_to = match (branch, other) {
+/// Describes why a node sees a point.
+fn point(scene: &Scene, reason: PointReason<'_>) -> String {
+    match reason {
+        PointReason::Alone => "sees a point, as the filter asks".into(),
+        PointReason::OtherChart => {
+            "sees a point, since a neighbour lies on another piece of the picture".into()
+        }
+        PointReason::Stranger { position, branch, node } => {
+            let came_to = match (branch, node) {
                 (_, Some(other)) => {
                     let piece = piece(scene, other);
                     format!("came to {piece}, part {}", other.part)
                 }
-                (Branch::Background(_), _) => "came to the background".into(),
-                _ => "came by another path".into(),
+                (Branch::Background(_), None) => "came to the background".into(),
+                (Branch::Cut | Branch::Node(_), None) => "came by another path".into(),
             };
-            format!("its {} neighbour {came_to}", PLACES[k])
+            format!("sees a point, since its {position} neighbour {came_to}")
         }
     }
 }

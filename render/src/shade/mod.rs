@@ -11,15 +11,16 @@ mod shadow;
 use crate::accel::Accel;
 use crate::color::Color;
 use crate::filter::FilteredTexture;
-use crate::footprint::Footprint;
-use crate::footprint::neighbours::Neighbourhood;
+use crate::footprint::Sight;
 use crate::optics;
 use crate::scene::{Material, Scene};
 use crate::shape::Charts;
 use crate::trace::medium::Media;
-use crate::trace::tree::Node;
+use crate::trace::tree::{Child, Node};
 use crate::trace::volume::Volumes;
-use observer::{Local, Observer, Seen, Textured, Way};
+use glam::DVec3;
+use observer::{Local, Observer, Seen, Textured};
+pub use shadow::{Facing, Shadows};
 
 /// Shades the trees of one scene.
 #[derive(Debug)]
@@ -31,9 +32,12 @@ pub struct Shader<'a> {
     /// The scene's textures prepared for filtering, by texture index. A texture that no surface
     /// shows is `None`.
     pub textures: &'a [Option<FilteredTexture<'a>>],
-    /// Texture coordinate charts of each object, by object index. They are empty if the filter
-    /// averages over points only.
+    /// Texture coordinate charts of each object, by object index. They are empty unless
+    /// [`Shader::wants_area`].
     pub charts: &'a [Charts],
+    /// Whether footprints are areas: the filter averages over areas, and a surface shows a texture.
+    /// If not, a sampling method needs no rays near those that are shaded.
+    pub wants_area: bool,
     /// The scene's closed volumes, which bend and absorb light.
     pub volumes: &'a Volumes,
     /// The volumes that contain each light, in the order of the scene's lights.
@@ -55,6 +59,14 @@ pub struct ShadeCounts {
     pub solids: u64,
 }
 
+/// Counts of shading, and memory that it uses again for each ray.
+#[derive(Debug, Default)]
+pub struct ShadeWork {
+    /// Counts of the operations so far.
+    pub counts: ShadeCounts,
+    shadows: Shadows,
+}
+
 impl Shader<'_> {
     /// Returns the memory of all filter tables, in bytes.
     #[must_use]
@@ -62,68 +74,68 @@ impl Shader<'_> {
         self.textures.iter().flatten().map(|texture| texture.table_bytes() as u64).sum()
     }
 
-    /// Returns the linear RGB light that reaches the eye along the tree in the middle of `around`.
-    /// Reports every shaded branch to `observer`.
+    /// Returns the linear RGB light that reaches the eye along the tree of `sight`, which stands at
+    /// the root. Reports every shaded branch to `observer`.
     #[must_use]
-    pub fn shade<O: Observer>(
+    pub fn shade<S: Sight, O: Observer>(
         &self,
-        around: &Neighbourhood<'_>,
-        counts: &mut ShadeCounts,
+        sight: &S,
+        work: &mut ShadeWork,
         observer: &mut O,
     ) -> Color {
-        around.through() * self.branch(around, counts, observer)
+        sight.through() * self.branch(sight, work, observer)
     }
 
-    /// Returns the colour at the start of the middle branch. Reports the branch and its descendants
-    /// to `observer`.
-    fn branch<O: Observer>(
+    /// Returns the colour at the start of the current branch. Reports the branch and its
+    /// descendants to `observer`.
+    fn branch<S: Sight, O: Observer>(
         &self,
-        around: &Neighbourhood<'_>,
-        counts: &mut ShadeCounts,
+        sight: &S,
+        work: &mut ShadeWork,
         observer: &mut O,
     ) -> Color {
-        let (local, color) = match around.node() {
+        let (local, color) = match sight.node() {
             None => {
                 let background = |toward| self.scene.background.toward(toward);
-                (None, around.away().map_or(Color::ZERO, background))
+                (None, sight.away().map_or(Color::ZERO, background))
             }
             Some(node) => {
-                let local = self.local(node, around, counts);
+                let local = self.local(node, sight, work);
                 let mut color = local.color;
                 if node.reflect_weight != Color::ZERO {
-                    observer.follow(Way::Reflected);
-                    let reflected = around.step(|node| node.reflected);
-                    color += node.reflect_weight * self.branch(&reflected, counts, observer);
+                    observer.follow(Child::Reflected);
+                    let reflected = sight.step(Child::Reflected);
+                    color += node.reflect_weight * self.branch(&reflected, work, observer);
                 }
                 if node.refract_weight != Color::ZERO {
-                    observer.follow(Way::Refracted);
-                    let refracted = around.step(|node| node.refracted);
-                    color += node.refract_weight * self.branch(&refracted, counts, observer);
+                    observer.follow(Child::Refracted);
+                    let refracted = sight.step(Child::Refracted);
+                    color += node.refract_weight * self.branch(&refracted, work, observer);
                 }
                 (Some(local), color)
             }
         };
-        observer.leave(&Seen { around, local, color });
+        observer.leave(&Seen { sight, local, color });
         color
     }
 
     /// Computes the colour of the surface itself under ambient light and the lights that reach it.
-    fn local(&self, node: &Node, around: &Neighbourhood<'_>, counts: &mut ShadeCounts) -> Local {
+    fn local<S: Sight>(&self, node: &Node, sight: &S, work: &mut ShadeWork) -> Local {
         let object = &self.scene.objects[node.piece.object as usize];
         let surface = object.parts[node.part as usize];
         let material = &self.scene.materials[surface.material];
-        let Lighting { diffuse, highlight } = self.lighting(node, material, counts);
+        let Lighting { diffuse, highlight } = self.lighting(node, material, work);
+        let counts = &mut work.counts;
         let mut color = highlight;
         let mut textured = None;
         if material.shows_color() {
             let texture = surface.picture().and_then(|index| self.textures[index].as_ref());
             textured = texture.map(|texture| {
-                let footprint = around.footprint(node, &self.charts[node.piece.object as usize]);
+                let footprint = sight.footprint(node, &self.charts[node.piece.object as usize]);
                 counts.texels += texture.reads();
-                match footprint {
-                    Footprint::Point(_) => counts.points += 1,
-                    Footprint::Rectangle { .. } => counts.areas += 1,
-                }
+                let count =
+                    if footprint.is_point() { &mut counts.points } else { &mut counts.areas };
+                *count += 1;
                 let average = if object.shape.has_poles() {
                     texture.average(&texture.between_poles(footprint))
                 } else {
@@ -146,23 +158,33 @@ impl Shader<'_> {
     }
 
     /// Sums the light that the scene's lights send to a node.
-    fn lighting(&self, node: &Node, material: &Material, counts: &mut ShadeCounts) -> Lighting {
+    fn lighting(&self, node: &Node, material: &Material, work: &mut ShadeWork) -> Lighting {
         let mut sum = Lighting { diffuse: Color::ZERO, highlight: Color::ZERO };
         if !material.sees_lights() {
             return sum;
         }
-        let mirrored = optics::reflect(node.incident, node.normal);
-        for (light, around_light) in self.scene.lights.iter().zip(self.around_lights) {
+        let ShadeWork { counts, shadows } = work;
+        shadows.clear();
+        for (index, light) in self.scene.lights.iter().enumerate() {
             let toward = light.toward(node.position);
             let cosine = node.normal.dot(toward);
-            if cosine <= 0.0 || node.geometric_normal.dot(toward) <= 0.0 {
+            if cosine > 0.0 && node.geometric_normal.dot(toward) > 0.0 {
+                counts.shadow += 1;
+                shadows.add(self.scene, node, Facing { light: index, toward, cosine });
+            }
+        }
+        self.trace_shadows(shadows);
+        let shiny = material.specular > 0.0;
+        let mirrored =
+            if shiny { optics::reflect(node.incident, node.normal) } else { DVec3::ZERO };
+        for (&Facing { light, toward, cosine }, reaching) in shadows.results() {
+            if reaching == Color::ZERO {
                 continue;
             }
-            counts.shadow += 1;
-            let reaching = self.transmission(node, light, around_light);
-            let light = reaching * light.arriving(node.position) * material.tint(cosine);
+            let light = self.scene.lights[light].arriving(node.position);
+            let light = reaching * light * material.tint(cosine);
             sum.diffuse += material.diffuse * cosine * light;
-            if material.specular > 0.0 {
+            if shiny {
                 let phong = mirrored.dot(toward).max(0.0).powf(material.shininess);
                 sum.highlight += material.specular * phong * light;
             }

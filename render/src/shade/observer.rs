@@ -5,17 +5,8 @@
 //! output cannot differ from the rendered picture.
 
 use crate::color::Color;
-use crate::footprint::Footprint;
-use crate::footprint::neighbours::Neighbourhood;
-
-/// How a branch continues the path of light at its parent node.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Way {
-    /// The branch starts with the ray that its parent node mirrors.
-    Reflected,
-    /// The branch starts with the ray that passes through its parent node.
-    Refracted,
-}
+use crate::footprint::{Footprint, Sight};
+use crate::trace::tree::Child;
 
 /// The contribution of a texture to a surface's colour.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,9 +28,9 @@ pub struct Local {
 
 /// A branch that has been shaded.
 #[derive(Debug)]
-pub struct Seen<'a> {
-    /// The branch and its neighbours; the branch is the middle one.
-    pub around: &'a Neighbourhood<'a>,
+pub struct Seen<'a, S> {
+    /// The branch, and the rays near it.
+    pub sight: &'a S,
     /// Colour of the surface that the branch hits, if the branch hits one.
     pub local: Option<Local>,
     /// Colour that the branch returns to its parent node, linear RGB, not yet multiplied by its
@@ -50,12 +41,12 @@ pub struct Seen<'a> {
 /// Receives the branches of a tree in the order of shading: depth first, from the root.
 pub trait Observer {
     /// Called before a child of the current node is shaded.
-    fn follow(&mut self, way: Way);
+    fn follow(&mut self, child: Child);
     /// Called when the current branch has its colour. The root is reported too, as the last branch.
-    fn leave(&mut self, seen: &Seen<'_>);
+    fn leave<S: Sight>(&mut self, seen: &Seen<'_, S>);
 }
 
 impl Observer for () {
-    fn follow(&mut self, _: Way) {}
-    fn leave(&mut self, _: &Seen<'_>) {}
+    fn follow(&mut self, _: Child) {}
+    fn leave<S: Sight>(&mut self, _: &Seen<'_, S>) {}
 }

@@ -6,89 +6,164 @@ use crate::ray::{Hit, Ray};
 use crate::scene::{Light, PointLight, Scene};
 use crate::trace::medium::{Media, Medium};
 use crate::trace::tree::Node;
+use glam::DVec3;
 
 /// A boundary of a volume between a point and a light: how far from the point, whose, and whether
 /// the way to the light leaves the volume there.
 type Crossing = (f64, Medium, bool);
 
+/// A light that shines on the front of a surface.
+#[derive(Debug, Clone, Copy)]
+pub struct Facing {
+    /// Index of the light in the scene's list.
+    pub light: usize,
+    /// Unit direction from the surface toward the light.
+    pub toward: DVec3,
+    /// Cosine of the angle between this direction and the normal, in (0, 1].
+    pub cosine: f64,
+}
+
+/// Shadow rays that are collected and traced together, and the memory for their work.
+///
+/// The memory is kept from one row of rays to the next, so that a shadow ray allocates nothing once
+/// the arrays are large enough.
+#[derive(Debug, Default)]
+pub struct Shadows {
+    /// The rays, each with the distance to its light.
+    rays: Vec<(Ray, f64)>,
+    /// For each ray, its light.
+    lights: Vec<Facing>,
+    /// For each ray, the transmittance to its light.
+    transmittance: Vec<Color>,
+    /// For each ray, whether an opaque surface is hit.
+    blocked: Vec<bool>,
+    /// For each ray, whether any surface is hit.
+    met: Vec<bool>,
+    /// Transparent surfaces that are hit: ray, object and part.
+    crossed: Vec<(usize, u32, u32)>,
+    crossings: Vec<Crossing>,
+    hits: Vec<Hit>,
+    media: Media,
+}
+
+impl Shadows {
+    /// Removes all rays and keeps the memory.
+    pub fn clear(&mut self) {
+        self.rays.clear();
+        self.lights.clear();
+    }
+
+    /// Adds the ray from a node to a light of the scene.
+    pub fn add(&mut self, scene: &Scene, node: &Node, facing: Facing) {
+        let (direction, distance) = match scene.lights[facing.light] {
+            Light::Point(PointLight { position, .. }) => {
+                let way = position - node.position;
+                let distance = way.length();
+                (way / distance, distance)
+            }
+            Light::Directional(light) => (light.toward, f64::INFINITY),
+        };
+        self.rays.push((Ray::leaving(node.piece, node.position, direction), distance));
+        self.lights.push(facing);
+    }
+
+    /// The light of each ray, and the transmittance to it that [`Shader::trace_shadows`] found,
+    /// linear RGB, [0, 1] per channel.
+    pub fn results(&self) -> impl Iterator<Item = (&Facing, Color)> {
+        self.lights.iter().zip(self.transmittance.iter().copied())
+    }
+}
+
 impl Shader<'_> {
-    /// The part of a light that reaches the node's point, in `[0, 1]` for each channel.
+    /// Finds for each ray of `shadows` the part of its light that reaches its start.
     ///
     /// An opaque surface on the way takes all of it. A transparent one multiplies it by its
     /// transparency, once however often the way crosses it; the way itself stays straight, as in the
     /// thesis. What absorbs light does so along that straight way, by Beer's law: so a coloured
     /// glass throws a coloured shadow, and a deep one a dark shadow. A surface that the light lies
     /// on takes nothing. The way to a directional light has no end.
-    #[must_use]
-    pub fn transmission(&self, node: &Node, light: &Light, around_light: &Media) -> Color {
+    pub fn trace_shadows(&self, shadows: &mut Shadows) {
         let Self { scene, accel, .. } = *self;
-        let (ray, distance) = match light {
-            Light::Point(light) => {
-                let way = light.position - node.position;
-                let distance = way.length();
-                (Ray::leaving(node.piece, node.position, way / distance), distance)
-            }
-            Light::Directional(light) => {
-                (Ray::leaving(node.piece, node.position, light.toward), f64::INFINITY)
-            }
-        };
-        // Measured across the surface, as at the ray's start.
-        let holds_light = |hit: &Hit| {
-            let Light::Point(PointLight { position, .. }) = *light else { return false };
-            let normal = accel.surface_point(&ray, hit).geometric_normal;
-            let gap = (distance - hit.t) * normal.dot(ray.direction).abs();
-            gap <= accel.rounding(hit.piece.object, position)
-                + accel.rounding(node.piece.object, position)
-        };
-        // Transparent surfaces on the way; pushing nothing allocates nothing.
-        let mut crossed: Vec<(u32, u32)> = Vec::new();
-        let mut blocked = false;
-        accel.all_before(&ray, distance, |hit| {
-            let area = (hit.piece.object, accel.part(&hit));
-            if holds_light(&hit) {
-                return true;
-            }
-            blocked = transparency(scene, area) == 0.0;
-            if !blocked {
-                crossed.push(area);
-            }
-            !blocked
-        });
-        if blocked {
-            return Color::ZERO;
+        let Shadows { rays, lights, transmittance, blocked, met, crossed, .. } = shadows;
+        crossed.clear();
+        for flags in [&mut *blocked, &mut *met] {
+            flags.clear();
+            flags.resize(rays.len(), false);
         }
+        let opaque = |k: usize, hit: Hit| {
+            met[k] = true;
+            let (ray, distance) = &rays[k];
+            let (object, part) = (hit.piece.object, accel.part(&hit));
+            let opaque = transparency(scene, (object, part)) == 0.0;
+            if self.holds_light(ray, *distance, &hit, &scene.lights[lights[k].light]) {
+                return false;
+            }
+            if !opaque {
+                crossed.push((k, object, part));
+            }
+            opaque
+        };
+        accel.any_of(rays, opaque, blocked);
         // In the scene's order, so that the product does not depend on the order of the hits.
         crossed.sort_unstable();
         crossed.dedup();
-        let dimmed: f64 = crossed.into_iter().map(|area| transparency(scene, area)).product();
-        if self.volumes.absorb() && dimmed > 0.0 {
-            dimmed * self.absorbed(&ray, distance, around_light)
-        } else {
-            Color::splat(dimmed)
+        transmittance.clear();
+        let mut next = 0;
+        for k in 0..shadows.rays.len() {
+            let mut dimmed = 1.0;
+            while let Some(&(ray, object, part)) = shadows.crossed.get(next)
+                && ray == k
+            {
+                dimmed *= transparency(scene, (object, part));
+                next += 1;
+            }
+            let reaching = if shadows.blocked[k] {
+                Color::ZERO
+            } else if self.volumes.absorb() && dimmed > 0.0 {
+                dimmed * self.absorbed(k, shadows)
+            } else {
+                Color::splat(dimmed)
+            };
+            shadows.transmittance.push(reaching);
         }
     }
 
-    /// What the volumes on the way to a light leave of it.
-    fn absorbed(&self, ray: &Ray, distance: f64, around_light: &Media) -> Color {
+    /// Returns whether a light lies on the surface that its ray hits. The distance between both is
+    /// measured across the surface, as at the ray's start.
+    fn holds_light(&self, ray: &Ray, distance: f64, hit: &Hit, light: &Light) -> bool {
+        let Light::Point(PointLight { position, .. }) = *light else { return false };
+        let Some(from) = ray.leaving else { return false };
+        let normal = self.accel.geometric_normal(ray, hit);
+        let gap = (distance - hit.t) * normal.dot(ray.direction).abs();
+        gap <= self.accel.rounding(hit.piece.object, position)
+            + self.accel.rounding(from.object, position)
+    }
+
+    /// Returns what the volumes between the start of ray `k` and its light leave of the light.
+    fn absorbed(&self, k: usize, shadows: &mut Shadows) -> Color {
         let Self { scene, accel, volumes, .. } = *self;
+        let (ray, distance) = shadows.rays[k];
+        let Shadows { crossings, hits, media, .. } = shadows;
         // From the point to the light, since a directional one has no place to begin at.
-        let mut crossings: Vec<Crossing> = Vec::new();
-        let (mut step, mut start) = (*ray, 0.0);
-        while let Some(hit) = accel.nearest(&step).filter(|hit| start + hit.t < distance) {
-            start += hit.t;
-            let point = accel.surface_point(&step, &hit);
-            if let Some(own) = volumes.medium(scene, hit.piece.object, point.part) {
-                let leaves = ray.direction.dot(point.geometric_normal) > 0.0;
-                crossings.push((start, own, leaves));
-            }
-            step = Ray::leaving(hit.piece, point.position, ray.direction);
-            if crossings.len() == MOST_STEPS {
-                self.cross_the_rest(&step, start, distance, &mut crossings);
-                break;
+        crossings.clear();
+        if shadows.met[k] {
+            let (mut step, mut start) = (ray, 0.0);
+            while let Some(hit) = self.next_boundary(&step, start, distance) {
+                start += hit.t;
+                let point = accel.surface_point(&step, &hit);
+                if let Some(own) = volumes.medium(scene, hit.piece.object, point.part) {
+                    let leaves = ray.direction.dot(point.geometric_normal) > 0.0;
+                    crossings.push((start, own, leaves));
+                }
+                step = Ray::leaving(hit.piece, point.position, ray.direction);
+                if crossings.len() == MOST_STEPS {
+                    self.cross_the_rest(&step, start, distance, hits, crossings);
+                    break;
+                }
             }
         }
         // Back from the light, as the light goes: what is around it is known.
-        let mut media = around_light.clone();
+        media.start_in(&self.around_lights[shadows.lights[k].light]);
         let mut left = Color::ONE;
         let mut far = distance;
         let mut pass = |medium: Option<u32>, way: f64| {
@@ -96,7 +171,7 @@ impl Shader<'_> {
                 left *= scene.materials[material as usize].transmittance(way);
             }
         };
-        for (near, own, leaves) in crossings.into_iter().rev() {
+        for &(near, own, leaves) in crossings.iter().rev() {
             // What the way to the light leaves, the light enters.
             let boundary = media.boundary(own, !leaves, &scene.materials);
             pass(boundary.before, far - near);
@@ -107,18 +182,33 @@ impl Shader<'_> {
         left
     }
 
+    /// Returns the closest hit of a ray that begins `start` from the point, if it lies before the
+    /// light at `distance`.
+    fn next_boundary(&self, ray: &Ray, start: f64, distance: f64) -> Option<Hit> {
+        // No hit farther than this passes the exact test, whatever its rounding.
+        let t_max = (distance - start) * (1.0 + 1e-9) + f64::EPSILON * start;
+        self.accel.closest(ray, t_max).filter(|hit| start + hit.t < distance)
+    }
+
     /// Adds the boundaries of volumes on a ray that begins `start` from the point, up to the light.
-    fn cross_the_rest(&self, ray: &Ray, start: f64, distance: f64, crossings: &mut Vec<Crossing>) {
+    fn cross_the_rest(
+        &self,
+        ray: &Ray,
+        start: f64,
+        distance: f64,
+        hits: &mut Vec<Hit>,
+        crossings: &mut Vec<Crossing>,
+    ) {
         let Self { scene, accel, volumes, .. } = *self;
-        let mut hits: Vec<Hit> = Vec::new();
-        accel.all_before(ray, distance - start, |hit| {
+        hits.clear();
+        accel.any(ray, distance - start, |hit| {
             hits.push(hit);
-            true
+            false
         });
         hits.sort_by(|a, b| a.t.total_cmp(&b.t).then(a.piece.cmp(&b.piece)));
         let boundaries = hits.iter().filter_map(|hit| {
             let own = volumes.medium(scene, hit.piece.object, accel.part(hit))?;
-            let normal = accel.surface_point(ray, hit).geometric_normal;
+            let normal = accel.geometric_normal(ray, hit);
             Some((start + hit.t, own, ray.direction.dot(normal) > 0.0))
         });
         crossings.extend(boundaries.take(MOST_CROSSINGS - MOST_STEPS));
@@ -137,4 +227,117 @@ const MOST_CROSSINGS: usize = 1 << 12;
 fn transparency(scene: &Scene, (object, part): (u32, u32)) -> f64 {
     let surface = scene.objects[object as usize].parts[part as usize];
     scene.materials[surface.material].transparency
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::accel::{Accel, Structure};
+    use crate::procedural::Procedural;
+    use crate::ray::Piece;
+    use crate::scene::{Background, Camera, Material, Names, Object, Surface};
+    use crate::shape::{Quad, Shape, Sphere};
+    use crate::trace::tree::Branch;
+    use crate::trace::volume::Volumes;
+    use glam::{DAffine3, DVec2};
+
+    /// Two balls of dark glass and one of stone, between a floor and a light.
+    fn scene() -> Scene {
+        let glass = Material {
+            transparency: 0.5,
+            absorption: DVec3::new(0.1, 0.2, 0.4),
+            ..Material::default()
+        };
+        let object = |shape, material| Object {
+            shape,
+            parts: vec![Surface { material, texture: None }],
+            to_own_space: DAffine3::IDENTITY,
+        };
+        let ball = |x: f64, radius, material| {
+            let center = DVec3::new(x, 0.0, 2.0);
+            object(Shape::Sphere(Sphere { center, radius }), material)
+        };
+        let floor = Quad::new(DVec3::ZERO, DVec3::X, DVec3::Y, DVec2::ONE, false).unwrap();
+        Scene {
+            camera: Camera::new(DVec3::NEG_Z, DVec3::ZERO, DVec3::Y, 1.0).unwrap(),
+            background: Background::Uniform(Color::ZERO),
+            ambient: Color::ZERO,
+            lights: vec![Light::Point(PointLight {
+                position: DVec3::new(0.0, 0.0, 9.0),
+                color: Color::ONE,
+                falloff: None,
+            })],
+            materials: vec![glass, Material::default()],
+            textures: Vec::new(),
+            procedural: Procedural::default(),
+            objects: vec![
+                object(Shape::Quad(floor), 1),
+                ball(0.0, 1.0, 0),
+                ball(0.5, 0.4, 0),
+                ball(3.0, 1.0, 1),
+            ],
+            max_depth: 1,
+            min_weight: 0.0,
+            names: Names::default(),
+        }
+    }
+
+    /// A point of the floor.
+    fn node(x: f64) -> Node {
+        Node {
+            piece: Piece { object: 0, triangle: 0 },
+            part: 0,
+            position: DVec3::new(x, 0.1, 0.0),
+            incident: DVec3::NEG_Z,
+            geometric_normal: DVec3::Z,
+            normal: DVec3::Z,
+            uv: DVec2::ZERO,
+            reflected: Branch::Cut,
+            refracted: Branch::Cut,
+            reflect_weight: Color::ZERO,
+            refract_weight: Color::ZERO,
+        }
+    }
+
+    #[test]
+    fn a_row_of_shadow_rays_is_one_by_one_and_allocates_only_once() {
+        let scene = scene();
+        let shapes = scene.objects.iter().map(|object| &object.shape);
+        let accel = Accel::build(shapes.collect(), Structure::Bvh);
+        let volumes = Volumes::of(&scene);
+        let shader = Shader {
+            scene: &scene,
+            accel: &accel,
+            textures: &[],
+            charts: &[],
+            wants_area: false,
+            volumes: &volumes,
+            around_lights: &volumes.around_lights(&scene, &accel),
+        };
+        let trace = |nodes: &[Node], shadows: &mut Shadows| {
+            shadows.clear();
+            for node in nodes {
+                shadows.add(&scene, node, Facing { light: 0, toward: DVec3::Z, cosine: 1.0 });
+            }
+            shader.trace_shadows(shadows);
+            shadows.results().map(|(_, reaching)| reaching).collect::<Vec<Color>>()
+        };
+        let nodes: Vec<Node> = (-50..50).map(|k| node(0.1 * f64::from(k))).collect();
+        let mut shadows = Shadows::default();
+        let together = trace(&nodes, &mut shadows);
+        let alone = nodes.iter().map(|node| trace(&[*node], &mut Shadows::default())[0]);
+        assert_eq!(together, alone.collect::<Vec<Color>>());
+        let kinds = [Color::ZERO, Color::ONE].map(|kind| together.contains(&kind));
+        assert_eq!(kinds, [true, true]);
+        assert!(together.iter().any(|light| light.x > light.z && light.z > 0.0));
+
+        let capacities = |shadows: &Shadows| {
+            let Shadows { rays, crossed, crossings, transmittance, .. } = shadows;
+            [rays.capacity(), crossed.capacity(), crossings.capacity(), transmittance.capacity()]
+        };
+        let before = capacities(&shadows);
+        assert!(before.iter().all(|&capacity| capacity > 0), "{before:?}");
+        assert_eq!(trace(&nodes, &mut shadows), together);
+        assert_eq!(capacities(&shadows), before);
+    }
 }

@@ -80,14 +80,21 @@ impl Cuboid {
         [enter, leave].into_iter().find(counts)
     }
 
+    /// Returns the unit normal of a face, outward.
+    #[must_use]
+    pub fn normal(&self, face: u32) -> DVec3 {
+        let mut normal = DVec3::ZERO;
+        normal[face as usize / 2] = if face.is_multiple_of(2) { -1.0 } else { 1.0 };
+        normal
+    }
+
     /// Returns the surface point on a face. `near` is the hit as computed along the ray.
     #[must_use]
     pub fn surface_point(&self, face: u32, near: DVec3) -> SurfacePoint {
         let axis = face as usize / 2;
         let mut position = near.clamp(self.low, self.high);
         position[axis] = self.plane(face);
-        let mut normal = DVec3::ZERO;
-        normal[axis] = if face.is_multiple_of(2) { -1.0 } else { 1.0 };
+        let normal = self.normal(face);
         // Position along each axis as a part of the side, counted from both ends.
         let to = (position - self.low) / (self.high - self.low);
         let back = (self.high - position) / (self.high - self.low);

@@ -145,6 +145,12 @@ impl Mesh {
         self.triangles[triangle as usize].position.map(|index| self.positions[index as usize])
     }
 
+    /// Returns the unit normal of a triangle's plane, on the side from which its corners turn left.
+    #[must_use]
+    pub fn normal(&self, triangle: u32) -> DVec3 {
+        normal(self.corners(triangle).map(as_dvec3))
+    }
+
     /// Returns the surface point with these barycentric weights of the second and third corner.
     #[must_use]
     pub fn surface_point(&self, triangle: u32, barycentric: [f64; 2]) -> SurfacePoint {
@@ -152,7 +158,7 @@ impl Mesh {
         let weights = [1.0 - b - c, b, c];
         let corners = &self.triangles[triangle as usize];
         let [p0, p1, p2] = corners.position.map(|i| as_dvec3(self.positions[i as usize]));
-        let geometric_normal = (p1 - p0).cross(p2 - p0).normalize_or(DVec3::Y);
+        let geometric_normal = normal([p0, p1, p2]);
         let shading_normal = if corners.normal[0] == NONE {
             geometric_normal
         } else {
@@ -197,6 +203,11 @@ impl Mesh {
     pub fn bounds(&self, triangle: u32) -> [DVec3; 2] {
         triangle::bounds(&self.corners(triangle))
     }
+}
+
+/// Unit normal of a triangle; up if it has no area.
+fn normal([a, b, c]: [DVec3; 3]) -> DVec3 {
+    (b - a).cross(c - a).normalize_or(DVec3::Y)
 }
 
 fn weighted(weights: [f64; 3], points: [DVec3; 3]) -> DVec3 {

@@ -46,6 +46,14 @@ impl Placed {
         (t > 0.0 && t < f64::INFINITY).then_some((t, face))
     }
 
+    /// Returns the unit normal as [`Shape::geometric_normal`] does, in scene space.
+    #[must_use]
+    pub fn normal(&self, face: u32, near: DVec3) -> DVec3 {
+        let near = self.placement.to_own().transform_point3(near);
+        let own = self.shape.geometric_normal(face, near);
+        self.placement.normal(own).normalize_or(DVec3::Y)
+    }
+
     /// Returns a surface point as [`Shape::surface_point`] does, in scene space.
     #[must_use]
     pub fn surface_point(&self, face: u32, near: DVec3) -> SurfacePoint {

@@ -50,10 +50,16 @@ impl Sphere {
         roots.into_iter().find(|&t| t > 0.0)
     }
 
+    /// Returns the unit normal at a hit, outward. `near` is the hit as computed along the ray.
+    #[must_use]
+    pub fn normal(&self, near: DVec3) -> DVec3 {
+        ((near - self.center) / self.radius).normalize()
+    }
+
     /// Returns the surface point at a hit. `near` is the hit as computed along the ray.
     #[must_use]
     pub fn surface_point(&self, near: DVec3) -> SurfacePoint {
-        let normal = ((near - self.center) / self.radius).normalize();
+        let normal = self.normal(near);
         let longitude = 0.5 - f64::atan2(-normal.x, normal.z) / TAU;
         let latitude = 0.5 + normal.y.clamp(-1.0, 1.0).asin() / PI;
         SurfacePoint {

@@ -221,7 +221,7 @@ impl<'a> Tracer<'a> {
         let mut through = Color::ONE;
         let mut ray = *ray;
         for _ in 0..MOST_HIDDEN {
-            let Some(hit) = self.accel.nearest(&ray) else {
+            let Some(hit) = self.accel.closest(&ray, f64::INFINITY) else {
                 let medium = media.current();
                 return (End::Background, through * self.transmittance(medium, f64::INFINITY));
             };

@@ -47,6 +47,15 @@ pub enum Branch {
     Node(u32),
 }
 
+/// One of the two rays that continue a path at a node.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Child {
+    /// The ray that the node mirrors.
+    Reflected,
+    /// The ray that passes through the node's surface.
+    Refracted,
+}
+
 /// One hit, with only the data that shading needs.
 #[derive(Debug, Clone, Copy)]
 pub struct Node {
@@ -80,6 +89,15 @@ impl Node {
     #[must_use]
     pub fn area(&self) -> (u32, u32) {
         (self.piece.object, self.part)
+    }
+
+    /// Returns the branch of a child.
+    #[must_use]
+    pub fn child(&self, child: Child) -> Branch {
+        match child {
+            Child::Reflected => self.reflected,
+            Child::Refracted => self.refracted,
+        }
     }
 }
 

@@ -64,14 +64,14 @@ impl Volumes {
         // For each volume that is met: its boundary, how much more often from its inside, and where.
         let mut met: BTreeMap<u32, (Medium, i32, f64)> = BTreeMap::new();
         if self.volumes.contains(&true) {
-            accel.all_before(&ray, f64::INFINITY, |hit| {
+            accel.any(&ray, f64::INFINITY, |hit| {
                 if let Some(own) = self.medium(scene, hit.piece.object, accel.part(&hit)) {
-                    let normal = accel.surface_point(&ray, &hit).geometric_normal;
+                    let normal = accel.geometric_normal(&ray, &hit);
                     let side = if normal.dot(ray.direction) > 0.0 { 1 } else { -1 };
                     let (_, sides, far) = met.entry(own.object).or_insert((own, 0, hit.t));
                     (*sides, *far) = (*sides + side, far.max(hit.t));
                 }
-                true
+                false
             });
         }
         let mut around: Vec<(Medium, f64)> = met

@@ -110,16 +110,26 @@ impl Superquadric {
         (t > 0.0 && (!on_surface || t > start.skin)).then_some(t)
     }
 
-    /// Returns the surface point at a hit. `near` is the hit as computed along the ray.
+    /// Returns the unit normal at a hit, outward. `near` is the hit as computed along the ray.
     #[must_use]
-    pub fn surface_point(&self, near: DVec3) -> SurfacePoint {
-        let mut point = (near - self.center) / self.radii;
+    pub fn normal(&self, near: DVec3) -> DVec3 {
+        self.field.direction(self.refined(near), self.radii)
+    }
+
+    /// Returns a hit as a point of the surface, in units of the radii from the centre. `near` is the
+    /// hit as computed along the ray.
+    fn refined(&self, near: DVec3) -> DVec3 {
+        let point = (near - self.center) / self.radii;
         // One Newton step, along the gradient.
         let gradient = self.field.gradient(point) / self.radii;
         let step = (self.field.value(point) - 1.0) / gradient.length_squared() * gradient;
-        if step.is_finite() {
-            point -= step / self.radii;
-        }
+        if step.is_finite() { point - step / self.radii } else { point }
+    }
+
+    /// Returns the surface point at a hit. `near` is the hit as computed along the ray.
+    #[must_use]
+    pub fn surface_point(&self, near: DVec3) -> SurfacePoint {
+        let point = self.refined(near);
         let normal = self.field.direction(point, self.radii);
         let longitude = 0.5 - f64::atan2(-point.x, point.z) / TAU;
         let from_axis = point.x.hypot(point.z);

@@ -1,0 +1,140 @@
+//! Pieces of surface as the structures hold them, and the one test of a ray against a piece.
+//!
+//! A hit lies where the ray crosses the box of its piece. Cheap conditions are tested first: whether
+//! the piece can lie before `t_max`, then the hit itself, and last whether the ray starts on the
+//! piece. The order of the conditions does not change the result.
+
+use super::Accel;
+use super::slabs::SlabRay;
+use crate::ray::{Hit, Piece, Ray};
+use crate::shape::triangle::{self, ShearedRay};
+use crate::shape::{Shape, Start};
+use glam::DVec3;
+
+/// A triangle, or a shape that is one piece.
+#[derive(Debug, Clone, Copy)]
+pub struct Leaf {
+    object: u32,
+    /// Index of the triangle in its mesh, or [`WHOLE`].
+    triangle: u32,
+    /// Corners of the triangle; 0 for a whole shape.
+    corners: [[f32; 3]; 3],
+}
+
+/// Takes the position of a triangle's index in a leaf that is a whole shape. No mesh has so many
+/// triangles ([`crate::shape::Mesh::check`]).
+const WHOLE: u32 = u32::MAX;
+
+impl Leaf {
+    /// A triangle of a mesh.
+    #[must_use]
+    pub fn of_triangle(piece: Piece, corners: [[f32; 3]; 3]) -> Self {
+        Self { object: piece.object, triangle: piece.triangle, corners }
+    }
+
+    /// A shape that is one piece.
+    #[must_use]
+    pub fn whole(object: u32) -> Self {
+        Self { object, triangle: WHOLE, corners: [[0.0; 3]; 3] }
+    }
+
+    /// Index of the object.
+    #[must_use]
+    pub fn object(&self) -> u32 {
+        self.object
+    }
+}
+
+/// A ray prepared for tests against leaves.
+#[derive(Debug)]
+pub struct Probe<'a> {
+    ray: &'a Ray,
+    sheared: ShearedRay,
+    /// The ray against boxes.
+    pub slabs: SlabRay,
+    /// Rounding of the start as a point of the surface that the ray leaves, in scene units; 0 for a
+    /// ray from the eye.
+    skin: f64,
+    /// Bound on the error of distances to corners, in scene units.
+    slack: f64,
+}
+
+impl<'a> Probe<'a> {
+    /// Prepares a ray.
+    #[must_use]
+    pub fn new(accel: &Accel<'_>, ray: &'a Ray) -> Self {
+        let sheared = ShearedRay::new(ray.origin, ray.direction);
+        let slabs = SlabRay::new(ray.origin, ray.direction, accel.extent);
+        let skin = ray.leaving.map_or(0.0, |from| accel.rounding(from.object, ray.origin));
+        Self { ray, sheared, slabs, skin, slack: slabs.slack() }
+    }
+
+    /// Returns the distance from the start within which a surface of this object coincides with
+    /// the start.
+    fn skin(&self, accel: &Accel<'_>, object: u32) -> f64 {
+        match self.ray.leaving {
+            Some(_) => self.skin + accel.rounding(object, DVec3::ZERO),
+            // What is meant to be on a surface is off it by the rounding of its own digits.
+            None => {
+                super::EYE_ROUNDINGS / super::ROUNDINGS * accel.rounding(object, self.ray.origin)
+            }
+        }
+    }
+
+    /// Returns the hit of the ray with a leaf, with `t` in `(0, t_max]`. Whether there is one, and
+    /// where, does not depend on `t_max`.
+    #[inline]
+    pub fn meet(&self, accel: &Accel<'_>, leaf: &Leaf, t_max: f64) -> Option<Hit> {
+        if leaf.triangle == WHOLE {
+            return self.meet_shape(accel, leaf.object, t_max);
+        }
+        // The box of a triangle whose corners all lie beyond this distance is entered beyond `t_max`.
+        let limit = t_max + self.slack;
+        let (t, barycentric) = self.sheared.intersect(&leaf.corners, limit)?;
+        let piece = Piece { object: leaf.object, triangle: leaf.triangle };
+        self.settle(accel, Hit { t, piece, barycentric }, &leaf.corners, t_max)
+    }
+
+    /// Completes the hit of a triangle.
+    fn settle(
+        &self,
+        accel: &Accel<'_>,
+        hit: Hit,
+        corners: &[[f32; 3]; 3],
+        t_max: f64,
+    ) -> Option<Hit> {
+        if self.ray.leaving == Some(hit.piece) {
+            return None;
+        }
+        let [enter, leave] = self.slabs.crosses(triangle::bounds(corners))?;
+        let t = hit.t.clamp(enter, leave);
+        if !(t > 0.0 && t <= t_max)
+            || self.sheared.starts_on(corners, self.skin(accel, hit.piece.object))
+        {
+            return None;
+        }
+        Some(Hit { t, ..hit })
+    }
+
+    /// Returns the hit with a shape that is one piece.
+    fn meet_shape(&self, accel: &Accel<'_>, object: u32, t_max: f64) -> Option<Hit> {
+        let shape = accel.shapes[object as usize];
+        let left = self.ray.leaving.filter(|from| from.object == object);
+        if left.is_some() && matches!(shape, Shape::Quad(_)) {
+            return None;
+        }
+        let range = match accel.bounds[object as usize] {
+            Some(bounds) => Some(self.slabs.crosses(bounds)?),
+            None => None,
+        };
+        if range.is_some_and(|[enter, _]| enter > t_max) {
+            return None;
+        }
+        let left_face = left.map(|from| from.triangle);
+        let start = Start { left_face, skin: self.skin(accel, object) };
+        let (t, triangle) = shape.intersect(self.ray.origin, self.ray.direction, start)?;
+        let t = range.map_or(t, |[enter, leave]| t.clamp(enter, leave));
+        let hit = Hit { t, piece: Piece { object, triangle }, barycentric: [0.0; 2] };
+        (t > 0.0 && t <= t_max).then_some(hit)
+    }
+}
