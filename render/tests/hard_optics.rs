@@ -3,7 +3,7 @@
 use crate::exact;
 use crate::studio;
 
-use exact::dice::Dice;
+use exact::dice::{Dice, Directions};
 use glam::DVec3;
 use render::Scene;
 use render::accel::{Accel, Structure};
@@ -90,7 +90,7 @@ fn around_the_critical_angle_weights_sum_to_one_and_the_colour_is_calm() {
 
 #[test]
 fn grazing_light_is_reflected_whole_and_what_passes_is_finite() {
-    let mut dice = Dice(1);
+    let mut dice = Dice::new(1);
     for angle in (1..=300).step_by(7).map(|k| 10f64.powi(-k)) {
         let normal = dice.direction();
         let along = dice.direction().reject_from(normal).normalize();

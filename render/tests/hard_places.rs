@@ -3,7 +3,7 @@
 use crate::exact;
 use crate::studio;
 
-use exact::dice::Dice;
+use exact::dice::{Dice, Directions};
 use glam::DVec3;
 use render::filter::Filter;
 use render::{Picture, Scene};
@@ -39,7 +39,7 @@ fn camera(eye: DVec3, target: DVec3) -> String {
 
 #[test]
 fn an_eye_on_a_ball_sees_the_world_outside_and_the_ball_inside() {
-    let mut dice = Dice(1);
+    let mut dice = Dice::new(1);
     for _ in 0..60 {
         let radius = 10f64.powf(dice.between(-3.0, 3.0));
         let center = radius * dice.between(0.0, 10.0) * dice.direction();
@@ -59,7 +59,7 @@ fn an_eye_on_a_ball_sees_the_world_outside_and_the_ball_inside() {
 
 #[test]
 fn an_eye_on_a_flat_surface_sees_past_it_to_both_sides() {
-    let mut dice = Dice(2);
+    let mut dice = Dice::new(2);
     for _ in 0..60 {
         let [u, v] = [dice.direction(), dice.direction()];
         let normal = u.cross(v).normalize();

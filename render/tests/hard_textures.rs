@@ -1,9 +1,8 @@
 //! Textures of odd sizes, and footprints over the horizon, beside the eye, and larger than the texture.
 
-use crate::exact;
 use crate::studio;
 
-use exact::dice::Dice;
+use fixtures::Dice;
 use glam::DVec3;
 use render::filter::Filter;
 use render::{Picture, Scene};
@@ -36,7 +35,7 @@ fn assert_averages(picture: &Picture, what: &str) {
 
 #[test]
 fn a_texture_of_any_size_looks_like_four_of_it_in_one() {
-    let mut dice = Dice(1);
+    let mut dice = Dice::new(1);
     let floor = |size: f64| {
         plane([0.03, -1.0, 0.01], [size, 0.0, 0.2 * size], [0.2 * size, 0.0, -size], "unlit")
     };
@@ -58,7 +57,7 @@ fn a_texture_of_any_size_looks_like_four_of_it_in_one() {
 
 #[test]
 fn spheres_take_textures_of_a_row_or_a_column() {
-    let mut dice = Dice(2);
+    let mut dice = Dice::new(2);
     let globe = sphere([0.0; 3], 1.0, "unlit");
     for (width, height) in [(1, 1), (1, 2), (2, 1), (1, 9), (9, 1), (3, 2)] {
         let texels = random(&mut dice, width * height);
@@ -76,7 +75,7 @@ fn spheres_take_textures_of_a_row_or_a_column() {
 
 #[test]
 fn to_the_horizon_and_behind_the_eye_every_pixel_is_an_average() {
-    let mut dice = Dice(3);
+    let mut dice = Dice::new(3);
     let texels = random(&mut dice, 12);
     let floor = plane([0.3, 0.0, 0.1], [1.0, 0.0, 0.2], [0.2, 0.0, -1.0], "unlit");
     for height in [1e-12, 1e-6, 1.0, 1e6, 1e12] {
@@ -107,7 +106,7 @@ fn to_the_horizon_and_behind_the_eye_every_pixel_is_an_average() {
 
 #[test]
 fn what_is_larger_than_the_texture_tends_to_its_mean() {
-    let mut dice = Dice(4);
+    let mut dice = Dice::new(4);
     let texels = random(&mut dice, 35);
     let mean: [f64; 3] = [0, 1, 2]
         .map(|k| texels.iter().map(|texel| f64::from(texel[k])).sum::<f64>() / 35.0 / 255.0);
