@@ -15,6 +15,7 @@ use render::scene::read::{self, Draft};
 use render::scene::{MeshSource, check};
 use render::shape::Mesh;
 use render::shape::mesh::{NONE, Triangle};
+use render::trace::tree::MOST_NODES;
 use render::{Prepared, Settings, scene::SceneError};
 use serde_json::Value;
 use std::path::Path;
@@ -89,6 +90,12 @@ fn judged(text: &[u8]) -> bool {
             // Only where colours that are huge by themselves are multiplied.
             let huge = shown.contains("e29") || shown.contains("e+29");
             assert!(stats.not_finite == 0 || huge, "{shown}");
+            // Whatever stands in the scene, a tree of rays has a bounded number of nodes.
+            assert!(
+                stats.hits <= stats.primary_rays * MOST_NODES as u64,
+                "{}\n{shown}",
+                stats.hits
+            );
             true
         }
         Err(error) => {

@@ -5,9 +5,7 @@
 use crate::bench;
 
 use bench::{Bench, TEXTURED_WALL, checks, ending};
-use exr::prelude::{ReadChannels, ReadLayers};
 use std::collections::BTreeMap;
-use std::io::Cursor;
 
 /// A ball before the middle of a textured wall, which leaves a strip of nothing at the left.
 const BALL: &str = r#"{ "format": "tb-scene", "version": 1,
@@ -23,16 +21,7 @@ const SIDE: usize = 16;
 
 /// The channels of an EXR by name.
 fn channels(bytes: &[u8]) -> BTreeMap<String, Vec<f32>> {
-    let image = exr::prelude::read()
-        .no_deep_data()
-        .largest_resolution_level()
-        .all_channels()
-        .first_valid_layer()
-        .all_attributes()
-        .from_buffered(Cursor::new(bytes))
-        .unwrap();
-    let list = image.layer_data.channel_data.list;
-    list.iter().map(|c| (c.name.to_string(), c.sample_data.values_as_f32().collect())).collect()
+    fixtures::exr::channels(bytes).into_iter().collect()
 }
 
 fn bench() -> Bench {
