@@ -321,3 +321,16 @@ fn test_functions() -> BTreeSet<String> {
     }
     names
 }
+
+/// Folders of tests have names of their own: what their page calls a file or a folder is there.
+#[test]
+fn the_page_of_tests_names_files_and_folders_that_exist() {
+    let text = read("tests/README.md");
+    let named = spans(&text);
+    let named: Vec<_> =
+        named.iter().filter(|span| span.ends_with(".rs") || span.ends_with('/')).collect();
+    assert!(named.len() > 10, "found {named:?}, expected all folders of tests");
+    for span in named {
+        assert!(is_there(span), "tests/README.md: found `{span}`, expected a file or a folder");
+    }
+}

@@ -1,7 +1,7 @@
 //! Programs that are killed at random moments: every file is the whole old or the whole new one, inputs
 //! are as they were, and files that do not belong together are announced.
 //!
-//! Each program is killed 40 times, or as often as the environment variable `TOPOBOOK_KILLS` says; the
+//! Each program is killed 20 times, or as often as the environment variable `TOPOBOOK_KILLS` says; the
 //! moments come from a seed, `TOPOBOOK_KILL_SEED` or 1, which is printed. Half of the moments are
 //! anywhere in a run and half follow the first sight of the marker, since files are replaced in a small
 //! part of a run.
@@ -112,7 +112,7 @@ struct Counts {
 
 #[test]
 fn a_killed_program_leaves_whole_files_and_announces_a_mix() {
-    let (kills, seed) = (setting("TOPOBOOK_KILLS", 40), setting("TOPOBOOK_KILL_SEED", 1));
+    let (kills, seed) = (setting("TOPOBOOK_KILLS", 20), setting("TOPOBOOK_KILL_SEED", 1));
     println!("{kills} kills of each program, TOPOBOOK_KILL_SEED={seed}");
     let mut dice = Dice::new(seed);
     let mut up_to = |longest: Duration| longest.mul_f64(dice.fraction());

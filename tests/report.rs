@@ -26,7 +26,9 @@ fn a_page_is_measured_by_every_method_of_a_hasty_report() {
         assert_eq!(row.len(), rows[0].len());
         assert_eq!((row[column("page")], row[column("width")]), ("glass-sphere", "16"));
         assert!(number(row, "rmse") <= number(row, "max"), "{row:?}");
-        assert!(number(row, "wall_s") > 0.0 && number(row, "rays") >= 192.0, "{row:?}");
+        // One clock measures a picture and, within it, its tables.
+        assert!(number(row, "wall_s") >= number(row, "tables_s"), "{row:?}");
+        assert!(number(row, "rays") >= 16.0 * 12.0, "{row:?}");
     }
     // The picture alone takes 12 bytes a pixel; a table is held while a picture is made with it.
     let peak = |filter: &str| {

@@ -9,7 +9,7 @@ use crate::examples;
 use examples::{Meshless, examples};
 use files::json::Document;
 use fixtures::Dice;
-use fixtures::alterations::{Alterations, garble};
+use fixtures::alterations::{Alterations, cases, garble};
 use render::filter::Filter;
 use render::scene::read::{self, Draft};
 use render::scene::{MeshSource, check};
@@ -116,8 +116,8 @@ fn judged(text: &[u8]) -> bool {
 fn thousands_of_altered_scenes_give_a_picture_or_a_sentence() {
     let seeds: Vec<Value> = examples().into_iter().map(|(_, scene)| scene).collect();
     let alterations = Alterations { numbers: &NUMBERS, text: "../../../none", seeds: &seeds };
-    let cases = 6000;
-    let mut made = 0;
+    let cases = cases(2000);
+    let mut made: u64 = 0;
     for case in 0..cases {
         let mut dice = Dice::new(case);
         let mut scene = dice.one(&seeds).clone();
@@ -126,7 +126,7 @@ fn thousands_of_altered_scenes_give_a_picture_or_a_sentence() {
         }
         let text = scene.to_string();
         let text = if dice.once_in(5) { garble(text, &mut dice) } else { text.into_bytes() };
-        made += usize::from(judged(&text));
+        made += u64::from(judged(&text));
     }
-    assert!(made > 900, "alterations are mild enough to be rendered at times: {made}");
+    assert!(made > cases / 8, "alterations are mild enough to be rendered at times: {made}");
 }

@@ -3,6 +3,7 @@
 use crate::studio;
 
 use fixtures::Dice;
+use fixtures::rounding::{HALF_STEP, STEP};
 use glam::DVec3;
 use render::filter::Filter;
 use render::{Picture, Scene};
@@ -28,7 +29,7 @@ fn random(dice: &mut Dice, count: usize) -> Vec<[u8; 3]> {
 #[track_caller]
 fn assert_averages(picture: &Picture, what: &str) {
     for (x, y, pixel) in pixels(picture) {
-        let within = |light: &f32| (0.2 - 1e-6..=0.8 + 1e-6).contains(light);
+        let within = |light: &f32| (0.2 - STEP..=0.8 + STEP).contains(light);
         assert!(pixel.iter().all(within), "{what}: at {x} {y}: {pixel:?}");
     }
 }
@@ -120,7 +121,7 @@ fn what_is_larger_than_the_texture_tends_to_its_mean() {
             for pixel in &seen.pixels {
                 for (light, mean) in pixel.iter().zip(mean) {
                     let error = (f64::from(*light) - mean).abs();
-                    assert!(error < 0.6 / periods + 1e-6, "{size:e} {filter:?}: {error:e}");
+                    assert!(error < 0.6 / periods + HALF_STEP, "{size:e} {filter:?}: {error:e}");
                 }
             }
         }
@@ -142,7 +143,7 @@ fn a_footprint_of_a_pole_and_a_seam_at_once_is_an_average_of_its_rows() {
             let seen = picture(&paper(&camera, &globe, 64, &rows), 41, filter);
             // The northern half is of one colour, whatever lies across the pole or the seam.
             for (x, y, pixel) in pixels(&seen) {
-                let near = (pixel[0] - 0.8).abs() < 1e-6 && (pixel[1] - 0.2).abs() < 1e-6;
+                let near = (pixel[0] - 0.8).abs() < STEP && (pixel[1] - 0.2).abs() < STEP;
                 assert!(near, "{filter:?} at {x} {y}: {pixel:?}");
             }
         }

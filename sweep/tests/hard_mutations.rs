@@ -6,7 +6,8 @@
 
 use files::json::Document;
 use fixtures::Dice;
-use fixtures::alterations::{Alterations, garble};
+use fixtures::alterations::{Alterations, cases, garble};
+use fixtures::rounding::UNIT;
 use fixtures::schema::documents;
 use serde_json::{Value, json};
 use sweep::spec::Mesh;
@@ -123,7 +124,7 @@ fn judged(text: &[u8]) -> bool {
         Ok(grids) => {
             for grid in &grids {
                 assert!(grid.positions.iter().all(|p| p.is_finite()), "points\n{shown}");
-                let unit = |n: &glam::Vec3| (n.length() - 1.0).abs() < 1e-5;
+                let unit = |n: &glam::Vec3| (n.length() - 1.0).abs() < UNIT;
                 assert!(grid.normals.iter().all(unit), "normals\n{shown}");
                 for places in [&grid.u, &grid.v] {
                     assert!(places.windows(2).all(|pair| pair[0] <= pair[1]), "places\n{shown}");
@@ -156,8 +157,8 @@ fn thousands_of_altered_specs_give_a_surface_or_a_sentence() {
     let seeds = seeds();
     let alterations =
         Alterations { numbers: &NUMBERS, text: "M0 0C1 1 1e300 0 0 0Z", seeds: &seeds };
-    let cases = 3000;
-    let mut made = 0;
+    let cases = cases(1500);
+    let mut made: u64 = 0;
     for case in 0..cases {
         let mut dice = Dice::new(case);
         let mut spec = dice.one(&seeds).clone();
@@ -168,7 +169,7 @@ fn thousands_of_altered_specs_give_a_surface_or_a_sentence() {
         bounded(&mut spec);
         let text = spec.to_string();
         let text = if dice.once_in(20) { garble(text, &mut dice) } else { text.into_bytes() };
-        made += usize::from(judged(&text));
+        made += u64::from(judged(&text));
     }
-    assert!(made > 300, "alterations are mild enough to be swept at times: {made}");
+    assert!(made > cases / 10, "alterations are mild enough to be swept at times: {made}");
 }
