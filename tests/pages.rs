@@ -32,7 +32,8 @@ fn make(arguments: &[&str], folder: &Path) -> Vec<(String, Vec<u8>)> {
 fn all_pages_are_the_same_bytes_on_one_thread_and_on_five() {
     let make_with = |threads: &str| {
         let folder = tempfile::tempdir().unwrap();
-        let size = ["--size", "96x70", "--threads", threads];
+        // Wider than a tile of 64 pixels, so that two threads have work.
+        let size = ["--size", "70x36", "--threads", threads];
         make(&[&["run", "all", "-o", "out"], size.as_slice()].concat(), folder.path())
     };
     let (one, five) = (make_with("1"), make_with("5"));
