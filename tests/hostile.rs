@@ -35,7 +35,7 @@ fn a_palette_that_makes_the_decoder_panic_is_a_broken_file_everywhere() {
     {
         let output = run(program, arguments, folder.path());
         let said = said(&output);
-        assert_eq!(output.status.code(), Some(3), "{}", said(&output));
+        assert_eq!(output.status.code(), Some(3), "{said}");
         assert!(said.contains("found no picture") && said.lines().count() == 1, "{said}");
     }
 }
