@@ -364,3 +364,12 @@ fn rust_examples(text: &str) -> usize {
     // Every other fence opens a block.
     fences.step_by(2).filter(|language| language.is_empty() || language.starts_with("rust")).count()
 }
+
+#[test]
+fn only_tests_link_the_fixtures_of_tests() {
+    for (name, _) in CRATES.into_iter().filter(|(name, _)| *name != "fuzz") {
+        let manifest = read(&format!("{name}/Cargo.toml"));
+        let (of_product, _) = manifest.split_once("[dev-dependencies]").unwrap_or((&manifest, ""));
+        assert!(!of_product.contains("fixtures"), "{name}/Cargo.toml: fixtures outside of tests");
+    }
+}
