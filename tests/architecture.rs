@@ -369,3 +369,55 @@ fn test_functions() -> BTreeSet<String> {
     }
     names
 }
+
+/// Folders of tests have names of their own: what their page calls a file or a folder is there.
+#[test]
+fn the_page_of_tests_names_files_and_folders_that_exist() {
+    let text = read("tests/README.md");
+    let named = spans(&text);
+    let named: Vec<_> =
+        named.iter().filter(|span| span.ends_with(".rs") || span.ends_with('/')).collect();
+    assert!(named.len() > 10, "found {named:?}, expected all folders of tests");
+    for span in named {
+        assert!(is_there(span), "tests/README.md: found `{span}`, expected a file or a folder");
+    }
+}
+
+/// Manifests switch off what would be compiled for nothing: then nothing may be there that ought to run.
+#[test]
+fn targets_that_are_not_tested_have_no_tests() {
+    for (name, _) in CRATES {
+        let manifest = read(&format!("{name}/Cargo.toml"));
+        let source = format!("{name}/src");
+        let cli =
+            [format!("{source}/main.rs"), format!("{source}/cli.rs"), format!("{source}/cli/")];
+        for file in rust_files(&source) {
+            let text = read(&file);
+            let of_program = cli.iter().any(|start| file.starts_with(start));
+            if manifest.contains("\ntest = false") && of_program {
+                assert!(!code(&text).contains("#[test]"), "{file}: a test that never runs");
+            }
+            if manifest.contains("doctest = false") {
+                assert_eq!(rust_examples(&text), 0, "{file}: an example that is never tried");
+            }
+        }
+    }
+}
+
+/// The number of code blocks in doc comments that have no other language than Rust.
+fn rust_examples(text: &str) -> usize {
+    let docs = text.lines().map(str::trim_start);
+    let docs = docs.filter_map(|line| line.strip_prefix("//!").or(line.strip_prefix("///")));
+    let fences = docs.filter_map(|line| line.trim_start().strip_prefix("```"));
+    // Every other fence opens a block.
+    fences.step_by(2).filter(|language| language.is_empty() || language.starts_with("rust")).count()
+}
+
+#[test]
+fn only_tests_link_the_fixtures_of_tests() {
+    for (name, _) in CRATES.into_iter().filter(|(name, _)| *name != "fuzz") {
+        let manifest = read(&format!("{name}/Cargo.toml"));
+        let (of_product, _) = manifest.split_once("[dev-dependencies]").unwrap_or((&manifest, ""));
+        assert!(!of_product.contains("fixtures"), "{name}/Cargo.toml: fixtures outside of tests");
+    }
+}

@@ -7,13 +7,13 @@ use pipeline::{pages, run as jobs};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::PathBuf;
-use support::{run, words};
+use support::run;
 
 /// A book of a few arguments, made in a folder of its own.
 fn book(arguments: &[&str]) -> String {
     let folder = tempfile::tempdir().expect("there is room for a folder");
     let ran = run("pipeline", &[&["book", "-o", "out"], arguments].concat(), folder.path());
-    assert!(ran.status.success(), "{}", words(&ran));
+    assert!(ran.status.success(), "{}", support::said(&ran));
     assert!(ran.stdout.is_empty(), "words go to standard error");
     let files = fs::read_dir(folder.path().join("out")).expect("the folder is there");
     assert_eq!(files.count(), 1, "the book is one file");
@@ -98,7 +98,7 @@ fn a_figure_by_its_number_is_the_mode_of_its_page() {
             &[&["run", "-o", out, "--size", "64x48"], names].concat(),
             folder.path(),
         );
-        assert!(ran.status.success(), "{}", words(&ran));
+        assert!(ran.status.success(), "{}", support::said(&ran));
         let folder = fs::read_dir(folder.path().join(out)).unwrap();
         let mut files: Vec<(PathBuf, Vec<u8>)> = folder
             .map(|file| file.unwrap().path())
@@ -178,7 +178,7 @@ fn what_is_wrong_is_said_in_one_sentence() {
     ];
     for (arguments, code, said) in cases {
         let ran = run("pipeline", arguments, folder.path());
-        let words = words(&ran);
+        let words = support::said(&ran);
         assert_eq!(ran.status.code(), Some(code), "{arguments:?}: {words}");
         assert!(words.contains(said), "{arguments:?}: {words}");
         if code != 2 {

@@ -3,10 +3,9 @@
 #![cfg(unix)]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use crate::support::{programs, root, run, words};
+use crate::support::{root, run, said, shell};
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
 use tempfile::TempDir;
 
 const SPEC: &str = r#"{ "format": "tb-sweep", "version": 1, "name": "rod",
@@ -70,7 +69,7 @@ fn inputs() -> TempDir {
         &["pipeline", "run", "job.json", "--size", "8x8", "-o", "first"],
     ] {
         let ran = run(line[0], &line[1..], folder.path());
-        assert!(ran.status.success(), "{line:?}: {}", words(&ran));
+        assert!(ran.status.success(), "{line:?}: {}", said(&ran));
     }
     folder
 }
@@ -90,21 +89,12 @@ fn contents(folder: &Path) -> Vec<(String, Vec<u8>)> {
     files
 }
 
-fn shell(line: &str, folder: &Path) -> Output {
-    let path = std::env::join_paths(
-        [programs()].into_iter().chain(std::env::split_paths(&std::env::var_os("PATH").unwrap())),
-    );
-    let mut command = Command::new("sh");
-    command.args(["-c", line]).current_dir(folder).env("PATH", path.unwrap());
-    command.output().unwrap()
-}
-
 /// Runs lines that ask for a clash; each must be refused in one sentence and change nothing.
 fn refused(folder: &TempDir, lines: &[(&str, &str)]) {
     let before = contents(folder.path());
     for (line, expected) in lines {
         let ran = shell(line, folder.path());
-        let said = words(&ran);
+        let said = said(&ran);
         assert_eq!(ran.status.code(), Some(2), "{line}: {said}");
         assert!(said.contains(expected), "{line}: {said}");
         assert_eq!(said.lines().count(), 1, "{line}: {said}");
@@ -259,6 +249,6 @@ fn a_name_that_belongs_to_another_format_is_refused() {
         "triangulate rod.grid -o e.stl --format obj && render scene.json -o e.png --format exr --size 8x8",
     ] {
         let ran = shell(line, folder.path());
-        assert!(ran.status.success(), "{line}: {}", words(&ran));
+        assert!(ran.status.success(), "{line}: {}", said(&ran));
     }
 }

@@ -7,7 +7,7 @@ use image::{ImageFormat, Rgb, Rgb32FImage, RgbImage};
 use serde_json::Value;
 use std::path::Path;
 use std::process::Output;
-use support::{root, run, words};
+use support::{root, run};
 use tempfile::TempDir;
 
 /// A folder with pictures of 12 x 16 pixels: `grey.exr`, `lighter.exr`, which is lighter by 1/8, `dot.exr`,
@@ -46,12 +46,12 @@ fn data(output: &Output) -> String {
 fn the_numbers_are_printed_as_words_and_as_json() {
     let folder = pictures();
     let said = compare("lighter.exr grey.exr", folder.path());
-    assert_eq!(said.status.code(), Some(0), "{}", words(&said));
+    assert_eq!(said.status.code(), Some(0), "{}", support::said(&said));
     let text = data(&said);
     let numbers =
         "size  12x16\nrmse  0.125\nmax   0.125 at 0,0\np999  0.125\nbias  0.125\nssim  0.9";
     assert!(text.starts_with(numbers), "{text}");
-    assert!(said.stderr.is_empty(), "{}", words(&said));
+    assert!(said.stderr.is_empty(), "{}", support::said(&said));
 
     let said = compare("grey.exr dot.exr --json", folder.path());
     let found: Value = serde_json::from_slice(&said.stdout).unwrap();
@@ -73,7 +73,7 @@ fn equal_pictures_are_equal() {
     let folder = pictures();
     for line in ["grey.exr grey.exr", "dot.exr dot.exr", "grey.exr dot.exr --crop 0,5,12x11"] {
         let said = compare(&format!("{line} --rmse 0 --max 0 --p999 0 --ssim 1"), folder.path());
-        assert_eq!(said.status.code(), Some(0), "{line}: {}", words(&said));
+        assert_eq!(said.status.code(), Some(0), "{line}: {}", support::said(&said));
         let numbers = "rmse  0.0\nmax   0.0\np999  0.0\nbias  0.0\nssim  1.0\n";
         assert!(data(&said).ends_with(numbers), "{line}: {}", data(&said));
     }
@@ -84,7 +84,7 @@ fn a_png_is_taken_as_srgb() {
     let folder = pictures();
     // Half a code is at most 0.005 of light, and its steps are no larger than that.
     let said = compare("grey.png grey.exr --max 0.005", folder.path());
-    assert_eq!(said.status.code(), Some(0), "{}", words(&said));
+    assert_eq!(said.status.code(), Some(0), "{}", support::said(&said));
     let said = compare("grey.png grey.exr --max 1e-5", folder.path());
     assert_eq!(said.status.code(), Some(1), "codes are rounded");
 }
@@ -101,8 +101,8 @@ fn a_limit_that_is_passed_ends_with_1_and_says_which() {
         ("--ssim 0.999", 1, " is below 0.999\n"),
     ] {
         let said = compare(&format!("lighter.exr grey.exr {limits}"), folder.path());
-        assert_eq!(said.status.code(), Some(code), "{limits}: {}", words(&said));
-        let sentence = words(&said);
+        assert_eq!(said.status.code(), Some(code), "{limits}: {}", support::said(&said));
+        let sentence = support::said(&said);
         assert!(sentence.ends_with(passed), "{limits}: {sentence}");
         if code == 1 {
             let start = "pipeline: lighter.exr differs from grey.exr by more than was allowed: ";
@@ -126,7 +126,7 @@ fn the_map_shows_where() {
         assert_eq!(pixel.0, scale.color(error), "{x},{y}");
     }
     let said = compare("dot.exr grey.exr --map map.png --no-clobber", folder.path());
-    assert_eq!(said.status.code(), Some(5), "{}", words(&said));
+    assert_eq!(said.status.code(), Some(5), "{}", support::said(&said));
 }
 
 #[test]
@@ -160,8 +160,8 @@ fn bad_input_is_named() {
         ("grey.exr", 2, "error: the following required arguments were not provided"),
     ] {
         let said = compare(line, folder.path());
-        assert_eq!(said.status.code(), Some(code), "{line}: {}", words(&said));
-        assert!(words(&said).starts_with(sentence), "{line}: {}", words(&said));
+        assert_eq!(said.status.code(), Some(code), "{line}: {}", support::said(&said));
+        assert!(support::said(&said).starts_with(sentence), "{line}: {}", support::said(&said));
         assert!(said.stdout.is_empty(), "{line}: {}", data(&said));
     }
     assert!(!folder.path().join("map.exr").exists());

@@ -9,7 +9,7 @@ use serde::Deserialize;
 use std::fs;
 use std::ops::Range;
 use std::path::Path;
-use support::{root, run, words};
+use support::{root, run, said};
 
 #[derive(Debug, Deserialize)]
 struct Report {
@@ -27,10 +27,10 @@ struct Material {
 fn report(curve: &str, folder: &Path) -> Report {
     let spec = root().join("examples/curves").join(curve);
     let swept = run("sweep", &[spec.to_str().expect("the path is UTF-8"), "-o", "a.grid"], folder);
-    assert!(swept.status.success(), "{}", words(&swept));
+    assert!(swept.status.success(), "{}", said(&swept));
     let arguments = ["-q", "a.grid", "-o", "a.obj", "--report", "a.json"];
     let split = run("triangulate", &arguments, folder);
-    assert!(split.status.success(), "{}", words(&split));
+    assert!(split.status.success(), "{}", said(&split));
     let bytes = fs::read(folder.join("a.json")).expect("the report is there");
     let report = Document::new("a.json", &bytes).and_then(|document| document.parse());
     report.unwrap_or_else(|error| panic!("{error}"))
@@ -91,7 +91,7 @@ fn prefiltering_calms_the_tiles_and_supersampling_the_outlines() {
     );
     fs::write(folder.path().join("still.json"), job).unwrap();
     let ran = run("pipeline", &["run", "still.json", "-q", "--size", "144x144"], folder.path());
-    assert!(ran.status.success(), "{}", words(&ran));
+    assert!(ran.status.success(), "{}", said(&ran));
     let picture = |mode: &str| {
         let file = folder.path().join(format!("out/still-{mode}.png"));
         image::open(file).unwrap().into_rgb8()

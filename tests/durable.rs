@@ -4,21 +4,10 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 #![allow(clippy::print_stderr, reason = "a test that is skipped says so")]
 
-use crate::support::{programs, root, words};
+use crate::support::{programs, said, shell_beside_examples as shell};
 use std::fs::{self, File};
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
-
-/// A line of shell in `folder`, where `examples` leads to the examples. The shell stays the parent of
-/// the programs, as an interactive one does.
-fn shell(line: &str, folder: &Path) -> Output {
-    let _ = std::os::unix::fs::symlink(root().join("examples"), folder.join("examples"));
-    let old = std::env::var_os("PATH").unwrap();
-    let folders = [programs()].into_iter().chain(std::env::split_paths(&old));
-    let mut command = Command::new("sh");
-    command.args(["-c", &format!("{line}\nexit $?")]).current_dir(folder);
-    command.env("PATH", std::env::join_paths(folders).unwrap()).output().unwrap()
-}
+use std::process::{Command, Stdio};
 
 fn names(folder: &Path) -> Vec<String> {
     let entries = fs::read_dir(folder).unwrap();
@@ -45,9 +34,9 @@ fn a_standard_output_that_is_closed_is_an_error() {
             [format!("{line} >&-"), format!("( {line} ) >&-"), format!("exec >&-; {line}")]
         {
             let ran = shell(&closed, folder.path());
-            assert_eq!(ran.status.code(), Some(5), "{closed}: {}", words(&ran));
+            assert_eq!(ran.status.code(), Some(5), "{closed}: {}", said(&ran));
             let told = "cannot write <stdout>: it was closed when the program started\n";
-            assert!(words(&ran).ends_with(told), "{closed}: {}", words(&ran));
+            assert!(said(&ran).ends_with(told), "{closed}: {}", said(&ran));
         }
     }
 }
@@ -57,10 +46,10 @@ fn a_standard_output_that_is_thrown_away_or_not_used_is_none() {
     let folder = tempfile::tempdir().unwrap();
     for line in PRINTERS {
         let ran = shell(&format!("{line} > /dev/null"), folder.path());
-        assert!(ran.status.success(), "{line}: {}", words(&ran));
+        assert!(ran.status.success(), "{line}: {}", said(&ran));
     }
     let ran = shell("sweep examples/curves/vase.json -o a.grid >&-", folder.path());
-    assert!(ran.status.success(), "{}", words(&ran));
+    assert!(ran.status.success(), "{}", said(&ran));
     // As Python and Node throw it away: open for reading and writing.
     let null = || File::options().read(true).write(true).open("/dev/null").unwrap();
     for stdout in [Stdio::from(null()), Stdio::null()] {
@@ -73,7 +62,7 @@ fn a_standard_output_that_is_thrown_away_or_not_used_is_none() {
 fn a_file_that_outgrows_its_limit_is_told_by_its_name_and_leaves_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let made = shell("sweep examples/curves/vase.json -o vase.grid", folder.path());
-    assert!(made.status.success(), "{}", words(&made));
+    assert!(made.status.success(), "{}", said(&made));
     fs::write(folder.path().join("a.obj"), "old").unwrap();
     let before = names(folder.path());
     for (line, file) in [
@@ -83,8 +72,8 @@ fn a_file_that_outgrows_its_limit_is_told_by_its_name_and_leaves_nothing() {
         ("render examples/scenes/glass-sphere.json --size 64x64 -o a.png", "a.png"),
     ] {
         let ran = shell(&format!("ulimit -f 1; {line}"), folder.path());
-        assert_eq!(ran.status.code(), Some(5), "{line}: {}", words(&ran));
-        let said = words(&ran);
+        assert_eq!(ran.status.code(), Some(5), "{line}: {}", said(&ran));
+        let said = said(&ran);
         let told = format!(": cannot write {file}: File too large");
         assert!(said.contains(&told) && said.lines().count() == 1, "{line}: {said}");
         assert!(!said.contains(".part"), "{said}");
@@ -93,7 +82,7 @@ fn a_file_that_outgrows_its_limit_is_told_by_its_name_and_leaves_nothing() {
     assert_eq!(fs::read(folder.path().join("a.obj")).unwrap(), b"old");
     let ran = shell("ulimit -f 1; sweep examples/curves/vase.json > b.grid", folder.path());
     assert_eq!(ran.status.code(), Some(5));
-    assert!(words(&ran).contains("cannot write <stdout>: File too large"), "{}", words(&ran));
+    assert!(said(&ran).contains("cannot write <stdout>: File too large"), "{}", said(&ran));
 }
 
 /// The system calls of a line that write, sync and rename files of its folder, in their order: `write
@@ -108,7 +97,7 @@ fn trace(line: &str, folder: &Path) -> Option<Vec<String>> {
     let calls = "write,writev,fsync,fdatasync,rename,renameat,renameat2,unlink,unlinkat";
     let traced = format!("strace -f -y -qq -e signal=none -e trace={calls} -o trace.txt {line}");
     let ran = shell(&traced, folder);
-    assert!(ran.status.success(), "{line}: {}", words(&ran));
+    assert!(ran.status.success(), "{line}: {}", said(&ran));
     let folder = fs::canonicalize(folder).unwrap().display().to_string();
     let text = fs::read_to_string(format!("{folder}/trace.txt")).unwrap();
     let name = |path: &str| match path.rsplit('/').next() {
@@ -163,7 +152,7 @@ fn a_file_is_written_synced_renamed_and_its_folder_synced() {
 fn files_that_belong_together_are_renamed_between_a_marker_and_its_end() {
     let folder = tempfile::tempdir().unwrap();
     let made = shell("sweep examples/curves/vase.json -o a.grid", folder.path());
-    assert!(made.status.success(), "{}", words(&made));
+    assert!(made.status.success(), "{}", said(&made));
     let line = "triangulate a.grid -o a.obj --mtl --report a.json";
     let Some(calls) = trace(line, folder.path()) else { return };
     let calls = from_first_write(&calls);

@@ -5,7 +5,7 @@ use crate::support;
 use render::color::Encoding;
 use std::fs;
 use std::path::Path;
-use support::{root, run, words};
+use support::{root, run, said};
 
 /// Where lettering is seen through the foot of the bottle: 48 x 24 pixels of 512 x 512.
 const THROUGH_THE_GLASS: &str = "216,378,48x24";
@@ -18,16 +18,16 @@ fn example(path: &str) -> String {
 fn make_bottle(folder: &Path) {
     let spec = example("curves/klein-glass.json");
     let swept = run("sweep", &["-q", &spec, "--tol", "1e-3", "-o", "a.grid"], folder);
-    assert!(swept.status.success(), "{}", words(&swept));
+    assert!(swept.status.success(), "{}", said(&swept));
     let split = run("triangulate", &["-q", "a.grid", "-o", "a.obj"], folder);
-    assert!(split.status.success(), "{}", words(&split));
+    assert!(split.status.success(), "{}", said(&split));
 }
 
 fn render(more: &[&str], folder: &Path) -> Vec<u8> {
     let scene = example("scenes/frontispiece.json");
     let arguments = [&[scene.as_str(), "--mesh", "klein-glass=a.obj"], more].concat();
     let rendered = run("render", &arguments, folder);
-    assert!(rendered.status.success(), "{}", words(&rendered));
+    assert!(rendered.status.success(), "{}", said(&rendered));
     rendered.stdout
 }
 
@@ -64,8 +64,8 @@ fn the_modes_of_a_page_share_one_structure_and_the_tables_of_each_filter() {
     let folder = tempfile::tempdir().unwrap();
     let run =
         run("pipeline", &["run", "frontispiece", "--size", "16x16", "--stats"], folder.path());
-    assert!(run.status.success(), "{}", words(&run));
-    let said = words(&run);
+    assert!(run.status.success(), "{}", said(&run));
+    let said = said(&run);
     let built = |what: &str| -> Vec<u64> {
         let counts = said.lines().filter_map(|line| line.strip_prefix(what));
         counts.map(|count| count.trim().parse().expect("a count")).collect()

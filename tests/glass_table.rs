@@ -6,7 +6,7 @@ use image::RgbImage;
 use render::color::Encoding;
 use std::ops::Range;
 use std::path::Path;
-use support::{run, words};
+use support::{run, said};
 
 /// The size at which pixels are looked at.
 const SIZE: &str = "192x192";
@@ -17,8 +17,8 @@ const SMALL: &str = "16x16";
 /// Makes the page, with its meshes.
 fn make(page: &str, size: &str, folder: &Path) -> String {
     let ran = run("pipeline", &["run", page, "-o", "out", "--size", size, "--keep"], folder);
-    assert!(ran.status.success(), "{}", words(&ran));
-    words(&ran)
+    assert!(ran.status.success(), "{}", said(&ran));
+    said(&ran)
 }
 
 /// How many triangles each mesh of a page has, by what the program says.
@@ -42,7 +42,7 @@ fn ways_to_the_sea(pixel: &str) -> Vec<Vec<String>> {
         vec![scene.to_str().expect("its name is text"), "--size", SIZE, "--pixel", pixel];
     arguments.extend(meshes.iter().flat_map(|mesh| ["--mesh", mesh]));
     let ran = run("render", &arguments, folder.path());
-    assert!(ran.status.success(), "{}", words(&ran));
+    assert!(ran.status.success(), "{}", said(&ran));
     let mut way: Vec<String> = Vec::new();
     let mut ways = Vec::new();
     for line in String::from_utf8_lossy(&ran.stdout).lines() {

@@ -1,11 +1,12 @@
 //! Surfaces that break modelers, from a spec to triangles: what each of them is like as a surface.
 
+use crate::made::{made, walked_twice};
 use files::json::Document;
 use glam::DVec3;
 use proptest::prelude::*;
 use serde_json::{Value, json};
 use sweep::{GridMesh, Sweep, SweepError};
-use triangulate::{Counts, MeshReport, Options, Patches, TriMesh};
+use triangulate::TriMesh;
 
 fn read(keys: &Value) -> Result<Sweep, SweepError> {
     let mut spec = json!({
@@ -28,25 +29,6 @@ fn example(name: &str) -> Value {
     // They count cells, of which there are others here.
     spec.as_object_mut().expect("keys").remove("areas");
     spec
-}
-
-/// The triangles as they come out of a file, and what they are like.
-fn made(grid: &GridMesh) -> (TriMesh, Counts, MeshReport) {
-    let mut file = Vec::new();
-    sweep::grid::file::write(grid, sweep::grid::file::Encoding::Binary, &mut file)
-        .expect("memory takes it");
-    let mut reader =
-        sweep::grid::file::GridReader::open("test", file.as_slice()).expect("it is a grid");
-    let (mesh, counts) = reader.run(&Options::default(), TriMesh::default()).expect("f32 holds it");
-    let report = MeshReport::of(&mesh, &counts);
-    (mesh, counts, report)
-}
-
-/// Edges that two triangles walk the same way.
-fn walked_twice(mesh: &TriMesh) -> usize {
-    let mut edges = mesh.directed_edges();
-    edges.sort_unstable();
-    edges.windows(2).filter(|pair| pair[0] == pair[1]).count()
 }
 
 fn corners(mesh: &TriMesh) -> impl Iterator<Item = ([DVec3; 3], [DVec3; 3])> {

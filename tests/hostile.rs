@@ -1,6 +1,6 @@
 //! Hostile files and names on the road through all programs.
 
-use crate::support::{root, run, words};
+use crate::support::{root, run, said};
 use files::json::Document;
 use files::words::unseen;
 use files::{Disk, FileError, Source};
@@ -34,7 +34,7 @@ fn a_palette_that_makes_the_decoder_panic_is_a_broken_file_everywhere() {
         [("sweep", &["a.json", "-o", "a.grid"][..]), ("pipeline", &["compare", "a.png", "a.png"])]
     {
         let output = run(program, arguments, folder.path());
-        let said = words(&output);
+        let said = said(&output);
         assert_eq!(output.status.code(), Some(3), "{said}");
         assert!(said.contains("found no picture") && said.lines().count() == 1, "{said}");
     }
@@ -45,18 +45,18 @@ fn a_grid_that_promises_more_than_there_is_memory_for_is_refused() {
     let folder = tempdir().expect("a folder");
     fs::write(folder.path().join("a.json"), TUBE).expect("the spec");
     let made = run("sweep", &["a.json", "--format", "json", "-o", "a.grid"], folder.path());
-    assert_eq!(made.status.code(), Some(0), "{}", words(&made));
+    assert_eq!(made.status.code(), Some(0), "{}", said(&made));
     let text = fs::read_to_string(folder.path().join("a.grid")).expect("a grid of text");
     let text = text.replacen("\"rows\":13", "\"rows\":100000000", 1);
     assert!(text.contains("100000000"), "the header has changed");
     fs::write(folder.path().join("b.grid"), text).expect("the other grid");
     let output = run("triangulate", &["b.grid", "-o", "b.stl"], folder.path());
-    let said = words(&output);
-    assert_eq!(output.status.code(), Some(6), "{said}");
-    assert!(said.contains("a mesh of ") && said.contains("--max-memory"), "{said}");
+    let message = said(&output);
+    assert_eq!(output.status.code(), Some(6), "{message}");
+    assert!(message.contains("a mesh of ") && message.contains("--max-memory"), "{message}");
     // As OBJ it is written row by row, and found to be cut.
     let output = run("triangulate", &["b.grid", "-o", "b.obj"], folder.path());
-    assert_eq!(output.status.code(), Some(3), "{}", words(&output));
+    assert_eq!(output.status.code(), Some(3), "{}", said(&output));
 }
 
 #[test]
@@ -68,7 +68,7 @@ fn cells_of_a_tolerance_and_grids_in_memory_are_asked_for() {
         &["a.json", "--max-memory", "10M", "--rows", "1000", "--cols", "1000", "--check"],
     ] {
         let output = run("sweep", arguments, folder.path());
-        let said = words(&output);
+        let said = said(&output);
         assert_eq!(output.status.code(), Some(6), "{said}");
         assert!(said.starts_with("sweep: a: ") && said.contains("--max-memory"), "{said}");
     }

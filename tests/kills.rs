@@ -1,7 +1,7 @@
 //! Programs that are killed at random moments: every file is the whole old or the whole new one, inputs
 //! are as they were, and files that do not belong together are announced.
 //!
-//! Each program is killed 40 times, or as often as the environment variable `TOPOBOOK_KILLS` says; the
+//! Each program is killed 20 times, or as often as the environment variable `TOPOBOOK_KILLS` says; the
 //! moments come from a seed, `TOPOBOOK_KILL_SEED` or 1, which is printed. Half of the moments are
 //! anywhere in a run and half follow the first sight of the marker, since files are replaced in a small
 //! part of a run.
@@ -11,6 +11,7 @@
 #![allow(clippy::print_stdout, reason = "the seed and the counts are what a run is for")]
 
 use crate::support::{programs, root};
+use fixtures::Dice;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
@@ -93,19 +94,6 @@ fn inputs(folder: &Path) {
     finish(&["triangulate", "in.grid", "-o", "in.obj"], folder);
 }
 
-/// Moments from a seed, by `SplitMix64`.
-struct Moments(u64);
-
-impl Moments {
-    /// A moment up to `longest`.
-    fn up_to(&mut self, longest: Duration) -> Duration {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut bits = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        longest.mul_f64(((bits ^ (bits >> 31)) >> 11) as f64 / (1_u64 << 53) as f64)
-    }
-}
-
 /// A number from the environment.
 fn setting(name: &str, default: u64) -> u64 {
     std::env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(default)
@@ -124,9 +112,10 @@ struct Counts {
 
 #[test]
 fn a_killed_program_leaves_whole_files_and_announces_a_mix() {
-    let (kills, seed) = (setting("TOPOBOOK_KILLS", 40), setting("TOPOBOOK_KILL_SEED", 1));
+    let (kills, seed) = (setting("TOPOBOOK_KILLS", 20), setting("TOPOBOOK_KILL_SEED", 1));
     println!("{kills} kills of each program, TOPOBOOK_KILL_SEED={seed}");
-    let mut moments = Moments(seed);
+    let mut dice = Dice::new(seed);
+    let mut up_to = |longest: Duration| longest.mul_f64(dice.fraction());
     for Case { line, targets, marker } in CASES {
         let folder = tempfile::tempdir().unwrap();
         let path = |name: &str| -> PathBuf { folder.path().join(name) };
@@ -143,12 +132,12 @@ fn a_killed_program_leaves_whole_files_and_announces_a_mix() {
             let _ = fs::remove_file(path(marker));
             let mut child = start(line, folder.path());
             if kill % 2 == 0 || targets.len() == 1 {
-                sleep(moments.up_to(takes));
+                sleep(up_to(takes));
             } else {
                 while !path(marker).exists() && child.try_wait().unwrap().is_none() {
                     yield_now();
                 }
-                sleep(moments.up_to(takes / 4));
+                sleep(up_to(takes / 4));
             }
             counts.ended_before += usize::from(child.try_wait().unwrap().is_some());
             child.kill().unwrap();

@@ -14,6 +14,8 @@ mod glass_table;
 mod hard_cases;
 mod hostile;
 mod kills;
+#[path = "../triangulate/tests/made/mod.rs"]
+mod made;
 mod pages;
 mod pipe;
 mod prose;

@@ -4,24 +4,7 @@
 use crate::support;
 
 use std::fs;
-use std::path::Path;
-use std::process::{Command, Output};
-use support::{programs, root, run, words};
-
-/// Runs a line of the shell in `folder`, with our programs on the path and `examples` beside.
-fn shell(line: &str, folder: &Path) -> Output {
-    let examples = folder.join("examples");
-    if !examples.exists() {
-        std::os::unix::fs::symlink(root().join("examples"), examples).expect("a link is made");
-    }
-    let path = std::env::var("PATH").unwrap_or_default();
-    Command::new("sh")
-        .args(["-c", line])
-        .env("PATH", format!("{}:{path}", programs().display()))
-        .current_dir(folder)
-        .output()
-        .expect("the shell starts")
-}
+use support::{root, run, said, shell_beside_examples as shell};
 
 /// The pipe as the README has it.
 fn readme_line() -> String {
@@ -40,11 +23,11 @@ fn the_pipe_in_the_readme_makes_the_picture_that_the_pipeline_makes() {
     let folder = tempfile::tempdir().unwrap();
     let line = readme_line().replace("-o vase.png", "--size 160x120 -o vase.png");
     let piped = shell(&line, folder.path());
-    assert!(piped.status.success() && piped.stderr.is_empty(), "{}", words(&piped));
+    assert!(piped.status.success() && piped.stderr.is_empty(), "{}", said(&piped));
 
     let arguments = ["run", "vase", "-o", "out", "--size", "160x120", "--keep"];
     let ran = run("pipeline", &arguments, folder.path());
-    assert!(ran.status.success(), "{}", words(&ran));
+    assert!(ran.status.success(), "{}", said(&ran));
     let read = |name: &str| fs::read(folder.path().join(name)).unwrap();
     assert_eq!(read("vase.png"), read("out/vase-prefiltered.png"));
 
@@ -63,7 +46,7 @@ fn the_surface_of_ones_own_in_the_readme_is_swept() {
     fs::write(folder.path().join("ring.json"), spec.expect("the README has a spec")).unwrap();
     let line = "sweep ring.json | triangulate | tail -n 1";
     let ran = shell(line, folder.path());
-    assert_eq!(String::from_utf8_lossy(&ran.stdout), "# end 4608 9216\n", "{}", words(&ran));
+    assert_eq!(String::from_utf8_lossy(&ran.stdout), "# end 4608 9216\n", "{}", said(&ran));
 }
 
 #[test]
@@ -73,7 +56,7 @@ fn the_json_grid_gives_the_same_triangles_as_the_binary_one() {
                 sweep examples/curves/trefoil.json --rows 40 --cols 12 --format json | \
                 triangulate > b.obj && cmp a.obj b.obj";
     let compared = shell(line, folder.path());
-    assert!(compared.status.success(), "{}", words(&compared));
+    assert!(compared.status.success(), "{}", said(&compared));
 }
 
 #[test]
@@ -88,9 +71,9 @@ fn a_program_that_died_upstream_is_noticed_and_the_old_picture_stays() {
         fs::write(folder.path().join("vase.png"), "old").unwrap();
         let render = "render examples/scenes/vase.json --size 8x8 --mesh vase=- -o vase.png";
         let ran = shell(&format!("{broken} | {render}"), folder.path());
-        assert_eq!(ran.status.code(), Some(3), "{broken}: {}", words(&ran));
-        assert!(words(&ran).contains("render: <stdin>: "), "{broken}: {}", words(&ran));
-        assert!(!words(&ran).contains("panicked"), "{broken}: {}", words(&ran));
+        assert_eq!(ran.status.code(), Some(3), "{broken}: {}", said(&ran));
+        assert!(said(&ran).contains("render: <stdin>: "), "{broken}: {}", said(&ran));
+        assert!(!said(&ran).contains("panicked"), "{broken}: {}", said(&ran));
         assert_eq!(fs::read_to_string(folder.path().join("vase.png")).unwrap(), "old");
         let left: Vec<_> =
             fs::read_dir(folder.path()).unwrap().map(|e| e.unwrap().path()).collect();
@@ -106,7 +89,7 @@ fn a_reader_that_stops_reading_ends_the_programs_quietly() {
         "sweep examples/curves/vase.json > a.grid; { triangulate a.grid; echo $? >&2; } | head -c 10 > /dev/null",
     ] {
         let ran = shell(line, folder.path());
-        assert_eq!(words(&ran).trim(), "141", "{line}");
+        assert_eq!(said(&ran).trim(), "141", "{line}");
     }
 }
 
@@ -128,10 +111,10 @@ fn an_object_with_two_pictures_is_the_same_through_pipes_and_in_memory() {
     let line = "sweep vase.json | triangulate --texture 2 | tee a.obj | \
                 render scene.json --mesh vase=- --size 160x120 -o piped.png";
     let piped = shell(line, folder.path());
-    assert!(piped.status.success() && piped.stderr.is_empty(), "{}", words(&piped));
+    assert!(piped.status.success() && piped.stderr.is_empty(), "{}", said(&piped));
     let arguments = ["run", "job.json", "-o", "out", "--size", "160x120", "--keep"];
     let ran = run("pipeline", &arguments, folder.path());
-    assert!(ran.status.success(), "{}", words(&ran));
+    assert!(ran.status.success(), "{}", said(&ran));
     let read = |name: &str| fs::read(folder.path().join(name)).unwrap();
     assert_eq!(read("a.obj"), read("out/job-vase.obj"));
     assert_eq!(read("piped.png"), read("out/job-tent.png"));
@@ -159,10 +142,10 @@ fn pixels_without_a_camera_are_those_of_the_scene() {
 
     let refused = shell("sweep bare.json -o bare.grid", folder.path());
     assert_eq!(refused.status.code(), Some(3));
-    assert!(words(&refused).contains("`pipeline run`"), "{}", words(&refused));
+    assert!(said(&refused).contains("`pipeline run`"), "{}", said(&refused));
     let line = "pipeline run job.json --size 64x48 --keep -o out && sweep seen.json -o seen.grid";
     let ran = shell(line, folder.path());
-    assert!(ran.status.success(), "{}", words(&ran));
+    assert!(ran.status.success(), "{}", said(&ran));
     let bytes = |name: &str| fs::read(folder.path().join(name)).unwrap();
     assert_eq!(bytes("out/job-vase.grid"), bytes("seen.grid"));
 }

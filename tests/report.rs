@@ -4,15 +4,15 @@ use crate::support;
 
 use std::fs;
 use std::path::Path;
-use support::{run, words};
+use support::{run, said};
 
 #[test]
 fn a_page_is_measured_by_every_method_of_a_hasty_report() {
     let folder = tempfile::tempdir().unwrap();
     let ask = ["report", "glass-sphere", "--quick", "--size", "16x12", "-o", "out", "-q"];
     let ran = run("pipeline", &ask, folder.path());
-    assert!(ran.status.success(), "{}", words(&ran));
-    assert!(ran.stdout.is_empty() && ran.stderr.is_empty(), "{}", words(&ran));
+    assert!(ran.status.success(), "{}", said(&ran));
+    assert!(ran.stdout.is_empty() && ran.stderr.is_empty(), "{}", said(&ran));
     let read = |name: &str| fs::read_to_string(folder.path().join("out").join(name)).unwrap();
     let report = read("report.csv");
     let rows: Vec<Vec<&str>> = report.lines().map(|line| line.split(',').collect()).collect();
@@ -26,7 +26,9 @@ fn a_page_is_measured_by_every_method_of_a_hasty_report() {
         assert_eq!(row.len(), rows[0].len());
         assert_eq!((row[column("page")], row[column("width")]), ("glass-sphere", "16"));
         assert!(number(row, "rmse") <= number(row, "max"), "{row:?}");
-        assert!(number(row, "wall_s") > 0.0 && number(row, "rays") >= 192.0, "{row:?}");
+        // One clock measures a picture and, within it, its tables.
+        assert!(number(row, "wall_s") >= number(row, "tables_s"), "{row:?}");
+        assert!(number(row, "rays") >= 16.0 * 12.0, "{row:?}");
     }
     // The picture alone takes 12 bytes a pixel; a table is held while a picture is made with it.
     let peak = |filter: &str| {
@@ -44,7 +46,7 @@ fn what_cannot_be_measured_is_said_before_anything_is_made() {
     let folder = tempfile::tempdir().unwrap();
     let ask = |arguments: &[&str]| {
         let ran = run("pipeline", &[&["report", "-o", "out"], arguments].concat(), folder.path());
-        (ran.status.code().unwrap(), words(&ran))
+        (ran.status.code().unwrap(), said(&ran))
     };
     for (arguments, code, expected) in [
         (["peer-glas"].as_slice(), 2, "did you mean peer-glass?"),

@@ -1,12 +1,13 @@
 //! Every kind of fault is noticed, by a reader that fails on purpose.
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+use fixtures::program::run;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
 use tempfile::tempdir;
 
 fn fuzz(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_fuzz")).args(arguments).output().unwrap()
+    run(env!("CARGO_BIN_EXE_fuzz").as_ref(), arguments, Path::new("."), b"")
 }
 
 fn tried(folder: &Path, reader: &str, input: &str) -> (Option<i32>, String) {

@@ -5,7 +5,7 @@ use crate::exact;
 use crate::studio;
 
 use exact::Sample;
-use exact::dice::Dice;
+use exact::dice::{Dice, Directions};
 use glam::{DVec2, DVec3};
 use render::accel::{Accel, Structure};
 use render::optics::reflect;
@@ -34,7 +34,7 @@ fn shapes(corners: [[f32; 3]; 3]) -> [Shape; 2] {
 
 #[test]
 fn grazing_rays_hit_where_they_should() {
-    let mut dice = Dice(1);
+    let mut dice = Dice::new(1);
     let mut hits = 0;
     for angle in angles() {
         for _ in 0..40 {
@@ -88,7 +88,7 @@ fn grazing_rays_along_a_sphere_hit_it_where_they_should() {
 
 #[test]
 fn a_mirrored_grazing_ray_leaves_flat_and_round_surfaces_for_good() {
-    let mut dice = Dice(2);
+    let mut dice = Dice::new(2);
     let flat = tilted(16);
     let flat = render::scene::obj::read("m.obj", &flat).unwrap();
     let floor = |bounded| {
@@ -154,7 +154,7 @@ fn tilted(n: usize) -> Vec<u8> {
 
 #[test]
 fn in_a_hollow_mirror_a_ray_goes_round_for_ever() {
-    let mut dice = Dice(3);
+    let mut dice = Dice::new(3);
     for scale in [2f64.powi(-20), 1.0, 1e6] {
         for away in [0.0, 1e3] {
             let center = scale * away * DVec3::new(0.6, -0.48, 0.64);
@@ -184,7 +184,7 @@ fn in_a_hollow_mirror_a_ray_goes_round_for_ever() {
 
 #[test]
 fn in_a_closed_mirror_mesh_no_ray_escapes() {
-    let mut dice = Dice(4);
+    let mut dice = Dice::new(4);
     for (columns, rows) in [(24, 12), (7, 4), (4, 2)] {
         let obj = ball(DVec3::new(0.1, 0.2, -0.3), 1.0, columns, rows, false);
         let shape = Shape::Mesh(render::scene::obj::read("m.obj", &obj).unwrap());

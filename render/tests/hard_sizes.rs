@@ -3,6 +3,7 @@
 
 use crate::studio;
 
+use fixtures::rounding::STEP;
 use render::filter::Filter;
 use render::{Picture, Scene};
 use studio::objects::{light, mesh, plane, quad, sphere, textured};
@@ -60,7 +61,7 @@ fn balls_of_any_size_look_the_same() {
         assert_near(&round(2f64.powi(power)), &unit, 0.0);
     }
     for radius in [1e-29, 1e-12, 1e12, 1e29] {
-        assert_near(&round(radius), &round(1.0), 1e-5);
+        assert_near(&round(radius), &round(1.0), STEP);
     }
 }
 

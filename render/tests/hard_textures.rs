@@ -1,9 +1,9 @@
 //! Textures of odd sizes, and footprints over the horizon, beside the eye, and larger than the texture.
 
-use crate::exact;
 use crate::studio;
 
-use exact::dice::Dice;
+use fixtures::Dice;
+use fixtures::rounding::{HALF_STEP, STEP};
 use glam::DVec3;
 use render::filter::Filter;
 use render::{Picture, Scene};
@@ -29,14 +29,14 @@ fn random(dice: &mut Dice, count: usize) -> Vec<[u8; 3]> {
 #[track_caller]
 fn assert_averages(picture: &Picture, what: &str) {
     for (x, y, pixel) in pixels(picture) {
-        let within = |light: &f32| (0.2 - 1e-6..=0.8 + 1e-6).contains(light);
+        let within = |light: &f32| (0.2 - STEP..=0.8 + STEP).contains(light);
         assert!(pixel.iter().all(within), "{what}: at {x} {y}: {pixel:?}");
     }
 }
 
 #[test]
 fn a_texture_of_any_size_looks_like_four_of_it_in_one() {
-    let mut dice = Dice(1);
+    let mut dice = Dice::new(1);
     let floor = |size: f64| {
         plane([0.03, -1.0, 0.01], [size, 0.0, 0.2 * size], [0.2 * size, 0.0, -size], "unlit")
     };
@@ -58,7 +58,7 @@ fn a_texture_of_any_size_looks_like_four_of_it_in_one() {
 
 #[test]
 fn spheres_take_textures_of_a_row_or_a_column() {
-    let mut dice = Dice(2);
+    let mut dice = Dice::new(2);
     let globe = sphere([0.0; 3], 1.0, "unlit");
     for (width, height) in [(1, 1), (1, 2), (2, 1), (1, 9), (9, 1), (3, 2)] {
         let texels = random(&mut dice, width * height);
@@ -76,7 +76,7 @@ fn spheres_take_textures_of_a_row_or_a_column() {
 
 #[test]
 fn to_the_horizon_and_behind_the_eye_every_pixel_is_an_average() {
-    let mut dice = Dice(3);
+    let mut dice = Dice::new(3);
     let texels = random(&mut dice, 12);
     let floor = plane([0.3, 0.0, 0.1], [1.0, 0.0, 0.2], [0.2, 0.0, -1.0], "unlit");
     for height in [1e-12, 1e-6, 1.0, 1e6, 1e12] {
@@ -107,7 +107,7 @@ fn to_the_horizon_and_behind_the_eye_every_pixel_is_an_average() {
 
 #[test]
 fn what_is_larger_than_the_texture_tends_to_its_mean() {
-    let mut dice = Dice(4);
+    let mut dice = Dice::new(4);
     let texels = random(&mut dice, 35);
     let mean: [f64; 3] = [0, 1, 2]
         .map(|k| texels.iter().map(|texel| f64::from(texel[k])).sum::<f64>() / 35.0 / 255.0);
@@ -121,7 +121,7 @@ fn what_is_larger_than_the_texture_tends_to_its_mean() {
             for pixel in &seen.pixels {
                 for (light, mean) in pixel.iter().zip(mean) {
                     let error = (f64::from(*light) - mean).abs();
-                    assert!(error < 0.6 / periods + 1e-6, "{size:e} {filter:?}: {error:e}");
+                    assert!(error < 0.6 / periods + HALF_STEP, "{size:e} {filter:?}: {error:e}");
                 }
             }
         }
@@ -143,7 +143,7 @@ fn a_footprint_of_a_pole_and_a_seam_at_once_is_an_average_of_its_rows() {
             let seen = picture(&paper(&camera, &globe, 64, &rows), 41, filter);
             // The northern half is of one colour, whatever lies across the pole or the seam.
             for (x, y, pixel) in pixels(&seen) {
-                let near = (pixel[0] - 0.8).abs() < 1e-6 && (pixel[1] - 0.2).abs() < 1e-6;
+                let near = (pixel[0] - 0.8).abs() < STEP && (pixel[1] - 0.2).abs() < STEP;
                 assert!(near, "{filter:?} at {x} {y}: {pixel:?}");
             }
         }

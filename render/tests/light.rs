@@ -3,6 +3,7 @@
 use crate::studio;
 
 use files::json::Document;
+use fixtures::rounding::STEP;
 use render::Picture;
 use render::filter::Filter;
 use render::scene::read;
@@ -25,7 +26,11 @@ fn assert_is(shown: &Picture, truth: impl Fn(f64, f64) -> [f64; 3]) {
         let [a, b] = on_film(x, y, shown.width);
         for (light, truth) in pixel.into_iter().zip(truth(a, b)) {
             let off = (f64::from(light) - truth).abs();
-            assert!(off <= 1e-6 * truth.max(1.0), "at {x} {y}: {pixel:?}, expected {truth}");
+            // Half a step of f32 is 2^-24 of a light above 1 at most.
+            assert!(
+                off <= f64::from(STEP) * truth.max(1.0),
+                "at {x} {y}: {pixel:?}, expected {truth}"
+            );
         }
     }
 }
@@ -51,7 +56,8 @@ fn a_directional_light_is_a_point_light_far_away() {
     let wall = r#""diffuse": 0.8, "specular": 0.5"#;
     let sun = r#"{ "directional": { "direction": [-1e-200, -0.5e-200, -2e-200] } }"#;
     let far = r#"{ "point": { "position": [1e9, 0.5e9, 2e9] } }"#;
-    assert_near(&lit(sun, wall, ball), &lit(far, wall, ball), 1e-6);
+    // The directions differ by 1e-9, and the colours by less than a step of f32.
+    assert_near(&lit(sun, wall, ball), &lit(far, wall, ball), STEP);
 }
 
 #[test]

@@ -1,16 +1,14 @@
 //! Pictures with known answers: glass, mirrors, light and shadow.
 //!
-//! Pictures are `f32`, so a sum of a few exact terms is off by at most 1e-6; where a tolerance is
-//! larger, the test says why.
+//! Colours are summed in `f64` and rounded once, to `f32`. Where a tolerance is larger than that, the test
+//! says why.
 
 use crate::studio;
 
+use fixtures::rounding::{HALF_STEP, STEP};
 use render::filter::Filter;
 use render::{Picture, Scene};
 use studio::{FILTERS, assert_near, at, on_film, picture, pixels, png, scene, supersampled};
-
-/// A few roundings to `f32` of colours up to 1.
-const ROUNDING: f32 = 1e-6;
 
 /// Surfaces that show only what is reflected or refracted.
 const CLEAR: &str = r#"
@@ -76,7 +74,7 @@ fn glass_of_index_1_in_a_light_is_invisible_up_to_rounding() {
     let wall = r#"{ "diffuse": 0.8 }"#;
     let ball = sphere([0.1, 0.05, 0.4], 0.3, "air");
     let without = picture(&before_checks(wall, ""), 96, Filter::Point);
-    assert_near(&picture(&before_checks(wall, &ball), 96, Filter::Point), &without, ROUNDING);
+    assert_near(&picture(&before_checks(wall, &ball), 96, Filter::Point), &without, STEP);
 }
 
 #[test]
@@ -120,7 +118,10 @@ fn a_wall_lit_from_straight_above_has_lamberts_colour() {
         let (color, ambient, light) = ([0.9, 0.6, 0.3], [0.1, 0.2, 0.3], [0.5, 1.0, 0.25]);
         for k in 0..3 {
             let truth = color[k] * (0.5 * ambient[k] + 0.8 * light[k] * cosine);
-            assert!((f64::from(pixel[k]) - truth).abs() < 1e-7, "{x} {y} {k}: {pixel:?} {truth}");
+            assert!(
+                (f64::from(pixel[k]) - truth).abs() < HALF_STEP,
+                "{x} {y} {k}: {pixel:?} {truth}"
+            );
         }
     }
 }
@@ -138,7 +139,7 @@ fn a_highlight_is_phongs() {
         let [a, b] = on_film(x, y, 32);
         let cosine_sq = 1.0 / (a * a + b * b + 1.0);
         let truth = 0.7 * (2.0 * cosine_sq - 1.0).max(0.0).powi(9);
-        assert!((f64::from(pixel[1]) - truth).abs() < 1e-7, "{x} {y}: {pixel:?} {truth}");
+        assert!((f64::from(pixel[1]) - truth).abs() < HALF_STEP, "{x} {y}: {pixel:?} {truth}");
     }
 }
 
@@ -166,7 +167,7 @@ fn assert_shadow(shown: &Picture, passed: f32) {
         let [a, b] = on_film(x, y, 48);
         let in_shadow = a.hypot(b) < 3.0 * 0.3f64.asin().tan();
         let truth = if in_shadow { 0.25 + passed * (free[0] - 0.25) } else { free[0] };
-        let tolerance = if in_shadow && passed > 0.0 { ROUNDING } else { 0.0 };
+        let tolerance = if in_shadow && passed > 0.0 { STEP } else { 0.0 };
         assert!((pixel[0] - truth).abs() <= tolerance, "at {x} {y}: {pixel:?}, expected {truth}");
     }
 }
@@ -187,7 +188,7 @@ fn a_transparent_mesh_dims_the_light_once_though_two_of_its_sheets_are_crossed()
     let (free, dimmed) = (shaded(""), shaded(sheets));
     for (free, dimmed) in free.pixels.iter().zip(&dimmed.pixels) {
         let truth = 0.25 + 0.375 * (free[0] - 0.25);
-        assert!((dimmed[0] - truth).abs() <= ROUNDING, "{dimmed:?}, expected {truth}");
+        assert!((dimmed[0] - truth).abs() <= STEP, "{dimmed:?}, expected {truth}");
     }
 }
 

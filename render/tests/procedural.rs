@@ -2,6 +2,7 @@
 
 use crate::studio;
 
+use fixtures::rounding::STEP;
 use image::{GrayImage, ImageFormat, Luma};
 use render::filter::Filter;
 use render::stats::Stats;
@@ -164,7 +165,7 @@ fn a_bump_of_no_strength_changes_nothing() {
     let plain = draw("");
     for relief in ["noise", "turbulence", "wall", "dnoise"] {
         let bump = format!(r#", "bump": {{ "{relief}": {{}}, "strength": 0 }}"#);
-        assert_near(&plain, &draw(&bump), 1e-6);
+        assert_near(&plain, &draw(&bump), STEP);
         let bump = format!(r#", "bump": {{ "{relief}": {{}}, "strength": 0.3 }}"#);
         assert!(plain.pixels != draw(&bump).pixels, "{relief}");
     }
@@ -181,7 +182,10 @@ fn a_bump_of_absurd_strength_leaves_finite_pixels() {
             "objects": [{{ "sphere": {{ "center": [0, 0, -1], "radius": 1, "material": "m" }} }}]"#
         );
         for (x, y, pixel) in pixels(&picture(&scene(&keys, &[]), 24, Filter::Tent)) {
-            assert!(pixel.iter().all(|c| (0.0..=1.0 + 1e-5).contains(c)), "{x} {y} {pixel:?}");
+            assert!(
+                pixel.iter().all(|c| (0.0..=1.0 + f32::EPSILON).contains(c)),
+                "{x} {y} {pixel:?}"
+            );
         }
     }
 }

@@ -3,6 +3,7 @@
 use crate::studio;
 
 use clap::ValueEnum;
+use fixtures::rounding::STEP;
 use render::accel::Structure;
 use render::film::{Pattern, PatternName, PixelFilter, Supersample};
 use render::filter::Filter;
@@ -98,7 +99,7 @@ fn nine_rays_see_a_wall_through_one_box_which_is_their_pixel() {
         for (k, pixel) in middles.pixels.iter_mut().enumerate() {
             *pixel = at(&large, 2 * (k as u32 % 20) + 1, 2 * (k as u32 / 20) + 1);
         }
-        assert_near(&rays, &middles, 1e-6);
+        assert_near(&rays, &middles, STEP);
         // The other way is smoother by far more than that.
         let image = exposed(&room(1.0, ""), 20, IMAGE, filter);
         let apart = pixels(&image).zip(&rays.pixels).map(|((.., a), b)| (a[0] - b[0]).abs());

@@ -3,6 +3,7 @@
 use crate::studio;
 
 use files::json::Document;
+use fixtures::rounding::HALF_STEP;
 use render::filter::Filter;
 use render::scene::file::SceneFile;
 use render::scene::{read, schema};
@@ -48,8 +49,7 @@ fn a_sky_is_what_its_stops_say_at_each_elevation() {
     for filter in FILTERS {
         let shown = picture(&scene(&format!(r#"{SKY} "objects": []"#), &[]), 33, filter);
         for (x, y, pixel) in pixels(&shown) {
-            // Pixels are kept as f32.
-            assert_pixel(pixel, sky(elevation(x, y, 33)), 1e-6);
+            assert_pixel(pixel, sky(elevation(x, y, 33)), HALF_STEP);
         }
     }
 }
@@ -63,7 +63,7 @@ fn a_level_mirror_shows_the_sky_upside_down() {
     );
     let shown = picture(&scene(&keys, &[]), 32, Filter::Tent);
     for (x, y, pixel) in pixels(&shown) {
-        assert_pixel(pixel, sky(elevation(x, y, 32).abs()), 1e-6);
+        assert_pixel(pixel, sky(elevation(x, y, 32).abs()), HALF_STEP);
     }
 }
 
@@ -79,7 +79,7 @@ fn a_pane_with_parallel_faces_shows_the_sky_in_its_place() {
         let truth = sky(elevation(x, y, 32)).map(|light| 0.9 * 0.9 * light);
         // Two refractions round the direction by a few units in the last place; the sky's steepest
         // slope is 0.6 in a degree.
-        assert_pixel(pixel, truth, 1e-6);
+        assert_pixel(pixel, truth, HALF_STEP);
     }
 }
 

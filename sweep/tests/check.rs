@@ -3,16 +3,17 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use files::json::Document;
+use fixtures::program;
 use serde_json::{Value, json};
-use std::io::Write;
-use std::process::{Command, Output, Stdio};
+use std::path::Path;
+use std::process::Output;
 use sweep::Object;
 use sweep::check::{self, Finding, Severity};
 use sweep::sampling::Survey;
 use sweep::spec::Resolution;
 
 fn read(document: &Document<'_>) -> Result<Object, sweep::SweepError> {
-    Object::read(document, std::path::Path::new(""), &files::Disk, &Resolution::default())
+    Object::read(document, Path::new(""), &files::Disk, &Resolution::default())
 }
 
 /// A ring with some keys of its own.
@@ -288,15 +289,8 @@ fn a_part_of_an_object_is_named_by_its_path() {
 
 /// Runs the program with a text on its standard input.
 fn run(arguments: &[&str], text: &str) -> Output {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_sweep"))
-        .args(arguments)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    let _ = child.stdin.take().unwrap().write_all(text.as_bytes());
-    child.wait_with_output().unwrap()
+    let program = env!("CARGO_BIN_EXE_sweep");
+    program::run(program.as_ref(), arguments, Path::new("."), text.as_bytes())
 }
 
 #[test]

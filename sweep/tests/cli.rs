@@ -2,6 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+use fixtures::program::{ending, run};
 use std::fs;
 use std::io::Write;
 use std::path::Path;
@@ -13,21 +14,7 @@ const PIPE: &str = r#"{"format": "tb-sweep", "version": 1, "name": "pipe",
 
 /// Runs the program with a text on its standard input.
 fn sweep(arguments: &[&str], text: &str) -> Output {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_sweep"))
-        .args(arguments)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    // The program may end without reading all of it.
-    let _ = child.stdin.take().unwrap().write_all(text.as_bytes());
-    child.wait_with_output().unwrap()
-}
-
-/// The run's exit code and standard error.
-fn ending(run: &Output) -> (Option<i32>, String) {
-    (run.status.code(), String::from_utf8_lossy(&run.stderr).into_owned())
+    run(env!("CARGO_BIN_EXE_sweep").as_ref(), arguments, Path::new("."), text.as_bytes())
 }
 
 #[test]

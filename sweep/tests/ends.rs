@@ -3,6 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use files::json::Document;
+use fixtures::rounding::{NORMAL, UNIT};
 use glam::DVec3;
 use serde_json::{Value, json};
 use sweep::{Sweep, SweepError};
@@ -32,7 +33,7 @@ fn round_caps_on_a_tube_are_half_spheres() {
         let axis = DVec3::Z * point.z.clamp(0.0, 2.0);
         let away = *point - axis;
         assert!((away.length() - 0.5).abs() < 1e-14, "{point}");
-        assert!((away * 2.0 - normal.as_dvec3()).length() < 1e-7, "{point} {normal}");
+        assert!((away * 2.0 - normal.as_dvec3()).length() < NORMAL, "{point} {normal}");
     }
     let (first, last) = (grid.positions[0], *grid.positions.last().unwrap());
     assert!((first - DVec3::new(0.0, 0.0, -0.5)).length() < 1e-14);
@@ -56,9 +57,9 @@ fn flat_caps_and_poles_have_the_normals_of_disks_and_cones() {
         );
         if point.z > 2.0 {
             let cone = (out * 1.2 + DVec3::Z * 0.5) / 1.3;
-            assert!((normal - cone).length() < 1e-7, "{point}: {normal}");
+            assert!((normal - cone).length() < NORMAL, "{point}: {normal}");
         } else if point.truncate().length() < 0.49 {
-            assert!((normal + DVec3::Z).length() < 1e-7 && point.z == 0.0, "{point}: {normal}");
+            assert!((normal + DVec3::Z).length() < NORMAL && point.z == 0.0, "{point}: {normal}");
         }
     }
     // The rims have the normals of both sides.
@@ -78,8 +79,8 @@ fn caps_stand_on_what_laws_have_made_of_the_contour() {
     // A quarter of a circle of length 2, and 0.3 straight on.
     let radius = 4.0 / std::f64::consts::PI;
     assert!((top - DVec3::new(radius + 0.3, 0.0, radius)).length() < 1e-12, "{top}");
-    assert!(grid.normals.iter().all(|n| (n.length() - 1.0).abs() < 1e-6));
-    assert!((grid.normals.last().unwrap().as_dvec3() - DVec3::X).length() < 1e-6);
+    assert!(grid.normals.iter().all(|n| (n.length() - 1.0).abs() < UNIT));
+    assert!((grid.normals.last().unwrap().as_dvec3() - DVec3::X).length() < NORMAL);
 }
 
 #[test]

@@ -120,7 +120,9 @@ fn corners_stay_where_they_are() {
         let corners: Vec<usize> = (0..angles.len()).filter(|&i| angles[i] > 0.1).collect();
         assert_eq!(corners.len(), 2, "{angles:?}");
         for (i, corner) in corners.into_iter().zip([[-1.0, 1.0], [-1.0, -1.0]]) {
-            assert!((angles[i] - std::f64::consts::FRAC_PI_2).abs() < 0.1, "{}", angles[i]);
+            // Either side of a corner is straight for a unit at least. A fit that is off by 0.005 half a unit
+            // from the corner has turned by 0.01 there.
+            assert!((angles[i] - std::f64::consts::FRAC_PI_2).abs() < 0.02, "{}", angles[i]);
             let off = fit.cubics[i].0[0].distance(DVec2::from_array(corner));
             assert!(off <= 2.0 * tolerance, "{off}");
         }
@@ -169,9 +171,7 @@ fn the_curve_grows_with_its_points() {
 #[test]
 fn a_hundred_thousand_points_are_no_trouble() {
     let points = rough(figure_eight(100_000), 0.004);
-    let start = std::time::Instant::now();
     let fit = near(&points, true, 0.01, 97);
-    println!("100,000: {} cubics, {:e}, {:?}", fit.cubics.len(), fit.reached, start.elapsed());
     assert!(fit.cubics.len() <= 40, "{}", fit.cubics.len());
     assert!(angles(&fit, true).iter().all(|&angle| angle < SMOOTH));
 }

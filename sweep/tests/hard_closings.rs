@@ -222,6 +222,7 @@ fn nearly_closed_trajectories_are_closed_below_a_millionth_of_their_size_and_ref
         {
             match read(&spec) {
                 Ok(sweep) => {
+                    // The limit is a millionth of the extent, which is between 1 and 10.
                     assert!(off < 1e-5, "{off:e}");
                     let torn = gap(&sweep) * f64::EPSILON;
                     assert!(torn <= off + 4.0 * f64::EPSILON, "{torn:e} at {off:e}");

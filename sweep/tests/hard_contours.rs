@@ -3,6 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use files::json::Document;
+use fixtures::rounding::{NORMAL, NORMALS, STEP, UNIT};
 use glam::{DVec2, DVec3};
 use serde_json::{Value, json};
 use std::f64::consts::{PI, TAU};
@@ -69,7 +70,7 @@ fn apart(a: &GridMesh, b: &GridMesh) -> f64 {
 
 fn sound(grid: &GridMesh) {
     assert!(grid.positions.iter().all(|p| p.is_finite()));
-    assert!(grid.normals.iter().all(|n| (n.length() - 1.0).abs() < 1e-6));
+    assert!(grid.normals.iter().all(|n| (n.length() - 1.0).abs() < UNIT));
 }
 
 #[test]
@@ -91,12 +92,14 @@ fn halfway_from_a_polygon_to_its_circle_lies_the_circle_nearly() {
     for from in [0.0, 0.5, 0.123] {
         let blended = grid(&between(&polygon(&ring(60, from)), &json!({"circle": 1})));
         let middle = area(&row(&blended, 10));
-        assert!((middle / PI - 1.0).abs() < 0.01, "{middle}");
-        // As drawn, opposed starts meet in the middle.
+        // A polygon of 60 sides is smaller than its circle by (2 pi / 60)^2 / 6.
+        assert!((middle / PI - 1.0).abs() < (2.0 * PI / 60.0).powi(2) / 6.0, "{middle}");
+        // As drawn, opposed starts meet in the middle, but for half the height of a side's arc.
         let mut wrung = between(&polygon(&ring(60, from)), &json!({"circle": 1}));
         wrung["align"] = json!(false);
         let middle = area(&row(&grid(&wrung), 10));
-        assert!(from != 0.5 || middle < 1e-3, "{middle}");
+        let off = 0.5 * (1.0 - (PI / 60.0).cos());
+        assert!(from != 0.5 || middle < PI * off * off, "{middle}");
     }
 }
 
@@ -123,7 +126,7 @@ fn sections_of_one_contour_are_that_contour() {
         let (plain, blended) = (grid(&one), grid(&sections));
         assert!(apart(&plain, &blended) <= 1e-15);
         let off = |(a, b): (&glam::Vec3, &glam::Vec3)| (*a - *b).length();
-        assert!(plain.normals.iter().zip(&blended.normals).map(off).fold(0.0, f32::max) < 1e-6);
+        assert!(plain.normals.iter().zip(&blended.normals).map(off).fold(0.0, f32::max) < NORMALS);
     }
 }
 
@@ -204,7 +207,7 @@ fn two_points_are_a_line_and_one_is_refused() {
     let drawn = grid(&line(json!([[0, 0], [3, 4]])));
     let length = swept(&line(json!([[0, 0], [3, 4]])), &json!({})).contour().length();
     assert!((length - 5.0).abs() < 1e-14);
-    assert!(drawn.normals.iter().all(|n| (n.x - 0.8).abs() < 1e-6 && (n.y + 0.6).abs() < 1e-6));
+    assert!(drawn.normals.iter().all(|n| (n.x - 0.8).abs() < STEP && (n.y + 0.6).abs() < STEP));
     for (points, message) in [
         (json!([[1, 1]]), "found 1, expected at least 2 points"),
         (json!([[1, 1], [1, 1]]), "found 1 that differ, expected at least 2 points"),
@@ -244,7 +247,7 @@ fn a_scale_through_zero_has_a_pole_inside_and_its_outside_stays_outside() {
             assert_eq!(grid.positions[at], DVec3::new(0.0, 0.0, 0.5));
         }
         let off = off_cone(&sweep, 2.0);
-        assert!(off < 1e-6, "{off:e}");
+        assert!(off < NORMAL, "{off:e}");
         // Rows run counter-clockwise on both sides.
         assert!(area(&row(&grid, 0)) > 12.0 && area(&row(&grid, grid.rows() - 1)) > 12.0);
     }
@@ -266,7 +269,9 @@ fn a_negative_scale_on_both_axes_is_half_a_turn() {
     let turned = swept(&contour, &json!({"twist": 180})).grid();
     let negative = swept(&contour, &json!({"scale": -1})).grid();
     assert!(apart(&turned, &negative) < 1e-15);
-    assert!(turned.normals.iter().zip(&negative.normals).all(|(a, b)| (*a - *b).length() < 1e-6));
+    assert!(
+        turned.normals.iter().zip(&negative.normals).all(|(a, b)| (*a - *b).length() < NORMALS)
+    );
 }
 
 #[test]
@@ -281,7 +286,7 @@ fn a_negative_scale_on_one_axis_mirrors_the_contour_and_keeps_its_outside() {
             assert!(apart(&mirrored, &drawn) < 1e-12);
             let off = |(a, b): (&glam::Vec3, &glam::Vec3)| (*a - *b).length();
             assert!(
-                mirrored.normals.iter().zip(&drawn.normals).map(off).fold(0.0, f32::max) < 1e-6
+                mirrored.normals.iter().zip(&drawn.normals).map(off).fold(0.0, f32::max) < NORMALS
             );
             assert!(area(&row(&mirrored, 0)) > 0.0);
         }
@@ -290,7 +295,7 @@ fn a_negative_scale_on_one_axis_mirrors_the_contour_and_keeps_its_outside() {
     let bend = json!({"polyline": {"points": [[0, 0], [1, 0], [1, 2]]}});
     let mirrored = swept(&bend, &json!({"scale": [1, -1]})).grid();
     assert_eq!(row(&mirrored, 0)[0], DVec2::new(1.0, -2.0));
-    assert!((mirrored.normals[0].x - 1.0).abs() < 1e-6);
+    assert!((mirrored.normals[0].x - 1.0).abs() < STEP);
 }
 
 #[test]

@@ -3,6 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use files::json::Document;
+use fixtures::rounding::UNIT;
 use glam::DVec3;
 use serde_json::{Value, json};
 use sweep::{Sweep, SweepError};
@@ -54,7 +55,7 @@ fn near_cusps_from_a_hundredth_to_a_billionth_of_a_thousandth_have_their_length_
                     assert!(error.abs() < 1e-9, "{gap:e}: {error:e}");
                     let grid = sweep.grid();
                     assert!(grid.positions.iter().all(|p| p.is_finite()));
-                    assert!(grid.normals.iter().all(|n| (n.length() - 1.0).abs() < 1e-6));
+                    assert!(grid.normals.iter().all(|n| (n.length() - 1.0).abs() < UNIT));
                 }
                 // Below what two control points differ by it is a cusp, and told.
                 Err(error) => {

@@ -111,6 +111,7 @@ fn a_hairpin_whose_radius_goes_to_nothing_is_swept_or_refused_in_bounded_work() 
                 assert!(finite(&sweep.grid()), "{gap:e}");
                 assert!(gap > 0.5 || sweep.folded_rows() > 0, "the fold is told");
             }
+            // Its bend is a billionth of its legs.
             Err(error) => assert!(gap < 1e-8, "{gap:e}: {error}"),
         }
         let bent = bezier([O, [4.0, 0.0, 0.0], [4.0, gap, 0.0], [0.0, gap, 0.0]]);
@@ -145,6 +146,7 @@ fn a_nearly_closed_bezier_is_closed_below_a_millionth_and_refused_above() {
         let spec = json!({"bezier": {"closed": true, "segments": [half, back]}});
         match read(&spec, &json!({})) {
             Ok(sweep) => {
+                // The limit is a millionth of the extent, which is between 1 and 10.
                 assert!(gap < 1e-5);
                 let (start, end) =
                     (sweep.trajectory().station(0.0), sweep.trajectory().station(1.0));

@@ -3,6 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use files::json::Document;
+use fixtures::rounding::{NORMAL, UNIT};
 use glam::DVec3;
 use proptest::prelude::*;
 use serde_json::{Value, json};
@@ -33,6 +34,12 @@ fn slope(f: impl Fn(f64) -> DVec3, h: f64) -> DVec3 {
 /// Steps of the differences: wide ones, that rounding does not reach, and narrow ones, that a sharp
 /// bend or a frame's fast turn does not. A normal that is off is off from all of them.
 const STEPS: [f64; 4] = [2e-3, 5e-4, 1e-4, 2e-5];
+
+/// The largest distance that the differences leave.
+///
+/// Positions of a few units are rounded to 1e-15, and over a step of 1e-4 a slope is off by 1e-11. Where
+/// `S_u x S_v` is a thousandth of its median, a normal is off by a thousand times that.
+const WORST: f64 = 1e-8;
 
 /// The largest distance of a unit normal from that of differences, of the best step at each place,
 /// over places where these have one: clear of `joints` in both directions, and `S_u x S_v` at least
@@ -207,7 +214,7 @@ proptest! {
         }
         let worst = worst_normal(&swept(&contour, &trajectory, &laws), &JOINTS);
         println!("{worst:.1e}");
-        prop_assert!(worst < 1e-8, "{worst:e}");
+        prop_assert!(worst < WORST, "{worst:e}");
     }
 }
 
@@ -222,7 +229,7 @@ fn normals_of_a_modulated_rotation_agree_with_differences() {
         });
         let worst = worst_normal(&swept(&contour, &json!({"rotation": {}}), &laws), &JOINTS);
         println!("{worst:.1e}");
-        assert!(worst < 1e-8, "{worst:e}");
+        assert!(worst < WORST, "{worst:e}");
     }
 }
 
@@ -243,7 +250,7 @@ fn normals_of_a_rotation_of_sections_agree_with_differences() {
         for laws in [laws, json!({})] {
             let worst = worst_normal(&swept(&contour, &json!({"rotation": {}}), &laws), &JOINTS);
             println!("{worst:.1e}");
-            assert!(worst < 1e-8, "{worst:e}");
+            assert!(worst < WORST, "{worst:e}");
         }
     }
 }
@@ -257,7 +264,7 @@ fn a_cone_has_a_normal_for_every_column_at_its_tip() {
             let turn = std::f64::consts::TAU * grid.u[i % 16];
             let axial = if tip == 0 { -3.0 } else { 3.0 };
             let expected = DVec3::new(4.0 * turn.cos(), 4.0 * turn.sin(), axial) / 5.0;
-            assert!((normal.as_dvec3() - expected).length() < 1e-6, "{normal} at {point}");
+            assert!((normal.as_dvec3() - expected).length() < NORMAL, "{normal} at {point}");
             if i / 16 == tip {
                 let corner = grid.positions[tip * 16];
                 assert_eq!(point.to_array().map(f64::to_bits), corner.to_array().map(f64::to_bits));
@@ -275,12 +282,12 @@ fn a_round_cap_ends_along_the_trajectory() {
             let laws = json!({"scale": scale, "twist": {"total": 90}});
             let sweep = swept(&json!({"circle": 0.2}), trajectory, &laws);
             let grid = sweep.grid();
-            assert!(grid.normals.iter().all(|n| (n.length() - 1.0).abs() < 1e-6));
+            assert!(grid.normals.iter().all(|n| (n.length() - 1.0).abs() < UNIT));
             let ends = [0.0, 1.0].map(|v| sweep.trajectory().station(v).frame.tangent);
             for (i, normal) in grid.normals.iter().enumerate() {
                 match i / 16 {
-                    0 => assert!((normal.as_dvec3() + ends[0]).length() < 1e-6),
-                    24 => assert!((normal.as_dvec3() - ends[1]).length() < 1e-6),
+                    0 => assert!((normal.as_dvec3() + ends[0]).length() < NORMAL),
+                    24 => assert!((normal.as_dvec3() - ends[1]).length() < NORMAL),
                     _ => {}
                 }
             }
@@ -297,7 +304,7 @@ fn a_contour_pressed_flat_has_finite_normals() {
                 assert!(closed || laws["scale"][0] == 0);
                 continue;
             };
-            assert!(sweep.grid().normals.iter().all(|n| (n.length() - 1.0).abs() < 1e-6));
+            assert!(sweep.grid().normals.iter().all(|n| (n.length() - 1.0).abs() < UNIT));
         }
     }
 }

@@ -3,6 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use files::json::Document;
+use fixtures::rounding::{NORMAL, UNIT};
 use glam::{DQuat, DVec2, DVec3};
 use proptest::prelude::*;
 use serde_json::{Value, json};
@@ -46,7 +47,7 @@ fn a_cylinder() {
         let (sin, cos) = (TAU * u).sin_cos();
         let outward = DVec3::new(cos, 0.0, -sin);
         assert!((position - DVec3::new(1.0, 5.0 * v, 0.0) - 2.0 * outward).length() < 1e-14);
-        assert!((normal - outward).length() < 1e-7);
+        assert!((normal - outward).length() < NORMAL);
     }
 }
 
@@ -63,7 +64,7 @@ fn a_torus() {
         let outward = radial * (TAU * u).cos() + DVec3::Y * (TAU * u).sin();
         let expected = DVec3::new(1.0, 2.0, 3.0) + radial * 2.0 + outward * 0.5;
         assert!((position - expected).length() < 1e-14);
-        assert!((normal - outward).length() < 1e-7);
+        assert!((normal - outward).length() < NORMAL);
     }
 }
 
@@ -75,6 +76,7 @@ fn a_half_circle_rotated_is_a_sphere_with_poles() {
     for (u, v, position, normal) in points(&grid) {
         let (sin, cos) = (PI * u).sin_cos();
         let expected = DVec3::new(sin * (TAU * v).cos(), -cos, sin * (TAU * v).sin());
+        // Arcs are drawn by cubics to a billionth of the radius.
         assert!((position - expected).length() < 1e-8);
         assert!((normal - position).length() < 1e-6, "{normal} at {position}");
     }
@@ -110,12 +112,12 @@ fn a_square_tube_has_flat_sides() {
     for (i, pair) in grid.u.windows(2).enumerate() {
         if pair[0] == pair[1] {
             assert_eq!(grid.positions[i], grid.positions[i + 1]);
-            assert!(grid.normals[i].dot(grid.normals[i + 1]).abs() < 1e-6);
+            assert!(grid.normals[i].dot(grid.normals[i + 1]).abs() < f32::EPSILON);
         }
     }
     for (_, _, position, normal) in points(&grid) {
-        assert!((normal.abs().max_element() - 1.0).abs() < 1e-7);
-        assert!((position.truncate().dot(normal.truncate()) - 1.0).abs() < 1e-7, "outward");
+        assert!((normal.abs().max_element() - 1.0).abs() < NORMAL);
+        assert!((position.truncate().dot(normal.truncate()) - 1.0).abs() < 2.0 * NORMAL, "outward");
     }
 }
 
@@ -176,7 +178,7 @@ fn turning_a_closed_contour_round_changes_nothing() {
     let (clockwise, counter) = (tube("M0 0C-2 -2 2 -3 1 -1Z"), tube("M0 0L1 -1C2 -3 -2 -2 0 0Z"));
     for (a, b) in points(&clockwise).zip(points(&counter)) {
         assert!((a.2 - b.2).length() < 1e-12);
-        assert!((a.3 - b.3).length() < 1e-6);
+        assert!((a.3 - b.3).length() < 2.0 * NORMAL);
     }
 }
 
@@ -191,7 +193,7 @@ fn a_rotation_from_axis_to_axis_faces_outward_however_it_is_drawn() {
             |svg: &str| grid(&json!({"svg": svg}), &json!({"rotation": {"angle_deg": 270}}));
         for (a, b) in points(&swept(up)).zip(points(&swept(down))) {
             assert!((a.2 - b.2).length() < 1e-12, "{up}");
-            assert!((a.3 - b.3).length() < 1e-6, "{up}");
+            assert!((a.3 - b.3).length() < 2.0 * NORMAL, "{up}");
         }
     }
     // From the axis to a rim there is no inside, and the direction decides.
@@ -207,7 +209,7 @@ fn handles_of_no_length_change_nothing_but_the_parameter() {
     let slow = grid(&json!({"circle": 1}), &json!({"bezier": {"segments": [[a, a, b, b]]}}));
     for (a, b) in points(&line).zip(points(&slow)) {
         assert!((a.2 - b.2).length() < 1e-12);
-        assert!((a.3 - b.3).length() < 1e-6);
+        assert!((a.3 - b.3).length() < 2.0 * NORMAL);
     }
 }
 
@@ -263,7 +265,7 @@ fn every_example_is_a_spec() {
                 assert_eq!(sweep.contour().creases(), 1, "only the inner edge of the foot");
                 let heights = || sweep.grid().positions.into_iter().map(|p| p.y);
                 assert_eq!(heights().fold(f64::INFINITY, f64::min), 0.0);
-                assert!((heights().fold(0.0, f64::max) - 2.0).abs() < 1e-3);
+                assert!((heights().fold(0.0, f64::max) - 2.0).abs() < 1e-12);
             }
         }
         seen += 1;
@@ -276,7 +278,7 @@ fn sound(grid: &GridMesh) {
     assert_eq!(grid.positions.len(), grid.rows() * grid.cols());
     assert_eq!(grid.normals.len(), grid.positions.len());
     assert!(grid.positions.iter().all(|p| p.is_finite()));
-    assert!(grid.normals.iter().all(|n| (n.length() - 1.0).abs() < 1e-6));
+    assert!(grid.normals.iter().all(|n| (n.length() - 1.0).abs() < UNIT));
     for places in [&grid.u, &grid.v] {
         assert_eq!(places[0], 0.0);
         assert!(places.windows(2).all(|pair| pair[0] <= pair[1]));

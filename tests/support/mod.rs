@@ -1,7 +1,9 @@
-//! What the tests of the whole road share: where the programs are, and how they are run.
+//! What the tests across crates share: where the programs are, and how they are run.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+
+pub use fixtures::program::said;
 
 /// The root of the project.
 pub fn root() -> PathBuf {
@@ -20,16 +22,31 @@ pub fn programs() -> PathBuf {
     folder.to_path_buf()
 }
 
-/// Runs a program of ours in `folder`.
+/// Runs one of the four programs in `folder`, with nothing on standard input.
 pub fn run(program: &str, arguments: &[&str], folder: &Path) -> Output {
-    Command::new(programs().join(program))
-        .args(arguments)
-        .current_dir(folder)
-        .output()
-        .expect("the program starts")
+    fixtures::program::run(&programs().join(program), arguments, folder, b"")
 }
 
-/// What a program said on standard error.
-pub fn words(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
+/// Runs a line of the shell in `folder`, with our programs on the path. The shell stays the parent of the
+/// programs, as an interactive one does.
+#[cfg(unix)]
+pub fn shell(line: &str, folder: &Path) -> Output {
+    let old = std::env::var_os("PATH").unwrap_or_default();
+    let folders = [programs()].into_iter().chain(std::env::split_paths(&old));
+    Command::new("sh")
+        .args(["-c", &format!("{line}\nexit $?")])
+        .env("PATH", std::env::join_paths(folders).expect("no folder's name has a colon"))
+        .current_dir(folder)
+        .output()
+        .expect("the shell starts")
+}
+
+/// As [`shell`], in a folder where `examples` leads to the examples.
+#[cfg(unix)]
+pub fn shell_beside_examples(line: &str, folder: &Path) -> Output {
+    let link = folder.join("examples");
+    if !link.exists() {
+        std::os::unix::fs::symlink(root().join("examples"), link).expect("a link is made");
+    }
+    shell(line, folder)
 }

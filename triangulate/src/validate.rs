@@ -114,6 +114,7 @@ impl Complaints {
 
 #[cfg(test)]
 mod tests {
+    use super::UNIT;
     use crate::{TriMesh, Triangle};
 
     /// Two triangles of a square.
@@ -128,9 +129,56 @@ mod tests {
         }
     }
 
+    /// The mesh with positions in general position and these triangles.
+    fn faces(faces: &[[u32; 3]]) -> TriMesh {
+        let triangle = |&corners| Triangle { position: corners, uv: [0; 3], normal: [0; 3] };
+        let count = faces.iter().flatten().max().map_or(0, |most| most + 1);
+        // A curve no four points of which lie in a plane.
+        let point = |k: u32| [k as f32, (k * k) as f32, (k * k * k) as f32];
+        TriMesh {
+            positions: (0..count).map(point).collect(),
+            uvs: vec![[0.0, 0.0]],
+            normals: vec![[0.0, 0.0, 1.0]],
+            triangles: faces.iter().map(triangle).collect(),
+            ..TriMesh::default()
+        }
+    }
+
     #[test]
-    fn a_sound_mesh_has_no_complaints() {
-        assert_eq!(square().validate(), Vec::<String>::new());
+    fn sound_meshes_at_the_limits_of_each_check_have_no_complaints() {
+        let mut repeated = square();
+        repeated.uvs[2] = [7.5, -3.0];
+        let mut rounded = square();
+        rounded.normals[0] = [0.0, 0.0, 1.0 - 0.9 * UNIT];
+        let mut unused = square();
+        unused.positions.push([9.0; 3]);
+        let mut narrow = square();
+        narrow.positions[1] = [0.5, 0.5 - f32::EPSILON, 0.0];
+        let closed = faces(&[[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]);
+        // Two tetrahedra with one vertex in common.
+        let pinched = faces(&[
+            [0, 2, 1],
+            [0, 1, 3],
+            [0, 3, 2],
+            [1, 2, 3],
+            [0, 5, 4],
+            [0, 4, 6],
+            [0, 6, 5],
+            [4, 5, 6],
+        ]);
+        let sound =
+            [TriMesh::default(), square(), repeated, rounded, unused, narrow, closed, pinched];
+        for mesh in sound {
+            assert_eq!(mesh.validate(), Vec::<String>::new(), "{mesh:?}");
+        }
+    }
+
+    #[test]
+    fn a_surface_with_one_side_has_an_edge_that_is_followed_twice() {
+        // A Moebius band of five triangles: each has an edge in common with the next.
+        let band = faces(&[[0, 1, 2], [1, 3, 2], [2, 3, 4], [3, 0, 4], [4, 0, 1]]);
+        let complaints = band.validate();
+        assert_eq!(complaints, ["found the edge from 0 to 1 twice, expected it once"]);
     }
 
     #[test]

@@ -4,12 +4,13 @@
 
 use crate::shapes;
 
+use fixtures::program;
 use glam::DVec3;
 use proptest::prelude::*;
 use shapes::{grid_of, sphere, torus};
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
 use sweep::GridMesh;
 use sweep::grid::file::{Encoding, GridReader, write};
 use sweep::grid::{Across, Area, Seam, UvLayout};
@@ -174,8 +175,7 @@ fn an_area_that_is_not_on_the_grid_is_refused() {
 }
 
 fn run(arguments: &[&str], folder: &Path) -> Output {
-    let program = env!("CARGO_BIN_EXE_triangulate");
-    Command::new(program).args(arguments).current_dir(folder).output().unwrap()
+    program::run(env!("CARGO_BIN_EXE_triangulate").as_ref(), arguments, folder, b"")
 }
 
 #[test]

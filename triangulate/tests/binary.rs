@@ -4,6 +4,7 @@
 
 use crate::shapes;
 
+use fixtures::rounding::NORMAL;
 use glam::DVec3;
 use shapes::{cylinder, sphere, torus};
 use std::collections::HashSet;
@@ -129,7 +130,7 @@ fn an_stl_has_the_volume_of_its_shape_and_unit_normals_that_face_out() {
         for (normal, corners) in facets {
             let [n, a, b, c] = [normal, corners[0], corners[1], corners[2]]
                 .map(|point| DVec3::from(point.map(f64::from)));
-            assert!((n.length() - 1.0).abs() < 1e-6);
+            assert!((n.length() - 1.0).abs() < NORMAL);
             assert!((b - a).cross(c - a).normalize().dot(n) > 1.0 - 1e-6);
         }
     }

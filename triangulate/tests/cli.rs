@@ -3,9 +3,9 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use files::json::Document;
+use fixtures::program::{run, said};
 use glam::{DVec3, Vec3};
 use std::fs;
-use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use sweep::grid::file::{Encoding, write};
@@ -39,25 +39,7 @@ fn sheet_at(corner: DVec3, rows: usize, cols: usize) -> Vec<u8> {
 }
 
 fn triangulate(arguments: &[&str], input: &[u8], folder: &Path) -> Output {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_triangulate"))
-        .args(arguments)
-        .current_dir(folder)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    let mut stdin = child.stdin.take().unwrap();
-    let input = input.to_vec();
-    // The program may end before it has read everything.
-    let feed = std::thread::spawn(move || drop(stdin.write_all(&input)));
-    let output = child.wait_with_output().unwrap();
-    feed.join().unwrap();
-    output
-}
-
-fn said(output: &Output) -> String {
-    String::from_utf8(output.stderr.clone()).unwrap()
+    run(env!("CARGO_BIN_EXE_triangulate").as_ref(), arguments, folder, input)
 }
 
 #[test]

@@ -5,8 +5,7 @@
 use std::fs;
 use std::os::unix::process::ExitStatusExt;
 use std::process::{Command, Stdio};
-use std::thread::sleep;
-use std::time::Duration;
+use std::thread::yield_now;
 
 #[test]
 fn ctrl_c_removes_the_temporary_file_and_leaves_the_old_one() {
@@ -28,10 +27,9 @@ fn ctrl_c_removes_the_temporary_file_and_leaves_the_old_one() {
         // Waiting would close it, and the end of an empty grid would race the signal.
         let _stdin = child.stdin.take();
         // It opens its output, and waits for a grid that does not come.
-        let mut patience = 500;
-        while !names().iter().any(|name| name.ends_with(".part")) && patience > 0 {
-            sleep(Duration::from_millis(10));
-            patience -= 1;
+        while !names().iter().any(|name| name.ends_with(".part")) {
+            assert!(child.try_wait().unwrap().is_none(), "the program waits for a grid");
+            yield_now();
         }
         assert_eq!(names().len(), 2, "{:?}", names());
         let kill = Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap();

@@ -4,10 +4,11 @@
 
 use crate::shapes;
 
+use fixtures::program::{self, said};
 use shapes::{cylinder, sphere, torus};
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
 use sweep::GridMesh;
 use sweep::grid::file::{Encoding, GridReader, write_all};
 use sweep::grid::{Fold, Tolerance};
@@ -27,12 +28,7 @@ fn file_of(grids: &[GridMesh]) -> Vec<u8> {
 }
 
 fn run(arguments: &[&str], folder: &Path) -> Output {
-    let program = env!("CARGO_BIN_EXE_triangulate");
-    Command::new(program).args(arguments).current_dir(folder).output().unwrap()
-}
-
-fn said(output: &Output) -> String {
-    String::from_utf8(output.stderr.clone()).unwrap()
+    program::run(env!("CARGO_BIN_EXE_triangulate").as_ref(), arguments, folder, b"")
 }
 
 /// Corners of a triangle by what they are, whatever their numbers.

@@ -2,33 +2,17 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+use crate::made;
 use crate::shapes;
 
 use glam::DVec3;
+use made::{made, walked_twice};
 use shapes::{grid_of, klein_bottle, moebius_band, torus};
 use std::collections::HashMap;
 use std::f64::consts::{PI, TAU};
 use sweep::GridMesh;
 use sweep::grid::Seam;
-use sweep::grid::file::{Encoding, GridReader, write};
-use triangulate::{Counts, MeshReport, Options, Patches, TriMesh};
-
-/// The mesh as it comes out of a file, and what is said of it.
-fn made(grid: &GridMesh) -> (TriMesh, Counts, MeshReport) {
-    let mut file = Vec::new();
-    write(grid, Encoding::Json, &mut file).unwrap();
-    let mut reader = GridReader::open("a", file.as_slice()).unwrap();
-    let (mesh, counts) = reader.run(&Options::default(), TriMesh::default()).unwrap();
-    let report = MeshReport::of(&mesh, &counts);
-    (mesh, counts, report)
-}
-
-/// Edges that two triangles walk the same way.
-fn walked_twice(mesh: &TriMesh) -> usize {
-    let mut edges = mesh.directed_edges();
-    edges.sort_unstable();
-    edges.windows(2).filter(|pair| pair[0] == pair[1]).count()
-}
+use triangulate::TriMesh;
 
 /// Positions with more than one normal, as pairs of what they have.
 fn two_sided(mesh: &TriMesh) -> Vec<[DVec3; 2]> {

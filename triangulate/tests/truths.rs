@@ -4,6 +4,7 @@
 
 use crate::shapes;
 
+use fixtures::rounding::UNIT;
 use glam::DVec3;
 use shapes::{cylinder, grid_of, sphere, torus};
 use std::f64::consts::{PI, TAU};
@@ -64,7 +65,9 @@ fn a_torus_is_closed_and_has_one_hole() {
     assert_eq!((mesh.positions.len(), mesh.uvs.len(), mesh.triangles.len()), (2400, 2501, 4800));
     assert_eq!((euler(&mesh), rim(&mesh)), (0, 0));
     let truth = 2.0 * PI * PI * 3.0;
-    assert!((volume(&mesh) / truth - 1.0).abs() < 0.01, "{} against {truth}", volume(&mesh));
+    // Chords of a circle cut in n lose (2 pi / n)^2 / 6 of its area: 0.18 % around the axis, 0.41 % around the
+    // tube.
+    assert!((volume(&mesh) / truth - 1.0).abs() < 0.006, "{} against {truth}", volume(&mesh));
     assert!(worst_normal(&mesh) > 0.99);
 }
 
@@ -75,7 +78,8 @@ fn a_sphere_is_closed_and_each_pole_is_one_vertex() {
     assert_eq!(mesh.positions.len(), rows * (cols - 2) + 2);
     assert_eq!(mesh.triangles.len(), rows * (2 * (cols - 1) - 2));
     assert_eq!((euler(&mesh), rim(&mesh)), (2, 0));
-    assert!((volume(&mesh) / (4.0 / 3.0 * PI) - 1.0).abs() < 0.01);
+    // Chords of 7.5 degrees lose 0.29 % around the axis and 0.43 % from pole to pole.
+    assert!((volume(&mesh) / (4.0 / 3.0 * PI) - 1.0).abs() < 0.0072);
     assert!(worst_normal(&mesh) > 0.99);
     // Columns without poles, with v = 1; and a half cell for each row at each pole.
     assert_eq!(mesh.uvs.len(), (rows + 1) * (cols - 2) + 2 * rows);
@@ -138,16 +142,17 @@ fn a_cylinder_has_two_rims_and_its_picture_goes_once_around() {
     // The normals of a column are all the same, so they are told once.
     assert_eq!(mesh.normals.len(), 32);
     for [x, y, _] in &mesh.positions {
-        assert!((x.hypot(*y) - 1.0).abs() < 1e-6);
+        assert!((x.hypot(*y) - 1.0).abs() < UNIT);
     }
     let area: f64 = corners(&mesh).map(|[a, b, c]| (b - a).cross(c - a).length() / 2.0).sum();
     let truth = 2.0 * 32.0 * 2.0 * (PI / 32.0).sin();
-    assert!((area / truth - 1.0).abs() < 1e-6, "{area} against {truth}");
+    // Rounding moves the ends of a side of 0.196 by 3e-8 in each direction.
+    assert!((area / truth - 1.0).abs() < 5e-7, "{area} against {truth}");
     // No triangle spans more than one cell of the picture, at the seam either.
     for triangle in &mesh.triangles {
         let s = triangle.uv.map(|i| mesh.uvs[i as usize][0]);
         let width = s.iter().fold(0.0, |w: f32, a| s.iter().fold(w, |w, b| w.max(a - b)));
-        assert!((width - 1.0 / 32.0).abs() < 1e-6, "{width}");
+        assert_eq!(width, 1.0 / 32.0);
     }
 }
 

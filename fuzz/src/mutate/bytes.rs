@@ -54,7 +54,7 @@ pub fn mutate(bytes: &mut Vec<u8>, dice: &mut Dice, other: &[u8]) {
     let at = dice.below(bytes.len());
     match dice.below(12) {
         0..3 if !bytes.is_empty() => bytes[at] ^= 1 << dice.below(8),
-        3 if !bytes.is_empty() => bytes[at] = dice.next() as u8,
+        3 if !bytes.is_empty() => bytes[at] = dice.bits() as u8,
         4 if !bytes.is_empty() => bytes[at] = bytes[at].wrapping_add(1),
         5..7 => integer(bytes, at, dice),
         7 => double(bytes, at, dice),
@@ -118,7 +118,7 @@ mod tests {
         let whole: Vec<u8> = (0..100).collect();
         let mut changed = 0;
         for case in 0..500 {
-            let mut dice = Dice::of_case(1, "bytes", case);
+            let mut dice = crate::dice::of_case(1, "bytes", case);
             let mut bytes = whole.clone();
             mutate(&mut bytes, &mut dice, &whole);
             changed += usize::from(bytes != whole);

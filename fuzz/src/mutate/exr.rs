@@ -78,7 +78,7 @@ fn value(file: &mut [u8], place: &Range<usize>, dice: &mut Dice) {
         6 => 1 << dice.below(31),
         7 => i32::MIN,
         8 => i32::MAX,
-        _ => dice.next() as i32,
+        _ => dice.bits() as i32,
     };
     file[at..at + 4].copy_from_slice(&new.to_le_bytes());
 }

@@ -6,6 +6,7 @@
 
 use super::text;
 use crate::dice::Dice;
+use fixtures::tree::{count, nth};
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 
@@ -136,14 +137,12 @@ pub fn mutate(document: &mut Value, dice: &mut Dice, index: &Index) {
     let mut at = dice.below(total);
     // Most often a number, which is the mildest to change.
     for _ in 0..dice.below(6) {
-        let mut key = String::new();
-        if nth(document, at, &mut key).is_number() {
+        if nth(document, at).0.is_number() {
             break;
         }
         at = dice.below(total);
     }
-    let mut key = String::new();
-    let place = nth(document, at, &mut key);
+    let (place, key) = nth(document, at);
     if dice.once_in(4)
         && let Some(other) = index.like(&key, dice)
     {
@@ -262,65 +261,9 @@ fn keys(object: &mut Map<String, Value>, above: &str, dice: &mut Dice, index: &I
     }
 }
 
-/// The number of values in a value, itself counted.
-fn count(value: &Value) -> usize {
-    match value {
-        Value::Array(list) => 1 + list.iter().map(count).sum::<usize>(),
-        Value::Object(object) => 1 + object.values().map(count).sum::<usize>(),
-        _ => 1,
-    }
-}
-
-/// The value of a number in the order of reading. `key` becomes the key under which it stands, with
-/// `[]` behind it in an array.
-fn nth<'a>(value: &'a mut Value, n: usize, key: &mut String) -> &'a mut Value {
-    if n == 0 {
-        return value;
-    }
-    let mut left = n - 1;
-    match value {
-        Value::Array(list) => {
-            key.push_str("[]");
-            for inner in list {
-                let size = count(inner);
-                if left < size {
-                    return nth(inner, left, key);
-                }
-                left -= size;
-            }
-        }
-        Value::Object(object) => {
-            for (name, inner) in object {
-                let size = count(inner);
-                if left < size {
-                    key.clone_from(name);
-                    return nth(inner, left, key);
-                }
-                left -= size;
-            }
-        }
-        _ => {}
-    }
-    unreachable!("fewer values than were counted")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn values_are_found_with_the_keys_above_them() {
-        let mut value = json!({"a": [1, [2]], "b": {"c": 3}});
-        assert_eq!(count(&value), 7);
-        let mut found = Vec::new();
-        for n in 0..7 {
-            let mut key = String::new();
-            let place = nth(&mut value, n, &mut key).clone();
-            found.push((key, place));
-        }
-        assert_eq!(found[4], ("a[][]".into(), json!(2)));
-        assert_eq!(found[6], ("c".into(), json!(3)));
-    }
 
     #[test]
     fn most_mutations_change_the_document() {
@@ -329,7 +272,7 @@ mod tests {
         let mut changed = 0;
         for case in 0..300 {
             let mut value = seed.clone();
-            mutate(&mut value, &mut Dice::of_case(0, "json", case), &index);
+            mutate(&mut value, &mut crate::dice::of_case(0, "json", case), &index);
             changed += usize::from(value != seed);
         }
         assert!(changed > 150, "{changed}");

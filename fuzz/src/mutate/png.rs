@@ -45,7 +45,7 @@ fn change(chunks: &mut Vec<Chunk>, dice: &mut Dice, others: &[Chunk]) {
         10 => chunks.swap(a, b),
         _ => {
             let name = **dice.one(&NAMES);
-            let data: Vec<u8> = (0..dice.below(40)).map(|_| dice.next() as u8).collect();
+            let data: Vec<u8> = (0..dice.below(40)).map(|_| dice.bits() as u8).collect();
             chunks.insert(b, Chunk::new(&name, data));
         }
     }
@@ -71,7 +71,7 @@ fn header(data: &mut [u8], dice: &mut Dice) {
     match dice.below(6) {
         side @ 0..2 => {
             let value = match dice.below(12) {
-                0 => dice.next() as u32,
+                0 => dice.bits() as u32,
                 1 => 1 << dice.below(32),
                 2 => 0,
                 _ => 1 + dice.below(12) as u32,
@@ -81,7 +81,7 @@ fn header(data: &mut [u8], dice: &mut Dice) {
         2 => data[8] = *dice.one(&[1, 2, 4, 8, 16]),
         3 => data[9] = *dice.one(&[0, 2, 3, 4, 6]),
         4 => data[12] = 1 - data[12].min(1),
-        _ => data[8 + dice.below(5)] = dice.next() as u8,
+        _ => data[8 + dice.below(5)] = dice.bits() as u8,
     }
 }
 
@@ -93,7 +93,7 @@ mod tests {
     fn most_changed_pictures_keep_their_checksums() {
         let seeds = png::seeds();
         let right = (0..200).filter(|&case| {
-            let mut dice = Dice::of_case(2, "png", case);
+            let mut dice = crate::dice::of_case(2, "png", case);
             let seed = &seeds[dice.below(seeds.len())];
             let file = mutated(seed, &mut dice, &seeds[0]);
             png::file(&png::chunks(&file)) == file

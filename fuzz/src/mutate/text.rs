@@ -161,7 +161,7 @@ mod tests {
         let words: Vec<&[u8]> = found.into_iter().map(|range| &text[range]).collect();
         assert_eq!(words, [&b"1"[..], b"-2.5e3", b"7", b"8"]);
         let mut changed = b"v 5".to_vec();
-        number(&mut changed, &mut Dice::of_case(0, "", 3));
+        number(&mut changed, &mut crate::dice::of_case(0, "", 3));
         assert!(changed.starts_with(b"v ") && changed != b"v 5");
     }
 }

@@ -14,7 +14,7 @@ pub mod spec;
 pub mod trap;
 pub mod words;
 
-use crate::dice::Dice;
+use crate::dice;
 use crate::seeds::{Corpus, SeedError};
 use crate::verdict::Tried;
 use seeds::Seeds;
@@ -159,7 +159,7 @@ impl Bench {
     /// The input of a case. It depends on the seed, the reader and the case alone.
     #[must_use]
     pub fn input(&self, reader: Reader, seed: u64, case: u64) -> Vec<u8> {
-        let mut dice = Dice::of_case(seed, reader.name(), case);
+        let mut dice = dice::of_case(seed, reader.name(), case);
         self.seeds[&reader].input(&mut dice)
     }
 

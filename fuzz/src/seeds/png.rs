@@ -1,6 +1,6 @@
 //! PNG files of every kind, written without compression so that mutations reach their rows.
 
-use crate::dice::Dice;
+use crate::dice::{Dice, of_case};
 
 /// The first eight bytes of every PNG file.
 pub const SIGNATURE: [u8; 8] = [0x89, b'P', b'N', b'G', b'\r', b'\n', 0x1a, b'\n'];
@@ -98,7 +98,7 @@ pub fn seeds() -> Vec<Vec<u8>> {
         (6, 8),
         (6, 16),
     ];
-    let mut dice = Dice::of_case(0, "png seeds", 0);
+    let mut dice = of_case(0, "png seeds", 0);
     let mut seeds = Vec::new();
     for (color, depth) in kinds {
         for interlace in [0, 1] {
@@ -116,7 +116,7 @@ fn seed(color: u8, depth: u8, interlace: u8, dice: &mut Dice) -> Vec<u8> {
         chunks.push(Chunk::new(b"gAMA", 45455_u32.to_be_bytes()));
     }
     if color == 3 {
-        let palette: Vec<u8> = (0..3 << depth.min(4)).map(|_| dice.next() as u8).collect();
+        let palette: Vec<u8> = (0..3 << depth.min(4)).map(|_| dice.bits() as u8).collect();
         chunks.push(Chunk::new(b"PLTE", palette));
         chunks.push(Chunk::new(b"tRNS", [255, 255]));
     }
@@ -140,8 +140,8 @@ fn seed(color: u8, depth: u8, interlace: u8, dice: &mut Dice) -> Vec<u8> {
         let bytes = (width * channels * u32::from(depth)).div_ceil(8);
         for _ in 0..if width == 0 { 0 } else { height } {
             rows.push(dice.below(5) as u8);
-            let index = |dice: &mut Dice| (dice.next() % u64::from(most_index)) as u8;
-            let grey = dice.next() as u8;
+            let index = |dice: &mut Dice| (dice.bits() % u64::from(most_index)) as u8;
+            let grey = dice.bits() as u8;
             rows.extend((0..bytes).map(|_| if color == 3 { index(dice) } else { grey }));
         }
     }

@@ -101,31 +101,13 @@ mod tests {
         let colors = image::load_from_memory(&bytes).unwrap().to_rgb32f();
         let pixels: Vec<[f32; 3]> = colors.pixels().map(|pixel| pixel.0).collect();
         assert_eq!(pixels, picture.pixels, "readers that know no layers see the colour");
-        for (name, values) in read_channels(&bytes) {
+        for (name, values) in fixtures::exr::channels(&bytes) {
             let Some(channel) = picture.channels.iter().find(|channel| channel.name == name) else {
                 assert!(["R", "G", "B"].contains(&name.as_str()), "{name}");
                 continue;
             };
             assert_eq!(values, channel.values, "{name}");
         }
-    }
-
-    /// Reads the channels of an EXR file, each with its name.
-    fn read_channels(bytes: &[u8]) -> Vec<(String, Vec<f32>)> {
-        use exr::prelude::{ReadChannels, ReadLayers, read};
-        let image = read()
-            .no_deep_data()
-            .largest_resolution_level()
-            .all_channels()
-            .first_valid_layer()
-            .all_attributes()
-            .from_buffered(Cursor::new(bytes))
-            .unwrap();
-        let channels = image.layer_data.channel_data.list;
-        let named = |channel: &AnyChannel<FlatSamples>| {
-            (channel.name.to_string(), channel.sample_data.values_as_f32().collect())
-        };
-        channels.iter().map(named).collect()
     }
 
     fn small() -> Picture {

@@ -3,10 +3,12 @@
 #![allow(dead_code, reason = "each test module uses its part of the bench")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+use fixtures::program;
+pub use fixtures::program::ending;
 use image::{DynamicImage, ImageFormat, RgbImage};
 use std::collections::BTreeSet;
 use std::fs;
-use std::io::{Cursor, Write};
+use std::io::Cursor;
 use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
 use tempfile::TempDir;
@@ -92,10 +94,7 @@ impl Bench {
 
     /// Runs the program with bytes on its standard input.
     pub fn run(&self, arguments: &[&str], input: &[u8]) -> Output {
-        let mut child = self.command(arguments).spawn().unwrap();
-        // The program may end without reading all of it.
-        let _ = child.stdin.take().unwrap().write_all(input);
-        child.wait_with_output().unwrap()
+        program::run(env!("CARGO_BIN_EXE_render").as_ref(), arguments, self.folder.path(), input)
     }
 
     /// Runs the program, which must do its work without a word.
@@ -124,11 +123,6 @@ impl Bench {
         assert_eq!(self.read("out.png"), b"old", "{arguments:?}");
         assert_eq!(self.names(), before, "{arguments:?}");
     }
-}
-
-/// The run's exit code and standard error.
-pub fn ending(run: &Output) -> (Option<i32>, String) {
-    (run.status.code(), String::from_utf8(run.stderr.clone()).unwrap())
 }
 
 /// A picture as the bytes of a file.

@@ -1,6 +1,6 @@
 //! Triangles and hits, from easy to hard.
 
-use super::dice::Dice;
+use super::dice::{Dice, Directions};
 use super::{Sample, doubles};
 use glam::DVec3;
 
@@ -14,7 +14,7 @@ pub struct Class {
 impl Class {
     /// So many of its samples, the same every time.
     pub fn samples(&self, count: usize) -> Vec<Sample> {
-        let mut dice = Dice(0);
+        let mut dice = Dice::new(0);
         (0..count).map(|_| (self.make)(&mut dice)).collect()
     }
 }
@@ -123,12 +123,12 @@ fn well(dice: &mut Dice) -> Corners {
     }
 }
 
-fn nudged(dice: &mut Dice, x: f32, ulps: u64) -> f32 {
+fn nudged(dice: &mut Dice, x: f32, ulps: usize) -> f32 {
     (0..dice.below(ulps + 1)).fold(x, |x, _| x.next_up())
 }
 
 /// In a coordinate plane, or up to some ulps off.
-fn flat(dice: &mut Dice, axis: usize, ulps: u64) -> Corners {
+fn flat(dice: &mut Dice, axis: usize, ulps: usize) -> Corners {
     let level = dice.between(-1.0, 1.0) as f32;
     loop {
         let mut corners = well(dice);
@@ -143,7 +143,7 @@ fn flat(dice: &mut Dice, axis: usize, ulps: u64) -> Corners {
 }
 
 /// In the plane y = x/2, which stands upright on the x-y plane, or up to some ulps off.
-fn upright(dice: &mut Dice, ulps: u64) -> Corners {
+fn upright(dice: &mut Dice, ulps: usize) -> Corners {
     loop {
         let mut corners = well(dice);
         for corner in &mut corners {
