@@ -231,7 +231,7 @@ fn triangles_and_normals_that_cannot_be_meant_are_counted() {
         (
             "v 9e6 0 0\nv 9000001 0 0\nv 9e6 1 0\nv 9e6 0 1\nf 1 2 3\nf 1 2 4\n".into(),
             4,
-            "move it nearer",
+            "move the mesh nearer",
         ),
     ] {
         let (found, said) = check(&obj);

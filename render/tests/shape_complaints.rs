@@ -106,7 +106,7 @@ fn meshes_that_are_placed_beyond_their_numbers_are_refused() {
     let bench = Bench::with_scene(&scene("{ \"scale\": [1e39, 1e39, 1e39] }"));
     bench.write("wall.obj", WALL_OBJ);
     let parts =
-        ["scene.json:5:", "objects[0].mesh.place: found vertex 0 moved to where single precision"];
+        ["scene.json:5:", "objects[0].mesh.place: found vertex 0 moved beyond the range of single"];
     bench.refuse(&["scene.json", "--mesh", "wall=wall.obj"], b"", 3, &parts);
     // Checked before the mesh is asked for.
     let bench = Bench::with_scene(&scene("{ \"scale\": [1, 1, 0] }"));
