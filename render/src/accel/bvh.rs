@@ -172,18 +172,29 @@ impl Bvh {
             } else {
                 let group = &self.groups[current.first as usize];
                 let (enter, mut met) = ray.enters(group, limit);
-                let first = count;
-                while met != 0 {
-                    let k = met.trailing_zeros() as usize & (WIDTH - 1);
+                if met != 0 {
+                    let child =
+                        |k: usize| (group.children[k & (WIDTH - 1)], enter[k & (WIDTH - 1)]);
+                    let mut nearest = child(met.trailing_zeros() as usize);
                     met &= met - 1;
-                    // The nearest of them comes last.
-                    let mut at = count;
-                    while at > first && waiting[at - 1].1 < enter[k] {
-                        waiting[at] = waiting[at - 1];
-                        at -= 1;
+                    let first = count;
+                    while met != 0 {
+                        let mut other = child(met.trailing_zeros() as usize);
+                        met &= met - 1;
+                        if other.1 < nearest.1 {
+                            std::mem::swap(&mut nearest, &mut other);
+                        }
+                        // The nearer ones are taken off the stack first.
+                        let mut at = count;
+                        while at > first && waiting[at - 1].1 < other.1 {
+                            waiting[at] = waiting[at - 1];
+                            at -= 1;
+                        }
+                        waiting[at] = other;
+                        count += 1;
                     }
-                    waiting[at] = (group.children[k], enter[k]);
-                    count += 1;
+                    current = nearest.0;
+                    continue;
                 }
             }
             // The nearest node that still matters.

@@ -66,6 +66,7 @@ impl Quad {
     /// Returns the distance above 0 at which the ray meets the shape, in units of `direction`. A
     /// ray that starts within `skin` of the plane does not meet it.
     #[must_use]
+    #[inline]
     pub fn intersect(&self, origin: DVec3, direction: DVec3, skin: f64) -> Option<f64> {
         let height = (self.corner - origin).dot(self.normal);
         let t = height / direction.dot(self.normal);
