@@ -417,7 +417,7 @@ fn rust_examples(text: &str) -> usize {
 fn only_tests_link_the_fixtures_of_tests() {
     for (name, _) in CRATES.into_iter().filter(|(name, _)| *name != "fuzz") {
         let manifest = read(&format!("{name}/Cargo.toml"));
-        let (of_product, _) = manifest.split_once("[dev-dependencies]").unwrap_or((&manifest, ""));
+        let of_product = manifest.split("[dev-dependencies]").next().unwrap_or_default();
         assert!(!of_product.contains("fixtures"), "{name}/Cargo.toml: fixtures outside of tests");
     }
 }

@@ -2,8 +2,6 @@
 //! gives a picture of finite colours, or a sentence with its place, without a panic. How long a case may
 //! take is limited by the fuzzer.
 
-#![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
-
 use crate::examples;
 
 use examples::{Meshless, examples};

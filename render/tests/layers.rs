@@ -1,7 +1,5 @@
 //! Layers and crops as files: what stands in them, read back.
 
-#![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
-
 use crate::bench;
 
 use bench::{Bench, TEXTURED_WALL, checks, ending};

@@ -1,7 +1,5 @@
 //! The program as its users meet it: what it writes, what it says, how it ends.
 
-#![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
-
 use fixtures::program::{ending, run};
 use std::fs;
 use std::io::Write;
