@@ -61,7 +61,7 @@ impl Method for Lattice {
         match self.weights {
             Weights::Supersample(Supersample::Rays) => work.expose_nine(),
             Weights::Supersample(Supersample::Image) | Weights::Even | Weights::Tent => {
-                work.expose_rows()
+                work.expose_rows();
             }
         }
         let whole = (self.whole() as f64).powi(2);
