@@ -74,7 +74,18 @@ fn mended(reader: Reader, bytes: &[u8]) -> Vec<u8> {
     let file = match reader {
         Reader::Grid | Reader::GridText => grid::file(&grid::patches(bytes)),
         Reader::Png | Reader::Depth => png::file(&png::chunks(bytes)),
-        _ => return bytes.to_vec(),
+        Reader::Spec
+        | Reader::Svg
+        | Reader::Areas
+        | Reader::Obj
+        | Reader::Mtl
+        | Reader::Scene
+        | Reader::Part
+        | Reader::Job
+        | Reader::Jpeg
+        | Reader::Exr
+        | Reader::Words
+        | Reader::Trap => return bytes.to_vec(),
     };
     // What cannot be taken apart, and what is wrong just there, stays as it is.
     if file.len() == bytes.len() { file } else { bytes.to_vec() }

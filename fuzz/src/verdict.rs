@@ -126,7 +126,7 @@ impl Fault {
                 let what = text.split(" in: ").next().unwrap_or_default();
                 return format!("{} {}", self.kind, what.replace(|c: char| c.is_ascii_digit(), ""));
             }
-            _ => without_quotes(&text),
+            Kind::Died | Kind::Broken => without_quotes(&text),
         };
         let words = text.split(|c: char| !c.is_alphabetic()).filter(|word| word.len() > 2);
         let words: Vec<&str> = words.take(12).collect();

@@ -112,10 +112,6 @@ impl<'a> Accel<'a> {
         for (object, shape) in shapes.iter().enumerate() {
             let piece = Piece { object: object as u32, triangle: 0 };
             let leaf = Leaf::whole(piece.object);
-            bounds[object] = match shape {
-                Shape::Mesh(_) => None,
-                _ => shape.bounds(),
-            };
             match shape {
                 Shape::Mesh(mesh) => {
                     let triangles = (0..mesh.triangles.len() as u32)
@@ -126,10 +122,17 @@ impl<'a> Accel<'a> {
                         });
                     bounded.extend(triangles);
                 }
-                _ => match bounds[object] {
-                    Some(bounds) => bounded.push((leaf, bounds)),
-                    None => apart.push(leaf),
-                },
+                Shape::Sphere(_)
+                | Shape::Quad(_)
+                | Shape::Cuboid(_)
+                | Shape::Superquadric(_)
+                | Shape::Placed(_) => {
+                    bounds[object] = shape.bounds();
+                    match bounds[object] {
+                        Some(bounds) => bounded.push((leaf, bounds)),
+                        None => apart.push(leaf),
+                    }
+                }
             }
         }
         let whole = bounded.iter().fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |all, (_, b)| {

@@ -77,7 +77,10 @@ impl Filter {
     /// be traced.
     #[must_use]
     pub fn wants_area(self) -> bool {
-        !matches!(self, Self::Point | Self::Bilinear)
+        match self {
+            Self::Point | Self::Bilinear => false,
+            Self::Mip | Self::Box | Self::Tent | Self::Quadratic => true,
+        }
     }
 
     /// Returns the number of integrations of the filter's table, 1 to 3, or `None` without a table.
@@ -95,10 +98,12 @@ impl Filter {
     /// itself is not included.
     #[must_use]
     pub fn bytes_for(self, texture: &Texture) -> u64 {
-        match (self, self.order()) {
-            (_, Some(order)) => PrefilteredTable::bytes_for(texture, order),
-            (Self::Mip, _) => Pyramid::bytes_for(texture),
-            _ => 0,
+        match self {
+            Self::Point | Self::Bilinear => 0,
+            Self::Mip => Pyramid::bytes_for(texture),
+            Self::Box => PrefilteredTable::bytes_for(texture, 1),
+            Self::Tent => PrefilteredTable::bytes_for(texture, 2),
+            Self::Quadratic => PrefilteredTable::bytes_for(texture, 3),
         }
     }
 }
@@ -121,7 +126,10 @@ pub struct FilteredTexture<'a> {
 /// Data built before the first average.
 #[derive(Debug)]
 enum Prepared {
-    Nothing,
+    /// None: one texel of the texture.
+    Texel,
+    /// None: four texels of the texture, interpolated.
+    FourTexels,
     Pyramid(Pyramid),
     Table(PrefilteredTable),
 }
@@ -130,10 +138,13 @@ impl<'a> FilteredTexture<'a> {
     /// Builds the table or pyramid that `filter` needs.
     #[must_use]
     pub fn new(texture: &'a Texture, filter: Filter) -> Self {
-        let prepared = match (filter, filter.order()) {
-            (_, Some(order)) => Prepared::Table(PrefilteredTable::build(texture, order)),
-            (Filter::Mip, _) => Prepared::Pyramid(Pyramid::build(texture)),
-            _ => Prepared::Nothing,
+        let prepared = match filter {
+            Filter::Point => Prepared::Texel,
+            Filter::Bilinear => Prepared::FourTexels,
+            Filter::Mip => Prepared::Pyramid(Pyramid::build(texture)),
+            Filter::Box => Prepared::Table(PrefilteredTable::build(texture, 1)),
+            Filter::Tent => Prepared::Table(PrefilteredTable::build(texture, 2)),
+            Filter::Quadratic => Prepared::Table(PrefilteredTable::build(texture, 3)),
         };
         Self { texture, filter, prepared }
     }
@@ -145,8 +156,8 @@ impl<'a> FilteredTexture<'a> {
         match &self.prepared {
             Prepared::Table(table) => table.average(self.texture, center, half),
             Prepared::Pyramid(pyramid) => pyramid.average(self.texture, center, half),
-            Prepared::Nothing if self.filter == Filter::Point => self.texture.point(center),
-            Prepared::Nothing => self.texture.bilinear(center),
+            Prepared::Texel => self.texture.point(center),
+            Prepared::FourTexels => self.texture.bilinear(center),
         }
     }
 
@@ -191,7 +202,7 @@ impl<'a> FilteredTexture<'a> {
     #[must_use]
     pub fn table_bytes(&self) -> usize {
         match &self.prepared {
-            Prepared::Nothing => 0,
+            Prepared::Texel | Prepared::FourTexels => 0,
             Prepared::Pyramid(pyramid) => pyramid.bytes(),
             Prepared::Table(table) => table.bytes(),
         }

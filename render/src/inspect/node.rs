@@ -49,7 +49,9 @@ pub fn lines<S: Sight>(scene: &Scene, seen: &Seen<'_, S>) -> Vec<String> {
 fn nothing(branch: Branch) -> &'static str {
     match branch {
         Branch::Background(_) => "the background",
-        _ => "not followed: too deep, of too little weight, or the tree is full",
+        Branch::Cut | Branch::Node(_) => {
+            "not followed: too deep, of too little weight, or the tree is full"
+        }
     }
 }
 

@@ -87,7 +87,11 @@ impl Volumes {
     fn around_far(&self, scene: &Scene, toward: DVec3) -> Media {
         let behind = |object: &Object| match &object.shape {
             Shape::Quad(quad) => quad.normal().dot(toward) < 0.0,
-            _ => false,
+            Shape::Sphere(_)
+            | Shape::Mesh(_)
+            | Shape::Cuboid(_)
+            | Shape::Superquadric(_)
+            | Shape::Placed(_) => false,
         };
         let media = self.all(scene).filter(|own| behind(&scene.objects[own.object as usize]));
         ordered(media.map(|own| (own, f64::INFINITY)).collect(), scene)
@@ -108,7 +112,11 @@ impl Volumes {
     fn endless<'s>(&'s self, scene: &'s Scene, place: DVec3) -> impl Iterator<Item = Medium> + 's {
         self.all(scene).filter(move |own| match &scene.objects[own.object as usize].shape {
             Shape::Quad(quad) => (place - quad.corner()).dot(quad.normal()) < 0.0,
-            _ => false,
+            Shape::Sphere(_)
+            | Shape::Mesh(_)
+            | Shape::Cuboid(_)
+            | Shape::Superquadric(_)
+            | Shape::Placed(_) => false,
         })
     }
 
