@@ -1,4 +1,4 @@
-//! The edge of the four programs: what they read, what they write, how they fail.
+//! The edge of the four programs: their inputs, their outputs, and their failures.
 //!
 //! | module        | what                                                                  |
 //! |---------------|-----------------------------------------------------------------------|
@@ -62,7 +62,7 @@ pub enum FileError {
     Read {
         /// The file as the user named it, or `<stdin>`.
         name: String,
-        /// What the system said.
+        /// The error of the operating system.
         source: io::Error,
     },
     /// The path leads to something else than a regular file.
@@ -84,7 +84,7 @@ pub enum FileError {
     Write {
         /// The file as the user named it, or `<stdout>`.
         name: String,
-        /// What the system said.
+        /// The error of the operating system.
         source: io::Error,
     },
     /// The output exists and the user asked that nothing be replaced.
@@ -99,7 +99,7 @@ pub enum FileError {
     /// The file was named for two purposes, of which one would destroy the other.
     #[error(transparent)]
     Clash(#[from] ledger::Clash),
-    /// The program that read our standard output has gone.
+    /// The program that read our standard output has closed it.
     #[error("the reader of standard output closed it")]
     ClosedPipe,
 }

@@ -7,7 +7,7 @@
 use crate::words::unseen;
 use std::fmt::{self, Display, Write};
 
-/// The part of a text that lies at its position.
+/// The part of a text that lies at the text's position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Anchor {
     /// The start of the text.

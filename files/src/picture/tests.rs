@@ -153,13 +153,13 @@ fn the_data_window_of_an_exr_is_measured_and_not_only_what_is_displayed() {
             format!("pixels with 3 channels, which no file of {} bytes holds", file.len());
         assert!(error.ends_with(&expected), "{error}");
     }
-    // A file long enough to hold the pixels is refused by the budget.
+    // The file is long enough to hold the pixels, so only the budget refuses it.
     let mut file = exr_with_data_window([0, 0, 1_000_000, 1000]);
     file.resize(20_000_000, 0);
     let error = read(&file, &budget).unwrap_err();
     let PictureError::Memory(error) = error else { panic!("{error:?}") };
     assert!(error.what.ends_with("pixels with 3 channels"), "{error}");
-    // A small data window passes this check, and the file is told to be cut.
+    // A small data window passes the budget, and the file is reported as cut short.
     let error = read(&exr_with_data_window([0, 0, 7, 7]), &budget).unwrap_err();
     assert!(matches!(&error, PictureError::Broken(_)), "{error:?}");
     assert_eq!(budget.left(), 1 << 30);
@@ -188,7 +188,7 @@ fn damaged_files_of_all_formats_do_not_panic() {
                 let at = random(bytes.len());
                 bytes[at] = random(256) as u8;
             }
-            // Whatever comes of it is no panic.
+            // Any result but a panic is right.
             let _ = read(&bytes, &budget);
         }
     }
