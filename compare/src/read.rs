@@ -31,7 +31,7 @@ pub enum ReadError {
     NoPicture {
         /// The file.
         name: String,
-        /// What was found, in words.
+        /// Description of the file's first bytes.
         found: String,
     },
     /// The picture takes more memory than is allowed.
@@ -44,9 +44,9 @@ pub enum ReadError {
         name: String,
         /// Column and row, from 0.
         place: (u32, u32),
-        /// What was found.
+        /// The found value, in words.
         found: String,
-        /// What was expected.
+        /// The expected value, in words.
         expected: &'static str,
     },
     /// The two pictures are not equally large.
@@ -59,7 +59,7 @@ pub enum ReadError {
         /// Pixels across and down of both.
         sizes: [(u32, u32); 2],
     },
-    /// The part to compare does not lie in the picture.
+    /// The requested part does not lie in the picture.
     #[error("the crop {},{},{}x{} does not lie in {name}, which is {}x{} pixels", crop.x, crop.y, crop.width, crop.height, size.0, size.1)]
     Crop {
         /// The file.
@@ -131,7 +131,7 @@ pub fn part(whole: &Picture, crop: &Crop) -> Picture {
 /// Reads a picture from the bytes of a file, which messages call `name`.
 ///
 /// # Errors
-/// As [`read`], but for reading.
+/// See [`read`], except for errors of reading.
 pub fn decode(name: &str, bytes: &[u8]) -> Result<Picture, ReadError> {
     let (decoded, _reserved) =
         picture::decode(bytes, &[Format::Png, Format::OpenExr], each, of_process(), || name.into())

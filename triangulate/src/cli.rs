@@ -239,7 +239,7 @@ impl Arguments {
         }
     }
 
-    /// Returns the path of the material file, if `--mtl` asks for one.
+    /// Returns the path of the material file, if `--mtl` is given.
     pub fn mtl(&self) -> Option<PathBuf> {
         self.mtl_name().map(|name| self.output.with_file_name(name))
     }

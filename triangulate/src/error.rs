@@ -59,7 +59,7 @@ pub enum TriangulateError {
     Seam {
         /// The object's name.
         object: String,
-        /// What was found and what was expected.
+        /// The found and the expected value, in words.
         fault: String,
     },
     /// A grid in memory with an area that does not lie on it.

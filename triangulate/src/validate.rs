@@ -12,11 +12,11 @@ const UNIT: f32 = 1e-5;
 impl TriMesh {
     /// Returns complaints about the mesh; the list is empty when there are none.
     ///
-    /// The checks find indices out of range, numbers that are not finite, normals that are not of unit
-    /// length, triangles without area, and directed edges used twice. A directed edge is used twice
-    /// where two neighbouring triangles face opposite ways, and where an edge has three triangles. So a
-    /// mesh of a one-sided surface must fail this check. Edges used once, as on the boundary of an open
-    /// surface, are valid.
+    /// The checks find indices out of range, numbers that are not finite, normals that are not of
+    /// unit length, triangles without area, and directed edges used twice. A directed edge is used
+    /// twice where two neighbouring triangles face opposite sides, and where an edge has three
+    /// triangles. So a mesh of a one-sided surface must fail this check. Edges used once, as on the
+    /// boundary of an open surface, are valid.
     #[must_use]
     pub fn validate(&self) -> Vec<String> {
         let mut complaints = Complaints::default();
