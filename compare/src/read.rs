@@ -31,7 +31,7 @@ pub enum ReadError {
     NoPicture {
         /// The file.
         name: String,
-        /// Description of the file's first bytes.
+        /// Description of the found content, in words.
         found: String,
     },
     /// The picture takes more memory than is allowed.

@@ -1,8 +1,9 @@
 //! `fuzz`: mutated inputs for every reader of the workspace.
 //!
-//! The parent process hands out cases, and child processes of the same program try them: what ends a
-//! process (a stack that overflows, memory that is not there) or stalls it ends or stalls a child. A case
-//! depends on the seed, the reader and its number alone, so it can be tried again.
+//! The parent process hands out cases, and child processes of the same program try them. So an
+//! input that ends a process (a stack overflow, missing memory) or stalls it ends or stalls a child
+//! only. A case depends on the seed, the reader and its number alone, so the case can be tried
+//! again.
 //!
 //! | module       | what                                                             |
 //! |--------------|------------------------------------------------------------------|
@@ -45,7 +46,7 @@ use std::process::ExitCode;
 #[global_allocator]
 static MEMORY: PeakAlloc = PeakAlloc;
 
-/// The exit code when something was found.
+/// The exit code when a fault was found.
 const FOUND: u8 = 1;
 
 /// The exit code when the fuzzer itself could not work.
