@@ -38,7 +38,7 @@ pub struct Plate {
 pub struct Shot {
     /// The mode.
     pub mode: Mode,
-    /// Whether the mode belongs to the job. False for a picture made only for comparison.
+    /// True if the mode belongs to the job. False for a picture made only for comparison.
     pub own: bool,
     /// The picture.
     pub picture: Picture,

@@ -1,4 +1,5 @@
-//! Writes self-contained HTML pages: style and pictures are inside, with no other file and no network.
+//! Writes self-contained HTML pages: styles and pictures are inside, without other files or the
+//! network.
 //!
 //! Pages follow the reader's choice of light or dark, and fit both a telephone and a desktop screen.
 

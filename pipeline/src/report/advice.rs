@@ -28,13 +28,13 @@ const NOISE: f64 = 0.2;
 /// The question that a sentence answers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Question {
-    /// Which method to use.
+    /// The choice of a method.
     Use,
-    /// What the thesis's method costs, and what it is worth.
+    /// The cost of the thesis's method, and its value.
     Cost,
-    /// Where filters fail.
+    /// The failures of filters.
     Fails,
-    /// Which numbers are in doubt.
+    /// The doubtful numbers.
     Doubt,
 }
 

@@ -1,4 +1,4 @@
-//! What a report measures, and for how long.
+//! Plans the measurements of a report and their duration.
 
 use super::measured::Method;
 use render::Sampling;
@@ -21,7 +21,7 @@ pub struct Plan {
     pub most_truth_samples: u32,
     /// Time after which a method is not measured again: the sum of its rounds so far.
     pub patience: Duration,
-    /// Whether the report is made in haste.
+    /// True if the report is made quickly, with small pictures and few methods.
     pub quick: bool,
 }
 

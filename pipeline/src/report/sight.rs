@@ -1,9 +1,11 @@
-//! Finds what a pixel sees, along which paths, and how many texels its footprint spans.
+//! Finds the objects and paths that a pixel sees, and the number of texels that its footprint
+//! spans.
 //!
 //! Five rays are traced for each pixel: through its middle and through four points close by. The tree
-//! of the middle ray tells what the pixel sees. Where another ray reaches the same surface by the same
-//! path, the difference between the two texture coordinates gives the derivative with respect to film
-//! position. This also works behind mirrors and glass.
+//! Five rays are traced for each pixel: through its middle and through four points close by. The
+//! tree of the middle ray determines what the pixel sees. Where another ray reaches the same
+//! surface by the same path, the difference between the two texture coordinates gives the
+//! derivative with respect to film position. This method also works behind mirrors and glass.
 
 use glam::{DMat2, DVec2};
 use render::Scene;
@@ -38,7 +40,7 @@ const NAMES: [&str; 5] = ["middle", "right", "left", "lower", "upper"];
 /// The trees of a pixel's rays, reused for each pixel.
 pub(super) type Trees = [IntersectionTree; PLACES.len()];
 
-/// What the middle of a pixel sees.
+/// The sight of a pixel's middle.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Seen {
     /// The object that is hit first; `None` where the ray leaves the scene.
