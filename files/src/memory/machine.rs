@@ -1,9 +1,9 @@
 //! Finds how much memory the system would give this process.
 //!
-//! On Linux the kernel reports three numbers in files, of which the least counts: the free memory
-//! of the machine (`/proc/meminfo`), the rest of the limits of the process's control groups
-//! (version 1 and 2, all levels), and the rest of the limit of its address space (`ulimit -v`). On
-//! other systems the memory is unknown.
+//! On Linux the kernel reports three numbers in files, of which the least counts. The first is the
+//! free memory of the machine (`/proc/meminfo`). The second is the rest of the limits of the
+//! process's control groups (version 1 and 2, all levels). The third is the rest of the limit of
+//! its address space (`ulimit -v`). On other systems the memory is unknown.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -14,7 +14,7 @@ pub struct Patch {
     pub header: Value,
     /// The rows; those of text without their newlines.
     pub rows: Vec<Vec<u8>>,
-    /// Whether the rows are binary.
+    /// True if the rows are binary.
     pub binary: bool,
 }
 
