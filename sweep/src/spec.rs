@@ -238,7 +238,7 @@ pub struct Spec {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(transform = limits::positive)]
     pub wall: Option<f64>,
-    /// What closes the two ends.
+    /// The closures of the two ends.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub caps: Option<Caps>,
     /// Deformations of the finished surface, applied one after another before `position`.
@@ -271,7 +271,7 @@ pub struct Spec {
 #[serde(deny_unknown_fields, expecting = "an object with the key segments, and closed if it is")]
 #[schemars(inline)]
 pub struct Bezier<P> {
-    /// Whether the last segment ends at the start of the first.
+    /// True if the last segment ends at the start of the first.
     #[serde(default)]
     pub closed: bool,
     /// Four control points for each segment. At least one segment; each starts where the one before it ends.
@@ -284,7 +284,7 @@ pub struct Bezier<P> {
 #[serde(deny_unknown_fields, expecting = "an object with the key points, and closed if it is")]
 #[schemars(inline, transform = limits::loop_of_three)]
 pub struct Free<P> {
-    /// Whether the curve returns from the last point to the first, which is not repeated.
+    /// True if the curve returns from the last point to the first, which is not repeated.
     #[serde(default)]
     pub closed: bool,
     /// The points: at least two, or three if closed.

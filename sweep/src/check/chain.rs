@@ -18,7 +18,7 @@ pub struct Crossings {
     pub count: usize,
     /// Position of the first crossing along the chain.
     pub first: Option<DVec2>,
-    /// Whether the search was cut short, so that more crossings are possible.
+    /// True if the search was cut short, so that more crossings are possible.
     pub more: bool,
     /// Number of boxes and pieces that were tested.
     pub looks: u64,
@@ -116,7 +116,7 @@ mod tests {
         };
         let bow = [p(0.0, 0.0), p(2.0, 2.0), p(2.0, 0.0), p(0.0, 2.0), p(0.0, 0.0)];
         assert_eq!(said(&bow, true), (1, Some(p(1.0, 1.0))));
-        // The same with a point where it crosses.
+        // A crossing at which the chain has points also counts once.
         let cut = [
             p(0.0, 0.0),
             p(1.0, 1.0),
@@ -161,7 +161,7 @@ mod tests {
         let [one, two] =
             [20_000, 40_000].map(|count| crossings(&spiral(count), false).looks as f64);
         assert!(two < 2.3 * one, "{one} {two}");
-        // All strokes through one point: what is tried of each is bounded.
+        // All strokes pass near the centre, so the number of tests of each stroke must be bounded.
         let star = |count: usize| -> Vec<DVec2> {
             let angle = |i: usize| 3.0 * i as f64 + i as f64 * 1e-4;
             (0..=count).map(|i| DVec2::from_angle(angle(i))).collect()

@@ -32,7 +32,7 @@ pub struct Triangle {
     pub ids: [u32; 3],
     /// Row and column of its cell.
     pub cell: [u32; 2],
-    /// Whether this triangle is the upper half of its cell, on the side of the next row.
+    /// True if this triangle is the upper half of its cell, on the side of the next row.
     pub upper: bool,
 }
 
@@ -43,7 +43,7 @@ pub struct Crossings {
     pub count: u64,
     /// The first pair by the indices of its triangles, the smaller index first.
     pub first: Option<[usize; 2]>,
-    /// Whether the search was cut short, so that more pairs are possible.
+    /// True if the search was cut short, so that more pairs are possible.
     pub more: bool,
     /// Number of boxes and pairs that were tested.
     pub looks: u64,

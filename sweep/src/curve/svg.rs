@@ -35,7 +35,7 @@ const ROUNDING: f64 = 1e-4;
 pub struct Outline {
     /// The segments; each starts where the one before it ends.
     pub segments: Vec<Cubic<DVec2>>,
-    /// Whether the last segment ends at the start of the first.
+    /// True if the last segment ends at the start of the first.
     pub closed: bool,
 }
 

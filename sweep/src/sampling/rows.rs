@@ -110,9 +110,9 @@ impl<'a> Rows<'a> {
         Ok(grid)
     }
 
-    /// Writes the grid. The header tells the survey and stands before the rows, so a grid of at most [`KEPT`]
-    /// points is made whole. A larger one is surveyed first and then made in blocks of rows, which takes two
-    /// evaluations of each point and the memory of one block.
+    /// Writes the grid. The header contains the survey and precedes the rows, so a grid of at most
+    /// [`KEPT`] points is made whole. A larger one is surveyed first and then made in blocks of
+    /// rows, which takes two evaluations of each point and the memory of one block.
     ///
     /// # Errors
     /// When writing to `out` fails.

@@ -31,13 +31,13 @@ const SAME_TURN: f64 = 1e-9;
 /// How the columns at the end continue as columns at the start.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Closing {
-    /// Whether the columns continue in reverse order.
+    /// True if the columns continue in reverse order.
     pub(crate) mirrored: bool,
     /// The `u` of the start at which `u = 0` of the end continues, as a fraction `(p, q)`.
     pub(crate) offset: (usize, usize),
     /// Total turn that makes the contour fit, as a fraction of a full turn.
     pub(crate) turn: f64,
-    /// Whether the surface has an edge where it closes.
+    /// True if the surface has an edge where it closes.
     pub(crate) edge: bool,
 }
 
@@ -45,10 +45,10 @@ pub struct Closing {
 pub(crate) struct Ends<'a> {
     pub start: &'a [DVec2],
     pub end: &'a [DVec2],
-    /// Whether the contour is closed.
+    /// True if the contour is closed.
     pub closed: bool,
-    /// Whether the trajectory ends against the direction of its start. A turn to the left at the end is then
-    /// a turn to the right at the start.
+    /// True if the trajectory ends against the direction of its start. A turn to the left at the
+    /// end is then a turn to the right at the start.
     pub against: bool,
     /// Turn that already brought the frame back at the end, as a fraction of a full turn.
     pub turned: f64,

@@ -83,7 +83,7 @@ pub(crate) struct Raised {
     pub along: DVec2,
     /// Derivative of the point by `v`.
     pub across: DVec2,
-    /// Whether the contour folds back on itself here.
+    /// True if the contour folds back on itself here.
     pub folds: bool,
 }
 

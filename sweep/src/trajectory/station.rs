@@ -18,7 +18,7 @@ pub struct Station {
     pub(super) shear: DVec2,
     /// Turn of the frame about the tangent, in radians per length.
     pub(super) spin: f64,
-    /// Whether contour x = 0 is an axis that all stations share.
+    /// True if contour x = 0 is an axis that all stations share.
     pub(super) on_axis: bool,
 }
 

@@ -196,7 +196,7 @@ impl Curve3 for Trefoil {
         self.lengths.iter().copied().step_by(128).collect()
     }
 
-    /// Frames need points and tangents, and hardly any evenness of the speed.
+    /// Frames need exact points and tangents, but hardly an even speed.
     fn at(&self, s: f64) -> Local3 {
         trefoil(self.parameter(s))
     }

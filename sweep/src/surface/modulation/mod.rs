@@ -65,7 +65,7 @@ pub struct Section {
     extent: f64,
     /// On a cap, the contraction of the contour toward the pole.
     gathered: Option<Gathered>,
-    /// Whether the contour has no scale, relief, blend or contraction.
+    /// True if the contour has no scale, relief, blend or contraction.
     plain: bool,
 }
 
@@ -76,7 +76,7 @@ struct Local {
     /// Direction of the contour, divided by the scale so that it does not vanish with the scale.
     q_u: DVec2,
     q_s: DVec2,
-    /// Whether the contour itself folds back here.
+    /// True if the contour itself folds back here.
     folds: bool,
 }
 
@@ -89,7 +89,7 @@ pub(crate) struct SectionPoint {
     pub normal: DVec3,
     /// Speed of the point along the tangent, per length of the trajectory: see [`Station::stretch`].
     pub stretch: f64,
-    /// Whether the contour itself folds back here, because its relief is deeper than it is round.
+    /// True if the contour itself folds back here, because its relief is deeper than it is round.
     pub contour_folds: bool,
 }
 

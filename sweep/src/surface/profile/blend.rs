@@ -22,7 +22,7 @@ pub struct Blend {
     pub(crate) at: Vec<f64>,
     /// Interpolation between two neighbouring contours.
     pub(crate) ease: Ease,
-    /// Whether the last contour blends into the first.
+    /// True if the last contour blends into the first.
     pub(crate) wraps: bool,
 }
 
