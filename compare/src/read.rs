@@ -82,7 +82,8 @@ impl Failure for ReadError {
     }
 }
 
-/// Reads the picture file that an argument names; `-` is standard input. The first bytes tell the format.
+/// Reads the picture file that an argument names; `-` is standard input. The first bytes determine
+/// the format.
 ///
 /// # Errors
 /// When the file cannot be read, is no PNG or EXR file, or is broken; when a pixel is not opaque or not

@@ -1,8 +1,8 @@
 //! Computes the structural similarity of two pictures (Wang, Bovik, Sheikh and Simoncelli 2004).
 //!
-//! The measure compares luma: the weighted sum of the sRGB codes, as a screen shows them. It models
-//! what an eye sees and was fitted to codes. (Its authors take the luminance of 8-bit pictures; here
-//! codes are not rounded.) Light beyond white counts as white.
+//! The measure compares luma: the weighted sum of the sRGB codes, as a screen shows them. The
+//! measure models the eye and was fitted to codes. (Its authors take the luminance of 8-bit
+//! pictures; here codes are not rounded.) Light beyond white counts as white.
 //!
 //! Means, variances and the covariance are weighted by a Gaussian window of 11 x 11 pixels. As in the
 //! authors' own program, only windows that lie entirely in the picture count, and pictures are not

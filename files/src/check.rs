@@ -9,7 +9,7 @@ pub enum Severity {
     Remark,
     /// Probably not intended.
     Hint,
-    /// The result cannot be what the input means.
+    /// The result cannot be the one that the input means.
     Wrong,
 }
 

@@ -25,7 +25,7 @@ pub enum Exit {
     Resource = 6,
     /// A bug of ours.
     Bug = 70,
-    /// The reader of our standard output closed it; nothing is printed.
+    /// The reader of our standard output closed it. No message is printed.
     ClosedPipe = 141,
 }
 

@@ -116,7 +116,8 @@ impl<'a> Document<'a> {
         Ok(())
     }
 
-    /// Makes a complaint about the value at `path`. `message` says what was found and expected.
+    /// Makes a complaint about the value at `path`. `message` states the found and the expected
+    /// value.
     ///
     /// Where `path` leads to a missing key, the position is that of the deepest value on the path that
     /// exists.

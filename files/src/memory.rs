@@ -164,8 +164,9 @@ impl Reserved<'_> {
     }
 }
 
-/// Returns whether the system provides this many bytes in one piece. They are released at once.
-/// Without this trial, a process whose address space is limited would abort at the allocation.
+/// Returns whether the system provides this many bytes in one piece. The bytes are released at
+/// once. Without this trial, a process whose address space is limited would abort at the
+/// allocation.
 fn given(bytes: u64) -> bool {
     let Ok(bytes) = usize::try_from(bytes) else { return false };
     let mut trial: Vec<u8> = Vec::new();

@@ -195,8 +195,8 @@ impl Write for Output {
     }
 }
 
-/// Creates a temporary file beside `target`. It has the permissions of the file that it will
-/// replace, or those that the system gives a new file.
+/// Creates a temporary file beside `target`. The temporary file has the permissions of the file
+/// that it will replace, or those that the system gives a new file.
 fn create_beside(
     target: &Path,
     replaced: Option<&fs::Metadata>,

@@ -23,8 +23,8 @@ fn open() -> MutexGuard<'static, Vec<PathBuf>> {
     OPEN.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// The entry of a temporary file in the list. It leaves the list when dropped, which must happen
-/// after the file is gone.
+/// The entry of a temporary file in the list. The entry leaves the list when dropped, which must
+/// happen after the file is gone.
 #[derive(Debug)]
 pub(crate) struct Entry(PathBuf);
 

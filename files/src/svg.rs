@@ -156,7 +156,7 @@ impl<P: Into<(f64, f64)> + Copy> Display for Course<'_, P> {
     }
 }
 
-/// A text in which XML sees no markup.
+/// A text that is escaped for XML.
 struct Escaped<'a>(&'a str);
 
 impl Display for Escaped<'_> {

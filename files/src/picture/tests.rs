@@ -107,7 +107,7 @@ fn a_colour_profile_of_zeros_is_not_unpacked() {
     let zeros = zlib_of_zeros();
     let profile = [b"zeros\0\0", &zeros[..]].concat();
     let file = with_chunk(&small, b"iCCP", &profile);
-    // The budget has no room for the profile, and the picture is read without it.
+    // The budget is too small for the profile, and the picture is read without it.
     let picture = read(&file, &Budget::new(20 << 20)).unwrap();
     assert_eq!(picture.width(), 8);
     let text = with_chunk(&small, b"zTXt", &[b"Comment\0\0", &zeros[..]].concat());
