@@ -148,7 +148,7 @@ struct Outputs {
 }
 
 impl Outputs {
-    /// Creates the files before anything is read, so that a folder without write permission is an
+    /// Creates the files before any file is read, so that a folder without write permission is an
     /// error at once.
     fn create(arguments: &Arguments, ledger: &Ledger) -> Result<Self, Report> {
         let create = |path: &Path, flag: &str| -> Result<Output, Report> {
@@ -199,7 +199,7 @@ impl Arguments {
         self.format.or_else(by_name).unwrap_or(Format::Obj)
     }
 
-    /// Refuses arguments that contradict each other. `terminal` tells whether standard output is a
+    /// Refuses arguments that contradict each other. `terminal` is true if standard output is a
     /// terminal.
     pub fn check(&self, terminal: bool) -> Result<(), UseError> {
         let format = self.format();

@@ -96,9 +96,9 @@ pub struct MeshReport {
     pub edge_ratio: Option<f64>,
     /// The largest aspect of a triangle: its longest edge over the height on that edge.
     pub worst_aspect: Option<f64>,
-    /// The worst fold of all patches, if their grids say so.
+    /// The worst fold of all patches, if their grids record folds.
     pub folds: Option<Fold>,
-    /// The worst tolerance of all patches, if their grids say so.
+    /// The worst tolerance of all patches, if their grids record tolerances.
     pub tolerance: Option<Tolerance>,
     /// Numbers of triangles left out of the mesh.
     pub left_out: LeftOut,
@@ -143,9 +143,9 @@ pub struct PatchReport {
     pub manifold: bool,
     /// True if the patch has triangles and no boundary.
     pub closed: bool,
-    /// How far the patch folds back on itself, if its grid says so.
+    /// How far the patch folds back on itself, if its grid records this.
     pub folds: Option<Fold>,
-    /// How near the patch is to the exact surface, if its grid says so.
+    /// How near the patch is to the exact surface, if its grid records this.
     pub tolerance: Option<Tolerance>,
 }
 

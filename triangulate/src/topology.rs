@@ -46,8 +46,8 @@ pub struct Topology {
 pub struct Side {
     /// The positions at the two ends, the lower index first.
     pub ends: [u32; 2],
-    /// The number of the side among all sides, three to a triangle. It is also the number of the corner
-    /// at which the side starts; the side ends at the next corner of the triangle.
+    /// The number of the side among all sides, three to a triangle. The corner at which the side
+    /// starts has this number too; the side ends at the next corner of the triangle.
     number: usize,
     /// True if the side leads from the higher position index to the lower.
     downward: bool,

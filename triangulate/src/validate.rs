@@ -1,4 +1,4 @@
-//! Validates a mesh and lists what is wrong with it.
+//! Validates a mesh and lists its faults.
 
 use crate::TriMesh;
 use crate::diagonal::is_flat;
