@@ -346,7 +346,7 @@ mod tests {
 
     #[test]
     fn a_vertical_end_is_steep_and_finite() {
-        // Approximately a quarter of a circle, from full width to nothing.
+        // Approximately a quarter of a circle, from full width to width 0.
         let cap = Law::bezier(vec![cubic([[0.0, 1.0], [0.55, 1.0], [1.0, 0.55], [1.0, 0.0]])]);
         assert_eq!(cap.at(0.0), (1.0, 0.0));
         assert_eq!(cap.at(1.0), (0.0, -STEEPEST));

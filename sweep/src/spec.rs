@@ -59,9 +59,9 @@
 //!
 //! Axes are right-handed and y points up. A contour's (x, y) lies on the directions (w1, w2) of a frame with
 //! `w1 x w2 = T`, the direction of the trajectory. Closed contours run counter-clockwise in (w1, w2), so that
-//! their normals point out of the area they enclose; a clockwise contour is reversed. The same holds for an
-//! open contour of a rotation that starts and ends on the axis. The outer side of any other open contour is
-//! to the right of its direction of travel.
+//! their normals point out of the area they enclose; a clockwise contour is reversed. So is an open contour
+//! of a rotation that starts and ends on the axis and runs clockwise. The outer side of any other open
+//! contour is to the right of its direction of travel.
 //!
 //! On a circle and a rotation `w1` points away from the axis and `w2` along it. The sweep starts where `w1`
 //! is nearest to the coordinate axis least aligned with the axis of the circle or rotation (x before y before

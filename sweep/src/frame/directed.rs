@@ -111,8 +111,8 @@ impl<C: Curve3> Directed<C> {
             .map(|(s, jump)| Lack::Jump(s / length, jump))
     }
 
-    /// Returns the angle in radians by which the frame jumps at the joint at `s`, beyond the turn of the
-    /// tangent there; pi if a side has no frame.
+    /// Returns the angle in radians by which the frame jumps at the joint at `s`, beyond the turn
+    /// of the tangent there. The angle is pi if a side has no frame.
     pub fn jump(&self, curve: &impl Curve3, s: f64) -> f64 {
         let length = curve.length();
         let end = if s == 0.0 { length } else { s };

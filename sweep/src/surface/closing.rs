@@ -1,11 +1,12 @@
-//! How a surface comes back to its start if its columns do not meet themselves.
+//! The closing of a surface whose columns do not meet themselves.
 //!
-//! Where a trajectory ends at its start, a motion of their common plane takes the last section onto the
-//! first. A contour with a symmetry may then close with its columns *shifted*: `u` of the end continues at
-//! `u + u0` of the start. Or it closes with its columns *mirrored*, at `u0 - u`. A mirrored surface has one
-//! side: it is a Moebius band if the contour is open, or a Klein bottle. A surface closes mirrored in two
-//! cases. Either the contour comes back turned onto its own reverse (a segment after half a turn). Or the
-//! trajectory comes back against its own direction, as that of Klein's bottle does.
+//! Where a trajectory ends at its start, a motion of their common plane takes the last section onto
+//! the first. A contour with a symmetry may then close with its columns *shifted*: `u` of the end
+//! continues at `u + u0` of the start. Or it closes with its columns *mirrored*, at `u0 - u`. A
+//! mirrored surface has one side: it is a Moebius band if the contour is open, or a Klein bottle. A
+//! surface closes mirrored in two cases. Either the contour returns turned onto its own reverse (a
+//! segment after half a turn). Or the trajectory returns against its own direction, as that of
+//! Klein's bottle does.
 //!
 //! The turn that the contour still needs to fit is added evenly along the whole length. Among all fits, the
 //! one is taken that turns the contour least against a rotation-minimizing frame.

@@ -31,7 +31,7 @@ pub struct Shape {
     pub(crate) position: DVec3,
 }
 
-/// A point of the finished surface, with everything that one evaluation of its section gives.
+/// A point of the finished surface, with all results of one evaluation of its section.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct SurfacePoint {
     /// The point, in the unit of length.

@@ -25,8 +25,8 @@ const MOST_BLOCKS: usize = 1 << 15;
 /// Steps of the descent. After 60 steps the number of cells is within a percent of its limit.
 const STEPS: usize = 60;
 
-/// Least load of a cell as large as a whole direction. It keeps the cells of flat surfaces finite, and is far
-/// too small to add a cell.
+/// Least load of a cell as large as a whole direction. This load keeps the cells of flat surfaces
+/// finite, and is far too small to add a cell.
 const LEAST_LOAD: f64 = 1e-4;
 
 /// Costs that differ by less than this fraction are equal, and the earlier counts. So rounding, and with it

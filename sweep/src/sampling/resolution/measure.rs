@@ -1,10 +1,11 @@
 //! Distance of the triangles of a cut surface from the surface.
 //!
-//! A cell is measured where triangles are farthest from a surface of the second order. These are the middle
-//! of its sides, its own middle, and the middle of its two triangles. The distance is that of the true point
-//! there to the triangles, so the surface may slide along them. At an edge between two cells, the triangles
-//! of the nearer cell count. The angle is that between a triangle and the true normals at its corners, where
-//! a surface of the second order turns away furthest.
+//! A cell is measured where triangles are farthest from a surface of the second order. These
+//! positions are the middles of its sides, its own middle, and the middles of its two triangles.
+//! The distance is that of the true point there to the triangles, so the surface may slide along
+//! them. At an edge between two cells, the triangles of the nearer cell count. The angle is that
+//! between a triangle and the true normals at its corners, where a surface of the second order
+//! turns away furthest.
 //!
 //! All errors are *loads*: relative to the tolerance, and of the second order in the size of the cell. An
 //! angle is of the first order, so it is squared. A load of 1 is just allowed.

@@ -32,7 +32,7 @@ use crate::trajectory::{Station, Trajectory};
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 
-/// The laws by which a contour changes. A law that is `None` changes nothing.
+/// The laws by which a contour changes. A law that is `None` leaves the contour unchanged.
 #[derive(Debug, Clone, Default)]
 pub struct Modulation {
     /// Positions of the contours on the trajectory, if there are several.
@@ -80,7 +80,7 @@ struct Local {
     folds: bool,
 }
 
-/// A point of a section in space, with everything that one evaluation of the contour gives.
+/// A point of a section in space, with all results of one evaluation of the contour.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct SectionPoint {
     /// The point, in the unit of length.
