@@ -31,7 +31,7 @@ const GAP: u32 = 8;
 /// The folder of a job's results, and their size.
 #[derive(Debug, Clone)]
 pub struct Options {
-    /// The folder for all files. It must exist.
+    /// The folder for all files. The folder must exist.
     pub folder: PathBuf,
     /// Width and height of each picture, in pixels.
     pub size: (u32, u32),

@@ -126,8 +126,8 @@ fn wide_pixels(prepared: &Prepared<'_>, (width, height): (u32, u32), crop: Crop)
     let hits = channel("object.id").iter().zip(spans);
     hits.map(|(object, (across, up))| {
         let parts = scene.objects.get(*object as usize).map(|object| object.parts.as_slice());
-        // Of an object with several textures the coarsest counts, since the layers do not tell which
-        // one was hit.
+        // Of an object with several textures the coarsest counts, since the layers do not identify
+        // the texture that was hit.
         let sizes = parts.into_iter().flatten().filter_map(|part| {
             let texture = &scene.textures[part.picture()?];
             let across = f64::from(*across) * texture.width as f64;

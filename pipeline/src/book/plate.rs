@@ -51,9 +51,9 @@ pub struct Shot {
 }
 
 impl Plate {
-    /// Renders the pictures of a job and measures them. The truth of a detail has `truth * truth` rays
-    /// in each pixel, for each of two seeds. The truth of a whole picture has a quarter of that number
-    /// along each side. With `truth` 0 nothing is measured.
+    /// Renders the pictures of a job and measures them. The truth of a detail has `truth * truth`
+    /// rays in each pixel, for each of two seeds. The truth of a whole picture has a quarter of
+    /// that number along each side. With `truth` 0 no truth is rendered and no error is measured.
     ///
     /// # Errors
     /// When a file cannot be read or is wrong.

@@ -33,8 +33,8 @@ pub fn styled_page(title: &str, style: &str, body: &Markup) -> String {
         }
     }
     .into_string();
-    // Titles and texts of jobs come from strangers. They may hold characters that change the writing
-    // direction of the text after them.
+    // Titles and texts of jobs come from strangers. Such texts may hold characters that change the
+    // writing direction of the text after them.
     printed(&text).into_owned()
 }
 

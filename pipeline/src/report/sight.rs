@@ -1,7 +1,6 @@
 //! Finds the objects and paths that a pixel sees, and the number of texels that its footprint
 //! spans.
 //!
-//! Five rays are traced for each pixel: through its middle and through four points close by. The tree
 //! Five rays are traced for each pixel: through its middle and through four points close by. The
 //! tree of the middle ray determines what the pixel sees. Where another ray reaches the same
 //! surface by the same path, the difference between the two texture coordinates gives the
