@@ -57,7 +57,7 @@ pub struct Arguments {
     /// Print the seeds of the readers as files into the folder of --keep, and do nothing else
     #[arg(long, requires = "keep", conflicts_with_all = ["case", "input", "cases", "seconds"])]
     seeds: bool,
-    /// Be a child process that is told what to try on standard input
+    /// Run as a child process, which reads the cases to try from standard input
     #[arg(long, exclusive = true, hide = true)]
     worker: bool,
 }

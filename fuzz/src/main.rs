@@ -9,18 +9,18 @@
 //! |--------------|------------------------------------------------------------------|
 //! | [`cli`]      | the flags                                                        |
 //! | [`dice`]     | random numbers of a case                                         |
-//! | [`seeds`]    | what mutation starts from                                        |
-//! | [`mutate`]   | what mutation does                                               |
-//! | [`reader`]   | the readers, and what is done with an input                      |
-//! | [`verdict`]  | what counts as a fault                                           |
+//! | [`seeds`]    | the inputs from which mutation starts                            |
+//! | [`mutate`]   | the mutations of inputs                                          |
+//! | [`reader`]   | the readers, and the work on an input                            |
+//! | [`verdict`]  | the definition of a fault                                        |
 //! | [`worker`]   | the child's side: tries inputs, and measures them                |
 //! | [`watch`]    | ends a child that takes too long                                 |
 //! | [`child`]    | the parent's side of one child                                   |
-//! | [`protocol`] | the lines that pass between the two                              |
-//! | [`schedule`] | which cases come next                                            |
+//! | [`protocol`] | the lines that parent and child exchange                         |
+//! | [`schedule`] | the selection of the next cases                                  |
 //! | [`run`]      | all children, until the cases or the seconds are used up         |
-//! | [`tally`]    | what was found, as a table                                       |
-//! | [`minimize`] | the smallest input with the same fault                           |
+//! | [`tally`]    | the results, as a table                                          |
+//! | [`minimize`] | a small input with the same fault                                |
 
 mod child;
 mod cli;

@@ -110,8 +110,8 @@ impl Fault {
         Self { kind, text: line }
     }
 
-    /// Returns the signature of the fault, which is equal for two inputs that show the same fault:
-    /// its kind and its text without numbers, names of temporary inputs and quoted pieces.
+    /// Returns the signature of the fault: its kind and its text without numbers, names of
+    /// temporary inputs and quoted pieces. Two inputs that show one fault have equal signatures.
     #[must_use]
     pub fn signature(&self) -> String {
         let text = self.text.replace("\\\"", "\"");

@@ -55,7 +55,8 @@ pub enum Reader {
     Exr,
     /// Sizes, bytes and other words of command lines.
     Words,
-    /// Fails in every manner on purpose. It tests the fuzzer and is tried only if it is named.
+    /// Fails in every manner on purpose. This reader tests the fuzzer and is tried only if it is
+    /// named.
     Trap,
 }
 

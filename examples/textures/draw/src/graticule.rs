@@ -1,4 +1,4 @@
-//! `graticule.png`: a globe without its lands. It shows twelve gores of sea, parallels and
+//! `graticule.png`: a globe without its lands. The picture shows twelve gores of sea, parallels and
 //! meridians at every ten degrees, the tropics and polar circles, and the equator as a scale.
 //! Longitude runs to the right from -180 to 180 degrees, latitude up from -90 to 90.
 

@@ -1,7 +1,7 @@
 //! `scales.png`: heights of two rows of scales, in grey, tileable in both directions.
 //!
-//! Each scale is a shield that hangs from above, highest along its lower rim. It lies over two
-//! scales of the row below. White is highest.
+//! Each scale is a shield that hangs from above, highest along its lower rim. The shield lies over
+//! two scales of the row below. White is highest.
 
 use image::{Rgb, RgbImage};
 
