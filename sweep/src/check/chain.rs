@@ -7,8 +7,9 @@ use glam::DVec2;
 
 /// Largest number of pieces that are tested against one piece.
 ///
-/// Larger, and a drawing of thousands of crossing strokes takes long. Smaller, and the reported count of such a drawing
-/// is further below the true one; the report says "at least".
+/// With a larger number, a drawing of thousands of crossing strokes takes long. With a smaller
+/// number, the reported count of such a drawing is further below the true one; the report then says
+/// "at least".
 const MOST_TRIED: u64 = 1 << 12;
 
 /// The crossings of a chain with itself.

@@ -13,8 +13,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Largest number of pairs of triangles that are tested for one leaf.
 ///
-/// Larger, and a surface whose triangles all cross takes long. Smaller, and the reported count of such a surface is
-/// further below the true one; the report says "at least".
+/// With a larger number, a surface whose triangles all cross takes long. With a smaller number, the
+/// reported count of such a surface is further below the true one; the report then says "at least".
 const MOST_TRIED: u64 = 1 << 15;
 
 /// Number of leaves after which the search reports its progress.

@@ -16,12 +16,13 @@ use std::io::{self, Write};
 use std::ops::Range;
 use std::time::{Duration, Instant};
 
-/// Number of points that are evaluated together when a grid is written, some 2.4 MB. Larger, and writing takes more
-/// memory; smaller, and many threads have too little work.
+/// Number of points that are evaluated together when a grid is written, some 2.4 MB. With a larger
+/// number, writing takes more memory. With a smaller number, many threads have too little work.
 const BLOCK: usize = 1 << 16;
 
-/// Largest number of points of a grid that is made whole before it is written, some 19 MB. Larger, and writing takes
-/// more memory; smaller, and more grids are evaluated twice, first for their header.
+/// Largest number of points of a grid that is made whole before it is written, some 19 MB. With a
+/// larger number, writing takes more memory. With a smaller number, more grids are evaluated twice,
+/// first for their header.
 const KEPT: usize = 1 << 19;
 
 /// A sweep cut into rows and columns.

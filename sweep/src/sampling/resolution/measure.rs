@@ -18,8 +18,9 @@ use crate::surface::profile::Column;
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// Distance of a position beside a kink from the kink, as a fraction of the cell's height. Larger, and the normal there
-/// differs from the limit; smaller, and it rounds to the kink itself.
+/// Distance of a position beside a kink from the kink, as a fraction of the cell's height. At a
+/// larger distance, the normal differs from the limit. At a smaller distance, the position rounds
+/// to the kink itself.
 const BESIDE: f64 = 1e-9;
 
 /// The loads of a cell: errors relative to the tolerance.
