@@ -58,7 +58,7 @@ pub struct Arguments {
     /// Write a material file beside the OBJ, under its name with .mtl
     #[arg(long)]
     mtl: bool,
-    /// The picture of the material, written as it stands here: readers look for it beside the MTL
+    /// Picture that the MTL names, exactly as given; readers look for it beside the MTL
     #[arg(long, value_name = "FILE", requires = "mtl", value_parser = map_name)]
     pub map: Option<String>,
     /// Write what the mesh is like (Euler number, rims, sides, measures) as JSON; - is standard output.

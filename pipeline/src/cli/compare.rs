@@ -28,13 +28,13 @@ pub struct CompareArguments {
     /// A picture, PNG or EXR; - for standard input
     #[arg(value_name = "A")]
     first: PathBuf,
-    /// The picture that it is held against, of the same size
+    /// The picture to compare it with, of the same size
     #[arg(value_name = "B")]
     second: PathBuf,
-    /// Draw where they differ
+    /// Draw a map of the differences
     #[arg(long, value_name = "FILE.png")]
     map: Option<PathBuf>,
-    /// The errors that the map tells apart, linear:MOST or log:LEAST:MOST
+    /// The range of errors that the map shows, linear:MOST or log:LEAST:MOST
     #[arg(long, value_name = "SCALE", default_value = "log:1e-4:1", requires = "map")]
     map_scale: Scale,
     /// The largest RMSE that is allowed
