@@ -160,7 +160,7 @@ pub fn decode(name: &str, bytes: &[u8]) -> Result<Picture, ReadError> {
     Ok(picture)
 }
 
-/// Linear red, green, blue and alpha of each pixel.
+/// Returns the linear red, green, blue and alpha of each pixel.
 fn linear(decoded: DynamicImage) -> Vec<[f32; 4]> {
     if matches!(decoded, DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_)) {
         return decoded.into_rgba32f().pixels().map(|pixel| pixel.0).collect();
@@ -259,7 +259,7 @@ mod tests {
         }
     }
 
-    /// The CRC of a PNG chunk, bit by bit.
+    /// Returns the CRC of a PNG chunk, computed bit by bit.
     fn crc(bytes: &[u8]) -> u32 {
         !bytes.iter().fold(!0, |crc, &byte| {
             (0..8).fold(crc ^ u32::from(byte), |crc, _| (crc >> 1) ^ (0xedb8_8320 * (crc & 1)))

@@ -101,7 +101,7 @@ fn weights() -> [f64; WINDOW] {
 mod tests {
     use super::*;
 
-    /// A picture of grey codes.
+    /// Makes a picture of grey codes.
     fn codes(width: u32, height: u32, code: impl Fn(u32, u32) -> f64) -> Picture {
         let mut picture = Picture::black(width, height);
         for (k, pixel) in (0..).zip(&mut picture.pixels) {
@@ -122,8 +122,8 @@ mod tests {
         ssim(first, second).unwrap().unwrap()
     }
 
-    /// The measure as its paper writes it, window by window, with variances as sums of squared
-    /// deviations (equations 13 to 17).
+    /// Computes the measure as its paper writes it, window by window, with variances as sums of
+    /// squared deviations (equations 13 to 17).
     fn by_the_paper(first: &Picture, second: &Picture) -> f64 {
         let (x, y) = (luma("first", first).unwrap(), luma("second", second).unwrap());
         let (width, height) = (first.width as i64, first.height as i64);

@@ -31,7 +31,7 @@ pub enum Exit {
 
 /// An error that determines the exit code of its program.
 pub trait Failure: Error {
-    /// The exit code of a program that fails with this error.
+    /// Returns the exit code of a program that fails with this error.
     fn exit(&self) -> Exit;
 }
 
@@ -40,7 +40,7 @@ pub trait Failure: Error {
 pub struct Report(Box<dyn Failure>);
 
 impl Report {
-    /// The exit code of a program that fails with this report.
+    /// Returns the exit code of a program that fails with this report.
     #[must_use]
     pub fn exit(&self) -> Exit {
         self.0.exit()

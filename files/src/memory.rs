@@ -84,13 +84,13 @@ impl Budget {
         Self { limit, taken: AtomicU64::new(0) }
     }
 
-    /// Number of bytes that are allowed in all.
+    /// Returns the number of bytes that are allowed in all.
     #[must_use]
     pub fn limit(&self) -> u64 {
         self.limit
     }
 
-    /// Number of bytes that are not taken.
+    /// Returns the number of bytes that are not taken.
     #[must_use]
     pub fn left(&self) -> u64 {
         self.limit.saturating_sub(self.taken.load(Ordering::Relaxed))
@@ -135,7 +135,7 @@ impl Budget {
 }
 
 impl Reserved<'_> {
-    /// Number of bytes that are taken.
+    /// Returns the number of bytes that are taken.
     #[must_use]
     pub fn bytes(&self) -> u64 {
         self.bytes

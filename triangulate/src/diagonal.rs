@@ -103,7 +103,7 @@ mod tests {
     use super::*;
     use std::f64::consts::TAU;
 
-    /// A wavy sheet `z = f(x, y)` and its unit normal.
+    /// Returns a point of a wavy sheet `z = f(x, y)` and the unit normal there.
     fn sheet(x: f64, y: f64) -> ([f64; 3], [f32; 3]) {
         let (a, b) = (TAU * (x + 0.4 * y), TAU * (0.3 * x - y));
         let z = 0.1 * a.sin() + 0.05 * b.cos();

@@ -66,8 +66,8 @@ mod tests {
     use super::*;
     use crate::Triangle;
 
-    /// Two triangles of a square. The second triangle has its own number for each normal and pair of
-    /// picture coordinates, also where the values are equal.
+    /// Returns the two triangles of a square. The second triangle has its own number for each
+    /// normal and pair of picture coordinates, also where the values are equal.
     fn square(uvs: Vec<[f32; 2]>, normals: Vec<[f32; 3]>) -> TriMesh {
         TriMesh {
             positions: vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]],

@@ -25,7 +25,7 @@ pub trait Sink {
     fn normal(&mut self, normal: [f32; 3]);
     /// Takes the next triangle.
     fn triangle(&mut self, triangle: &Triangle);
-    /// Called when a row and its triangles are complete, so that the sink can pass them on.
+    /// Marks the end of a row and its triangles, so that the sink can pass them on.
     ///
     /// # Errors
     /// When the sink cannot pass the row on.

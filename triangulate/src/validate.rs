@@ -117,7 +117,7 @@ mod tests {
     use super::UNIT;
     use crate::{TriMesh, Triangle};
 
-    /// Two triangles of a square.
+    /// Returns the two triangles of a square.
     fn square() -> TriMesh {
         let triangle = |corners| Triangle { position: corners, uv: corners, normal: [0; 3] };
         TriMesh {
@@ -129,7 +129,7 @@ mod tests {
         }
     }
 
-    /// The mesh with positions in general position and these triangles.
+    /// Returns a mesh of these triangles with positions in general position.
     fn faces(faces: &[[u32; 3]]) -> TriMesh {
         let triangle = |&corners| Triangle { position: corners, uv: [0; 3], normal: [0; 3] };
         let count = faces.iter().flatten().max().map_or(0, |most| most + 1);

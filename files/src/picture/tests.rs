@@ -23,7 +23,7 @@ fn encoded(picture: impl Into<DynamicImage>, format: ImageFormat) -> Vec<u8> {
     bytes.into_inner()
 }
 
-/// The PNG with a chunk put in after its header.
+/// Returns the PNG with a chunk inserted after its header.
 fn with_chunk(png: &[u8], kind: &[u8; 4], data: &[u8]) -> Vec<u8> {
     let mut chunk = (data.len() as u32).to_be_bytes().to_vec();
     chunk.extend(kind);
@@ -32,7 +32,7 @@ fn with_chunk(png: &[u8], kind: &[u8; 4], data: &[u8]) -> Vec<u8> {
     [&png[..33], &chunk, &png[33..]].concat()
 }
 
-/// The CRC of a PNG chunk, bit by bit.
+/// Returns the CRC of a PNG chunk, computed bit by bit.
 fn crc(bytes: &[u8]) -> u32 {
     !bytes.iter().fold(!0, |crc, &byte| {
         (0..8).fold(crc ^ u32::from(byte), |crc, _| (crc >> 1) ^ (0xedb8_8320 * (crc & 1)))
@@ -85,7 +85,8 @@ fn a_picture_is_refused_before_it_is_decoded() {
     assert!(error.to_string().starts_with("a.png: a picture of 1000000x1000000 pixels needs"));
 }
 
-/// 64 MB of zeros as a zlib stream of stored and repeated runs: what an ICC profile is unpacked from.
+/// Returns 64 MB of zeros as a zlib stream of stored and repeated runs, as an ICC profile is
+/// stored.
 fn zlib_of_zeros() -> Vec<u8> {
     // A grey picture of zeros has such a stream as its data.
     let png = encoded(GrayImage::new(8192, 8192), ImageFormat::Png);
@@ -114,7 +115,8 @@ fn a_colour_profile_of_zeros_is_not_unpacked() {
     assert_eq!(read(&text, &Budget::new(20 << 20)).unwrap().width(), 8);
 }
 
-/// The header of an EXR file with a display window of 8 x 8 pixels and the given data window.
+/// Returns the header of an EXR file with a display window of 8 x 8 pixels and the given data
+/// window.
 fn exr_with_data_window(corners: [i32; 4]) -> Vec<u8> {
     let mut file = vec![0x76, 0x2f, 0x31, 0x01, 2, 0, 0, 0];
     let mut attribute = |name: &str, kind: &str, value: &[u8]| {

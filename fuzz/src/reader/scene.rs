@@ -109,7 +109,7 @@ pub fn picture(mut scene: Scene, filter: Filter) -> Tried {
     Ok(())
 }
 
-/// A mesh for a name without a file, whose two surfaces the scene binds.
+/// Makes a mesh for a name without a file. The scene binds its two surfaces.
 fn tetrahedron(file: &MeshFile) -> Mesh {
     let id = |bound: &BTreeMap<String, String>, first: bool| {
         let mut ids = bound.keys().filter(|key| key.parse::<u32>().is_ok());

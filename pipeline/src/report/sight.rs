@@ -199,7 +199,7 @@ impl Sight for Five<'_> {
         Self(self.0.step(child))
     }
 
-    /// The parallelogram that the pixel becomes on the texture, to first order.
+    /// Returns the parallelogram that the pixel becomes on the texture, to first order.
     fn footprint(&self, node: &Node, charts: &Charts) -> Footprint {
         let Some([across, down]) = self.derivatives(node, charts) else {
             return Footprint::Point(node.uv);

@@ -235,7 +235,8 @@ mod tests {
         assert_eq!((found.count, found.first, found.more), (all.len() as u64, Some(all[0]), false));
     }
 
-    /// A tube around a bent line, cut into so many cells, with its two ends through each other.
+    /// Returns the triangles of a tube around a bent line, whose two ends pass through each other.
+    /// The tube has `rows` x `cols` cells.
     fn tube(rows: usize, cols: usize) -> Vec<Triangle> {
         let point = |row: usize, col: usize| {
             let (along, around) = (row as f64 / rows as f64, TAU * col as f64 / cols as f64);

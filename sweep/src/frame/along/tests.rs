@@ -17,7 +17,8 @@ impl Helix {
         self.radius.hypot(self.climb)
     }
 
-    /// The normal of a rotation-minimizing frame: Frenet's normal turned back by the torsion.
+    /// Returns the normal of a rotation-minimizing frame: Frenet's normal turned back by the
+    /// torsion.
     fn truth(&self, s: f64) -> DVec3 {
         let place = self.at(s);
         let normal = place.curvature.normalize();
