@@ -6,7 +6,7 @@
 //! interrupted (a shell says 130 for Ctrl-C) and not that it failed.
 //!
 //! The list of open temporaries belongs to the whole process, since signals come to a process. One
-//! lock guards the creation of a temporary with its entry, and the removal of both. The thread
+//! lock guards the creation of a temporary with its entry, and the removal of an entry. The thread
 //! takes the lock and never releases it, so no temporary is created while the thread works.
 //!
 //! A file that outgrows the limit of the system (`ulimit -f`) would end a program by SIGXFSZ at
