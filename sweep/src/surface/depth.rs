@@ -67,11 +67,15 @@ pub struct Relief {
 /// A wave at one position of the trajectory.
 #[derive(Debug, Clone, Copy)]
 struct Wave {
+    /// Number of waves along the contour.
     u: f64,
-    /// Phase as a fraction of a turn; `phase_v` is its derivative by `v` in radians.
+    /// Phase as a fraction of a turn.
     phase: f64,
+    /// Derivative of the phase by `v`, in radians.
     phase_v: f64,
+    /// Amplitude with its law.
     height: f64,
+    /// Derivative of the amplitude by `v`.
     height_v: f64,
 }
 

@@ -60,16 +60,20 @@ struct Need {
 
 struct Problem {
     needs: Vec<Need>,
-    /// Extents of the blocks along the contour and the trajectory, as fractions.
+    /// Extents of the blocks along the contour, as fractions of its length.
     widths: Vec<f64>,
+    /// Extents of the blocks along the trajectory, as fractions of its length.
     heights: Vec<f64>,
 }
 
-/// Squared widths and heights, and the largest load that they cause.
+/// Sizes of the blocks, and the largest load that these sizes cause.
 #[derive(Debug, Clone)]
 struct Sizes {
+    /// Squared width of the cells in each column of blocks.
     x: Vec<f64>,
+    /// Squared height of the cells in each row of blocks.
     y: Vec<f64>,
+    /// The largest load of a block.
     worst: f64,
 }
 

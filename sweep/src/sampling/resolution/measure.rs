@@ -56,7 +56,9 @@ struct Strip {
     loads: Vec<Load>,
     /// Errors of each cell's lower and upper side, measured against the cell's own triangles.
     sides: Vec<[Off; 2]>,
+    /// The largest distance of the row.
     distance: Off,
+    /// The largest squared chord between the unit normals of a triangle and of the surface.
     turn_sq: f64,
 }
 

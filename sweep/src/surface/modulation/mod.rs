@@ -75,6 +75,7 @@ struct Local {
     q: DVec2,
     /// Direction of the contour, divided by the scale so that it does not vanish with the scale.
     q_u: DVec2,
+    /// Derivative of the point by length of the trajectory, or by radian for a rotation.
     q_s: DVec2,
     /// True if the contour itself folds back here.
     folds: bool,
