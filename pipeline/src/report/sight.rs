@@ -155,14 +155,18 @@ struct Way {
     refracted: bool,
 }
 
-/// Weights of textures, summed over a tree. `all` includes surfaces without texture and the background.
+/// Weights of textures, summed over a tree.
 #[derive(Debug, Default)]
 struct Found {
+    /// All weights, with those of surfaces without texture and of the background.
     all: f64,
+    /// Weights of textures by mirrors alone.
     mirrored: f64,
+    /// Weights of textures through surfaces.
     through: f64,
-    /// The largest weight of one textured surface, and in `minor` the minor axis there, in texels.
+    /// The largest weight of one textured surface.
     most: f64,
+    /// The minor axis of the footprint on that surface, in texels.
     minor: Option<f64>,
 }
 

@@ -13,7 +13,9 @@ const CORNERS: &str = include_str!("coastlines.txt");
 const UNIT: f64 = 0.1;
 /// Side of a cell, in degrees. Shores are looked up by cells.
 const CELL: f64 = 2.0;
+/// Number of cells around the globe.
 const COLUMNS: usize = 180;
+/// Number of cells from pole to pole.
 const ROWS: usize = 90;
 
 /// A stretch of shore, from corner to corner, in degrees.
