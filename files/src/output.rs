@@ -52,8 +52,8 @@ impl Output {
     /// Opens the output that an argument names; `-` is standard output. No file is replaced yet.
     ///
     /// # Errors
-    /// When the folder cannot be written, when the file exists and `clobber` is false, when the
-    /// argument is a link that leads to no file, or when standard output was closed.
+    /// When the folder cannot be written, or when the file exists and `clobber` is false. Also when
+    /// the argument is a link that leads to no file, and when standard output was closed.
     pub fn create(argument: &Path, clobber: bool) -> Result<Self, FileError> {
         let name = name_of(argument);
         let failed = |source| write_error(name.clone(), source);

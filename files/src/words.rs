@@ -27,8 +27,8 @@ pub const LONGEST_LIST: usize = 300;
 /// comparison is the product of both lengths, for each known name.
 const LONGEST_SLIP: usize = 200;
 
-/// Returns a name or a value for a message: on one line, with invisible characters spelled out, and
-/// cut in the middle if it is longer than 120 characters.
+/// Returns a name or a value for a message, on one line. Invisible characters are spelled out, and
+/// a text longer than 120 characters is cut in the middle.
 #[must_use]
 pub fn shown(text: &str) -> impl Display {
     cut(text, 2 * LONGEST_QUOTE)

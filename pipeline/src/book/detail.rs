@@ -110,8 +110,8 @@ fn around(place: &Place, (width, height): (u32, u32)) -> Crop {
     Crop { x: start(x, wide, width), y: start(y, high, height), width: wide, height: high }
 }
 
-/// Returns for each pixel whether it is wide. The ray through the middle of a wide pixel first hits an
-/// object with a texture, and there the pixel spans more than two texels in both directions.
+/// Returns for each pixel whether it is wide. The ray through the middle of a wide pixel first hits
+/// an object with a texture. There the pixel spans more than two texels in both directions.
 fn wide_pixels(prepared: &Prepared<'_>, (width, height): (u32, u32), crop: Crop) -> Vec<bool> {
     let layers = vec![Layer::Object, Layer::Footprint];
     let settings = Settings::new(width, height, Filter::Tent);

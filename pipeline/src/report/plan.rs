@@ -62,9 +62,9 @@ impl Plan {
         }
     }
 
-    /// Returns every method that makes a picture of its own. For filters that do not average over an
-    /// area, both forms of the thesis's supersampling give the same picture to the last bit, so one
-    /// form is left out.
+    /// Returns every method that makes a picture of its own. For filters that do not average over
+    /// an area, both forms of the thesis's supersampling give the same picture to the last bit. One
+    /// form is then left out.
     #[must_use]
     pub fn methods(&self) -> Vec<Method> {
         let image = Sampling::Supersample(Supersample::Image);
