@@ -52,6 +52,7 @@ pub enum PictureError {
 /// for the picture too. `each` gives the bytes that the caller takes for each pixel of a picture of
 /// this kind, the picture itself included. `name` names the file in a refusal of memory.
 ///
+/// # Errors
 /// When there is no picture of these formats, or no memory for it. A decoder's panic becomes an
 /// error.
 pub fn decode<'b>(
