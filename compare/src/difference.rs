@@ -73,7 +73,8 @@ impl Difference {
 }
 
 /// Returns the column and row, from 0, of the pixel with the largest difference in a channel. Of
-/// several equal ones it is the first, row by row. Returns `None` for equal pictures.
+/// several pixels with equal differences, the first one row by row is returned. Returns `None` for
+/// equal pictures.
 ///
 /// # Errors
 /// When the sizes differ or there are no pixels.

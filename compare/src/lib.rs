@@ -1,4 +1,4 @@
-//! Says how far one picture is from another, in linear light where white is 1.
+//! Measures the difference between two pictures, in linear light where white is 1.
 //!
 //! [`read`] reads the pictures from PNG and EXR files. [`Difference`] holds their errors as numbers,
 //! [`ssim`] computes their structural similarity, and [`mod@map`] draws where they differ, in the colours

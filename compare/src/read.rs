@@ -31,7 +31,7 @@ pub enum ReadError {
     NoPicture {
         /// The file.
         name: String,
-        /// What was found, in words.
+        /// Description of the found content, in words.
         found: String,
     },
     /// The picture takes more memory than is allowed.
@@ -44,9 +44,9 @@ pub enum ReadError {
         name: String,
         /// Column and row, from 0.
         place: (u32, u32),
-        /// What was found.
+        /// The found value, in words.
         found: String,
-        /// What was expected.
+        /// The expected value, in words.
         expected: &'static str,
     },
     /// The two pictures are not equally large.
@@ -59,7 +59,7 @@ pub enum ReadError {
         /// Pixels across and down of both.
         sizes: [(u32, u32); 2],
     },
-    /// The part to compare does not lie in the picture.
+    /// The requested part does not lie in the picture.
     #[error("the crop {},{},{}x{} does not lie in {name}, which is {}x{} pixels", crop.x, crop.y, crop.width, crop.height, size.0, size.1)]
     Crop {
         /// The file.
@@ -82,7 +82,8 @@ impl Failure for ReadError {
     }
 }
 
-/// Reads the picture file that an argument names; `-` is standard input. The first bytes tell the format.
+/// Reads the picture file that an argument names; `-` is standard input. The first bytes determine
+/// the format.
 ///
 /// # Errors
 /// When the file cannot be read, is no PNG or EXR file, or is broken; when a pixel is not opaque or not
@@ -131,7 +132,7 @@ pub fn part(whole: &Picture, crop: &Crop) -> Picture {
 /// Reads a picture from the bytes of a file, which messages call `name`.
 ///
 /// # Errors
-/// As [`read`], but for reading.
+/// See [`read`], except for errors of reading.
 pub fn decode(name: &str, bytes: &[u8]) -> Result<Picture, ReadError> {
     let (decoded, _reserved) =
         picture::decode(bytes, &[Format::Png, Format::OpenExr], each, of_process(), || name.into())
@@ -159,7 +160,7 @@ pub fn decode(name: &str, bytes: &[u8]) -> Result<Picture, ReadError> {
     Ok(picture)
 }
 
-/// Linear red, green, blue and alpha of each pixel.
+/// Returns the linear red, green, blue and alpha of each pixel.
 fn linear(decoded: DynamicImage) -> Vec<[f32; 4]> {
     if matches!(decoded, DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_)) {
         return decoded.into_rgba32f().pixels().map(|pixel| pixel.0).collect();
@@ -258,7 +259,7 @@ mod tests {
         }
     }
 
-    /// The CRC of a PNG chunk, bit by bit.
+    /// Returns the CRC of a PNG chunk, computed bit by bit.
     fn crc(bytes: &[u8]) -> u32 {
         !bytes.iter().fold(!0, |crc, &byte| {
             (0..8).fold(crc ^ u32::from(byte), |crc, _| (crc >> 1) ^ (0xedb8_8320 * (crc & 1)))

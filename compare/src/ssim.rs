@@ -1,8 +1,8 @@
 //! Computes the structural similarity of two pictures (Wang, Bovik, Sheikh and Simoncelli 2004).
 //!
-//! The measure compares luma: the weighted sum of the sRGB codes, as a screen shows them. It models
-//! what an eye sees and was fitted to codes. (Its authors take the luminance of 8-bit pictures; here
-//! codes are not rounded.) Light beyond white counts as white.
+//! The measure compares luma: the weighted sum of the sRGB codes, as a screen shows them. The
+//! measure models the eye and was fitted to codes. (Its authors take the luminance of 8-bit
+//! pictures; here codes are not rounded.) Light beyond white counts as white.
 //!
 //! Means, variances and the covariance are weighted by a Gaussian window of 11 x 11 pixels. As in the
 //! authors' own program, only windows that lie entirely in the picture count, and pictures are not
@@ -101,7 +101,7 @@ fn weights() -> [f64; WINDOW] {
 mod tests {
     use super::*;
 
-    /// A picture of grey codes.
+    /// Makes a picture of grey codes.
     fn codes(width: u32, height: u32, code: impl Fn(u32, u32) -> f64) -> Picture {
         let mut picture = Picture::black(width, height);
         for (k, pixel) in (0..).zip(&mut picture.pixels) {
@@ -122,8 +122,8 @@ mod tests {
         ssim(first, second).unwrap().unwrap()
     }
 
-    /// The measure as its paper writes it, window by window, with variances as sums of squared
-    /// deviations (equations 13 to 17).
+    /// Computes the measure as its paper writes it, window by window, with variances as sums of
+    /// squared deviations (equations 13 to 17).
     fn by_the_paper(first: &Picture, second: &Picture) -> f64 {
         let (x, y) = (luma("first", first).unwrap(), luma("second", second).unwrap());
         let (width, height) = (first.width as i64, first.height as i64);

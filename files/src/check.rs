@@ -1,15 +1,15 @@
-//! What the `--check` of a program finds, and how each finding is printed.
+//! Findings of the `--check` of a program, and their form in print.
 
 use std::fmt::{self, Display};
 
-/// How much a finding weighs, from the least to the most.
+/// The weight of a finding, from the least to the most.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
-    /// Good to know, and often meant.
+    /// Useful to know, and often intended.
     Remark,
-    /// Most often not meant.
+    /// Probably not intended.
     Hint,
-    /// The result cannot be what the input means.
+    /// The result cannot be the one that the input means.
     Wrong,
 }
 
@@ -20,7 +20,7 @@ pub struct Finding {
     pub severity: Severity,
     /// The JSON path of the part of the input. The name of the file precedes it in an included file.
     pub path: String,
-    /// A sentence with a number to act on.
+    /// A sentence with a number that the reader can act on.
     pub message: String,
 }
 

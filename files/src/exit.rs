@@ -1,4 +1,4 @@
-//! How a program ends: its exit code, and the one line it prints when it fails.
+//! Ends a program: its exit code, and the one line that a failed program prints.
 
 use crate::{stop, words};
 use std::error::Error;
@@ -10,14 +10,14 @@ use std::process::ExitCode;
 /// The exit codes of all four programs. 0 is success.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Exit {
-    /// Two pictures that were compared differ by more than was allowed, as `diff` ends where files
-    /// differ.
+    /// Two compared pictures differ by more than was allowed. `diff` has the same code for files
+    /// that differ.
     Differ = 1,
     /// Bad use of the command line; clap ends with the same code.
     Use = 2,
     /// An input is malformed: JSON, grid, OBJ or picture.
     Malformed = 3,
-    /// The geometry asked for does not exist: a degenerate curve, a trajectory with a corner.
+    /// The requested geometry does not exist: a degenerate curve, a trajectory with a corner.
     Geometry = 4,
     /// A file could not be read or written.
     ReadWrite = 5,
@@ -25,13 +25,13 @@ pub enum Exit {
     Resource = 6,
     /// A bug of ours.
     Bug = 70,
-    /// The reader of our standard output closed it; nothing is printed.
+    /// The reader of our standard output closed it. No message is printed.
     ClosedPipe = 141,
 }
 
-/// An error that knows the exit code its program ends with.
+/// An error that determines the exit code of its program.
 pub trait Failure: Error {
-    /// The exit code of a program that fails with this error.
+    /// Returns the exit code of a program that fails with this error.
     fn exit(&self) -> Exit;
 }
 
@@ -40,7 +40,7 @@ pub trait Failure: Error {
 pub struct Report(Box<dyn Failure>);
 
 impl Report {
-    /// The exit code of a program that fails with this report.
+    /// Returns the exit code of a program that fails with this report.
     #[must_use]
     pub fn exit(&self) -> Exit {
         self.0.exit()
@@ -59,11 +59,12 @@ impl<E: Failure + 'static> From<E> for Report {
     }
 }
 
-/// Does a program's work, prints its error if there is one, and gives its exit code.
+/// Does a program's work, prints its error if there is one, and returns its exit code.
 ///
-/// A signal that ends it leaves no temporary files ([`crate::stop`]).
+/// A signal that ends the program leaves no temporary files ([`crate::stop`]).
 ///
-/// A panic is a bug of ours: it ends with [`Exit::Bug`] and a request to report it.
+/// A panic is a bug of ours: the program ends with [`Exit::Bug`] and asks the user to report the
+/// bug.
 #[must_use]
 pub fn run(program: &str, work: impl FnOnce() -> Result<(), Report>) -> ExitCode {
     stop::clean_up_when_stopped();
@@ -86,15 +87,15 @@ pub fn run(program: &str, work: impl FnOnce() -> Result<(), Report>) -> ExitCode
 /// Prints words for people on standard error, and a newline. Characters that would steer a terminal
 /// are spelled out ([`words::printed`]); line ends are kept.
 ///
-/// Where they cannot be printed they are lost, and the program goes on: what it was asked for is
-/// not these words.
+/// Words that cannot be printed are lost, and the program continues: these words are not its
+/// result.
 pub fn say(words: impl Display) {
     // One write, so that programs that share a terminal do not mix their lines.
     let text = words::printed(&format!("{words}\n")).into_owned();
     let _ = io::stderr().write_all(text.as_bytes());
 }
 
-/// A message on one line of bounded length, whatever is quoted in it.
+/// Returns a message on one line of bounded length, whatever the message quotes.
 ///
 /// Messages quote names and keys from files, which may hold newlines, commands to a terminal, and
 /// megabytes.

@@ -1,8 +1,8 @@
-//! Bytes from a file, from standard input, or from files built into the program.
+//! Reads bytes from a file, from standard input, or from files built into the program.
 //!
-//! Files are regular ones: a named pipe could wait for ever, and a device never end. Only `-` is read
-//! from wherever it comes. What is read is counted in the memory budget of the process while it grows,
-//! so that a file that never ends is refused.
+//! Files must be regular ones: a named pipe could block for ever, and a device need not end. Only
+//! `-` may be a pipe or a device. Bytes are counted in the memory budget of the process while they
+//! are read, so a file without an end is refused.
 
 use crate::json::BYTES_OF_A_BYTE;
 use crate::memory::{self, Budget};
@@ -15,24 +15,24 @@ use std::path::{Component, Path, PathBuf};
 /// The name under which standard input appears in messages.
 pub const STDIN: &str = "<stdin>";
 
-/// A place that holds files under paths.
+/// A collection of files under paths.
 pub trait Source: Debug + Sync {
-    /// The whole file at `path`.
+    /// Returns the bytes of the whole file at `path`.
     ///
     /// # Errors
     /// When there is no such file or it cannot be read.
     fn read(&self, path: &Path) -> Result<Vec<u8>, FileError>;
 
-    /// The whole JSON file at `path`, if there is memory to make values of it.
+    /// Returns the whole JSON file at `path`, if there is memory for its parsed values.
     ///
     /// # Errors
-    /// As [`Source::read`], and when the budget of the process is too small.
+    /// See [`Source::read`]; also when the memory budget of the process is too small.
     fn read_json(&self, path: &Path) -> Result<Vec<u8>, FileError> {
         room_for_values(self.read(path)?, || shown(path))
     }
 }
 
-/// The file system; relative paths count from the working folder.
+/// The file system. Relative paths are resolved from the working folder.
 #[derive(Debug, Clone, Copy)]
 pub struct Disk;
 
@@ -64,10 +64,10 @@ impl Source for Embedded {
     }
 }
 
-/// The whole of the file named on a command line; `-` is standard input.
+/// Reads the whole file that an argument names; `-` is standard input.
 ///
 /// # Errors
-/// When it cannot be read.
+/// When the file cannot be read.
 pub(crate) fn read(argument: &Path) -> Result<Vec<u8>, FileError> {
     if !is_stdin(argument) {
         return Disk.read(argument);
@@ -75,10 +75,11 @@ pub(crate) fn read(argument: &Path) -> Result<Vec<u8>, FileError> {
     whole(io::stdin().lock(), 0, memory::of_process(), || STDIN.into())
 }
 
-/// The whole JSON file named on a command line, if there is memory to make values of it; `-` is standard input.
+/// Reads the whole JSON file that an argument names, if there is memory for its parsed values; `-`
+/// is standard input.
 ///
 /// # Errors
-/// When it cannot be read, and when the budget of the process is too small.
+/// When the file cannot be read, and when the memory budget of the process is too small.
 pub(crate) fn read_json(argument: &Path) -> Result<Vec<u8>, FileError> {
     room_for_values(read(argument)?, || name_of(argument))
 }
@@ -89,10 +90,10 @@ fn room_for_values(text: Vec<u8>, name: impl Fn() -> String) -> Result<Vec<u8>, 
     Ok(text)
 }
 
-/// The file named on a command line as a buffered reader; `-` is standard input.
+/// Opens the file that an argument names as a buffered reader; `-` is standard input.
 ///
 /// # Errors
-/// When it cannot be opened.
+/// When the file cannot be opened.
 pub(crate) fn open(argument: &Path) -> Result<Box<dyn io::BufRead>, FileError> {
     if is_stdin(argument) {
         return Ok(Box::new(io::stdin().lock()));
@@ -101,19 +102,19 @@ pub(crate) fn open(argument: &Path) -> Result<Box<dyn io::BufRead>, FileError> {
     Ok(Box::new(io::BufReader::with_capacity(1 << 16, file)))
 }
 
-/// True for `-`, which names standard input on a command line.
+/// Returns true for `-`, which names standard input on a command line.
 #[must_use]
 pub fn is_stdin(argument: &Path) -> bool {
     argument.as_os_str() == "-"
 }
 
-/// How messages name the file of a command line: as the user wrote it, or `<stdin>`.
+/// Returns the name of an argument's file in messages: the user's spelling, or `<stdin>`.
 #[must_use]
 pub fn name_of(argument: &Path) -> String {
     if is_stdin(argument) { STDIN.into() } else { shown(argument) }
 }
 
-/// A path in a message.
+/// Returns a path in the form that messages show.
 fn shown(path: &Path) -> String {
     words::shown(&path.to_string_lossy()).to_string()
 }
@@ -122,8 +123,8 @@ fn read_error(path: &Path, source: io::Error) -> FileError {
     FileError::Read { name: shown(path), source }
 }
 
-/// The regular file at `path`, opened, and its length in bytes. Its kind is looked at first, since
-/// opening a pipe waits for its other end.
+/// Opens the regular file at `path`, and returns its length in bytes too. The kind of the file is
+/// checked first, since opening a pipe waits for its other end.
 fn regular(path: &Path) -> Result<(File, u64), FileError> {
     let failed = |source| read_error(path, source);
     let look = |found: std::fs::Metadata| match kind(&found) {
@@ -132,7 +133,7 @@ fn regular(path: &Path) -> Result<(File, u64), FileError> {
     };
     look(std::fs::metadata(path).map_err(failed)?)?;
     let file = File::open(path).map_err(failed)?;
-    // Another file may have come to the name meanwhile.
+    // Another file may have taken the name since the first check.
     let length = look(file.metadata().map_err(failed)?)?;
     Ok((file, length))
 }
@@ -155,8 +156,8 @@ fn kind(found: &std::fs::Metadata) -> Option<&'static str> {
     Some(if found.is_dir() { "a folder" } else { "a device" })
 }
 
-/// All bytes of `input`, which are about `length`. Memory is asked for before it is taken, and only
-/// for bytes that came.
+/// Reads all bytes of `input`, which are about `length`. Memory is reserved before it is allocated,
+/// and only for bytes that arrived.
 fn whole(
     mut input: impl Read,
     length: u64,
@@ -164,7 +165,7 @@ fn whole(
     name: impl Fn() -> String,
 ) -> Result<Vec<u8>, FileError> {
     let what = || format!("reading {}", name());
-    // One more than is expected, so that the end is seen without another step.
+    // One byte more than expected, so that the end of the file is seen without another step.
     let mut step = match usize::try_from(length) {
         Ok(0) => STEP,
         length => length.unwrap_or(usize::MAX).saturating_add(1),
@@ -183,10 +184,10 @@ fn whole(
     }
 }
 
-/// Bytes that are read at first where nothing tells how many there are.
+/// Number of bytes that are read first when the length is not known.
 const STEP: usize = 1 << 16;
 
-/// The path without `.` and with each `..` taken against the name before it.
+/// Returns the path without `.`, and with each `..` cancelled against the name before it.
 #[must_use]
 pub fn normalized(path: &Path) -> PathBuf {
     let mut result = PathBuf::new();

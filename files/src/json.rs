@@ -16,12 +16,13 @@ use serde::de::DeserializeOwned;
 use serde_path_to_error::{Path, Segment};
 use thiserror::Error;
 
-/// Bytes that the values of a JSON text take at most for each of its bytes. A number of one digit and
-/// its comma are 2 bytes; as a value of unknown type they take 32, an array of those twice that while it
-/// grows, and a tree in which a complaint finds its place as much again. 43 were measured.
+/// Most bytes that the values of a JSON text take for each byte of the text. A number of one digit
+/// and its comma are 2 bytes. As a value of unknown type they take 32 bytes, and an array of such
+/// values twice that while it grows. The tree that gives a complaint its position takes as much
+/// again. The largest measured ratio was 43.
 pub const BYTES_OF_A_BYTE: u64 = 48;
 
-/// Characters of a message at most; a longer one is cut in its middle.
+/// Most characters of a message. A longer message is cut in its middle.
 const LONGEST_MESSAGE: usize = 440;
 
 /// An error in a JSON text, with its position.
@@ -36,7 +37,7 @@ pub struct JsonError {
     pub column: usize,
     /// The path of the value, such as `contour.bezier[0][2]`; empty at the root.
     pub path: String,
-    /// What was found and what was expected.
+    /// The found and the expected value, in words.
     pub message: String,
 }
 
@@ -115,7 +116,8 @@ impl<'a> Document<'a> {
         Ok(())
     }
 
-    /// Makes a complaint about the value at `path`. `message` says what was found and expected.
+    /// Makes a complaint about the value at `path`. `message` states the found and the expected
+    /// value.
     ///
     /// Where `path` leads to a missing key, the position is that of the deepest value on the path that
     /// exists.

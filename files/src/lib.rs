@@ -1,25 +1,25 @@
-//! The edge of the four programs: what they read, what they write, how they fail.
+//! The edge of the four programs: their inputs, their outputs, and their failures.
 //!
 //! | module        | what                                                                  |
 //! |---------------|-----------------------------------------------------------------------|
 //! | [`json`]      | JSON into typed values; every complaint has file, line, column and path |
 //! | [`input`]     | bytes from a file, from standard input, or from pages built in        |
-//! | [`ledger`]    | what a program reads and will write: no output replaces an input      |
+//! | [`ledger`]    | inputs and outputs of a program: no output replaces an input          |
 //! | [`names`]     | JSON objects of names that a user chose, each once                    |
 //! | [`output`]    | a file that is replaced only when it is whole, or standard output     |
 //! | [`batch`]     | files that belong together, and a marker while some are old           |
-//! | [`extension`] | names of outputs that say what the file does not hold                 |
+//! | [`extension`] | names of outputs that contradict the content of the file              |
 //! | [`progress`]  | a bar on standard error, for work that takes longer than a second     |
 //! | [`stop`]      | no temporary file stays when a program is interrupted                 |
-//! | [`exit`]      | the exit codes, and the one place that prints an error                |
-//! | [`memory`]    | a budget of bytes, which are asked for before they are taken          |
-//! | [`picture`]   | the bytes of a picture file into a picture, which never panics        |
-//! | [`words`]     | what messages show of names and values                                |
-//! | [`check`]     | what `--check` finds, and how much each finding weighs                |
+//! | [`exit`]      | the exit codes, and the only function that prints an error            |
+//! | [`memory`]    | a budget of bytes, which are reserved before they are allocated       |
+//! | [`picture`]   | the bytes of a picture file into a picture, without a panic           |
+//! | [`words`]     | names and values in messages: cut, and without invisible characters   |
+//! | [`check`]     | the findings of `--check`, and the weight of each                     |
 //! | [`schema`]    | JSON Schema of the file formats                                       |
 //! | [`svg`]       | drawings as SVG                                                       |
 //!
-//! The crate knows nothing of curves or meshes, and of pictures only how to decode them. The libraries
+//! The crate contains no curves and no meshes, and of pictures only their decoding. The libraries
 //! above this crate never print.
 
 pub mod batch;
@@ -62,10 +62,10 @@ pub enum FileError {
     Read {
         /// The file as the user named it, or `<stdin>`.
         name: String,
-        /// What the system said.
+        /// The error of the operating system.
         source: io::Error,
     },
-    /// The path leads to something else than a regular file.
+    /// The path leads to a file that is not a regular one.
     #[error(
         "cannot read {}: it is {found}, expected a regular file (only - may be a pipe)",
         words::shown(name)
@@ -84,10 +84,10 @@ pub enum FileError {
     Write {
         /// The file as the user named it, or `<stdout>`.
         name: String,
-        /// What the system said.
+        /// The error of the operating system.
         source: io::Error,
     },
-    /// The output exists and the user asked that nothing be replaced.
+    /// The output exists, and the user forbade replacements.
     #[error(
         "{} exists and --no-clobber was given: remove it or choose another name",
         words::shown(name)
@@ -99,7 +99,7 @@ pub enum FileError {
     /// The file was named for two purposes, of which one would destroy the other.
     #[error(transparent)]
     Clash(#[from] ledger::Clash),
-    /// The program that read our standard output has gone.
+    /// The program that read our standard output has closed it.
     #[error("the reader of standard output closed it")]
     ClosedPipe,
 }

@@ -1,11 +1,12 @@
-//! Memory that is asked for before it is taken.
+//! Reserves memory in a budget before the memory is allocated.
 //!
-//! A [`Budget`] knows how many bytes a program may hold. Whoever is about to take much works out the
-//! number from sizes alone and asks with [`Budget::reserve`]; what is refused was never allocated, and
-//! the refusal says for what it was needed. The bytes count as taken until the [`Reserved`] is dropped.
+//! A [`Budget`] counts the bytes that a program may hold. Code that will allocate much computes the
+//! number of bytes from sizes alone and calls [`Budget::reserve`]. A refused request allocates
+//! nothing, and the refusal names its purpose. The bytes count as taken until the [`Reserved`] is
+//! dropped.
 //!
-//! A budget counts what it is asked for, not what the allocator does: small values are not in it. The
-//! default leaves a tenth of the free memory for those.
+//! A budget counts reservations, not what the allocator does: small values are not counted. The
+//! default leaves a tenth of the free memory for small values.
 
 mod machine;
 
@@ -15,19 +16,20 @@ use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
 use thiserror::Error;
 
-/// The budget of this process. Memory is one for a whole process, and so is its limit.
+/// The budget of this process. The memory of a process has one limit, so the process has one
+/// budget.
 static PROCESS: OnceLock<Budget> = OnceLock::new();
 
-/// The budget of this process: that of [`allow`], or 90 % of the memory that was free when it was asked
-/// for first.
+/// Returns the budget of this process: that of [`allow`], or 90 % of the memory that was free at
+/// the first call.
 #[must_use]
 pub fn of_process() -> &'static Budget {
     PROCESS.get_or_init(|| Budget::new(machine::free().unwrap_or(UNKNOWN) / 10 * 9))
 }
 
-/// Lets this process take at most `limit` bytes, or as many as a limited address space (`ulimit -v`)
-/// holds; without a limit, 90 % of the memory that is free. Programs call it once, before they read
-/// anything; the first call counts.
+/// Lets this process take at most `limit` bytes, and no more than 90 % of what is left of a limited
+/// address space (`ulimit -v`). Without a limit, the budget is 90 % of the free memory. Programs
+/// call this function once, before they read a file; only the first call counts.
 pub fn allow(limit: Option<u64>) {
     if let Some(limit) = limit {
         let limit = machine::address_space().map_or(limit, |space| limit.min(space / 10 * 9));
@@ -35,17 +37,17 @@ pub fn allow(limit: Option<u64>) {
     }
 }
 
-/// Free memory in bytes where the system does not tell it: half of a common machine.
+/// Free memory in bytes on a system that does not report it: half of a common machine.
 const UNKNOWN: u64 = 8 << 30;
 
-/// How many bytes may be held, and how many of them are.
+/// A number of bytes that may be held, and the number that is held now.
 #[derive(Debug)]
 pub struct Budget {
     limit: u64,
     taken: AtomicU64,
 }
 
-/// Bytes that are taken until this is dropped.
+/// Bytes that count as taken until this value is dropped.
 #[derive(Debug)]
 #[must_use = "the bytes are given back when this is dropped"]
 pub struct Reserved<'a> {
@@ -53,19 +55,19 @@ pub struct Reserved<'a> {
     bytes: u64,
 }
 
-/// More memory is needed than is allowed.
+/// A request for more memory than is allowed.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{what} needs {}, {}", Bytes(*needed), Remedy(self))]
 pub struct MemoryError {
     /// The purpose of the memory, such as `a picture of 640x480 pixels`.
     pub what: String,
-    /// Bytes that it needs.
+    /// Bytes that the purpose needs.
     pub needed: u64,
-    /// Bytes that are taken by something else.
+    /// Bytes that are taken for other purposes.
     pub taken: u64,
     /// Bytes that are allowed in all.
     pub limit: u64,
-    /// Whether they are allowed, and the system does not give them.
+    /// True if the bytes are within the limit, but the system does not provide them.
     pub refused_by_system: bool,
 }
 
@@ -76,25 +78,25 @@ impl Failure for MemoryError {
 }
 
 impl Budget {
-    /// A budget of this many bytes, none of them taken.
+    /// Makes a budget of `limit` bytes, none of them taken.
     #[must_use]
     pub const fn new(limit: u64) -> Self {
         Self { limit, taken: AtomicU64::new(0) }
     }
 
-    /// Bytes that are allowed in all.
+    /// Returns the number of bytes that are allowed in all.
     #[must_use]
     pub fn limit(&self) -> u64 {
         self.limit
     }
 
-    /// Bytes that are not taken.
+    /// Returns the number of bytes that are not taken.
     #[must_use]
     pub fn left(&self) -> u64 {
         self.limit.saturating_sub(self.taken.load(Ordering::Relaxed))
     }
 
-    /// Takes `bytes` for `what`, whose words begin the message of a refusal.
+    /// Takes `bytes` for a purpose. The words of `what` begin the message of a refusal.
     ///
     /// # Errors
     /// When fewer bytes are left.
@@ -118,62 +120,63 @@ impl Budget {
         MemoryError { what, needed, taken, limit: self.limit, refused_by_system }
     }
 
-    /// Gives back bytes of [`Reserved::into_bytes`].
+    /// Returns bytes of [`Reserved::into_bytes`] to the budget.
     pub fn give_back(&self, bytes: u64) {
         drop(Reserved { budget: self, bytes });
     }
 
-    /// Finds out whether `bytes` could be reserved now.
+    /// Checks that `bytes` could be reserved now.
     ///
     /// # Errors
-    /// As [`Budget::reserve`].
+    /// See [`Budget::reserve`].
     pub fn check(&self, bytes: u64, what: impl FnOnce() -> String) -> Result<(), MemoryError> {
         self.reserve(bytes, what).map(drop)
     }
 }
 
 impl Reserved<'_> {
-    /// Bytes that are taken.
+    /// Returns the number of bytes that are taken.
     #[must_use]
     pub fn bytes(&self) -> u64 {
         self.bytes
     }
 
-    /// Gives back all but `bytes`; asks for no more.
+    /// Returns all but `bytes` to the budget. Takes no more bytes if fewer are taken.
     pub fn shrink(&mut self, bytes: u64) {
         let given = self.bytes.saturating_sub(bytes);
         self.budget.taken.fetch_sub(given, Ordering::Relaxed);
         self.bytes -= given;
     }
 
-    /// Leaves the bytes taken; [`Budget::give_back`] takes their number.
+    /// Leaves the bytes taken, and returns their number for [`Budget::give_back`].
     #[must_use]
     pub fn into_bytes(mut self) -> u64 {
         std::mem::take(&mut self.bytes)
     }
 
-    /// Takes `more` bytes for `what`.
+    /// Takes `more` bytes for a purpose.
     ///
     /// # Errors
-    /// As [`Budget::reserve`]; what was taken before stays taken.
+    /// See [`Budget::reserve`]; bytes that were taken before stay taken.
     pub fn grow(&mut self, more: u64, what: impl FnOnce() -> String) -> Result<(), MemoryError> {
         self.bytes += self.budget.reserve(more, what)?.into_bytes();
         Ok(())
     }
 }
 
-/// Whether the system gives this many bytes in one piece. They are given back at once; without this
-/// question a process whose address space is limited would abort where it takes them.
+/// Returns whether the system provides this many bytes in one piece. The bytes are released at
+/// once. Without this trial, a process whose address space is limited would abort at the
+/// allocation.
 fn given(bytes: u64) -> bool {
     let Ok(bytes) = usize::try_from(bytes) else { return false };
     let mut trial: Vec<u8> = Vec::new();
     let given = bytes < SMALL || trial.try_reserve_exact(bytes).is_ok();
-    // The compiler leaves out memory that nobody looks at.
+    // The compiler removes an allocation whose memory is not used.
     std::hint::black_box(&trial);
     given
 }
 
-/// Bytes that are not worth a question to the system.
+/// Number of bytes below which the system is not tried.
 const SMALL: usize = 1 << 20;
 
 impl Drop for Reserved<'_> {
@@ -182,8 +185,8 @@ impl Drop for Reserved<'_> {
     }
 }
 
-/// A number of bytes in words: exact where it is small, else with one decimal. A GB is 1024 MB, as in
-/// the argument of `--max-memory`.
+/// A number of bytes in words: exact if it is small, otherwise with one decimal. A GB is 1024 MB,
+/// as in the argument of `--max-memory`.
 #[derive(Debug, Clone, Copy)]
 pub struct Bytes(pub u64);
 
@@ -198,7 +201,7 @@ impl fmt::Display for Bytes {
     }
 }
 
-/// Why the bytes are not there, and what to do.
+/// The reason for a refusal, and the remedy.
 struct Remedy<'a>(&'a MemoryError);
 
 impl fmt::Display for Remedy<'_> {
@@ -208,7 +211,7 @@ impl fmt::Display for Remedy<'_> {
             return f.write_str("which the system does not give: make it smaller");
         }
         write!(f, "and {} are allowed", Bytes(limit))?;
-        // A few bytes taken by something else explain nothing.
+        // A few bytes taken for other purposes explain nothing.
         if taken > limit / 100 {
             write!(f, ", of which {} are taken", Bytes(taken))?;
         }
@@ -220,7 +223,7 @@ impl fmt::Display for Remedy<'_> {
 /// of 1024.
 ///
 /// # Errors
-/// On anything else, and beyond 64 bits.
+/// On any other text, and beyond 64 bits.
 pub fn bytes(text: &str) -> Result<u64, String> {
     let (digits, shift) = match text.char_indices().last() {
         Some((at, 'k' | 'K')) => (&text[..at], 10),

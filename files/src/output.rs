@@ -1,10 +1,10 @@
-//! An output that replaces its file only when it is whole.
+//! An output that replaces its file only when the output is complete.
 //!
-//! The bytes go to a temporary file beside the target. [`Output::commit`] syncs it, renames it over
-//! the target and syncs the folder, so that after a loss of power the file is the old or the new
-//! one. A program that fails, or is told to stop, leaves the old file as it was. A link is followed; one
-//! that leads to no file is refused. Standard output (`-`), and targets that are not regular files
-//! (`/dev/null`, `/dev/full`, a named pipe), are written directly.
+//! The bytes go to a temporary file beside the target. [`Output::commit`] syncs the temporary file,
+//! renames it over the target and syncs the folder. So after a loss of power the target is the old
+//! file or the new one. A program that fails, or is stopped, leaves the old file unchanged. A link
+//! is followed; a link that leads to no file is refused. Standard output (`-`), and targets that
+//! are not regular files (`/dev/null`, `/dev/full`, a named pipe), are written directly.
 
 use crate::FileError;
 use crate::identity::folder_of;
@@ -15,7 +15,7 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use tempfile::TempPath;
 
-/// Bytes gathered before they are written.
+/// Number of bytes gathered before they are written.
 const BUFFER: usize = 1 << 16;
 
 /// A file to be replaced, or standard output.
@@ -32,7 +32,7 @@ enum Sink {
     Replace { content: BufWriter<File>, replacement: Replacement },
 }
 
-/// A temporary file and what becomes of it. The entry comes last, so that it outlives the file.
+/// A temporary file and its target. The entry is the last field, so that it outlives the file.
 #[derive(Debug)]
 struct Replacement {
     temporary: TempPath,
@@ -41,7 +41,7 @@ struct Replacement {
     entry: Entry,
 }
 
-/// An output whose bytes are written and, in a file, synced. Nothing is replaced yet.
+/// An output whose bytes are written and, in a file, synced. No file is replaced yet.
 #[derive(Debug)]
 pub struct Ready {
     name: String,
@@ -49,11 +49,11 @@ pub struct Ready {
 }
 
 impl Output {
-    /// Opens the output named on a command line; `-` is standard output. Nothing is replaced yet.
+    /// Opens the output that an argument names; `-` is standard output. No file is replaced yet.
     ///
     /// # Errors
-    /// When the folder cannot be written, when the file exists and `clobber` is false, when it is a
-    /// link that leads to no file, or a standard output that was closed.
+    /// When the folder cannot be written, or when the file exists and `clobber` is false. Also when
+    /// the argument is a link that leads to no file, and when standard output was closed.
     pub fn create(argument: &Path, clobber: bool) -> Result<Self, FileError> {
         let name = name_of(argument);
         let failed = |source| write_error(name.clone(), source);
@@ -74,14 +74,14 @@ impl Output {
         Ok(Self { name, sink })
     }
 
-    /// Finds out whether [`Output::create`] would succeed, before long work whose result it will
-    /// take; leaves nothing behind if the program is stopped meanwhile.
+    /// Checks that [`Output::create`] would succeed, before long work whose result the output will
+    /// take. Leaves no file behind if the program is stopped meanwhile.
     ///
     /// # Errors
-    /// As [`Output::create`].
+    /// See [`Output::create`].
     pub fn check(argument: &Path, clobber: bool) -> Result<(), FileError> {
         match Target::of(argument, clobber)? {
-            // A named pipe must be opened once only.
+            // A named pipe must be opened only once.
             Target::Stdout | Target::Device(_) => Ok(()),
             Target::File { path, replaced } => create_beside(&path, replaced.as_ref())
                 .map(drop)
@@ -89,7 +89,7 @@ impl Output {
         }
     }
 
-    /// Makes what was written the content of the file, also for a machine that loses its power.
+    /// Makes the written bytes the content of the file, also for a machine that loses its power.
     ///
     /// # Errors
     /// When the last bytes cannot be written or the file cannot be replaced; the old file stays.
@@ -97,7 +97,7 @@ impl Output {
         self.ready()?.replace()
     }
 
-    /// Writes the last bytes and syncs them; the old file is there until [`Ready::replace`].
+    /// Writes the last bytes and syncs them. The old file stays until [`Ready::replace`].
     ///
     /// # Errors
     /// When the last bytes cannot be written.
@@ -116,7 +116,7 @@ impl Output {
         Ok(Ready { name, replacement })
     }
 
-    /// The error to report for a failed write to this output.
+    /// Returns the error to report for a failed write to this output.
     #[must_use]
     pub fn failed(&self, source: io::Error) -> FileError {
         write_error(self.name.clone(), source)
@@ -125,7 +125,7 @@ impl Output {
     /// Writes all bytes and makes them the content of the file.
     ///
     /// # Errors
-    /// As [`Output::commit`].
+    /// See [`Output::commit`].
     pub fn commit_all(mut self, bytes: &[u8]) -> Result<(), FileError> {
         self.write_all(bytes).map_err(|source| self.failed(source))?;
         self.commit()
@@ -133,7 +133,8 @@ impl Output {
 }
 
 impl Ready {
-    /// The file that will be replaced, links followed; none for standard output and devices.
+    /// Returns the file that will be replaced, with links followed, or `None` for standard output
+    /// and devices.
     #[must_use]
     pub fn target(&self) -> Option<&Path> {
         self.replacement.as_ref().map(|replacement| replacement.target.as_path())
@@ -150,7 +151,7 @@ impl Ready {
         let renamed =
             if clobber { temporary.persist(&target) } else { temporary.persist_noclobber(&target) };
         match renamed.map_err(|failed| failed.error) {
-            // Made by another program since we looked.
+            // Another program made the file after the first check.
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists && !clobber => {
                 Err(FileError::Exists { name })
             }
@@ -161,14 +162,14 @@ impl Ready {
     }
 }
 
-/// Makes the names in a folder last, where the system lets a folder be synced.
+/// Makes the names in a folder durable, if the system can sync a folder.
 pub(crate) fn sync_folder(folder: &Path) -> io::Result<()> {
     if cfg!(not(unix)) {
         return Ok(());
     }
     let synced = File::open(folder).and_then(|folder| folder.sync_all());
     synced.or_else(|error| match error.kind() {
-        // A folder that may be written and not read; a file system that syncs no folders.
+        // The folder may be written but not read, or the file system syncs no folders.
         io::ErrorKind::PermissionDenied
         | io::ErrorKind::InvalidInput
         | io::ErrorKind::Unsupported => Ok(()),
@@ -194,8 +195,8 @@ impl Write for Output {
     }
 }
 
-/// A temporary file beside `target` with the permissions of the file it will replace, or those the
-/// system gives a new one.
+/// Creates a temporary file beside `target`. The temporary file has the permissions of the file
+/// that it will replace, or those that the system gives a new file.
 fn create_beside(
     target: &Path,
     replaced: Option<&fs::Metadata>,
@@ -221,7 +222,8 @@ fn create_beside(
     Ok(((file, temporary), entry))
 }
 
-/// The error of the system inside one of tempfile, which names the temporary file.
+/// Returns the error of the system inside an error of tempfile, whose text names the temporary
+/// file.
 fn plain(error: io::Error) -> io::Error {
     match error.kind() {
         io::ErrorKind::Other => error,

@@ -1,16 +1,16 @@
-//! The bytes of a picture file into a picture: the one function of all programs that does it.
+//! Decodes the bytes of a picture file. All programs decode pictures with this one function.
 //!
-//! A file of a stranger must neither stop a program nor take its memory:
+//! A file of a stranger must neither stop a program nor exhaust its memory:
 //!
-//! - The size is looked at first, and the memory for the decoder, the picture and what the caller makes
-//!   of it is reserved. Of an EXR file the data window with all channels counts, which is what the
-//!   decoder unpacks, and not the display window, which is what it returns.
-//! - What stands in a PNG beside its pixels (colour profiles, texts) may take `MOST_BESIDE` bytes once
-//!   it is unpacked. A profile that is larger is passed over by the decoder; nothing of ours reads it.
-//! - A panic of a decoder becomes [`PictureError::Broken`]. Release 0.18.1 of the crate `png` panics on
-//!   palettes whose length is not a multiple of three. It is mended upstream and not published; a test
-//!   fails once the panic is gone. The guard stays useful after that: other decoders are not proven
-//!   free of panics.
+//! - The size is read first, and memory is reserved for the decoder, the picture and the caller's
+//!   copies of it. For an EXR file the data window with all channels counts, which the decoder
+//!   unpacks. Its display window, which the decoder returns, does not count.
+//! - The data of a PNG beside its pixels (colour profiles, texts) may take `MOST_BESIDE` bytes
+//!   after unpacking. The decoder skips a larger profile; our programs do not read profiles.
+//! - A panic of a decoder becomes [`PictureError::Broken`]. Release 0.18.1 of the crate `png`
+//!   panics on palettes whose length is not a multiple of three. The fix exists upstream but is not
+//!   published; a test fails once the panic is gone. The guard stays useful after that: other
+//!   decoders are not proven free of panics.
 
 mod exr;
 mod guard;
@@ -22,20 +22,22 @@ use thiserror::Error;
 
 pub use image::ImageFormat as Format;
 
-/// Bytes that profiles and texts of a PNG may take, unpacked, beyond those that the file has.
+/// Number of bytes that profiles and texts of a PNG may take after unpacking, beyond their bytes in
+/// the file.
 const MOST_BESIDE: u64 = 16 << 20;
 
-/// Bytes that the decoder of a PNG takes for each pixel of a row: two rows of four 16-bit samples.
+/// Number of bytes that the decoder of a PNG takes for each pixel of a row: two rows of four 16-bit
+/// samples.
 const ROW: u64 = 16;
 
-/// Bytes a pixel that decoders work with besides the picture: the coefficients of a progressive JPEG
-/// of four components, as 16-bit numbers.
+/// Number of bytes for each pixel that decoders take besides the picture: the coefficients of a
+/// progressive JPEG of four components, as 16-bit numbers.
 const DECODER: u64 = 8;
 
-/// Why a file gives no picture.
+/// A reason why a file gives no picture.
 #[derive(Debug, Error)]
 pub enum PictureError {
-    /// The file is of another format, or of none. The text says what was found.
+    /// The file is of another format, or of none. The text describes the file's first bytes.
     #[error("{0}")]
     Format(String),
     /// The file is damaged, or of a kind that is not read. The text is the decoder's.
@@ -46,12 +48,13 @@ pub enum PictureError {
     Memory(#[from] MemoryError),
 }
 
-/// The picture in the bytes of a file, and the memory that was reserved for it. `formats` are those
-/// that are taken. `each` gives the bytes a pixel that the caller takes while it makes something of a
-/// picture of this kind, the picture itself included. `name` names the file in a refusal of memory.
+/// Decodes a picture from the bytes of a file in one of `formats`, and returns the memory reserved
+/// for the picture too. `each` gives the bytes that the caller takes for each pixel of a picture of
+/// this kind, the picture itself included. `name` names the file in a refusal of memory.
 ///
 /// # Errors
-/// When there is no picture of these formats, or no memory for it. It does not panic.
+/// When there is no picture of these formats, or no memory for it. A decoder's panic becomes an
+/// error.
 pub fn decode<'b>(
     bytes: &[u8],
     formats: &[ImageFormat],
@@ -64,7 +67,7 @@ pub fn decode<'b>(
     guard::guarded(work).unwrap_or_else(|| Err(damaged()))
 }
 
-/// The format of a file by its first bytes, if it is one of `formats`.
+/// Returns the format of a file by its first bytes, if that is one of `formats`.
 fn format_of(bytes: &[u8], formats: &[ImageFormat]) -> Result<ImageFormat, PictureError> {
     let found = match image::guess_format(bytes) {
         Ok(format) if formats.contains(&format) => return Ok(format),
@@ -106,14 +109,14 @@ fn decode_unguarded<'b>(
     Ok((picture, reserved))
 }
 
-/// The decoder of a file, which has read all that stands before the pixels.
+/// Returns the decoder of a file, which has read everything before the pixels.
 fn opened(
     bytes: &[u8],
     format: ImageFormat,
     left: u64,
 ) -> Result<impl ImageDecoder + use<'_>, PictureError> {
     let mut limits = Limits::no_limits();
-    // These few bytes are not counted in the budget; in a small one they may be no more than it.
+    // The budget does not count these few bytes, so they are at most what a small budget has left.
     let row = png_width(bytes).saturating_mul(ROW);
     limits.max_alloc = Some((MOST_BESIDE + bytes.len() as u64).min(left).saturating_add(row));
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
@@ -121,22 +124,22 @@ fn opened(
     reader.into_decoder().map_err(broken)
 }
 
-/// Pixels of the picture in a file across and down, by its header.
+/// Returns the pixels of the picture in a file across and down, by its header.
 ///
 /// # Errors
-/// When there is no header of these formats. It does not panic.
+/// When there is no header of these formats. A decoder's panic becomes an error.
 pub fn size(bytes: &[u8], formats: &[ImageFormat]) -> Result<(u32, u32), PictureError> {
     let format = format_of(bytes, formats)?;
     let work = || Ok(opened(bytes, format, MOST_BESIDE)?.dimensions());
     guard::guarded(work).unwrap_or_else(|| Err(damaged()))
 }
 
-/// What is said where a decoder panics.
+/// Returns the error for a decoder that panicked.
 fn damaged() -> PictureError {
     PictureError::Broken("the decoder stumbled over it; the file is damaged".into())
 }
 
-/// The width that the header of a PNG claims, in pixels; 0 where there is no header.
+/// Returns the width that the header of a PNG claims, in pixels, or 0 without a header.
 fn png_width(bytes: &[u8]) -> u64 {
     bytes
         .get(16..20)
@@ -144,7 +147,8 @@ fn png_width(bytes: &[u8]) -> u64 {
         .map_or(0, |width| u32::from_be_bytes(width).into())
 }
 
-/// A decoder's complaint. A limit that is passed here is that of what stands beside the pixels.
+/// Turns a decoder's complaint into an error. The only limit that a decoder can exceed here is that
+/// of the data beside the pixels.
 fn broken(error: ImageError) -> PictureError {
     PictureError::Broken(match error {
         ImageError::Limits(_) => {
@@ -154,7 +158,7 @@ fn broken(error: ImageError) -> PictureError {
     })
 }
 
-/// A message of the PNG decoder with the name of a chunk in place of its Rust value.
+/// Returns a message of the PNG decoder with the name of a chunk in place of its Rust value.
 fn without_types(mut message: String) -> String {
     const START: &str = "ChunkType { type: ";
     while let Some(start) = message.find(START) {

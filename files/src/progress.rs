@@ -6,7 +6,7 @@ use std::io::IsTerminal;
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
-/// How long work goes on in silence.
+/// Time after which the bar appears.
 const PATIENCE: Duration = Duration::from_secs(1);
 
 /// A bar that appears after a second, and only on a terminal.
@@ -19,7 +19,8 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// A bar with a label; never shown when `quiet`, or when standard error is not a terminal.
+    /// Makes a bar with a label. The bar is never shown when `quiet` is true or standard error is
+    /// not a terminal.
     #[must_use]
     pub fn new(label: &str, quiet: bool) -> Self {
         let shown = !quiet && std::io::stderr().is_terminal();
@@ -31,7 +32,7 @@ impl Progress {
         }
     }
 
-    /// Says that `done` of `total` is done.
+    /// Shows that `done` of `total` steps are done.
     pub fn tell(&self, done: usize, total: usize) {
         if !self.shown || self.started.elapsed() < PATIENCE {
             return;
@@ -47,7 +48,7 @@ impl Progress {
             bar.set_message(self.label.clone());
             bar.with_elapsed(self.started.elapsed())
         });
-        // Tiles may finish out of order; the bar never goes back.
+        // Tiles may finish out of order; the bar never moves back.
         bar.set_position(bar.position().max(done as u64));
     }
 }

@@ -1,7 +1,8 @@
-//! JSON Schema from the types that read a file: what the schemas of all formats have in common.
+//! Common parts of the JSON Schemas of all formats. A schema is generated from the types that read
+//! a file.
 //!
-//! A schema is of draft 2020-12. It is stricter than the reader where the reader accepts more than is
-//! intended: `null` for a key that is left out, or an array of values for an object. It is laxer in one
+//! A schema is of draft 2020-12. It is stricter than a reader that accepts more than is intended:
+//! `null` for a key that is left out, or an array of values for an object. It is laxer in one
 //! point: to JSON Schema `3.0` is a whole number.
 
 use schemars::Schema;

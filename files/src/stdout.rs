@@ -1,18 +1,18 @@
-//! Whether standard output was closed when the program started, as `sweep spec.json >&-` does.
+//! Detects a standard output that was closed when the program started, as in `sweep spec.json >&-`.
 //!
 //! Rust's runtime opens `/dev/null` in place of a standard stream that is closed, before any code of
 //! ours runs. Data written there is lost without an error. The replacement differs from the
 //! `> /dev/null` of a shell: the runtime opens for reading and writing, a shell for writing.
 //!
-//! Some launchers open `/dev/null` for both, too (Python's `DEVNULL`, the `ignore` of Node), and
-//! mean it. So the processes that started this one are asked, nearest first. Standard output was
+//! Some launchers also open `/dev/null` for both on purpose (Python's `DEVNULL`, the `ignore` of
+//! Node). So the processes that started this one are examined, nearest first. Standard output was
 //! closed if a parent has none itself, or if a parent is a shell with another one: a shell that
-//! redirects opens for writing only. A parent with the same `/dev/null` handed down its own, and
-//! the question goes on to its parent.
+//! redirects opens for writing only. A parent with the same `/dev/null` handed down its own, so its
+//! own parent is examined next.
 //!
-//! Limits: the answer is read from `/proc`, so it is always no where there is none, as outside
-//! Linux. It is no as well where a launcher that is not a shell closed standard output, because
-//! nothing tells that from `DEVNULL`.
+//! Limits: the answer is read from `/proc`, so it is always no on a system without `/proc`, such as
+//! any but Linux. It is also no if a launcher that is not a shell closed standard output, because
+//! this case looks like `DEVNULL`.
 
 use std::ffi::OsString;
 use std::fs;
@@ -23,35 +23,36 @@ use std::os::unix::process::parent_id;
 const SHELLS: [&str; 11] =
     ["sh", "bash", "dash", "ash", "busybox", "zsh", "ksh", "mksh", "fish", "csh", "tcsh"];
 
-/// Ancestors asked at most.
+/// Most ancestors examined.
 const DEEPEST: usize = 64;
 
-/// What a process has for standard output.
+/// The standard output of a process.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Stdout {
-    /// No such descriptor.
+    /// The process has no such descriptor.
     None,
     /// `/dev/null`, open for reading and writing.
     NullBoth,
     /// Anything else.
     Other,
-    /// The system does not say.
+    /// The system does not report the descriptor.
     Unknown,
 }
 
-/// A process that started this one, or one of those that did.
+/// A process that started this one, or that started such a process.
 #[derive(Debug, Clone)]
 struct Ancestor {
     stdout: Stdout,
     name: String,
 }
 
-/// True if standard output was closed when the program started.
+/// Returns true if standard output was closed when the program started.
 pub(crate) fn was_closed() -> bool {
     stdout_of("self") == Stdout::NullBoth && closed_by(ancestors().take(DEEPEST))
 }
 
-/// True if one of these processes, the nearest first, left this one without standard output.
+/// Returns true if one of these processes, the nearest first, left this one without standard
+/// output.
 fn closed_by(ancestors: impl Iterator<Item = Ancestor>) -> bool {
     for ancestor in ancestors {
         match ancestor.stdout {
@@ -64,7 +65,7 @@ fn closed_by(ancestors: impl Iterator<Item = Ancestor>) -> bool {
     false
 }
 
-/// The processes that started this one, the nearest first.
+/// Lists the processes that started this one, the nearest first.
 fn ancestors() -> impl Iterator<Item = Ancestor> {
     let parent = |pid: &u32| parent_of(*pid);
     std::iter::successors(Some(parent_id()), parent).filter(|pid| *pid > 0).map(|pid| {
@@ -82,7 +83,7 @@ fn parent_of(pid: u32) -> Option<u32> {
 fn stdout_of(process: &str) -> Stdout {
     let target = match fs::read_link(format!("/proc/{process}/fd/1")) {
         Ok(target) => OsString::from(target),
-        // A process that is gone has no descriptors either, and says nothing.
+        // A process that has ended has no descriptors either, which proves nothing.
         Err(error) if error.kind() == io::ErrorKind::NotFound => {
             let there = fs::metadata(format!("/proc/{process}/fd")).is_ok();
             return if there { Stdout::None } else { Stdout::Unknown };
@@ -99,7 +100,8 @@ fn stdout_of(process: &str) -> Stdout {
     }
 }
 
-/// How a descriptor is open, from its page in `fdinfo`: 0 for reading, 1 for writing, 2 for both.
+/// Returns the access mode of a descriptor from its page in `fdinfo`: 0 for reading, 1 for writing,
+/// 2 for both.
 fn access(info: &str) -> Option<u32> {
     let flags = info.lines().find_map(|line| line.strip_prefix("flags:"))?;
     Some(u32::from_str_radix(flags.trim(), 8).ok()? & 3)
@@ -119,7 +121,7 @@ mod tests {
         use Stdout::{None, NullBoth, Other, Unknown};
         assert!(closed(&[(Other, "bash")]));
         assert!(closed(&[(None, "timeout"), (Other, "bash")]));
-        // `cargo run` has its own replaced by the runtime as well, and hands that down.
+        // The runtime also replaces the standard output of `cargo run`, which hands it down.
         assert!(closed(&[(NullBoth, "cargo"), (Other, "zsh")]));
         // Python's DEVNULL, also through a shell that it starts.
         assert!(!closed(&[(Other, "python3"), (Other, "bash")]));

@@ -1,17 +1,17 @@
-//! What happens when a program is told to stop: Ctrl-C, or a signal to end.
+//! Removes temporary files when a signal ends a program, such as that of Ctrl-C.
 //!
-//! A signal ends a program where it stands, and its temporary files would stay. So a thread waits
-//! for the three signals that ask a program to end; it removes the temporaries that are open, and
-//! then lets the signal do what it does, so that whoever started the program sees that it was
+//! A signal ends a program at once, and the program's temporary files would stay. So a thread waits
+//! for the three signals that ask a program to end. The thread removes the open temporaries, and
+//! then lets the signal have its usual effect. So the parent process sees that the program was
 //! interrupted (a shell says 130 for Ctrl-C) and not that it failed.
 //!
-//! Which temporaries are open is the one thing that a whole process shares: signals come to a
-//! process. A temporary is made and entered, or removed and struck out, under one lock, which the
-//! thread takes and never gives back; nothing comes to be while it works.
+//! The list of open temporaries belongs to the whole process, since signals come to a process. One
+//! lock guards the creation of a temporary with its entry, and the removal of an entry. The thread
+//! takes the lock and never releases it, so no temporary is created while the thread works.
 //!
-//! A file that outgrows the limit of the system (`ulimit -f`) would end a program by SIGXFSZ as it
-//! stands. The signal is caught and nothing is done about it, so that the write fails with an error
-//! that the program reports.
+//! A file that outgrows the limit of the system (`ulimit -f`) would end a program by SIGXFSZ at
+//! once. The signal is caught and ignored, so the write fails with an error that the program
+//! reports.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -23,12 +23,13 @@ fn open() -> MutexGuard<'static, Vec<PathBuf>> {
     OPEN.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// A temporary file's place on the list; off it when dropped, which must be after the file is gone.
+/// The entry of a temporary file in the list. The entry leaves the list when dropped, which must
+/// happen after the file is gone.
 #[derive(Debug)]
 pub(crate) struct Entry(PathBuf);
 
 impl Entry {
-    /// Makes a temporary file and enters it, which `path` tells.
+    /// Makes a temporary file and enters its path in the list. `path` returns the path of the file.
     pub(crate) fn of<T>(
         make: impl FnOnce() -> io::Result<T>,
         path: impl Fn(&T) -> &Path,
@@ -47,14 +48,14 @@ impl Drop for Entry {
     }
 }
 
-/// From now on a signal that ends the program removes its temporary files first.
+/// Makes every signal that ends the program remove its temporary files first.
 ///
-/// Where there are no such signals, or no thread can be had, nothing changes: a temporary may then
-/// stay, and the file that it was to replace is whole in any case.
+/// On a system without such signals, or when no thread can start, nothing changes. A temporary may
+/// then stay, and the file that it was to replace is complete in any case.
 pub fn clean_up_when_stopped() {
     #[cfg(unix)]
     {
-        // Caught, the signal leaves the write to fail. What the handler sets, nobody reads.
+        // The caught signal leaves the write to fail. The flag that the handler sets is never read.
         let caught = std::sync::Arc::default();
         let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, caught);
         let Ok(mut signals) = signal_hook::iterator::Signals::new(signals()) else { return };
@@ -62,7 +63,7 @@ pub fn clean_up_when_stopped() {
             if let Some(signal) = signals.forever().next() {
                 let open = open();
                 for path in open.iter() {
-                    // One that is renamed already is not there any more.
+                    // A temporary that was already renamed no longer exists.
                     let _ = std::fs::remove_file(path);
                 }
                 let _ = signal_hook::low_level::emulate_default_handler(signal);
@@ -72,8 +73,9 @@ pub fn clean_up_when_stopped() {
     }
 }
 
-/// The signals that would end the program: not those that it was started to ignore, as SIGHUP
-/// under `nohup`. Only Linux says which those are; elsewhere SIGHUP is left as it is.
+/// Returns the signals that would end the program. Signals that the program was started to ignore,
+/// such as SIGHUP under `nohup`, are omitted. Only Linux reports the ignored signals; on other
+/// systems SIGHUP is left unchanged.
 #[cfg(unix)]
 fn signals() -> Vec<i32> {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};

@@ -7,7 +7,7 @@
 use crate::words::unseen;
 use std::fmt::{self, Display, Write};
 
-/// The part of a text that lies at its position.
+/// The part of a text that lies at the text's position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Anchor {
     /// The start of the text.
@@ -156,7 +156,7 @@ impl<P: Into<(f64, f64)> + Copy> Display for Course<'_, P> {
     }
 }
 
-/// A text in which XML sees no markup.
+/// A text that is escaped for XML.
 struct Escaped<'a>(&'a str);
 
 impl Display for Escaped<'_> {

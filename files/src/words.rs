@@ -1,10 +1,10 @@
-//! What messages show of names and values: nothing that steers a terminal, and not all of it where it
-//! is long.
+//! Makes names and values safe to print: without characters that steer a terminal, and cut if they
+//! are long.
 //!
-//! Names come from files of strangers. [`shown`] is for a name or a value inside a sentence or a list:
-//! it stays on its line, and is cut. [`printed`] is for text of several lines that is printed whole.
-//! Both spell out control characters, and characters that are not seen or turn the direction of the
-//! text around: `\u{202e}` is shown as those eight letters.
+//! Names come from files of strangers. [`shown`] is for a name or a value inside a sentence or a
+//! list: the result is one line of limited length. [`printed`] is for text of several lines that is
+//! printed whole. Both spell out control characters, invisible characters, and characters that
+//! reverse the direction of the text: `\u{202e}` is shown as those eight letters.
 
 mod plain;
 
@@ -14,34 +14,35 @@ use std::fmt::{self, Display, Write};
 pub(crate) use plain::plain;
 
 /// Quoted text longer than twice this many characters is cut in the middle of a message. A message
-/// gives the place by line and column; the text only helps to recognize it.
+/// gives the position by line and column; the text only helps to recognize it.
 const LONGEST_QUOTE: usize = 60;
 
-/// Characters of a line at most, with all that is quoted in it.
+/// Most characters of a line, with everything that is quoted in it.
 const LONGEST_LINE: usize = 1000;
 
-/// Characters of a list of known names in a message at most, where the user chose the names.
+/// Most characters of a list of known names in a message, where the user chose the names.
 pub const LONGEST_LIST: usize = 300;
 
-/// Names longer than this many characters are not held against others: the time taken is the product of
-/// both lengths, for each name that is known.
+/// Names longer than this many characters are not compared with known names. The time of a
+/// comparison is the product of both lengths, for each known name.
 const LONGEST_SLIP: usize = 200;
 
-/// A name or a value as messages show it: on one line, with characters that are not seen spelled out,
-/// and cut in the middle where it is longer than 120 characters.
+/// Returns a name or a value for a message, on one line. Invisible characters are spelled out, and
+/// a text longer than 120 characters is cut in the middle.
 #[must_use]
 pub fn shown(text: &str) -> impl Display {
     cut(text, 2 * LONGEST_QUOTE)
 }
 
-/// A line of a list or a report: as [`shown`], cut where it is longer than 1000 characters.
+/// Returns a line of a list or a report, spelled out as by [`shown`] and cut if it is longer than
+/// 1000 characters.
 #[must_use]
 pub fn line(text: &str) -> impl Display {
     cut(text, LONGEST_LINE)
 }
 
-/// As [`shown`], for text of at most `longest` characters; of longer text the first half of them and
-/// the last sixth are shown.
+/// Returns text as [`shown`] does, with at most `longest` characters. Of longer text the first half
+/// of `longest` and the last sixth are shown.
 #[must_use]
 pub fn cut(text: &str, longest: usize) -> impl Display {
     Shown { text, longest }
@@ -55,7 +56,7 @@ struct Shown<'a> {
 impl Display for Shown<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { text, longest } = *self;
-        // A character has a byte at least: most texts need not be counted.
+        // A character has at least one byte, so most texts need not be counted.
         if text.len() <= longest || text.chars().count() <= longest {
             return spell(text, f);
         }
@@ -74,8 +75,8 @@ fn spell(text: &str, f: &mut fmt::Formatter<'_>) -> fmt::Result {
     })
 }
 
-/// Text of several lines as it is printed: line ends and tabs stay, all else that is not seen is
-/// spelled out.
+/// Returns text of several lines for printing. Line ends and tabs stay; all other invisible
+/// characters are spelled out.
 #[must_use]
 pub fn printed(text: &str) -> Cow<'_, str> {
     let spelled = |c: char| unseen(c) && c != '\n' && c != '\t';
@@ -93,9 +94,9 @@ pub fn printed(text: &str) -> Cow<'_, str> {
     Cow::Owned(safe)
 }
 
-/// Whether a character steers what shows it and is not seen itself: control characters (C0, C1,
-/// delete), line and paragraph separators, and the format characters of Unicode, among them the marks
-/// that turn the direction of text.
+/// Returns whether a character is invisible and changes how text is shown. These are control
+/// characters (C0, C1, delete), line and paragraph separators, and the format characters of
+/// Unicode, among them the marks that turn the direction of text.
 #[must_use]
 pub fn unseen(c: char) -> bool {
     c.is_control()
@@ -108,12 +109,12 @@ pub fn unseen(c: char) -> bool {
             | '\u{e0000}'..='\u{e0fff}')
 }
 
-/// The text, or its beginning and its end where it is long.
+/// Returns the text, or its beginning and its end if it is long.
 pub(crate) fn shortened(text: &str) -> String {
     shown(text).to_string()
 }
 
-/// The candidate that a slip of the fingers would turn into `found`, if there is one.
+/// Returns the candidate that a typing error would turn into `found`, if there is one.
 #[must_use]
 pub fn nearest<'a>(found: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let length = found.chars().count();
@@ -122,7 +123,8 @@ pub fn nearest<'a>(found: &str, candidates: impl Iterator<Item = &'a str>) -> Op
     }
     let allowed = 1 + length / 4;
     candidates
-        // The distance takes the product of both lengths in time, and is at least their difference.
+        // The time for the distance is the product of both lengths. The distance is at least their
+        // difference.
         .filter(|candidate| candidate.chars().count().abs_diff(length) <= allowed)
         .map(|candidate| (strsim::damerau_levenshtein(found, candidate), candidate))
         .filter(|&(distance, _)| distance <= allowed)

@@ -1,4 +1,4 @@
-//! The parent's side of one child.
+//! The parent's connection to one child process.
 
 use crate::cli::FuzzError;
 use crate::protocol::{Answer, Reply, Request};
@@ -10,14 +10,14 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-/// Address space of a child in kilobytes: what asks for more ends it. Twice what a case may hold, so
-/// that the program can refuse in words before.
+/// Address space of a child, in kilobytes. A request for more ends the child. The value is twice
+/// what a case may hold, so that the program can refuse the memory with a message first.
 const ADDRESS_SPACE: u32 = 4 << 20;
 
-/// Characters of what a child writes on standard error that are kept.
+/// Number of characters kept of a child's output on standard error.
 const KEPT: usize = 4000;
 
-/// A child process, started when something is asked of it.
+/// A child process, which starts at the first request.
 #[derive(Debug, Default)]
 pub struct Child(Option<Running>);
 
@@ -30,9 +30,9 @@ struct Running {
 }
 
 impl Child {
-    /// Tries a run of cases, and tells of each.
+    /// Tries a run of cases, and reports each answer.
     ///
-    /// A case that ends the child has an answer that says so; the next one is tried by another child.
+    /// A case that ends the child is answered with a fault. Another child tries the next case.
     ///
     /// # Errors
     /// When no child can be started.
@@ -76,10 +76,10 @@ impl Child {
         Ok(answer)
     }
 
-    /// Starts the process, if there is none.
+    /// Starts the process, if none is running.
     ///
     /// # Errors
-    /// When it cannot be started.
+    /// When the process cannot be started.
     pub fn start(&mut self) -> Result<(), FuzzError> {
         self.running().map(|_| ())
     }
@@ -103,7 +103,7 @@ impl Running {
         } else {
             Command::new(program)
         };
-        // One thread each: there are as many children as cores, and memory stays small.
+        // One thread for each child: there are as many children as cores, and memory stays small.
         let mut process = command
             .arg("--worker")
             .env("RAYON_NUM_THREADS", "1")
@@ -136,7 +136,7 @@ impl Running {
         Ok(self.stdin.flush()?)
     }
 
-    /// The answer to the next case, and whether the child lives on.
+    /// Returns the answer to the next case, and whether the child continues.
     fn answer(&mut self) -> Result<(Answer, bool), FuzzError> {
         let mut begun = false;
         loop {
@@ -164,7 +164,7 @@ impl Running {
 
 impl Drop for Running {
     fn drop(&mut self) {
-        // It may have ended already; then there is nothing to kill.
+        // The process may have ended already; then there is no process to kill.
         let _ = self.process.kill();
         let _ = self.process.wait();
     }

@@ -1,4 +1,4 @@
-//! The flags, and what they ask for.
+//! The flags of the program, and their execution.
 
 use crate::child::Child;
 use crate::protocol::Answer;
@@ -57,15 +57,15 @@ pub struct Arguments {
     /// Print the seeds of the readers as files into the folder of --keep, and do nothing else
     #[arg(long, requires = "keep", conflicts_with_all = ["case", "input", "cases", "seconds"])]
     seeds: bool,
-    /// Be a child process that is told what to try on standard input
+    /// Run as a child process, which reads the cases to try from standard input
     #[arg(long, exclusive = true, hide = true)]
     worker: bool,
 }
 
-/// Why the fuzzer could not work.
+/// A reason why the fuzzer could not work.
 #[derive(Debug, Error)]
 pub enum FuzzError {
-    /// The seeds are not there.
+    /// The seeds cannot be read.
     #[error(transparent)]
     Seed(#[from] SeedError),
     /// A pipe or process failed.
@@ -74,7 +74,7 @@ pub enum FuzzError {
     /// A child ended before it tried anything.
     #[error("a child process {0}")]
     Worker(String),
-    /// A line that neither side says.
+    /// A line that is not part of the protocol.
     #[error("found {0:?} between parent and child, expected a request or an answer")]
     Protocol(String),
     /// A file cannot be read or written.
@@ -82,12 +82,12 @@ pub enum FuzzError {
     File {
         /// The file.
         path: String,
-        /// What the system said.
+        /// The error of the operating system.
         source: std::io::Error,
     },
 }
 
-/// Does what the arguments ask for, and returns the number of different faults.
+/// Does what the arguments request, and returns the number of different faults.
 ///
 /// # Errors
 /// When the fuzzer itself could not work.
@@ -137,7 +137,7 @@ fn readers(arguments: &Arguments) -> Vec<Reader> {
     if arguments.reader.is_empty() { Reader::ALL.to_vec() } else { arguments.reader.clone() }
 }
 
-/// Prints each fault, minimizes it and keeps its input.
+/// Prints each fault, minimizes its input and keeps the input.
 fn tell(arguments: &Arguments, seed: u64, groups: &[Group]) -> Result<(), FuzzError> {
     let bench = Bench::load()?;
     for Group { reader, count, case, fault } in groups {
@@ -156,7 +156,7 @@ fn tell(arguments: &Arguments, seed: u64, groups: &[Group]) -> Result<(), FuzzEr
     Ok(())
 }
 
-/// Tries one input, and says what came of it.
+/// Tries one input, and prints the result.
 fn single(arguments: &Arguments, bytes: &[u8], what: &str) -> Result<usize, FuzzError> {
     let Answer { verdict, time, memory } = Child::default().input(arguments.reader[0], bytes)?;
     let cost = format!("{:.3} s, {} MB", time.as_secs_f64(), memory >> 20);
@@ -200,7 +200,7 @@ fn print(text: &str) -> Result<(), FuzzError> {
     Ok(stdout().write_all(text.as_bytes())?)
 }
 
-/// A seed that the last run did not have.
+/// Returns the milliseconds since 1970 as a seed, so that two runs have different seeds.
 fn from_the_clock() -> u64 {
     let since = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
     since.as_millis() as u64

@@ -1,25 +1,26 @@
 //! `fuzz`: mutated inputs for every reader of the workspace.
 //!
-//! The parent process hands out cases, and child processes of the same program try them: what ends a
-//! process (a stack that overflows, memory that is not there) or stalls it ends or stalls a child. A case
-//! depends on the seed, the reader and its number alone, so it can be tried again.
+//! The parent process hands out cases, and child processes of the same program try them. So an
+//! input that ends a process (a stack overflow, missing memory) or stalls it ends or stalls a child
+//! only. A case depends on the seed, the reader and its number alone, so the case can be tried
+//! again.
 //!
 //! | module       | what                                                             |
 //! |--------------|------------------------------------------------------------------|
 //! | [`cli`]      | the flags                                                        |
 //! | [`dice`]     | random numbers of a case                                         |
-//! | [`seeds`]    | what mutation starts from                                        |
-//! | [`mutate`]   | what mutation does                                               |
-//! | [`reader`]   | the readers, and what is done with an input                      |
-//! | [`verdict`]  | what counts as a fault                                           |
+//! | [`seeds`]    | the inputs from which mutation starts                            |
+//! | [`mutate`]   | the mutations of inputs                                          |
+//! | [`reader`]   | the readers, and the work on an input                            |
+//! | [`verdict`]  | the definition of a fault                                        |
 //! | [`worker`]   | the child's side: tries inputs, and measures them                |
 //! | [`watch`]    | ends a child that takes too long                                 |
 //! | [`child`]    | the parent's side of one child                                   |
-//! | [`protocol`] | the lines that pass between the two                              |
-//! | [`schedule`] | which cases come next                                            |
+//! | [`protocol`] | the lines that parent and child exchange                         |
+//! | [`schedule`] | the selection of the next cases                                  |
 //! | [`run`]      | all children, until the cases or the seconds are used up         |
-//! | [`tally`]    | what was found, as a table                                       |
-//! | [`minimize`] | the smallest input with the same fault                           |
+//! | [`tally`]    | the results, as a table                                          |
+//! | [`minimize`] | a small input with the same fault                                |
 
 mod child;
 mod cli;
@@ -45,7 +46,7 @@ use std::process::ExitCode;
 #[global_allocator]
 static MEMORY: PeakAlloc = PeakAlloc;
 
-/// The exit code when something was found.
+/// The exit code when a fault was found.
 const FOUND: u8 = 1;
 
 /// The exit code when the fuzzer itself could not work.

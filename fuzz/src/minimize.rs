@@ -1,19 +1,20 @@
-//! The smallest input with the same fault.
+//! Finds a small input with the same fault.
 //!
-//! JSON loses keys and elements as long as the fault stays; any input then loses pieces, from halves
-//! down to single bytes (Zeller and Hildebrandt 2002, without the complements). What is left is minimal
-//! only if the trials suffice.
+//! JSON loses keys and elements as long as the fault stays. Then any input loses pieces, from
+//! halves down to single bytes (Zeller and Hildebrandt 2002, without the complements). The result
+//! is minimal only if the number of trials suffices.
 
 use serde_json::Value;
 use std::time::{Duration, Instant};
 
-/// Trials at most.
+/// Largest number of trials.
 const TRIALS: usize = 2000;
 
 /// Time for all trials.
 const TIME: Duration = Duration::from_secs(30);
 
-/// Shrinks an input while `same` says that it shows the same fault.
+/// Shrinks an input as long as `same` returns true for the smaller input, that is, as long as it
+/// shows the same fault.
 pub fn minimized(input: &[u8], same: &mut dyn FnMut(&[u8]) -> bool) -> Vec<u8> {
     let mut budget = Budget { trials: TRIALS, end: Instant::now() + TIME };
     let mut kept = input.to_vec();
@@ -39,14 +40,14 @@ impl Budget {
     }
 }
 
-/// Removes elements and keys, from the outside in.
+/// Removes elements and keys of a document, from the outermost level inward.
 fn of_json(mut document: Value, same: &mut dyn FnMut(&Value) -> bool) -> Value {
     let mut paths = vec![String::new()];
     let mut at = 0;
     while at < paths.len() {
         let path = paths[at].clone();
         let names: Vec<String> = match document.pointer(&path) {
-            // From the last on, so that the places of the others stay.
+            // From the last element on, so that the positions of the others stay.
             Some(Value::Array(list)) => (0..list.len()).rev().map(|i| i.to_string()).collect(),
             Some(Value::Object(object)) => object.keys().cloned().collect(),
             _ => Vec::new(),
@@ -76,7 +77,7 @@ fn of_json(mut document: Value, same: &mut dyn FnMut(&Value) -> bool) -> Value {
     document
 }
 
-/// Removes pieces, the largest first.
+/// Removes pieces of bytes, the largest first.
 fn of_bytes(mut kept: Vec<u8>, same: &mut dyn FnMut(&[u8]) -> bool) -> Vec<u8> {
     let mut size = kept.len() / 2;
     while size > 0 {

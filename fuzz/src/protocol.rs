@@ -1,14 +1,15 @@
-//! The lines between parent and child.
+//! The lines that parent and child exchange.
 //!
-//! The parent asks for a run of cases, or for one input whose bytes follow the line. The child says
-//! `at N` before it tries case N and an answer behind it; so the parent knows which case ended a child.
+//! The parent requests a run of cases, or one input whose bytes follow the line. The child writes
+//! `at N` before it tries case N, and an answer after it. So the parent knows which case ended a
+//! child.
 
 use crate::reader::Reader;
 use crate::verdict::{Fault, Kind, Verdict};
 use std::fmt::{self, Display};
 use std::time::Duration;
 
-/// What the parent asks of a child.
+/// A request of the parent to a child.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Request {
     /// `count` cases from `from` on.
@@ -19,20 +20,20 @@ pub enum Request {
         seed: u64,
         /// The first case.
         from: u64,
-        /// How many.
+        /// The number of cases.
         count: u64,
     },
     /// One input of `length` bytes, which follow.
     Input {
         /// The reader.
         reader: Reader,
-        /// Its bytes.
+        /// The number of bytes of the input.
         length: usize,
     },
 }
 
 impl Request {
-    /// The request in a line.
+    /// Reads a request from a line.
     #[must_use]
     pub fn read(line: &str) -> Option<Self> {
         let words: Vec<&str> = line.split_whitespace().collect();
@@ -62,28 +63,28 @@ impl Display for Request {
     }
 }
 
-/// What a child says.
+/// A line of a child to its parent.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Reply {
-    /// It begins with this case.
+    /// The child begins with this case.
     At(u64),
-    /// What came of it.
+    /// The child has tried the case or the input.
     Answer(Answer),
 }
 
-/// What came of an input.
+/// The result of an input.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Answer {
-    /// Whether it was taken.
+    /// The verdict on the input.
     pub verdict: Verdict,
-    /// Processor time.
+    /// Processor time of the input.
     pub time: Duration,
     /// The most memory held at once, in bytes.
     pub memory: u64,
 }
 
 impl Reply {
-    /// The reply in a line.
+    /// Reads a reply from a line.
     #[must_use]
     pub fn read(line: &str) -> Option<Self> {
         let mut words = line.trim_end_matches('\n').splitn(5, ' ');
@@ -96,7 +97,7 @@ impl Reply {
         let verdict = match first {
             "ok" => Verdict::Accepted,
             "no" => {
-                // A kind stands here of faults only.
+                // Only a fault has a kind; a refusal has a placeholder in its position.
                 words.next()?;
                 Verdict::Refused(words.next()?.into())
             }

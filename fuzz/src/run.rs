@@ -1,4 +1,4 @@
-//! All children, until the cases or the seconds are used up.
+//! Runs all children, until the cases or the seconds are used up.
 
 use crate::child::Child;
 use crate::cli::FuzzError;
@@ -43,13 +43,13 @@ pub fn run(readers: &[Reader], seed: u64, until: Until, jobs: usize) -> Result<T
         let results = threads.into_iter().map(|thread| {
             thread.join().unwrap_or_else(|_| Err(FuzzError::Worker("a thread panicked".into())))
         });
-        // All are waited for, and the first failure is told.
+        // All children are awaited, and the first failure is returned.
         results.collect::<Vec<_>>().into_iter().collect::<Result<(), _>>()
     })?;
     Ok(tally.into_inner().unwrap_or_else(PoisonError::into_inner))
 }
 
-/// The smallest input that shows the same fault as `input`.
+/// Returns a small input that shows the same fault as `input`.
 ///
 /// # Errors
 /// When no child can be started.
@@ -69,7 +69,8 @@ pub fn minimized(reader: Reader, input: &[u8], signature: &str) -> Result<Vec<u8
     failed.map_or_else(|| Ok(mended(reader, &kept)), Err)
 }
 
-/// The input with right checksums, where its format has some and it can be taken apart.
+/// Returns the input with correct checksums, if its format has checksums and the input can be split
+/// into its parts.
 fn mended(reader: Reader, bytes: &[u8]) -> Vec<u8> {
     let file = match reader {
         Reader::Grid | Reader::GridText => grid::file(&grid::patches(bytes)),
@@ -87,6 +88,7 @@ fn mended(reader: Reader, bytes: &[u8]) -> Vec<u8> {
         | Reader::Words
         | Reader::Trap => return bytes.to_vec(),
     };
-    // What cannot be taken apart, and what is wrong just there, stays as it is.
+    // Another length means that the input could not be split into its parts. Such an input stays
+    // unchanged.
     if file.len() == bytes.len() { file } else { bytes.to_vec() }
 }

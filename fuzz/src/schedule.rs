@@ -1,18 +1,18 @@
-//! Which cases come next.
+//! Selects the next cases.
 
 use crate::reader::Reader;
 use std::time::{Duration, Instant};
 
-/// How long a run of cases should take: long beside a message to a child, short beside the whole.
+/// Intended time of a run of cases: long beside a message to a child, short beside the whole.
 const RUN: Duration = Duration::from_millis(200);
 
-/// Cases of one run at most.
+/// Largest number of cases in one run.
 const LONGEST_RUN: u64 = 5000;
 
-/// When to stop.
+/// The end of a fuzzing run.
 #[derive(Debug, Clone, Copy)]
 pub enum Until {
-    /// After so many cases, the same number of each reader.
+    /// After this number of cases, shared evenly among the readers.
     Cases(u64),
     /// At this instant; readers share the time evenly.
     Instant(Instant),
@@ -28,13 +28,13 @@ pub struct Schedule {
 #[derive(Debug)]
 struct Line {
     reader: Reader,
-    /// The next case.
+    /// The number of the next case.
     next: u64,
-    /// Time that its cases took.
+    /// Total time of the cases that are done.
     spent: Duration,
-    /// Cases of which that is the time.
+    /// Number of cases that are done.
     done: u64,
-    /// Runs handed out and not yet done.
+    /// Number of runs handed out and not yet done.
     open: u32,
 }
 
@@ -45,19 +45,19 @@ pub struct Run {
     pub reader: Reader,
     /// The first case.
     pub from: u64,
-    /// How many.
+    /// The number of cases.
     pub count: u64,
 }
 
 impl Schedule {
-    /// All cases of these readers.
+    /// Makes a schedule of all cases of these readers.
     #[must_use]
     pub fn new(readers: &[Reader], until: Until) -> Self {
         let line = |&reader| Line { reader, next: 0, spent: Duration::ZERO, done: 0, open: 0 };
         Self { until, lines: readers.iter().map(line).collect() }
     }
 
-    /// The next run; none when all is done.
+    /// Returns the next run, or `None` at the end.
     pub fn next(&mut self) -> Option<Run> {
         let share = match self.until {
             Until::Cases(all) => all.div_ceil(self.lines.len().max(1) as u64),
@@ -79,7 +79,7 @@ impl Schedule {
         Some(run)
     }
 
-    /// Says how long a run took.
+    /// Records the time that a run took.
     pub fn took(&mut self, run: Run, time: Duration) {
         if let Some(line) = self.lines.iter_mut().find(|line| line.reader == run.reader) {
             line.spent += time;

@@ -1,4 +1,4 @@
-//! What was found, as a table and as a list.
+//! Counts the results, and prints them as a table and as a list.
 
 use crate::protocol::Answer;
 use crate::reader::Reader;
@@ -23,9 +23,9 @@ struct Row {
     faults: u64,
     /// Processor time of all cases.
     time: Duration,
-    /// The longest case that is no fault, and its number.
+    /// The longest processor time of a case without a fault, and the number of that case.
     slowest: (Duration, u64),
-    /// The largest, in bytes.
+    /// The most memory of a case without a fault, in bytes, and the number of that case.
     largest: (u64, u64),
 }
 
@@ -34,11 +34,11 @@ struct Row {
 pub struct Group {
     /// The reader.
     pub reader: Reader,
-    /// How many there are.
+    /// Number of cases.
     pub count: u64,
-    /// The first of them.
+    /// The lowest number of these cases.
     pub case: u64,
-    /// What is wrong.
+    /// The fault of the case with the lowest number.
     pub fault: Fault,
 }
 
@@ -67,7 +67,7 @@ impl Tally {
         row.largest = row.largest.max((answer.memory, case));
     }
 
-    /// The different faults, by reader.
+    /// Returns the different faults, by reader.
     #[must_use]
     pub fn groups(&self) -> Vec<Group> {
         self.groups.values().cloned().collect()

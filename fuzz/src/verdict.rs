@@ -1,9 +1,9 @@
-//! What became of one input.
+//! The result of one input.
 
 use std::error::Error;
 use std::fmt::{self, Display};
 
-/// Characters of an error message at most.
+/// Largest number of characters in an error message.
 pub const LONGEST_MESSAGE: usize = 1000;
 
 /// Words of Rust that mean nothing to a user.
@@ -12,37 +12,37 @@ const RUST_WORDS: [&str; 16] = [
     "u8", "u32", "u64", "usize", "i32", "i64",
 ];
 
-/// Why an input was not taken in.
+/// A reason why an input was not accepted.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Stop {
     /// The reader refused the input with this message, as a reader may.
     Refused(String),
-    /// The input was taken in, and something that must hold does not.
+    /// The input was accepted, and a property that must hold does not.
     Broken(String),
 }
 
-/// What a reader says of an input.
+/// The result of a reader that tries an input.
 pub type Tried = Result<(), Stop>;
 
-/// The refusal with the message of an error as a program prints it: with its control characters
-/// spelled out.
+/// Returns the refusal with the message of an error as a program prints it: with its control
+/// characters spelled out.
 pub fn refused(error: impl Error) -> Stop {
     let spelled =
         |c: char| if c.is_control() { c.escape_default().collect() } else { c.to_string() };
     Stop::Refused(error.to_string().chars().map(spelled).collect())
 }
 
-/// The finding that a later program refuses what an earlier one made.
+/// Returns the fault of a later program that refuses the output of an earlier one.
 pub fn broken(what: &str) -> impl Fn(&dyn Error) -> Stop {
     move |error| Stop::Broken(format!("{what}: {error}"))
 }
 
-/// Holds something that must be true of an accepted input.
+/// Checks a property that every accepted input must have.
 pub fn hold(holds: bool, what: &str) -> Tried {
     if holds { Ok(()) } else { Err(Stop::Broken(what.into())) }
 }
 
-/// A kind of finding.
+/// A kind of fault.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
     /// A panic.
@@ -51,7 +51,7 @@ pub enum Kind {
     Died,
     /// More processor time than any small input may take.
     Slow,
-    /// Neither an answer nor processor time used.
+    /// Neither an answer nor progress of the processor time.
     Stalled,
     /// More memory than any small input may take.
     Memory,
@@ -72,7 +72,7 @@ impl Kind {
         Self::Broken,
     ];
 
-    /// The kind of that name.
+    /// Returns the kind of that name.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|kind| kind.to_string() == name)
@@ -93,35 +93,35 @@ impl Display for Kind {
     }
 }
 
-/// Something wrong with a program.
+/// A fault of a program.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Fault {
-    /// Its kind.
+    /// The kind of the fault.
     pub kind: Kind,
-    /// Where or what, on one line.
+    /// The position or the description of the fault, on one line.
     pub text: String,
 }
 
 impl Fault {
-    /// A fault whose text is put on one line.
+    /// Makes a fault, with its text on one line.
     #[must_use]
     pub fn new(kind: Kind, text: &str) -> Self {
         let line: String = text.chars().take(2000).flat_map(char::escape_debug).collect();
         Self { kind, text: line }
     }
 
-    /// What two inputs have in common that show the same fault: its kind and its text without
-    /// numbers, names of temporary inputs and quoted pieces.
+    /// Returns the signature of the fault: its kind and its text without numbers, names of
+    /// temporary inputs and quoted pieces. Two inputs that show one fault have equal signatures.
     #[must_use]
     pub fn signature(&self) -> String {
         let text = self.text.replace("\\\"", "\"");
-        // A panic is told by its place, which stands before the message.
+        // The signature of a panic is its position, which precedes the message.
         let text = match self.kind {
             Kind::Panic => {
                 return format!("{} {}", self.kind, text.split(": ").next().unwrap_or(""));
             }
             Kind::Slow | Kind::Memory | Kind::Stalled => String::new(),
-            // What is wrong with the wording, whatever the message says.
+            // The fault of the wording, whatever the message says.
             Kind::Message => {
                 let what = text.split(" in: ").next().unwrap_or_default();
                 return format!("{} {}", self.kind, what.replace(|c: char| c.is_ascii_digit(), ""));
@@ -134,18 +134,18 @@ impl Fault {
     }
 }
 
-/// What was found out about one input.
+/// The verdict on one input.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Verdict {
-    /// It was read, and what follows was done.
+    /// The reader accepted the input, and the work that follows succeeded.
     Accepted,
-    /// It was refused with this sentence.
+    /// The reader refused the input with this sentence.
     Refused(String),
-    /// Something is wrong.
+    /// The input shows a fault.
     Fault(Fault),
 }
 
-/// What is wrong with the wording of a message, if anything is.
+/// Returns the fault in the wording of a message, or `None`.
 #[must_use]
 pub fn wording_fault(message: &str) -> Option<String> {
     if message.trim().is_empty() {
@@ -166,7 +166,8 @@ pub fn wording_fault(message: &str) -> Option<String> {
     words.next().map(|word| format!("the word {:?} of Rust", word.trim()))
 }
 
-/// A name such as `ChunkType` before a brace, a parenthesis or `::`, as values are printed for programmers.
+/// Returns a name such as `ChunkType` before a brace, a parenthesis or `::`, as Rust prints values
+/// for programmers.
 fn debug_name(text: &str) -> Option<&str> {
     let marks = [" {", "{", "(", "::"];
     let ends = marks.iter().flat_map(|mark| text.match_indices(mark)).map(|(at, _)| &text[..at]);
@@ -180,12 +181,12 @@ fn debug_name(text: &str) -> Option<&str> {
     )
 }
 
-/// True for characters that change the direction of the text behind them.
+/// Returns true for characters that change the direction of the text after them.
 fn is_bidirectional(c: char) -> bool {
     matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{200e}' | '\u{200f}')
 }
 
-/// True where `word` stands in the text and no letter or digit stands before it.
+/// Returns true if `word` occurs in the text with no letter or digit before it.
 fn contains_word(text: &str, word: &str) -> bool {
     text.match_indices(word).any(|(at, _)| {
         let joined = |c: char| c.is_alphanumeric() || c == '_';
@@ -195,7 +196,7 @@ fn contains_word(text: &str, word: &str) -> bool {
     })
 }
 
-/// The text without what it quotes from the input.
+/// Returns the text without the parts that it quotes from the input.
 fn without_quotes(text: &str) -> String {
     let mut kept = String::new();
     let mut quote = None;

@@ -9,16 +9,16 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// Processor time of a case at most.
+/// Most processor time of a case.
 pub const MOST_TIME: Duration = Duration::from_secs(10);
 
-/// Time by the clock of a case at most: it waits for something that does not come.
+/// Most wall-clock time of a case. A case that exceeds it waits for an event that does not come.
 const MOST_WAIT: Duration = Duration::from_secs(120);
 
-/// How often is looked.
+/// Time between two checks.
 const STEP: Duration = Duration::from_millis(50);
 
-/// The case at hand, looked at by a thread of its own.
+/// The current case, watched by a thread of its own.
 #[derive(Debug, Clone, Default)]
 pub struct Watch(Arc<Mutex<Option<Since>>>);
 
@@ -29,7 +29,7 @@ struct Since {
 }
 
 impl Watch {
-    /// A watch that looks from now on.
+    /// Starts a watch.
     #[must_use]
     pub fn start() -> Self {
         let watch = Self::default();
@@ -43,12 +43,12 @@ impl Watch {
         watch
     }
 
-    /// A case begins.
+    /// Records that a case begins.
     pub fn begin(&self) {
         self.set(Some(Since { time: ProcessTime::now(), clock: Instant::now() }));
     }
 
-    /// The case is done.
+    /// Records that the case is done.
     pub fn end(&self) {
         self.set(None);
     }
@@ -57,7 +57,7 @@ impl Watch {
         *self.0.lock().unwrap_or_else(PoisonError::into_inner) = since;
     }
 
-    /// Ends the process, with an answer for the parent, when the case at hand takes too long.
+    /// Ends the process, with an answer for the parent, when the current case takes too long.
     fn look(&self) {
         let since = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let Some(Since { time, clock }) = *since else { return };

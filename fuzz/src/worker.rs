@@ -1,4 +1,4 @@
-//! The child's side: tries inputs and measures them.
+//! The child process: tries inputs and measures them.
 
 use crate::cli::FuzzError;
 use crate::protocol::{Answer, Reply, Request};
@@ -13,15 +13,16 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// Memory that a case may hold at once, in bytes.
 const MOST_MEMORY: u64 = 2 << 30;
 
-/// What the last panic said.
+/// The message of the last panic.
 type LastPanic = Arc<Mutex<Option<String>>>;
 
-/// Does what the parent asks, until it asks no more.
+/// Answers the parent's requests until the parent sends no more.
 ///
 /// # Errors
-/// When there are no seeds, or the parent has gone.
+/// When there are no seeds, or the parent has ended.
 pub fn run() -> Result<(), FuzzError> {
-    // What a program counts may take this much; the rest is for small values, which it does not count.
+    // The budget of the program counts large values. The rest of the memory is for small values,
+    // which the budget does not count.
     files::memory::allow(Some(MOST_MEMORY / 4 * 3));
     let bench = Bench::load()?;
     let last_panic = LastPanic::default();
@@ -67,7 +68,7 @@ struct Worker {
 }
 
 impl Worker {
-    /// Tries an input.
+    /// Tries an input, and returns its verdict and its costs.
     fn answer(&self, reader: Reader, bytes: &[u8]) -> Answer {
         let before = crate::MEMORY.current_usage() as u64;
         crate::MEMORY.reset_peak_usage();
@@ -96,10 +97,10 @@ impl Worker {
     }
 }
 
-/// The place and the message of a panic, in a line.
+/// Returns the position and the message of a panic, in one line.
 fn told(info: &PanicHookInfo<'_>) -> String {
     let place = info.location().map_or_else(String::new, |place| {
-        // Of a path into another crate only its last names.
+        // Only the last names of a path into another crate.
         let names: Vec<&str> = place.file().rsplit('/').take(3).collect();
         let names: Vec<&str> = names.into_iter().rev().collect();
         format!("{}:{}", names.join("/"), place.line())

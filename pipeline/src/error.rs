@@ -1,4 +1,4 @@
-//! What can go wrong in a job.
+//! Reasons why a job fails.
 
 use compare::CompareError;
 use files::words::{LONGEST_LIST, cut, shown};
@@ -8,7 +8,7 @@ use sweep::SweepError;
 use thiserror::Error;
 use triangulate::TriangulateError;
 
-/// Why a job is not done.
+/// A reason why a job fails.
 #[derive(Debug, Error)]
 pub enum PipelineError {
     /// The job file is wrong.
@@ -37,7 +37,7 @@ pub enum PipelineError {
     Encode {
         /// The picture's file.
         name: String,
-        /// What the encoder said.
+        /// The error of the encoder.
         source: image::ImageError,
     },
     /// Two jobs would write the same file.
@@ -45,7 +45,7 @@ pub enum PipelineError {
     SameFile {
         /// The job named first.
         first: String,
-        /// The job named after it.
+        /// The job named second.
         second: String,
         /// The file.
         file: String,
@@ -62,7 +62,7 @@ pub enum PipelineError {
         job: String,
         /// The mesh.
         name: String,
-        /// The names there are, with a suggestion.
+        /// The names that exist, with a suggestion.
         known: String,
     },
     /// The scene has a mesh without a file, and the job does not make it.
@@ -77,7 +77,7 @@ pub enum PipelineError {
         job: String,
         /// The mesh.
         name: String,
-        /// Its place in the scene file.
+        /// The JSON path of the mesh in the scene file.
         path: String,
         /// The scene file.
         scene: String,
@@ -92,17 +92,17 @@ pub enum PipelineError {
     UnknownMode {
         /// The job.
         job: String,
-        /// The name given.
+        /// The requested name.
         name: String,
-        /// The names there are.
+        /// The names that exist.
         known: String,
     },
     /// No page shows that figure of the thesis.
     #[error("there is no figure A.{number}; there are {known}")]
     UnknownFigure {
-        /// The number asked for.
+        /// The requested number.
         number: u8,
-        /// The figures there are.
+        /// The figures that exist.
         known: String,
     },
     /// There is no page of that name.
@@ -110,9 +110,9 @@ pub enum PipelineError {
         "there is no page {name:?}{near}; `pipeline list` names those there are; a job of your own is named by its .json file"
     )]
     UnknownPage {
-        /// The name given.
+        /// The requested name.
         name: String,
-        /// A name that is near, in words; or nothing.
+        /// Words that suggest a similar name; empty if there is none.
         near: String,
     },
 }

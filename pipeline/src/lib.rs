@@ -1,10 +1,10 @@
 //! `sweep`, `triangulate` and `render` in one process, and the picture book.
 //!
-//! A [`Job`] names curve specs, the texture ids of their surfaces, a scene, and the modes in which it
-//! is rendered. [`run()`] runs a job: grids and meshes pass in memory, as the same numbers that the three
-//! programs pass through pipes, so the pictures are the same byte for byte. The jobs in [`pages`]
-//! are built into the program, and [`mod@book`] shows them. [`mod@report`] measures what each method of
-//! rendering a page costs, and how far its picture is from the truth.
+//! A [`Job`] names curve specs, the texture ids of their surfaces, a scene, and the modes in which
+//! it is rendered. [`run()`] runs a job. Grids and meshes pass in memory, as the same numbers that
+//! the three programs pass through pipes, so the pictures are equal byte for byte. The jobs in
+//! [`pages`] are built into the program, and [`mod@book`] shows them. [`mod@report`] measures what
+//! each method of rendering a page costs, and how far its picture is from the truth.
 
 pub mod book;
 pub mod cli;

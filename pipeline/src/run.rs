@@ -31,13 +31,13 @@ const GAP: u32 = 8;
 /// The folder of a job's results, and their size.
 #[derive(Debug, Clone)]
 pub struct Options {
-    /// The folder for all files. It must exist.
+    /// The folder for all files. The folder must exist.
     pub folder: PathBuf,
     /// Width and height of each picture, in pixels.
     pub size: (u32, u32),
-    /// Whether grids and OBJ files are written too.
+    /// True if grids and OBJ files are written too.
     pub keep: bool,
-    /// Whether files that exist are replaced.
+    /// True if existing files are replaced.
     pub clobber: bool,
 }
 
@@ -86,7 +86,7 @@ pub enum Event<'a> {
 /// would have piped. Returns the time of each stage.
 ///
 /// # Errors
-/// On the first fault. Files already written stay, and so does their marker, as [`Batch`] explains.
+/// On the first fault. Files already written stay, and so does their marker (see [`Batch`]).
 pub fn run(
     job: &Job,
     source: &dyn Source,
@@ -111,7 +111,7 @@ pub fn batch<'a>(job: &Job, options: &Options) -> Result<Batch<'a>, PipelineErro
 /// Runs a job as [`run()`] does, with its files in a batch that stays unfinished.
 ///
 /// # Errors
-/// As [`run()`].
+/// See [`run()`].
 pub fn run_in(
     batch: &Batch<'_>,
     job: &Job,
@@ -137,7 +137,7 @@ pub fn run_in(
     Ok(run.stages.get())
 }
 
-/// Returns the scene of a job with its meshes, as [`run()`] renders it. Nothing is written.
+/// Returns the scene of a job with its meshes, as [`run()`] renders it. No file is written.
 ///
 /// # Errors
 /// When a file cannot be read or is wrong, or the textures take too much memory in one of the job's modes.
@@ -157,7 +157,7 @@ pub fn settings(mode: &Mode, (width, height): (u32, u32)) -> Settings {
     Settings { sampling, accel, ..Settings::new(width, height, filter) }
 }
 
-/// A job while it is done.
+/// A job while it runs.
 struct Run<'a> {
     job: &'a Job,
     source: &'a dyn Source,
@@ -203,7 +203,7 @@ impl Run<'_> {
             meshes.insert(mesh.name.clone(), self.mesh(mesh, &file.camera)?);
         }
         let scene = draft.resolve(self.source, meshes).map_err(|error| self.of_meshes(error))?;
-        // Whether each picture fits beside the tables that the modes before it leave.
+        // Reserves memory for each picture together with the tables that earlier modes keep.
         let mut kept: Vec<(Filter, Reserved<'_>)> = Vec::new();
         for mode in &self.job.modes {
             kept.retain(|(filter, _)| *filter != mode.filter);
@@ -211,13 +211,14 @@ impl Run<'_> {
             memory::reserve(&scene, &settings, Some(Format::Png), of_process()).map(drop)?;
             kept.push((mode.filter, memory::reserve_tables(&scene, mode.filter, of_process())?));
         }
-        // The meshes are made in between, and have stages of their own.
+        // The meshes are made in between, and their times belong to other stages.
         let read = started.elapsed().saturating_sub(self.stages.get().total());
         self.took(Stages { read, ..Stages::default() });
         Ok(scene)
     }
 
-    /// Turns an error of the scene into one of the job, if the job has a mesh too many or too few.
+    /// Turns an error of the scene into an error of the job, if the job has a mesh too many or too
+    /// few.
     fn of_meshes(&self, error: SceneError) -> PipelineError {
         let job = self.job.name.clone();
         match error {
@@ -239,7 +240,8 @@ impl Run<'_> {
         let started = Instant::now();
         let (name, bytes) = (input::name_of(&mesh.spec), self.source.read_json(&mesh.spec)?);
         let folder = mesh.spec.parent().unwrap_or(Path::new(""));
-        // A scene does not move its meshes: what its camera sees of them, the spec's would.
+        // A scene does not move its meshes, so the scene's camera sees each mesh as a camera in the
+        // spec would.
         let CameraFile { eye, target, up, fov_deg } = *camera;
         let size = [self.options.size.0, self.options.size.1];
         let camera = Some(Camera { eye, target, up, fov_deg, size });
@@ -250,7 +252,7 @@ impl Run<'_> {
         let document = Document::new(&name, &bytes)?;
         let object =
             Object::read(&document, folder, self.source, &seen).map_err(|error| match error {
-                // It is about what the job says in place of the spec.
+                // The complaint is about the resolution that the job states in place of the spec's.
                 SweepError::Resolution(message) => mesh.resolution_fault(message).into(),
                 other => PipelineError::from(other),
             })?;
@@ -259,7 +261,7 @@ impl Run<'_> {
             (rows as u64).saturating_mul(cols as u64)
         });
         let points: u64 = points.sum();
-        // The grid, its triangles, and the copy of them that is rendered.
+        // Memory for the grid, its triangles, and the copy of them that is rendered.
         let bytes = points.saturating_mul(36).saturating_add(TriMesh::bytes_for(2 * points));
         of_process().check(bytes, || format!("mesh {} of {points} points", shown(&mesh.name)))?;
         let grids = object.grids()?;

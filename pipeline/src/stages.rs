@@ -10,7 +10,7 @@ pub struct Stages {
     /// Specs to grids.
     pub sweep: Duration,
     /// Grids to triangles with normals and texture coordinates, in the form that `render` takes.
-    /// Includes the OBJ file where the job keeps it.
+    /// Includes writing the OBJ file if the job keeps it.
     pub triangulate: Duration,
     /// Reading and decoding scene files and textures, and building the scene.
     pub read: Duration,
@@ -129,7 +129,7 @@ mod tests {
             lines[2],
             ["two", "-", "-", "2.00", "-", "-", "6.00", "-", "8.00", "picture", "75", "%"]
         );
-        // Numbers stand under the ends of their names.
+        // The numbers end in the same columns as their names.
         let all: Vec<&str> = table.lines().collect();
         assert_eq!(all[0].find("read").unwrap() + 4, all[1].find("1.00").unwrap() + 4);
     }

@@ -1,10 +1,10 @@
 //! Renders reference pictures ("truths") and measures the errors of other pictures against them.
 //!
-//! The truth is rendered with many jittered rays in each pixel, which interpolate textures without a
-//! filter. It consists of two pictures `a` and `b` of two seeds, whose noise is independent. Therefore
-//! the mean of `(x - a)(x - b)` is the mean square of `x - truth` for any picture `x`, and even a few
-//! rays give an unbiased measure. Against `a` alone, or against the mean of both, the noise of the
-//! truth would be counted as an error of `x`.
+//! The truth is rendered with many jittered rays in each pixel, which interpolate textures without
+//! a filter. The truth consists of two pictures `a` and `b` of two seeds, whose noise is
+//! independent. Therefore the mean of `(x - a)(x - b)` is the mean square of `x - truth` for any
+//! picture `x`, and even a few rays give an unbiased measure. Against `a` alone, or against the
+//! mean of both, the noise of the truth would be counted as an error of `x`.
 
 use render::film::{Crop, Pattern, PixelFilter};
 use render::filter::Filter;

@@ -1,4 +1,4 @@
-//! The command line of `sweep`: its arguments, and the work that they ask for.
+//! The command line of `sweep`: its arguments, and the work that they request.
 
 mod format;
 mod report;
@@ -112,7 +112,7 @@ impl Failure for UseError {
     }
 }
 
-/// Sweeps, checks or draws what the arguments ask for.
+/// Sweeps, checks or draws an object as the arguments request.
 ///
 /// # Errors
 /// When the arguments contradict each other, a file cannot be read or written, the spec is refused, or `--check`

@@ -15,10 +15,12 @@
 //! value is that of the side after; at the end of the trajectory it is that of the side before. A Bezier may
 //! be vertical, as at the end of a round cap; its derivative is then [`STEEPEST`].
 //!
-//! A new law must provide its JSON, a variant of [`spec::Law`](crate::spec::Law) that `read/law.rs` checks, and a
-//! variant of `Form` with an arm in each method of this file: its value and derivative at a stop, its graph in cubics,
-//! its range, its negative, its zeros, its detail in cells and its kinks. A law that its graph of cubics expresses needs
-//! no variant of its own: `total` is such a law. A new interpolation of keys is a member of [`Ease`].
+//! A new law must provide its JSON, and a variant of [`spec::Law`](crate::spec::Law) that
+//! `read/law.rs` checks. It also needs a variant of `Form` with an arm in each method of this file.
+//! These methods return its value and derivative at a stop, its graph in cubics, its range, its
+//! negative, its zeros, its detail in cells and its kinks. A law that its graph of cubics expresses
+//! needs no variant of its own: `total` is such a law. A new interpolation of keys is a member of
+//! [`Ease`].
 
 mod ease;
 mod graph;
@@ -31,8 +33,8 @@ use crate::curve::cut::{Side, Stop};
 use glam::DVec2;
 use kurbo::{CubicBez, Point, Shape};
 
-/// Bound of the size of derivatives. A surface this steep is level to all 16 digits, and far larger
-/// derivatives would overflow when squared.
+/// Largest absolute value of a derivative. A surface this steep is level to all 16 digits, and far
+/// larger derivatives would overflow when squared.
 pub const STEEPEST: f64 = 1e30;
 
 /// A checked function of the fraction of the trajectory's length.
@@ -344,7 +346,7 @@ mod tests {
 
     #[test]
     fn a_vertical_end_is_steep_and_finite() {
-        // Approximately a quarter of a circle, from full width to nothing.
+        // Approximately a quarter of a circle, from full width to width 0.
         let cap = Law::bezier(vec![cubic([[0.0, 1.0], [0.55, 1.0], [1.0, 0.55], [1.0, 0.0]])]);
         assert_eq!(cap.at(0.0), (1.0, 0.0));
         assert_eq!(cap.at(1.0), (0.0, -STEEPEST));

@@ -1,7 +1,7 @@
 //! Limits of the numbers in a spec, and the keywords that state limits in the JSON Schema.
 //!
-//! The reader refuses numbers beyond the limits. The functions add to a type's schema what its Rust form does not
-//! say.
+//! The reader refuses numbers beyond the limits. The functions add limits to a type's schema that
+//! its Rust form does not state.
 
 use files::schema::insert;
 use schemars::Schema;

@@ -59,9 +59,9 @@
 //!
 //! Axes are right-handed and y points up. A contour's (x, y) lies on the directions (w1, w2) of a frame with
 //! `w1 x w2 = T`, the direction of the trajectory. Closed contours run counter-clockwise in (w1, w2), so that
-//! their normals point out of the area they enclose; a clockwise contour is reversed. The same holds for an
-//! open contour of a rotation that starts and ends on the axis. The outer side of any other open contour is
-//! to the right of its direction of travel.
+//! their normals point out of the area they enclose; a clockwise contour is reversed. So is an open contour
+//! of a rotation that starts and ends on the axis and runs clockwise. The outer side of any other open
+//! contour is to the right of its direction of travel.
 //!
 //! On a circle and a rotation `w1` points away from the axis and `w2` along it. The sweep starts where `w1`
 //! is nearest to the coordinate axis least aligned with the axis of the circle or rotation (x before y before
@@ -238,7 +238,7 @@ pub struct Spec {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(transform = limits::positive)]
     pub wall: Option<f64>,
-    /// What closes the two ends.
+    /// The closures of the two ends.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub caps: Option<Caps>,
     /// Deformations of the finished surface, applied one after another before `position`.
@@ -271,7 +271,7 @@ pub struct Spec {
 #[serde(deny_unknown_fields, expecting = "an object with the key segments, and closed if it is")]
 #[schemars(inline)]
 pub struct Bezier<P> {
-    /// Whether the last segment ends at the start of the first.
+    /// True if the last segment ends at the start of the first.
     #[serde(default)]
     pub closed: bool,
     /// Four control points for each segment. At least one segment; each starts where the one before it ends.
@@ -284,7 +284,7 @@ pub struct Bezier<P> {
 #[serde(deny_unknown_fields, expecting = "an object with the key points, and closed if it is")]
 #[schemars(inline, transform = limits::loop_of_three)]
 pub struct Free<P> {
-    /// Whether the curve returns from the last point to the first, which is not repeated.
+    /// True if the curve returns from the last point to the first, which is not repeated.
     #[serde(default)]
     pub closed: bool,
     /// The points: at least two, or three if closed.

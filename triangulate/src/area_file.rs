@@ -11,8 +11,9 @@
 //! }
 //! ```
 //!
-//! The areas have the keys of a spec's areas ([`Area`]) and lie on top of those that the grid has.
-//! `patch` names the patch that they belong to. It may be left out when the object has one patch.
+//! The areas have the keys of a spec's areas ([`Area`]) and lie on top of the grid's own areas.
+//! `patch` names the patch that receives the areas. This key may be left out when the object has
+//! one patch.
 
 use files::JsonError;
 use files::json::Document;

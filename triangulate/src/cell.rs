@@ -9,7 +9,7 @@ use glam::DVec3;
 use sweep::grid::Seam;
 use sweep::grid::file::Header;
 
-/// A sink and the counts of what has been passed to it.
+/// A sink, and the counts of the numbers passed to the sink.
 #[derive(Debug)]
 pub struct Teller<S> {
     pub sink: S,
@@ -244,8 +244,8 @@ fn on_right(corner: usize) -> bool {
     matches!(corner, 1 | 2)
 }
 
-/// Returns the wanted diagonal, or the other one where that leaves fewer triangles without area. Each
-/// triangle without area is a slit in the mesh.
+/// Returns the wanted diagonal, or the other one if the other leaves fewer triangles without area.
+/// Each triangle without area is a slit in the mesh.
 fn least_flat(corners: &diagonal::Corners, wanted: Diagonal) -> Diagonal {
     let lost = |cut: Diagonal| {
         let flat = |[a, b, c]: &[usize; 3]| is_flat(corners[*a], corners[*b], corners[*c]);

@@ -58,7 +58,7 @@ pub struct Arguments {
     /// Write a material file beside the OBJ, under its name with .mtl
     #[arg(long)]
     mtl: bool,
-    /// The picture of the material, written as it stands here: readers look for it beside the MTL
+    /// Picture that the MTL names, exactly as given; readers look for it beside the MTL
     #[arg(long, value_name = "FILE", requires = "mtl", value_parser = map_name)]
     pub map: Option<String>,
     /// Write what the mesh is like (Euler number, rims, sides, measures) as JSON; - is standard output.
@@ -148,7 +148,7 @@ struct Outputs {
 }
 
 impl Outputs {
-    /// Creates the files before anything is read, so that a folder without write permission is an
+    /// Creates the files before any file is read, so that a folder without write permission is an
     /// error at once.
     fn create(arguments: &Arguments, ledger: &Ledger) -> Result<Self, Report> {
         let create = |path: &Path, flag: &str| -> Result<Output, Report> {
@@ -199,7 +199,7 @@ impl Arguments {
         self.format.or_else(by_name).unwrap_or(Format::Obj)
     }
 
-    /// Refuses arguments that contradict each other. `terminal` tells whether standard output is a
+    /// Refuses arguments that contradict each other. `terminal` is true if standard output is a
     /// terminal.
     pub fn check(&self, terminal: bool) -> Result<(), UseError> {
         let format = self.format();
@@ -239,7 +239,7 @@ impl Arguments {
         }
     }
 
-    /// Returns the path of the material file, if `--mtl` asks for one.
+    /// Returns the path of the material file, if `--mtl` is given.
     pub fn mtl(&self) -> Option<PathBuf> {
         self.mtl_name().map(|name| self.output.with_file_name(name))
     }

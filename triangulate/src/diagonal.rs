@@ -1,11 +1,11 @@
 //! Chooses the diagonal that cuts a cell into two triangles.
 //!
 //! A diagonal is a straight line between two points of the surface. The surface normals at its ends
-//! tell how far from the diagonal the surface runs. Take a curve with end points `P`, `Q` and unit
-//! normals `m`, `n` there. Cubic interpolation puts the middle of this curve `(Q - P).(n - m) / 8` off
-//! the chord (positive where the surface bulges outward). The diagonal with the smaller distance is
-//! taken, since it is nearer to the true surface in the middle of the cell. No further point of the
-//! surface is needed.
+//! determine how far from the diagonal the surface runs. Take a curve with end points `P`, `Q` and
+//! unit normals `m`, `n` there. Cubic interpolation puts the middle of this curve
+//! `(Q - P).(n - m) / 8` off the chord (positive where the surface bulges outward). The diagonal
+//! with the smaller distance is taken, since it is nearer to the true surface in the middle of the
+//! cell. No further point of the surface is needed.
 //!
 //! On flat or symmetrical cells both distances are equal. Then the shorter diagonal is taken, which
 //! gives the better shaped triangles. If the lengths are equal too, the diagonal from the cell's first
@@ -103,7 +103,7 @@ mod tests {
     use super::*;
     use std::f64::consts::TAU;
 
-    /// A wavy sheet `z = f(x, y)` and its unit normal.
+    /// Returns a point of a wavy sheet `z = f(x, y)` and the unit normal there.
     fn sheet(x: f64, y: f64) -> ([f64; 3], [f32; 3]) {
         let (a, b) = (TAU * (x + 0.4 * y), TAU * (0.3 * x - y));
         let z = 0.1 * a.sin() + 0.05 * b.cos();

@@ -59,7 +59,7 @@ pub enum TriangulateError {
     Seam {
         /// The object's name.
         object: String,
-        /// What was found and what was expected.
+        /// The found and the expected value, in words.
         fault: String,
     },
     /// A grid in memory with an area that does not lie on it.
@@ -67,7 +67,7 @@ pub enum TriangulateError {
     Area {
         /// The object's name.
         object: String,
-        /// The key of the area, what was found and what was expected.
+        /// The key of the area, the found and the expected value.
         fault: String,
     },
     /// A number that does not fit in f32, the number type of a mesh.

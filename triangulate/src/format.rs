@@ -31,7 +31,7 @@ impl Format {
         Self::from_str(extension, true).ok()
     }
 
-    /// Name of the format, in capitals.
+    /// Returns the name of the format, in capitals.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -41,7 +41,7 @@ impl Format {
         }
     }
 
-    /// Name of the format after its indefinite article.
+    /// Returns the name of the format after its indefinite article.
     #[must_use]
     pub fn with_article(self) -> &'static str {
         match self {
@@ -51,7 +51,7 @@ impl Format {
         }
     }
 
-    /// Contents of a file of the format, in words.
+    /// Returns the contents of a file of the format, in words.
     #[must_use]
     pub fn content(self) -> &'static str {
         match self {
@@ -61,7 +61,7 @@ impl Format {
         }
     }
 
-    /// Extension of the format's files.
+    /// Returns the extension of the format's files.
     #[must_use]
     pub fn extension(self) -> &'static str {
         match self {

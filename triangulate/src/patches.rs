@@ -10,8 +10,8 @@ pub trait Patches {
     /// Passes the triangles of all patches to a sink. Returns the sink and the counts of the mesh.
     ///
     /// # Errors
-    /// When a grid file is cut short or damaged, when the arrays of a grid in memory do not fit each
-    /// other, when a number does not fit in f32, or when the sink fails.
+    /// When a grid file is cut short or damaged, or when the arrays of a grid in memory do not fit
+    /// each other. Also when a number does not fit in f32, and when the sink fails.
     fn run<S: Sink>(self, options: &Options, sink: S) -> Result<(S, Counts), TriangulateError>;
 }
 

@@ -80,13 +80,13 @@ pub struct MeshReport {
     pub euler: i64,
     /// Number of boundary loops.
     pub boundary_loops: usize,
-    /// Whether triangles can be turned over so that all neighbours have the same winding.
+    /// True if triangles can be turned over so that all neighbours have the same winding.
     pub orientable: bool,
-    /// Whether all neighbouring triangles have the same winding already.
+    /// True if all neighbouring triangles have the same winding already.
     pub oriented: bool,
-    /// Whether the mesh is a surface around every point.
+    /// True if the mesh is a surface around every point.
     pub manifold: bool,
-    /// Whether the mesh has triangles and no boundary.
+    /// True if the mesh has triangles and no boundary.
     pub closed: bool,
     /// Shortest and longest edge, in the grid's unit.
     pub edge_length: Option<Extremes>,
@@ -96,9 +96,9 @@ pub struct MeshReport {
     pub edge_ratio: Option<f64>,
     /// The largest aspect of a triangle: its longest edge over the height on that edge.
     pub worst_aspect: Option<f64>,
-    /// The worst fold of all patches, if their grids say so.
+    /// The worst fold of all patches, if their grids record folds.
     pub folds: Option<Fold>,
-    /// The worst tolerance of all patches, if their grids say so.
+    /// The worst tolerance of all patches, if their grids record tolerances.
     pub tolerance: Option<Tolerance>,
     /// Numbers of triangles left out of the mesh.
     pub left_out: LeftOut,
@@ -137,15 +137,15 @@ pub struct PatchReport {
     pub euler: i64,
     /// Number of boundary loops.
     pub boundary_loops: usize,
-    /// Whether the patch has two sides.
+    /// True if the patch has two sides.
     pub orientable: bool,
-    /// Whether the patch is a surface around every point.
+    /// True if the patch is a surface around every point.
     pub manifold: bool,
-    /// Whether the patch has triangles and no boundary.
+    /// True if the patch has triangles and no boundary.
     pub closed: bool,
-    /// How far the patch folds back on itself, if its grid says so.
+    /// How far the patch folds back on itself, if its grid records this.
     pub folds: Option<Fold>,
-    /// How near the patch is to the exact surface, if its grid says so.
+    /// How near the patch is to the exact surface, if its grid records this.
     pub tolerance: Option<Tolerance>,
 }
 

@@ -1,8 +1,9 @@
 //! Vertices that carry position, normal and picture coordinates under one index.
 //!
-//! OBJ and [`TriMesh`] number the three separately; most other formats know only whole vertices. A
-//! position is split where picture coordinates or normals differ: along a seam, along a crease, and at
-//! a pole into one vertex for each triangle. It is not split where two numbers stand for equal values.
+//! OBJ and [`TriMesh`] number the three separately; most other formats have only whole vertices. A
+//! position is split where picture coordinates or normals differ: along a seam, along a crease, and
+//! at a pole into one vertex for each triangle. A position is not split where two numbers refer to
+//! equal values.
 
 use crate::TriMesh;
 use std::collections::HashMap;
@@ -65,8 +66,8 @@ mod tests {
     use super::*;
     use crate::Triangle;
 
-    /// Two triangles of a square. The second triangle has its own number for each normal and pair of
-    /// picture coordinates, also where the values are equal.
+    /// Returns the two triangles of a square. The second triangle has its own number for each
+    /// normal and pair of picture coordinates, also where the values are equal.
     fn square(uvs: Vec<[f32; 2]>, normals: Vec<[f32; 3]>) -> TriMesh {
         TriMesh {
             positions: vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]],

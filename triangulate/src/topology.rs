@@ -31,13 +31,13 @@ pub struct Topology {
     pub faces: usize,
     /// Number of boundary loops: 0 for a closed surface, 2 for a tube.
     pub boundary_loops: usize,
-    /// Whether triangles can be turned over so that all neighbours have the same winding.
+    /// True if triangles can be turned over so that all neighbours have the same winding.
     pub orientable: bool,
-    /// Whether all neighbours have the same winding already.
+    /// True if all neighbours have the same winding already.
     pub oriented: bool,
-    /// Whether the surface is a disk, or half a disk, around every point.
+    /// True if the surface is a disk, or half a disk, around every point.
     pub manifold: bool,
-    /// Whether there are triangles and every side has a neighbour.
+    /// True if there are triangles and every side has a neighbour.
     pub closed: bool,
 }
 
@@ -46,10 +46,10 @@ pub struct Topology {
 pub struct Side {
     /// The positions at the two ends, the lower index first.
     pub ends: [u32; 2],
-    /// The number of the side among all sides, three to a triangle. It is also the number of the corner
-    /// at which the side starts; the side ends at the next corner of the triangle.
+    /// The number of the side among all sides, three to a triangle. The corner at which the side
+    /// starts has this number too; the side ends at the next corner of the triangle.
     number: usize,
-    /// Whether the side leads from the higher position index to the lower.
+    /// True if the side leads from the higher position index to the lower.
     downward: bool,
 }
 

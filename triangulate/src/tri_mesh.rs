@@ -50,9 +50,9 @@ pub struct Patch {
     pub name: String,
     /// The index of the first triangle of the patch, from 0.
     pub first: usize,
-    /// How far the patch folds back on itself, if its grid says so.
+    /// How far the patch folds back on itself, if its grid records this.
     pub fold: Option<Fold>,
-    /// How near the patch is to the exact surface, if its grid says so.
+    /// How near the patch is to the exact surface, if its grid records this.
     pub tolerance: Option<Tolerance>,
 }
 

@@ -25,7 +25,7 @@ pub trait Sink {
     fn normal(&mut self, normal: [f32; 3]);
     /// Takes the next triangle.
     fn triangle(&mut self, triangle: &Triangle);
-    /// Called when a row and its triangles are complete, so that the sink can pass them on.
+    /// Marks the end of a row and its triangles, so that the sink can pass them on.
     ///
     /// # Errors
     /// When the sink cannot pass the row on.
@@ -98,8 +98,8 @@ pub struct Counts {
     /// The largest distance by which rounding moved a point, in the grid's unit.
     pub displacement: f64,
     /// The largest distance by which rounding moved a point, as a fraction of the distance from the
-    /// surface that was asked of the grid. Above 1, rounding exceeds the tolerance. 0 where no
-    /// tolerance was asked.
+    /// surface that the grid's tolerance allows. Above 1, rounding exceeds the tolerance. 0 for a
+    /// grid without a tolerance.
     pub tolerance_used: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Validates a mesh and lists what is wrong with it.
+//! Validates a mesh and lists its faults.
 
 use crate::TriMesh;
 use crate::diagonal::is_flat;
@@ -12,11 +12,11 @@ const UNIT: f32 = 1e-5;
 impl TriMesh {
     /// Returns complaints about the mesh; the list is empty when there are none.
     ///
-    /// The checks find indices out of range, numbers that are not finite, normals that are not of unit
-    /// length, triangles without area, and directed edges used twice. A directed edge is used twice
-    /// where two neighbouring triangles face opposite ways, and where an edge has three triangles. So a
-    /// mesh of a one-sided surface must fail this check. Edges used once, as on the boundary of an open
-    /// surface, are valid.
+    /// The checks find indices out of range, numbers that are not finite, normals that are not of
+    /// unit length, triangles without area, and directed edges used twice. A directed edge is used
+    /// twice where two neighbouring triangles face opposite sides, and where an edge has three
+    /// triangles. So a mesh of a one-sided surface must fail this check. Edges used once, as on the
+    /// boundary of an open surface, are valid.
     #[must_use]
     pub fn validate(&self) -> Vec<String> {
         let mut complaints = Complaints::default();
@@ -117,7 +117,7 @@ mod tests {
     use super::UNIT;
     use crate::{TriMesh, Triangle};
 
-    /// Two triangles of a square.
+    /// Returns the two triangles of a square.
     fn square() -> TriMesh {
         let triangle = |corners| Triangle { position: corners, uv: corners, normal: [0; 3] };
         TriMesh {
@@ -129,7 +129,7 @@ mod tests {
         }
     }
 
-    /// The mesh with positions in general position and these triangles.
+    /// Returns a mesh of these triangles with positions in general position.
     fn faces(faces: &[[u32; 3]]) -> TriMesh {
         let triangle = |&corners| Triangle { position: corners, uv: [0; 3], normal: [0; 3] };
         let count = faces.iter().flatten().max().map_or(0, |most| most + 1);

@@ -1,13 +1,14 @@
-//! How much memory the system would give this process.
+//! Finds how much memory the system would give this process.
 //!
-//! On Linux the kernel tells it in files: what is free on the machine (`/proc/meminfo`), what is left of
-//! the limits of the control groups that the process is in (version 1 and 2, all levels), and of the
-//! limit of its address space (`ulimit -v`). The least of them counts. Other systems are not asked.
+//! On Linux the kernel reports three numbers in files, of which the least counts. The first is the
+//! free memory of the machine (`/proc/meminfo`). The second is the rest of the limits of the
+//! process's control groups (version 1 and 2, all levels). The third is the rest of the limit of
+//! its address space (`ulimit -v`). On other systems the memory is unknown.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Bytes that the process can take now, if the system tells.
+/// Returns the bytes that the process can take now, if the system reports them.
 pub(super) fn free() -> Option<u64> {
     let machine = fs::read_to_string("/proc/meminfo").ok().and_then(|text| available(&text));
     let groups = fs::read_to_string("/proc/self/cgroup").unwrap_or_default();
@@ -15,31 +16,33 @@ pub(super) fn free() -> Option<u64> {
     machine.into_iter().chain(groups).chain(address_space()).min()
 }
 
-/// Bytes of address space that the process can still take, if they are limited.
+/// Returns the bytes of address space that the process can still take, if the address space is
+/// limited.
 pub(super) fn address_space() -> Option<u64> {
     let limit = limit(&fs::read_to_string("/proc/self/limits").ok()?)?;
     let status = fs::read_to_string("/proc/self/status").ok()?;
     Some(limit.saturating_sub(kilobytes(&status, "VmSize:")?))
 }
 
-/// `MemAvailable` of `/proc/meminfo`: what can be taken without swapping.
+/// Returns `MemAvailable` of `/proc/meminfo`, in bytes: memory that can be taken without swapping.
 fn available(meminfo: &str) -> Option<u64> {
     kilobytes(meminfo, "MemAvailable:")
 }
 
-/// A number of kB behind a word at the start of a line, in bytes.
+/// Returns the number of kB after `word` at the start of a line, in bytes.
 fn kilobytes(text: &str, word: &str) -> Option<u64> {
     let line = text.lines().find_map(|line| line.strip_prefix(word))?;
     line.split_whitespace().next()?.parse::<u64>().ok()?.checked_mul(1024)
 }
 
-/// The soft limit of the address space in `/proc/self/limits`.
+/// Returns the soft limit of the address space in `/proc/self/limits`, in bytes.
 fn limit(limits: &str) -> Option<u64> {
     let line = limits.lines().find_map(|line| line.strip_prefix("Max address space"))?;
     line.split_whitespace().next()?.parse().ok()
 }
 
-/// The folders of the groups in `/proc/self/cgroup` that may limit memory, each with those above it.
+/// Returns the folders of the groups in `/proc/self/cgroup` that may limit memory, each with the
+/// groups above it.
 fn group_folders(cgroup: &str) -> Vec<PathBuf> {
     let mut folders = Vec::new();
     for line in cgroup.lines() {
@@ -58,8 +61,8 @@ fn group_folders(cgroup: &str) -> Vec<PathBuf> {
     folders
 }
 
-/// Returns the bytes left of a group's limit, if the group has one. Pages of files that the kernel would let go count
-/// as free.
+/// Returns the bytes left of a group's limit, if the group has one. Cached pages of files that the
+/// kernel can release count as free.
 fn left_in_group(folder: &Path) -> Option<u64> {
     let number = |name: &str| fs::read_to_string(folder.join(name)).ok()?.trim().parse().ok();
     let (limit, used): (u64, u64) = match number("memory.max") {

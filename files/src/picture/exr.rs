@@ -1,27 +1,27 @@
-//! What the decoder of an EXR file unpacks, by its header.
+//! Computes the memory into which the decoder unpacks an EXR file, from the file's header.
 
 use exr::meta::MetaData;
 
-/// The layer of a file that takes most memory.
+/// The layer of a file that takes the most memory.
 pub(super) struct Unpacked {
     /// Pixels of the data window across.
     pub width: u64,
     /// Pixels of the data window down.
     pub height: u64,
-    /// Channels, read or not.
+    /// Number of channels, including those that are not read.
     pub channels: usize,
-    /// Bytes of all its pixels.
+    /// Number of bytes of all pixels.
     pub bytes: u64,
 }
 
-/// Bytes that compression makes of one byte at most. A deflated stream of zeros gives 1032; the Huffman
-/// code of PIZ gives some hundreds, the other methods fewer.
+/// Most bytes that compression makes of one byte. A deflated stream of zeros gives 1032; the
+/// Huffman code of PIZ gives some hundreds, the other methods fewer.
 const MOST_EXPANDED: u64 = 2000;
 
-/// The largest layer of the file; an error is the decoder's sentence.
+/// Returns the largest layer of the file. An error is the decoder's sentence.
 ///
-/// Blocks are unpacked one after another, and one block may be all of the layer. Compressed samples of
-/// B44 and PXR24 pass through a second buffer of the same size.
+/// Blocks are unpacked one after another, and one block may be the whole layer. Compressed samples
+/// of B44 and PXR24 pass through a second buffer of the same size.
 pub(super) fn unpacked(file: &[u8]) -> Result<Unpacked, String> {
     let meta = MetaData::read_from_buffered(file, false).map_err(|error| error.to_string())?;
     let layers = meta.headers.iter().map(|header| {

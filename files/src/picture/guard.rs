@@ -1,18 +1,18 @@
-//! Work that may panic, without a word on standard error.
+//! Runs work that may panic, without output on standard error.
 
 use std::cell::Cell;
 use std::panic::{self, AssertUnwindSafe};
 use std::sync::Once;
 
 thread_local! {
-    /// Whether panics of this thread are caught and not to be told.
+    /// True while panics of this thread are caught and not printed.
     static QUIET: Cell<bool> = const { Cell::new(false) };
 }
 
-/// What `work` returns; nothing where it panics. The message of such a panic is not printed, while
-/// those of other threads are, as before.
+/// Returns the result of `work`, or `None` if `work` panics. The message of such a panic is not
+/// printed. The messages of other threads are printed as before.
 ///
-/// `work` must leave nothing half done behind that is looked at later.
+/// `work` must leave no half-changed value that is used later.
 pub(super) fn guarded<T>(work: impl FnOnce() -> T) -> Option<T> {
     static HOOK: Once = Once::new();
     HOOK.call_once(|| {

@@ -23,7 +23,7 @@ fn encoded(picture: impl Into<DynamicImage>, format: ImageFormat) -> Vec<u8> {
     bytes.into_inner()
 }
 
-/// The PNG with a chunk put in after its header.
+/// Returns the PNG with a chunk inserted after its header.
 fn with_chunk(png: &[u8], kind: &[u8; 4], data: &[u8]) -> Vec<u8> {
     let mut chunk = (data.len() as u32).to_be_bytes().to_vec();
     chunk.extend(kind);
@@ -32,7 +32,7 @@ fn with_chunk(png: &[u8], kind: &[u8; 4], data: &[u8]) -> Vec<u8> {
     [&png[..33], &chunk, &png[33..]].concat()
 }
 
-/// The CRC of a PNG chunk, bit by bit.
+/// Returns the CRC of a PNG chunk, computed bit by bit.
 fn crc(bytes: &[u8]) -> u32 {
     !bytes.iter().fold(!0, |crc, &byte| {
         (0..8).fold(crc ^ u32::from(byte), |crc, _| (crc >> 1) ^ (0xedb8_8320 * (crc & 1)))
@@ -85,7 +85,8 @@ fn a_picture_is_refused_before_it_is_decoded() {
     assert!(error.to_string().starts_with("a.png: a picture of 1000000x1000000 pixels needs"));
 }
 
-/// 64 MB of zeros as a zlib stream of stored and repeated runs: what an ICC profile is unpacked from.
+/// Returns 64 MB of zeros as a zlib stream of stored and repeated runs, as an ICC profile is
+/// stored.
 fn zlib_of_zeros() -> Vec<u8> {
     // A grey picture of zeros has such a stream as its data.
     let png = encoded(GrayImage::new(8192, 8192), ImageFormat::Png);
@@ -107,14 +108,15 @@ fn a_colour_profile_of_zeros_is_not_unpacked() {
     let zeros = zlib_of_zeros();
     let profile = [b"zeros\0\0", &zeros[..]].concat();
     let file = with_chunk(&small, b"iCCP", &profile);
-    // The budget has no room for the profile, and the picture is read without it.
+    // The budget is too small for the profile, and the picture is read without it.
     let picture = read(&file, &Budget::new(20 << 20)).unwrap();
     assert_eq!(picture.width(), 8);
     let text = with_chunk(&small, b"zTXt", &[b"Comment\0\0", &zeros[..]].concat());
     assert_eq!(read(&text, &Budget::new(20 << 20)).unwrap().width(), 8);
 }
 
-/// The header of an EXR file with a display window of 8 x 8 pixels and the given data window.
+/// Returns the header of an EXR file with a display window of 8 x 8 pixels and the given data
+/// window.
 fn exr_with_data_window(corners: [i32; 4]) -> Vec<u8> {
     let mut file = vec![0x76, 0x2f, 0x31, 0x01, 2, 0, 0, 0];
     let mut attribute = |name: &str, kind: &str, value: &[u8]| {
@@ -153,13 +155,13 @@ fn the_data_window_of_an_exr_is_measured_and_not_only_what_is_displayed() {
             format!("pixels with 3 channels, which no file of {} bytes holds", file.len());
         assert!(error.ends_with(&expected), "{error}");
     }
-    // A file long enough to hold the pixels is refused by the budget.
+    // The file is long enough to hold the pixels, so only the budget refuses it.
     let mut file = exr_with_data_window([0, 0, 1_000_000, 1000]);
     file.resize(20_000_000, 0);
     let error = read(&file, &budget).unwrap_err();
     let PictureError::Memory(error) = error else { panic!("{error:?}") };
     assert!(error.what.ends_with("pixels with 3 channels"), "{error}");
-    // A small data window passes this check, and the file is told to be cut.
+    // A small data window passes the budget, and the file is reported as cut short.
     let error = read(&exr_with_data_window([0, 0, 7, 7]), &budget).unwrap_err();
     assert!(matches!(&error, PictureError::Broken(_)), "{error:?}");
     assert_eq!(budget.left(), 1 << 30);
@@ -188,7 +190,7 @@ fn damaged_files_of_all_formats_do_not_panic() {
                 let at = random(bytes.len());
                 bytes[at] = random(256) as u8;
             }
-            // Whatever comes of it is no panic.
+            // Any result but a panic is right.
             let _ = read(&bytes, &budget);
         }
     }

@@ -1,11 +1,11 @@
-//! What serde says of a wrong value, in words for people who write JSON and not Rust.
+//! Rewrites serde's complaints about a wrong value for people who write JSON and not Rust.
 //!
-//! serde has no error codes, so its sentences are rewritten piece by piece; a piece that is not
-//! known here stays as it is, and is still a sentence.
+//! serde has no error codes, so its sentences are rewritten piece by piece. A piece that is not
+//! known here stays unchanged, and the result is still a sentence.
 
 use super::{nearest, shortened};
 
-/// Sentences that are replaced whole.
+/// Sentences that are replaced as a whole.
 const SENTENCES: [(&str, &str); 16] = [
     ("EOF while parsing a list", "found the end of the text inside an array, expected `]`"),
     ("EOF while parsing an object", "found the end of the text inside an object, expected `}`"),
@@ -31,7 +31,7 @@ const SENTENCES: [(&str, &str); 16] = [
     ("trailing comma", "found a comma behind the last value, expected none"),
 ];
 
-/// Pieces that stand for what was found.
+/// Pieces that describe the found value.
 const FOUND: [(&str, &str); 13] = [
     ("invalid type: ", "found "),
     ("invalid value: ", "found "),
@@ -48,7 +48,7 @@ const FOUND: [(&str, &str); 13] = [
     ("found sequence", "found an array"),
 ];
 
-/// Pieces that stand for what was expected.
+/// Pieces that describe the expected value.
 const EXPECTED: [(&str, &str); 11] = [
     ("expected f64", "expected a number"),
     ("expected f32", "expected a number"),
@@ -63,7 +63,7 @@ const EXPECTED: [(&str, &str); 11] = [
     ("expected a sequence", "expected an array"),
 ];
 
-/// Beginnings of what serde expects of a type, behind which it calls the type's name in Rust.
+/// Beginnings of the expected value in serde's sentences, before the type's name in Rust.
 const KINDS: [(&str, &str); 12] = [
     ("expected struct", "expected an object"),
     ("expected newtype", "expected an object with the value of this key"),
@@ -79,12 +79,12 @@ const KINDS: [(&str, &str); 12] = [
     ("expected field identifier", "expected a key"),
 ];
 
-/// serde's message in plain words, with a suggestion for a near miss.
+/// Returns serde's message in plain words, with a suggestion for a misspelt key.
 pub(crate) fn plain(message: &str) -> String {
     if let Some((_, words)) = SENTENCES.iter().find(|(serdes, _)| *serdes == message) {
         return (*words).into();
     }
-    // Only what serde says itself is rewritten, never the user's text between quotes.
+    // Only serde's own words are rewritten, never the user's text between quotes.
     let (found, expected) = message.rsplit_once(", expected ").unwrap_or((message, ""));
     if let Some(length) = found.strip_prefix("invalid length ") {
         let fixed = ["an array of length ", "a tuple of size "];
@@ -134,7 +134,7 @@ mod tests {
     use super::*;
     use serde::Deserialize;
 
-    /// What is said of a text that is not a list of points.
+    /// Returns the complaint about a text that is not a list of points.
     fn complaint(text: &str) -> String {
         let error = serde_json::from_str::<Vec<[f64; 2]>>(text).unwrap_err().to_string();
         plain(error.rsplit_once(" at line ").unwrap().0)

@@ -1,4 +1,4 @@
-//! Mutations that know nothing of the format.
+//! Mutations that ignore the format.
 
 use crate::dice::Dice;
 
@@ -49,7 +49,7 @@ pub const DOUBLES: [f64; 20] = [
 /// Longest input that mutation makes, in bytes.
 const LONGEST: usize = 1 << 16;
 
-/// Changes some bytes: flips, numbers, pieces removed, doubled or taken from `other`.
+/// Changes some bytes: flips, numbers, and pieces that are removed, doubled or taken from `other`.
 pub fn mutate(bytes: &mut Vec<u8>, dice: &mut Dice, other: &[u8]) {
     let at = dice.below(bytes.len());
     match dice.below(12) {
@@ -71,7 +71,7 @@ pub fn mutate(bytes: &mut Vec<u8>, dice: &mut Dice, other: &[u8]) {
     }
 }
 
-/// A range of at most 64 places, most often of few.
+/// Returns a range of at most 64 positions, most often of few.
 pub fn piece(length: usize, dice: &mut Dice) -> std::ops::Range<usize> {
     let start = dice.below(length);
     let longest = *dice.one(&[1, 2, 4, 16, 64]);

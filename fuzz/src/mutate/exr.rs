@@ -1,19 +1,19 @@
-//! Mutations of EXR files: attributes of the header, and what stands behind it.
+//! Mutations of EXR files: the attributes of the header, and the bytes after them.
 
 use super::bytes;
 use crate::dice::Dice;
 use std::ops::Range;
 
-/// Where an attribute of the header lies in its file.
+/// The ranges of a header's attribute in its file.
 #[derive(Debug, Clone)]
 struct Attribute {
-    /// Its name, type, length and value.
+    /// The name, type, length and value.
     whole: Range<usize>,
-    /// Its value alone.
+    /// The value alone.
     value: Range<usize>,
 }
 
-/// A changed picture.
+/// Returns a mutated picture.
 #[must_use]
 pub fn mutated(seed: &[u8], dice: &mut Dice, other: &[u8]) -> Vec<u8> {
     let mut file = seed.to_vec();
@@ -46,7 +46,7 @@ fn change(file: &mut Vec<u8>, dice: &mut Dice, other: &[u8]) {
             file.splice(at..chosen.value.end, length.into_iter().chain(new));
         }
         7..10 => {
-            // The table of offsets, and blocks.
+            // The table of offsets, and the blocks.
             let mut behind = file.split_off(end);
             bytes::mutate(&mut behind, dice, other);
             file.extend(behind);
@@ -83,7 +83,7 @@ fn value(file: &mut [u8], place: &Range<usize>, dice: &mut Dice) {
     file[at..at + 4].copy_from_slice(&new.to_le_bytes());
 }
 
-/// The attributes of the first header.
+/// Lists the attributes of the first header.
 fn attributes(file: &[u8]) -> Vec<Attribute> {
     let mut found = Vec::new();
     let mut at = 8;
@@ -105,7 +105,7 @@ fn attributes(file: &[u8]) -> Vec<Attribute> {
     found
 }
 
-/// The length of the text at this place that ends with a zero.
+/// Returns the length of the zero-terminated text at this position.
 fn word(file: &[u8], at: usize) -> Option<usize> {
     file.get(at..)?.iter().take(256).position(|&byte| byte == 0)
 }

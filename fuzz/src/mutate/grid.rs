@@ -1,24 +1,24 @@
-//! Mutations of grid files behind their checksums.
+//! Mutations of grid files, with correct checksums.
 
 use super::{bytes, json, text};
 use crate::dice::Dice;
 use serde_json::Value;
 
-/// Bytes of a binary row, without its columns and for each of them.
+/// Number of bytes of a binary row: without its columns, and for each column.
 const ROW: [usize; 2] = [9, 36];
 
-/// A patch of a grid file, taken apart.
+/// The parts of a patch in a grid file.
 #[derive(Debug, Clone)]
 pub struct Patch {
     /// The header line.
     pub header: Value,
-    /// The rows; of text without their newlines.
+    /// The rows; those of text without their newlines.
     pub rows: Vec<Vec<u8>>,
-    /// Whether the rows are binary.
+    /// True if the rows are binary.
     pub binary: bool,
 }
 
-/// The patches of a file that `sweep` wrote.
+/// Splits a file that `sweep` wrote into its patches.
 #[must_use]
 pub fn patches(file: &[u8]) -> Vec<Patch> {
     let mut rest = file;
@@ -47,7 +47,8 @@ pub fn patches(file: &[u8]) -> Vec<Patch> {
     found
 }
 
-/// The file of these patches, with right checksums. The footer counts the rows that are there.
+/// Returns the file of these patches, with correct checksums. The footer counts the rows that
+/// exist.
 #[must_use]
 pub fn file(patches: &[Patch]) -> Vec<u8> {
     let mut file = Vec::new();
@@ -74,7 +75,7 @@ pub fn file(patches: &[Patch]) -> Vec<u8> {
     file
 }
 
-/// A changed file.
+/// Returns a mutated file.
 #[must_use]
 pub fn mutated(seed: &[Patch], dice: &mut Dice, others: &[Patch], index: &json::Index) -> Vec<u8> {
     let mut patches = seed.to_vec();
@@ -116,7 +117,7 @@ fn change(patches: &mut Vec<Patch>, dice: &mut Dice, others: &[Patch], index: &j
         2 => patch.rows.swap(a, b),
         3 => drop(patch.rows.remove(a)),
         4..6 => {
-            // The same points or normals once more.
+            // The points or normals of another row.
             let (from, to) = (patch.rows[b].clone(), &mut patch.rows[a]);
             let keep = if patch.binary { ROW[0].min(from.len()).min(to.len()) } else { 0 };
             to.truncate(keep);
@@ -124,7 +125,7 @@ fn change(patches: &mut Vec<Patch>, dice: &mut Dice, others: &[Patch], index: &j
         }
         _ if patch.binary => {
             let row = &mut patch.rows[a];
-            // At a coordinate of a point, or anywhere.
+            // At a coordinate of a point, or at any position.
             let at = if dice.once_in(3) {
                 dice.below(row.len())
             } else {

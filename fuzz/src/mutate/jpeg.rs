@@ -3,7 +3,7 @@
 use super::bytes;
 use crate::dice::Dice;
 
-/// A marker, and what stands up to the next one. `sized` segments begin with their length.
+/// A marker, and the bytes up to the next marker. `sized` segments begin with their length.
 #[derive(Debug, Clone)]
 struct Segment {
     marker: u8,
@@ -11,11 +11,11 @@ struct Segment {
     data: Vec<u8>,
 }
 
-/// Frame headers, tables, scans, restarts and the ends.
+/// Markers of frame headers, tables, scans, restarts and the ends.
 const MARKERS: [u8; 14] =
     [0xc0, 0xc1, 0xc2, 0xc3, 0xc4, 0xc9, 0xd0, 0xd8, 0xd9, 0xda, 0xdb, 0xdd, 0xe0, 0xee];
 
-/// A changed picture. The lengths of its segments are right in most cases.
+/// Returns a mutated picture. The lengths of its segments are correct in most cases.
 #[must_use]
 pub fn mutated(seed: &[u8], dice: &mut Dice, other: &[u8]) -> Vec<u8> {
     let mut segments = segments(seed);
@@ -55,7 +55,8 @@ fn frame(segments: &mut [Segment], dice: &mut Dice) {
     }
 }
 
-/// The segments of a file. What stands behind the header of a scan belongs to its own segment.
+/// Splits a file into its segments. The bytes after the header of a scan belong to the segment of
+/// that header.
 fn segments(file: &[u8]) -> Vec<Segment> {
     let mut found = Vec::new();
     let mut at = 0;

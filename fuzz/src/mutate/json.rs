@@ -1,8 +1,9 @@
 //! Mutations of JSON by its structure.
 //!
-//! Most of them put a value where another one of the same key stood, or change a number a little: so
-//! many cases get past the reader's types and ranges and reach the work behind them. A few change the
-//! text itself, with what no JSON value holds: numbers that overflow, keys that stand twice.
+//! Most of these mutations replace a value by another value of the same key, or change a number a
+//! little. So many cases pass the reader's types and ranges and reach the work after them. A few
+//! mutations change the text itself into forms that no JSON value has: numbers that overflow, and
+//! keys that occur twice.
 
 use super::text;
 use crate::dice::Dice;
@@ -42,7 +43,7 @@ const NUMBERS: [f64; 28] = [
     2_147_483_648.0,
 ];
 
-/// Texts that strain whoever prints them or takes them for a path.
+/// Texts that strain a program that prints them or takes them for a path.
 const TEXTS: [&str; 14] = [
     "",
     " ",
@@ -60,7 +61,7 @@ const TEXTS: [&str; 14] = [
     "%s<b>&amp;\"'",
 ];
 
-/// Tokens of JSON text, right ones and wrong ones.
+/// Tokens of JSON text, valid and invalid.
 const TOKENS: [&str; 20] = [
     "{",
     "}",
@@ -84,16 +85,16 @@ const TOKENS: [&str; 20] = [
     "\t",
 ];
 
-/// Values by their keys, out of many documents.
+/// Values by their keys, from many documents.
 #[derive(Debug, Default)]
 pub struct Index {
     by_key: BTreeMap<String, Vec<Value>>,
-    /// The keys that stand beside each other, by the key above them.
+    /// The keys that occur beside each other, by the key above them.
     siblings: BTreeMap<String, Vec<String>>,
 }
 
 impl Index {
-    /// The index of some documents.
+    /// Makes the index of some documents.
     #[must_use]
     pub fn of<'a>(documents: impl IntoIterator<Item = &'a Value>) -> Self {
         let mut index = Self::default();
@@ -119,23 +120,23 @@ impl Index {
         self.by_key.entry(key.into()).or_default().push(value.clone());
     }
 
-    /// A value that stands under this key somewhere.
+    /// Returns a value that occurs under this key in some document.
     fn like(&self, key: &str, dice: &mut Dice) -> Option<Value> {
         self.by_key.get(key).map(|values| dice.one(values).clone())
     }
 
-    /// A key that stands under this key somewhere, and one of its values.
+    /// Returns a key that occurs below the key `above` in some document, and one of its values.
     fn sibling(&self, above: &str, dice: &mut Dice) -> Option<(String, Value)> {
         let key = dice.one(self.siblings.get(above)?);
         Some((key.clone(), self.like(key, dice)?))
     }
 }
 
-/// Changes a document in one place.
+/// Changes a document at one position.
 pub fn mutate(document: &mut Value, dice: &mut Dice, index: &Index) {
     let total = count(document);
     let mut at = dice.below(total);
-    // Most often a number, which is the mildest to change.
+    // Most often a number, whose change is the mildest.
     for _ in 0..dice.below(6) {
         if nth(document, at).0.is_number() {
             break;
@@ -167,7 +168,7 @@ pub fn mutate(document: &mut Value, dice: &mut Dice, index: &Index) {
     }
 }
 
-/// The document as text, which once in ten cases is changed as text.
+/// Returns the document as text. The text itself is mutated once in ten cases.
 #[must_use]
 pub fn written(document: &Value, dice: &mut Dice, other: &Value) -> Vec<u8> {
     let mut bytes = document.to_string().into_bytes();
@@ -228,7 +229,7 @@ fn array(list: &mut Vec<Value>, dice: &mut Dice) {
         4 => list.reverse(),
         5 => list.truncate(a),
         _ => {
-            // Seldom very many: work that grows faster than the input shows in them.
+            // Seldom very many copies: they reveal work that grows faster than the input.
             let copies = if dice.once_in(30) { 1500 } else { *dice.one(&[2, 3, 20]) };
             (0..copies).for_each(|_| list.insert(b, list[a].clone()));
         }

@@ -1,4 +1,4 @@
-//! What changes an input.
+//! Mutations of inputs, one file for each format.
 //!
 //! | module    | what                                                                       |
 //! |-----------|----------------------------------------------------------------------------|

@@ -1,4 +1,4 @@
-//! Mutations of PNG files behind their checksums.
+//! Mutations of PNG files, with correct checksums in most cases.
 
 use super::bytes;
 use crate::dice::Dice;
@@ -10,7 +10,7 @@ const NAMES: [&[u8; 4]; 16] = [
     b"bKGD", b"pHYs", b"acTL", b"fcTL", b"fdAT", b"iTXt",
 ];
 
-/// A changed picture. Its checksums are right but for one case in sixteen.
+/// Returns a mutated picture. Its checksums are correct except in one case in sixteen.
 #[must_use]
 pub fn mutated(seed: &[u8], dice: &mut Dice, other: &[u8]) -> Vec<u8> {
     let mut chunks = png::chunks(seed);
@@ -51,9 +51,9 @@ fn change(chunks: &mut Vec<Chunk>, dice: &mut Dice, others: &[Chunk]) {
     }
 }
 
-/// Changes bytes of rows that are stored as they are, and no length.
+/// Changes bytes of stored rows, and no length.
 fn rows(chunk: &mut Chunk, dice: &mut Dice) {
-    // The zlib header and that of the first block, in the first of the chunks.
+    // The zlib header and that of the first block lie in the first of the chunks.
     let start = if chunk.name == *b"IDAT" { 7 } else { 0 };
     for _ in 0..=dice.below(4) {
         let at = start + dice.below(chunk.data.len().saturating_sub(start));

@@ -4,7 +4,7 @@ use super::bytes;
 use crate::dice::Dice;
 use std::ops::Range;
 
-/// Numbers, and what looks like one, that strain a reader.
+/// Numbers, and words that resemble numbers, that strain a reader.
 const NUMBERS: [&str; 34] = [
     "0",
     "-0",
@@ -45,7 +45,7 @@ const NUMBERS: [&str; 34] = [
 /// Longest text that mutation makes, in bytes.
 const LONGEST: usize = 1 << 16;
 
-/// Changes a text in one place; `words` are tokens of its format, `other` is another seed.
+/// Changes a text at one position; `words` are tokens of its format, `other` is another seed.
 pub fn mutate(text: &mut Vec<u8>, dice: &mut Dice, words: &[&str], other: &[u8]) {
     if text.len() > LONGEST {
         text.truncate(LONGEST);
@@ -71,7 +71,7 @@ pub fn mutate(text: &mut Vec<u8>, dice: &mut Dice, words: &[&str], other: &[u8])
     }
 }
 
-/// Puts another number in the stead of one.
+/// Replaces a number by another one.
 pub fn number(text: &mut Vec<u8>, dice: &mut Dice) {
     let numbers = tokens(text, is_of_number);
     if !numbers.is_empty() {
@@ -80,7 +80,8 @@ pub fn number(text: &mut Vec<u8>, dice: &mut Dice) {
     }
 }
 
-/// Changes one number by a factor, or to another number of the same text.
+/// Changes one number of the text, or replaces it by a changed copy of another. A whole number
+/// moves by at most 2; any other number is multiplied by a factor in [-0.5, 2).
 fn scaled(text: &mut Vec<u8>, dice: &mut Dice) {
     let numbers = tokens(text, is_of_number);
     if numbers.is_empty() {
@@ -97,7 +98,7 @@ fn scaled(text: &mut Vec<u8>, dice: &mut Dice) {
     text.splice(place, new.into_bytes());
 }
 
-/// Removes, doubles, exchanges or brings in lines.
+/// Removes, doubles, exchanges or inserts lines.
 fn lines(text: &mut Vec<u8>, dice: &mut Dice, other: &[u8]) {
     let mut lines: Vec<&[u8]> = text.split_inclusive(|&byte| byte == b'\n').collect();
     let others: Vec<&[u8]> = other.split_inclusive(|&byte| byte == b'\n').collect();
@@ -106,7 +107,7 @@ fn lines(text: &mut Vec<u8>, dice: &mut Dice, other: &[u8]) {
     }
     let (a, b) = (dice.below(lines.len()), dice.below(lines.len()));
     if dice.once_in(100) {
-        // Work that grows faster than the input shows in many equal lines.
+        // Many equal lines reveal work that grows faster than the input.
         let many = (LONGEST - text.len().min(LONGEST)) / lines[a].len().max(8);
         lines.splice(b..b, std::iter::repeat_n(lines[a], many).collect::<Vec<_>>());
         *text = lines.concat();
@@ -130,7 +131,8 @@ fn is_of_number(byte: u8) -> bool {
     byte.is_ascii_digit() || matches!(byte, b'-' | b'.' | b'+' | b'e')
 }
 
-/// The longest ranges of bytes that are all of a kind; of numbers, those that hold a digit.
+/// Returns the longest ranges of bytes of one kind. Ranges of numbers are returned only if they
+/// hold a digit.
 fn tokens(text: &[u8], of_kind: impl Fn(u8) -> bool) -> Vec<Range<usize>> {
     let mut found = Vec::new();
     let mut start = None;

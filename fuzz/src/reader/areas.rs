@@ -1,4 +1,4 @@
-//! Files of areas.
+//! Reads files of areas.
 
 use super::grid;
 use crate::verdict::{Tried, refused};
@@ -6,8 +6,8 @@ use files::json::Document;
 use sweep::GridMesh;
 use triangulate::area_file;
 
-/// Adds the areas to a grid, and makes triangles of it: to one of several patches where the file
-/// names a patch.
+/// Adds the areas to a grid and triangulates the grid. The grid has several patches if the file
+/// names one of its patches, and otherwise one patch.
 ///
 /// # Errors
 /// When the file is refused, or the triangles are wrong.

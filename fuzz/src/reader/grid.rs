@@ -1,4 +1,5 @@
-//! Grid files, and what follows a grid: its file, its triangles, and the mesh that `render` reads.
+//! Reads grid files and does the work that follows a grid: its file, its triangles, and the mesh
+//! that `render` reads.
 
 use crate::verdict::{Stop, Tried, broken, hold, refused};
 use render::scene::obj;
@@ -9,10 +10,10 @@ use sweep::GridMesh;
 use sweep::grid::file::{Encoding, GridReader, read_all, write_all};
 use triangulate::{MeshReport, Options, TriMesh, TriangulateError};
 
-/// Reads a grid in memory and row by row, and does what follows it.
+/// Reads a grid in memory and row by row, and does the work that follows a grid.
 ///
 /// # Errors
-/// When it is refused, the two readers differ, or what follows goes wrong.
+/// When the grid is refused, the two readers differ, or the work that follows fails.
 pub fn read(bytes: &[u8]) -> Tried {
     let whole = read_all("a.grid", bytes);
     let mut reader = match GridReader::open("a.grid", bytes) {
@@ -26,7 +27,7 @@ pub fn read(bytes: &[u8]) -> Tried {
     match (whole, by_rows) {
         (Ok(grids), Ok(_)) => follow(&grids),
         (Err(error), Err(_)) => Err(refused(error)),
-        // Triangles fail where f32 has no such number.
+        // Triangles fail where f32 cannot hold a number.
         (Ok(_), Err(error)) => match error {
             TriangulateError::Grid(error) => {
                 Err(broken("a grid is read whole and not row by row")(&error))
@@ -37,10 +38,10 @@ pub fn read(bytes: &[u8]) -> Tried {
     }
 }
 
-/// Writes grids and reads them back, makes triangles of them, and reads their OBJ as `render` does.
+/// Writes grids and reads them back, triangulates them, and reads their OBJ as `render` does.
 ///
 /// # Errors
-/// When f32 does not hold the points, as a refusal; or when one of these fails.
+/// When f32 does not hold the points, as a refusal; or when one of these steps fails.
 pub fn follow(grids: &[GridMesh]) -> Tried {
     for encoding in [Encoding::Binary, Encoding::Json] {
         let mut bytes = Vec::new();
@@ -69,7 +70,8 @@ pub fn follow(grids: &[GridMesh]) -> Tried {
     same("triangles", &corners(&read), &corners(&direct))
 }
 
-/// The triangles with their points: the reader of OBJ files leaves out points of no triangle.
+/// Returns the triangles with their points. The reader of OBJ files omits points of no triangle, so
+/// indices are not compared.
 fn corners(mesh: &Mesh) -> Vec<([[f32; 3]; 3], Triangle)> {
     let of = |triangle: &Triangle| {
         let points = triangle.position.map(|index| mesh.positions[index as usize]);
@@ -78,7 +80,7 @@ fn corners(mesh: &Mesh) -> Vec<([[f32; 3]; 3], Triangle)> {
     mesh.triangles.iter().map(of).collect()
 }
 
-/// Holds that a mesh in a file and in memory has the same numbers.
+/// Checks that a mesh has the same numbers in a file and in memory.
 fn same<T: PartialEq + Debug>(what: &str, file: &[T], memory: &[T]) -> Tried {
     hold(file.len() == memory.len(), &format!("a file has another number of {what}"))?;
     match file.iter().zip(memory).find(|(file, memory)| file != memory) {
@@ -89,8 +91,8 @@ fn same<T: PartialEq + Debug>(what: &str, file: &[T], memory: &[T]) -> Tried {
     }
 }
 
-/// Looks for what is wrong with a mesh. Edges used twice are no fault, as grids may fold; and normals are
-/// as long as those of the grid.
+/// Checks a mesh. Edges used twice are no fault, since grids may fold. Normals are as long as those
+/// of the grid, so their length is not checked either.
 fn valid(mesh: &TriMesh) -> Tried {
     let complaints = mesh.validate();
     let wrong = complaints

@@ -1,4 +1,4 @@
-//! Jobs, with the specs and scenes that they name.
+//! Reads jobs, with the specs and scenes that they name.
 
 use super::scene::picture;
 use crate::seeds::shelf::Shelf;
@@ -9,16 +9,16 @@ use pipeline::Job;
 use pipeline::run::{self, Options};
 use std::path::{Path, PathBuf};
 
-/// Where a job lies that is tried.
+/// The path of the tried job.
 const PATH: &str = "examples/pages/tried.json";
 
-/// Modes of a job at most that are rendered.
+/// Largest number of modes of a job that are rendered.
 const MOST_MODES: usize = 2;
 
 /// Reads a job, makes its meshes and its scene, and renders it in some of its modes.
 ///
 /// # Errors
-/// When it is refused, or a picture is wrong.
+/// When the job is refused, or a picture is wrong.
 pub fn read(bytes: &[u8], shelf: &Shelf) -> Tried {
     debug_assert!(Path::new(PATH).starts_with(PAGES));
     let source = shelf.with(PATH, bytes);

@@ -1,4 +1,4 @@
-//! Meshes and material libraries, in a scene that shows them.
+//! Reads meshes and material libraries, in a scene that shows them.
 
 use super::scene;
 use crate::seeds::shelf::Shelf;
@@ -14,7 +14,7 @@ const SCENE: &str = r#"{"format": "tb-scene", "version": 1,
     "textures": {"net": {"image": "../textures/net.png"}}, "materials": {"m": {}},
     "objects": [{"mesh": {"name": "tried", "material": "m", "texture": "net"}}]}"#;
 
-/// The same with a library.
+/// A scene with one mesh and a material library.
 const LIBRARY: &str = r#"{"format": "tb-scene", "version": 1,
     "camera": {"eye": [0, 2, 5], "target": [0, 0.3, 0], "up": [0, 1, 0], "fov_deg": 40},
     "background": 0.5, "ambient": 0.3,
@@ -22,20 +22,20 @@ const LIBRARY: &str = r#"{"format": "tb-scene", "version": 1,
     "materials": {"m": {}},
     "objects": [{"mesh": {"name": "tried", "mtl": "tried.mtl", "material": "m"}}]}"#;
 
-/// Where a library lies that is tried.
+/// The path of the tried library.
 const PATH: &str = "examples/scenes/tried.mtl";
 
 /// A mesh that uses materials of the seeds.
 const MESH: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1\n\
     usemtl clay\nf 1/1 2/2 3/3\nusemtl glass\nf 1/1 3/2 4/3\nusemtl picture\nf 2/1 3/2 4/3\n";
 
-/// Vertices and triangles of a mesh at most that is rendered.
+/// Largest number of vertices, and of triangles, of a mesh that is rendered.
 const MOST: usize = 20_000;
 
 /// Reads a mesh and renders it.
 ///
 /// # Errors
-/// When it is refused, or its picture is wrong.
+/// When the mesh is refused, or its picture is wrong.
 pub fn read_obj(bytes: &[u8], shelf: &Shelf) -> Tried {
     let mesh = obj::read("tried.obj", bytes).map_err(refused)?;
     if mesh.triangles.len() > MOST || mesh.positions.len() > MOST {
@@ -46,10 +46,10 @@ pub fn read_obj(bytes: &[u8], shelf: &Shelf) -> Tried {
     scene::read_with(scene.as_bytes(), shelf, &[("tried", mesh)])
 }
 
-/// Reads a library and renders a mesh with it.
+/// Reads a library and renders a mesh with its materials.
 ///
 /// # Errors
-/// When it is refused, or its picture is wrong.
+/// When the library is refused, or its picture is wrong.
 pub fn read_mtl(bytes: &[u8], shelf: &Shelf) -> Tried {
     mtl::read("tried.mtl", bytes).map_err(refused)?;
     let mesh = obj::read("tried.obj", MESH.as_bytes()).map_err(refused)?;

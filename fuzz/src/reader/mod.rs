@@ -1,7 +1,7 @@
-//! The readers that are tried, one file for each kind of work behind them.
+//! The readers that the fuzzer tries, one file for each kind of work after reading.
 //!
-//! A reader has a name, seeds, a mutator, and what is done with an input. To add one, add a member to
-//! [`Reader`] and to its functions here, and its work to a file of this folder.
+//! A reader has a name, seeds, a mutator, and work to do with an input. A new reader needs a member
+//! of [`Reader`], an arm in its functions in this file, and a file of this folder for its work.
 
 pub mod areas;
 pub mod grid;
@@ -55,12 +55,13 @@ pub enum Reader {
     Exr,
     /// Sizes, bytes and other words of command lines.
     Words,
-    /// Fails in every manner on purpose; it tests the fuzzer and is never chosen by itself.
+    /// Fails in every manner on purpose. This reader tests the fuzzer and is tried only if it is
+    /// named.
     Trap,
 }
 
 impl Reader {
-    /// All that are tried when none is named.
+    /// All readers that are tried when none is named.
     pub const ALL: [Self; 15] = [
         Self::Spec,
         Self::Svg,
@@ -79,7 +80,7 @@ impl Reader {
         Self::Words,
     ];
 
-    /// Its name on the command line.
+    /// Returns the name of the reader on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -102,7 +103,7 @@ impl Reader {
         }
     }
 
-    /// The ending of files of its kind.
+    /// Returns the extension of the reader's files.
     #[must_use]
     pub fn ending(self) -> &'static str {
         match self {
@@ -156,23 +157,24 @@ impl Bench {
         Ok(Self { corpus, seeds })
     }
 
-    /// The input of a case. It depends on the seed, the reader and the case alone.
+    /// Returns the input of a case. The input depends on the seed, the reader and the case alone.
     #[must_use]
     pub fn input(&self, reader: Reader, seed: u64, case: u64) -> Vec<u8> {
         let mut dice = dice::of_case(seed, reader.name(), case);
         self.seeds[&reader].input(&mut dice)
     }
 
-    /// The seeds of a reader as files.
+    /// Returns the seeds of a reader as files.
     #[must_use]
     pub fn seeds(&self, reader: Reader) -> Vec<Vec<u8>> {
         self.seeds[&reader].files()
     }
 
-    /// Reads an input and does some of the work behind it.
+    /// Reads an input and does some of the work that follows.
     ///
     /// # Errors
-    /// With the reader's message when it refuses the input, or with what is wrong with the result.
+    /// With the reader's message when the reader refuses the input, or with the fault of the
+    /// result.
     pub fn read(&self, reader: Reader, bytes: &[u8]) -> Tried {
         let corpus = &self.corpus;
         match reader {
@@ -214,7 +216,7 @@ mod tests {
                     Err(Stop::Broken(message)) => panic!("{reader}: {message}"),
                 }
             }
-            // Some are meant to be refused: pictures with alpha, say.
+            // Some seeds must be refused: pictures with alpha, for example.
             assert!(!seeds.is_empty() && 4 * taken >= 3 * seeds.len(), "{reader}: {refusals:#?}");
         }
     }

@@ -1,4 +1,4 @@
-//! Picture files: as a texture, as a bump, and in a comparison.
+//! Reads picture files: as a texture, as a bump, and in a comparison.
 
 use super::scene;
 use crate::seeds::shelf::Shelf;
@@ -8,10 +8,10 @@ use render::Picture;
 use render::color::Encoding;
 use render::film::encode::{self, Format};
 
-/// Where a picture lies that is tried. Its format is told by its first bytes.
+/// The path of the tried picture. Its first bytes determine its format.
 const PATH: &str = "examples/textures/tried.png";
 
-/// A scene that shows it, also as a bump, for which it must be a PNG file.
+/// A scene that shows the picture, also as a bump, for which it must be a PNG file.
 const BUMPY: &str = r#"{"format": "tb-scene", "version": 1,
     "camera": {"eye": [0, 2, 5], "target": [0, 0.3, 0], "up": [0, 1, 0], "fov_deg": 40},
     "background": 0.5, "ambient": 0.3,
@@ -21,34 +21,35 @@ const BUMPY: &str = r#"{"format": "tb-scene", "version": 1,
     "objects": [{"sphere": {"center": [1, 0, 0], "radius": 1, "material": "m", "texture": "t"}},
         {"sphere": {"center": [-1, 0, 0], "radius": 1, "material": "b"}}]}"#;
 
-/// A scene that shows it as a texture alone.
+/// A scene that shows the picture as a texture alone.
 const SMOOTH: &str = r#"{"format": "tb-scene", "version": 1,
     "camera": {"eye": [0, 2, 5], "target": [0, 0.3, 0], "up": [0, 1, 0], "fov_deg": 40},
     "background": 0.5, "ambient": 1,
     "textures": {"t": {"image": "../textures/tried.png"}}, "materials": {"m": {}},
     "objects": [{"sphere": {"center": [1, 0, 0], "radius": 1, "material": "m", "texture": "t"}}]}"#;
 
-/// Pixels of a picture at most that is compared with itself.
+/// Largest number of pixels of a picture that is compared with itself.
 const MOST_PIXELS: usize = 1 << 16;
 
 /// Shows a JPEG file on a sphere.
 ///
 /// # Errors
-/// When it is refused, or the picture that shows it is wrong.
+/// When the file is refused, or the picture that shows it is wrong.
 pub fn read_jpeg(bytes: &[u8], shelf: &Shelf) -> Tried {
     scene::read(SMOOTH.as_bytes(), &shelf.with(PATH, bytes))
 }
 
-/// Shows a PNG file on a sphere, as its bumps too, and compares it.
+/// Shows a PNG file on a sphere, as its bumps too, and compares the picture with others.
 ///
 /// # Errors
-/// When both refuse it, or one of them goes wrong.
+/// When both readers refuse the file, or one of them fails.
 pub fn read_png(bytes: &[u8], shelf: &Shelf) -> Tried {
     let shown = scene::read(BUMPY.as_bytes(), &shelf.with(PATH, bytes));
     match (shown, compare(bytes)) {
         (Err(Stop::Broken(what)), _) | (_, Err(Stop::Broken(what))) => Err(Stop::Broken(what)),
         (Ok(()), _) | (_, Ok(())) => Ok(()),
-        // The two word it differently; each is looked at in one half of the cases.
+        // The two readers word a refusal differently; each message is checked in one half of the
+        // cases.
         (first, second) => {
             if crc32fast::hash(bytes).is_multiple_of(2) {
                 first
@@ -62,7 +63,7 @@ pub fn read_png(bytes: &[u8], shelf: &Shelf) -> Tried {
 /// Reads a picture as `compare` does, and compares it with itself and with black.
 ///
 /// # Errors
-/// When it is refused, or what is read cannot be compared or written.
+/// When the picture is refused, or the decoded picture cannot be compared or written.
 pub fn compare(bytes: &[u8]) -> Tried {
     let picture = read::decode("tried.png", bytes).map_err(refused)?;
     if picture.pixels.len() > MOST_PIXELS {

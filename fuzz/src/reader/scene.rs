@@ -1,4 +1,4 @@
-//! Scenes and the parts that they include.
+//! Reads scenes and the parts that they include.
 
 use super::spec::said;
 use crate::seeds::SCENES;
@@ -17,10 +17,10 @@ use render::shape::mesh::{NONE, Triangle};
 use render::{Prepared, Scene, Settings, inspect};
 use std::collections::BTreeMap;
 
-/// Where a part lies that is tried.
+/// The path of the tried part.
 const PART: &str = "examples/scenes/tried.json";
 
-/// A scene that includes it.
+/// A scene that includes the tried part.
 const WHOLE: &str = r#"{"format": "tb-scene", "version": 1,
     "camera": {"eye": [0, 2, 7], "target": [0, 0, 0], "up": [0, 1, 0], "fov_deg": 40},
     "background": 0.5, "ambient": 0.3, "include": ["tried.json"], "objects": []}"#;
@@ -31,33 +31,32 @@ const MEMORY: u64 = 256 << 20;
 /// Pixels of a picture across and down.
 const SIZE: (u32, u32) = (6, 5);
 
-/// Levels of a tree of rays at most: glass without absorption doubles the rays at each of them.
+/// Largest depth of a tree of rays. Glass without absorption doubles the rays at each level.
 const DEEPEST: u32 = 5;
 
-/// Objects of a scene at most that is rendered.
+/// Largest number of objects of a scene that is rendered.
 const MOST_OBJECTS: usize = 3000;
 
 /// Reads a scene, checks and renders it.
 ///
 /// # Errors
-/// When it is refused, or its picture is wrong.
+/// When the scene is refused, or its picture is wrong.
 pub fn read(bytes: &[u8], source: &dyn Source) -> Tried {
     read_with(bytes, source, &[])
 }
 
-/// Reads a part by a scene that includes it.
+/// Reads a part through a scene that includes it.
 ///
 /// # Errors
-/// As [`read()`].
+/// See [`read()`].
 pub fn read_part(bytes: &[u8], shelf: &Shelf) -> Tried {
     read(WHOLE.as_bytes(), &shelf.with(PART, bytes))
 }
 
-/// Reads a scene whose meshes are given: those in `given`, and for all others without a file a
-/// tetrahedron.
+/// Reads a scene with the meshes in `given`. Every other mesh without a file is a tetrahedron.
 ///
 /// # Errors
-/// As [`read()`].
+/// See [`read()`].
 pub fn read_with(bytes: &[u8], source: &dyn Source, given: &[(&str, Mesh)]) -> Tried {
     let document = Document::new("scene.json", bytes).map_err(refused)?;
     let file = read::parse(&document).map_err(refused)?;
@@ -75,7 +74,7 @@ pub fn read_with(bytes: &[u8], source: &dyn Source, given: &[(&str, Mesh)]) -> T
         }
     }
     let scene = draft.resolve_within(source, meshes, &Budget::new(MEMORY)).map_err(refused)?;
-    // What is tried depends on the input alone.
+    // The choice depends on the input alone.
     let filter = Filter::ALL[crc32fast::hash(bytes) as usize % Filter::ALL.len()];
     let tables = |texture: &_| filter.bytes_for(texture);
     let report = check::check(&draft, &scene, 1.2, &tables)
@@ -84,10 +83,10 @@ pub fn read_with(bytes: &[u8], source: &dyn Source, given: &[(&str, Mesh)]) -> T
     picture(scene, filter)
 }
 
-/// Renders a scene, and holds what is true of every picture.
+/// Renders a scene, and checks what is true of every picture.
 ///
 /// # Errors
-/// When its textures take much memory, as a refusal; or when a pixel is no light.
+/// When its textures take much memory, as a refusal; or when a pixel is not finite or is negative.
 pub fn picture(mut scene: Scene, filter: Filter) -> Tried {
     if scene.objects.len() > MOST_OBJECTS {
         return Ok(());
@@ -110,7 +109,7 @@ pub fn picture(mut scene: Scene, filter: Filter) -> Tried {
     Ok(())
 }
 
-/// A mesh for a name without a file, whose two surfaces the scene binds.
+/// Makes a mesh for a name without a file. The scene binds its two surfaces.
 fn tetrahedron(file: &MeshFile) -> Mesh {
     let id = |bound: &BTreeMap<String, String>, first: bool| {
         let mut ids = bound.keys().filter(|key| key.parse::<u32>().is_ok());

@@ -1,4 +1,4 @@
-//! The seeds of each reader, and what mutates them.
+//! The seeds of each reader, and their mutators.
 
 use super::Reader;
 use crate::dice::Dice;
@@ -60,14 +60,14 @@ const WORDS: [&str; 16] = [
     "depth", "/", " ",
 ];
 
-/// The seeds of a reader, taken apart as far as its mutator wants them.
+/// The seeds of a reader, split as far as its mutator needs.
 #[derive(Debug)]
 pub enum Seeds {
-    /// Documents of JSON; those that are specs or jobs have few cells.
+    /// JSON documents; specs and jobs among them have few cells.
     Json {
         /// The documents.
         documents: Vec<Value>,
-        /// Their values by keys.
+        /// The values of the documents by keys.
         index: json::Index,
         /// Makes a mutated document small again.
         bound: fn(&mut Value),
@@ -90,7 +90,7 @@ pub enum Seeds {
 }
 
 impl Seeds {
-    /// The seeds of a reader.
+    /// Reads the seeds of a reader.
     ///
     /// # Errors
     /// When a file of `fuzz/seeds/` cannot be read.
@@ -144,7 +144,7 @@ impl Seeds {
         Self::Grids { files, index }
     }
 
-    /// The seeds as files.
+    /// Returns the seeds as files.
     #[must_use]
     pub fn files(&self) -> Vec<Vec<u8>> {
         match self {
@@ -158,7 +158,7 @@ impl Seeds {
         }
     }
 
-    /// A mutated seed.
+    /// Returns a mutated seed.
     #[must_use]
     pub fn input(&self, dice: &mut Dice) -> Vec<u8> {
         match self {
@@ -200,7 +200,7 @@ impl Seeds {
     }
 }
 
-/// What a scene has in common with a part.
+/// Returns a part with those keys of a scene that a part can have.
 fn part(scene: &Value) -> Value {
     let mut part = json!({"format": "tb-scene-part", "version": 1});
     for key in ["lights", "textures", "materials", "objects"] {
@@ -211,13 +211,14 @@ fn part(scene: &Value) -> Value {
     part
 }
 
-/// The mesh as other tools write it: without the comments by which a file of ours is known to be whole.
+/// Returns the mesh as other tools write it: without the comments that mark a complete file of
+/// ours.
 fn strange(obj: &[u8]) -> Vec<u8> {
     let lines = obj.split_inclusive(|&byte| byte == b'\n');
     lines.filter(|line| !line.starts_with(b"#")).collect::<Vec<_>>().concat()
 }
 
-/// Files of areas for the patches of the grids.
+/// Makes files of areas for the patches of the grids.
 fn areas(corpus: &Corpus) -> Vec<Value> {
     let mut files = vec![
         json!({"format": "tb-areas", "version": 1, "areas": [
@@ -234,7 +235,7 @@ fn areas(corpus: &Corpus) -> Vec<Value> {
     files
 }
 
-/// The SVG paths in specs.
+/// Returns the SVG paths in specs.
 fn paths(specs: &[Value]) -> Vec<Vec<u8>> {
     fn find(value: &Value, found: &mut Vec<Vec<u8>>) {
         match value {
@@ -253,13 +254,13 @@ fn paths(specs: &[Value]) -> Vec<Vec<u8>> {
     found
 }
 
-/// The grey ones among the PNG seeds.
+/// Returns the grey pictures among the PNG seeds.
 fn greys() -> Vec<Vec<u8>> {
     let is_grey = |file: &Vec<u8>| matches!(file.get(25), Some(0 | 4));
     seeds::png::seeds().into_iter().filter(is_grey).collect()
 }
 
-/// Small JPEG files of several qualities and colour types.
+/// Makes small JPEG files of several qualities and colour types.
 fn jpegs() -> Vec<Vec<u8>> {
     let color = image::RgbImage::from_fn(19, 17, |x, y| {
         image::Rgb([x as u8 * 13, y as u8 * 15, (x * y) as u8])

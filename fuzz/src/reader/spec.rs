@@ -1,4 +1,4 @@
-//! Specs, and the paths and pictures in them.
+//! Reads specs, and the paths and pictures in them.
 
 use super::grid;
 use crate::seeds::shelf::Shelf;
@@ -10,19 +10,19 @@ use serde_json::json;
 use sweep::spec::Resolution;
 use sweep::{GridMesh, Object, Sweep, check, preview};
 
-/// Cells of a spec at most that is swept.
+/// Largest number of cells of a spec that is swept.
 const MOST_CELLS: usize = 20_000;
 
-/// Cells at most among which touching strands are looked for.
+/// Largest number of cells among which touching strands are searched.
 const MOST_STRANDS: usize = 1000;
 
-/// Where a picture of depths lies that is tried.
+/// The path of the tried picture of depths.
 const PICTURE: &str = "examples/textures/tried.png";
 
-/// Reads a spec, sweeps it and checks it.
+/// Reads a spec, sweeps it and checks the grid.
 ///
 /// # Errors
-/// When it is refused, or its surface is wrong.
+/// When the spec is refused, or its surface is wrong.
 pub fn read(bytes: &[u8], source: &dyn Source) -> Tried {
     let document = Document::new("spec.json", bytes).map_err(refused)?;
     if small::asks_for_much(bytes) {
@@ -47,10 +47,10 @@ pub fn read(bytes: &[u8], source: &dyn Source) -> Tried {
     grid::follow(&grids)
 }
 
-/// Reads a path of SVG as a contour and as a flat trajectory.
+/// Reads an SVG path as a contour and as a flat trajectory.
 ///
 /// # Errors
-/// As [`read`].
+/// See [`read`].
 pub fn read_path(path: &[u8], source: &dyn Source) -> Tried {
     let path = String::from_utf8_lossy(path);
     let head = |contour: serde_json::Value, trajectory: serde_json::Value| {
@@ -71,7 +71,7 @@ pub fn read_path(path: &[u8], source: &dyn Source) -> Tried {
 /// Reads a picture of depths that a spec names.
 ///
 /// # Errors
-/// As [`read`].
+/// See [`read`].
 pub fn read_depths(picture: &[u8], shelf: &Shelf) -> Tried {
     let spec = json!({"format": "tb-sweep", "version": 1, "name": "relief",
         "contour": {"circle": 0.6}, "trajectory": {"line": [[0, 0, 0], [0, 2, 0]]},
@@ -81,7 +81,7 @@ pub fn read_depths(picture: &[u8], shelf: &Shelf) -> Tried {
     read(spec.to_string().as_bytes(), &shelf.with(PICTURE, picture))
 }
 
-/// Holds what is true of every grid.
+/// Checks what is true of every grid.
 fn sound(grid: &GridMesh) -> Tried {
     hold(grid.positions.iter().all(|point| point.is_finite()), "a point is not finite")?;
     let unit = |normal: &glam::Vec3| (normal.length() - 1.0).abs() < 1e-5;
@@ -90,7 +90,7 @@ fn sound(grid: &GridMesh) -> Tried {
     hold(rises(&grid.u) && rises(&grid.v), "u or v falls")
 }
 
-/// Holds a line of `--check`, as the programs print it, against what a message may be.
+/// Checks that a line of `--check`, as the programs print it, is a valid message.
 pub fn said(line: String) -> Tried {
     let line = files::words::line(&line).to_string();
     match wording_fault(&line) {

@@ -1,15 +1,15 @@
-//! A reader that fails in every manner: the fuzzer's own test.
+//! A reader that fails in every manner, for tests of the fuzzer itself.
 
 use crate::verdict::{Stop, Tried};
 use std::time::{Duration, Instant};
 
-/// Fails as the input says, or takes it.
+/// Fails as the input requests, or accepts the input.
 ///
 /// # Errors
-/// As the input says.
+/// When the input requests an error.
 ///
 /// # Panics
-/// When the input says so.
+/// When the input requests a panic.
 pub fn read(bytes: &[u8]) -> Tried {
     let words = String::from_utf8_lossy(bytes);
     match words.split_whitespace().next() {
@@ -37,7 +37,7 @@ pub fn read(bytes: &[u8]) -> Tried {
     }
 }
 
-/// Calls itself until the stack ends; from `1 << 60` on it returns at once.
+/// Calls itself until the stack overflows; returns at once from `1 << 60` on.
 fn deep(level: u64) -> u64 {
     let here = [level; 64];
     if level >= 1 << 60 { level } else { deep(std::hint::black_box(level + 1)) + here[5] }

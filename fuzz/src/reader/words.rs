@@ -1,4 +1,4 @@
-//! Numbers and names of command lines.
+//! Reads numbers and names of command lines.
 
 use crate::verdict::{Stop, Tried};
 use compare::Scale;
@@ -6,10 +6,10 @@ use files::memory::bytes;
 use render::film::Layer;
 use render::film::size;
 
-/// Reads a word as everything that a command line may take it for.
+/// Reads a word as each kind of value that a command line has.
 ///
 /// # Errors
-/// When nothing takes it, with the message of the size.
+/// When no kind accepts the word.
 pub fn read(word: &[u8]) -> Tried {
     let word = String::from_utf8_lossy(word);
     let word = word.as_ref();
@@ -22,7 +22,7 @@ pub fn read(word: &[u8]) -> Tried {
     if refusals.iter().any(Option::is_none) {
         return Ok(());
     }
-    // Only one message can be looked at; which one depends on the word.
+    // Only one message can be checked; the length of the word selects it.
     match refusals.into_iter().flatten().nth(word.len() % 4) {
         Some(message) => Err(Stop::Refused(message)),
         None => Ok(()),

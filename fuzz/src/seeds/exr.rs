@@ -10,7 +10,7 @@ use std::io::Cursor;
 /// Width and height of the seeds.
 const SIZE: (usize, usize) = (7, 5);
 
-/// A small picture of every compression, of several sample types and layers.
+/// Makes a small picture of every compression, of several sample types and layers.
 #[must_use]
 pub fn seeds() -> Vec<Vec<u8>> {
     let compressions = [
@@ -67,7 +67,7 @@ mod tests {
         let seeds = seeds();
         assert_eq!(seeds.len(), 18);
         let read = seeds.iter().filter(|seed| compare::read::decode("a", seed).is_ok());
-        // The one that is grey has no channels R, G and B.
+        // The grey picture has no channels R, G and B.
         assert!(read.count() >= 15);
     }
 }

@@ -1,9 +1,9 @@
-//! The inputs that mutation starts from.
+//! The seeds: inputs from which mutation starts.
 //!
-//! They are the files of `examples/` and of `fuzz/seeds/`, made small: grids have few cells and
-//! pictures few texels, so that a case takes no longer than a millisecond. Grids, meshes and
-//! pictures are made from the examples when a worker starts. The same files give the same seeds in the
-//! same order.
+//! The seeds are the files of `examples/` and of `fuzz/seeds/`, made small. Grids have few cells
+//! and pictures few texels, so that a case takes at most about a millisecond. Grids, meshes and
+//! pictures are made from the examples when a worker starts. The same files give the same seeds in
+//! the same order.
 
 pub mod exr;
 pub mod png;
@@ -19,14 +19,14 @@ use sweep::spec::Resolution;
 use sweep::{GridMesh, Object};
 use thiserror::Error;
 
-/// The folder of scenes on the shelf; scenes and parts that are tried lie here.
+/// The folder of scenes in the corpus; scenes and parts that are tried have paths in this folder.
 pub const SCENES: &str = "examples/scenes";
-/// The folder of specs on the shelf.
+/// The folder of specs in the corpus.
 pub const CURVES: &str = "examples/curves";
-/// The folder of jobs on the shelf.
+/// The folder of jobs in the corpus.
 pub const PAGES: &str = "examples/pages";
 
-/// Why there are no seeds.
+/// A reason why there are no seeds.
 #[derive(Debug, Error)]
 pub enum SeedError {
     /// A folder or file cannot be read.
@@ -34,15 +34,15 @@ pub enum SeedError {
     Read {
         /// The folder or file.
         path: String,
-        /// What the system said.
+        /// The error of the operating system.
         source: std::io::Error,
     },
-    /// A file is not what its folder says.
+    /// A file is not of the kind that its folder holds.
     #[error("seed {path}: {found}")]
     Wrong {
         /// The file.
         path: String,
-        /// What is wrong with it.
+        /// The fault of the file.
         found: String,
     },
 }
@@ -97,7 +97,7 @@ impl Corpus {
         Ok(corpus)
     }
 
-    /// The OBJ file of one of the grids.
+    /// Returns the OBJ file of one of the grids.
     #[must_use]
     pub fn obj(&self, number: usize) -> Option<Vec<u8>> {
         let mut bytes = Vec::new();
@@ -107,10 +107,11 @@ impl Corpus {
     }
 }
 
-/// The files of `fuzz/seeds/` for a reader, in the order of their names; none without such a folder.
+/// Returns the files of `fuzz/seeds/` for a reader, in the order of their names; none without such
+/// a folder.
 ///
 /// # Errors
-/// When one of them cannot be read.
+/// When a file cannot be read.
 pub fn extra(reader: &str) -> Result<Vec<Vec<u8>>, SeedError> {
     let path = root().join("fuzz/seeds").join(reader);
     if !path.is_dir() {
@@ -119,7 +120,7 @@ pub fn extra(reader: &str) -> Result<Vec<Vec<u8>>, SeedError> {
     Ok(folder(&path, "")?.into_iter().map(|(_, bytes)| bytes).collect())
 }
 
-/// The grids of a spec with very few cells.
+/// Sweeps a spec with very few cells.
 fn grids_of(spec: &Value, shelf: &Shelf) -> Result<Vec<GridMesh>, Stop> {
     let mut spec = spec.clone();
     small::bound_to(&mut spec, 10, 200);
@@ -129,7 +130,7 @@ fn grids_of(spec: &Value, shelf: &Shelf) -> Result<Vec<GridMesh>, Stop> {
     object.and_then(|object| object.grids()).map_err(refused)
 }
 
-/// The root of the repository.
+/// Returns the root of the repository.
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
@@ -142,7 +143,7 @@ fn wrong(path: &Path, found: &dyn std::error::Error) -> SeedError {
     SeedError::Wrong { path: path.display().to_string(), found: found.to_string() }
 }
 
-/// The JSON files of a folder of the examples, and behind them those of `fuzz/seeds/`.
+/// Reads the JSON files of a folder of the examples, followed by those of `fuzz/seeds/`.
 fn values(examples: &str, reader: &str) -> Result<Vec<(PathBuf, Value)>, SeedError> {
     let mut files = folder(&root().join(examples), "json")?;
     let extra = root().join("fuzz/seeds").join(reader);
@@ -156,7 +157,7 @@ fn values(examples: &str, reader: &str) -> Result<Vec<(PathBuf, Value)>, SeedErr
     files.into_iter().map(parse).collect()
 }
 
-/// The files of a folder whose names end in `ending`, in the order of their names.
+/// Reads the files of a folder whose names end in `ending`, in the order of their names.
 fn folder(path: &Path, ending: &str) -> Result<Vec<(PathBuf, Vec<u8>)>, SeedError> {
     let error = |source| SeedError::Read { path: path.display().to_string(), source };
     let entries = std::fs::read_dir(path).map_err(error)?;

@@ -10,19 +10,19 @@ pub const SIGNATURE: [u8; 8] = [0x89, b'P', b'N', b'G', b'\r', b'\n', 0x1a, b'\n
 pub struct Chunk {
     /// Four letters.
     pub name: [u8; 4],
-    /// What it holds.
+    /// The content of the chunk.
     pub data: Vec<u8>,
 }
 
 impl Chunk {
-    /// A chunk of that name.
+    /// Makes a chunk with this name and this content.
     #[must_use]
     pub fn new(name: &[u8; 4], data: impl Into<Vec<u8>>) -> Self {
         Self { name: *name, data: data.into() }
     }
 }
 
-/// A file of these chunks, each with its right length and CRC.
+/// Returns a file of these chunks, each with its correct length and CRC.
 #[must_use]
 pub fn file(chunks: &[Chunk]) -> Vec<u8> {
     let mut bytes = SIGNATURE.to_vec();
@@ -38,7 +38,7 @@ pub fn file(chunks: &[Chunk]) -> Vec<u8> {
     bytes
 }
 
-/// The chunks of a file, as far as their lengths make sense.
+/// Returns the chunks of a file, up to the first length that is wrong.
 #[must_use]
 pub fn chunks(bytes: &[u8]) -> Vec<Chunk> {
     let mut rest = bytes.get(SIGNATURE.len()..).unwrap_or_default();
@@ -53,7 +53,7 @@ pub fn chunks(bytes: &[u8]) -> Vec<Chunk> {
     found
 }
 
-/// A zlib stream that holds the bytes as they are.
+/// Returns a zlib stream that stores the bytes without compression.
 #[must_use]
 pub fn stored(bytes: &[u8]) -> Vec<u8> {
     let mut stream = vec![0x78, 0x01];
@@ -78,7 +78,7 @@ pub fn stored(bytes: &[u8]) -> Vec<u8> {
 /// Width and height of the seeds.
 const SIZE: [u32; 2] = [9, 7];
 
-/// A small picture of every colour type and depth, plain and interlaced.
+/// Makes a small picture of every colour type and depth, plain and interlaced.
 #[must_use]
 pub fn seeds() -> Vec<Vec<u8>> {
     let kinds = [
@@ -152,7 +152,7 @@ fn seed(color: u8, depth: u8, interlace: u8, dice: &mut Dice) -> Vec<u8> {
     file(&chunks)
 }
 
-/// The sizes of the passes in which rows are stored: one, or the seven of Adam7.
+/// Returns the sizes of the passes in which rows are stored: one pass, or the seven of Adam7.
 fn passes(interlace: u8) -> Vec<[u32; 2]> {
     if interlace == 0 {
         return vec![SIZE];

@@ -1,4 +1,4 @@
-//! Files in memory: what the inputs name, and the input itself.
+//! Files in memory: those that an input names, and the input itself.
 
 use files::{FileError, Source};
 use std::collections::BTreeMap;
@@ -10,19 +10,19 @@ use std::path::{Path, PathBuf};
 pub struct Shelf(BTreeMap<PathBuf, Vec<u8>>);
 
 impl Shelf {
-    /// Puts a file on the shelf, in place of one with the same path.
+    /// Adds a file, in place of one with the same path.
     pub fn put(&mut self, path: impl Into<PathBuf>, bytes: Vec<u8>) {
         self.0.insert(path.into(), bytes);
     }
 
-    /// The shelf with one more file on it.
+    /// Returns these files and one more.
     #[must_use]
     pub fn with<'a>(&'a self, path: &'a str, bytes: &'a [u8]) -> Over<'a> {
         Over { shelf: self, path: Path::new(path), bytes }
     }
 }
 
-/// A shelf with one more file on it, which hides one of the same path.
+/// Files in memory and one more file, which hides a file of the same path.
 #[derive(Debug)]
 pub struct Over<'a> {
     shelf: &'a Shelf,

@@ -8,13 +8,13 @@ use std::io::Cursor;
 /// Texels of a seed picture across and down.
 const SIDE: u32 = 16;
 
-/// Rows and columns of a seed spec at most.
+/// Largest number of rows, and of columns, of a seed spec.
 const CELLS: u64 = 24;
 
-/// Cells that a seed spec allows for a tolerance.
+/// Largest number of cells that a seed spec allows for a tolerance.
 const MAX_QUADS: u64 = 300;
 
-/// The same picture with few texels.
+/// Returns the picture with few texels.
 ///
 /// # Errors
 /// When the bytes are no picture.
@@ -25,13 +25,14 @@ pub fn picture(bytes: &[u8]) -> ImageResult<Vec<u8>> {
     Ok(small.into_inner())
 }
 
-/// Gives every mesh of a spec few cells. Numbers that a mutation made small, negative or no
-/// numbers stay as they are.
+/// Limits the cells of every mesh of a spec. Numbers that a mutation made small, negative or
+/// invalid stay unchanged.
 pub fn bound(spec: &mut Value) {
     bound_to(spec, CELLS, MAX_QUADS);
 }
 
-/// The same with other limits: rows and columns each, and cells for a tolerance.
+/// Limits the cells of every mesh of a spec: rows and columns to `cells` each, and the cells for a
+/// tolerance to `max_quads`.
 pub fn bound_to(spec: &mut Value, cells: u64, max_quads: u64) {
     let count = |part: &Value, key: &str| part.get("mesh")?.get(key)?.as_f64();
     let of = |part: &mut Value| {
@@ -51,7 +52,7 @@ pub fn bound_to(spec: &mut Value, cells: u64, max_quads: u64) {
     spec.get_mut("parts").and_then(Value::as_array_mut).into_iter().flatten().for_each(of);
 }
 
-/// Gives every mesh of a job few cells, and its modes few rays.
+/// Limits the cells of every mesh of a job, and the rays of its modes.
 pub fn bound_job(job: &mut Value) {
     let meshes = job.get_mut("meshes").and_then(Value::as_object_mut);
     for mesh in meshes.into_iter().flat_map(|meshes| meshes.values_mut()) {
@@ -73,8 +74,8 @@ fn scale_areas(part: &mut Value, key: &str, factor: f64) {
     }
 }
 
-/// True where a mesh of the document asks for so many cells that the work takes long by right: more
-/// than a test should do, and not so many that they are refused.
+/// Returns true if a mesh of the document has a count from 5000 to below 1e9. The work for such a
+/// mesh rightly takes longer than a test should take, and the mesh is not refused.
 #[must_use]
 pub fn asks_for_much(text: &[u8]) -> bool {
     let Ok(document) = serde_json::from_slice::<Value>(text) else { return false };

@@ -1,5 +1,5 @@
-//! The program behind `pipeline report`. It is `pipeline` with an allocator that counts the memory
-//! held, so that no other command pays for the count.
+//! The program behind `pipeline report`. The program is `pipeline` with an allocator that counts
+//! the memory held, so that no other command pays for the count.
 
 use peak_alloc::PeakAlloc;
 use pipeline::report::measure::Memory;

@@ -110,8 +110,8 @@ fn around(place: &Place, (width, height): (u32, u32)) -> Crop {
     Crop { x: start(x, wide, width), y: start(y, high, height), width: wide, height: high }
 }
 
-/// Returns for each pixel whether it is wide. The ray through the middle of a wide pixel first hits an
-/// object with a texture, and there the pixel spans more than two texels in both directions.
+/// Returns for each pixel whether it is wide. The ray through the middle of a wide pixel first hits
+/// an object with a texture. There the pixel spans more than two texels in both directions.
 fn wide_pixels(prepared: &Prepared<'_>, (width, height): (u32, u32), crop: Crop) -> Vec<bool> {
     let layers = vec![Layer::Object, Layer::Footprint];
     let settings = Settings::new(width, height, Filter::Tent);
@@ -126,8 +126,8 @@ fn wide_pixels(prepared: &Prepared<'_>, (width, height): (u32, u32), crop: Crop)
     let hits = channel("object.id").iter().zip(spans);
     hits.map(|(object, (across, up))| {
         let parts = scene.objects.get(*object as usize).map(|object| object.parts.as_slice());
-        // Of an object with several textures the coarsest counts, since the layers do not tell which
-        // one was hit.
+        // Of an object with several textures the coarsest counts, since the layers do not identify
+        // the texture that was hit.
         let sizes = parts.into_iter().flatten().filter_map(|part| {
             let texture = &scene.textures[part.picture()?];
             let across = f64::from(*across) * texture.width as f64;

@@ -38,7 +38,7 @@ pub struct Plate {
 pub struct Shot {
     /// The mode.
     pub mode: Mode,
-    /// Whether the mode belongs to the job. False for a picture made only for comparison.
+    /// True if the mode belongs to the job. False for a picture made only for comparison.
     pub own: bool,
     /// The picture.
     pub picture: Picture,
@@ -51,9 +51,9 @@ pub struct Shot {
 }
 
 impl Plate {
-    /// Renders the pictures of a job and measures them. The truth of a detail has `truth * truth` rays
-    /// in each pixel, for each of two seeds. The truth of a whole picture has a quarter of that number
-    /// along each side. With `truth` 0 nothing is measured.
+    /// Renders the pictures of a job and measures them. The truth of a detail has `truth * truth`
+    /// rays in each pixel, for each of two seeds. The truth of a whole picture has a quarter of
+    /// that number along each side. With `truth` 0 no truth is rendered and no error is measured.
     ///
     /// # Errors
     /// When a file cannot be read or is wrong.

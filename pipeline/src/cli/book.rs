@@ -34,8 +34,8 @@ pub struct BookArguments {
     common: CommonArguments,
 }
 
-/// Reserves memory for the page: pictures as PNG files, as base64, and in the text of the page, which
-/// grows by doubling.
+/// Reserves memory for the page: for the pictures as PNG files, as base64, and in the text of the
+/// page, whose buffer grows by doubling.
 fn reserve_page(jobs: &[NamedJob], size: (u32, u32)) -> Result<Reserved<'static>, MemoryError> {
     const OF_PIXEL: u64 = 3 + 4 + 2 * 4;
     let pictures: u64 = jobs.iter().map(|named| named.job.modes.len() as u64).sum();

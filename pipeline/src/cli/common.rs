@@ -6,7 +6,7 @@ use files::{Exit, Failure, Ledger};
 use rayon::ThreadPool;
 use thiserror::Error;
 
-/// The threads asked for cannot be had.
+/// The system does not provide the requested threads.
 #[derive(Debug, Error)]
 #[error("cannot start {threads} threads: {source}")]
 pub struct ThreadsError {
@@ -39,7 +39,7 @@ pub struct CommonArguments {
 }
 
 impl CommonArguments {
-    /// Sets the memory limit of this process. It is called before anything is read.
+    /// Sets the memory limit of this process. Call this function before any file is read.
     pub fn limit_memory(&self) {
         files::memory::allow(self.max_memory);
     }
@@ -56,10 +56,10 @@ impl CommonArguments {
         Ledger::new(self.clobber())
     }
 
-    /// Starts as many threads as the arguments say, or one for each core.
+    /// Starts the number of threads that the arguments request, or one for each core.
     ///
     /// # Errors
-    /// When the system does not give them.
+    /// When the system does not provide the threads.
     pub fn pool(&self) -> Result<ThreadPool, ThreadsError> {
         let threads = self.threads.unwrap_or(0);
         rayon::ThreadPoolBuilder::new()

@@ -1,4 +1,4 @@
-//! `pipeline compare`: how far one picture is from another.
+//! `pipeline compare`: measures the difference between two pictures.
 
 use clap::Args;
 use compare::{CompareError, Difference, Scale, difference, map, read, ssim};
@@ -28,13 +28,13 @@ pub struct CompareArguments {
     /// A picture, PNG or EXR; - for standard input
     #[arg(value_name = "A")]
     first: PathBuf,
-    /// The picture that it is held against, of the same size
+    /// The picture to compare it with, of the same size
     #[arg(value_name = "B")]
     second: PathBuf,
-    /// Draw where they differ
+    /// Draw a map of the differences
     #[arg(long, value_name = "FILE.png")]
     map: Option<PathBuf>,
-    /// The errors that the map tells apart, linear:MOST or log:LEAST:MOST
+    /// The range of errors that the map shows, linear:MOST or log:LEAST:MOST
     #[arg(long, value_name = "SCALE", default_value = "log:1e-4:1", requires = "map")]
     map_scale: Scale,
     /// The largest RMSE that is allowed
@@ -76,7 +76,7 @@ fn similarity(text: &str) -> Result<f64, String> {
     number.ok_or_else(|| "expected a number from -1 to 1".into())
 }
 
-/// Why a comparison fails.
+/// A reason why a comparison fails.
 #[derive(Debug, Error)]
 enum Unequal {
     #[error("{first} differs from {second} by more than was allowed: {passed}")]
@@ -112,7 +112,7 @@ struct Measures {
     height: u32,
     rmse: f64,
     max: f64,
-    /// The place of the largest difference in the whole picture, if there is one.
+    /// Column and row of the largest difference in the whole picture, if there is one.
     max_at: Option<(u32, u32)>,
     p999: f64,
     bias: f64,
@@ -160,7 +160,7 @@ pub fn compare(arguments: &CompareArguments) -> Result<(), Report> {
 }
 
 impl Measures {
-    /// Measures two pictures, which are such a part of two larger ones.
+    /// Measures two pictures. With `crop`, they are this part of two larger pictures.
     fn of(a: &Picture, b: &Picture, crop: Option<Crop>) -> Result<Self, CompareError> {
         let corner = crop.map_or((0, 0), |crop| (crop.x, crop.y));
         let Difference { pixels: _, rmse, max, p999, bias } = Difference::between(a, b, None)?;
@@ -176,7 +176,7 @@ impl Measures {
         })
     }
 
-    /// Prints the measures: as lines with the digits of an `f32`, or as JSON in full.
+    /// Prints the measures: as lines with the digits of an `f32`, or as JSON in full precision.
     fn write(&self, json: bool, out: &mut impl Write) -> io::Result<()> {
         if json {
             serde_json::to_writer(&mut *out, self)?;
@@ -196,7 +196,7 @@ impl Measures {
         }
     }
 
-    /// Returns a sentence for each limit that a measure passes.
+    /// Returns a sentence for each limit that a measure exceeds or falls short of.
     fn passed(&self, limits: &CompareArguments) -> Vec<String> {
         let above = [
             ("rmse", self.rmse, limits.rmse),

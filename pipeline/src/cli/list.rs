@@ -1,4 +1,4 @@
-//! `pipeline list`: the pages that are built in.
+//! `pipeline list`: lists the built-in pages.
 
 use crate::job::figure;
 use crate::pages;

@@ -49,7 +49,7 @@ enum Command {
     List,
     /// Make the pictures of pages or of jobs of your own
     Run(run::RunArguments),
-    /// Measure what each way of rendering pages costs, and how wrong it is
+    /// Measure what each method of rendering pages costs, and how wrong its pictures are
     Report(report::ReportArguments),
     /// Make the picture book: pages with their modes, costs and errors, as one file of HTML
     Book(book::BookArguments),
@@ -59,8 +59,8 @@ enum Command {
 
 /// Runs the program with the arguments of the process, and prints an error if there is one.
 ///
-/// `memory` counts the memory of the process, which only the report needs. Without it, a report is
-/// handed over to the program that counts.
+/// `memory` counts the memory of the process, which only the report needs. Without `memory`, this
+/// process continues a report as the program that counts.
 #[must_use]
 pub fn main(memory: Option<&dyn Memory>) -> ExitCode {
     let arguments = Arguments::parse();
@@ -80,7 +80,7 @@ fn run(command: &Command, memory: Option<&dyn Memory>) -> Result<(), Report> {
     }
 }
 
-/// The remedy where an output is also an input.
+/// The remedy for an output that is also an input.
 const OTHER_FOLDER: &str = "choose another folder with -o";
 
 /// Makes the folder for the files of a command.

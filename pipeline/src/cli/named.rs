@@ -14,7 +14,7 @@ pub struct NamedJob<'a> {
     pub path: PathBuf,
     /// The source of the job file and of the files that it names.
     pub source: &'a dyn Source,
-    /// Whether the job is a built-in page.
+    /// True if the job is a built-in page.
     pub built_in: bool,
     /// The figures that arguments name by number; empty if an argument names the job itself.
     pub figures: Vec<u8>,

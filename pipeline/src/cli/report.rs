@@ -1,4 +1,5 @@
-//! `pipeline report`: what each method of rendering a page costs, and how wrong its picture is.
+//! `pipeline report`: measures the cost of each method of rendering a page, and the error of its
+//! picture.
 
 use super::bar::Bar;
 use super::common::CommonArguments;
@@ -25,7 +26,7 @@ use thiserror::Error;
 /// The scenes that other renderers were measured on.
 const PEERS: [&str; 2] = ["peer-glass", "peer-tube"];
 
-/// The program that counts memory, which stands beside this one.
+/// The program that counts memory, in the folder of this program.
 const COUNTING: &str = "pipeline-report";
 
 /// Arguments of `pipeline report`.
@@ -66,7 +67,7 @@ impl Failure for CountingError {
 /// Continues this process as the program that counts memory, with the same arguments.
 ///
 /// # Errors
-/// When that program cannot be started.
+/// When the counting program cannot be started.
 pub fn hand_over() -> Result<(), CountingError> {
     let program = env::current_exe().map_err(CountingError)?;
     let program = program.with_file_name(COUNTING).with_extension(env::consts::EXE_EXTENSION);
@@ -96,7 +97,8 @@ pub fn report(arguments: &ReportArguments, memory: &dyn Memory) -> Result<(), Re
         keep: false,
         clobber: arguments.common.clobber(),
     };
-    // Every scene is read before the first is measured, so that a slip in the last costs no waiting.
+    // Every scene is read before the first is measured, so that an error in the last is reported at
+    // once.
     let scenes = jobs.iter().map(|named| {
         let scene = crate::run::scene(&named.job, named.source, &options, &|_| {})?;
         for &filter in &plan.filters {
@@ -128,7 +130,7 @@ pub fn report(arguments: &ReportArguments, memory: &dyn Memory) -> Result<(), Re
             say(summary(&page, started.elapsed().as_secs_f64()));
         }
         measured.pages.push(page);
-        // After every page: if a long report is interrupted, the numbers so far are there.
+        // The numbers are written after every page, so that an interrupted report keeps them.
         report::write_numbers(&measured, &options.folder, &batch)?;
     }
     let written = report::write(&measured, &options.folder, options.clobber, &batch)?;
@@ -160,7 +162,7 @@ fn check_files(
     Ok(files)
 }
 
-/// Returns a line on what was measured of a page in `seconds`.
+/// Returns a line about the measurements of a page, which took `seconds`.
 fn summary(page: &PageMeasured, seconds: f64) -> String {
     let Truth { samples, most_samples, noise, .. } = page.truth;
     let truth = format!("truth of {samples} x {samples} to {most_samples} x {most_samples} rays");

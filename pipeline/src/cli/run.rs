@@ -1,4 +1,4 @@
-//! `pipeline run`: the pictures of pages and jobs.
+//! `pipeline run`: makes the pictures of pages and jobs.
 
 use super::bar::Bar;
 use super::common::CommonArguments;
@@ -50,7 +50,7 @@ pub struct RunArguments {
 /// Runs the jobs that the arguments name.
 pub fn run(arguments: &RunArguments) -> Result<(), Report> {
     arguments.common.limit_memory();
-    // Every job is read before the first is done, so that a slip in a name costs no waiting.
+    // Every job is read before the first is run, so that an error in a name is reported at once.
     let ledger = arguments.common.ledger();
     let jobs = jobs(arguments, &ledger)?;
     make_folder(&arguments.output)?;
@@ -165,7 +165,8 @@ fn jobs<'a>(
     Ok(jobs)
 }
 
-/// Says on standard error what a job does, and keeps what the command prints at the end.
+/// Prints a job's events on standard error, and keeps the results that the command prints at the
+/// end.
 struct Listener<'a> {
     job: &'a str,
     arguments: &'a RunArguments,
@@ -174,7 +175,8 @@ struct Listener<'a> {
     heard: Mutex<Heard>,
 }
 
-/// The times of each mode, if `--stats` asks for them, and the last picture, if a contact sheet shows it.
+/// The times of each mode, if `--stats` is given, and the last picture, if a contact sheet shows
+/// it.
 type Heard = (Vec<(String, Stages)>, Option<Picture>);
 
 impl<'a> Listener<'a> {

@@ -1,4 +1,5 @@
-//! Writes self-contained HTML pages: style and pictures are inside, with no other file and no network.
+//! Writes self-contained HTML pages: styles and pictures are inside, without other files or the
+//! network.
 //!
 //! Pages follow the reader's choice of light or dark, and fit both a telephone and a desktop screen.
 
@@ -32,8 +33,8 @@ pub fn styled_page(title: &str, style: &str, body: &Markup) -> String {
         }
     }
     .into_string();
-    // Titles and texts of jobs come from strangers. They may hold characters that change the writing
-    // direction of the text after them.
+    // Titles and texts of jobs come from strangers. Such texts may hold characters that change the
+    // writing direction of the text after them.
     printed(&text).into_owned()
 }
 

@@ -19,18 +19,20 @@
 //! }
 //! ```
 //!
-//! `meshes` says which spec makes each mesh that the scene names, and the texture and surface ids
-//! that its triangles carry (those of the spec, or 0, when left out); `mesh` is resolution in place of the
-//! spec's, in the same words ([`sweep::spec::Resolution`]). The scene is rendered once in each mode; without
-//! `modes`, once with the tent filter. Paths count from the job file's folder.
+//! `meshes` names the spec of each mesh that the scene names, and the texture and surface ids of
+//! its triangles. Ids that are left out are those of the spec, or 0. `mesh` holds keys that replace
+//! those of the spec's resolution ([`sweep::spec::Resolution`]). The scene is rendered once in each
+//! mode; without `modes`, once with the tent filter. Relative paths start at the job file's folder.
 //!
-//! Of a mode, `filter` must be there; the rest is what the flags of `render` are: `samples` (1 to 256,
-//! by default 1), `pattern` (`regular` or `jitter`, with a `seed`), `pixel_filter` (`box` or `tent`), or
-//! in their place `supersample` (`image` or `rays`). `figure` says which figure of the thesis it is made after,
-//! by which it can be asked for; no other mode has it. `thesis_minutes` is how long that took.
+//! A mode must have a `filter`. Its other keys are the flags of `render`: `samples` (1 to 256, by
+//! default 1), `pattern` (`regular` or `jitter`, with a `seed`), and `pixel_filter` (`box` or
+//! `tent`). Instead of these, a mode may have `supersample` (`image` or `rays`). `figure` names the
+//! figure of the thesis that the mode reproduces. The command line can request the mode by this
+//! figure, which no other mode has. `thesis_minutes` is the time of that figure in the thesis, in
+//! minutes.
 //!
-//! `caption` and `crops`, places by fractions of width and height that are worth a look pixel by pixel, are for
-//! the book.
+//! `caption` and `crops` are for the book. Crops are positions, as fractions of width and height,
+//! whose pixels are worth a close look.
 
 use files::json::Document;
 use files::names::each_name_once;
@@ -50,35 +52,36 @@ pub use mode::Mode;
 
 use crate::PipelineError;
 
-/// A job, checked; the files that it names are not yet read.
+/// A job, checked. The files that the job names are not yet read.
 #[derive(Debug, Clone)]
 pub struct Job {
-    /// What its files are called: the job file's name without its extension.
+    /// The name of the job's files: the job file's name without its extension.
     pub name: String,
-    /// What it shows, in one line.
+    /// The title of the job, one line.
     pub title: String,
-    /// What there is to see in it, in a few sentences; or nothing.
+    /// A few sentences about the picture, for its viewers; empty if the job has none.
     pub caption: String,
-    /// Places worth looking at pixel by pixel.
+    /// Positions whose pixels are worth a close look.
     pub crops: Vec<Place>,
     /// The meshes to make, by the names that the scene gives them.
     pub meshes: Vec<MeshJob>,
     /// The scene file.
     pub scene: PathBuf,
-    /// The ways to render it, at least one.
+    /// The modes in which the scene is rendered, at least one.
     pub modes: Vec<Mode>,
-    /// Whether these are all the modes that its file has; if not, they are not put side by side.
+    /// True if these are all modes of the job file. Otherwise the pictures are not put side by
+    /// side.
     pub whole: bool,
 }
 
 /// A mesh to make.
 #[derive(Debug, Clone)]
 pub struct MeshJob {
-    /// Its name in the scene.
+    /// The name of the mesh in the scene.
     pub name: String,
     /// The curve spec.
     pub spec: PathBuf,
-    /// The ids on its triangles.
+    /// The ids of its triangles.
     pub options: Options,
     /// Keys that replace those of the spec's resolution.
     pub resolution: spec::Resolution,
@@ -86,7 +89,7 @@ pub struct MeshJob {
     said: Arc<JobText>,
 }
 
-/// The text of a job file, kept for complaints that only its meshes bring up.
+/// The text of a job file, kept for complaints that arise only when its meshes are made.
 #[derive(Debug)]
 struct JobText {
     /// The file as the user named it.
@@ -95,9 +98,9 @@ struct JobText {
 }
 
 impl MeshJob {
-    /// A complaint about what the job says of this mesh's resolution.
+    /// Makes a complaint about the resolution that the job states for this mesh.
     ///
-    /// The text is parsed for the position here and not for each mesh of a job.
+    /// The text is parsed for the position here, and not for each mesh of a job.
     pub(crate) fn resolution_fault(&self, message: String) -> JsonError {
         let path = format!("meshes.{}.mesh", self.name);
         match Document::new(&self.said.file, &self.said.bytes) {
@@ -107,13 +110,14 @@ impl MeshJob {
     }
 }
 
-/// A place in a picture.
+/// A position in a picture.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Place {
-    /// What is seen there.
+    /// Description of the picture at this position.
     pub title: String,
-    /// Its middle, as fractions of the width from the left and of the height from the top, 0 to 1.
+    /// The middle, as fractions of the width from the left and of the height from the top, both in
+    /// [0, 1].
     pub at: [f64; 2],
 }
 
@@ -153,7 +157,7 @@ impl Job {
     /// Reads the job file at `path` in `source`.
     ///
     /// # Errors
-    /// When it cannot be read or is not a job of this version.
+    /// When the file cannot be read or is not a job of this version.
     pub fn read(path: &Path, source: &dyn Source) -> Result<Self, PipelineError> {
         let bytes = source.read_json(path)?;
         let name = path.display().to_string();
@@ -162,11 +166,11 @@ impl Job {
         Ok(Self::parse(&name, &bytes, &stem, folder)?)
     }
 
-    /// The job with only the modes of these names, in its own order; with all of them where there are
-    /// no names.
+    /// Returns the job with only the modes of these names, in the job's own order. Without names,
+    /// all modes stay.
     ///
     /// # Errors
-    /// When it has no mode of one of the names.
+    /// When the job has no mode of one of the names.
     pub fn with_modes(mut self, names: &[String]) -> Result<Self, PipelineError> {
         let has = |name: &&String| self.modes.iter().any(|mode| mode.name == **name);
         if let Some(name) = names.iter().find(|name| !has(name)) {
@@ -180,7 +184,7 @@ impl Job {
         Ok(self)
     }
 
-    /// The numbers of the figures of the thesis that it shows, ascending.
+    /// Returns the numbers of the thesis's figures that the job shows, ascending.
     #[must_use]
     pub fn figures(&self) -> Vec<u8> {
         let mut numbers: Vec<u8> = self.modes.iter().filter_map(Mode::figure_number).collect();
@@ -189,7 +193,7 @@ impl Job {
         numbers
     }
 
-    /// The same job with only those of its modes that show one of these figures.
+    /// Returns the job with only those modes that show one of these figures.
     #[must_use]
     pub fn only(mut self, figures: &[u8]) -> Self {
         let all = self.modes.len();
@@ -198,7 +202,8 @@ impl Job {
         self
     }
 
-    /// The names of all files that it writes; with `keep` also of its grids and OBJ files.
+    /// Returns the names of all files that the job writes; with `keep` also those of its grids and
+    /// OBJ files.
     #[must_use]
     pub fn files(&self, keep: bool) -> Vec<String> {
         let kept = self.meshes.iter().filter(|_| keep);
@@ -208,27 +213,27 @@ impl Job {
             .collect()
     }
 
-    /// The file of a mode's picture.
+    /// Returns the file name of a mode's picture.
     pub(crate) fn picture_file(&self, mode: &Mode) -> String {
         format!("{}-{}.png", self.name, mode.name)
     }
 
-    /// The file of all pictures side by side, when there are several.
+    /// Returns the file name of all pictures side by side, if there are several.
     pub(crate) fn strip_file(&self) -> Option<String> {
         (self.whole && self.modes.len() > 1).then(|| format!("{}.png", self.name))
     }
 
-    /// The file of a mesh's grid.
+    /// Returns the file name of a mesh's grid.
     pub(crate) fn grid_file(&self, mesh: &MeshJob) -> String {
         format!("{}-{}.grid", self.name, mesh.name)
     }
 
-    /// The file of a mesh's triangles.
+    /// Returns the file name of a mesh's triangles.
     pub(crate) fn obj_file(&self, mesh: &MeshJob) -> String {
         format!("{}-{}.obj", self.name, mesh.name)
     }
 
-    /// The job in the bytes of a file; its paths count from `folder`.
+    /// Reads a job from the bytes of a file. Relative paths start at `folder`.
     fn parse(file: &str, bytes: &[u8], name: &str, folder: &Path) -> Result<Self, JsonError> {
         let document = &Document::new(file, bytes)?;
         let said = Arc::new(JobText { file: file.into(), bytes: bytes.into() });
@@ -263,7 +268,7 @@ impl Job {
     }
 }
 
-/// Names become parts of file names.
+/// Checks a name that becomes part of file names.
 fn check_word(document: &Document<'_>, path: &str, name: &str) -> Result<(), JsonError> {
     let plain = |c: char| c.is_alphanumeric() || matches!(c, '-' | '_' | '.');
     if !name.is_empty() && !name.starts_with('.') && name.chars().all(plain) {

@@ -1,4 +1,4 @@
-//! The ways to render a scene, and what is made after which figure.
+//! The modes in which a scene is rendered, and the thesis's figures that they reproduce.
 
 use super::{check_word, figure};
 use files::JsonError;
@@ -10,25 +10,25 @@ use render::filter::Filter;
 use serde::Deserialize;
 use std::collections::HashSet;
 
-/// A way to render a scene.
+/// The settings of one rendering of a scene.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Mode {
-    /// What its picture is called, after the job.
+    /// The name of the mode. The name of its picture file is that of the job and this name.
     pub name: String,
-    /// How textures are averaged.
+    /// The filter that averages textures.
     pub filter: Filter,
-    /// How a pixel is made of rays.
+    /// The pattern of rays in a pixel.
     pub sampling: Sampling,
-    /// What finds the hits; the picture is the same.
+    /// The structure that finds the hits. All structures give the same picture.
     pub accel: Structure,
-    /// The figure of the thesis that this is made after, such as `A.5`.
+    /// The figure of the thesis that the mode reproduces, such as `A.5`.
     pub figure: Option<String>,
-    /// How long that took in 1993, in minutes.
+    /// The time of that figure in 1993, in minutes.
     pub thesis_minutes: Option<u32>,
 }
 
 impl Mode {
-    /// The number of the figure that it is made after.
+    /// Returns the number of the figure that the mode reproduces.
     #[must_use]
     pub fn figure_number(&self) -> Option<u8> {
         figure::number(self.figure.as_deref()?)
@@ -95,7 +95,7 @@ pub(super) fn modes(
     Ok(checked)
 }
 
-/// How a pixel is made of rays, in the mode at `path`.
+/// Returns the pattern of rays in a pixel, for the mode at `path`.
 fn sampling(document: &Document<'_>, path: &str, mode: &ModeFile) -> Result<Sampling, JsonError> {
     let fault = |key: &str, message: String| Err(document.fault(&format!("{path}.{key}"), message));
     if let Some(nine) = mode.supersample {

@@ -28,13 +28,13 @@ const NOISE: f64 = 0.2;
 /// The question that a sentence answers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Question {
-    /// Which method to use.
+    /// The choice of a method.
     Use,
-    /// What the thesis's method costs, and what it is worth.
+    /// The cost of the thesis's method, and its value.
     Cost,
-    /// Where filters fail.
+    /// The failures of filters.
     Fails,
-    /// Which numbers are in doubt.
+    /// The doubtful numbers.
     Doubt,
 }
 
@@ -259,7 +259,7 @@ mod tests {
                  may be spent."
             )
         };
-        // For five times the time the advice is the same as for twice.
+        // The advice for five times the time equals that for twice the time.
         let advised = [of("tent, 1 ray", 5), of("tent, 3 x 3 rays", 20)];
         assert_eq!([&uses[0].1, &uses[1].1], [&advised[0], &advised[1]]);
         // Where filters have no effect, cheaper rays are advised.

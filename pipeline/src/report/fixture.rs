@@ -16,8 +16,7 @@ pub const COUNTS: [u32; 5] = [1, 2, 3, 4, 8];
 /// side of a pixel.
 pub type Law<'a> = dyn Fn(Filter, f64) -> (f64, f64) + 'a;
 
-/// The law of a floor: the error that each filter leaves, relative to one bilinear ray, and the time of
-/// its rays.
+/// Returns the error and the time of a filter on a floor, where filters leave different errors.
 pub fn floor(filter: Filter, n: f64) -> (f64, f64) {
     let (left, slope, price) = match filter {
         Filter::Point => (1.2, 1.0, 0.9),
@@ -30,7 +29,7 @@ pub fn floor(filter: Filter, n: f64) -> (f64, f64) {
     (0.2 * left / n.powf(slope), 0.02 * price * n * n)
 }
 
-/// The law of edges: errors that no filter changes.
+/// Returns the error and the time of a filter on edges, where all filters leave equal errors.
 pub fn edges(filter: Filter, n: f64) -> (f64, f64) {
     (0.212 / n, floor(filter, n).1)
 }

@@ -9,11 +9,11 @@ use serde::Serialize;
 /// All measurements of a report.
 #[derive(Debug)]
 pub struct Measured {
-    /// The pages, in the order asked for.
+    /// The pages, in the requested order.
     pub pages: Vec<PageMeasured>,
     /// Number of threads that rendered each picture.
     pub threads: usize,
-    /// Whether the report was made in haste: small pictures, few methods.
+    /// True if the report was made quickly, with small pictures and few methods.
     pub quick: bool,
 }
 
@@ -44,12 +44,12 @@ pub struct Truth {
     /// Largest number of such rays, in the noisiest block of the picture.
     pub most_samples: u32,
     /// Half the root mean square difference between the pictures of the two seeds, in linear light.
-    /// This is about the error of their mean.
+    /// This half is about the error of their mean.
     pub noise: f64,
     /// The noise within each of the page's regions, in their order.
     pub noise_by_region: Vec<f64>,
-    /// Whether the pictures of the two seeds differ by at most a fifth of the smallest error reported
-    /// for the whole picture.
+    /// True if the pictures of the two seeds differ by at most a fifth of the smallest error
+    /// reported for the whole picture.
     pub settled: bool,
 }
 
@@ -83,7 +83,7 @@ pub struct Trial {
     pub whole: Difference,
     /// The error in each of the page's regions, in their order.
     pub by_region: Vec<Difference>,
-    /// The picture, where it is to be shown.
+    /// The picture, if the report shows it.
     pub picture: Option<Picture>,
 }
 

@@ -1,5 +1,4 @@
-//! Measures speed against error: what each method of rendering a page costs, and how wrong its picture
-//! is.
+//! Measures the cost of each method of rendering a page against the error of its picture.
 //!
 //! [`measure`] renders a page by the methods of a [`Plan`] and compares the pictures with the
 //! [`refined`] truth, as a whole and by [`regions`]. [`Measured`] holds the results as numbers.

@@ -34,7 +34,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// The definition of the front, word by word.
+    /// Returns the front by its definition, word by word.
     fn by_definition(points: &[(f64, f64)]) -> Vec<usize> {
         let sound = |p: (f64, f64)| p.0.is_finite() && p.1.is_finite();
         let beats = |a: (f64, f64), b: (f64, f64)| a.0 <= b.0 && a.1 <= b.1 && a != b;

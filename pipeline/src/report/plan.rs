@@ -1,4 +1,4 @@
-//! What a report measures, and for how long.
+//! Plans the measurements of a report and their duration.
 
 use super::measured::Method;
 use render::Sampling;
@@ -21,7 +21,7 @@ pub struct Plan {
     pub most_truth_samples: u32,
     /// Time after which a method is not measured again: the sum of its rounds so far.
     pub patience: Duration,
-    /// Whether the report is made in haste.
+    /// True if the report is made quickly, with small pictures and few methods.
     pub quick: bool,
 }
 
@@ -62,9 +62,9 @@ impl Plan {
         }
     }
 
-    /// Returns every method that makes a picture of its own. For filters that do not average over an
-    /// area, both forms of the thesis's supersampling give the same picture to the last bit, so one
-    /// form is left out.
+    /// Returns every method that makes a picture of its own. For filters that do not average over
+    /// an area, both forms of the thesis's supersampling give the same picture to the last bit. One
+    /// form is then left out.
     #[must_use]
     pub fn methods(&self) -> Vec<Method> {
         let image = Sampling::Supersample(Supersample::Image);

@@ -92,8 +92,8 @@ mod tests {
     /// Half the picture's height at distance 1 over half its pixels: fields of view of 90 degrees.
     const PIXEL: f64 = 2.0 / 64.0;
 
-    /// A floor seen from a height of 1 with a level view along -z, and more objects. The texture of the
-    /// floor repeats every `side` units.
+    /// Makes a floor seen from a height of 1 with a level view along -z, and more objects. The
+    /// texture of the floor repeats every `side` units.
     fn scene(side: f64, objects: &str) -> Scene {
         let text = format!(
             r#"{{ "format": "tb-scene", "version": 1,
@@ -129,10 +129,10 @@ mod tests {
             .collect()
     }
 
-    /// The minor axis of a pixel's footprint on an endless floor, in texels, worked out by hand. The
-    /// ray through (X, Y) meets the floor at (-X / Y, 1 / Y). The derivative has the columns (1, 0) /
-    /// -Y and (X, -1) / Y^2. Trace and determinant give the larger eigenvalue of the derivative times
-    /// its transpose.
+    /// Returns the minor axis of a pixel's footprint on an endless floor, in texels, derived by
+    /// hand. The ray through (X, Y) meets the floor at (-X / Y, 1 / Y). The derivative has the
+    /// columns (1, 0) / -Y and (X, -1) / Y^2. Trace and determinant give the larger eigenvalue of
+    /// the derivative times its transpose.
     fn minor_on_floor((x, y): (f64, f64), texels: f64) -> f64 {
         let columns = [[-1.0 / y, 0.0], [x / (y * y), -1.0 / (y * y)]];
         let trace: f64 = columns.iter().flatten().map(|entry| entry * entry).sum();

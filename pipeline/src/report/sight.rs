@@ -1,9 +1,10 @@
-//! Finds what a pixel sees, along which paths, and how many texels its footprint spans.
+//! Finds the objects and paths that a pixel sees, and the number of texels that its footprint
+//! spans.
 //!
-//! Five rays are traced for each pixel: through its middle and through four points close by. The tree
-//! of the middle ray tells what the pixel sees. Where another ray reaches the same surface by the same
-//! path, the difference between the two texture coordinates gives the derivative with respect to film
-//! position. This also works behind mirrors and glass.
+//! Five rays are traced for each pixel: through its middle and through four points close by. The
+//! tree of the middle ray determines what the pixel sees. Where another ray reaches the same
+//! surface by the same path, the difference between the two texture coordinates gives the
+//! derivative with respect to film position. This method also works behind mirrors and glass.
 
 use glam::{DMat2, DVec2};
 use render::Scene;
@@ -38,7 +39,7 @@ const NAMES: [&str; 5] = ["middle", "right", "left", "lower", "upper"];
 /// The trees of a pixel's rays, reused for each pixel.
 pub(super) type Trees = [IntersectionTree; PLACES.len()];
 
-/// What the middle of a pixel sees.
+/// The sight of a pixel's middle.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Seen {
     /// The object that is hit first; `None` where the ray leaves the scene.
@@ -154,14 +155,18 @@ struct Way {
     refracted: bool,
 }
 
-/// Weights of textures, summed over a tree. `all` includes surfaces without texture and the background.
+/// Weights of textures, summed over a tree.
 #[derive(Debug, Default)]
 struct Found {
+    /// All weights, with those of surfaces without texture and of the background.
     all: f64,
+    /// Weights of textures by mirrors alone.
     mirrored: f64,
+    /// Weights of textures through surfaces.
     through: f64,
-    /// The largest weight of one textured surface, and in `minor` the minor axis there, in texels.
+    /// The largest weight of one textured surface.
     most: f64,
+    /// The minor axis of the footprint on that surface, in texels.
     minor: Option<f64>,
 }
 
@@ -198,7 +203,7 @@ impl Sight for Five<'_> {
         Self(self.0.step(child))
     }
 
-    /// The parallelogram that the pixel becomes on the texture, to first order.
+    /// Returns the parallelogram that the pixel becomes on the texture, to first order.
     fn footprint(&self, node: &Node, charts: &Charts) -> Footprint {
         let Some([across, down]) = self.derivatives(node, charts) else {
             return Footprint::Point(node.uv);

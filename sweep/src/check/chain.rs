@@ -7,8 +7,9 @@ use glam::DVec2;
 
 /// Largest number of pieces that are tested against one piece.
 ///
-/// Larger, and a drawing of thousands of crossing strokes takes long. Smaller, and the reported count of such a drawing
-/// is further below the true one; the report says "at least".
+/// With a larger number, a drawing of thousands of crossing strokes takes long. With a smaller
+/// number, the reported count of such a drawing is further below the true one; the report then says
+/// "at least".
 const MOST_TRIED: u64 = 1 << 12;
 
 /// The crossings of a chain with itself.
@@ -18,7 +19,7 @@ pub struct Crossings {
     pub count: usize,
     /// Position of the first crossing along the chain.
     pub first: Option<DVec2>,
-    /// Whether the search was cut short, so that more crossings are possible.
+    /// True if the search was cut short, so that more crossings are possible.
     pub more: bool,
     /// Number of boxes and pieces that were tested.
     pub looks: u64,
@@ -116,7 +117,7 @@ mod tests {
         };
         let bow = [p(0.0, 0.0), p(2.0, 2.0), p(2.0, 0.0), p(0.0, 2.0), p(0.0, 0.0)];
         assert_eq!(said(&bow, true), (1, Some(p(1.0, 1.0))));
-        // The same with a point where it crosses.
+        // A crossing at which the chain has points also counts once.
         let cut = [
             p(0.0, 0.0),
             p(1.0, 1.0),
@@ -161,7 +162,7 @@ mod tests {
         let [one, two] =
             [20_000, 40_000].map(|count| crossings(&spiral(count), false).looks as f64);
         assert!(two < 2.3 * one, "{one} {two}");
-        // All strokes through one point: what is tried of each is bounded.
+        // All strokes pass near the centre, so the number of tests of each stroke must be bounded.
         let star = |count: usize| -> Vec<DVec2> {
             let angle = |i: usize| 3.0 * i as f64 + i as f64 * 1e-4;
             (0..=count).map(|i| DVec2::from_angle(angle(i))).collect()

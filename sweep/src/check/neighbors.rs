@@ -38,7 +38,7 @@ pub fn findings(sweep: &Sweep, survey: &Survey) -> Option<Finding> {
         let (here, there) = (&sections[row], &sections[next]);
         let step = there.frame().origin - here.frame().origin;
         let ahead = here.frame().tangent;
-        // A mirrored seam may come back against its direction.
+        // At a mirrored seam the trajectory may return against its direction.
         let arriving = if wraps { ahead } else { there.frame().tangent };
         // Between opposed planes there is no order.
         if ahead.dot(arriving) < AGAINST || !rotation && step.dot(ahead) <= 0.0 {

@@ -11,7 +11,8 @@ use super::strands::Triangle;
 use glam::{DVec3, Vec3};
 use std::ops::Range;
 
-/// Largest number of cells in a leaf. Larger, and more pairs are tested; smaller, and the tree takes more memory.
+/// Largest number of cells in a leaf. With a larger number, more pairs are tested. With a smaller
+/// number, the tree takes more memory.
 const LEAF: usize = 2;
 
 /// Largest number of triangles of a patch that is bounded by its corners. Larger patches are bounded by the boxes of

@@ -13,8 +13,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Largest number of pairs of triangles that are tested for one leaf.
 ///
-/// Larger, and a surface whose triangles all cross takes long. Smaller, and the reported count of such a surface is
-/// further below the true one; the report says "at least".
+/// With a larger number, a surface whose triangles all cross takes long. With a smaller number, the
+/// reported count of such a surface is further below the true one; the report then says "at least".
 const MOST_TRIED: u64 = 1 << 15;
 
 /// Number of leaves after which the search reports its progress.
@@ -32,7 +32,7 @@ pub struct Triangle {
     pub ids: [u32; 3],
     /// Row and column of its cell.
     pub cell: [u32; 2],
-    /// Whether this triangle is the upper half of its cell, on the side of the next row.
+    /// True if this triangle is the upper half of its cell, on the side of the next row.
     pub upper: bool,
 }
 
@@ -43,7 +43,7 @@ pub struct Crossings {
     pub count: u64,
     /// The first pair by the indices of its triangles, the smaller index first.
     pub first: Option<[usize; 2]>,
-    /// Whether the search was cut short, so that more pairs are possible.
+    /// True if the search was cut short, so that more pairs are possible.
     pub more: bool,
     /// Number of boxes and pairs that were tested.
     pub looks: u64,
@@ -235,7 +235,8 @@ mod tests {
         assert_eq!((found.count, found.first, found.more), (all.len() as u64, Some(all[0]), false));
     }
 
-    /// A tube around a bent line, cut into so many cells, with its two ends through each other.
+    /// Returns the triangles of a tube around a bent line, whose two ends pass through each other.
+    /// The tube has `rows` x `cols` cells.
     fn tube(rows: usize, cols: usize) -> Vec<Triangle> {
         let point = |row: usize, col: usize| {
             let (along, around) = (row as f64 / rows as f64, TAU * col as f64 / cols as f64);

@@ -1,4 +1,4 @@
-//! What the program prints: notes, statistics, and the findings of `--check`.
+//! Prints notes, statistics, and the findings of `--check`.
 
 use super::UseError;
 use files::exit::say;

@@ -37,8 +37,9 @@ impl Stop {
 
 /// Positions on a curve whose distance is below this fraction of its length are one position.
 ///
-/// Positions are sums of a few fractions and agree to some 1e-15. Smaller, and their rounding would make a cell; larger,
-/// and short pieces of a curve would vanish.
+/// Positions are sums of a few fractions and agree to some 1e-15. With a smaller number, the
+/// rounding of positions would make a cell. With a larger number, short pieces of a curve would
+/// vanish.
 pub(crate) const SAME_POSITION: f64 = 1e-9;
 
 /// Fraction of a cell that is added to a number of cells before it is rounded. Pieces of equal length get equal numbers

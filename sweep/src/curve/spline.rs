@@ -1,9 +1,9 @@
 //! A C2 cubic spline through free points, given as Bezier segments.
 //!
-//! The knots are centripetal: a chord's interval is the square root of its length (E. T. Y. Lee, "Choosing
-//! nodes in parametric curve interpolation", 1989). This keeps the curve close to unevenly spaced points. An
-//! open curve has no curvature at its ends (the natural spline). A closed curve has the same tangent and
-//! curvature on both sides of its start.
+//! The knots are centripetal: a chord's interval is the square root of its length (E. T. Y. Lee,
+//! "Choosing nodes in parametric curve interpolation", 1989). Such knots keep the curve close to
+//! unevenly spaced points. An open curve has no curvature at its ends (the natural spline). A
+//! closed curve has the same tangent and curvature on both sides of its start.
 
 use super::cubic::Cubic;
 use super::vector::Vector;

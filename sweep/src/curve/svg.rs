@@ -4,9 +4,10 @@
 //! axis points down. y is negated here, so that a shape upright in an SVG editor is upright as a contour. A
 //! path is closed by `Z`, or by ending where it began.
 //!
-//! kurbo's own path reader is not used, because it turns arcs into cubics with an absolute tolerance of 0.1.
-//! That is too coarse for a circle of radius 1, and never finishes for one of 1e300. The arcs themselves are
-//! converted by kurbo, to a billionth of their radius.
+//! kurbo's own path reader is not used, because it turns arcs into cubics with an absolute
+//! tolerance of 0.1. This tolerance is too coarse for a circle of radius 1, and the conversion
+//! never finishes for a circle of radius 1e300. Here kurbo converts only single arcs, to a
+//! billionth of their radius.
 
 use super::cubic::Cubic;
 use super::vector::{Vector, extent};
@@ -35,7 +36,7 @@ const ROUNDING: f64 = 1e-4;
 pub struct Outline {
     /// The segments; each starts where the one before it ends.
     pub segments: Vec<Cubic<DVec2>>,
-    /// Whether the last segment ends at the start of the first.
+    /// True if the last segment ends at the start of the first.
     pub closed: bool,
 }
 

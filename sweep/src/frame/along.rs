@@ -80,10 +80,11 @@ impl Frames {
     }
 }
 
-/// Returns the angle by which a frame has come back turned; half a turn backward becomes half a turn forward.
+/// Returns the angle by which a frame is turned when it returns to the start. Half a turn backward
+/// becomes half a turn forward.
 ///
-/// The sign of half a turn is ambiguous. The angle about the tangent is the same in both directions of
-/// travel, and so is the surface if the choice is the same.
+/// The sign of half a turn is ambiguous. The angle about the tangent is equal in both directions of
+/// travel. So the surface is equal too if both directions choose one sign.
 fn closing(angle: f64) -> f64 {
     if angle < HALF_TURN - PI { angle + TAU } else { angle }
 }

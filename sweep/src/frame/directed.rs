@@ -44,7 +44,7 @@ const GOLDEN_STEPS: usize = 90;
 /// Largest turn of a frame at a joint, in radians: one degree, as for the tangent.
 const SMOOTH: f64 = std::f64::consts::PI / 180.0;
 
-/// What fixes the frames along a trajectory.
+/// The direction that fixes the frames along a trajectory.
 #[derive(Debug, Clone)]
 pub enum Directed<C> {
     /// `w2` is as near to this unit vector as the trajectory allows.
@@ -55,7 +55,7 @@ pub enum Directed<C> {
     Guide(Box<C>),
 }
 
-/// Why a curve has no frame at some point.
+/// A reason why a curve has no frame at some point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Lack {
     /// The direction is parallel to the trajectory, at this fraction of the length.
@@ -111,8 +111,8 @@ impl<C: Curve3> Directed<C> {
             .map(|(s, jump)| Lack::Jump(s / length, jump))
     }
 
-    /// Returns the angle in radians by which the frame jumps at the joint at `s`, beyond the turn of the
-    /// tangent there; pi if a side has no frame.
+    /// Returns the angle in radians by which the frame jumps at the joint at `s`, beyond the turn
+    /// of the tangent there. The angle is pi if a side has no frame.
     pub fn jump(&self, curve: &impl Curve3, s: f64) -> f64 {
         let length = curve.length();
         let end = if s == 0.0 { length } else { s };

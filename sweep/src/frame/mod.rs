@@ -24,8 +24,9 @@ use crate::curve::Local3;
 use crate::curve::vector::LEAST_SINE;
 use glam::{DVec2, DVec3};
 
-/// Cosines that differ by less than this are equal. Larger, and axes that differ visibly would count as equally
-/// aligned; smaller, and rounding of the tangent would choose between equally aligned axes.
+/// Cosines that differ by less than this number are equal. With a larger number, axes that differ
+/// visibly would count as equally aligned. With a smaller number, rounding of the tangent would
+/// choose between equally aligned axes.
 const EQUALLY_ALIGNED: f64 = 1e-6;
 
 /// A point on a curve with the tangent and two directions across it, three orthogonal unit vectors.

@@ -57,7 +57,7 @@ fn once() -> [f64; 2] {
 }
 
 impl Area {
-    /// Returns the key and a message for what is wrong with the area on a grid of `cells`
+    /// Returns the key and a message for the fault of the area on a grid of `cells`
     /// `[along the trajectory, along the contour]`; `None` if the area fits.
     #[must_use]
     pub fn fault(&self, cells: [usize; 2]) -> Option<(&'static str, String)> {

@@ -82,12 +82,12 @@ pub struct UvLayout {
     /// Repeats of the picture, across and up; above 0.
     #[schemars(transform = crate::limits::range(crate::limits::REPEATS))]
     pub repeat: [f64; 2],
-    /// What `u` and `v` of the grid are proportional to.
+    /// The quantity that `u` and `v` of the grid are proportional to.
     #[serde(skip_serializing_if = "By::is_length")]
     pub by: By,
 }
 
-/// What `u` and `v` of a grid are proportional to.
+/// A quantity that `u` and `v` of a grid can be proportional to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum By {

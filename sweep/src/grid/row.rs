@@ -19,7 +19,7 @@ pub struct Row<'a> {
 pub(super) struct Fault {
     /// Name of the value, such as `u[3]` or `the position of column 3`.
     pub subject: String,
-    /// What was found, and what was expected.
+    /// The found and the expected value, in words.
     pub message: String,
 }
 

@@ -1,22 +1,22 @@
-//! Seams: what follows the last row or column of a grid.
+//! Seams: the continuation after the last row or column of a grid.
 
 use super::row::Fault;
 use serde::{Deserialize, Serialize};
 
 /// How a direction of the grid leads back to its start, if it does.
 ///
-/// Columns are only open or closed. Rows may also come back *mirrored*, as in a Klein bottle or a Moebius
-/// band. Closed and mirrored rows have a `shift` in columns, by which the contour has turned within itself
-/// when it comes back:
+/// Columns are only open or closed. Rows may also return *mirrored*, as in a Klein bottle or a
+/// Moebius band. Closed and mirrored rows have a `shift` in columns, by which the contour has
+/// turned within itself when it returns:
 ///
 /// ```text
 ///   closed  column k of the last row leads on to column (k + shift) mod cols of the first
 ///   mirror  column k of the last row leads on to column (shift - k) mod cols of the first
 /// ```
 ///
-/// A mirrored surface comes back with its other side out, so the normals at its two ends are opposite. An
-/// open contour cannot turn within itself, and mirrored it is joined end to end. Its shift is 0 if closed,
-/// and `cols - 1` if mirrored.
+/// A mirrored surface returns with its other side out, so the normals at its two ends are opposite.
+/// An open contour cannot turn within itself, and a mirrored seam joins it end to end. The shift of
+/// an open contour is 0 if closed, and `cols - 1` if mirrored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Seam {

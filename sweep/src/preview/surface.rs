@@ -32,7 +32,7 @@ enum Item {
     Edge([DVec2; 2], Line),
 }
 
-/// What the legend has to explain.
+/// The elements of the drawing that the legend explains, and the numbers of cells drawn and in all.
 #[derive(Default)]
 struct Seen {
     mirrored: bool,

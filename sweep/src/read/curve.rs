@@ -10,8 +10,8 @@ use glam::DVec2;
 
 /// Segments meet if their ends are at most this fraction of the curve apart.
 ///
-/// The value is far above rounding, so that six decimals copied from an editor suffice, and far below what
-/// can be seen.
+/// The value is far above rounding, so that six decimals copied from an editor suffice, and far
+/// below visible differences.
 const MEETS: f64 = 1e-6;
 
 /// Consecutive points at most this fraction of the curve apart are one point.

@@ -73,7 +73,7 @@ impl Reader<'_> {
         Ok((bend.degrees.abs() >= LEAST_BEND).then_some(Deform { axes, ..deform }))
     }
 
-    /// Reads what all deformations share: the axis and the span on it.
+    /// Reads the keys that all deformations share: the axis and the span on it.
     fn along(
         &self,
         path: &str,

@@ -80,8 +80,9 @@ impl Sweep {
 
 /// Parses a text as a spec of one sweep or of several.
 ///
-/// A text that is well formed is parsed as what it is; one of parts fails as one sweep at its key `parts`. A text
-/// with a fault is parsed again for the complaint, which names another format before any key of that format.
+/// A well-formed text is parsed as the kind of spec that it is. A spec of parts fails as a spec of
+/// one sweep at its key `parts`. A text with a fault is parsed again for the complaint, which names
+/// another format before any key of that format.
 fn specs(document: &Document<'_>) -> Result<Specs, SweepError> {
     let head = |format: Option<&str>, version: Option<u32>| {
         let known = format.is_none_or(|found| found == FORMAT);

@@ -8,11 +8,11 @@ use crate::spec;
 use crate::spec::resolution::{Camera, MAX_QUADS};
 use glam::DVec3;
 
-/// Why there is no resolution: the key and a message.
+/// A reason why there is no resolution: the key and a message.
 type Fault = (&'static str, String);
 
 impl Reader<'_> {
-    /// Returns the resolution that a spec asks for, after the overrides of the reader.
+    /// Returns the resolution that a spec requests, after the overrides of the reader.
     pub(super) fn resolution(&self, asked: &spec::Resolution) -> Result<Resolution, SweepError> {
         let asked = asked.overridden_by(self.overrides);
         resolution(&asked).map_err(|fault| self.resolution_fault(fault))

@@ -1,4 +1,4 @@
-//! Reads how the surface of a spec comes back to its start.
+//! Reads how the surface of a spec returns to its start.
 
 use super::Reader;
 use crate::curve::cut::Stop;
@@ -15,7 +15,8 @@ const MEETS: f64 = 1e-6;
 const ALIKE: f64 = 1e-3;
 
 impl Reader<'_> {
-    /// Closes a shape whose trajectory is open at its ends, or whose contour does not come back to itself.
+    /// Closes a shape whose trajectory is open at its ends, or whose contour does not return to
+    /// itself.
     pub(super) fn closed(&self, mut shape: Shape, kind: SeamKind) -> Result<Shape, SweepError> {
         let refusal = |message: String| self.geometry("seam", message);
         let refused = |message: String| Err(refusal(message));

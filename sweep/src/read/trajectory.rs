@@ -204,7 +204,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Returns the frame at the start: the one the spec asks for, or the seed.
+    /// Returns the frame at the start: the one that the spec requests, or the seed.
     fn first_frame(&self, local: &Local3, start: Option<&[f64; 3]>) -> Result<Frame, SweepError> {
         let Some(start) = start else {
             return Ok(Frame::seed(local));

@@ -16,12 +16,13 @@ use std::io::{self, Write};
 use std::ops::Range;
 use std::time::{Duration, Instant};
 
-/// Number of points that are evaluated together when a grid is written, some 2.4 MB. Larger, and writing takes more
-/// memory; smaller, and many threads have too little work.
+/// Number of points that are evaluated together when a grid is written, some 2.4 MB. With a larger
+/// number, writing takes more memory. With a smaller number, many threads have too little work.
 const BLOCK: usize = 1 << 16;
 
-/// Largest number of points of a grid that is made whole before it is written, some 19 MB. Larger, and writing takes
-/// more memory; smaller, and more grids are evaluated twice, first for their header.
+/// Largest number of points of a grid that is made whole before it is written, some 19 MB. With a
+/// larger number, writing takes more memory. With a smaller number, more grids are evaluated twice,
+/// first for their header.
 const KEPT: usize = 1 << 19;
 
 /// A sweep cut into rows and columns.
@@ -110,9 +111,9 @@ impl<'a> Rows<'a> {
         Ok(grid)
     }
 
-    /// Writes the grid. The header tells the survey and stands before the rows, so a grid of at most [`KEPT`]
-    /// points is made whole. A larger one is surveyed first and then made in blocks of rows, which takes two
-    /// evaluations of each point and the memory of one block.
+    /// Writes the grid. The header contains the survey and precedes the rows, so a grid of at most
+    /// [`KEPT`] points is made whole. A larger one is surveyed first and then made in blocks of
+    /// rows, which takes two evaluations of each point and the memory of one block.
     ///
     /// # Errors
     /// When writing to `out` fails.

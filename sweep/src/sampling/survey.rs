@@ -14,7 +14,8 @@ use crate::surface::profile::Column;
 use crate::surface::shape::{Shape, SurfacePoint};
 use rayon::prelude::*;
 
-/// A stretch between this number below 0 and 0 is no fold. Rounding decides its sign; the stretch has no unit.
+/// A stretch above minus this number, without a unit, is no fold, since rounding decides the sign
+/// of a stretch near 0.
 pub(crate) const TOUCHES: f64 = 1e-9;
 
 /// Steps of a golden-section search, which narrow two cells down to 1e-7 of their width.
@@ -40,7 +41,8 @@ pub(crate) struct RowSurvey {
     bent: bool,
     relief: bool,
     deformed: bool,
-    /// Whether the row lies on a trajectory whose bends can fold a contour: on no cap and no rotation.
+    /// True if the row lies on a trajectory whose bends can fold a contour: on no cap and no
+    /// rotation.
     measured: bool,
     /// The smallest stretch of the row and its `u`.
     least: Option<(f64, f64)>,

@@ -301,7 +301,8 @@ impl Sweep {
         if let Some(survey) = self.survey.get() {
             return survey;
         }
-        // Made outside the lock: a thread that waits for other threads may meet this sweep again.
+        // The survey is made outside the lock: a thread that waits for other threads may meet this
+        // sweep again.
         let (columns, rows) = self.lines();
         let survey = Survey::of(&self.shape, &columns, rows);
         self.survey.get_or_init(|| survey)

@@ -22,7 +22,7 @@ use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What closes the ends of a sweep.
+/// The closures of the ends of a sweep.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default, expecting = "an object with any of the keys start, end")]
 pub struct Caps {
@@ -32,7 +32,7 @@ pub struct Caps {
     pub end: Option<Cap>,
 }
 
-/// What closes one end of a sweep.
+/// The closure of one end of a sweep.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Cap {

@@ -89,7 +89,7 @@ pub enum Contour {
 #[serde(deny_unknown_fields, expecting = "an object with the key points, and any of closed, fit")]
 #[schemars(transform = limits::loop_of_three)]
 pub struct FreeContour {
-    /// Whether the curve returns from the last point to the first, which is not repeated.
+    /// True if the curve returns from the last point to the first, which is not repeated.
     #[serde(default)]
     pub closed: bool,
     /// The points `[x, y]`: at least two, or three if closed.
@@ -109,7 +109,7 @@ pub struct Sections {
     pub sections: Vec<Section>,
     /// Interpolation between two neighbouring sections.
     pub blend: Ease,
-    /// Whether the starts of closed contours are moved to match.
+    /// True if the starts of closed contours are moved to match.
     pub align: bool,
 }
 
@@ -157,7 +157,7 @@ struct ContourKeys {
     /// Interpolation between neighbouring sections; `linear` if left out.
     #[serde(skip_serializing_if = "Option::is_none")]
     blend: Option<Ease>,
-    /// Whether the starts of closed sections are moved to match; true if left out.
+    /// True if the starts of closed sections are moved to match; true if left out.
     #[serde(skip_serializing_if = "Option::is_none")]
     align: Option<bool>,
 }

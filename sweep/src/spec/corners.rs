@@ -42,7 +42,7 @@ use serde::{Deserialize, Serialize};
     expecting = "an object with the key segments, closed if it is, and corners if it has any"
 )]
 pub struct Bezier3 {
-    /// Whether the last segment ends at the start of the first.
+    /// True if the last segment ends at the start of the first.
     #[serde(default)]
     pub closed: bool,
     /// Four control points `[x, y, z]` for each segment, at least one segment.
@@ -61,7 +61,7 @@ pub struct Bezier3 {
 )]
 #[schemars(transform = limits::loop_of_three)]
 pub struct Polyline3 {
-    /// Whether the curve returns from the last point to the first, which is not repeated.
+    /// True if the curve returns from the last point to the first, which is not repeated.
     #[serde(default)]
     pub closed: bool,
     /// The points `[x, y, z]`: at least two, or three if closed.

@@ -56,7 +56,7 @@ use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What fixes the frames along a trajectory.
+/// The rule that fixes the frames along a trajectory.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", try_from = "FrameKeys")]
 pub enum Frame {

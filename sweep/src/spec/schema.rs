@@ -6,7 +6,7 @@
 //! schema is stricter where the reader accepts more than is intended: `null` for a key that is left out, or
 //! an array of values for an object. It is laxer in one point: to JSON Schema `3.0` is a whole number.
 //!
-//! What the Rust form of the types does not say, the module `limits` adds.
+//! The module `limits` adds the limits that the Rust form of the types does not state.
 
 use super::{Parts, Spec};
 use crate::limits::LARGEST;

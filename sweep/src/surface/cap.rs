@@ -43,9 +43,11 @@ pub(crate) struct Gathered {
     pub center: DVec2,
     /// Scale of the section about the centre, from 1 at the rim to 0 at the pole.
     pub part: f64,
+    /// Derivative of the scale by `t`.
     pub part_t: f64,
     /// Distance of the section from the trajectory's end.
     pub beyond: f64,
+    /// Derivative of the distance by `t`.
     pub beyond_t: f64,
 }
 

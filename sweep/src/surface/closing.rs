@@ -1,11 +1,12 @@
-//! How a surface comes back to its start if its columns do not meet themselves.
+//! The closing of a surface whose columns do not meet themselves.
 //!
-//! Where a trajectory ends at its start, a motion of their common plane takes the last section onto the
-//! first. A contour with a symmetry may then close with its columns *shifted*: `u` of the end continues at
-//! `u + u0` of the start. Or it closes with its columns *mirrored*, at `u0 - u`. A mirrored surface has one
-//! side: it is a Moebius band if the contour is open, or a Klein bottle. A surface closes mirrored in two
-//! cases. Either the contour comes back turned onto its own reverse (a segment after half a turn). Or the
-//! trajectory comes back against its own direction, as that of Klein's bottle does.
+//! Where a trajectory ends at its start, a motion of their common plane takes the last section onto
+//! the first. A contour with a symmetry may then close with its columns *shifted*: `u` of the end
+//! continues at `u + u0` of the start. Or it closes with its columns *mirrored*, at `u0 - u`. A
+//! mirrored surface has one side: it is a Moebius band if the contour is open, or a Klein bottle. A
+//! surface closes mirrored in two cases. Either the contour returns turned onto its own reverse (a
+//! segment after half a turn). Or the trajectory returns against its own direction, as that of
+//! Klein's bottle does.
 //!
 //! The turn that the contour still needs to fit is added evenly along the whole length. Among all fits, the
 //! one is taken that turns the contour least against a rotation-minimizing frame.
@@ -31,13 +32,13 @@ const SAME_TURN: f64 = 1e-9;
 /// How the columns at the end continue as columns at the start.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Closing {
-    /// Whether the columns continue in reverse order.
+    /// True if the columns continue in reverse order.
     pub(crate) mirrored: bool,
     /// The `u` of the start at which `u = 0` of the end continues, as a fraction `(p, q)`.
     pub(crate) offset: (usize, usize),
     /// Total turn that makes the contour fit, as a fraction of a full turn.
     pub(crate) turn: f64,
-    /// Whether the surface has an edge where it closes.
+    /// True if the surface has an edge where it closes.
     pub(crate) edge: bool,
 }
 
@@ -45,10 +46,10 @@ pub struct Closing {
 pub(crate) struct Ends<'a> {
     pub start: &'a [DVec2],
     pub end: &'a [DVec2],
-    /// Whether the contour is closed.
+    /// True if the contour is closed.
     pub closed: bool,
-    /// Whether the trajectory ends against the direction of its start. A turn to the left at the end is then
-    /// a turn to the right at the start.
+    /// True if the trajectory ends against the direction of its start. A turn to the left at the
+    /// end is then a turn to the right at the start.
     pub against: bool,
     /// Turn that already brought the frame back at the end, as a fraction of a full turn.
     pub turned: f64,

@@ -1,10 +1,12 @@
 //! Contours: the curves that are swept.
 //!
-//! Each contour of a spec becomes a circle or a path of cubics. A new kind that cubics can express must provide its
-//! JSON, a variant of [`spec::Contour`](crate::spec::Contour), and its cubics: in `read/contour.rs` for
-//! the surface and in `check/drawing.rs` as it was drawn. A kind in closed form also needs a variant of `Form` here,
-//! with an arm in each method: its length, creases, range of x, parameter, detail, and at each stop its point, unit
-//! tangent and curvature. No `match` over these enums has a wildcard arm, so the compiler names each missing arm.
+//! Each contour of a spec becomes a circle or a path of cubics. A new kind that cubics can express
+//! must provide its JSON and a variant of [`spec::Contour`](crate::spec::Contour). It must also
+//! provide its cubics: in `read/contour.rs` for the surface and in `check/drawing.rs` as it was
+//! drawn. A kind in closed form also needs a variant of `Form` here, with an arm in each method.
+//! These methods return its length, creases, range of x, parameter and detail, and at each stop its
+//! point, unit tangent and curvature. No `match` over these enums has a wildcard arm, so the
+//! compiler names each missing arm.
 
 use crate::curve::cut::{Side, Stop};
 use crate::curve::path::{Joint, Position};

@@ -42,7 +42,7 @@ pub struct Moved {
     pub point: DVec3,
     /// The normal, of any length.
     pub normal: DVec3,
-    /// Whether the deformation turns space inside out at the point.
+    /// True if the deformation turns space inside out at the point.
     pub folds: bool,
 }
 

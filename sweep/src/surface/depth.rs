@@ -67,11 +67,15 @@ pub struct Relief {
 /// A wave at one position of the trajectory.
 #[derive(Debug, Clone, Copy)]
 struct Wave {
+    /// Number of waves along the contour.
     u: f64,
-    /// Phase as a fraction of a turn; `phase_v` is its derivative by `v` in radians.
+    /// Phase as a fraction of a turn.
     phase: f64,
+    /// Derivative of the phase by `v`, in radians.
     phase_v: f64,
+    /// Amplitude with its law.
     height: f64,
+    /// Derivative of the amplitude by `v`.
     height_v: f64,
 }
 
@@ -83,7 +87,7 @@ pub(crate) struct Raised {
     pub along: DVec2,
     /// Derivative of the point by `v`.
     pub across: DVec2,
-    /// Whether the contour folds back on itself here.
+    /// True if the contour folds back on itself here.
     pub folds: bool,
 }
 

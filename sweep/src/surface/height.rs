@@ -31,7 +31,7 @@ pub struct Axis {
     pub texels: usize,
     /// Repeats of the picture along the surface; a whole number along a closed direction.
     pub repeat: f64,
-    /// Whether the direction of the surface is closed.
+    /// True if the direction of the surface is closed.
     pub closed: bool,
 }
 

@@ -15,7 +15,7 @@ use glam::DVec3;
 /// the axis.
 pub(crate) const ON_AXIS: f64 = 1e-9;
 
-/// A contour and a trajectory that fit each other, with everything that is done to them.
+/// A contour and a trajectory that fit each other, with all changes of the surface between them.
 #[derive(Debug, Clone)]
 pub struct Shape {
     pub(crate) contour: Profile,
@@ -31,7 +31,7 @@ pub struct Shape {
     pub(crate) position: DVec3,
 }
 
-/// A point of the finished surface, with everything that one evaluation of its section gives.
+/// A point of the finished surface, with all results of one evaluation of its section.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct SurfacePoint {
     /// The point, in the unit of length.
@@ -40,9 +40,9 @@ pub(crate) struct SurfacePoint {
     pub normal: DVec3,
     /// The stretch before deformations: see [`Station::stretch`](crate::trajectory::Station::stretch).
     pub stretch: f64,
-    /// Whether the contour folds back on itself, because its relief is deeper than it is round.
+    /// True if the contour folds back on itself, because its relief is deeper than it is round.
     pub contour_folds: bool,
-    /// Whether a deformation turns space inside out at the point.
+    /// True if a deformation turns space inside out at the point.
     pub space_folds: bool,
 }
 

@@ -1,9 +1,10 @@
 //! Walls: one-sided surfaces given a thickness.
 //!
-//! A surface that closes mirrored has no inside, and a sheet has no thickness. A wall consists of all points
-//! within half its thickness of the sheet. Its boundary is one closed surface with two sides, the orientation
-//! cover of the sheet. It runs along one side of the sheet, returns over the mirrored seam on the other side,
-//! and closes after twice the sheet's length. A Klein bottle thus becomes a torus, and a bottle of glass.
+//! A surface that closes mirrored has no inside, and a sheet has no thickness. A wall consists of
+//! all points within half its thickness of the sheet. Its boundary is one closed surface with two
+//! sides, the orientation cover of the sheet. This boundary runs along one side of the sheet,
+//! returns over the mirrored seam on the other side, and closes after twice the sheet's length. A
+//! Klein bottle thus becomes a torus, and a bottle of glass.
 //!
 //! The wall's points are those of the sheet moved along the normals. The normals are those of the sheet,
 //! because a surface at a constant distance from another is parallel to it.

@@ -18,7 +18,7 @@ pub struct Station {
     pub(super) shear: DVec2,
     /// Turn of the frame about the tangent, in radians per length.
     pub(super) spin: f64,
-    /// Whether contour x = 0 is an axis that all stations share.
+    /// True if contour x = 0 is an axis that all stations share.
     pub(super) on_axis: bool,
 }
 
@@ -57,7 +57,7 @@ impl Station {
             binormal: binormal * angle.x - normal * angle.y,
             ..self.frame
         };
-        // The same vectors in space, expressed on the new axes.
+        // Expresses a vector on the new axes.
         let back = |v: DVec2| DVec2::new(angle.x, -angle.y).rotate(v);
         let (bend, shear) = (back(self.bend), back(self.shear));
         Self { frame, bend, shear, spin: self.spin + rate, ..self }

@@ -4,9 +4,10 @@ use super::Arguments;
 use files::exit::say;
 use triangulate::Counts;
 
-/// Rounding that moves points by more than this fraction of the object's size is reported. It is a tenth
-/// of a pixel where the object fills a picture of a thousand pixels. A larger number would hide visible
-/// steps, and a smaller number would report rounding that no picture shows.
+/// Rounding that moves points by more than this fraction of the object's size is reported. The
+/// fraction is a tenth of a pixel where the object fills a picture of a thousand pixels. A larger
+/// number would hide visible steps, and a smaller number would report rounding that no picture
+/// shows.
 const MOVED: f64 = 1e-4;
 
 /// Prints statistics and notes on standard error.

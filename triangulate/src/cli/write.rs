@@ -1,4 +1,4 @@
-//! Writes the mesh in the format that the arguments ask for.
+//! Writes the mesh in the format that the arguments request.
 
 use super::Arguments;
 use super::grid::Grid;

@@ -1,14 +1,15 @@
-//! An alphabet of strokes: capitals as a draughtsman letters them, each of straight lines and arcs of
-//! one width.
+//! An alphabet of strokes: capitals as a draughtsman letters them. Each capital consists of
+//! straight lines and arcs of one width.
 //!
-//! A letter stands on the line y = 0 and is 1 high. Its strokes are chains of points; the chain is
-//! rounded where `~` stands before a point: that point is then the control of a quadratic curve.
+//! A letter stands on the line y = 0 and is 1 high. Its strokes are chains of points. A chain is
+//! rounded where `~` stands before a point: that point is then the control point of a quadratic
+//! curve.
 
 use glam::DVec2;
 
-/// How wide a letter is, with the space after it, and its strokes.
+/// For each letter its width, with the space after it, and its strokes.
 ///
-/// Points are in twelfths of the height.
+/// Points are in twelfths of the letter's height.
 const LETTERS: [(char, f64, &str); 37] = [
     ('A', 11.0, "0,0 5,12 10,0|2,4 8,4"),
     ('B', 9.0, "0,0 0,12 4,12 ~8,12 8,9 ~8,6.4 4,6.4 0,6.4|4,6.4 ~9,6.4 9,3.2 ~9,0 4,0 0,0"),
@@ -56,23 +57,24 @@ const LETTERS: [(char, f64, &str); 37] = [
     ('9', 8.6, "1.4,0 ~7.8,3 7.8,8.2 ~7.8,12 3.9,12 ~0,12 0,8.3 ~0,4.8 3.9,4.8 ~7.2,4.8 7.8,8.2"),
     ('.', 3.4, "0.6,0 0.6,0.2"),
 ];
-/// The width of a space.
+/// The width of a space, in twelfths of the height.
 const SPACE: f64 = 6.0;
-/// Between letters, beside their own widths.
+/// The width between letters, beside their own widths, in twelfths of the height.
 const LETTER_SPACE: f64 = 2.6;
-/// Straight pieces of a curve.
+/// Number of straight pieces of a curve.
 const PIECES: u32 = 8;
 
-/// A line of text as straight strokes, a letter 1 high, from x = 0 on the line y = 0 upward.
+/// A line of text as straight strokes. Letters are 1 high. The line starts at x = 0 and stands on y
+/// = 0, with y up.
 #[derive(Debug, Clone)]
 pub struct Line {
     /// The ends of each stroke.
     pub strokes: Vec<[DVec2; 2]>,
-    /// Where the next letter would begin.
+    /// The x at which the next letter would begin.
     pub width: f64,
 }
 
-/// Letters a text; what the alphabet lacks is a space.
+/// Returns the strokes of a text. A character that the alphabet lacks becomes a space.
 pub fn line(text: &str) -> Line {
     let mut at = 0.0;
     let mut strokes = Vec::new();
@@ -93,7 +95,7 @@ pub fn line(text: &str) -> Line {
     Line { strokes, width: at / 12.0 }
 }
 
-/// The points of a chain with its curves cut into pieces.
+/// Returns the points of a chain with its curves cut into pieces.
 fn rounded(chain: &str) -> Vec<DVec2> {
     let mut points: Vec<DVec2> = Vec::new();
     let mut control = None;
@@ -116,7 +118,7 @@ fn rounded(chain: &str) -> Vec<DVec2> {
     points
 }
 
-/// The distance of a point from a stroke.
+/// Returns the distance of a point from a stroke.
 pub fn distance(p: DVec2, [from, to]: [DVec2; 2]) -> f64 {
     let along = to - from;
     let t = ((p - from).dot(along) / along.length_squared()).clamp(0.0, 1.0);

@@ -1,11 +1,12 @@
-//! From a colour at each point to a picture: supersampled drawing.
+//! Draws a picture from the colour at each point, with supersampling.
 
 use super::color::{Color, Encoder};
 use glam::DVec2;
 use image::{Rgb, RgbImage};
 use rayon::prelude::*;
 
-/// Each texel is the mean, in linear light, of `GRID` x `GRID` points.
+/// Number of points along each side of a texel. A texel is the mean, in linear light, of `GRID` x
+/// `GRID` points.
 const GRID: u32 = 4;
 
 /// Draws a picture from the colour at each point.
@@ -40,7 +41,8 @@ pub fn draw(width: u32, height: u32, color_at: impl Fn(DVec2) -> Color + Sync) -
 
 /// Asserts that the colours repeat after `step`, at every texel's middle of a square picture.
 ///
-/// A point within rounding of an edge may fall to either side of it; one in a thousand may.
+/// Rounding may move a point near an edge to either side of the edge. So one point in a thousand
+/// may differ.
 #[cfg(test)]
 pub fn assert_repeats(size: u32, step: DVec2, color_at: impl Fn(DVec2) -> Color) {
     let middle = |i| DVec2::new(f64::from(i % size) + 0.5, f64::from(i / size) + 0.5);

@@ -1,8 +1,8 @@
-//! `checkerboard.png`: eight by eight checks of ivory and oxblood, tileable both ways, for the
-//! floor of thesis figures A.10 and A.11.
+//! `checkerboard.png`: eight by eight checks of ivory and oxblood, tileable in both directions, for
+//! the floor of thesis figures A.10 and A.11.
 //!
-//! Every check is a whole number of texels and every texel one of two colours: all softness is left
-//! to the renderer.
+//! Every check is a whole number of texels and every texel has one of two colours. Only the
+//! renderer softens the edges.
 
 use image::{Rgb, RgbImage};
 
@@ -14,7 +14,7 @@ const CHECK: u32 = SIZE / 8;
 const IVORY: Rgb<u8> = Rgb([0xf1, 0xe6, 0xcf]);
 const OXBLOOD: Rgb<u8> = Rgb([0x5a, 0x1e, 0x22]);
 
-/// Draws the checkerboard; the bottom left check, where `u` and `v` begin, is the light one, as in
+/// Draws the checkerboard. The bottom left check, where `u` and `v` begin, is light, as in
 /// `peer-checker.png`.
 pub fn draw() -> RgbImage {
     RgbImage::from_fn(SIZE, SIZE, |x, y| {

@@ -1,19 +1,21 @@
-//! The coastlines of the world: where there is land, and how far the nearest shore is.
+//! The coastlines of the world: the positions of land, and the distance to the nearest shore.
 //!
-//! `coastlines.txt` has a ring a line: longitude and latitude of its first corner and then the steps
-//! from corner to corner, in tenths of a degree. They are Natural Earth's land at 1:50 million
-//! (public domain), as the package `world-atlas` 2.0.2 carries it in `land-50m.json`, with rings of
-//! less than a quarter of a square degree left out and corners within 0.12 degrees of their
+//! A line of `coastlines.txt` is a ring: longitude and latitude of its first corner and then the
+//! steps from corner to corner, in tenths of a degree. The rings are Natural Earth's land at 1:50
+//! million (public domain), from `land-50m.json` of the package `world-atlas` 2.0.2. Rings of less
+//! than a quarter of a square degree are left out. So are corners within 0.12 degrees of their
 //! neighbours' line (Douglas and Peucker).
 
 use glam::DVec2;
 
 const CORNERS: &str = include_str!("coastlines.txt");
-/// Degrees a unit.
+/// Degrees of one unit of the file.
 const UNIT: f64 = 0.1;
-/// Degrees along a side of the cells in which shores are looked up.
+/// Side of a cell, in degrees. Shores are looked up by cells.
 const CELL: f64 = 2.0;
+/// Number of cells around the globe.
 const COLUMNS: usize = 180;
+/// Number of cells from pole to pole.
 const ROWS: usize = 90;
 
 /// A stretch of shore, from corner to corner, in degrees.
@@ -23,7 +25,7 @@ struct Shore {
     to: DVec2,
 }
 
-/// The coastlines, ready to be asked.
+/// The coastlines, sorted into cells.
 #[derive(Debug)]
 pub struct Coast {
     shores: Vec<Shore>,
@@ -34,7 +36,7 @@ pub struct Coast {
 }
 
 impl Coast {
-    /// Gets the coastlines ready to be asked for shores up to `reach` degrees away.
+    /// Reads the coastlines, and sorts them for distances of up to `reach` degrees.
     pub fn within(reach: f64) -> Self {
         let shores: Vec<Shore> = CORNERS.lines().flat_map(ring).collect();
         let mut near = vec![Vec::new(); COLUMNS * ROWS];
@@ -53,7 +55,8 @@ impl Coast {
                 continue;
             }
             for row in rows(low.y - reach, high.y + reach) {
-                // A degree of longitude is short near the poles; the cell's own end there counts.
+                // A degree of longitude is short near the poles, so the end of the cell that is
+                // nearer to the pole counts.
                 let polar = ((row as f64 - 45.0).abs() + 0.5) * CELL;
                 let wide = reach / cosine(polar.min(89.0)).max(0.02);
                 let column = |longitude: f64| ((longitude + 180.0) / CELL).floor() as i64;
@@ -66,8 +69,8 @@ impl Coast {
         Self { shores, near, across }
     }
 
-    /// Whether there is land at a longitude and latitude, in degrees: an odd number of shores lies
-    /// to the west.
+    /// Returns true if there is land at a longitude and latitude, in degrees: if an odd number of
+    /// shores lies to the west.
     pub fn is_land(&self, p: DVec2) -> bool {
         let (_, row) = cell(p);
         let mut land = false;
@@ -81,8 +84,8 @@ impl Coast {
         land
     }
 
-    /// The distance of the nearest shore, in degrees of a great circle; what is farther than the
-    /// reach may count as anything beyond it.
+    /// Returns the distance to the nearest shore, in degrees of a great circle. Beyond the reach,
+    /// the result is any number above the reach, or infinity.
     pub fn distance(&self, p: DVec2) -> f64 {
         let (column, row) = cell(p);
         let shrink = DVec2::new(cosine(p.y.abs()), 1.0);
@@ -100,7 +103,7 @@ impl Coast {
     }
 }
 
-/// The shores of a ring.
+/// Returns the shores of a ring.
 fn ring(line: &str) -> Vec<Shore> {
     let mut at = DVec2::ZERO;
     let mut steps = line.split(' ').map(|word| word.parse().unwrap_or(0.0));
@@ -113,10 +116,12 @@ fn ring(line: &str) -> Vec<Shore> {
     corners.iter().zip(next).map(|(&from, &to)| shore(from, to)).collect()
 }
 
-/// A step of a ring; one over the date line becomes a cut along it to the south pole.
+/// Returns the shore between two corners of a ring. A step over the date line becomes a cut along
+/// the date line to the south pole.
 ///
-/// Two cuts end where the later one begins, so that they count once each between them; a land that
-/// goes round the world, which has one, has the pole.
+/// Two cuts of a land overlap from the southern start to the pole, where they cancel. Between the
+/// two starts one cut counts. A land that goes around the world has one cut, and so contains the
+/// pole.
 fn shore(from: DVec2, to: DVec2) -> Shore {
     if (to.x - from.x).abs() < 180.0 {
         return Shore { from, to };
@@ -125,7 +130,7 @@ fn shore(from: DVec2, to: DVec2) -> Shore {
     Shore { from: cut(0.5 * (from.y + to.y)), to: cut(-90.0) }
 }
 
-/// Where a map is cut, at the date line, there is no shore.
+/// Returns true for a cut at the date line, which is no shore.
 fn is_cut(shore: &Shore) -> bool {
     shore.from.x.abs() > 179.95 && shore.to.x.abs() > 179.95
 }
@@ -136,8 +141,8 @@ fn cell(p: DVec2) -> (usize, usize) {
     (column.min(COLUMNS - 1), row.min(ROWS - 1))
 }
 
-/// The cosine of an angle of up to 90 degrees, to two thousandths: Bhaskara's fraction, which every
-/// machine computes alike.
+/// Returns the cosine of an angle of up to 90 degrees, to two thousandths. Bhaskara's fraction
+/// gives the same bits on every machine.
 pub fn cosine(degrees: f64) -> f64 {
     let square = degrees * degrees;
     (32_400.0 - 4.0 * square) / (32_400.0 + square)
@@ -188,7 +193,7 @@ mod tests {
                 land += if coast.is_land(p) { weight } else { 0.0 };
             }
         }
-        // 29 in a hundred, and ice shelves.
+        // Land covers 29 in a hundred, and ice shelves a little more.
         assert!((0.28..0.31).contains(&(land / all)), "{}", land / all);
     }
 

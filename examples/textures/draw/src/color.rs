@@ -1,6 +1,6 @@
-//! Linear colours, and the sRGB bytes at the file's edge.
+//! Linear colours, and the sRGB bytes of picture files.
 //!
-//! The transfer curve needs the power 2.4. It is taken by squares and a fifth root, since a power
+//! The transfer curve needs the power 2.4, which is computed by squares and a fifth root. A power
 //! from the system's library may differ in its last bit from one machine to the next, and the
 //! pictures must not.
 
@@ -9,7 +9,7 @@ use glam::DVec3;
 /// A linear colour, red, green and blue in `[0, 1]`.
 pub type Color = DVec3;
 
-/// The colour that a style sheet writes as `#rrggbb`.
+/// Returns the linear colour that a style sheet writes as `#rrggbb`.
 pub fn srgb(rrggbb: u32) -> Color {
     let [_, r, g, b] = rrggbb.to_be_bytes();
     DVec3::new(
@@ -22,24 +22,24 @@ pub fn srgb(rrggbb: u32) -> Color {
 /// Turns linear values into sRGB bytes, each to the nearest byte on the encoded scale.
 #[derive(Debug)]
 pub struct Encoder {
-    /// Where, in linear light, byte `i` gives way to byte `i + 1`.
+    /// The linear light, in [0, 1], from which on byte `i + 1` is nearer than byte `i`.
     ends: [f64; 255],
 }
 
 impl Encoder {
-    /// Works out where each byte ends.
+    /// Computes the end of each byte's range.
     pub fn new() -> Self {
         Self { ends: std::array::from_fn(|i| decode((i as f64 + 0.5) / 255.0)) }
     }
 
-    /// The three bytes of a colour; values outside `[0, 1]` go to the nearer end.
+    /// Returns the three bytes of a colour. Values outside `[0, 1]` are clamped.
     pub fn bytes(&self, color: Color) -> [u8; 3] {
         // At most 255 ends lie below a value.
         color.to_array().map(|value| self.ends.partition_point(|&end| end <= value) as u8)
     }
 }
 
-/// Linear light of an sRGB value, both in `[0, 1]` (IEC 61966-2-1).
+/// Returns the linear light of an sRGB value, both in `[0, 1]` (IEC 61966-2-1).
 fn decode(encoded: f64) -> f64 {
     if encoded <= 0.04045 {
         return encoded / 12.92;
@@ -49,10 +49,11 @@ fn decode(encoded: f64) -> f64 {
     base_sq * fifth_root(base_sq)
 }
 
-/// The fifth root of a value in `(0, 1]`, by Newton's method from above.
+/// Returns the fifth root of a value in `(0, 1]`, by Newton's method from above.
 fn fifth_root(value: f64) -> f64 {
-    // The smallest value asked for is 0.008, the square of 0.0905: its root is 0.38, to which the
-    // steps shrink by four fifths each before they converge. Twenty are more than enough.
+    // The smallest value passed is 0.008, the square of 0.0905. Its root is 0.38. From 1 on, each
+    // step multiplies the estimate by about four fifths until the steps converge. Twenty steps are
+    // more than enough.
     let mut root = 1.0_f64;
     for _ in 0..20 {
         let fourth = (root * root) * (root * root);

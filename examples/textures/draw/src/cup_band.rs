@@ -23,7 +23,7 @@ use image::RgbImage;
 /// Texels around the cup, and along its contour.
 const SIZE: u32 = 512;
 
-/// The paints, and the cream that they stand on.
+/// The paints, and the cream below them.
 #[derive(Debug)]
 struct Paints {
     cream: Color,
@@ -43,7 +43,7 @@ pub fn draw() -> RgbImage {
     canvas::draw(SIZE, SIZE, |p| color_at(DVec2::new(p.x, f64::from(SIZE) - p.y), &paints))
 }
 
-/// The colour at a point.
+/// Returns the colour at a point, in texels.
 fn color_at(p: DVec2, paints: &Paints) -> Color {
     match p.y {
         // The foot, and the rings around stripes and beads.
@@ -57,7 +57,8 @@ fn color_at(p: DVec2, paints: &Paints) -> Color {
     }
 }
 
-/// A broad stripe and two narrow ones, thirty-two times around the cup.
+/// Returns the colour of the stripes: a broad stripe and two narrow ones, thirty-two times around
+/// the cup.
 fn stripes(x: f64, paints: &Paints) -> Color {
     match x.rem_euclid(16.0) {
         0.0..5.0 => paints.red,
@@ -66,7 +67,7 @@ fn stripes(x: f64, paints: &Paints) -> Color {
     }
 }
 
-/// Lozenges and beads in turn, thirty-two of each. `p.y` from -11 to 11.
+/// Returns the colour of lozenges and beads in turn, thirty-two of each. `p.y` is in [-11, 11].
 fn beads(p: DVec2, paints: &Paints) -> Color {
     let q = DVec2::new(p.x.rem_euclid(16.0) - 8.0, p.y);
     let beside = DVec2::new((p.x + 8.0).rem_euclid(16.0) - 8.0, p.y);

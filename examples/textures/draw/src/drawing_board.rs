@@ -1,5 +1,5 @@
-//! `drawing-board.png`: pale paper ruled in squares, tileable both ways, for the ground under the
-//! pages of the gallery.
+//! `drawing-board.png`: pale paper ruled in squares, tileable in both directions, for the ground
+//! under the pages of the gallery.
 
 use super::canvas;
 use super::color::{Color, srgb};
@@ -8,7 +8,7 @@ use image::RgbImage;
 
 /// Texels along a side of the picture.
 const SIZE: u32 = 256;
-/// Squares along a side.
+/// Number of squares along a side of the picture.
 const SQUARES: f64 = 4.0;
 
 /// Draws the drawing board.
@@ -17,7 +17,7 @@ pub fn draw() -> RgbImage {
     canvas::draw(SIZE, SIZE, |texel| color_at(texel, paper, fine, bold))
 }
 
-/// The colour at `p` in texels: a bold line around the picture, fine ones within.
+/// Returns the colour at `p` in texels: a bold line around the picture, fine ones within.
 fn color_at(p: DVec2, paper: Color, fine: Color, bold: Color) -> Color {
     let to_line = |pitch: f64| {
         let off = (p / pitch - (p / pitch).round()).abs() * pitch;

@@ -1,4 +1,4 @@
-//! `floor-tiles.png`: octagons of sandstone and squares of terracotta, tileable both ways.
+//! `floor-tiles.png`: octagons of sandstone and squares of terracotta, tileable in both directions.
 //!
 //! Four by four octagons stand on a square lattice; where four of them meet, a small square stands
 //! on its corner. Every second octagon is grey, with a star let into it. Each tile has its own
@@ -22,7 +22,7 @@ const SQUARE: f64 = 35.0;
 /// Texels between two tiles.
 const JOINT: f64 = 3.0;
 
-/// What the floor is made of.
+/// The colours of the stones and of the joints.
 #[derive(Debug)]
 struct Stones {
     sand: Color,
@@ -53,7 +53,7 @@ pub fn draw() -> RgbImage {
 fn color_at(texel: DVec2, stones: &Stones) -> Color {
     let lattice = texel / PITCH;
 
-    // The small squares stand on the whole lattice points, the octagons between them.
+    // The small squares stand on the integer lattice points, the octagons between them.
     let corner = lattice.round();
     let square = diamond(texel - corner * PITCH, SQUARE);
     if square < -JOINT / 2.0 {
@@ -73,7 +73,8 @@ fn color_at(texel: DVec2, stones: &Stones) -> Color {
     worn(stone, octagon, lattice) * tone(cell, 2)
 }
 
-/// The grey octagon's inlay: a flower in a star of slate in a ring of terracotta.
+/// Returns the colour of the grey octagon's inlay: a flower in a star of slate in a ring of
+/// terracotta.
 fn star(p: DVec2, stones: &Stones) -> Color {
     let ring = stroke(disc(p, 44.0), 3.0);
     // Two squares, one of them on its corner, have eight points.
@@ -95,14 +96,14 @@ fn star(p: DVec2, stones: &Stones) -> Color {
     }
 }
 
-/// Stone with its clouds, darker towards the tile's edge at `distance` 0.
+/// Returns the colour of stone with its clouds, darker towards the tile's edge at `distance` 0.
 fn worn(stone: Color, distance: f64, lattice: DVec2) -> Color {
     let edge = 1.0 - 0.10 * (1.0 + (distance + JOINT / 2.0) / 4.0).max(0.0);
     let period = IVec2::splat(TILES * 6);
     stone * edge * (0.94 + 0.12 * cloud(lattice * 6.0, period, 7))
 }
 
-/// How light one tile is among its like.
+/// Returns the lightness factor of one tile among tiles of its kind.
 fn tone(tile: IVec2, kind: u32) -> f64 {
     0.88 + 0.20 * unit(hash(tile.rem_euclid(IVec2::splat(TILES)), kind))
 }

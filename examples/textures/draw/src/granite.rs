@@ -1,8 +1,8 @@
-//! `granite.png`: pink granite, tileable both ways, for the floor of thesis figure A.1.
+//! `granite.png`: pink granite, tileable in both directions, for the floor of thesis figure A.1.
 //!
-//! Grains of four sizes, each from its own cells: the ground of feldspar and quartz, the crystals
-//! within it, flakes of black mica among it, and pepper. The cells are cut from a warped plane, so
-//! that no boundary is straight.
+//! Grains have four sizes, each from cells of its own: the ground of feldspar and quartz, the
+//! crystals within the ground's grains, flakes of black mica in the ground, and pepper. The cells
+//! are cut from a warped plane, so that no boundary is straight.
 
 use super::canvas;
 use super::color::{Color, srgb};
@@ -12,11 +12,13 @@ use image::RgbImage;
 
 /// Texels along a side of the picture.
 const SIZE: u32 = 256;
-/// Cells along a side: the ground's, those of the crystals within its grains, the mica's and the
-/// pepper's.
+/// Number of cells along a side of the picture, for the ground.
 const GROUND: i32 = 32;
+/// Number of cells along a side, for the crystals within the ground's grains.
 const CRYSTAL: i32 = 110;
+/// Number of cells along a side, for the mica.
 const MICA: i32 = 46;
+/// Number of cells along a side, for the pepper.
 const PEPPER: i32 = 96;
 
 /// The minerals.
@@ -45,7 +47,7 @@ pub fn draw() -> RgbImage {
     canvas::draw(SIZE, SIZE, |texel| color_at(texel / f64::from(SIZE), &minerals))
 }
 
-/// The colour at `p`, where the picture is the unit square.
+/// Returns the colour at `p`, where the picture is the unit square.
 fn color_at(p: DVec2, minerals: &Minerals) -> Color {
     let ragged = warped(p);
     let cells = |count: i32, seed| grain(ragged * f64::from(count), IVec2::splat(count), seed);
@@ -56,7 +58,7 @@ fn color_at(p: DVec2, minerals: &Minerals) -> Color {
     }
     let mica = cells(MICA, 21);
     if is_flake(mica, 0.24, 0.66) {
-        // Flakes glint: each has its own share of grey.
+        // Flakes glint: each flake has its own grey.
         return minerals.mica * (0.7 + 1.2 * share(mica, 4));
     }
     // A grain of feldspar is no single crystal: finer cells break up its tone.
@@ -70,13 +72,14 @@ fn warped(p: DVec2) -> DVec2 {
     p + DVec2::new(wobble(1), wobble(5)) * 0.034
 }
 
-/// Whether a cell is one of the `portion` that hold a flake, and the flake, at most `reach` cells
-/// in radius, covers the point.
+/// Returns true if the cell holds a flake and the flake covers the point. The fraction `portion` of
+/// all cells holds a flake. A flake has a radius of at most `reach` cells.
 fn is_flake(cell: Grain, portion: f64, reach: f64) -> bool {
     share(cell, 0) < portion && cell.distance < reach * (0.5 + 0.5 * share(cell, 2))
 }
 
-/// One of feldspar and quartz, each grain with its own tone, darker along the boundaries.
+/// Returns the colour of feldspar or quartz. Each grain has its own tone, darker along the
+/// boundaries.
 fn ground(cell: Grain, minerals: &Minerals) -> Color {
     let mineral = match share(cell, 0) {
         s if s < 0.42 => minerals.pink_feldspar,
@@ -87,7 +90,8 @@ fn ground(cell: Grain, minerals: &Minerals) -> Color {
     mineral * (0.86 + 0.24 * share(cell, 3)) * boundary
 }
 
-/// A number in `[0, 1)` that belongs to a grain; `which` tells its uses apart.
+/// Returns a number in `[0, 1)` that belongs to a grain; `which` distinguishes the uses of such
+/// numbers.
 fn share(cell: Grain, which: u32) -> f64 {
     unit(cell.hash.rotate_left(7 * which).wrapping_mul(0x85eb_ca6b))
 }

@@ -1,6 +1,6 @@
-//! `graticule.png`: a globe without its lands: twelve gores of sea, parallels and meridians at every
-//! ten degrees, the tropics and polar circles, and the equator as a scale. Longitude runs to the
-//! right from -180 to 180 degrees, latitude up from -90 to 90.
+//! `graticule.png`: a globe without its lands. The picture shows twelve gores of sea, parallels and
+//! meridians at every ten degrees, the tropics and polar circles, and the equator as a scale.
+//! Longitude runs to the right from -180 to 180 degrees, latitude up from -90 to 90.
 
 use super::canvas;
 use super::coast::cosine;
@@ -9,7 +9,7 @@ use super::shape::to_multiple;
 use glam::DVec2;
 use image::RgbImage;
 
-/// Texels from pole to pole; twice as many go round.
+/// Texels from pole to pole; the picture is twice as wide.
 const HEIGHT: u32 = 512;
 /// Latitudes of the tropics and of the polar circles, in degrees.
 const CIRCLES: [f64; 2] = [23.44, 66.56];
@@ -45,10 +45,11 @@ pub fn draw() -> RgbImage {
     })
 }
 
-/// The colour at longitude `p.x` and latitude `p.y`, in degrees.
+/// Returns the colour at longitude `p.x` and latitude `p.y`, in degrees.
 fn color_at(p: DVec2, inks: &Inks) -> Color {
     let (longitude, latitude) = (p.x, p.y.abs());
-    // Lines are as wide on the globe everywhere, so a degree of longitude counts for its cosine.
+    // Lines have the same width everywhere on the globe, so a degree of longitude is scaled by the
+    // cosine of the latitude.
     let cosine = cosine(latitude);
     let to_meridian = |pitch: f64| to_multiple(longitude, pitch) * cosine;
     let dash = longitude.rem_euclid(5.0) < 3.2;

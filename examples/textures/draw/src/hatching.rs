@@ -1,6 +1,7 @@
 //! `hatching.png`: a fine net as an engraver lays it over a surface: rings across it, thinner lines
-//! along it, and every seventh ring bold. It is tileable both ways and its own mirror image, so that it
-//! also closes where a surface comes back with its other side out; the seam lies between two rings.
+//! along it, and every seventh ring bold. The picture is tileable in both directions and is its own
+//! mirror image. So it also closes where a surface returns with its other side out. The seam lies
+//! between two rings.
 
 use super::canvas;
 use super::color::{Color, srgb};
@@ -9,12 +10,15 @@ use image::RgbImage;
 
 /// Texels along a side of the picture.
 const SIZE: u32 = 256;
-/// Texels from line to line along the surface, and from ring to ring.
+/// Texels from one line along the surface to the next.
 const ALONG_PITCH: f64 = 32.0;
+/// Texels from one ring to the next.
 const RING_PITCH: f64 = SIZE as f64 / 7.0;
-/// How wide a ring, a bold ring and a line along the surface are, in texels.
+/// Width of a ring, in texels.
 const RING: f64 = 9.0;
+/// Width of a bold ring, in texels.
 const BOLD: f64 = 17.0;
+/// Width of a line along the surface, in texels.
 const ALONG: f64 = 3.5;
 
 /// Draws the hatching.
@@ -23,7 +27,7 @@ pub fn draw() -> RgbImage {
     canvas::draw(SIZE, SIZE, |texel| color_at(texel, ground, line, bold))
 }
 
-/// The colour at `p` in texels.
+/// Returns the colour at `p` in texels.
 fn color_at(p: DVec2, ground: Color, line: Color, bold: Color) -> Color {
     let off = |x: f64, pitch: f64| (x - (x / pitch).round() * pitch).abs();
     // The fourth of seven rings is in the middle.

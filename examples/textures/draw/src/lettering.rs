@@ -1,5 +1,5 @@
-//! `lettering.png`: a sheet of fine lettering, tileable both ways: what a surface made from curves has
-//! to say, in lines of three sizes on paper, between ruled lines.
+//! `lettering.png`: a sheet of fine lettering, tileable in both directions. Sentences about
+//! surfaces made from curves stand in lines of three sizes on paper, between ruled lines.
 
 use super::alphabet::{self, Line};
 use super::canvas;
@@ -10,9 +10,9 @@ use image::RgbImage;
 
 /// Texels along a side of the picture: enough for a poster whose sheet is some thousand pixels wide.
 const SIZE: u32 = 1024;
-/// Points along a side of the sheet, in which it is measured.
+/// Points along a side of the sheet. Lengths on the sheet are in points.
 const SIDE: f64 = 512.0;
-/// The lines, from the top: how high the letters are, in points, and the text, which is repeated
+/// The lines, from the top: the height of the letters, in points, and the text, which is repeated
 /// over the width.
 const LINES: [(f64, &str); 12] = [
     (26.0, "CURVES IN. PICTURE OUT."),
@@ -28,8 +28,9 @@ const LINES: [(f64, &str); 12] = [
     (11.0, "0123456789 AND THE LETTERS OF THE ALPHABET ARE DRAWN WITH ONE PEN."),
     (11.0, "IF YOU CAN READ THIS THE PICTURE IS WELL FILTERED."),
 ];
-/// From the top of the picture to the first line, and between lines, in points.
+/// Distance from the top of the picture to the first line, in points.
 const TOP: f64 = 6.0;
+/// Height of the strip of each line, in points.
 const LEAD: f64 = 35.5;
 
 /// Paper and inks.
@@ -44,11 +45,12 @@ struct Sheet {
 /// A line on the sheet.
 #[derive(Debug)]
 struct Row {
-    /// Where it stands, in points from the top.
+    /// The base line, in points from the top.
     base: f64,
     height: f64,
     letters: Line,
-    /// How much the letters are spread so that the line fills the width a whole number of times.
+    /// Factor that stretches the letters across so that the text fills the width a whole number of
+    /// times.
     spread: f64,
 }
 
@@ -75,7 +77,7 @@ pub fn draw() -> RgbImage {
     canvas::draw(SIZE, SIZE, |texel| color_at(texel * (SIDE / f64::from(SIZE)), &sheet))
 }
 
-/// The colour at a place in points.
+/// Returns the colour at a position in points.
 fn color_at(p: DVec2, sheet: &Sheet) -> Color {
     let p = p.rem_euclid(DVec2::splat(SIDE));
     let fibres = cloud(p * (64.0 / SIDE), IVec2::splat(64), 5) - 0.5;
@@ -88,7 +90,7 @@ fn color_at(p: DVec2, sheet: &Sheet) -> Color {
         let ink = if row.height > 15.0 && number % 2 == 0 { sheet.red } else { sheet.ink };
         let scale = DVec2::new(row.height * row.spread, row.height);
         let repeated = p.x.rem_euclid(row.letters.width * scale.x);
-        // The gap at the end of a line is shared with its start.
+        // Half of the gap at the end of a line lies at its start.
         let here = DVec2::new(repeated, above) / scale - DVec2::new(0.35, 0.0);
         let pen = 0.055 + 0.35 / row.height;
         if row.letters.strokes.iter().any(|&stroke| alphabet::distance(here, stroke) < pen) {

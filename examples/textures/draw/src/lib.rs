@@ -1,4 +1,4 @@
-//! The textures of the example scenes, drawn by program.
+//! Programs that draw the textures of the example scenes.
 //!
 //! | file               | drawn by         | what it shows                                     |
 //! |--------------------|------------------|---------------------------------------------------|
@@ -18,10 +18,10 @@
 //! | `hatching.png`     | `hatching`     | a fine net, its own mirror image                  |
 //! | `plate.png`        | `plate`        | a page of a book of specimens                     |
 //!
-//! `canvas` samples a colour per point into a picture; `shape` has the outlines, `noise` the
-//! irregularities and `color` the way between linear light and bytes. A picture depends on
-//! nothing but this code: there is no clock, no entropy, and no arithmetic beyond `+ − × ÷ √` and
-//! rounding, which every machine does alike.
+//! `canvas` samples the colour of points into a picture. `shape` has the outlines, `noise` the
+//! irregularities and `color` the conversion between linear light and bytes. A picture depends on
+//! this code alone. There is no clock and no entropy, and the only arithmetic is `+ − × ÷ √` and
+//! rounding, which all machines compute alike.
 //!
 //! The program `draw-textures` writes all of them. Its bytes stay the same as long as the PNG encoder does.
 
@@ -69,17 +69,17 @@ impl Failure for EncodeError {
 /// A texture of the example scenes.
 #[derive(Debug, Clone, Copy)]
 pub struct Texture {
-    /// The name of its file in `examples/textures/`.
+    /// The name of the texture's file in `examples/textures/`.
     pub file: &'static str,
-    /// Draws it.
+    /// The function that draws the texture.
     pub draw: fn() -> RgbImage,
 }
 
 impl Texture {
-    /// The picture as PNG, by whichever row filter makes the smallest file.
+    /// Returns the picture as PNG, with the row filter that makes the smallest file.
     ///
     /// # Errors
-    /// When the encoder does not take the picture.
+    /// When the encoder refuses the picture.
     pub fn png(&self) -> Result<Vec<u8>, EncodeError> {
         let picture = (self.draw)();
         let encode = |filter| {

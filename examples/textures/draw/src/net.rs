@@ -1,5 +1,6 @@
-//! `net.png`: four by four checks in two light greys between dark lines, tileable both ways. It
-//! shows how parameters run over a surface, in whatever colour its material has.
+//! `net.png`: four by four checks in two light greys between dark lines, tileable in both
+//! directions. The net shows how parameters run over a surface, in the colour of the surface's
+//! material.
 
 use super::canvas;
 use super::color::{Color, srgb};
@@ -8,7 +9,7 @@ use image::RgbImage;
 
 /// Texels along a side of the picture.
 const SIZE: u32 = 256;
-/// Texels along a side of a check, two of which repeat.
+/// Texels along a side of a check. The pattern repeats after two checks.
 const CHECK: f64 = 64.0;
 /// Half the width of a line, in texels.
 const HALF_LINE: f64 = 3.0;
@@ -19,7 +20,7 @@ pub fn draw() -> RgbImage {
     canvas::draw(SIZE, SIZE, |texel| color_at(texel, light, dim, line))
 }
 
-/// The colour at `p` in texels.
+/// Returns the colour at `p` in texels.
 fn color_at(p: DVec2, light: Color, dim: Color, line: Color) -> Color {
     let cell = p / CHECK;
     let off = (cell - cell.round()).abs() * CHECK;

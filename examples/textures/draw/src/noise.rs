@@ -1,10 +1,12 @@
-//! Noise on a lattice that wraps, from an integer hash: the same on every machine, and tileable.
+//! Noise on a lattice that wraps, from an integer hash. The noise is the same on every machine, and
+//! tileable.
 
 use glam::{DVec2, IVec2};
 
-/// A well mixed number for a lattice point.
+/// Returns a well mixed number for a lattice point.
 ///
-/// Multiply and shift rounds after the finaliser of `MurmurHash3`; `seed` keeps the uses apart.
+/// Uses the multiply and shift rounds of the finaliser of `MurmurHash3`. `seed` distinguishes the
+/// uses.
 pub fn hash(point: IVec2, seed: u32) -> u32 {
     let mut h = seed.wrapping_mul(0x9e37_79b9);
     for part in [point.x as u32, point.y as u32] {
@@ -16,13 +18,13 @@ pub fn hash(point: IVec2, seed: u32) -> u32 {
     h
 }
 
-/// A hash as a number in `[0, 1)`.
+/// Returns a hash as a number in `[0, 1)`.
 pub fn unit(hash: u32) -> f64 {
     f64::from(hash) / 4_294_967_296.0
 }
 
-/// Smooth noise in `[0, 1]`, from one random value per lattice point; it repeats after `period`
-/// lattice cells.
+/// Returns smooth noise in `[0, 1]`, from one random value per lattice point. The noise repeats
+/// after `period` lattice cells.
 fn value_noise(p: DVec2, period: IVec2, seed: u32) -> f64 {
     let corner = p.floor();
     let f = p - corner;
@@ -37,28 +39,29 @@ fn value_noise(p: DVec2, period: IVec2, seed: u32) -> f64 {
     low + (high - low) * s.y
 }
 
-/// Three octaves of [`value_noise`], in `[0, 1]`.
+/// Returns three octaves of [`value_noise`], in `[0, 1]`.
 pub fn cloud(p: DVec2, period: IVec2, seed: u32) -> f64 {
     let octave = |k: i32| value_noise(p * f64::from(k), period * k, seed + k as u32);
     (4.0 * octave(1) + 2.0 * octave(2) + octave(4)) / 7.0
 }
 
-/// The grain that a point belongs to: [`grain`].
+/// The grain that contains a point; see [`grain`].
 #[derive(Debug, Clone, Copy)]
 pub struct Grain {
     /// Random bits of this grain.
     pub hash: u32,
     /// Distance to the grain's centre, in lattice cells.
     pub distance: f64,
-    /// How much farther the second nearest centre is: 0 on the boundary between two grains.
+    /// Distance to the second nearest centre minus `distance`, in lattice cells: 0 on the boundary
+    /// between two grains.
     pub margin: f64,
 }
 
-/// The grain of a point when the plane is divided among one random centre per lattice cell
-/// (Worley's cells); repeats after `period` cells.
+/// Returns the grain that contains a point. The plane is divided among one random centre per
+/// lattice cell (Worley's cells), and repeats after `period` cells.
 ///
-/// Only the nine cells around are searched. A nearer centre two cells away is rare, and only moves
-/// a boundary.
+/// Only the nine cells around the point are searched. A nearer centre two cells away is rare, and
+/// only moves a boundary.
 pub fn grain(p: DVec2, period: IVec2, seed: u32) -> Grain {
     let home = p.floor().as_ivec2();
     let mut nearest = Grain { hash: 0, distance: f64::INFINITY, margin: 0.0 };

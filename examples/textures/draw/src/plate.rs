@@ -1,5 +1,5 @@
-//! `plate.png`: a page of a book of specimens: paper, a border graduated as that of a map, and room
-//! for four figures over their names.
+//! `plate.png`: a page of a book of specimens: paper, a border graduated as that of a map, and
+//! space for four figures over their names.
 
 use super::alphabet::{self, Line};
 use super::canvas;
@@ -9,8 +9,8 @@ use image::RgbImage;
 
 /// Texels along a side of the picture.
 const SIZE: u32 = 1024;
-/// Middle of a line and where it stands from the top, height of its letters in texels, whether it is
-/// red, and the text.
+/// For each line of text: its middle and its base line from the top, the height of its letters, all
+/// in texels, a flag for red, and the text.
 const LINES: [(f64, f64, f64, bool, &str); 10] = [
     (512.0, 112.0, 25.0, true, "PLATE I"),
     (292.0, 504.0, 20.0, true, "FIG. 1"),
@@ -23,15 +23,17 @@ const LINES: [(f64, f64, f64, bool, &str); 10] = [
     (732.0, 957.0, 16.0, false, "KLEIN BOTTLE"),
     (512.0, 957.0, 12.0, false, "1993"),
 ];
-/// From the edge to the border's outer and inner line, which are this wide, and to a fine third line.
+/// Distances from the edge of the picture to the border's outer and inner line, in texels.
 const BORDER: [f64; 2] = [28.0, 40.0];
+/// Width of the border's outer and inner line, in texels.
 const RULE: f64 = 2.5;
+/// Distance from the edge of the picture to a fine third line, in texels.
 const FINE: f64 = 50.0;
-/// Texels of a division of the border, every second of which is dark; the border has a whole number
-/// of pairs.
+/// Texels of a division of the border. Every second division is dark, and the border has a whole
+/// number of pairs.
 const DIVISION: f64 = (SIZE as f64 - 2.0 * BORDER[0]) / 88.0;
 
-/// Paper, inks and what is written.
+/// The paper, the inks and the lines of text.
 #[derive(Debug)]
 struct Plate {
     paper: Color,
@@ -42,7 +44,7 @@ struct Plate {
 /// A line of letters.
 #[derive(Debug)]
 struct Name {
-    /// Its left end on the line that it stands on, in texels.
+    /// The left end of the base line, in texels.
     start: DVec2,
     height: f64,
     color: Color,
@@ -67,7 +69,7 @@ pub fn draw() -> RgbImage {
     canvas::draw(SIZE, SIZE, |texel| color_at(texel, &plate))
 }
 
-/// The colour at a place in texels.
+/// Returns the colour at a position in texels.
 fn color_at(p: DVec2, plate: &Plate) -> Color {
     let side = f64::from(SIZE);
     let from_edge = p.min(DVec2::splat(side) - p);
@@ -88,7 +90,7 @@ fn color_at(p: DVec2, plate: &Plate) -> Color {
     plate.paper
 }
 
-/// Whether there is ink at `p`, `depth` texels from the nearest edge.
+/// Returns true if there is ink at `p`, `depth` texels from the nearest edge.
 fn is_border(p: DVec2, depth: f64) -> bool {
     let [outer, inner] = BORDER;
     if (depth - FINE).abs() < 0.25 * RULE {
@@ -97,7 +99,7 @@ fn is_border(p: DVec2, depth: f64) -> bool {
     if (depth - outer).abs() < 0.5 * RULE || (depth - inner).abs() < 0.5 * RULE {
         return true;
     }
-    // The corners are left free.
+    // The corners stay without divisions.
     let side = f64::from(SIZE);
     let along = if p.y.min(side - p.y) < p.x.min(side - p.x) { p.x } else { p.y };
     let within = along > inner && along < side - inner;
@@ -131,7 +133,7 @@ mod tests {
         let side = f64::from(SIZE);
         let plate = Plate::new();
         for k in 0..2000 {
-            // Off the middle of the texels, where a division may begin.
+            // Points off the middles of texels, where a division may begin.
             let p = DVec2::new(f64::from(k) * 0.511 + 0.003, f64::from(k % 52) + 0.31);
             let turned = [DVec2::new(p.y, p.x), DVec2::new(p.x, side - p.y)];
             for q in turned {

@@ -1,5 +1,6 @@
-//! `ribbon.png`: slanting stripes in two light greys with a dark line between them, tileable both
-//! ways. Around a tube they wind like the red on a barber's pole, in whatever colour it has.
+//! `ribbon.png`: slanting stripes in two light greys with a dark line between them, tileable in
+//! both directions. Around a tube the stripes wind as on a barber's pole, in the colour of the
+//! tube's material.
 
 use super::canvas;
 use super::color::{Color, srgb};
@@ -15,7 +16,7 @@ pub fn draw() -> RgbImage {
     canvas::draw(SIZE, SIZE, |texel| color_at(texel / f64::from(SIZE), light, dim, line))
 }
 
-/// The colour at `p`, where the picture is the unit square.
+/// Returns the colour at `p`, where the picture is the unit square.
 fn color_at(p: DVec2, light: Color, dim: Color, line: Color) -> Color {
     let across = (p.x + p.y).rem_euclid(1.0);
     match across {

@@ -1,11 +1,11 @@
-//! `scales.png`: heights of two rows of scales, to be repeated both ways; grey, and no colour.
+//! `scales.png`: heights of two rows of scales, in grey, tileable in both directions.
 //!
-//! Each scale is a shield that hangs from above, highest along its lower rim, and lies over the two of the
-//! row below it. White is highest.
+//! Each scale is a shield that hangs from above, highest along its lower rim. The shield lies over
+//! two scales of the row below. White is highest.
 
 use image::{Rgb, RgbImage};
 
-/// Texels across and up, which are one scale and two rows of scales.
+/// Texels across and up: the width of one scale, and the height of two rows of scales.
 const SIZE: u32 = 64;
 
 /// Draws the heights.
@@ -17,16 +17,16 @@ pub fn draw() -> RgbImage {
     })
 }
 
-/// The height at a place: `x` counts scales, `y` rows of them from the top.
+/// Returns the height at a position: `x` counts scales, `y` rows of scales from the top.
 fn height(x: f64, y: f64) -> f64 {
-    // A scale hangs down over a row and a half; upper ones lie on top.
+    // A scale hangs down over a row and a half, and the upper ones lie on top.
     for row in [y.floor() - 1.0, y.floor()] {
         let shifted = x + 0.5 * row.rem_euclid(2.0);
         let side = 2.0 * (shifted - shifted.floor()) - 1.0;
         let down = (y - row) / 1.5;
         let rim = side * side + down * down;
         if rim < 1.0 {
-            // A keel along the middle, and a soft rim.
+            // The profile of a scale: a keel along the middle, and a soft rim.
             let keel = 1.0 - 0.25 * side * side;
             let soft = ((1.0 - rim) * 6.0).min(1.0);
             return (0.25 + 0.75 * down) * keel * soft;

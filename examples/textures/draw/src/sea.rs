@@ -1,5 +1,6 @@
-//! `sea.png`: the sea from above in a fresh wind, tileable both ways, for the sea of thesis figures
-//! A.8 and A.9: long swells, short chop with sharp crests, and foam where both are high.
+//! `sea.png`: the sea from above in a fresh wind, tileable in both directions, for the sea of
+//! thesis figures A.8 and A.9. Long swells and short chop have sharp crests, with foam where both
+//! are high.
 
 use super::canvas;
 use super::color::{Color, srgb};
@@ -9,7 +10,7 @@ use image::RgbImage;
 
 /// Texels along a side of the picture.
 const SIZE: u32 = 256;
-/// The trains of waves: how many run across the picture each way, and how high they are.
+/// The trains of waves: the number of waves across and down the picture, and their relative height.
 const TRAINS: [([i32; 2], f64); 9] = [
     ([2, 3], 1.0),
     ([1, 5], 0.8),
@@ -44,7 +45,7 @@ pub fn draw() -> RgbImage {
     canvas::draw(SIZE, SIZE, |texel| color_at(texel / f64::from(SIZE), &water))
 }
 
-/// The colour at `p`, where the picture is the unit square.
+/// Returns the colour at `p`, where the picture is the unit square.
 fn color_at(p: DVec2, water: &Water) -> Color {
     let height = height(p);
     // Light comes from the upper left: slopes that face it are brighter.
@@ -57,9 +58,10 @@ fn color_at(p: DVec2, water: &Water) -> Color {
     body + (water.foam - body) * foam
 }
 
-/// The height of the water, from -1 to 1.
+/// Returns the height of the water, in [-1, 1].
 fn height(p: DVec2) -> f64 {
-    // Crests wander: the plane is warped by a few hundredths of the picture, periodically.
+    // The plane is warped by a few hundredths of the picture, periodically, so that crests are not
+    // straight.
     let wobble = |seed| cloud(p * 9.0, IVec2::splat(9), seed) - 0.5;
     let p = p + DVec2::new(wobble(3), wobble(7)) * 0.11;
     let (mut sum, mut most) = (0.0, 0.0);
@@ -67,17 +69,17 @@ fn height(p: DVec2) -> f64 {
         sum += size * wave(p.dot(DVec2::new(f64::from(x), f64::from(y))));
         most += size;
     }
-    // Trains seldom agree; what is left after this is foam.
+    // Trains seldom have their crests together. The factor leaves foam to crests that do.
     (1.9 * sum / most).clamp(-1.0, 1.0)
 }
 
-/// A wave of period 1 from -1 to 1, flat in the trough and sharp at the crest: two parabolas.
+/// Returns a wave of period 1 in [-1, 1], flat in the trough and sharp at the crest: two parabolas.
 fn wave(phase: f64) -> f64 {
     let t = 2.0 * (phase - phase.floor()) - 1.0;
     2.0 * t * t - 1.0
 }
 
-/// The colour at `tone` in `[0, 1]` on a ramp.
+/// Returns the colour at `tone` in `[0, 1]` on a ramp.
 fn shade(tone: f64, ramp: &[Color; 4]) -> Color {
     let at = tone * 3.0;
     let k = (at as usize).min(2);

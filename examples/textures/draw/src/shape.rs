@@ -1,38 +1,41 @@
 //! Signed distances to flat shapes: negative inside, zero on the outline.
 //!
-//! Near a smooth outline they are true distances; beyond a sharp tip they fall short, which no line
-//! drawn inside the outline notices. Only square roots are taken, no angles, so that every machine
-//! gets the same bits.
+//! Near a smooth outline the distances are exact. Beyond a sharp tip they are too small, which does
+//! not affect lines drawn inside the outline. Only square roots are taken, no angles, so that all
+//! machines compute the same bits.
 
 use glam::DVec2;
 
-/// The sine and cosine of a sixteenth of a turn.
+/// The sine of a sixteenth of a turn.
 pub const SIN_22_5: f64 = 0.382_683_432_365_089_8;
+/// The cosine of a sixteenth of a turn.
 pub const COS_22_5: f64 = 0.923_879_532_511_286_7;
 
-/// A disc round the origin.
+/// Returns the distance to a disc around the origin.
 pub fn disc(p: DVec2, radius: f64) -> f64 {
     p.length() - radius
 }
 
-/// The parallel lines at all multiples of a pitch, across which `x` runs; nowhere negative.
+/// Returns the distance to the nearest of the parallel lines at all multiples of a pitch, for a
+/// coordinate `x` across them; never negative.
 pub fn to_multiple(x: f64, pitch: f64) -> f64 {
     (x - (x / pitch).round() * pitch).abs()
 }
 
-/// A line of some width along the outline of another shape.
+/// Returns the distance to a line of this width along the outline of another shape.
 pub fn stroke(distance: f64, width: f64) -> f64 {
     distance.abs() - width / 2.0
 }
 
-/// A lens, pointed at `(0, -half_length)` and `(0, half_length)`: the overlap of two discs.
+/// Returns the distance to a lens, pointed at `(0, -half_length)` and `(0, half_length)`: the
+/// overlap of two discs.
 pub fn lens(p: DVec2, half_length: f64, half_width: f64) -> f64 {
     let radius = (half_length * half_length + half_width * half_width) / (2.0 * half_width);
     DVec2::new(p.x.abs() + radius - half_width, p.y).length() - radius
 }
 
-/// A pointed arch, open below: straight sides up to `spring`, from there half a lens up to its tip
-/// at `spring + rise`.
+/// Returns the distance to a pointed arch, open below. Its sides are straight up to `spring`. From
+/// there half a lens rises to the tip at `spring + rise`.
 pub fn arch(p: DVec2, half_width: f64, spring: f64, rise: f64) -> f64 {
     if p.y < spring {
         p.x.abs() - half_width
@@ -41,20 +44,20 @@ pub fn arch(p: DVec2, half_width: f64, spring: f64, rise: f64) -> f64 {
     }
 }
 
-/// A square standing on a corner, `reach` from its middle to each corner.
+/// Returns the distance to a square standing on a corner, `reach` from its middle to each corner.
 pub fn diamond(p: DVec2, reach: f64) -> f64 {
     (p.x.abs() + p.y.abs() - reach) * std::f64::consts::FRAC_1_SQRT_2
 }
 
-/// `p` seen from `origin`, with the y axis turned into `direction` (any length but zero) and the
-/// x axis to its right.
+/// Returns `p` relative to `origin`, with the y axis turned into `direction` (any length but zero)
+/// and the x axis to its right.
 pub fn seen_along(p: DVec2, origin: DVec2, direction: DVec2) -> DVec2 {
     let y = direction.normalize();
     let from = p - origin;
     DVec2::new(from.dot(DVec2::new(y.y, -y.x)), from.dot(y))
 }
 
-/// Folds the plane eightfold: all eight petals of a rosette fall on the one along the positive y
+/// Folds the plane eightfold: all eight petals of a rosette fall on the petal along the positive y
 /// axis.
 pub fn fold_eight(p: DVec2) -> DVec2 {
     let p = p.abs();

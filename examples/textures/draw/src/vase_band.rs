@@ -2,8 +2,8 @@
 //!
 //! The picture's x axis goes once around the vase. Its y axis follows the contour, from the middle
 //! of the foot up the outside, over the lip and down the inside. Lengths here are in texels, `y`
-//! upwards; texels are about square where the girth is as long as the whole contour, as at the
-//! belly of a usual vase, and the bands of foot and neck are drawn wide because they are narrowed.
+//! upwards. Texels are about square where the girth is as long as the whole contour, as at the
+//! belly of a usual vase. The bands of foot and neck are drawn wide because the vase narrows them.
 //!
 //! ```text
 //! 768 ┬─────────────────────────── middle of the inside
@@ -18,8 +18,8 @@
 //!   0 ┴─────────────────────────── middle of the foot
 //! ```
 //!
-//! Rings run between the bands. They, the net and the veins of the leaves are a texel or two wide:
-//! point sampling must alias on them.
+//! Rings run between the bands. The rings, the net and the veins of the leaves are a texel or two
+//! wide, so point sampling must alias on them.
 
 use super::canvas;
 use super::color::{Color, srgb};
@@ -32,7 +32,7 @@ use image::RgbImage;
 /// Texels around the vase, and along its contour.
 const SIZE: u32 = 768;
 
-/// The paints, and the white that they stand on.
+/// The paints, and the white below them.
 #[derive(Debug)]
 struct Paints {
     porcelain: Color,
@@ -63,7 +63,7 @@ pub fn draw() -> RgbImage {
     canvas::draw(SIZE, SIZE, |p| color_at(DVec2::new(p.x, f64::from(SIZE) - p.y), &paints))
 }
 
-/// The colour at a point: what is painted there, or else the glaze.
+/// Returns the colour at a point: that of the paint there, or else of the glaze.
 fn color_at(p: DVec2, paints: &Paints) -> Color {
     let above = |floor: f64| DVec2::new(p.x, p.y - floor);
     let painted = match p.y {
@@ -77,13 +77,13 @@ fn color_at(p: DVec2, paints: &Paints) -> Color {
     painted.unwrap_or_else(|| glaze(p, paints))
 }
 
-/// Porcelain under its glaze, a little bluer where the glaze lies thicker.
+/// Returns the colour of porcelain under its glaze, a little bluer where the glaze is thicker.
 fn glaze(p: DVec2, paints: &Paints) -> Color {
     let thickness = cloud(p * 8.0 / f64::from(SIZE), IVec2::splat(8), 3);
     paints.porcelain.lerp(paints.wash, 0.02 + 0.16 * thickness * thickness)
 }
 
-/// The rings of the foot, between the bands, and of the lip.
+/// Returns the colour of the rings of the foot, between the bands, and of the lip.
 fn ring(y: f64, paints: &Paints) -> Option<Color> {
     let Paints { deep, cobalt, gold, .. } = *paints;
     let color = match y {
@@ -112,7 +112,8 @@ fn ring(y: f64, paints: &Paints) -> Option<Color> {
     Some(color)
 }
 
-/// Sixteen upright petals, and behind them the tips of sixteen more. `p.y` from 0 to 60.
+/// Returns the colour of sixteen upright petals, and behind them the tips of sixteen more. `p.y` is
+/// in [0, 60].
 fn lotus_petals(p: DVec2, paints: &Paints) -> Option<Color> {
     const PITCH: f64 = 48.0;
     let q = DVec2::new(p.x.rem_euclid(PITCH) - PITCH / 2.0, p.y);
@@ -139,7 +140,8 @@ fn petal_outline(p: DVec2) -> f64 {
     arch(p, 22.0, 25.0, 33.0)
 }
 
-/// A shape that stands behind others: outlined, light at its rim and dark where it is covered.
+/// Returns the colour of a shape behind others: outlined, light at its rim and dark where it is
+/// covered.
 fn shaded(distance: f64, paints: &Paints) -> Option<Color> {
     match distance {
         d if d > 0.0 => None,
@@ -148,12 +150,13 @@ fn shaded(distance: f64, paints: &Paints) -> Option<Color> {
     }
 }
 
-/// The chief frieze: a vine that swings up and down eight times, a blossom in every bend.
-/// `p.y` from -54 to 54.
+/// Returns the colour of the chief frieze: a vine that swings up and down eight times, a blossom in
+/// every bend. `p.y` is in [-54, 54].
 fn vine(p: DVec2, paints: &Paints) -> Option<Color> {
     /// Texels from one bend to the next.
     const BEND: f64 = 96.0;
-    // Each bend is the last one upside down. What grows on its neighbours reaches into it.
+    // Each bend is the previous one upside down. Leaves of the neighbouring bends reach into this
+    // bend.
     let bend = (p.x / BEND).floor();
     let bends = [bend, bend - 1.0, bend + 1.0].map(|bend| {
         let up = if bend.rem_euclid(2.0) == 0.0 { 1.0 } else { -1.0 };
@@ -164,8 +167,8 @@ fn vine(p: DVec2, paints: &Paints) -> Option<Color> {
     first(blossom).or_else(|| first(leaves)).or_else(|| first(stems))
 }
 
-/// Half a turn of the vine over the bend, and the branch that curls back below it, first wide, then
-/// narrow, until it is lost behind the blossom.
+/// Returns the colour of half a turn of the vine over the bend, and of the branch below it. The
+/// branch curls back, first wide, then narrow, until it ends behind the blossom.
 fn stems(q: DVec2, paints: &Paints) -> Option<Color> {
     let turn = |middle: f64, radius: f64, width: f64| {
         stroke(disc(q - DVec2::new(middle, 0.0), radius), width)
@@ -179,10 +182,11 @@ fn stems(q: DVec2, paints: &Paints) -> Option<Color> {
     (distance < 0.0).then_some(paints.deep)
 }
 
-/// A place where leaves grow: the foot, the direction, and half the length of the longest leaf.
+/// The growth of leaves: their foot, their direction, and half the length of the longest leaf.
 type Growth = (DVec2, DVec2, f64);
 
-/// Sprigs of three leaves along the outside of the stems, and single leaves within.
+/// Returns the colour of sprigs of three leaves along the outside of the stems, and of single
+/// leaves within.
 fn leaves(q: DVec2, paints: &Paints) -> Option<Color> {
     const SPRIGS: [Growth; 3] = [
         (DVec2::new(13.0, 33.5), DVec2::new(-1.0, 0.35), 15.0),
@@ -210,7 +214,8 @@ fn leaves(q: DVec2, paints: &Paints) -> Option<Color> {
         .or_else(|| SINGLE.iter().find_map(|&(foot, along, half)| one(foot, along, half)))
 }
 
-/// A leaf that grows from the origin along the y axis, with a light midrib; lighter at its tip.
+/// Returns the colour of a leaf that grows from the origin along the y axis, with a light midrib;
+/// lighter at its tip.
 fn leaf(p: DVec2, half_length: f64, paints: &Paints) -> Option<Color> {
     match lens(p - DVec2::new(0.0, half_length), half_length, half_length * 0.42) {
         d if d > 0.0 => None,
@@ -223,7 +228,8 @@ fn leaf(p: DVec2, half_length: f64, paints: &Paints) -> Option<Color> {
     }
 }
 
-/// A blossom of eight light petals before eight dark ones, with a golden heart.
+/// Returns the colour of a blossom of eight light petals before eight dark ones, with a golden
+/// heart.
 fn blossom(q: DVec2, paints: &Paints) -> Option<Color> {
     let q = q - DVec2::new(55.5, 1.5);
     let radius = q.length();
@@ -253,7 +259,8 @@ fn blossom(q: DVec2, paints: &Paints) -> Option<Color> {
     }
 }
 
-/// A running key of sixteen turns, the oldest of borders. `p.y` from 0 to 35.
+/// Returns the colour of a running key of sixteen turns, the oldest of borders. `p.y` is in [0,
+/// 35].
 fn meander(p: DVec2, paints: &Paints) -> Option<Color> {
     const KEY: [&[u8; 8]; 7] =
         [b"#######.", b"#.....#.", b"#.###.#.", b"#.#...#.", b"#.#####.", b"#.......", b"########"];
@@ -263,7 +270,8 @@ fn meander(p: DVec2, paints: &Paints) -> Option<Color> {
     (KEY[row][col] == b'#').then_some(paints.deep)
 }
 
-/// Leaves that stand around the neck, twelve in front of twelve. `p.y` from 0 to 62.
+/// Returns the colour of the leaves that stand around the neck, twelve in front of twelve. `p.y` is
+/// in [0, 62].
 fn stiff_leaves(p: DVec2, paints: &Paints) -> Option<Color> {
     const PITCH: f64 = 64.0;
     let q = DVec2::new(p.x.rem_euclid(PITCH) - PITCH / 2.0, p.y);
@@ -282,7 +290,7 @@ fn stiff_leaves(p: DVec2, paints: &Paints) -> Option<Color> {
     }
 }
 
-/// A net of fine lines with a bead in every mesh. `p.y` from 0 to 18.
+/// Returns the colour of a net of fine lines with a bead in every mesh. `p.y` is in [0, 18].
 fn net(p: DVec2, paints: &Paints) -> Option<Color> {
     let q = DVec2::new(p.x.rem_euclid(16.0) - 8.0, p.y.rem_euclid(9.0) - 4.5);
     let mesh = diamond(DVec2::new(q.x * 0.5625, q.y), 4.5);

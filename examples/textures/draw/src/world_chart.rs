@@ -10,11 +10,11 @@ use super::shape::to_multiple;
 use glam::{DVec2, IVec2};
 use image::RgbImage;
 
-/// Texels from pole to pole; twice as many go round.
+/// Texels from pole to pole; the picture is twice as wide.
 const HEIGHT: u32 = 512;
-/// How far out the last waterline is, in degrees.
+/// Distance of the last waterline from the shore, in degrees.
 const OUTERMOST: f64 = 3.1;
-/// Where waterlines are, in degrees from the shore, and how strong.
+/// Waterlines: their distances from the shore, in degrees, and their strengths, in [0, 1].
 const WATERLINES: [(f64, f64); 4] = [(0.75, 0.55), (1.4, 0.42), (2.15, 0.3), (3.0, 0.18)];
 
 /// The inks.
@@ -61,7 +61,7 @@ pub fn draw() -> RgbImage {
     })
 }
 
-/// The colour at longitude `p.x` and latitude `p.y`, in degrees.
+/// Returns the colour at longitude `p.x` and latitude `p.y`, in degrees.
 fn color_at(p: DVec2, coast: &Coast, inks: &Inks) -> Color {
     let shore = coast.distance(p);
     if shore < 0.17 {
@@ -77,7 +77,8 @@ fn color_at(p: DVec2, coast: &Coast, inks: &Inks) -> Color {
             color += (inks.line - color) * strength;
         }
     }
-    // Lines are as wide on the globe everywhere, so a degree of longitude counts for its cosine.
+    // Lines have the same width everywhere on the globe, so a degree of longitude is scaled by the
+    // cosine of the latitude.
     let to_meridian = |pitch: f64| to_multiple(p.x, pitch) * cosine(p.y.abs());
     let ruled = p.y.abs() < 80.0 && to_meridian(15.0) < 0.12 || to_multiple(p.y, 15.0) < 0.12;
     if p.y.abs() < 0.32 {
@@ -87,7 +88,7 @@ fn color_at(p: DVec2, coast: &Coast, inks: &Inks) -> Color {
     if ruled || to_meridian(90.0) < 0.2 { color + (inks.line - color) * 0.55 } else { color }
 }
 
-/// The colour of land: by latitude, mottled, darker toward the shore.
+/// Returns the colour of land: by latitude, mottled, darker toward the shore.
 fn land(p: DVec2, shore: f64, inks: &Inks) -> Color {
     let mottle = cloud((p + DVec2::new(180.0, 90.0)) / 9.0, IVec2::new(40, 40), 3) - 0.5;
     let latitude = p.y + 26.0 * mottle;

@@ -1,4 +1,4 @@
-//! The conclusions, and a table of all pages.
+//! The section of conclusions, and a table of all pages.
 
 use super::super::advice::{Question, Sentence};
 use super::super::measured::{Measured, PageMeasured, Trial};

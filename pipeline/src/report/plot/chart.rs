@@ -30,7 +30,7 @@ pub struct Series {
     pub name: String,
     /// The look of line and marks.
     pub look: Look,
-    /// Whether a line joins the points.
+    /// True if a line joins the points.
     pub joined: bool,
     /// The points, in the order in which the line joins them.
     pub points: Vec<Point>,

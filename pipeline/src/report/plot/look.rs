@@ -27,7 +27,7 @@ pub struct Look {
     pub color: u8,
     /// The shape of its mark.
     pub mark: Mark,
-    /// Whether the mark is empty.
+    /// True if the mark is empty.
     pub hollow: bool,
 }
 

@@ -97,8 +97,8 @@ impl Search<'_> {
         Some(Turn { angle, before, after })
     }
 
-    /// Returns, of the points between the ends of two legs, the one furthest from the line through these
-    /// ends.
+    /// Returns the index of the point between the ends of two legs that is furthest from the line
+    /// through these ends.
     fn tip(&self, turn: Turn) -> usize {
         let count = self.points.len();
         let (from, to) = (self.kept[turn.before], self.kept[turn.after]);

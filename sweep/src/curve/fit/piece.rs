@@ -71,8 +71,9 @@ fn chord_lengths(points: &[DVec2]) -> Vec<f64> {
 /// Returns the cubic whose handles have given directions and the lengths with the least sum of squared
 /// distances. If a length would be out of bounds, both are a third of the chord.
 ///
-/// If a point has a normal, only the distance along the normal counts, so that points slide along the curve.
-/// That is a Gauss-Newton step for the true distances, where plain steps take hundreds of rounds.
+/// If a point has a normal, only the distance along the normal counts, so that points slide along
+/// the curve. Such a step is a Gauss-Newton step for the true distances, where plain steps take
+/// hundreds of rounds.
 fn least_squares(
     points: &[DVec2],
     at: &[f64],

@@ -17,7 +17,8 @@ impl Helix {
         self.radius.hypot(self.climb)
     }
 
-    /// The normal of a rotation-minimizing frame: Frenet's normal turned back by the torsion.
+    /// Returns the normal of a rotation-minimizing frame: Frenet's normal turned back by the
+    /// torsion.
     fn truth(&self, s: f64) -> DVec3 {
         let place = self.at(s);
         let normal = place.curvature.normalize();
@@ -196,7 +197,7 @@ impl Curve3 for Trefoil {
         self.lengths.iter().copied().step_by(128).collect()
     }
 
-    /// Frames need points and tangents, and hardly any evenness of the speed.
+    /// Frames need exact points and tangents, but hardly an even speed.
     fn at(&self, s: f64) -> Local3 {
         trefoil(self.parameter(s))
     }

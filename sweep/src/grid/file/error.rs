@@ -31,7 +31,7 @@ pub enum GridError {
     NotAGrid {
         /// The file as the user named it.
         name: String,
-        /// What the file looks like, and what to do with it.
+        /// The kind of file that the bytes resemble, and the remedy.
         found: String,
     },
     /// The file ends inside the header line.
@@ -54,7 +54,7 @@ pub enum GridError {
         line: usize,
         /// The longest line that a grid of this size can have.
         limit: usize,
-        /// What the line should have been.
+        /// The kind of line that was expected.
         expected: &'static str,
     },
     /// The grid has an unsupported version.
@@ -94,7 +94,7 @@ pub enum GridError {
         rows: usize,
         /// Name of the value, such as `v` or `the position of column 3`.
         subject: String,
-        /// What was found, and what was expected.
+        /// The found and the expected value, in words.
         message: String,
     },
     /// The file ends after the last row, before the end of the footer.

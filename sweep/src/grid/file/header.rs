@@ -16,8 +16,8 @@ const FORMAT: &str = "tb-grid";
 const START: &[u8] = br#"{"format":"tb-grid","#;
 /// The `version` of the header line.
 const VERSION: u64 = 1;
-/// Largest number of columns. It bounds the memory that a reader spends on a file it cannot trust yet. A row
-/// of this length is 36 MiB; the finest pictures need a thousandth of it.
+/// Largest number of columns. The bound limits the memory that a reader spends on a file it cannot
+/// trust yet. A row of this length is 36 MiB; the finest pictures need a thousandth of it.
 pub(crate) const MAX_COLS: usize = 1 << 20;
 /// Largest number of rows: rows are counted with 32 bits, as in the OBJ made from them.
 const MAX_ROWS: usize = u32::MAX as usize;
@@ -178,7 +178,7 @@ impl Header {
         self.u.len()
     }
 
-    /// Returns a message about what is wrong with the seams or the shift, if anything is.
+    /// Returns a message about the fault of the seams or the shift; `None` if they are valid.
     #[must_use]
     pub fn seam_fault(&self) -> Option<String> {
         let fault = seam::check([self.seam_u, self.seam_v], self.shift, self.cols()).err();
@@ -285,7 +285,7 @@ pub(super) fn read(
     let read_error = |source| GridError::Read { name: name.into(), source };
     let not_a_grid = |found| GridError::NotAGrid { name: name.into(), found };
 
-    // A grid starts with a brace; a few bytes suffice to identify anything else.
+    // A grid starts with a brace; a few bytes suffice to identify any other file.
     let mut bytes = Vec::new();
     input.by_ref().take(1).read_to_end(&mut bytes).map_err(read_error)?;
     if bytes.is_empty() {

@@ -56,7 +56,8 @@ pub fn read_all(name: &str, input: impl BufRead) -> Result<Vec<GridMesh>, GridEr
 /// Reads the rest of the current patch into memory.
 fn rest_of(reader: &mut GridReader<impl BufRead>) -> Result<GridMesh, GridError> {
     let (mut v, mut positions, mut normals) = (Vec::new(), Vec::new(), Vec::new());
-    // The memory reserved is what the header states. Vectors that grow by doubling take up to twice that.
+    // The reserved memory is that of the stated size. Vectors that grow by doubling take up to
+    // twice as much.
     let (rows, cols) = (reader.header.rows, reader.header.cols());
     let _reserved = memory::of_process()
         .reserve(grid::bytes(rows, cols).saturating_mul(2), || {

@@ -28,7 +28,7 @@ fn assert_same_bits(a: &GridMesh, b: &GridMesh) {
     assert_eq!(bits(a), bits(b));
 }
 
-/// Finite numbers, among them some that text formats often lose.
+/// Returns finite numbers, among them some that text formats often lose.
 fn nasty_f64() -> impl Strategy<Value = f64> {
     prop_oneof![
         prop::sample::select(vec![

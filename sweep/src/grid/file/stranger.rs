@@ -1,4 +1,4 @@
-//! Descriptions of files that are not grids, so that messages can say what to do with them.
+//! Descriptions of files that are not grids, so that messages can state a remedy.
 
 /// Descriptions of files known by their first bytes.
 const KNOWN: [(&[u8], &str); 7] = [

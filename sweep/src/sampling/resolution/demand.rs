@@ -25,8 +25,8 @@ const MOST_BLOCKS: usize = 1 << 15;
 /// Steps of the descent. After 60 steps the number of cells is within a percent of its limit.
 const STEPS: usize = 60;
 
-/// Least load of a cell as large as a whole direction. It keeps the cells of flat surfaces finite, and is far
-/// too small to add a cell.
+/// Least load of a cell as large as a whole direction. This load keeps the cells of flat surfaces
+/// finite, and is far too small to add a cell.
 const LEAST_LOAD: f64 = 1e-4;
 
 /// Costs that differ by less than this fraction are equal, and the earlier counts. So rounding, and with it
@@ -60,16 +60,20 @@ struct Need {
 
 struct Problem {
     needs: Vec<Need>,
-    /// Extents of the blocks along the contour and the trajectory, as fractions.
+    /// Extents of the blocks along the contour, as fractions of its length.
     widths: Vec<f64>,
+    /// Extents of the blocks along the trajectory, as fractions of its length.
     heights: Vec<f64>,
 }
 
-/// Squared widths and heights, and the largest load that they cause.
+/// Sizes of the blocks, and the largest load that these sizes cause.
 #[derive(Debug, Clone)]
 struct Sizes {
+    /// Squared width of the cells in each column of blocks.
     x: Vec<f64>,
+    /// Squared height of the cells in each row of blocks.
     y: Vec<f64>,
+    /// The largest load of a block.
     worst: f64,
 }
 

@@ -1,10 +1,11 @@
 //! Distance of the triangles of a cut surface from the surface.
 //!
-//! A cell is measured where triangles are farthest from a surface of the second order. These are the middle
-//! of its sides, its own middle, and the middle of its two triangles. The distance is that of the true point
-//! there to the triangles, so the surface may slide along them. At an edge between two cells, the triangles
-//! of the nearer cell count. The angle is that between a triangle and the true normals at its corners, where
-//! a surface of the second order turns away furthest.
+//! A cell is measured where triangles are farthest from a surface of the second order. These
+//! positions are the middles of its sides, its own middle, and the middles of its two triangles.
+//! The distance is that of the true point there to the triangles, so the surface may slide along
+//! them. At an edge between two cells, the triangles of the nearer cell count. The angle is that
+//! between a triangle and the true normals at its corners, where a surface of the second order
+//! turns away furthest.
 //!
 //! All errors are *loads*: relative to the tolerance, and of the second order in the size of the cell. An
 //! angle is of the first order, so it is squared. A load of 1 is just allowed.
@@ -17,8 +18,9 @@ use crate::surface::profile::Column;
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// Distance of a position beside a kink from the kink, as a fraction of the cell's height. Larger, and the normal there
-/// differs from the limit; smaller, and it rounds to the kink itself.
+/// Distance of a position beside a kink from the kink, as a fraction of the cell's height. At a
+/// larger distance, the normal differs from the limit. At a smaller distance, the position rounds
+/// to the kink itself.
 const BESIDE: f64 = 1e-9;
 
 /// The loads of a cell: errors relative to the tolerance.
@@ -54,7 +56,9 @@ struct Strip {
     loads: Vec<Load>,
     /// Errors of each cell's lower and upper side, measured against the cell's own triangles.
     sides: Vec<[Off; 2]>,
+    /// The largest distance of the row.
     distance: Off,
+    /// The largest squared chord between the unit normals of a triangle and of the surface.
     turn_sq: f64,
 }
 

@@ -63,7 +63,7 @@ pub enum Distance {
     Pixels(f64, View),
 }
 
-/// What a grid made to a tolerance achieves.
+/// The accuracy and the cost of a grid made to a tolerance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reached {
     /// Largest measured distance between the triangles and the surface, in the spec's unit.
@@ -74,9 +74,9 @@ pub struct Reached {
     pub angle_deg: f64,
     /// Number of cells, without those of no width at creases.
     pub quads: usize,
-    /// How many times the surface was cut and measured.
+    /// Number of times that the surface was cut and measured.
     pub rounds: usize,
-    /// Whether the whole tolerance is kept.
+    /// True if the whole tolerance is kept.
     pub kept: bool,
 }
 

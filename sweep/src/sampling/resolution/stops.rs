@@ -16,11 +16,11 @@ pub struct Direction {
     pub breaks: Vec<f64>,
     /// Positions where the surface has an edge with one normal. A stop lies at each.
     pub kinks: Vec<f64>,
-    /// Whether the direction is closed.
+    /// True if the direction is closed.
     pub closed: bool,
     /// The fewest cells allowed.
     pub fewest: usize,
-    /// Whether the end of a closed direction meets its start point by point.
+    /// True if the end of a closed direction meets its start point by point.
     pub meets: bool,
     /// If given, stops are even between breaks and these positions, as `cut::between` places them, and no
     /// stops are put at kinks.

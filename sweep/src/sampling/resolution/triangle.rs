@@ -15,7 +15,7 @@ const NO_AREA: f64 = 1e-12;
 /// The two triangles of a cell with corners A, B, C, D, counter-clockwise from its first corner.
 #[derive(Debug, Clone, Copy)]
 pub struct Pair {
-    /// Whether the diagonal runs from A to C; otherwise it runs from B to D.
+    /// True if the diagonal runs from A to C; otherwise it runs from B to D.
     pub ac: bool,
     /// Indices of the corners of both triangles.
     pub corners: [[usize; 3]; 2],

@@ -18,14 +18,17 @@ const NEAREST: f64 = 1e-3;
 #[derive(Debug, Clone, PartialEq)]
 pub struct View {
     eye: DVec3,
-    /// Unit axes of the view: to the right, up, and forward.
+    /// Unit axis of the view to the right.
     right: DVec3,
+    /// Unit axis of the view upward.
     up: DVec3,
+    /// Unit axis of the view forward.
     forward: DVec3,
     /// Half the picture's width and height at distance 1 from the eye.
     half: [f64; 2],
     /// Side of a pixel at distance 1 from the eye.
     pixel: f64,
+    /// Least distance from the eye for the size of a pixel, in the unit of length.
     nearest: f64,
 }
 

@@ -32,7 +32,7 @@ use crate::trajectory::{Station, Trajectory};
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 
-/// The laws by which a contour changes. A law that is `None` changes nothing.
+/// The laws by which a contour changes. A law that is `None` leaves the contour unchanged.
 #[derive(Debug, Clone, Default)]
 pub struct Modulation {
     /// Positions of the contours on the trajectory, if there are several.
@@ -65,7 +65,7 @@ pub struct Section {
     extent: f64,
     /// On a cap, the contraction of the contour toward the pole.
     gathered: Option<Gathered>,
-    /// Whether the contour has no scale, relief, blend or contraction.
+    /// True if the contour has no scale, relief, blend or contraction.
     plain: bool,
 }
 
@@ -75,12 +75,13 @@ struct Local {
     q: DVec2,
     /// Direction of the contour, divided by the scale so that it does not vanish with the scale.
     q_u: DVec2,
+    /// Derivative of the point by length of the trajectory, or by radian for a rotation.
     q_s: DVec2,
-    /// Whether the contour itself folds back here.
+    /// True if the contour itself folds back here.
     folds: bool,
 }
 
-/// A point of a section in space, with everything that one evaluation of the contour gives.
+/// A point of a section in space, with all results of one evaluation of the contour.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct SectionPoint {
     /// The point, in the unit of length.
@@ -89,7 +90,7 @@ pub(crate) struct SectionPoint {
     pub normal: DVec3,
     /// Speed of the point along the tangent, per length of the trajectory: see [`Station::stretch`].
     pub stretch: f64,
-    /// Whether the contour itself folds back here, because its relief is deeper than it is round.
+    /// True if the contour itself folds back here, because its relief is deeper than it is round.
     pub contour_folds: bool,
 }
 

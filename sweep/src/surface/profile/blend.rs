@@ -22,17 +22,20 @@ pub struct Blend {
     pub(crate) at: Vec<f64>,
     /// Interpolation between two neighbouring contours.
     pub(crate) ease: Ease,
-    /// Whether the last contour blends into the first.
+    /// True if the last contour blends into the first.
     pub(crate) wraps: bool,
 }
 
 /// Two neighbouring contours and the weight of the second.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Mix {
+    /// Index of the first contour.
     from: usize,
+    /// Index of the second contour.
     to: usize,
-    /// Weight of the second contour in `[0, 1]`; `part_v` is its derivative by `v`.
+    /// Weight of the second contour in `[0, 1]`.
     part: f64,
+    /// Derivative of the weight by `v`.
     part_v: f64,
 }
 

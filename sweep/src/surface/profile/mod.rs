@@ -29,8 +29,8 @@ pub struct Profile {
     contours: Vec<Aligned>,
     /// Positions of the creases as fractions of the length, rising.
     breaks: Vec<f64>,
-    /// Factors of both axes, 1 or -1, if the profile is mirrored. A mirrored profile runs in the other direction
-    /// round.
+    /// Factors of both axes, 1 or -1, if the profile is mirrored. A mirrored profile runs in the
+    /// opposite direction.
     mirror: Option<DVec2>,
 }
 
