@@ -1,12 +1,13 @@
-//! The shape of the house, held against the source: who may import whom, how long a file may be,
-//! and that what the pages name is there.
+//! Checks the structure of the source: imports between crates and between modules, and the length of
+//! files. [`pages`] checks the names on the project's pages.
 
+mod pages;
 pub mod source;
 
-use source::{code, has_word, paths, read, root, rust_files, spans, without_tests};
+use source::{code, has_word, paths, read, root, rust_files, without_tests};
 use std::collections::BTreeSet;
 
-/// The crates, and which of ours each may import.
+/// The crates of the workspace, and for each the crates among them that it may import.
 const CRATES: [(&str, &[&str]); 7] = [
     ("files", &[]),
     ("sweep", &["files"]),
@@ -17,12 +18,12 @@ const CRATES: [(&str, &[&str]); 7] = [
     ("fuzz", &["files", "sweep", "triangulate", "render", "compare", "pipeline"]),
 ];
 
-/// The rooms of a crate from the bottom up, and into which others each one looks: only at rooms
-/// above it in this list, which is below it in the house.
-type Rooms = &'static [(&'static str, &'static [&'static str])];
+/// The modules of a crate from the lowest layer to the highest, and for each the modules that it
+/// imports. A module imports only modules above it in the list.
+type Layers = &'static [(&'static str, &'static [&'static str])];
 
-/// The rooms of `render`.
-const RENDER: Rooms = &[
+/// The modules of `render`.
+const RENDER: Layers = &[
     ("color", &[]),
     ("optics", &[]),
     ("ray", &[]),
@@ -47,8 +48,8 @@ const RENDER: Rooms = &[
     ("inspect", &["color", "film", "footprint", "prepared", "scene", "shade", "trace"]),
 ];
 
-/// The rooms of `sweep`.
-const SWEEP: Rooms = &[
+/// The modules of `sweep`.
+const SWEEP: Layers = &[
     ("error", &[]),
     ("limits", &[]),
     ("curve", &[]),
@@ -78,15 +79,15 @@ const SWEEP: Rooms = &[
     ("preview", &["check", "curve", "frame", "grid", "law", "sampling"]),
 ];
 
-/// The doors of a crate, which see all rooms.
-const DOORS: [&str; 3] = ["lib", "main", "cli"];
+/// The entry points of a crate, which may import all of its modules.
+const ENTRY_POINTS: [&str; 3] = ["lib", "main", "cli"];
 
-/// Lines of a file at most, its tests included.
+/// Largest number of lines of a file, including its tests.
 const LONGEST: usize = 400;
 
 /// Library files that may print, each with the reason.
 const PRINTERS: [(&str, &str); 1] =
-    [("files/src/exit.rs", "the one place where the programs print an error")];
+    [("files/src/exit.rs", "the only function with which the programs print an error")];
 
 #[test]
 fn crates_import_only_what_they_may() {
@@ -111,53 +112,53 @@ fn crates_import_only_what_they_may() {
 }
 
 #[test]
-fn rooms_of_render_look_only_one_way() {
-    look_only_one_way("render", RENDER);
+fn modules_of_render_import_only_lower_layers() {
+    assert_layers("render", RENDER);
 }
 
 #[test]
-fn rooms_of_sweep_look_only_one_way() {
-    look_only_one_way("sweep", SWEEP);
+fn modules_of_sweep_import_only_lower_layers() {
+    assert_layers("sweep", SWEEP);
 }
 
-/// Checks that the rooms of a crate import each other as their list says.
-fn look_only_one_way(krate: &str, rooms: Rooms) {
-    for (at, (room, allowed)) in rooms.iter().enumerate() {
-        for below in *allowed {
-            let known = rooms[..at].iter().any(|(name, _)| name == below);
-            assert!(known, "the list lets {room} look at {below}, which is not above it there");
+/// Asserts that the modules of a crate import exactly the modules that `layers` allows.
+fn assert_layers(krate: &str, layers: Layers) {
+    for (at, (layer, allowed)) in layers.iter().enumerate() {
+        for lower in *allowed {
+            let known = layers[..at].iter().any(|(name, _)| name == lower);
+            assert!(known, "the list allows {layer} to import {lower}, which is not above it");
         }
     }
     let source = format!("{krate}/src");
-    let mut looks = BTreeSet::new();
+    let mut imports = BTreeSet::new();
     for file in rust_files(&source) {
         let module = module_of(file.strip_prefix(&source).unwrap().trim_start_matches('/'));
-        if DOORS.contains(&module[0].as_str()) {
+        if ENTRY_POINTS.contains(&module[0].as_str()) {
             continue;
         }
-        let room =
-            room_of(rooms, &module).unwrap_or_else(|| panic!("{file}: in no room of the list"));
+        let layer =
+            layer_of(layers, &module).unwrap_or_else(|| panic!("{file}: in no module of the list"));
         for path in paths(&without_tests(&code(&read(&file))), &["crate", "super"]) {
             let path = from_the_root(&module, &path);
-            let Some(other) = room_of(rooms, &path) else {
-                panic!("{file}: found crate::{}, expected a room of the list", path.join("::"));
+            let Some(other) = layer_of(layers, &path) else {
+                panic!("{file}: found crate::{}, expected a module of the list", path.join("::"));
             };
-            if other == room {
+            if other == layer {
                 continue;
             }
-            let (_, allowed) = rooms.iter().find(|(name, _)| *name == room).unwrap();
+            let (_, allowed) = layers.iter().find(|(name, _)| *name == layer).unwrap();
             assert!(
                 allowed.contains(&other),
-                "{file}: {room} looks at {other}, as no list lets it"
+                "{file}: {layer} imports {other}, which the list does not allow"
             );
-            looks.insert((room, other));
+            imports.insert((layer, other));
         }
     }
-    for (room, allowed) in rooms {
+    for (layer, allowed) in layers {
         for other in *allowed {
             assert!(
-                looks.contains(&(*room, *other)),
-                "{room} looks at {other} no more; take it off the list"
+                imports.contains(&(*layer, *other)),
+                "{layer} does not import {other}; remove it from the list"
             );
         }
     }
@@ -171,7 +172,7 @@ fn no_file_is_long() {
     }
 }
 
-/// Cargo compiles only what `tests/main.rs` names: a file that is not a module there would never run.
+/// Cargo compiles only the modules of `tests/main.rs`. The tests of any other file would never run.
 #[test]
 fn every_test_file_is_a_module_of_the_test_binary() {
     for folder in ["tests", "fuzz/tests", "render/tests", "sweep/tests", "triangulate/tests"] {
@@ -186,76 +187,6 @@ fn every_test_file_is_a_module_of_the_test_binary() {
                 );
             }
         }
-    }
-}
-
-#[test]
-fn files_and_folders_that_pages_name_exist() {
-    for page in [
-        "ARCHITECTURE.md",
-        "docs/compare.md",
-        "docs/conventions.md",
-        "docs/hard-cases.md",
-        "docs/mapping.md",
-        "docs/thesis-map.md",
-    ] {
-        let text = read(page);
-        let named = spans(&text);
-        let named = named.iter().filter(|span| span.ends_with(".rs") || span.ends_with('/'));
-        for span in named {
-            assert!(is_there(span), "{page}: found `{span}`, expected a file or a folder");
-        }
-    }
-}
-
-#[test]
-fn the_thesis_map_names_code_and_tests_that_exist() {
-    let tests = test_functions();
-    let page = read("docs/thesis-map.md");
-    let rows: Vec<Vec<&str>> = page
-        .lines()
-        .filter(|line| line.starts_with("| ") && !line.starts_with("| Thesis "))
-        .map(|line| line.split('|').collect())
-        .collect();
-    assert!(rows.len() > 20, "found {} rows, expected the whole thesis", rows.len());
-    for row in rows {
-        assert_eq!(row.len(), 6, "expected four columns: {row:?}");
-        let (place, held_by) = (row[2], row[3]);
-        let mut source = String::new();
-        for span in spans(place) {
-            if span.contains('/') {
-                assert!(root().join(span).exists(), "{span} does not exist: {row:?}");
-                source = code(&read(span));
-            } else {
-                assert!(has_word(&source, span), "`{span}` is not in that file: {row:?}");
-            }
-        }
-        assert_held(held_by, &tests, &row);
-    }
-}
-
-#[test]
-fn the_hard_cases_are_held_by_tests_that_exist() {
-    let tests = test_functions();
-    let page = read("docs/hard-cases.md");
-    let rows: Vec<Vec<&str>> = page
-        .lines()
-        .filter(|line| line.starts_with("| ") && !line.starts_with("| Asked "))
-        .map(|line| line.split('|').collect())
-        .collect();
-    assert!(rows.len() > 30, "found {} rows, expected all cases", rows.len());
-    for row in rows {
-        assert_eq!(row.len(), 5, "expected three columns: {row:?}");
-        assert_held(row[3], &tests, &row);
-    }
-}
-
-/// Checks that a cell names tests that exist, or says that there are none yet.
-fn assert_held(held_by: &str, tests: &BTreeSet<String>, row: &[&str]) {
-    let named = spans(held_by);
-    assert!(!named.is_empty() || held_by.contains("none yet"), "held by what? {row:?}");
-    for test in named {
-        assert!(tests.contains(test), "no test is called `{test}`: {row:?}");
     }
 }
 
@@ -295,24 +226,24 @@ fn libraries_do_not_print() {
     }
 }
 
-/// Clashes are found because every file of a program goes through its ledger.
+/// The ledger finds clashes only if a program opens every file through it.
 #[test]
 fn programs_open_files_only_through_the_ledger() {
-    let doors = ["Disk", "File::", "fs::read", "fs::write", "OpenOptions", "Output::check"];
+    let direct = ["Disk", "File::", "fs::read", "fs::write", "OpenOptions", "Output::check"];
     let programs = ["triangulate/src/main.rs", "triangulate/src/cli.rs"];
     let programs = programs.map(String::from).into_iter();
     let cli = |file: &String| file.contains("/cli.rs") || file.contains("/cli/");
-    let rooms = ["sweep/src", "render/src", "pipeline/src"];
-    let rooms = rooms.into_iter().flat_map(rust_files).filter(cli);
-    for file in programs.chain(rooms) {
+    let sources = ["sweep/src", "render/src", "pipeline/src"];
+    let sources = sources.into_iter().flat_map(rust_files).filter(cli);
+    for file in programs.chain(sources) {
         let code = without_tests(&code(&read(&file)));
-        for door in doors {
-            let past = code
-                .match_indices(door)
+        for name in direct {
+            let found = code
+                .match_indices(name)
                 .any(|(at, _)| !code[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_'));
-            assert!(!past, "{file}: found {door}, expected the ledger");
+            assert!(!found, "{file}: found {name}, expected the ledger");
         }
-        // Standard output clashes with no file, and the numbers of a report are claimed before.
+        // Standard output clashes with no file, and the ledger knows the numbers of a report.
         for (at, _) in code.match_indices("Output::create(") {
             let rest = &code[at + "Output::create(".len()..];
             let allowed = rest.starts_with("Path::new(") || file == "pipeline/src/cli/report.rs";
@@ -321,13 +252,14 @@ fn programs_open_files_only_through_the_ledger() {
     }
 }
 
-/// The module of a file under `src`: `filter/axis.rs` is `filter::axis`, `filter/mod.rs` `filter`.
+/// Returns the module path of a file under `src`: `filter::axis` for `filter/axis.rs`, `filter` for
+/// `filter/mod.rs`.
 fn module_of(file: &str) -> Vec<String> {
     let path = file.trim_end_matches(".rs").trim_end_matches("/mod");
     path.split('/').map(Into::into).collect()
 }
 
-/// A path that starts with `crate` or `super` in a module, from the root of its crate.
+/// Returns a path that starts with `crate` or `super` in a module as a path from the crate's root.
 fn from_the_root(module: &[String], path: &[String]) -> Vec<String> {
     let up = path.iter().take_while(|word| *word == "super").count();
     if up == 0 {
@@ -336,54 +268,14 @@ fn from_the_root(module: &[String], path: &[String]) -> Vec<String> {
     [&module[..module.len() - up], &path[up..]].concat()
 }
 
-/// The room that a path from the root of its crate leads into.
-fn room_of(rooms: Rooms, path: &[String]) -> Option<&'static str> {
+/// Returns the module of the list that contains a path from the root of its crate.
+fn layer_of(layers: Layers, path: &[String]) -> Option<&'static str> {
     let first = path.first()?;
-    rooms.iter().map(|(name, _)| *name).find(|name| name == first)
+    layers.iter().map(|(name, _)| *name).find(|name| name == first)
 }
 
-/// Whether a page's name for a file or a folder (with a slash at its end) leads to one: from the
-/// root, from a crate, or from a crate's source.
-fn is_there(name: &str) -> bool {
-    let mut places = vec![root()];
-    for (krate, _) in CRATES {
-        places.push(root().join(krate));
-        places.push(root().join(krate).join("src"));
-    }
-    places
-        .iter()
-        .map(|place| place.join(name))
-        .any(|path| if name.ends_with('/') { path.is_dir() } else { path.is_file() })
-}
-
-/// The names of all test functions of the tree.
-fn test_functions() -> BTreeSet<String> {
-    let mut names = BTreeSet::new();
-    for file in rust_files("") {
-        let code = code(&read(&file));
-        for (at, mark) in code.match_indices("#[test]") {
-            let rest = &code[at + mark.len()..];
-            let name = rest.split_once("fn ").and_then(|(_, rest)| rest.split(['(', '<']).next());
-            names.extend(name.map(String::from));
-        }
-    }
-    names
-}
-
-/// Folders of tests have names of their own: what their page calls a file or a folder is there.
-#[test]
-fn the_page_of_tests_names_files_and_folders_that_exist() {
-    let text = read("tests/README.md");
-    let named = spans(&text);
-    let named: Vec<_> =
-        named.iter().filter(|span| span.ends_with(".rs") || span.ends_with('/')).collect();
-    assert!(named.len() > 10, "found {named:?}, expected all folders of tests");
-    for span in named {
-        assert!(is_there(span), "tests/README.md: found `{span}`, expected a file or a folder");
-    }
-}
-
-/// Manifests switch off what would be compiled for nothing: then nothing may be there that ought to run.
+/// Manifests disable targets without tests, which saves their compilation. Such a target may then
+/// have no tests.
 #[test]
 fn targets_that_are_not_tested_have_no_tests() {
     for (name, _) in CRATES {
@@ -404,7 +296,7 @@ fn targets_that_are_not_tested_have_no_tests() {
     }
 }
 
-/// The number of code blocks in doc comments that have no other language than Rust.
+/// Returns the number of Rust code blocks in doc comments.
 fn rust_examples(text: &str) -> usize {
     let docs = text.lines().map(str::trim_start);
     let docs = docs.filter_map(|line| line.strip_prefix("//!").or(line.strip_prefix("///")));

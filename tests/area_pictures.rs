@@ -23,7 +23,7 @@ fn swept(keys: &Value) -> GridMesh {
     Sweep::read(&document).unwrap_or_else(|error| panic!("{error}")).grid()
 }
 
-/// A tube of radius 1 along y, from -1.5 to 1.5, of three rows of 96 cells.
+/// Returns a tube of radius 1 along y, from -1.5 to 1.5, of three rows of 96 cells.
 fn tube(areas: &Value) -> GridMesh {
     swept(&json!({
         "contour": {"circle": 1}, "trajectory": {"line": [[0, -1.5, 0], [0, 1.5, 0]]},
@@ -31,7 +31,7 @@ fn tube(areas: &Value) -> GridMesh {
     }))
 }
 
-/// The surface with pictures on it, unlit, by texture id.
+/// Returns a scene of the surface with pictures on it, unlit, by texture id.
 fn shown(grid: &GridMesh, eye: DVec3, textures: &[(u32, usize, Vec<[u8; 3]>)]) -> Scene {
     let mut obj = Vec::new();
     triangulate::write_obj(grid, &Options::default(), &mut obj).expect("memory takes it");
@@ -57,13 +57,13 @@ fn shown(grid: &GridMesh, eye: DVec3, textures: &[(u32, usize, Vec<[u8; 3]>)]) -
     scene(&keys[1..keys.len() - 1], &files)
 }
 
-/// The direction in which the seam of the tube lies from its axis.
+/// Returns the direction from the axis of the tube to its seam.
 fn seam(grid: &GridMesh) -> DVec3 {
     let first = grid.positions[0];
     DVec3::new(first.x, 0.0, first.z).normalize()
 }
 
-/// 32 by 8 texels of many colours; `turned` by half of its width.
+/// Returns 32 by 8 texels of many colours. The columns are moved by half the width, `turned` times.
 fn many_colored(turned: usize) -> Vec<[u8; 3]> {
     let texel =
         |i: usize, j: usize| [37 * i % 256, 53 * j % 256, 29 * i * j % 256].map(|x| x as u8);
@@ -72,8 +72,8 @@ fn many_colored(turned: usize) -> Vec<[u8; 3]> {
 
 #[test]
 fn pictures_that_go_once_and_three_times_around_show_no_seam() {
-    // Half a turn is half a picture for the first area, and one and a half for the second; so
-    // turning the picture and the eye by half a turn brings the seam of both to the front.
+    // Half a turn is half a picture for the first area, and one and a half for the second. Rotating
+    // the picture and the eye by half a turn therefore moves the seam of both areas to the front.
     let grid = tube(&json!([
         {"rows": [0, 1], "cols": [0, 96], "texture": 1, "repeat": [1, 1]},
         {"rows": [1, 3], "cols": [0, 96], "texture": 1, "repeat": [3, 1]},
@@ -82,14 +82,14 @@ fn pictures_that_go_once_and_three_times_around_show_no_seam() {
     for filter in AREA_FILTERS {
         let front = picture(&shown(&grid, eye, &[(1, 32, many_colored(1))]), 60, filter);
         let back = picture(&shown(&grid, -eye, &[(1, 32, many_colored(0))]), 60, filter);
-        // Corners are rounded to f32, and a texel is a thousandth of it wide.
+        // Corners are rounded to f32, which moves the edges of texels slightly.
         assert_near(&front, &back, 1e-4);
     }
 }
 
 #[test]
 fn an_area_that_ends_before_the_seam_keeps_its_picture_whole() {
-    // From 24 to 72 of 96 cells: the side away from the seam, once around halfway.
+    // From cell 24 to 72 of 96: the side away from the seam, and halfway around.
     let areas = json!([{"rows": [0, 3], "cols": [24, 72], "texture": 1, "repeat": [1, 1]}]);
     let mut grid = tube(&areas);
     grid.texture = Some(2);
@@ -101,12 +101,12 @@ fn an_area_that_ends_before_the_seam_keeps_its_picture_whole() {
         let seen = picture(&shown(&grid, eye, &textures), 60, filter);
         let mut inside = 0;
         for ((x, y, pixel), truth) in pixels(&seen).zip(&truth.pixels) {
-            // In the middle of the tube, away from the sky beside it.
+            // Pixels in the middle of the tube, away from the sky beside it.
             let grey = pixel[0] == pixel[2] && (truth[0] - truth[2]).abs() < 1e-6;
             if grey && (22..38).contains(&x) && (18..42).contains(&y) {
                 inside += 1;
-                // The footprint is two pixels wide where the truth has one: at the tube's sides
-                // the ramp runs away, and that costs a few hundredths.
+                // The footprint is two pixels wide and the truth's one. At the sides of the tube
+                // the ramp is not linear, which costs a few hundredths.
                 let error = (pixel[0] - truth[0]).abs();
                 assert!(error < 0.03, "{filter:?} at {x} {y}: {pixel:?} {truth:?}");
             }
@@ -128,14 +128,14 @@ fn areas_of_one_mesh_show_their_own_textures_and_never_mix() {
     let scene = shown(&grid, 5.0 * seam(&grid), &textures);
     let points = picture(&scene, 61, Filter::Point);
     for filter in AREA_FILTERS {
-        // A pixel is of the area that its middle is on, whatever is beside it.
+        // A pixel shows the area on which its middle lies, whatever its neighbours show.
         assert_near(&picture(&scene, 61, filter), &points, 1e-6);
     }
     let [upper, middle, lower] = [15, 30, 45].map(|y| at(&points, 26, y));
     let green_or_blue = middle[0] == 0.0 && middle[1] + middle[2] > 0.7;
     assert!(green_or_blue, "{middle:?}");
     assert!(upper[0] > 0.7 && upper[1] > 0.7 && lower[0] > 0.7 && lower[1] == 0.0);
-    // The seam is in front, and the second and the third area meet there.
+    // The seam is in front, where the second and the third area meet.
     assert_ne!(at(&points, 26, 30), at(&points, 34, 30));
 }
 
@@ -162,7 +162,7 @@ fn where_two_areas_of_one_texture_meet_neither_blurs() {
 
 #[test]
 fn over_the_mirrored_seam_of_a_moebius_band_nothing_blurs() {
-    // Across the band the picture goes from black to white; at the seam they meet upside down.
+    // The picture goes from black to white across the band. At the seam both ends meet upside down.
     let grid = swept(&json!({
         "contour": {"svg": "M-0.45 0H0.45"}, "trajectory": {"circle": {"radius": 1.2}},
         "twist": {"total": 180}, "seam": "mirror", "mesh": {"rows": 180, "cols": 16},
@@ -175,8 +175,8 @@ fn over_the_mirrored_seam_of_a_moebius_band_nothing_blurs() {
     let points = picture(&scene, 90, Filter::Bilinear);
     for filter in AREA_FILTERS {
         let seen = picture(&scene, 90, filter);
-        // The seam is in the middle; further right the band hides itself, and nodes of both of its
-        // parts come together in one box.
+        // The seam is in the middle. Further right the band hides itself, and one box contains
+        // nodes of both parts.
         let window = pixels(&seen).filter(|(x, y, _)| (30..58).contains(x) && (50..58).contains(y));
         for (x, y, pixel) in window {
             let near = |(dx, dy): (i64, i64)| {
@@ -185,11 +185,12 @@ fn over_the_mirrored_seam_of_a_moebius_band_nothing_blurs() {
             };
             let around = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| near((dx, dy))));
             let (low, high) = around.fold((1f32, 0f32), |(l, h), x| (l.min(x), h.max(x)));
-            // A pixel is no blend of what is far from it, and has no colour that is not near it.
+            // A pixel blends only nearby colours.
             assert!((low - 0.02..=high + 0.02).contains(&pixel[0]), "{filter:?} at {x} {y}");
             let smooth = high - low < 0.15;
             let own = at(&points, x, y)[0];
-            // The average of a straight slope is its middle; a third of the spread is left for its bend.
+            // The average of a linear ramp is its middle. The tolerance is a third of the spread,
+            // for the curvature.
             assert!(!smooth || (pixel[0] - own).abs() < 0.05, "{filter:?} at {x} {y}");
         }
     }
@@ -206,7 +207,7 @@ fn the_pole_of_a_swept_sphere_is_calm() {
     }));
     let mut grid = grid;
     grid.texture = Some(1);
-    // Black and white, as unlike from texel to texel as can be; all columns meet at the pole.
+    // Black and white, as different as possible from texel to texel; all columns meet at the pole.
     let noise = |k: u64| if (k * 0x9e37_79b9_7f4a_7c15) >> 63 == 0 { 0 } else { 255 };
     let texels: Vec<[u8; 3]> = (0..128 * 64).map(|k| [noise(k * k + 7 * k); 3]).collect();
     let scene = shown(&grid, DVec3::new(0.0, 5.0, 0.0), &[(1, 128, texels)]);

@@ -1,4 +1,4 @@
-//! The picture book, and figures by their numbers.
+//! The picture book, and figures selected by their numbers.
 
 use crate::support;
 
@@ -9,7 +9,7 @@ use std::fs;
 use std::path::PathBuf;
 use support::run;
 
-/// A book of a few arguments, made in a folder of its own.
+/// Makes a book with these arguments in a temporary folder and returns its text.
 fn book(arguments: &[&str]) -> String {
     let folder = tempfile::tempdir().expect("there is room for a folder");
     let ran = run("pipeline", &[&["book", "-o", "out"], arguments].concat(), folder.path());
@@ -20,7 +20,7 @@ fn book(arguments: &[&str]) -> String {
     fs::read_to_string(folder.path().join("out/book.html")).expect("the book is there")
 }
 
-/// The values of an attribute.
+/// Returns the values of an attribute.
 fn values<'a>(text: &'a str, attribute: &str) -> Vec<&'a str> {
     let start = format!(" {attribute}=\"");
     let parts = text.split(start.as_str()).skip(1);
@@ -36,7 +36,8 @@ fn the_book_refers_to_nothing_outside() {
     }
     let pictures = values(&text, "src");
     assert!(pictures.iter().all(|source| source.starts_with("data:image/png;base64,")));
-    // For each page one in the contents, three modes, and details of three modes and a truth.
+    // Each page has one picture in the contents, three modes, and details of three modes and a
+    // truth.
     assert_eq!(pictures.len(), (1 + 3 + 3 * 4) + (1 + 3 + 2 * 4));
     let ids = values(&text, "id");
     assert_eq!(ids.len(), ids.iter().collect::<BTreeSet<_>>().len());
@@ -74,7 +75,7 @@ fn pictures_and_errors_of_the_book_are_the_same_on_one_thread_and_on_three() {
 fn every_figure_that_has_a_page_is_in_the_book_once_and_in_order() {
     let jobs: Vec<_> =
         pages::in_order().unwrap().into_iter().filter(|job| !job.figures().is_empty()).collect();
-    // Asked for backwards, they come in the thesis's order.
+    // Figures requested in reverse order come in the thesis's order.
     let names: Vec<&str> = jobs.iter().rev().map(|job| job.name.as_str()).collect();
     let text = book(&[&names[..], &["--size", "24x24", "--truth", "0"]].concat());
     let mut at = 0;
@@ -119,10 +120,10 @@ fn a_figure_by_its_number_is_the_mode_of_its_page() {
             assert!(whole.contains(&alone[0]), "{figure} differs from its page");
             figures.push(figure);
         }
-        // Beside its page a figure is nothing more.
+        // A figure beside its own page adds nothing.
         let both = make(&[&figures[0], &job.name], &format!("both-{}", job.name));
         assert!(both == whole, "{}", job.name);
-        // Parts of a page are not put side by side, all of them are.
+        // Some figures of a page give no strip; all of them do.
         let figures: Vec<&str> = figures.iter().map(String::as_str).collect();
         let parts = make(&figures, &format!("parts-{}", job.name)).len();
         let strip = usize::from(figures.len() == job.modes.len() && figures.len() > 1);
@@ -130,8 +131,8 @@ fn a_figure_by_its_number_is_the_mode_of_its_page() {
     }
 }
 
-/// What the book is for, in numbers: where a pixel spans more than two texels both ways, the mean over them is nearer
-/// to the truth than one of them.
+/// Where a pixel spans more than two texels along both axes, the mean over its texels is nearer to
+/// the truth than a single texel.
 #[test]
 fn prefiltered_details_are_nearer_to_the_truth_than_point_sampled_ones() {
     let options =

@@ -1,4 +1,4 @@
-//! No output destroys an input, by whatever name it is called; nor does its name lie.
+//! No output destroys an input, under any name of the file, and an output's name states its format.
 
 #![cfg(unix)]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
@@ -21,7 +21,7 @@ const SCENE: &str = r#"{ "format": "tb-scene", "version": 1, "include": ["part.j
                            "texture": "checks" } },
              { "mesh": { "name": "rod", "file": "rod.obj", "mtl": "rod.mtl" } } ] }"#;
 
-/// A scene whose mesh a job makes.
+/// A scene with a mesh that a job makes.
 const STAGE: &str = r#"{ "format": "tb-scene", "version": 1,
 "camera": { "eye": [0, 0, 9], "target": [0, 0, 0], "fov_deg": 40 }, "ambient": 0.5,
 "textures": { "checks": { "image": "checks.png" } },
@@ -38,7 +38,7 @@ const JOB: &str = r#"{ "format": "tb-job", "version": 1, "scene": "stage.json",
 const AREAS: &str = r#"{ "format": "tb-areas", "version": 1,
 "areas": [ { "rows": [0, 2], "cols": [0, 2], "texture": 2 } ] }"#;
 
-/// A folder with every kind of input, which a good run of each program reads.
+/// Creates a folder with every kind of input, valid for each program.
 fn inputs() -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name);
@@ -74,7 +74,7 @@ fn inputs() -> TempDir {
     folder
 }
 
-/// All files of a folder and the folders in it, with what they hold.
+/// Returns all files of a folder and its subfolders, with their bytes.
 fn contents(folder: &Path) -> Vec<(String, Vec<u8>)> {
     let mut files = Vec::new();
     for entry in fs::read_dir(folder).unwrap() {
@@ -89,7 +89,7 @@ fn contents(folder: &Path) -> Vec<(String, Vec<u8>)> {
     files
 }
 
-/// Runs lines that ask for a clash; each must be refused in one sentence and change nothing.
+/// Runs command lines with a clash. Each must be refused in one sentence and change nothing.
 fn refused(folder: &TempDir, lines: &[(&str, &str)]) {
     let before = contents(folder.path());
     for (line, expected) in lines {
@@ -163,7 +163,7 @@ fn render_refuses_to_write_over_what_it_reads() {
         ("rod.mtl", "mesh.mtl: the output"),
         ("painted.png", "painted.png"),
     ] {
-        // By its own name where that is the name of a picture, and else by a link.
+        // Every file is also addressed by a link with the name of a picture.
         std::os::unix::fs::symlink(format!("../{name}"), folder.path().join("links").join(name))
             .unwrap();
         fs::rename(
@@ -199,7 +199,7 @@ fn pipeline_refuses_to_write_over_what_it_reads() {
     staged("tented.json", "checks-tent.png");
     named("kept.json", "stage.json", "kept-rod.grid");
     fs::write(folder.path().join("kept-rod.grid"), SPEC).unwrap();
-    // The second job reads what the first would write.
+    // The second job reads the output of the first.
     named("second.json", "later.json", "spec.json");
     staged("later.json", "job-tent.png");
     named("table.json", "stage.json", "report.csv");

@@ -1,4 +1,4 @@
-//! `pipeline compare`: what it prints, where it ends with which code, and what it says of bad input.
+//! `pipeline compare`: its output, its exit codes, and its messages about bad input.
 
 use crate::support;
 
@@ -10,8 +10,8 @@ use std::process::Output;
 use support::{root, run};
 use tempfile::TempDir;
 
-/// A folder with pictures of 12 x 16 pixels: `grey.exr`, `lighter.exr`, which is lighter by 1/8, `dot.exr`,
-/// in which the red of pixel 7,4 is more by 2, and `grey.png`; and `small.exr`.
+/// Creates a folder with pictures of 12 x 16 pixels: `grey.exr`, `lighter.exr` (lighter by 1/8),
+/// `dot.exr` (the red of pixel 7,4 is larger by 2) and `grey.png`. It also has `small.exr`.
 fn pictures() -> TempDir {
     let folder = tempfile::tempdir().expect("a folder is made");
     let save = |name: &str, picture: &Rgb32FImage| {
@@ -32,7 +32,7 @@ fn pictures() -> TempDir {
     folder
 }
 
-/// Runs `pipeline compare` with the words of a line.
+/// Runs `pipeline compare` with the arguments of a line.
 fn compare(line: &str, folder: &Path) -> Output {
     let arguments: Vec<&str> = std::iter::once("compare").chain(line.split(' ')).collect();
     run("pipeline", &arguments, folder)
@@ -55,12 +55,12 @@ fn the_numbers_are_printed_as_words_and_as_json() {
 
     let said = compare("grey.exr dot.exr --json", folder.path());
     let found: Value = serde_json::from_slice(&said.stdout).unwrap();
-    // 4 over 12 * 16 * 3 values, and -2 over as many.
+    // 4 over 12 * 16 * 3 values, and -2 over the same number.
     assert_eq!(found["rmse"], (4.0f64 / 576.0).sqrt());
     assert_eq!(found["bias"], -2.0 / 576.0);
     assert_eq!(found["max"], 2.0);
     assert_eq!(found["max_at"], serde_json::json!([7, 4]));
-    // The size of a crop is its own, its places are the picture's.
+    // The size is that of the crop, and positions are those of the whole picture.
     let said = compare("grey.exr dot.exr --json --crop 6,3,4x5", folder.path());
     let found: Value = serde_json::from_slice(&said.stdout).unwrap();
     assert_eq!(found["rmse"], (4.0f64 / 60.0).sqrt());
@@ -82,7 +82,7 @@ fn equal_pictures_are_equal() {
 #[test]
 fn a_png_is_taken_as_srgb() {
     let folder = pictures();
-    // Half a code is at most 0.005 of light, and its steps are no larger than that.
+    // Half a code is at most 0.005 of light, and its steps are no larger.
     let said = compare("grey.png grey.exr --max 0.005", folder.path());
     assert_eq!(said.status.code(), Some(0), "{}", support::said(&said));
     let said = compare("grey.png grey.exr --max 1e-5", folder.path());
@@ -108,7 +108,7 @@ fn a_limit_that_is_passed_ends_with_1_and_says_which() {
             let start = "pipeline: lighter.exr differs from grey.exr by more than was allowed: ";
             assert!(sentence.starts_with(start), "{sentence}");
         }
-        // The numbers are wanted most where they are too large.
+        // The numbers are printed although they exceed the limit, when they matter most.
         assert!(data(&said).contains("rmse  0.125\n"));
     }
 }

@@ -1,5 +1,5 @@
-//! The pages after figures A.1 to A.4: as many triangles as the thesis gives, and what it says of its
-//! three ways to render them.
+//! The pages after figures A.1 to A.4: the thesis's numbers of triangles, and its statements about
+//! three rendering methods.
 
 use crate::support;
 
@@ -23,7 +23,7 @@ struct Material {
     faces: usize,
 }
 
-/// What `triangulate` says of a spec in `examples/curves`, cut as the spec says.
+/// Returns the report of `triangulate` on a spec in `examples/curves`, with the spec's resolution.
 fn report(curve: &str, folder: &Path) -> Report {
     let spec = root().join("examples/curves").join(curve);
     let swept = run("sweep", &[spec.to_str().expect("the path is UTF-8"), "-o", "a.grid"], folder);
@@ -42,7 +42,7 @@ fn cup_and_vase_have_as_many_triangles_as_in_the_thesis() {
     assert_eq!(report("bumpy-vase.json", folder.path()).faces, 7200);
     let cup = report("u-cup.json", folder.path());
     assert_eq!(cup.faces, 8400);
-    // 60 x 50 quads are the cup, 40 x 30 the handle.
+    // The cup has 60 x 50 quads and the handle 40 x 30.
     let of = |surface: u32| {
         let materials = cup.materials.iter().filter(|material| material.surface == surface);
         materials.map(|material| material.faces).sum::<usize>()
@@ -62,7 +62,7 @@ fn bud_and_column_have_about_six_thousand_triangles() {
 /// A rectangle of a picture: columns and rows as fractions of its width and height.
 type Region = (Range<f64>, Range<f64>);
 
-/// The root of the mean squared difference of two pictures within a region, in steps of 8 bits.
+/// Returns the root mean square difference of two pictures within a region, in 8-bit codes.
 fn difference(a: &RgbImage, b: &RgbImage, (across, down): &Region) -> f64 {
     let pixels = |range: &Range<f64>, size: u32| {
         (range.start * f64::from(size)) as u32..(range.end * f64::from(size)) as u32
@@ -79,7 +79,7 @@ fn difference(a: &RgbImage, b: &RgbImage, (across, down): &Region) -> f64 {
     f64::sqrt(sum / count)
 }
 
-/// "Note how the staircases disappear in Figure A.4", measured against 64 rays for each pixel.
+/// Checks "Note how the staircases disappear in Figure A.4" against 64 rays for each pixel.
 #[test]
 fn prefiltering_calms_the_tiles_and_supersampling_the_outlines() {
     let folder = tempfile::tempdir().unwrap();
@@ -100,7 +100,7 @@ fn prefiltering_calms_the_tiles_and_supersampling_the_outlines() {
     let errors = ["point", "prefiltered", "supersampled"].map(|mode| {
         let made = picture(mode);
         let far_tiles: Region = (0.6..1.0, 0.34..0.5);
-        // Where the wall stands behind the lip: nothing but an edge.
+        // The wall behind the lip, a region with a single edge.
         let lip: Region = (0.18..0.5, 0.06..0.13);
         [far_tiles, lip].map(|region| difference(&made, &truth, &region))
     });

@@ -1,4 +1,4 @@
-//! What is written lasts, and what cannot be written is told.
+//! Written files are durable, and files that cannot be written are reported.
 
 #![cfg(target_os = "linux")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
@@ -50,7 +50,8 @@ fn a_standard_output_that_is_thrown_away_or_not_used_is_none() {
     }
     let ran = shell("sweep examples/curves/vase.json -o a.grid >&-", folder.path());
     assert!(ran.status.success(), "{}", said(&ran));
-    // As Python and Node throw it away: open for reading and writing.
+    // The standard streams that Python and Node use to discard output: /dev/null, open for reading
+    // and writing.
     let null = || File::options().read(true).write(true).open("/dev/null").unwrap();
     for stdout in [Stdio::from(null()), Stdio::null()] {
         let mut command = Command::new(programs().join("pipeline"));
@@ -85,8 +86,9 @@ fn a_file_that_outgrows_its_limit_is_told_by_its_name_and_leaves_nothing() {
     assert!(said(&ran).contains("cannot write <stdout>: File too large"), "{}", said(&ran));
 }
 
-/// The system calls of a line that write, sync and rename files of its folder, in their order: `write
-/// part`, `sync part`, `rename a`, `sync folder` and so on. Nothing where there is no `strace`.
+/// Returns the system calls of a command line that write, sync and rename files of its folder, in
+/// order: `write part`, `sync part`, `rename a`, `sync folder` and so on. Returns `None` without
+/// `strace`.
 fn trace(line: &str, folder: &Path) -> Option<Vec<String>> {
     if Command::new("strace").arg("-V").output().is_err() {
         eprintln!(
@@ -127,7 +129,7 @@ fn trace(line: &str, folder: &Path) -> Option<Vec<String>> {
     Some(seen)
 }
 
-/// The calls without those before the first `write`: trials whether files can be written.
+/// Returns the calls from the first `write` on. Earlier calls test whether files can be written.
 fn from_first_write(calls: &[String]) -> Vec<&str> {
     let first = calls.iter().position(|call| call.starts_with("write")).unwrap();
     calls[first..].iter().map(String::as_str).collect()
@@ -165,7 +167,8 @@ fn files_that_belong_together_are_renamed_between_a_marker_and_its_end() {
     let marked = at(&format!("rename {marker}"));
     let ends = at(&format!("remove {marker}"));
     assert!(renames.iter().all(|at| (marked..ends).contains(at)), "{calls:?}");
-    // The marker lasts before the first rename, and each rename before the next and the end.
+    // The marker is synced before the first rename, and each rename before the next one and the
+    // end.
     for at in renames.into_iter().chain([marked, ends]) {
         assert_eq!(calls[at + 1], "sync folder", "{calls:?}");
     }

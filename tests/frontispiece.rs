@@ -1,4 +1,4 @@
-//! The frontispiece: what is seen of lettering through glass and in it.
+//! The frontispiece: lettering seen through glass and inside it.
 
 use crate::support;
 
@@ -7,14 +7,14 @@ use std::fs;
 use std::path::Path;
 use support::{root, run, said};
 
-/// Where lettering is seen through the foot of the bottle: 48 x 24 pixels of 512 x 512.
+/// Crop in which lettering is seen through the foot of the bottle: 48 x 24 pixels of 512 x 512.
 const THROUGH_THE_GLASS: &str = "216,378,48x24";
 
 fn example(path: &str) -> String {
     root().join("examples").join(path).to_string_lossy().into_owned()
 }
 
-/// The bottle, more coarsely than on the page.
+/// Makes the bottle, with a coarser mesh than that of the page.
 fn make_bottle(folder: &Path) {
     let spec = example("curves/klein-glass.json");
     let swept = run("sweep", &["-q", &spec, "--tol", "1e-3", "-o", "a.grid"], folder);
@@ -31,7 +31,7 @@ fn render(more: &[&str], folder: &Path) -> Vec<u8> {
     rendered.stdout
 }
 
-/// Linear light of all channels of all pixels.
+/// Returns the linear light of all channels of all pixels.
 fn light(more: &[&str], folder: &Path) -> Vec<f64> {
     let part = ["--size", "512x512", "--crop", THROUGH_THE_GLASS, "-o", "a.png", "-q"];
     render(&[&part, more].concat(), folder);
@@ -40,7 +40,7 @@ fn light(more: &[&str], folder: &Path) -> Vec<f64> {
     picture.into_raw().iter().map(|&c| Encoding::Srgb.decode(f64::from(c) / 255.0)).collect()
 }
 
-/// Against many rays for each pixel, without a filter.
+/// Compares with many unfiltered rays for each pixel.
 #[test]
 fn lettering_through_glass_is_nearer_to_the_truth_when_prefiltered() {
     let folder = tempfile::tempdir().unwrap();
@@ -58,7 +58,7 @@ fn lettering_through_glass_is_nearer_to_the_truth_when_prefiltered() {
     assert!(prefiltered < 0.6 * point, "{prefiltered}, and {point} without a filter");
 }
 
-/// Three modes: one without a filter, and two with the tent.
+/// The page has three modes: one without a filter, and two with the tent.
 #[test]
 fn the_modes_of_a_page_share_one_structure_and_the_tables_of_each_filter() {
     let folder = tempfile::tempdir().unwrap();
@@ -85,7 +85,7 @@ fn the_bottle_is_a_closed_volume_of_glass() {
     let said = String::from_utf8(render(&["--check"], folder.path())).unwrap();
     let bottle = said.lines().find(|line| line.contains("mesh klein-glass")).unwrap();
     assert!(bottle.contains(" closed, volume 1.18"), "{bottle}");
-    // The window and the door are there to be mirrored.
+    // The window and the door serve only as reflections, which is no reason for a hint.
     let hints: Vec<&str> = said.lines().filter(|line| line.starts_with("hint")).collect();
     assert_eq!(hints, Vec::<&str>::new());
 }

@@ -1,4 +1,4 @@
-//! Surfaces that break modelers, from a spec to triangles: what each of them is like as a surface.
+//! Surfaces that are hard for modelers, from a spec to triangles: their topology and shape.
 
 use crate::made::{made, walked_twice};
 use files::json::Document;
@@ -26,7 +26,7 @@ fn example(name: &str) -> Value {
     let path = format!("{}/../examples/curves/{name}.json", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read(path).expect("the example is there");
     let mut spec: Value = serde_json::from_slice(&text).expect("it is JSON");
-    // They count cells, of which there are others here.
+    // Areas count cells, and the cells here differ.
     spec.as_object_mut().expect("keys").remove("areas");
     spec
 }
@@ -69,14 +69,15 @@ fn the_klein_bottle_is_closed_one_sided_and_turns_over_along_one_ring() {
 
 #[test]
 fn a_moebius_band_has_one_rim_also_where_it_closes_with_an_edge() {
-    // Keys whose slopes differ give the seam an edge; a twist of more half turns is a band too.
+    // Keys with different slopes give the seam an edge. A twist of more half turns also gives a
+    // band.
     let edge = json!({"keys": [[0, 0], [0.3, 20], [1, 180]]});
     for twist in [json!({"total": 180}), json!({"total": -540}), edge] {
         let band = json!({"contour": {"svg": "M-.4 0H.4"}, "trajectory": ring(), "seam": "mirror", "twist": twist});
         let (mesh, counts, report) = made(&swept(&band));
         assert_eq!((report.euler, report.boundary_loops), (0, 1));
         assert!(!report.closed && report.manifold && !report.orientable);
-        // Cells no longer than steps of the twist: none is torn across the band.
+        // Edges are no longer than steps of the twist, so that no cell is torn across the band.
         assert!(
             report.edge_length.is_some_and(|length| length.max < 0.6),
             "{:?}",
@@ -98,7 +99,7 @@ fn the_figure_of_eight_immersion_is_a_klein_bottle_on_any_ring() {
         );
         let (_, _, report) = made(&grid);
         assert!(report.closed && !report.orientable, "{trajectory}");
-        // Where the eight crosses itself two columns share a place, not a point.
+        // Where the figure of eight crosses itself, two columns share a position but not a point.
         assert_eq!(report.euler, 0, "{trajectory}");
     }
 }
@@ -117,14 +118,14 @@ fn tubes_along_knots_and_an_eight_are_tori() {
         let t = std::f64::consts::TAU * f64::from(i) / 24.0;
         [3.0 * t.sin(), 0.0, (2.0 * t).sin()]
     };
-    // In one plane it goes through itself, and stays two sheets there.
+    // The planar eight intersects itself and stays two sheets there.
     let eight = json!({"free": {"closed": true, "points": (0..24).map(eight).collect::<Vec<_>>()}});
     for trajectory in [knot(2.0, 5.0), knot(2.0, 3.0), trefoil(), eight] {
         let tube = json!({"contour": {"circle": 0.15}, "trajectory": trajectory, "mesh": {"rows": 200, "cols": 12}});
         let (mesh, _, report) = made(&swept(&tube));
         assert_eq!((report.euler, report.vertices), (0, 2400));
         assert!(report.closed && report.orientable && report.oriented && report.manifold);
-        // The area of the section times the length of the way (Pappus).
+        // The volume is the area of the section times the length of the path (Pappus).
         let length = read(&tube).expect("it is a spec").trajectory().length();
         let section = 0.5 * 12.0 * 0.15_f64.powi(2) * (std::f64::consts::TAU / 12.0).sin();
         assert!((volume(&mesh) / (section * length) - 1.0).abs() < 0.01, "{}", volume(&mesh));
@@ -169,7 +170,7 @@ fn contours() -> impl Strategy<Value = Value> {
     ]
 }
 
-/// Open trajectories, closed ones, all with bends wider than the contours.
+/// Draws open and closed trajectories, whose bends are wider than the contours.
 fn trajectories() -> impl Strategy<Value = (Value, bool)> {
     let bent = json!([[[0, 0, 0], [2, 0.4, 0.3], [1.9, 2.1, 0.2], [0.2, 1.9, 0.8]]]);
     prop::sample::select(vec![
@@ -271,10 +272,10 @@ proptest! {
         prop_assert!(report.closed && report.manifold && report.orientable && report.oriented, "{}", &spec);
         prop_assert!(volume(&mesh) > 0.0, "{}: {}", volume(&mesh), &spec);
         if sweep.folded_rows() == 0 {
-            // At a pole the normals of a cone's tip lean over; none is turned to the other side.
+            // At a pole the normals of a cone's tip are tilted, but none points to the other side.
             for ([a, b, c], normals) in corners(&mesh) {
                 let across = (b - a).cross(c - a);
-                // Of a triangle as thin as coordinates are rounded there is no telling.
+                // A triangle as thin as the rounding of its coordinates has no reliable normal.
                 if across.length() < 1e-9 {
                     continue;
                 }

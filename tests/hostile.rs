@@ -1,4 +1,4 @@
-//! Hostile files and names on the road through all programs.
+//! Hostile files and names, passed through all programs.
 
 use crate::support::{root, run, said};
 use files::json::Document;
@@ -54,7 +54,7 @@ fn a_grid_that_promises_more_than_there_is_memory_for_is_refused() {
     let message = said(&output);
     assert_eq!(output.status.code(), Some(6), "{message}");
     assert!(message.contains("a mesh of ") && message.contains("--max-memory"), "{message}");
-    // As OBJ it is written row by row, and found to be cut.
+    // As OBJ the mesh is written row by row, until the end of the cut grid is found.
     let output = run("triangulate", &["b.grid", "-o", "b.obj"], folder.path());
     assert_eq!(output.status.code(), Some(3), "{}", said(&output));
 }
@@ -77,7 +77,7 @@ fn cells_of_a_tolerance_and_grids_in_memory_are_asked_for() {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 200, ..ProptestConfig::default() })]
 
-    /// A name that `sweep` accepts, the programs behind it accept.
+    /// A name that `sweep` accepts is accepted by the programs after it.
     #[test]
     fn a_name_that_sweep_accepts_reaches_the_scene(
         name in prop::collection::vec(
@@ -111,7 +111,8 @@ proptest! {
     }
 }
 
-/// The values of a JSON text, one after another replaced by each of `by`; a value deeper than `deep` stays.
+/// Replaces the values of a JSON text, one after another, by each of `by`. Values deeper than
+/// `deep` stay.
 fn mutated(value: &Value, by: &[Value], each: &mut impl FnMut(&Value)) {
     fn paths(value: &Value, path: &mut String, all: &mut Vec<String>) {
         all.push(path.clone());
@@ -123,7 +124,7 @@ fn mutated(value: &Value, by: &[Value], each: &mut impl FnMut(&Value)) {
             path.truncate(length);
         };
         match value {
-            // The first few of a long list say all.
+            // In a long list the first few elements represent all.
             Value::Array(list) => list
                 .iter()
                 .take(3)
@@ -146,7 +147,7 @@ fn mutated(value: &Value, by: &[Value], each: &mut impl FnMut(&Value)) {
     }
 }
 
-/// A source in which all files are one text.
+/// A source in which all files have one text.
 #[derive(Debug)]
 struct Text(String);
 
@@ -156,7 +157,7 @@ impl Source for Text {
     }
 }
 
-/// The complaint about a text of one of our formats, if there is one.
+/// Returns the complaint about a text of one of the project's formats, if any.
 fn complaint(format: &str, text: &str) -> Option<String> {
     let document = Document::new("a.json", text.as_bytes()).ok()?;
     let error = match format {

@@ -1,10 +1,10 @@
-//! Programs that are killed at random moments: every file is the whole old or the whole new one, inputs
-//! are as they were, and files that do not belong together are announced.
+//! Programs that are killed at random moments. Every file is the complete old or the complete new
+//! one, inputs are unchanged, and a mixture of old and new files is announced.
 //!
-//! Each program is killed 20 times, or as often as the environment variable `TOPOBOOK_KILLS` says; the
-//! moments come from a seed, `TOPOBOOK_KILL_SEED` or 1, which is printed. Half of the moments are
-//! anywhere in a run and half follow the first sight of the marker, since files are replaced in a small
-//! part of a run.
+//! Each program is killed 20 times, or as often as the environment variable `TOPOBOOK_KILLS`
+//! states. The moments depend on a seed, `TOPOBOOK_KILL_SEED` or 1, which is printed. Half of the
+//! moments are anywhere in a run. The other half follow the first appearance of the marker, since
+//! files are replaced in a small part of a run.
 
 #![cfg(unix)]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
@@ -94,12 +94,12 @@ fn inputs(folder: &Path) {
     finish(&["triangulate", "in.grid", "-o", "in.obj"], folder);
 }
 
-/// A number from the environment.
+/// Returns a number from the environment, or `default`.
 fn setting(name: &str, default: u64) -> u64 {
     std::env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(default)
 }
 
-/// What kills met.
+/// Numbers of kills by the state of the files afterwards.
 #[derive(Debug, Default)]
 struct Counts {
     all_old: usize,

@@ -1,4 +1,4 @@
-//! The pages that are built in, made in an empty folder.
+//! The built-in pages, made in an empty folder.
 
 use crate::support;
 
@@ -32,7 +32,7 @@ fn make(arguments: &[&str], folder: &Path) -> Vec<(String, Vec<u8>)> {
 fn all_pages_are_the_same_bytes_on_one_thread_and_on_five() {
     let make_with = |threads: &str| {
         let folder = tempfile::tempdir().unwrap();
-        // Wider than a tile of 64 pixels, so that two threads have work.
+        // The size exceeds a tile of 64 pixels, so that two threads have work.
         let size = ["--size", "70x36", "--threads", threads];
         make(&[&["run", "all", "-o", "out"], size.as_slice()].concat(), folder.path())
     };
@@ -42,7 +42,7 @@ fn all_pages_are_the_same_bytes_on_one_thread_and_on_five() {
     for page in pages::names() {
         let modes = pages::page(page).unwrap().modes;
         let mut ends: Vec<String> = modes.iter().map(|mode| format!("-{}", mode.name)).collect();
-        // Several are shown side by side as well.
+        // Pages with several modes also have a strip.
         ends.extend((modes.len() > 1).then(String::new));
         for end in ends {
             let name = format!("{page}{end}.png");
@@ -68,7 +68,7 @@ fn a_sheet_shows_the_last_picture_of_each_page() {
     }
 }
 
-/// What a patch is in a report of `triangulate`.
+/// The topology of a patch in a report of `triangulate`.
 #[derive(Debug, PartialEq, Deserialize)]
 struct Patch {
     euler: i64,
@@ -126,8 +126,8 @@ fn every_page_has_its_place_in_the_gallery() {
         .filter_map(|line| line.strip_prefix("`pipeline run ")?.split_once('`'))
         .map(|(page, _)| page)
         .collect();
-    // Surfaces that are not swept, and those of another page with other meshes. The two scenes that
-    // other renderers were measured on stand in docs/peer-scenes.md.
+    // The gallery shows swept surfaces, and no page twice with other meshes. docs/peer-scenes.md
+    // shows the two scenes that were compared with other renderers.
     let swept = |page: &&str| {
         *page != "glass-sphere" && !page.ends_with("-adaptive") && !page.starts_with("peer-")
     };
@@ -154,8 +154,8 @@ fn the_strip_shows_the_modes_side_by_side() {
     }
 }
 
-/// Thesis A.10 against A.11: the far floor of the point sampled picture is noise, and the
-/// prefiltered one is calm; near the eye they agree.
+/// Compares figures A.10 and A.11 of the thesis. The far floor of the point sampled picture is
+/// noise, and that of the prefiltered picture is smooth. Near the eye both agree.
 #[test]
 fn the_far_floor_is_calm_only_when_prefiltered() {
     let folder = tempfile::tempdir().unwrap();
@@ -174,12 +174,13 @@ fn the_far_floor_is_calm_only_when_prefiltered() {
     };
     let [point, filtered] = ["glass-sphere-point.png", "glass-sphere-prefiltered.png"];
     let (far, near) = (90..96, 200..256);
-    // Half the checks are nearly black, so noise of them spreads by about its own mean.
+    // Half the checks are nearly black, so that the deviation of their noise is about its mean.
     let noise = |name: &str| light(name, far.clone()).1 / light(name, far.clone()).0;
     assert!(noise(point) > 0.7, "{}", noise(point));
     assert!(noise(filtered) < 0.1, "{}", noise(filtered));
     let lost = light(point, near.clone()).0 - light(filtered, near).0;
-    // At either border of 56 rows a quarter of a row comes from beyond, whose light differs by 1 at most.
+    // At either border of 56 rows a quarter of a row comes from beyond, with a difference of at
+    // most 1 in light.
     assert!(lost.abs() < 0.01, "the near floor keeps its light, but for {lost}");
 }
 
@@ -202,7 +203,7 @@ fn a_job_of_ones_own_runs_from_its_file() {
 fn no_clobber_refuses_before_the_first_picture_is_made() {
     let folder = tempfile::tempdir().unwrap();
     fs::create_dir(folder.path().join("out")).unwrap();
-    // The last file to be written.
+    // The file that is written last.
     fs::write(folder.path().join("out/glass-sphere.png"), "old").unwrap();
     let arguments = ["run", "glass-sphere", "-o", "out", "--size", "8x8", "--no-clobber"];
     let ran = run("pipeline", &arguments, folder.path());
@@ -216,7 +217,7 @@ fn no_clobber_refuses_before_the_first_picture_is_made() {
 #[test]
 fn pixels_that_are_not_finite_are_told() {
     let folder = tempfile::tempdir().unwrap();
-    // Each number is in its range, and their product above all that a pixel can hold.
+    // Each number is in its range, and their product exceeds the range of a pixel.
     let scene = "{\"format\": \"tb-scene\", \"version\": 1, \"ambient\": 1e30, \
         \"camera\": {\"eye\": [0, 0, 1], \"target\": [0, 0, 0], \"fov_deg\": 40}, \
         \"materials\": {\"sun\": {\"color\": 1e30}}, \"objects\": [{\"plane\": {\"point\": [0, 0, 0], \
@@ -235,7 +236,7 @@ fn every_scene_in_examples_renders() {
     let scenes = support::root().join("examples/scenes");
     for entry in fs::read_dir(&scenes).unwrap() {
         let scene = entry.unwrap().path();
-        // The meshes of a page are made by its job.
+        // The job of a page makes its meshes.
         if pages::names().iter().any(|page| scene.file_stem() == Some(OsStr::new(page))) {
             continue;
         }
@@ -268,7 +269,7 @@ fn what_is_wrong_is_said_in_one_line_with_its_exit_code() {
          \"target\": [0, 0, 0], \"fov_deg\": 40}, \"materials\": {\"m\": {}}, \
          \"objects\": [{\"mesh\": {\"name\": \"vase\", \"material\": \"m\"}}]}",
     );
-    // One's picture of mode `b` is called as the other's strip.
+    // The picture of mode `b` of one page has the name of the other page's strip.
     let mode = |name: &str| format!("{{\"name\": \"{name}\", \"filter\": \"point\"}}");
     let modes = format!("\"modes\": [{}, {}]", mode("b"), mode("c"));
     write("a.json", &format!("{job}\"scene\": \"s.json\", {modes}}}"));

@@ -1,4 +1,4 @@
-//! The three programs piped into each other, as the README shows them.
+//! The three programs in a pipe, as the README shows them.
 #![cfg(unix)]
 
 use crate::support;
@@ -6,7 +6,7 @@ use crate::support;
 use std::fs;
 use support::{root, run, said, shell_beside_examples as shell};
 
-/// The pipe as the README has it.
+/// Returns the command line of the pipe in the README.
 fn readme_line() -> String {
     let readme = fs::read_to_string(root().join("README.md")).expect("there is a README");
     let line = readme.lines().find(|line| line.starts_with("sweep ")).expect("the README's pipe");
@@ -31,7 +31,7 @@ fn the_pipe_in_the_readme_makes_the_picture_that_the_pipeline_makes() {
     let read = |name: &str| fs::read(folder.path().join(name)).unwrap();
     assert_eq!(read("vase.png"), read("out/vase-prefiltered.png"));
 
-    // And the files that were kept are what went through the pipes.
+    // The kept files equal the data that went through the pipes.
     let line = "sweep examples/curves/vase.json | tee a.grid | triangulate --texture 2 > a.obj";
     assert!(shell(line, folder.path()).status.success());
     assert_eq!(read("a.grid"), read("out/vase-vase.grid"));
@@ -119,7 +119,7 @@ fn an_object_with_two_pictures_is_the_same_through_pipes_and_in_memory() {
     assert_eq!(read("a.obj"), read("out/job-vase.obj"));
     assert_eq!(read("piped.png"), read("out/job-tent.png"));
     assert!(String::from_utf8(read("a.obj")).unwrap().contains("\nusemtl tex3_surf1\n"));
-    // The second picture is seen.
+    // The second picture is visible.
     let plain = "sweep examples/curves/vase.json | triangulate --texture 2 | \
                  render examples/scenes/vase.json --mesh vase=- --size 160x120 -o plain.png";
     assert!(shell(plain, folder.path()).status.success());

@@ -2,20 +2,6 @@
 
 use crate::architecture::source::{files, read};
 
-/// Folders whose doc comments follow all rules. A folder joins the list when its last fault is
-/// corrected. The test `survey` lists the faults of all folders.
-const COVERED: [&str; 9] = [
-    "compare/src",
-    "examples/textures/draw/src",
-    "files/src",
-    "fuzz/src",
-    "pipeline/src",
-    "render/src/footprint",
-    "render/src/optics",
-    "sweep/src",
-    "triangulate/src",
-];
-
 /// Nouns that hide the exact noun of the field. Compounds such as "halfway" and "two-way" are allowed.
 const VAGUE: [&str; 4] = ["way", "ways", "thing", "things"];
 
@@ -35,18 +21,9 @@ fn markdown_is_plain() {
 }
 
 #[test]
-fn doc_comments_of_covered_folders_are_plain() {
-    for folder in COVERED {
-        let found = faults_of(&files(folder, ".rs"));
-        assert!(found.is_empty(), "{found}");
-    }
-}
-
-#[test]
-#[ignore = "prints the faults that remain: cargo test prose::survey -- --ignored --nocapture"]
-fn survey() {
+fn doc_comments_are_plain() {
     let found = faults_of(&files("", ".rs"));
-    println!("{found}{} faults", found.lines().count());
+    assert!(found.is_empty(), "{found}");
 }
 
 /// The faults of Markdown pages, and of the doc comments of Rust files: one line each.

@@ -1,4 +1,4 @@
-//! A bump of `render` beside the relief of `sweep`: the same picture of heights, told two ways.
+//! The bump of `render` and the relief of `sweep` show the same picture of heights.
 
 use files::Disk;
 use files::json::Document;
@@ -7,8 +7,8 @@ use render::procedural::{Bump, Heights, Place, Placement, Relief};
 use std::path::Path;
 use sweep::Sweep;
 
-/// The normals of the scaly ring and those of the smooth one under its bump, both with scales that
-/// are `strength` high: how far they are apart at most.
+/// Returns the largest distance between the normals of the scaly ring and those of the smooth ring
+/// with its bump. Both have scales of height `strength`.
 fn apart(strength: f64) -> f64 {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/curves");
     let read = |name: &str| {
@@ -31,11 +31,12 @@ fn apart(strength: f64) -> f64 {
     for k in 0..300 {
         let (u, v) = ((0.618 * f64::from(k)).fract(), (0.377 * f64::from(k)).fract());
         let (point, normal) = smooth.at(u, v);
-        // On a ring the two directions are at right angles, and each gradient lies along its own.
+        // On a ring the two directions are perpendicular, and each gradient is parallel to its own
+        // direction.
         let step = 1e-6;
         let [along_u, along_v] = [(step, 0.0), (0.0, step)].map(|(du, dv)| {
-            let way = (smooth.at(u + du, v + dv).0 - smooth.at(u - du, v - dv).0) / (2.0 * step);
-            way / way.length_squared()
+            let along = (smooth.at(u + du, v + dv).0 - smooth.at(u - du, v - dv).0) / (2.0 * step);
+            along / along.length_squared()
         });
         let uv_gradients = [along_u, along_v];
         let place = Place { point, normal, uv: DVec2::new(u, v), uv_gradients };

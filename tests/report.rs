@@ -1,4 +1,4 @@
-//! `pipeline report`, small and in haste.
+//! `pipeline report` with small sizes and few rounds.
 
 use crate::support;
 
@@ -19,7 +19,7 @@ fn a_page_is_measured_by_every_method_of_a_hasty_report() {
     let column = |name: &str| rows[0].iter().position(|column| *column == name).unwrap();
     let whole: Vec<&Vec<&str>> =
         rows[1..].iter().filter(|row| row[column("region")] == "whole").collect();
-    // Six filters by three ways to make a pixel.
+    // Six filters, each with three samplings.
     assert_eq!(whole.len(), 18);
     let number = |row: &[&str], name: &str| row[column(name)].parse::<f64>().unwrap();
     for row in &rows[1..] {
@@ -30,7 +30,7 @@ fn a_page_is_measured_by_every_method_of_a_hasty_report() {
         assert!(number(row, "wall_s") >= number(row, "tables_s"), "{row:?}");
         assert!(number(row, "rays") >= 16.0 * 12.0, "{row:?}");
     }
-    // The picture alone takes 12 bytes a pixel; a table is held while a picture is made with it.
+    // The picture alone takes 12 bytes per pixel. A table is in memory while its picture is made.
     let peak = |filter: &str| {
         number(whole.iter().find(|row| row[column("filter")] == filter).unwrap(), "peak_bytes")
     };

@@ -1,4 +1,4 @@
-//! Pages composed of several objects: what is in them is what is said of them.
+//! Pages composed of several objects: their objects are those that the pages describe.
 
 use pipeline::pages::{FILES, page};
 use pipeline::run::{Event, Options, scene};
@@ -10,7 +10,7 @@ use render::scene::{Object, Scene};
 use std::collections::BTreeMap;
 use std::sync::Mutex;
 
-/// The scene of a page, and how many triangles each of its meshes has.
+/// Returns the scene of a page, and the number of triangles of each of its meshes.
 fn made(name: &str) -> (Scene, BTreeMap<String, usize>) {
     let folder = tempfile::tempdir().expect("a folder is made");
     let options =
@@ -24,14 +24,14 @@ fn made(name: &str) -> (Scene, BTreeMap<String, usize>) {
     (scene.expect("the scene is made"), counts.into_inner().expect("no thread fails"))
 }
 
-/// The objects that are meshes, with their places in the scene's list and their names.
+/// Returns the objects that are meshes, with their indices in the scene and their names.
 fn meshes(scene: &Scene) -> Vec<(usize, &str, &Object)> {
     let named = scene.names.objects.iter().zip(&scene.objects).enumerate();
     named.filter_map(|(k, (name, object))| Some((k, name.as_deref()?, object))).collect()
 }
 
-/// Thesis, appendix A: each of the objects in figures A.5 to A.7 consists of 9800 triangles and has a
-/// reflectivity.
+/// Thesis, appendix A: each of the objects in figures A.5 to A.7 consists of 9800 triangles and has
+/// a reflectivity.
 #[test]
 fn eight_world_and_six_have_9800_triangles_each_and_mirror() {
     let (scene, counts) = made("eight-world-klein");
@@ -49,7 +49,7 @@ fn eight_world_and_six_have_9800_triangles_each_and_mirror() {
     assert!(!solid("world"), "the globe has a picture");
 }
 
-/// The same surfaces to a tolerance that is asked for take fewer triangles.
+/// With a tolerance the same surfaces take fewer triangles.
 #[test]
 fn meshes_by_tolerance_have_fewer_triangles() {
     let (_, counts) = made("eight-world-klein-adaptive");
@@ -57,15 +57,15 @@ fn meshes_by_tolerance_have_fewer_triangles() {
     assert!(counts.values().all(|&triangles| (1000..9800).contains(&triangles)), "{counts:?}");
 }
 
-/// Without lights nothing has a shadow: what changes on one object when another one is taken away
-/// was its image. Where nothing mirrors, nothing changes.
+/// Without lights there are no shadows. A change on one object after the removal of another one is
+/// therefore a reflection. Without mirrors there is no change.
 #[test]
 fn each_of_eight_world_and_six_is_seen_in_another_one() {
     let (mut scene, _) = made("eight-world-klein");
     scene.lights.clear();
     let numbers: Vec<usize> = meshes(&scene).iter().map(|mesh| mesh.0).collect();
     let images = images(&scene, &numbers);
-    // Of 25,600; an image of fewer would hardly be seen.
+    // Of 25,600 pixels; a smaller image would hardly be visible.
     assert!(images.iter().all(|&pixels| pixels > 60), "{images:?}");
     for material in &mut scene.materials {
         material.reflectivity = 0.0;
@@ -73,7 +73,7 @@ fn each_of_eight_world_and_six_is_seen_in_another_one() {
     assert_eq!(self::images(&scene, &numbers), [0; 3]);
 }
 
-/// How many pixels of the other objects change when each of them is taken away.
+/// Returns the number of pixels of the other objects that change when each object is removed.
 fn images(scene: &Scene, numbers: &[usize]) -> Vec<usize> {
     const SIDE: u32 = 160;
     let settings =
@@ -83,7 +83,7 @@ fn images(scene: &Scene, numbers: &[usize]) -> Vec<usize> {
     let all = picture(scene);
     let changed = |&taken: &usize| {
         let mut without = scene.clone();
-        // As good as gone, and nothing moves up in the list.
+        // The replacement is invisible and keeps the indices of the list.
         without.objects[taken].shape = scene.objects[WINDOW].shape.clone();
         let others = picture(&without);
         (0..all.pixels.len())
@@ -105,17 +105,17 @@ fn nothing_floats() {
         assert!(meshes.len() > 2);
         for (_, mesh, object) in meshes {
             let [low, high] = object.shape.bounds().unwrap();
-            // A thousandth of its height shows at no size that is looked at.
+            // A thousandth of the height is invisible at the sizes of the pages.
             assert!(low.y.abs() < 1e-3 * high.y, "{mesh} of {name} begins at {}", low.y);
         }
     }
 }
 
-/// Where the book looks closely the area sampled picture is nearer to the truth, one of many unfiltered
-/// rays in each pixel.
+/// In the book's details the area sampled picture is nearer to the truth than the point sampled
+/// one. The truth has many unfiltered rays in each pixel.
 #[test]
 fn prefiltered_crops_are_nearer_to_the_truth() {
-    /// Pixels of the whole picture and of the part, along a side.
+    /// Pixels along a side of the whole picture.
     const WHOLE: u32 = 512;
     const PART: u32 = 40;
     for name in ["eight-world-klein", "knots"] {

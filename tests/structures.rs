@@ -1,4 +1,4 @@
-//! Every page comes out the same to the last byte, whatever finds the hits.
+//! Every structure gives the same pages, to the last byte.
 
 use pipeline::job::{Job, Mode};
 use pipeline::run::{Options, run};
@@ -9,8 +9,9 @@ use render::filter::Filter;
 use std::fs;
 use std::path::Path;
 
-/// So few pixels that brute force takes seconds, since each of its rays is tried on up to half a million
-/// triangles. Points are sampled: the neighbours that an area needs would be twice as many rays.
+/// A size at which brute force takes seconds, since each of its rays is tried on up to half a
+/// million triangles. Points are sampled, since the neighbours for areas would double the number of
+/// rays.
 const SIZE: (u32, u32) = (6, 5);
 
 #[test]

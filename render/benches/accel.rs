@@ -1,11 +1,11 @@
-//! How fast a tree, the grids and brute force find hits, beside each other.
+//! Measures how fast a tree, the grids and brute force find hits.
 //!
-//! `cargo bench -p render --bench accel`. A torus of about 10 000 and of about 100 000 triangles
-//! over a floor, which stands apart. Each round times all structures on the same rays one after the
-//! other, on one thread, a few rays at a time; of each few the fastest round counts, so that
-//! what else a machine does disturbs little. docs/acceleration.md has a run.
+//! Run it with `cargo bench -p render --bench accel`. The scene is a torus of about 10 000 or about
+//! 100 000 triangles over a floor, which stands apart. Each round times all structures on the same
+//! rays, one after the other, on one thread and in small batches. The fastest round of each batch
+//! counts, so that other work on the machine has little influence. docs/acceleration.md has a run.
 //!
-//! Numbers of rounds and the size of the picture may follow: `-- 9 512`.
+//! The number of rounds and the side of the picture in pixels may follow: `-- 9 512`.
 
 use glam::{DVec2, DVec3};
 use render::accel::{Accel, Structure};
@@ -21,10 +21,10 @@ use std::time::Instant;
 const STRUCTURES: [(&str, Structure); 3] =
     [("bvh", Structure::Bvh), ("grid", Structure::Grid), ("none", Structure::None)];
 
-/// So many rays are timed together.
+/// Number of rays that are timed together.
 const FEW: usize = 509;
 
-/// A torus about y whose circles have `rows` and `cols` points, a little lumpy.
+/// Creates a torus about y whose circles have `rows` and `cols` points, slightly lumpy.
 fn torus(rows: u32, cols: u32) -> Mesh {
     let at = |r: u32, c: u32| (r % rows) * cols + c % cols;
     let cells: Vec<(u32, u32)> = (0..rows).flat_map(|r| (0..cols).map(move |c| (r, c))).collect();
@@ -51,8 +51,8 @@ fn torus(rows: u32, cols: u32) -> Mesh {
     }
 }
 
-/// Rays from the eye through every pixel, mirrored rays from what they hit, and from there rays to
-/// a light, with how far it is.
+/// Returns rays from the eye through every pixel, rays mirrored at their hits, and rays from the
+/// hits to a light. Each ray has the distance at which it ends.
 fn rays(accel: &Accel<'_>, side: u32) -> [Vec<(Ray, f64)>; 3] {
     let (eye, light) = (DVec3::new(1.2, 2.0, 3.0), DVec3::new(-2.0, 5.0, 2.0));
     let forward = -eye.normalize();
@@ -70,17 +70,19 @@ fn rays(accel: &Accel<'_>, side: u32) -> [Vec<(Ray, f64)>; 3] {
                 let normal = point.geometric_normal;
                 let mirrored = direction - 2.0 * direction.dot(normal) * normal;
                 sets[1].push((Ray::leaving(hit.piece, point.position, mirrored), f64::INFINITY));
-                let way = light - point.position;
-                sets[2]
-                    .push((Ray::leaving(hit.piece, point.position, way.normalize()), way.length()));
+                let toward = light - point.position;
+                sets[2].push((
+                    Ray::leaving(hit.piece, point.position, toward.normalize()),
+                    toward.length(),
+                ));
             }
         }
     }
     sets
 }
 
-/// The seconds that each few of the rays take, where that is less than `best` has; brute force
-/// gets one ray of each few.
+/// Times each batch of rays and keeps in `best` the shortest time per ray, in seconds. Brute force
+/// traces one ray of each batch.
 fn time(accel: &Accel<'_>, rays: &[(Ray, f64)], brute: bool, best: &mut Vec<f64>) {
     best.resize(rays.len().div_ceil(FEW), f64::INFINITY);
     for (few, best) in rays.chunks(FEW).zip(best) {
@@ -100,7 +102,7 @@ fn time(accel: &Accel<'_>, rays: &[(Ray, f64)], brute: bool, best: &mut Vec<f64>
     }
 }
 
-/// Rays from inside the tube through vertices and points of edges that get out.
+/// Counts the rays that start inside the tube, aim at vertices and points of edges, and get out.
 fn leaks(accel: &Accel<'_>, mesh: &Mesh, rows: u32, count: usize) -> usize {
     let corner = |k: u32| DVec3::from(mesh.positions[k as usize].map(f64::from));
     let aimed = (0..count).map(|k| {
@@ -115,13 +117,13 @@ fn leaks(accel: &Accel<'_>, mesh: &Mesh, rows: u32, count: usize) -> usize {
     aimed.filter(|ray| accel.closest(ray, f64::INFINITY).is_none()).count()
 }
 
-/// Million rays a second.
+/// Returns the speed in millions of rays per second.
 fn rate(seconds: &[f64]) -> f64 {
     1e-6 * seconds.len() as f64 / seconds.iter().sum::<f64>()
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    // Cargo adds --bench.
+    // Cargo adds the argument --bench.
     let numbers: Vec<usize> = std::env::args().filter_map(|word| word.parse().ok()).collect();
     let rounds = numbers.first().copied().unwrap_or(7);
     let side = numbers.get(1).copied().unwrap_or(256) as u32;
@@ -140,7 +142,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let build = |structure| Accel::build(shapes.iter().collect(), structure);
         let accels = STRUCTURES.map(|(_, structure)| build(structure));
         let sets = rays(&accels[0], side);
-        // By structure and kind of ray, and the time to build.
+        // Times by structure and kind of ray.
         let mut best: [[Vec<f64>; 3]; 3] = Default::default();
         let mut build_time = [f64::INFINITY; 3];
         for _ in 0..rounds {

@@ -1,8 +1,8 @@
-//! The map of texture coordinates on a triangle, in the thesis's form and in the one in use, held
-//! against exact fractions.
+//! Compares the map of texture coordinates on a triangle, in the thesis's form and in the form in
+//! use, with exact fractions.
 //!
 //! `cargo run --release -p render --example mapping -- FOLDER` writes `mapping.csv` and
-//! `mapping.svg` there and prints the table of `docs/mapping.md`.
+//! `mapping.svg` to that folder and prints the table of `docs/mapping.md`.
 
 #![expect(clippy::print_stdout, reason = "it is a program")]
 
@@ -15,10 +15,10 @@ use std::error::Error;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-/// Hits of each class.
+/// Number of hits in each class.
 const SAMPLES: usize = 1000;
 
-/// Errors of one class: of each form, sorted.
+/// Errors of one class, sorted, for each form.
 struct Line {
     class: &'static str,
     missed: usize,
@@ -34,7 +34,7 @@ impl Line {
         &self.errors[form][..self.errors[form].len() - self.failures(form)]
     }
 
-    /// Median and largest of the finite errors; nothing when there are none.
+    /// Returns the median and the largest of the finite errors, or `None` if there are none.
     fn spread(&self, form: usize) -> Option<[f64; 2]> {
         let finite = self.finite(form);
         Some([*finite.get(finite.len() / 2)?, *finite.last()?])
@@ -89,7 +89,7 @@ fn hits(line: &Line) -> f64 {
     line.errors[0].len() as f64
 }
 
-/// What the picture shows: the form in use and the thesis's.
+/// The forms in the picture, with their names: the form in use and the thesis's.
 const SHOWN: [(Form, &str); 3] =
     [(Form::Weights, "#1b7837"), (Form::Areas, "#4393c3"), (Form::Thesis, "#b2182b")];
 
@@ -98,7 +98,8 @@ const WIDTH: f64 = 560.0;
 const ROW: f64 = 24.0;
 const TOP: f64 = 46.0;
 
-/// Errors from 1e-17 to 1 to the right, classes downward; a bar from the median to the maximum.
+/// Draws errors from 1e-17 to 1 to the right and classes downward. A bar reaches from the median to
+/// the maximum.
 fn svg(lines: &[Line]) -> Result<String, Box<dyn Error>> {
     let place = |error: f64| LEFT + WIDTH * (error.clamp(1e-17, 1.0).log10() + 17.0) / 17.0;
     let height = TOP + ROW * lines.len() as f64 + 48.0;

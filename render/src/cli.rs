@@ -1,4 +1,4 @@
-//! The arguments of the program `render`, and its run. Each group of flags has its file.
+//! The arguments of the program `render`, and its run. Each group of flags has its own file.
 
 mod input;
 mod output;
@@ -109,7 +109,7 @@ impl Failure for EncodeError {
     }
 }
 
-/// Renders, checks or prints what the arguments ask for.
+/// Renders or checks the scene, or prints the text that the arguments request.
 pub fn run(arguments: &Arguments) -> Result<(), Report> {
     let Arguments { input, output, sampling, textures, work } = arguments;
     if input.emit_schema {
@@ -135,7 +135,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
 
     let started = Instant::now();
     let scene = input.read_scene(&ledger, |_, scene| Ok(scene))?;
-    // A pixel alone is a picture of its own.
+    // A pixel alone is a complete picture.
     let of_pixel =
         |(x, y)| Settings { crop: Some(Crop { x, y, width: 1, height: 1 }), ..settings.clone() };
     let _memory = match (&target, sampling.pixel) {

@@ -2,8 +2,8 @@
 //!
 //! The thesis's conventions (4.5.3) apply. The incident direction `I` points *at* the surface, and
 //! the normal `N` lies on the incident side. Both are unit vectors. `eta` is the index of
-//! refraction on the incident side over the index on the transmitted side. Other books turn one or
-//! both round.
+//! refraction on the incident side over the index on the transmitted side. Other books reverse one
+//! or both of these conventions.
 
 pub mod thin_film;
 

@@ -9,19 +9,19 @@ pub struct Ray {
     pub origin: DVec3,
     /// Unit direction of the ray, so that `t` is a distance.
     pub direction: DVec3,
-    /// The piece of surface that the ray leaves; [`crate::accel`] describes what the ray cannot hit
-    /// at its start.
+    /// The piece of surface on which the ray starts; [`crate::accel`] describes what the ray cannot
+    /// hit at its start.
     pub leaving: Option<Piece>,
 }
 
 impl Ray {
-    /// A ray that starts in free space; `direction` is unit.
+    /// Creates a ray that starts in free space; `direction` is unit.
     #[must_use]
     pub fn from_eye(origin: DVec3, direction: DVec3) -> Self {
         Self { origin, direction, leaving: None }
     }
 
-    /// A ray that leaves a surface at `origin`; `direction` is unit.
+    /// Creates a ray that starts on a surface, at `origin`; `direction` is unit.
     #[must_use]
     pub fn leaving(piece: Piece, origin: DVec3, direction: DVec3) -> Self {
         Self { origin, direction, leaving: Some(piece) }

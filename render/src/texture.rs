@@ -23,7 +23,7 @@ pub struct Texture {
     pub width: usize,
     /// Texels down.
     pub height: usize,
-    /// How the texture continues beyond its edges.
+    /// Continuation of the texture beyond its edges.
     pub wrap: Wrap,
     /// Codes of red, green and blue, proportional to light, row by row from the top.
     pub texels: Vec<[u16; 3]>,
@@ -31,7 +31,7 @@ pub struct Texture {
     pub white: u16,
 }
 
-/// How a texture continues beyond its edges.
+/// The continuation of a texture beyond its edges.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Wrap {

@@ -1,4 +1,4 @@
-//! What `--check` says: the inventory, each finding with its place, and the exit code.
+//! Output of `--check`: the inventory, each finding with its JSON path, and the exit code.
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
@@ -6,7 +6,7 @@ use crate::bench;
 
 use bench::{Bench, MESH_WALL, TEXTURED_WALL, WALL, WALL_OBJ, checks, ending};
 
-/// A ball in front of a wall, with nothing to be said about them.
+/// A ball in front of a wall, a scene without findings.
 const ROOM: &str = r#"{ "format": "tb-scene", "version": 1,
 "camera": { "eye": [0, 0, 4], "target": [0, 0, 0], "fov_deg": 60 },
 "lights": [ { "point": { "position": [3, 3, 3] } } ],
@@ -17,7 +17,7 @@ const ROOM: &str = r#"{ "format": "tb-scene", "version": 1,
     "material": "wall", "texture": "checks" } },
   { "sphere": { "center": [0, 0, 1.5], "radius": 1, "material": "ball" } } ] }"#;
 
-/// What is said of [`ROOM`] with a part replaced, by the exit code.
+/// Checks [`ROOM`] with a part replaced. Returns the exit code and the output.
 fn said(from: &str, to: &str) -> (i32, String) {
     assert!(ROOM.contains(from), "{from}");
     let bench = Bench::with_scene(&ROOM.replacen(from, to, 1));
@@ -26,7 +26,7 @@ fn said(from: &str, to: &str) -> (i32, String) {
     (run.status.code().unwrap(), String::from_utf8(run.stdout).unwrap())
 }
 
-/// The room with a part replaced must be found to be this, in one line.
+/// Asserts that the scene with a part replaced has this finding, on one line.
 #[track_caller]
 fn finds(from: &str, to: &str, finding: &str) {
     let (code, said) = said(from, to);
@@ -35,7 +35,7 @@ fn finds(from: &str, to: &str, finding: &str) {
     assert_eq!(code, if finding.starts_with("wrong") { 4 } else { 0 }, "{said}");
 }
 
-/// What is said of a mesh of glass.
+/// Checks a mesh of glass. Returns the exit code and the output.
 fn glass(obj: &str) -> (i32, String) {
     let glass = MESH_WALL.replace("\"diffuse\": 0", "\"diffuse\": 0, \"transparency\": 1");
     let bench = Bench::with_scene(&glass);
@@ -49,7 +49,7 @@ const TETRAHEDRON: &str =
 #[test]
 fn a_sound_scene_gets_its_inventory_and_no_finding() {
     let (code, said) = said("format", "format");
-    // How much a table takes is the filter's to say.
+    // The memory of a table depends on the filter and is cut off.
     let start = |line: &str| line.split(", tables of").next().unwrap().to_string();
     let lines: Vec<String> = said.lines().map(start).collect();
     assert!(said.contains("24 bytes, tables of "), "{said}");
@@ -97,7 +97,7 @@ fn what_is_out_of_sight_is_told() {
         "\"center\": [9, 0, 1.5]",
         "remark: objects[1].sphere: the whole object is outside",
     );
-    // By the picture's shape: a wide picture holds it.
+    // The shape of the picture matters: a wide picture contains the ball.
     finds(
         ball,
         "\"center\": [3.5, 0, 1.5]",
@@ -138,12 +138,12 @@ fn surfaces_in_the_same_place_are_told() {
     let in_it = "remark: objects[1].rectangle: the surface lies in objects[0].rectangle";
     finds(ball, &tile("[1, 1, 0]", 0.5), in_it);
     finds(ball, &tile("[1.9, 1.9, 0]", 0.5), in_it);
-    // Beside it, with a common edge, and above it there is nothing to be said.
+    // Beside the wall with a common edge, and above the wall, there is no finding.
     for corner in ["[2, 0, 0]", "[0, 0, 1e-6]", "[-2.5, -2.5, 0]"] {
         let (_, said) = said(ball, &tile(corner, 0.5));
         assert!(!said.contains("the surface lies in"), "{corner}\n{said}");
     }
-    // A glass mesh whose bottom is exactly in the floor.
+    // A glass mesh whose bottom lies exactly in the floor.
     let scene = MESH_WALL.replace("\"diffuse\": 0", "\"diffuse\": 0, \"transparency\": 1").replace(
         "\"objects\": [",
         "\"objects\": [ { \"plane\": { \"point\": [0, 0, 0], \"edge_u\": [1, 0, 0], \

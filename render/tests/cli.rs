@@ -1,4 +1,4 @@
-//! The program as its users meet it: what it writes, where to, and how it ends when it cannot.
+//! Runs of the program: its output, its files, and its exit codes.
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
@@ -8,11 +8,11 @@ use bench::{Bench, MESH_WALL, TEXTURED_WALL, WALL, WALL_OBJ, checks, ending};
 use serde_json::Value;
 use std::fs;
 
-/// The codes of the wall's colour, `[0.5, 0.125, 0]` linear: `255 (1.055 x^(1/2.4) - 0.055)` gives
-/// 187.5 and 98.6, where 0.5 lies above the tie.
+/// The codes of the wall's colour, `[0.5, 0.125, 0]` linear. `255 (1.055 x^(1/2.4) - 0.055)` gives
+/// 187.5 and 98.6; the value for 0.5 lies above the tie.
 const SRGB_WALL: [u8; 3] = [188, 99, 0];
 
-/// All pixels of an 8-bit picture, which must be equal.
+/// Returns the pixel of an 8-bit picture, all of whose pixels must be equal.
 fn only_pixel(bytes: &[u8], size: (u32, u32)) -> [u8; 3] {
     let picture = image::load_from_memory(bytes).unwrap().to_rgb8();
     assert_eq!(picture.dimensions(), size);
@@ -145,14 +145,15 @@ fn only_tables_that_a_surface_shows_are_built() {
         let stats = stats(&bench, &["--filter", filter]);
         assert_eq!(stats["tables"], tables, "{filter}");
         assert_eq!(stats["table_bytes"].as_u64() > Some(0), tables > 0, "{filter}");
-        // Only a filter that looks at areas needs the ring of rays around the picture.
+        // Only a filter that averages over areas needs the ring of rays around the picture.
         assert_eq!(stats["primary_rays"], if tables > 0 { 100 } else { 64 }, "{filter}");
     }
 }
 
 #[test]
 fn a_texture_that_nothing_shows_gets_no_table() {
-    // One is on no surface, one on a surface that answers neither ambient nor diffuse light.
+    // One texture is on no surface. The other is on a surface that reflects neither ambient nor
+    // diffuse light.
     let text = TEXTURED_WALL
         .replace(
             r#"{ "image": "checks.png" }"#,
@@ -175,7 +176,7 @@ fn stats_say_what_the_picture_cost() {
     for none in ["reflected_rays", "refracted_rays", "shadow_rays", "not_finite"] {
         assert_eq!(stats[none], 0, "{none}");
     }
-    // The wall stands apart, and nothing else needs a structure.
+    // The wall stands apart, and no other object needs a structure.
     assert_eq!(stats["accel_bytes"], 0);
     for stage in ["read", "accel", "table", "picture", "write"] {
         assert!(stats[format!("{stage}_seconds")].is_f64(), "{stage}");

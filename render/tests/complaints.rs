@@ -1,18 +1,19 @@
-//! Bad input: one sentence that says where, the right exit code, and an output left as it was.
+//! Bad input gives one sentence with the position of the fault, the right exit code, and an
+//! unchanged output.
 
 use crate::bench;
 
 use bench::{Bench, MESH_WALL, TEXTURED_WALL, WALL, WALL_OBJ, checks, encoded};
 use image::{ImageFormat, Rgb32FImage};
 
-/// The wall's scene with a part replaced must be refused with these words.
+/// Asserts that the wall's scene with a part replaced is refused with these words.
 fn refuse_scene(from: &str, to: &str, parts: &[&str]) {
     assert!(WALL.contains(from), "{from}");
     let bench = Bench::with_scene(&WALL.replacen(from, to, 1));
     bench.refuse(&["scene.json"], b"", 3, parts);
 }
 
-/// The mesh wall with this OBJ must be refused with these words.
+/// Asserts that the mesh wall with this OBJ is refused with these words.
 fn refuse_obj(obj: impl AsRef<[u8]>, parts: &[&str]) {
     let bench = Bench::with_scene(MESH_WALL);
     bench.write("wall.obj", obj.as_ref());
@@ -22,7 +23,7 @@ fn refuse_obj(obj: impl AsRef<[u8]>, parts: &[&str]) {
     bench.refuse(&["scene.json", "--mesh", "wall=-"], obj.as_ref(), 3, &parts);
 }
 
-/// The textured wall with this file as its picture must be refused with these words.
+/// Asserts that the textured wall with this file as its picture is refused with these words.
 fn refuse_texture(picture: &[u8], parts: &[&str]) {
     let bench = Bench::with_scene(TEXTURED_WALL);
     bench.write("checks.png", picture);
@@ -95,7 +96,7 @@ fn scenes_of_another_format_or_version_are_refused() {
         "\"version\": 2",
         &["scene.json:1:36: version: found 2, expected 1"],
     );
-    // A spec of the program before this one has none of a scene's keys.
+    // A spec of the preceding program has none of a scene's keys.
     let bench = Bench::with_scene(r#"{ "format": "tb-sweep", "version": 1, "name": "pipe" }"#);
     bench.refuse(&["scene.json"], b"", 3, &["scene.json:1:", "tb-sweep"]);
 }
@@ -313,7 +314,7 @@ fn an_output_of_unknown_kind_ends_with_2() {
 #[test]
 fn the_order_of_keys_does_not_matter() {
     let value: serde_json::Value = serde_json::from_str(WALL).unwrap();
-    // Sorted by name: what a file that was written by a program looks like.
+    // Keys are sorted by name, as in a file that a program wrote.
     let bench = Bench::with_scene(&serde_json::to_string(&value).unwrap());
     bench.make(&["scene.json", "-o", "wall.png", "--size", "2x2"], b"");
 }
@@ -327,7 +328,7 @@ fn a_texture_without_its_places_is_refused() {
     let place =
         "scene.json:6:24: objects[0].mesh: found 2 triangles without texture coordinates (vt)";
     bench.refuse(&["scene.json"], b"", 3, &[place, "mesh m", "expected vt"]);
-    // Without the texture there is nothing to be missed.
+    // Without the texture no texture coordinates are missing.
     bench.write("scene.json", textured.replacen(", \"texture\": \"checks\"", "", 1));
     bench.make(&["scene.json", "-o", "whole.png", "--size", "2x2"], b"");
 }

@@ -45,7 +45,7 @@ fn shown(keys: &str, objects: &[String], obj: &[u8]) -> Picture {
     picture(&scene(&keys, &[("m.obj", obj.to_vec())]), 48, Filter::Point)
 }
 
-/// The wall z = 0, tilted a little.
+/// A slightly tilted wall near z = 0.
 fn wall(material: &str) -> String {
     plane([0.3, 0.1, 0.0], [1.0, 0.1, 0.2], [0.1, 1.0, -0.3], material)
 }
@@ -73,12 +73,13 @@ fn from_anywhere_in_a_glass_ball_a_white_world_is_as_bright_as_fresnel_lets_out(
     for center in [[0.3, 0.0, 1.0], [0.0, -0.45, 1.1], [0.0, 0.0, 0.51]] {
         let seen = shown(keys, &[sphere(center, 0.5, "glass")], b"");
         for (x, y, pixel) in pixels(&seen) {
-            // Every bounce meets the surface at one angle; its sine is the distance of the ray
-            // from the centre over the radius.
+            // Every bounce meets the surface at one angle. The sine of this angle is the distance
+            // of the ray from the centre over the radius.
             let [a, b] = on_film(x, y, 48);
             let ray = DVec3::new(a, b, -1.0).normalize();
             let sine = (DVec3::from(center) - DVec3::Z).cross(ray).length() / 0.5;
-            // Fresnel by angles; 63 bounces are followed, and each time the rest is let out.
+            // Fresnel's formula by angles. 63 bounces are followed, and each lets out a part of the
+            // light.
             let (inner, outer) = (sine.asin(), (1.5 * sine).asin());
             let share = |f: fn(f64) -> f64| (f(inner - outer) / f(inner + outer)).powi(2);
             let reflected = 0.5 * (share(f64::sin) + share(f64::tan));
@@ -128,7 +129,8 @@ fn coincident_walls_neither_flicker_nor_shade_each_other() {
     assert_near(&shown(&lit, &walls, b""), &one, STEP);
 }
 
-/// A tilted square from -2 to 2 as n by n pairs of triangles, `z = 0.25 x - 0.5 y`, exact in f32.
+/// Returns a tilted square from -2 to 2 as n by n pairs of triangles, with `z = 0.25 x - 0.5 y`
+/// exact in f32.
 fn grid(n: usize, more: &str) -> Vec<u8> {
     let mut text = String::new();
     for k in 0..(n + 1) * (n + 1) {
@@ -150,7 +152,7 @@ fn mesh(material: &str) -> String {
 #[test]
 fn triangles_of_one_plane_do_not_shade_or_mirror_each_other() {
     let flat = quad([-2.0, -2.0, 0.5], [4.0, 0.0, 1.0], [0.0, 4.0, -2.0], "white");
-    // The second light stands one thousandth above the plane.
+    // The second light is one thousandth above the plane.
     for position in [[1.0, 2.0, 3.0], [1.5, 0.5, 0.126]] {
         let one = shown(&light(position), std::slice::from_ref(&flat), b"");
         for n in [1, 16] {
@@ -177,14 +179,14 @@ fn normals_without_length_stand_for_none() {
     let bare = shown(&lit, &[mesh("white")], format!("{square}f 1 2 3 4\n").as_bytes());
     let zero = format!("{square}vn 0 0 0\nf 1//1 2//1 3//1 4//1\n");
     assert_near(&shown(&lit, &[mesh("white")], zero.as_bytes()), &bare, 0.0);
-    // Two that cancel each other in the middle of the square.
+    // Two normals that cancel each other in the middle of the square.
     let opposed = format!("{square}vn 1 0 0\nvn -1 0 0\nf 1//1 2//2 3//2 4//1\n");
     let seen = shown(&lit, &[mesh("glass"), wall("white")], opposed.as_bytes());
     assert!(seen.pixels.iter().flatten().all(|light| (0.0..=1.0).contains(light)));
 }
 
-/// A wall, balls of glass and of mirror, and a shadow, `scale` times as large and `away` from the
-/// origin.
+/// Renders a wall, balls of glass and of mirror, and a shadow, `scale` times as large and `away`
+/// from the origin.
 fn balls(scale: f64, away: [f64; 3]) -> Picture {
     let place = |p: [f64; 3]| [0, 1, 2].map(|k| p[k] * scale + away[k]);
     let edge = |p: [f64; 3]| p.map(|x| x * scale);
@@ -208,11 +210,11 @@ fn balls(scale: f64, away: [f64; 3]) -> Picture {
 #[test]
 fn a_scene_looks_the_same_in_any_unit_of_length() {
     let meters = balls(1.0, [0.0; 3]);
-    // Powers of two change no digit of any step, as long as nothing has a length built in.
+    // Powers of two change no digit of any step, provided that no constant is a length.
     for scale in [2f64.powi(20), 2f64.powi(-20), 2f64.powi(40), 2f64.powi(-40)] {
         assert_near(&balls(scale, [0.0; 3]), &meters, 0.0);
     }
-    // Powers of ten round differently, which moves what is seen by a mirror in a ball.
+    // Powers of ten round differently, which moves the image in a mirror inside a ball.
     for scale in [1e6, 1e-6] {
         assert_alike(&balls(scale, [0.0; 3]), &meters, 1e-5);
     }
@@ -221,11 +223,11 @@ fn a_scene_looks_the_same_in_any_unit_of_length() {
 #[test]
 fn a_scene_looks_the_same_a_million_units_from_the_origin() {
     let here = balls(1.0, [0.0; 3]);
-    // Places are rounded to 1e-10 there; seen through two balls that grows a thousandfold.
+    // Positions are rounded to 1e-10 there. Two balls magnify the rounding a thousandfold.
     assert_alike(&balls(1.0, [1e6, -1e6, 1e6]), &here, 1e-5);
 }
 
-/// Checks that two pictures differ by at most `tolerance`, but for a few pixels on outlines.
+/// Checks that two pictures differ by at most `tolerance`, except for a few pixels on outlines.
 fn assert_alike(left: &Picture, right: &Picture, tolerance: f32) {
     let far = |(l, r): &(&[f32; 3], &[f32; 3])| (0..3).any(|k| (l[k] - r[k]).abs() > tolerance);
     let count = left.pixels.iter().zip(&right.pixels).filter(far).count();
@@ -248,7 +250,7 @@ fn between_two_mirrors_light_is_a_geometric_series() {
 
 #[test]
 fn behind_many_half_transparent_panes_a_picture_still_comes() {
-    // Each pane sends two rays on, and 64 levels of them would never end.
+    // Each pane sends two rays on; 64 levels of them would not end.
     let materials = r#""materials": { "pane": { "ambient": 0, "diffuse": 0, "reflectivity": 1,
         "transparency": 1, "index_of_refraction": 1 } }"#;
     let panes: Vec<String> = (0..10)
@@ -265,7 +267,7 @@ fn behind_many_half_transparent_panes_a_picture_still_comes() {
     assert_eq!(stats.hits, 4 * MOST_NODES as u64);
 }
 
-/// An unlit square, or whatever object, with a picture on it.
+/// Returns an unlit square, or another object, with a picture on it.
 fn textured(width: usize, texels: &[[u8; 3]], camera: &str, object: &str) -> Scene {
     let keys = format!(
         r#"{camera} "ambient": 1, {MATERIALS}, "objects": [ {object} ],
@@ -294,7 +296,7 @@ fn textures_may_be_one_texel_wide_or_high() {
         for (x, y, pixel) in pixels(&across) {
             let near = |a: [f32; 3], b: [f32; 3]| (0..3).all(|k| (a[k] - b[k]).abs() < STEP);
             assert!(near(pixel, at(&down, y, x)), "{filter:?}: across is not down at {x} {y}");
-            // Bands are even in their middle, and linear between for all filters but `point`.
+            // Bands are uniform in their middle, and linear between for all filters but `point`.
             if filter == Filter::Point {
                 assert!(near(pixel, shade(x / 8)), "{x} {y} {pixel:?}");
             }
@@ -311,7 +313,7 @@ fn camera(eye: [f64; 3], up: [f64; 3]) -> String {
 
 #[test]
 fn the_seam_of_a_globe_is_not_seen() {
-    // The seam is behind; turning the picture and the eye by half a turn brings it to the front.
+    // The seam is behind. Rotating the picture and the eye by half a turn moves it to the front.
     let texel =
         |i: usize, j: usize| [(i * 37 % 256) as u8, (j * 53 % 256) as u8, (i * j % 256) as u8];
     let map: Vec<_> = (0..512).map(|k| texel(k % 32, k / 32)).collect();
@@ -322,8 +324,9 @@ fn the_seam_of_a_globe_is_not_seen() {
         let away = picture(&textured(32, &map, &front, GLOBE), 49, filter);
         let across = picture(&textured(32, &turned, &back, GLOBE), 49, filter);
         for ((x, y, shown), expected) in pixels(&across).zip(&away.pixels) {
-            // The middle one of 49 columns looks along the edge between two texels. There a texel at a
-            // point is the left or the right one by a rounding; averages do not jump.
+            // The middle one of 49 columns looks along the edge between two texels. Point sampling
+            // sees the left or the right texel there, depending on a rounding. Averages do not
+            // jump.
             let edge = filter == Filter::Point && x == 24;
             let sides = [at(&across, x - u32::from(edge), y), at(&across, x + u32::from(edge), y)];
             let near = |truth: [f32; 3]| (0..3).all(|k| (shown[k] - truth[k]).abs() <= STEP);
@@ -343,10 +346,11 @@ fn at_a_pole_a_globe_shows_nothing_of_the_other_pole() {
             _ => [0; 3],
         })
         .collect();
-    // A pyramid's square is as wide as the pixel sees of the pole's row: all of it.
+    // The square of a pyramid is as wide as the part of the pole's row that the pixel sees: the
+    // whole row.
     for filter in FILTERS.into_iter().filter(|&filter| filter != Filter::Mip) {
         for (y, truth) in [(4.0, 0.0), (-4.0, 1.0)] {
-            // An odd number of pixels looks straight at the pole.
+            // With an odd number of pixels the middle one looks straight at the pole.
             let eye = camera([0.0, y, 0.0], [0.0, 0.0, 1.0]);
             let shown = picture(&textured(32, &map, &eye, GLOBE), 49, filter);
             for (x, y, pixel) in pixels(&shown) {

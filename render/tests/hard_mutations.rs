@@ -1,6 +1,6 @@
-//! Scenes that nobody meant to write: keys, numbers and bytes of the examples changed at random. Each
-//! gives a picture of finite colours, or a sentence with its place, without a panic. How long a case may
-//! take is limited by the fuzzer.
+//! Scenes altered at random: keys, numbers and bytes of the examples are changed. Each scene gives
+//! a picture of finite colours, or one sentence with the position of the fault, and no panic. The
+//! fuzzer limits the time of a case.
 
 use crate::examples;
 
@@ -48,7 +48,7 @@ const NUMBERS: [f64; 27] = [
     0.999_999_999,
 ];
 
-/// A tetrahedron for every mesh that jobs would give.
+/// Returns a tetrahedron, which replaces every mesh that jobs would give.
 fn tetrahedron() -> Mesh {
     let corner =
         |position: [u32; 3]| Triangle { position, uv: position, normal: [NONE; 3], surface: 0 };
@@ -61,7 +61,7 @@ fn tetrahedron() -> Mesh {
     }
 }
 
-/// Reads, checks and renders a text: whether there is a picture.
+/// Reads, checks and renders a text. Returns whether it gives a picture.
 fn judged(text: &[u8]) -> bool {
     let shown = String::from_utf8_lossy(text);
     let made = Document::new("scene.json", text).map_err(SceneError::from).and_then(|document| {
@@ -85,10 +85,10 @@ fn judged(text: &[u8]) -> bool {
             let (picture, stats) = render::render(&Prepared::new(&scene), &settings, &|_, _| {});
             let finite = |pixel: &[f32; 3]| pixel.iter().all(|x| x.is_finite() && *x >= 0.0);
             assert!(picture.pixels.iter().all(finite), "{:?}\n{shown}", picture.pixels);
-            // Only where colours that are huge by themselves are multiplied.
+            // Values this large occur only where colours that are huge themselves are multiplied.
             let huge = shown.contains("e29") || shown.contains("e+29");
             assert!(stats.not_finite == 0 || huge, "{shown}");
-            // Whatever stands in the scene, a tree of rays has a bounded number of nodes.
+            // For any scene, a tree of rays has a bounded number of nodes.
             assert!(
                 stats.hits <= stats.primary_rays * MOST_NODES as u64,
                 "{}\n{shown}",
@@ -98,7 +98,7 @@ fn judged(text: &[u8]) -> bool {
         }
         Err(error) => {
             let message = error.to_string();
-            // A place: the file, a line and a column, and mostly a path.
+            // The position is the file, a line and a column, and mostly a path.
             let placed = message.strip_prefix("scene.json:").is_some_and(|rest| {
                 rest.split(':').take(2).all(|number| number.parse::<u32>().is_ok())
             });

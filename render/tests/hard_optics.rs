@@ -19,13 +19,14 @@ use studio::{assert_near, picture, png, scene};
 
 const INDICES: [f64; 6] = [1.000_001, 1.1, 1.333, 1.5, 2.42, 4.0];
 
-/// The largest change of the reflected share from one cosine to the next `f64`.
+/// Largest change of the reflected share from one cosine to the next `f64`.
 ///
-/// The cosine of refraction grows from nothing as a square root: for the index 4 one step of `2^-53` in the
-/// cosine of incidence makes it 6e-8, and the share falls by 2 (4 + 1/4) times that, 5e-7.
+/// The cosine of refraction grows from 0 as a square root. For the index 4, one step of `2^-53` in
+/// the cosine of incidence makes it 6e-8. The share falls by 2 (4 + 1/4) times this cosine, 5e-7.
 const JUMP: f64 = 6e-7;
 
-/// Cosines of the angle of incidence, from some ulps beyond the critical one to some ulps before it.
+/// Returns cosines of the angle of incidence, from some ulps beyond the critical one to some ulps
+/// before it.
 fn critical(index: f64) -> impl Iterator<Item = f64> {
     let mut cosine = (1.0 - 1.0 / (index * index)).sqrt();
     for _ in 0..12 {
@@ -55,7 +56,8 @@ fn around_the_critical_angle_shares_are_finite_and_go_over_smoothly() {
                 None => kinds[0] += 1,
             }
         }
-        // So near to air an ulp of the cosine is lost in the difference from one.
+        // For an index this close to that of air, an ulp of the cosine is lost in the difference
+        // from one.
         let both = kinds[0] > 0 && kinds[1] > 0;
         assert!(both || index < 1.01, "{index}: both sides of it were tried, {kinds:?}");
     }
@@ -86,7 +88,7 @@ fn around_the_critical_angle_weights_sum_to_one_and_the_colour_is_calm() {
             let node = tree.node(tree.root).unwrap();
             let sum = (node.reflect_weight + node.refract_weight).x;
             assert!((sum - 1.0).abs() <= f64::EPSILON, "{index} {cosine}: {sum}");
-            // A floor of light 1 below, a black sky above.
+            // The floor has light 1, and the sky above is black.
             let color = node.reflect_weight.x;
             let jump = before.map_or(0.0, |before: f64| (color - before).abs());
             assert!(jump <= JUMP, "{index} {cosine}: the colour jumps by {jump:e}");
@@ -106,7 +108,8 @@ fn grazing_light_is_reflected_whole_and_what_passes_is_finite() {
             let cosine = (-incident.dot(normal)).max(0.0);
             let share = fresnel(cosine, eta);
             assert!((0.0..=1.0).contains(&share), "{angle:e} {eta}: {share}");
-            // By Fresnel's equations all but 4 cosines of it, for indices that differ.
+            // For indices that differ, Fresnel's equations transmit a share of about 4 cosines; the
+            // bound allows 40.
             if (eta - 1.0).abs() > 0.1 {
                 assert!(share >= 1.0 - 40.0 * cosine, "{angle:e} {eta}: {share}");
             }
@@ -142,7 +145,7 @@ fn glass_of_index_one_is_not_there() {
     for air in ["air", "fresnel air"] {
         for (object, obj) in [
             (sphere([0.1, 0.2, -0.5], 0.8, air), &b""[..]),
-            // The eye within it.
+            // The eye is within this ball.
             (sphere([0.1, 0.2, 0.5], 0.9, air), b""),
             (quad([-0.7, -0.8, 0.1], [1.3, 0.2, -0.5], [0.1, 1.4, 0.2], air), b""),
             (plane([0.0, 0.0, -0.5], [1.0, 0.3, 0.1], [-0.2, 1.0, 0.3], air), b""),
@@ -151,10 +154,11 @@ fn glass_of_index_one_is_not_there() {
         ] {
             let objects = [object];
             let unlit = |objects: &[String]| wall(r#""ambient": 1,"#, "paper", objects, obj);
-            // The point that is seen moves by a rounding: no pixel may look at the edge of a texel.
+            // A rounding moves the point that is seen, so no pixel may look at the edge of a texel.
             let bare = picture(&unlit(&[]), 61, Filter::Point);
             assert_near(&picture(&unlit(&objects), 61, Filter::Point), &bare, 0.0);
-            // Lit through it: the point on the wall moves by a rounding, and its cosine with it.
+            // The wall is lit through the object. A rounding moves the point on the wall, and with
+            // it the cosine.
             let keys = light([1.0, 2.0, 3.0]);
             let bare = picture(&wall(&keys, "chalk", &[], obj), 61, Filter::Point);
             let through = picture(&wall(&keys, "chalk", &objects, obj), 61, Filter::Point);

@@ -1,4 +1,5 @@
-//! Eyes and lights where they are in the way: on surfaces, at corners, inside objects, at the eye.
+//! Eyes and lights at degenerate positions: on surfaces, at corners, inside objects, and at the
+//! eye.
 
 use crate::exact;
 use crate::studio;
@@ -29,7 +30,7 @@ fn wall() -> String {
 }
 
 fn camera(eye: DVec3, target: DVec3) -> String {
-    // Across the view there is always one of these.
+    // One of these axes always lies across the view.
     let up = if (target - eye).normalize().y.abs() < 0.9 { [0, 1, 0] } else { [1, 0, 0] };
     format!(
         r#""camera": {{ "eye": {:?}, "target": {:?}, "up": {up:?}, "fov_deg": 100 }},"#,
@@ -50,7 +51,7 @@ fn an_eye_on_a_ball_sees_the_world_outside_and_the_ball_inside() {
             camera(eye, eye + radius * toward) + r#""background": [1, 0, 0], "ambient": 0.5,"#
         };
         let objects = [sphere(center.to_array(), radius, "unlit")];
-        // A view of 100 degrees leaves ten between its corner and the ball.
+        // A view of 100 degrees leaves ten degrees between its corner and the ball.
         let out = picture(&with(&keys(normal), &objects, b""), 9, Filter::Point);
         assert!(out.pixels.iter().all(|&pixel| pixel == [1.0, 0.0, 0.0]), "{center} {radius}");
         let within = picture(&with(&keys(-normal), &objects, b""), 9, Filter::Point);
@@ -75,7 +76,7 @@ fn an_eye_on_a_flat_surface_sees_past_it_to_both_sides() {
             }
         }
     }
-    // A point that lies on a triangle of f32 to the last bit, and at one of its corners.
+    // A point that lies on a triangle of f32 to the last bit, and one of its corners.
     let obj = b"v 0 0 0\nv 4 0 2\nv 0 4 -1\nf 1 2 3\n";
     for eye in [DVec3::new(1.0, 1.0, 0.25), DVec3::ZERO] {
         for toward in [1.0, -1.0] {
@@ -89,8 +90,8 @@ fn an_eye_on_a_flat_surface_sees_past_it_to_both_sides() {
 
 #[test]
 fn a_light_at_the_eye_shows_no_shadow() {
-    // All that the eye sees the light sees: Lambert's law with no part missing, to the last pixel of
-    // every outline.
+    // The light sees all that the eye sees. Lambert's law holds without shadows, up to the last
+    // pixel of every outline.
     let obj = ball(DVec3::new(-0.4, 0.2, -0.6), 0.5, 16, 8, false);
     let keys = light([0.0, 0.0, 1.0]) + r#""ambient": 0,"#;
     let objects = [
@@ -117,7 +118,7 @@ fn a_light_at_the_eye_shows_no_shadow() {
 
 #[test]
 fn a_light_at_a_corner_or_on_an_edge_is_not_hidden_by_it() {
-    // A cube behind the light, which is one of its corners, or lies on an edge or on a face.
+    // A cube behind the light. The light is one of its corners, or lies on an edge or on a face.
     let cube = "v -1 -1 2\nv 1 -1 2\nv 1 1 2\nv -1 1 2\nv -1 -1 4\nv 1 -1 4\nv 1 1 4\nv -1 1 4\n\
         f 1 2 3 4\nf 5 8 7 6\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n";
     let sight = camera(DVec3::new(0.0, 0.0, 1.5), DVec3::ZERO);
@@ -151,11 +152,11 @@ fn a_light_inside_an_object_is_hidden_or_dimmed_once() {
 fn a_light_at_the_point_that_is_seen_or_along_the_surface_leaves_it_ambient() {
     for position in [[0.0; 3], [0.5, 0.25, 0.0], [1e-300, 0.0, 0.0], [1e6, 0.0, 0.0]] {
         let keys = light(position) + r#""ambient": 0.25,"#;
-        // An odd number of pixels looks straight at the light.
+        // With an odd number of pixels the middle one looks straight at the light.
         let seen = picture(&with(&keys, &[wall()], b""), 49, Filter::Point);
         assert!(seen.pixels.iter().all(|&pixel| pixel == [0.25; 3]), "{position:?}");
     }
-    // Just above it there is just the cosine.
+    // Just above the wall only the cosine counts.
     for height in [1e-3, 1e-6, 1e-9, 1e-12, 1e-100] {
         let keys = light([0.0, 0.0, height]) + r#""ambient": 0,"#;
         let seen = picture(&with(&keys, &[wall()], b""), 49, Filter::Point);
@@ -163,14 +164,14 @@ fn a_light_at_the_point_that_is_seen_or_along_the_surface_leaves_it_ambient() {
             let [a, b] = on_film(x, y, 49);
             let truth = 0.8 * height / a.hypot(b).hypot(height);
             let error = (f64::from(pixel[0]) - truth).abs();
-            // Half a step of f32 is 2^-24 of the light at most, and what is seen lies within a rounding
-            // of the wall.
+            // Half a step of f32 is at most 2^-24 of the light, and the point that is seen lies
+            // within a rounding of the wall.
             assert!(
                 error <= f64::from(STEP) * truth + 1e-16,
                 "{height:e} at {x} {y}: {pixel:?} {truth:e}"
             );
         }
-        // Its foot sees it straight above.
+        // The foot of the light sees the light straight above.
         assert!((at(&seen, 24, 24)[0] - 0.8).abs() < STEP, "{height:e}: {:?}", at(&seen, 24, 24));
     }
 }

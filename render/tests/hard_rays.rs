@@ -1,5 +1,5 @@
-//! Rays that graze, rays that leave a surface, rays caught in mirrors and in glass: none is lost and
-//! none hits what it leaves.
+//! Rays that graze surfaces, start on surfaces, or are caught in mirrors and glass. No ray is lost,
+//! and none hits the surface on which it starts.
 
 use crate::exact;
 use crate::studio;
@@ -18,12 +18,12 @@ use render::trace::{RayCounts, Tracer};
 use studio::objects::{ball, mesh};
 use studio::scene;
 
-/// Angles to the surface, from a tenth down to 1e-12.
+/// Returns angles to the surface, from a tenth down to 1e-12 radians.
 fn angles() -> impl Iterator<Item = f64> {
     (1..=12).map(|k| 10f64.powi(-k))
 }
 
-/// The triangle, and the parallelogram of which it is one half.
+/// Returns the triangle, and the parallelogram of which the triangle is one half.
 fn shapes(corners: [[f32; 3]; 3]) -> [Shape; 2] {
     let obj = corners.map(|[x, y, z]| format!("v {x:?} {y:?} {z:?}\n")).concat() + "f 1 2 3\n";
     let mesh = render::scene::obj::read("m.obj", obj.as_bytes()).expect("a mesh");
@@ -50,7 +50,7 @@ fn grazing_rays_hit_where_they_should() {
             let truth = (truth.best_point(&truth.truth()) - origin).length();
             for shape in shapes(corners) {
                 let accel = Accel::build(vec![&shape], Structure::Bvh);
-                // A rounding of the coordinates, seen at this angle.
+                // A rounding of the coordinates, magnified by this angle.
                 let bound = 16.0 * f64::EPSILON / angle;
                 let hit = accel.closest(&ray, f64::INFINITY);
                 let error = hit.map_or(f64::INFINITY, |hit| (hit.t / truth - 1.0).abs());
@@ -69,13 +69,13 @@ fn grazing_rays_along_a_sphere_hit_it_where_they_should() {
             let center = DVec3::new(0.3, -0.7, 0.2) * scale;
             let ball = Shape::Sphere(Sphere { center, radius: scale });
             let accel = Accel::build(vec![&ball], Structure::Bvh);
-            // The ray passes the centre at this part of the radius, and its height over the chord's
-            // middle is what is left of it.
+            // The ray passes the centre at this fraction of the radius. Its height above the middle
+            // of the chord is the rest of the radius.
             let aside = angle.cos();
             let origin = center + scale * DVec3::new(-4.0, aside, 0.0);
             let hit = accel.closest(&Ray::from_eye(origin, DVec3::X), f64::INFINITY).unwrap();
             let truth = scale * (4.0 - angle.sin());
-            // Half the chord is a root of a difference: half of its digits go.
+            // Half the chord is the root of a difference, which loses half of its digits.
             let bound = scale * 4.0 * (2.0 * f64::EPSILON / angle).min(f64::EPSILON.sqrt());
             assert!((hit.t - truth).abs() <= bound + 8.0 * f64::EPSILON * truth, "{angle:e}");
         }
@@ -135,8 +135,8 @@ fn a_mirrored_grazing_ray_leaves_flat_and_round_surfaces_for_good() {
     assert_eq!(again, 0, "of {hits} rays, so many hit what they left");
 }
 
-/// A tilted square from -2 to 2 as n by n pairs of triangles; exact in f32, and so flat, when n is a
-/// power of two.
+/// Returns a tilted square from -2 to 2 as n by n pairs of triangles. It is exact in f32, and so
+/// flat, if n is a power of two.
 fn tilted(n: usize) -> Vec<u8> {
     let place = |k: usize| 4.0 * k as f64 / n as f64 - 2.0;
     let mut text = String::new();
@@ -173,7 +173,8 @@ fn in_a_hollow_mirror_a_ray_goes_round_for_ever() {
                     let direction = reflect(ray.direction, -point.geometric_normal);
                     ray = Ray::leaving(hit.piece, point.position, direction);
                 }
-                // A mirror ball keeps the spin; a thousand bounces add a thousand roundings.
+                // A spherical mirror keeps `(position - centre) x direction`; a thousand bounces
+                // add a thousand roundings.
                 let rounding = f64::EPSILON * scale * (1.0 + away);
                 let drift = ((ray.origin - center).cross(ray.direction) - spin).length();
                 assert!(drift < 2000.0 * rounding, "{scale} {away} {grazing}: {drift:e}");
@@ -206,8 +207,8 @@ fn in_a_closed_mirror_mesh_no_ray_escapes() {
     }
 }
 
-/// Counts the branches of a tree of one convex closed glass object around `center` that are where
-/// they cannot be: inside and on to the background, or outside and on to a second hit.
+/// Counts impossible branches in the tree of one convex closed glass object around `center`: a ray
+/// inside that reaches the background, or a ray outside that hits the object again.
 fn impossible(tree: &IntersectionTree, node: &Node, center: DVec3, most: &mut [usize; 2]) {
     let inside = (node.position - center).dot(node.geometric_normal) < 0.0;
     for (branch, inside) in [(node.reflected, inside), (node.refracted, !inside)] {
@@ -250,8 +251,8 @@ fn in_glass_no_ray_escapes_and_none_hits_what_it_left() {
         let tracer = Tracer::new(scene, &accel, &volumes);
         let (mut tree, mut counts) = (IntersectionTree::default(), RayCounts::default());
         let mut found = [0; 2];
-        // From outside over the whole ball, its rim included, and from inside to everywhere; many
-        // rays are aimed straight at its poles and rings.
+        // Rays from outside over the whole ball, its rim included, and from inside in all
+        // directions. Many rays are aimed exactly at its poles and rings.
         for k in 0..900u32 {
             let [x, y] = [k % 30, k / 30].map(|i| f64::from(i) / 29.0 * 2.1 - 1.05);
             let target = center + DVec3::new(x, y, 0.0);

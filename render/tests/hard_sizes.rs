@@ -1,5 +1,5 @@
-//! Pictures of a pixel, spheres and planes as small and as large as scenes go, scenes that are all
-//! one point to their shapes.
+//! Pictures of one pixel, the smallest and largest spheres and planes, and scenes that are a single
+//! point to their shapes.
 
 use crate::studio;
 
@@ -29,8 +29,9 @@ fn a_row_a_column_and_a_pixel_are_parts_of_a_larger_picture() {
     let objects = [textured(&tilted), sphere([0.2, 0.1, -0.5], 0.4, "glass")];
     let scene = with(r#""background": [0.1, 0.2, 0.3],"#, &objects);
     for filter in FILTERS {
-        // Pixels are as large as the height says, so a column is the middle column of a square, to
-        // the last bit: what its footprints need from beside it is traced as well.
+        // The height determines the size of pixels. A column is therefore the middle column of a
+        // square picture, to the last bit. The neighbours that its footprints need are traced as
+        // well.
         let square = picture(&scene, 9, filter);
         let column = sized(&scene, 1, 9, filter);
         for y in 0..9 {
@@ -43,7 +44,7 @@ fn a_row_a_column_and_a_pixel_are_parts_of_a_larger_picture() {
     }
 }
 
-/// A ball of this radius that just fills half of the view from `distance` radii, whatever its size.
+/// Renders a ball of this radius. The distances of eye and light are proportional to the radius.
 fn round(radius: f64) -> Picture {
     let eye = [0.0, 0.0, 4.0 * radius];
     let keys = format!(
@@ -67,7 +68,7 @@ fn balls_of_any_size_look_the_same() {
 
 #[test]
 fn a_ball_around_everything_may_be_as_large_as_scenes_go() {
-    // Its inside is seen everywhere, and the small ball in it stays as it was.
+    // The inside of the large ball is seen everywhere, and the small ball in it is unchanged.
     let small = sphere([0.0, 0.0, -1.0], 0.5, "unlit");
     let keys = r#""ambient": 0.5, "background": [1, 0, 0],"#;
     let bare = picture(&with(keys, std::slice::from_ref(&small)), 31, Filter::Point);
@@ -75,7 +76,7 @@ fn a_ball_around_everything_may_be_as_large_as_scenes_go() {
         let sky = sphere([0.0; 3], radius, "unlit");
         let seen = picture(&with(keys, &[small.clone(), sky]), 31, Filter::Point);
         assert!(seen.pixels.iter().all(|&pixel| pixel == [0.5; 3]), "radius {radius:e}");
-        // And in a mirror it is seen all around.
+        // A mirror shows the inside all around.
         let mirror = sphere([0.0, 0.0, -1.0], 0.5, "mirror");
         let sky = sphere([0.0; 3], radius, "unlit");
         let seen = picture(&with(keys, &[mirror, sky]), 31, Filter::Point);
@@ -88,7 +89,7 @@ fn a_ball_around_everything_may_be_as_large_as_scenes_go() {
 fn balls_too_small_to_be_met_are_not_seen() {
     let keys = r#""background": [1, 0.5, 0.25],"#;
     for radius in [1e-18, 1e-24, 1e-30] {
-        // Nine of them, so that some are leaves of a tree.
+        // There are nine objects, so that some are leaves of a tree.
         let dust: Vec<String> =
             (0..9).map(|k| sphere([0.013 * f64::from(k), 0.017, -1.0], radius, "white")).collect();
         let seen = picture(&with(keys, &dust), 16, Filter::Point);
@@ -107,7 +108,7 @@ fn a_plane_is_the_same_however_long_its_edges() {
     for power in [-90, -30, 30, 99] {
         assert_near(&wall(2f64.powi(power)), &unit, 0.0);
     }
-    // A texture on it is one texel as far as the eye can see, or the mean of all of them.
+    // A texture on the plane shows one texel everywhere, or the mean of all texels.
     let mean = [0.0, 1.0, 2.0].map(|k: f32| match k as u8 {
         0 => 119.0 / 255.0,
         1 => 178.0 / 255.0,
@@ -120,7 +121,8 @@ fn a_plane_is_the_same_however_long_its_edges() {
         for filter in [Filter::Box, Filter::Tent] {
             let seen = picture(&scene, 8, filter);
             let truth = if size > 1.0 { at(&seen, 0, 0) } else { mean };
-            // Beyond its last whole period a footprint of a hundred thousand has not much.
+            // Beyond its last whole period a footprint of a hundred thousand periods has little
+            // weight.
             let far = |pixel: &[f32; 3]| (0..3).any(|k| (pixel[k] - truth[k]).abs() > 1e-4);
             assert!(!seen.pixels.iter().any(far), "{size:e} {filter:?} {:?}", at(&seen, 0, 0));
         }
@@ -134,7 +136,7 @@ fn a_rectangle_as_large_as_scenes_go_is_still_seen() {
         let scene = with(r#""ambient": 0.5,"#, &[wall.clone(), sphere([0.0; 3], 1e-3, "unlit")]);
         let seen = picture(&scene, 9, Filter::Point);
         assert!(seen.pixels.iter().all(|&pixel| pixel == [0.5; 3]), "{size:e}");
-        // More of them than stand apart from the tree.
+        // More walls than may stand apart from the tree.
         let many = vec![wall; 12];
         let seen = picture(&with(r#""ambient": 0.5,"#, &many), 9, Filter::Point);
         assert!(seen.pixels.iter().all(|&pixel| pixel == [0.5; 3]), "{size:e}");
@@ -159,7 +161,7 @@ fn a_thousand_coincident_triangles_look_like_one() {
             );
             picture(&scene(&keys, &[("m.obj", obj(count))]), 24, Filter::Point)
         };
-        // Of a thousand the first is hit, and none of the others is in the way of what leaves it.
+        // Of a thousand walls the first is hit. The others do not block the rays that start on it.
         assert_near(&shown(500), &shown(1), 0.0);
     }
     let black = picture(

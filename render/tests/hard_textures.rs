@@ -1,4 +1,5 @@
-//! Textures of odd sizes, and footprints over the horizon, beside the eye, and larger than the texture.
+//! Textures of odd sizes, and footprints across the horizon, beside the eye, and larger than the
+//! texture.
 
 use crate::studio;
 
@@ -21,11 +22,11 @@ fn paper(camera: &str, object: &str, width: usize, texels: &[[u8; 3]]) -> Scene 
 }
 
 fn random(dice: &mut Dice, count: usize) -> Vec<[u8; 3]> {
-    // From 51 to 204: whatever is not an average of these shows.
+    // Codes are from 51 to 204, so that any value that is no average of them is found.
     (0..count).map(|_| std::array::from_fn(|_| 51 + dice.below(154) as u8)).collect()
 }
 
-/// Every pixel is an average of texels from 51 to 204, or the sky, which is 0.5.
+/// Asserts that every pixel is an average of texels from 51 to 204, or the sky, which is 0.5.
 #[track_caller]
 fn assert_averages(picture: &Picture, what: &str) {
     for (x, y, pixel) in pixels(picture) {
@@ -47,7 +48,7 @@ fn a_texture_of_any_size_looks_like_four_of_it_in_one() {
             .collect();
         // A pyramid over other texels has other levels.
         for filter in FILTERS.into_iter().filter(|&filter| filter != Filter::Mip) {
-            // Down to rows where a footprint covers many of them.
+            // The rows reach down to those where a footprint covers many texels.
             let one = picture(&paper("", &floor(1.0), width, &texels), 48, filter);
             let tiled = picture(&paper("", &floor(2.0), 2 * width, &four), 48, filter);
             assert_near(&one, &tiled, 2e-6);
@@ -81,7 +82,8 @@ fn to_the_horizon_and_behind_the_eye_every_pixel_is_an_average() {
     let floor = plane([0.3, 0.0, 0.1], [1.0, 0.0, 0.2], [0.2, 0.0, -1.0], "unlit");
     for height in [1e-12, 1e-6, 1.0, 1e6, 1e12] {
         let eye = DVec3::new(0.0, height, 0.0);
-        // Level, a little up, straight down, and down over the back; nearly half of space each.
+        // Views that are level, slightly upward, straight down, and down to the back. The widest
+        // view covers nearly half of space.
         for (toward, up) in [
             (DVec3::NEG_Z, DVec3::Y),
             (DVec3::new(0.0, 0.3, -1.0), DVec3::Y),
@@ -115,8 +117,8 @@ fn what_is_larger_than_the_texture_tends_to_its_mean() {
         let wall = plane([0.1, 0.2, 0.0], [size, 0.1 * size, 0.0], [0.0, size, 0.0], "unlit");
         for filter in [Filter::Box, Filter::Tent] {
             let seen = picture(&paper("", &wall, 7, &texels), 16, filter);
-            // A pixel is an eighth wide and its box twice that; of so many periods, at most one at
-            // each border is not whole.
+            // A pixel is an eighth wide and its box twice as wide. Of the many periods in it, at
+            // most one at each border is incomplete.
             let periods = 0.25 / size;
             for pixel in &seen.pixels {
                 for (light, mean) in pixel.iter().zip(mean) {
@@ -130,7 +132,7 @@ fn what_is_larger_than_the_texture_tends_to_its_mean() {
 
 #[test]
 fn a_footprint_of_a_pole_and_a_seam_at_once_is_an_average_of_its_rows() {
-    // Looking at the pole from nearly above it, rows of one light each stay apart, for all columns.
+    // The pole is seen from nearly above. Rows of uniform colour stay separate, in all columns.
     let rows: Vec<[u8; 3]> =
         (0..64 * 32).map(|k| if (k / 64) < 16 { [204, 51, 51] } else { [51, 204, 51] }).collect();
     for eye in [[0.0, 3.0, -0.4], [0.0, 3.0, 0.0], [0.3, 3.0, -0.01]] {
@@ -138,10 +140,10 @@ fn a_footprint_of_a_pole_and_a_seam_at_once_is_an_average_of_its_rows() {
             r#""camera": {{ "eye": {eye:?}, "target": [0, 0, 0], "up": [0, 0, 1], "fov_deg": 20 }},"#
         );
         let globe = sphere([0.0; 3], 1.0, "unlit");
-        // A mip-map's square takes in the whole row at a pole, and so as many rows.
+        // At a pole the square of a mip-map covers the whole row, and equally many rows.
         for filter in FILTERS.into_iter().filter(|&filter| filter != Filter::Mip) {
             let seen = picture(&paper(&camera, &globe, 64, &rows), 41, filter);
-            // The northern half is of one colour, whatever lies across the pole or the seam.
+            // The northern half is uniform. Colours beyond the pole or the seam must not appear.
             for (x, y, pixel) in pixels(&seen) {
                 let near = (pixel[0] - 0.8).abs() < STEP && (pixel[1] - 0.2).abs() < STEP;
                 assert!(near, "{filter:?} at {x} {y}: {pixel:?}");

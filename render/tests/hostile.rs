@@ -1,4 +1,4 @@
-//! Files of strangers: each ends with one sentence, whatever is in it.
+//! Hostile files: each ends with one sentence, whatever its contents.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
@@ -14,7 +14,7 @@ pub const PALETTE_OF_4_BYTES: &[u8] = b"\x89PNG\r\n\x1a\n\
     \0\0\0\x0aIDAT\x78\x9c\x63\x60\0\0\0\x02\0\x01\x48\xaf\xa4\x71\
     \0\0\0\0IEND\xae\x42\x60\x82";
 
-/// The wall with a bump in place of its texture.
+/// Returns the wall's scene with a bump in place of the texture.
 fn bumped() -> String {
     TEXTURED_WALL
         .replace(r#""textures": { "checks": { "image": "checks.png" } },"#, "")

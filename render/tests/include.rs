@@ -11,7 +11,7 @@ use render::scene::{MeshSource, read};
 use std::fs;
 use std::path::Path;
 
-/// A scene that takes its look from parts in another folder.
+/// A scene that takes its materials and lights from parts in another folder.
 const SCENE: &str = r#"{ "format": "tb-scene", "version": 1,
 "include": ["common/look.json", "common/walls.json"],
 "camera": { "eye": [0, 0, 1], "target": [0, 0, 0], "fov_deg": 90 },
@@ -27,7 +27,7 @@ const WALLS: &str = r#"{ "format": "tb-scene-part", "version": 1,
 "objects": [ { "rectangle": { "corner": [-2, -2, 0], "edge_u": [4, 0, 0], "edge_v": [0, 4, 0],
   "material": "wall", "texture": "checks" } } ] }"#;
 
-/// The same in one file.
+/// The scene of [`SCENE`] in one file.
 const WHOLE: &str = r#"{ "format": "tb-scene", "version": 1,
 "camera": { "eye": [0, 0, 1], "target": [0, 0, 0], "fov_deg": 90 },
 "ambient": 0.5,
@@ -52,14 +52,14 @@ fn a_scene_in_parts_is_the_scene_in_one_file() {
     bench.make(&["scene.json", "-o", "parts.png", "--size", "9x7"], b"");
     bench.make(&["whole.json", "-o", "whole.png", "--size", "9x7"], b"");
     assert_eq!(bench.read("parts.png"), bench.read("whole.png"));
-    // From standard input paths count from the working folder, which is the scene's here.
+    // From standard input, paths are relative to the working folder, which is the scene's here.
     bench.make(&["-", "-o", "piped.png", "--size", "9x7"], SCENE.as_bytes());
     assert_eq!(bench.read("piped.png"), bench.read("whole.png"));
 }
 
 #[test]
 fn what_is_taken_in_stands_before_what_takes_it_in() {
-    // Two walls at one place: the first in the scene's order is seen.
+    // Two coincident walls: the first in the scene's order is seen.
     let red = SCENE.replace(
         "\"objects\": []",
         r#""materials": { "red": { "color": [0, 1, 0], "diffuse": 0 } },
@@ -137,7 +137,7 @@ fn parts_that_are_not_there_or_include_themselves_are_refused() {
     );
     let place = "common/walls.json:2:13: include[0]: found common/look.json, which includes itself";
     bench.refuse(&["scene.json"], b"", 3, &[place]);
-    // A scene is no part of a scene, and so not of itself.
+    // A scene is not a part, and therefore cannot include itself.
     bench.write("scene.json", SCENE.replace("common/look.json", "scene.json"));
     bench.refuse(&["scene.json"], b"", 3, &["scene.json:1:13: format: found \"tb-scene\""]);
 }

@@ -1,4 +1,4 @@
-//! Ctrl-C in the middle of a picture.
+//! Ctrl-C while a picture is rendered.
 
 #![cfg(target_os = "linux")]
 
@@ -15,7 +15,7 @@ fn ctrl_c_in_the_middle_of_a_picture_leaves_the_old_one() {
     for (signal, number) in [("-INT", 2), ("-TERM", 15)] {
         let bench = Bench::with_scene(WALL);
         bench.write("out.png", "old");
-        // Minutes of work. The program starts its threads when it has read the scene.
+        // The picture takes minutes. The program starts its threads after it has read the scene.
         let threads = 8;
         let size = ["--size", "4096x4096", "--samples", "64", "--threads", "8"];
         let arguments = [&["-", "-o", "out.png"], &size[..]].concat();

@@ -1,11 +1,11 @@
-//! Layers and crops as files: what stands in them, read back.
+//! Layers and crops as files, read back.
 
 use crate::bench;
 
 use bench::{Bench, TEXTURED_WALL, checks, ending};
 use std::collections::BTreeMap;
 
-/// A ball before the middle of a textured wall, which leaves a strip of nothing at the left.
+/// A ball in front of the middle of a textured wall; the wall leaves an empty strip at the left.
 const BALL: &str = r#"{ "format": "tb-scene", "version": 1,
 "camera": { "eye": [0, 0, 1], "target": [0, 0, 0], "fov_deg": 90 },
 "ambient": 0.5,
@@ -17,11 +17,11 @@ const BALL: &str = r#"{ "format": "tb-scene", "version": 1,
 
 const SIDE: usize = 16;
 
-/// Values of the layers here are `f32` below 2, and so are their truths, after up to seven operations. Each of
-/// these eight numbers is off by half of [`f32::EPSILON`] at most.
+/// Values of the layers here are `f32` below 2, as are the expected values, after up to seven
+/// operations. Each of these eight numbers is off by half of [`f32::EPSILON`] at most.
 const ROUNDINGS: f32 = 4.0 * f32::EPSILON;
 
-/// The channels of an EXR by name.
+/// Returns the channels of an EXR by name.
 fn channels(bytes: &[u8]) -> BTreeMap<String, Vec<f32>> {
     fixtures::exr::channels(bytes).into_iter().collect()
 }
@@ -61,7 +61,7 @@ fn layers_hold_what_is_hit_first() {
     let mut seen = [0; 3];
     for (row, column) in (0..SIDE).flat_map(|row| (0..SIDE).map(move |column| (row, column))) {
         let of = |name: &str| channels[name][row * SIDE + column];
-        // Where the ray through the pixel's middle meets the wall.
+        // Point where the ray through the pixel's middle meets the wall.
         let [x, y] = [column, row].map(|n| (2.0 * n as f32 + 1.0) / SIDE as f32 - 1.0);
         let y = -y;
         let normal = [of("normal.X"), of("normal.Y"), of("normal.Z")];
@@ -73,7 +73,8 @@ fn layers_hold_what_is_hit_first() {
             assert!((of("depth.Z") - (1.0 + x * x + y * y).sqrt()).abs() < ROUNDINGS);
             assert!((of("uv.U") - (x + 0.5) / 2.5).abs() < ROUNDINGS);
             assert!((of("uv.V") - (y + 2.0) / 4.0).abs() < ROUNDINGS);
-            // Two pixels of an eighth between the middles of its neighbours, or a point.
+            // The footprint is two pixels of an eighth, between the middles of the pixel's
+            // neighbours, or a point.
             let near = (size[0] - 0.25 / 2.5).abs() < ROUNDINGS
                 && (size[1] - 0.25 / 4.0).abs() < ROUNDINGS;
             assert!(near || size == [0.0; 2], "{size:?}");
@@ -81,7 +82,8 @@ fn layers_hold_what_is_hit_first() {
         } else if id == 1.0 {
             let unit = normal.iter().map(|n| n * n).sum::<f32>();
             assert!((unit - 1.0).abs() < ROUNDINGS && normal[2] > 0.0);
-            // The ray that meets the wall at (x, y) is on the ball there where its normal says.
+            // The ray that meets the wall at (x, y) meets the ball at the point that the ball's
+            // normal determines.
             let t = of("depth.Z") / (1.0 + x * x + y * y).sqrt();
             assert!((t * x - 0.125 * normal[0]).abs() < ROUNDINGS);
             assert!((1.0 - t - (0.5 + 0.125 * normal[2])).abs() < ROUNDINGS);
@@ -104,7 +106,7 @@ fn layers_do_not_change_the_colour_and_are_not_averaged() {
         assert_eq!(plain[name], layered[name]);
     }
     assert!(layered["object.id"].iter().all(|id| [-1.0, 0.0, 1.0].contains(id)));
-    // The middle ray of three by three, and that of the nine, is the ray of a pixel with one.
+    // The middle ray of three by three, and that of the nine, is the ray of a pixel with one ray.
     let single = made(&bench, &["--layers", "object,uv"]);
     let nine = made(&bench, &["--supersample", "--layers", "object,uv"]);
     for name in ["object.id", "uv.U", "uv.V"] {
@@ -174,7 +176,8 @@ fn what_cannot_be_is_told_before_any_work() {
 fn stats_count_the_rays_of_every_sampling() {
     let bench = Bench::with_scene(TEXTURED_WALL);
     bench.write("checks.png", checks());
-    // Pixels, and samples that they share or look at beyond them, along each side of 8.
+    // Pixels, and the samples that they share or need as neighbours beyond them, along each side of
+    // 8.
     for (flags, point, tent) in [
         (vec!["--samples", "1"], 8, 10),
         (vec!["--samples", "3"], 24, 26),

@@ -1,4 +1,5 @@
-//! Lights against closed forms: fall-off, directions, colours by the angle; and what is refused.
+//! Lights against closed forms: fall-off, directions and colours by angle; and faults that are
+//! refused.
 
 use crate::studio;
 
@@ -9,7 +10,7 @@ use render::filter::Filter;
 use render::scene::read;
 use studio::{assert_near, on_film, picture, pixels, scene};
 
-/// A wall with these material keys under these lights, and `objects` before it.
+/// Renders a wall with these material keys under these lights, with `objects` in front of it.
 fn lit(lights: &str, wall: &str, objects: &str) -> Picture {
     let comma = if objects.is_empty() { "" } else { "," };
     let keys = format!(
@@ -20,13 +21,13 @@ fn lit(lights: &str, wall: &str, objects: &str) -> Picture {
     picture(&scene(&keys, &[]), 32, Filter::Point)
 }
 
-/// Checks each channel of each pixel against a closed form, by the place on the wall.
+/// Checks each channel of each pixel against a closed form in the position on the wall.
 fn assert_is(shown: &Picture, truth: impl Fn(f64, f64) -> [f64; 3]) {
     for (x, y, pixel) in pixels(shown) {
         let [a, b] = on_film(x, y, shown.width);
         for (light, truth) in pixel.into_iter().zip(truth(a, b)) {
             let off = (f64::from(light) - truth).abs();
-            // Half a step of f32 is 2^-24 of a light above 1 at most.
+            // Half a step of f32 is at most 2^-24 of a light above 1.
             assert!(
                 off <= f64::from(STEP) * truth.max(1.0),
                 "at {x} {y}: {pixel:?}, expected {truth}"
@@ -67,14 +68,14 @@ fn the_way_to_a_directional_light_has_no_end() {
     assert_is(&bare, |_, _| [0.5; 3]);
     let moon = r#"{ "sphere": { "center": [0, 0, 1e9], "radius": 1e6, "material": "white" } }"#;
     assert_is(&lit(sun, r#""diffuse": 0.5"#, moon), |_, _| [0.0; 3]);
-    // From behind the wall it does not shine through.
+    // A directional light does not shine through the wall from behind.
     let below = r#"{ "directional": { "direction": [0, 0, 1] } }"#;
     assert_is(&lit(below, r#""diffuse": 0.5"#, ""), |_, _| [0.0; 3]);
 }
 
 #[test]
 fn a_light_on_a_surface_or_where_a_ray_lands_leaves_every_color_finite() {
-    // The middle of pixel (16, 15) with 32 of them, at and just above the wall.
+    // Middle of pixel (16, 15) of 32, at the wall and just above it.
     let place = 1.0 / 32.0;
     for height in [0.0, 1e-300, 1e-12, 1e-3] {
         let light = format!(
@@ -127,7 +128,7 @@ fn a_film_shows_other_colors_at_other_angles() {
     assert!((0..3).any(|k| (middle[k] - edge[k]).abs() > 0.2), "{middle:?} {edge:?}");
 }
 
-/// A scene with this in it must be refused with these words.
+/// Asserts that a scene with these keys is refused with these words.
 fn refuse(keys: &str, parts: &[&str]) {
     let text = format!(
         r#"{{ "format": "tb-scene", "version": 1, "objects": [],

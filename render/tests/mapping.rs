@@ -1,4 +1,5 @@
-//! Texture coordinates on hard triangles against exact fractions: what `docs/mapping.md` says.
+//! Texture coordinates on hard triangles against exact fractions: the results that
+//! `docs/mapping.md` states.
 
 use crate::exact;
 
@@ -7,10 +8,10 @@ use exact::{FORMS, Form, Sample};
 use glam::DVec3;
 use num_rational::BigRational;
 
-/// Hits of each class; the page has more.
+/// Number of hits in each class; `docs/mapping.md` uses more.
 const SAMPLES: usize = 48;
 
-/// Errors of each form over one class, sorted; infinite where there is no number.
+/// Returns the sorted errors of each form over one class; infinite where a form gives no number.
 fn errors(name: &str) -> impl Fn(Form) -> Vec<f64> {
     let all = classes();
     let class = all.iter().find(|class| class.name == name).expect("a class");
@@ -41,7 +42,7 @@ fn the_truth_is_the_truth() {
     };
     let fraction = |n: i64, d: i64| BigRational::new(n.into(), d.into());
     assert_eq!(sample.truth(), [fraction(1, 2), fraction(1, 3), fraction(1, 6)]);
-    // One third is not a number of f64; half an ulp is all that is missing.
+    // One third is no number of f64; the error is half an ulp.
     let [weights, ..] = sample.errors().expect("it hits");
     assert!(weights > 0.0 && weights < f64::EPSILON, "{weights}");
 }
@@ -51,8 +52,8 @@ fn the_weights_of_a_hit_are_as_good_as_the_triangle_allows() {
     for class in classes() {
         for sample in class.samples(SAMPLES) {
             let Some([weights, ..]) = sample.errors() else { continue };
-            // Shearing rounds a coordinate three times, an edge function three times more; each
-            // rounding moves a side by an ulp of the distance, which counts by the height.
+            // Shearing rounds a coordinate three times, and an edge function three times more. Each
+            // rounding moves a side by an ulp of the distance, relative to the height.
             let bound = 8.0 * f64::EPSILON * sample.condition();
             assert!(weights <= bound, "{}: {weights:e} > {bound:e} {sample:?}", class.name);
         }
@@ -80,7 +81,7 @@ fn the_thesis_form_has_no_number_on_the_side_ab_and_on_upright_triangles() {
     }
     let of = errors("upright, y = x/2");
     assert!(of(Form::ThesisBest).iter().all(|error| error.is_infinite()));
-    // Roundings of the hit point make some number of 0/0, which is worse.
+    // Roundings of the hit point turn 0/0 into a number, which is worse.
     assert!(of(Form::Thesis).iter().all(|&error| error > 1e-2));
     assert!(largest(&of(Form::Weights)) < 1e-14);
 }
@@ -101,8 +102,8 @@ fn the_cases_that_the_thesis_names_are_right() {
 
 #[test]
 fn near_its_cases_the_thesis_form_loses_digits_that_the_weights_keep() {
-    // Both ratios go to 1 near AC, and 3.8 divides two differences that vanish there; tilted by
-    // some ulps against a coordinate plane, a triangle is a line in the x and y of 3.14.
+    // Near AC both ratios approach 1, and eq. 3.8 divides two differences that vanish there. A
+    // triangle tilted by some ulps against a coordinate plane is a line in the x and y of eq. 3.14.
     for (name, lost) in [
         ("1e-3 to 1e-15 off AC", 1e4),
         ("on AC but for rounding", 1e10),
@@ -113,18 +114,18 @@ fn near_its_cases_the_thesis_form_loses_digits_that_the_weights_keep() {
         let of = errors(name);
         assert!(largest(&of(Form::Weights)) < 1e-14, "{name}");
         assert!(median(&of(Form::Thesis)) > lost * median(&of(Form::Weights)), "{name}");
-        // The best hit point there is does not help.
+        // Even the best possible hit point does not help.
         assert!(median(&of(Form::ThesisBest)) > 1e5 * median(&of(Form::AreasBest)), "{name}");
     }
-    // x and y are what 3.14 looks at, so it does not mind this one.
+    // Eq. 3.14 uses x and y, so this tilt does not affect it.
     let of = errors("some ulps off z = const");
     assert!(largest(&of(Form::Thesis)) < 1e-13);
 }
 
 #[test]
 fn what_is_computed_from_the_hit_point_suffers_from_its_rounding() {
-    // Far away the point has few digits left of the triangle; on needles its distance along the ray
-    // is uncertain, which moves it across them. The weights know of neither.
+    // Far away the hit point has few digits relative to the triangle. On needles the distance along
+    // the ray is uncertain, which moves the point across them. Neither affects the weights.
     for (name, lost) in [
         ("1e3 sizes from the origin", 20.0),
         ("1e6 sizes away", 1e4),
@@ -146,7 +147,7 @@ fn the_thesis_form_never_does_much_better() {
     for class in classes() {
         let of = errors(class.name);
         let [weights, thesis] = [Form::Weights, Form::Thesis].map(|form| median(&of(form)));
-        // Below an ulp of 1 both are noise.
+        // Below an ulp of 1 both errors are noise.
         assert!(weights <= f64::EPSILON + 1.1 * thesis, "{}: {weights} {thesis}", class.name);
     }
 }

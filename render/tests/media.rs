@@ -1,4 +1,4 @@
-//! Media in each other, against closed forms: Snell through layers, lenses, Beer's law.
+//! Nested media, against closed forms: Snell through layers, lenses, Beer's law.
 
 use crate::studio;
 
@@ -41,7 +41,7 @@ fn sphere(center: [f64; 3], radius: f64, material: &str) -> String {
     )
 }
 
-/// The plane of all points at this height, its inside below.
+/// A plane at this height, with its inside below.
 fn below(z: f64, material: &str) -> String {
     format!(
         r#"{{ "plane": {{ "point": [0, 0, {z:?}], "edge_u": [1, 0, 0], "edge_v": [0, 1, 0],
@@ -53,7 +53,7 @@ fn block(name: &str, material: &str) -> String {
     format!(r#"{{ "mesh": {{ "name": "{name}", "file": "{name}", "material": "{material}" }} }}"#)
 }
 
-/// A block from -`side` to `side` across, between two heights, as an OBJ.
+/// Returns a block from -`side` to `side` across, between two heights, as an OBJ.
 fn obj(side: f64, low: f64, high: f64) -> Vec<u8> {
     let mut text = String::new();
     for z in [low, high] {
@@ -64,8 +64,8 @@ fn obj(side: f64, low: f64, high: f64) -> Vec<u8> {
     (text + "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n").into_bytes()
 }
 
-/// What a ray meets on its refracted way, up to the last surface, and where it goes from there.
-fn way(scene: &Scene, origin: DVec3, direction: DVec3) -> Vec<Node> {
+/// Returns the nodes along the refracted path of a ray, up to the last surface.
+fn path(scene: &Scene, origin: DVec3, direction: DVec3) -> Vec<Node> {
     let accel =
         Accel::build(scene.objects.iter().map(|object| &object.shape).collect(), Structure::Bvh);
     let volumes = Volumes::of(scene);
@@ -81,7 +81,7 @@ fn way(scene: &Scene, origin: DVec3, direction: DVec3) -> Vec<Node> {
     nodes
 }
 
-/// The sine of a node's incident ray to the axis z.
+/// Returns the sine of the angle between a node's incident ray and the axis z.
 fn sine(node: &Node) -> f64 {
     node.incident.x.hypot(node.incident.y)
 }
@@ -92,11 +92,11 @@ const SLANTED: DVec3 = DVec3::new(0.6, 0.2, -0.5);
 fn a_slab_shifts_a_ray_and_keeps_its_direction() {
     let objects = [block("slab", "glass"), below(-3.0, "unlit")];
     let slab = of("", &objects, &[("slab", obj(20.0, -1.5, -0.5))]);
-    let nodes = way(&slab, DVec3::Z, SLANTED);
+    let nodes = path(&slab, DVec3::Z, SLANTED);
     assert_eq!(nodes.len(), 3);
     let (start, end) = (SLANTED.normalize(), &nodes[2]);
     assert!(end.incident.abs_diff_eq(start, 1e-14));
-    // By how much it left the straight line: d sin(a - b) / cos b.
+    // Offset from the straight line: d sin(a - b) / cos b.
     let outer = start.x.hypot(start.y).asin();
     let inner = (outer.sin() / 1.5).asin();
     let shift = (end.position - DVec3::Z).cross(start).length();
@@ -107,7 +107,7 @@ fn a_slab_shifts_a_ray_and_keeps_its_direction() {
 fn water_in_glass_bends_as_snell_says_in_three_layers() {
     let objects = [block("glass", "glass"), block("water", "water"), below(-9.0, "unlit")];
     let files = [("glass", obj(90.0, -4.0, 0.0)), ("water", obj(80.0, -3.0, -1.0))];
-    let nodes = way(&of("", &objects, &files), DVec3::Z, SLANTED);
+    let nodes = path(&of("", &objects, &files), DVec3::Z, SLANTED);
     let outer = SLANTED.normalize().x.hypot(SLANTED.normalize().y);
     let truth = [1.0, 1.5, 1.33, 1.5, 1.0].map(|index| outer / index);
     assert_eq!(nodes.len(), truth.len());
@@ -120,14 +120,15 @@ fn water_in_glass_bends_as_snell_says_in_three_layers() {
 fn glass_that_dips_into_water_bends_the_same_both_ways() {
     let objects = [block("glass", "hard"), below(0.0, "water"), below(-5.0, "unlit")];
     let dipped = of("", &objects, &[("glass", obj(50.0, -0.25, 1.0))]);
-    let down = way(&dipped, DVec3::new(0.0, 0.0, 2.0), SLANTED);
-    // The surface of the water is hidden inside the glass: three surfaces, not four.
+    let down = path(&dipped, DVec3::new(0.0, 0.0, 2.0), SLANTED);
+    // The surface of the water is hidden inside the glass, so there are three surfaces and not
+    // four.
     let outer = SLANTED.normalize().x.hypot(SLANTED.normalize().y);
     let sines: Vec<f64> = down.iter().map(sine).collect();
     let truth = [1.0, 1.5, 1.33].map(|index| outer / index);
     assert!(sines.len() == 3 && sines.iter().zip(truth).all(|(s, t)| (s - t).abs() < 1e-14));
     assert!((down[1].position.z + 0.25).abs() < 1e-12);
-    // And back from the floor: the eye stands in the water then.
+    // The path is reversed from the floor, with the eye in the water.
     let back = of(
         &format!(
             r#""camera": {{ "eye": {:?}, "target": [0, 0, 0], "fov_deg": 9 }},"#,
@@ -136,19 +137,20 @@ fn glass_that_dips_into_water_bends_the_same_both_ways() {
         &objects,
         &[("glass", obj(50.0, -0.25, 1.0))],
     );
-    let up = way(&back, down[2].position, -down[2].incident);
+    let up = path(&back, down[2].position, -down[2].incident);
     assert_eq!(up.len(), 2);
     assert!(up[1].position.abs_diff_eq(down[0].position, 1e-9));
     assert!((sine(&up[1]) - outer / 1.5).abs() < 1e-12);
 }
 
-/// Distance from the axis of the ray whose focus is found. A ball's focus is nearer by less than twice its
-/// square: 5/6 of the square for glass in air, 5/4 for air in glass.
+/// Distance from the axis of the ray whose focus is found. The focus of a ball is nearer by less
+/// than twice the square of this distance: 5/6 of the square for glass in air, 5/4 for air in
+/// glass.
 const HEIGHT: f64 = 1e-4;
 
-/// How far behind the centre of a ball a ray near the axis crosses it.
+/// Returns the distance behind the centre of a ball at which a ray near the axis crosses it.
 fn focus(objects: &[String], files: &[(&str, Vec<u8>)], floor: usize) -> f64 {
-    let nodes = way(&of("", objects, files), DVec3::new(HEIGHT, 0.0, 1.0), DVec3::NEG_Z);
+    let nodes = path(&of("", objects, files), DVec3::new(HEIGHT, 0.0, 1.0), DVec3::NEG_Z);
     let after = &nodes[floor];
     let before = nodes[floor - 1].position;
     -(before.z - before.x / after.incident.x * after.incident.z)
@@ -163,7 +165,8 @@ fn a_ball_is_a_lens_of_its_paraxial_focal_length() {
 
 #[test]
 fn a_bubble_in_glass_is_a_lens_the_other_way_round() {
-    // A block around it whose lower face is met after the bubble; in it the indices are relative.
+    // A block surrounds the bubble, and the ray meets its lower face after the bubble. Indices in
+    // the block are relative.
     let objects = [block("glass", "glass"), sphere([0.0; 3], 0.5, "air")];
     let index = 1.0 / 1.5;
     let truth = index * 0.5 / (2.0 * (index - 1.0));
@@ -184,24 +187,24 @@ fn through_64_shells_in_each_other_index_times_offset_is_the_same() {
     let invariant = |node: &Node, index: f64| index * node.position.cross(node.incident).length();
     let keys = r#""max_depth": 64, "min_weight": 0,"#;
     let origin = DVec3::new(0.03, 0.04, 1.0);
-    let inward = way(&of(keys, &shells, &[]), origin, DVec3::NEG_Z);
+    let inward = path(&of(keys, &shells, &[]), origin, DVec3::NEG_Z);
     assert_eq!(inward.len(), 65);
     for (k, node) in inward.iter().take(64).enumerate() {
         assert!((invariant(node, index(k)) - 0.05).abs() < 1e-13, "{k}");
     }
-    // And out again, from an eye that stands in all of them.
+    // The path leads out again, from an eye inside all of them.
     let keys = format!(
         r#"{keys} "camera": {{ "eye": [0.03, 0.04, 0], "target": [0, 0, 0], "fov_deg": 9 }},"#
     );
-    let outward = way(&of(&keys, &shells, &[]), DVec3::new(0.03, 0.04, 0.0), DVec3::NEG_Z);
+    let outward = path(&of(&keys, &shells, &[]), DVec3::new(0.03, 0.04, 0.0), DVec3::NEG_Z);
     assert_eq!(outward.len(), 64);
     for (k, node) in outward.iter().enumerate() {
         assert!((invariant(node, index(64 - k)) - 0.05 * index(64)).abs() < 1e-13, "{k}");
     }
 }
 
-/// What of a branch's light comes from the background, and what would have come along rays that
-/// were not sent.
+/// Returns the weight of a branch's light that comes from the background, and the weight of rays
+/// that were not sent.
 fn sources(tree: &IntersectionTree, branch: Branch, weight: f64) -> [f64; 2] {
     match tree.node(branch) {
         _ if weight == 0.0 => [0.0; 2],
@@ -234,11 +237,11 @@ fn glass_water_and_a_bubble_in_a_white_background_are_white() {
         let ray = Ray::from_eye(DVec3::Z, DVec3::new(a, b, -1.0).normalize());
         tracer.trace(&ray, &mut tree, &mut counts);
         let [white, lost] = sources(&tree, tree.root, 1.0);
-        // However often it is divided, no light is made and none goes missing.
+        // However often light is divided, its weights sum to 1.
         assert!((white + lost - 1.0).abs() < 1e-12, "at {a} {b}: {white} and {lost}");
         gray += u32::from(white < 0.998);
     }
-    // Along the outline light goes round inside for longer than 64 surfaces.
+    // Near the outline, light is reflected inside more than 64 times.
     assert!(gray < 100, "{gray} of 1024 rays are not white");
 }
 
@@ -272,7 +275,7 @@ fn a_slab_absorbs_as_beer_says_and_so_does_the_medium_of_the_eye() {
     let shown = picture(&of(r#""background": 1,"#, &slab, &file), 24, Filter::Point);
     let slant = |a: f64, b: f64| (1.0 + a * a + b * b).sqrt();
     assert_exponential(&shown, [1.0, 0.25, 0.0], |a, b| 0.75 * slant(a, b));
-    // The camera in the middle of a ball, and in a sea without end.
+    // The camera is in the middle of a ball, and in an infinite sea.
     let ball = [sphere([0.0, 0.0, 1.0], 0.8, "smoke")];
     let shown = picture(&of(r#""background": 1,"#, &ball, &[]), 24, Filter::Point);
     assert_exponential(&shown, [1.0, 0.25, 0.0], |_, _| 0.8);
@@ -284,7 +287,7 @@ fn a_slab_absorbs_as_beer_says_and_so_does_the_medium_of_the_eye() {
 #[test]
 fn a_ball_in_a_ball_throws_the_shadow_that_beer_says() {
     let keys = r#""ambient": 0, "lights": [ { "directional": { "direction": [0, 0, -3] } } ],"#;
-    // The camera looks past them from the side of the light: they are behind it.
+    // The camera looks away from the light, and the objects are behind it.
     let objects = [
         below(0.0, "wall"),
         sphere([0.0, 0.0, 3.0], 0.8, "smoke"),
@@ -305,7 +308,7 @@ fn a_ball_in_a_ball_throws_the_shadow_that_beer_says() {
 
 #[test]
 fn under_water_light_is_absorbed_on_its_way_to_the_ground_and_to_the_eye() {
-    // The lamp hangs under the surface; the sun is above it.
+    // The lamp hangs below the surface; the sun is above it.
     let lamp = r#"{ "point": { "position": [0, 0, 1.5] } }"#;
     let sun = r#"{ "directional": { "direction": [0, 0, -1] } }"#;
     let objects = [below(0.0, "wall"), below(2.0, "smoke")];
@@ -344,14 +347,15 @@ fn two_half_transparent_balls_in_each_other_dim_a_light_twice() {
 
 #[test]
 fn a_ray_that_counts_in_one_channel_is_followed() {
-    // All red and nearly all green is absorbed, and no blue.
+    // Nearly all red and green are absorbed, and no blue.
     let keys = r#""background": 0.5, "min_weight": 0.9,"#;
     let slab = [block("slab", "smoke"), block("second", "smoke")];
     let files = [("slab", obj(900.0, -99.0, 0.0)), ("second", obj(900.0, -200.0, -100.0))];
     let shown = picture(&of(keys, &slab, &files), 4, Filter::Point);
     let far = |pixel: &[f32; 3]| pixel[0] < 1e-30 && pixel[1] < 1e-9 && pixel[2] == 0.5;
     assert!(shown.pixels.iter().all(far), "{:?}", shown.pixels);
-    // Where no channel counts, nothing is sent: three rays a pixel in place of five.
+    // If the weight is too small in every channel, no ray is sent: three rays per pixel instead of
+    // five.
     let materials = r#""materials": { "ink": { "ambient": 0, "diffuse": 0, "transparency": 1,
         "absorption": 1 } }"#;
     let objects = [block("slab", "ink"), block("second", "ink")].join(",");
@@ -375,7 +379,7 @@ fn what_is_left_out_is_less_than_the_least_weight_for_each_ray() {
     for weight in [1e-2, 1e-3, 1e-4] {
         let most = least(weight);
         for (all, most) in all.pixels.iter().flatten().zip(most.pixels.iter().flatten()) {
-            // Light is at most 1 everywhere, and fewer than 30 branches end on the way.
+            // Light is at most 1 everywhere, and fewer than 30 branches are cut on the path.
             assert!(most <= all && f64::from(all - most) < 30.0 * weight, "{all} {most}");
         }
     }

@@ -1,4 +1,4 @@
-//! What would take too much memory is met with one sentence, before it is begun.
+//! Input that would take too much memory is refused with one sentence, before memory is allocated.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
@@ -7,14 +7,15 @@ use crate::bench;
 use bench::{Bench, TEXTURED_WALL, WALL, encoded, ending};
 use image::{ImageFormat, RgbImage};
 
-/// A wall with a picture of 256 by 256 texels: 65536 of them at 6 bytes, or 12 while they are read.
+/// Returns a wall with a picture of 256 by 256 texels: 65536 texels of 6 bytes each, or 12 while
+/// they are read.
 fn wall() -> Bench {
     let bench = Bench::with_scene(TEXTURED_WALL);
     bench.write("checks.png", encoded(RgbImage::new(256, 256), ImageFormat::Png));
     bench
 }
 
-/// What is allowed beside the textures: the text of the scene and small pictures.
+/// Bytes that are allowed besides the textures: the text of the scene and small pictures.
 const BESIDE: u64 = 30_000;
 
 #[test]
@@ -26,7 +27,7 @@ fn a_picture_is_measured_before_it_is_decoded() {
     wall().make(&[&arguments[..], &["-o", "a.png"]].concat(), b"");
 }
 
-/// The CRC of a PNG chunk, bit by bit.
+/// Returns the CRC of a PNG chunk, computed bit by bit.
 fn crc(bytes: &[u8]) -> u32 {
     !bytes.iter().fold(!0, |crc, &byte| {
         (0..8).fold(crc ^ u32::from(byte), |crc, _| (crc >> 1) ^ (0xedb8_8320 * (crc & 1)))
@@ -54,7 +55,7 @@ fn several_textures_share_what_there_is() {
     let text = TEXTURED_WALL.replacen(one, &format!("{one}, \"more\": {one}"), 1);
     let bench = wall();
     bench.write("scene.json", text);
-    // The first keeps 393216 bytes, and a row is 4096.
+    // The first picture keeps 393216 bytes, and a row takes 4096.
     let arguments = ["scene.json", "--max-memory", "1000000"];
     let said = ["scene.json:4:", "textures.more.image: ", "of which 397312 bytes are taken"];
     bench.refuse(&arguments, b"", 6, &said);
@@ -93,7 +94,7 @@ fn a_picture_with_layers_is_measured_before_it_is_rendered() {
     let expected = "render: a picture of 65536x4096 pixels with 5 layers needs 36.0 GB, and 20.0 GB \
                     are allowed: make it smaller, or raise --max-memory\n";
     assert_eq!(said, expected);
-    // A crop is as large as it is.
+    // A crop takes only the memory of its own pixels.
     let crop = ["--crop", "0,0,8x8", "--max-memory", "1M"];
     bench.make(&[&arguments[..], &crop].concat(), b"");
 }

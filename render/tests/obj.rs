@@ -1,4 +1,4 @@
-//! OBJ files of other tools: what is read of them, and what their material libraries become.
+//! OBJ files of other tools: the parts that are read, and the materials of their libraries.
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
@@ -10,7 +10,8 @@ use render::scene::obj;
 use render::shape::mesh::NONE;
 use std::collections::HashMap;
 
-/// A triangle by what its corners are: positions, texture coordinates, normals, and its surface.
+/// A triangle by the values of its corners: positions, texture coordinates, normals; and its
+/// surface.
 type Seen = (Vec<[f32; 3]>, Vec<[f32; 2]>, Vec<[f32; 3]>, String);
 
 fn ours(text: &str) -> Vec<Seen> {
@@ -27,7 +28,7 @@ fn ours(text: &str) -> Vec<Seen> {
     (0..mesh.triangles.len() as u32).map(seen).collect()
 }
 
-/// The same by `tobj`, with every name that the text uses declared.
+/// Reads the triangles with `tobj`, with every name that the text uses declared.
 fn theirs(text: &str, names: &[&str]) -> Vec<Seen> {
     let options = tobj::LoadOptions { triangulate: true, ..tobj::LoadOptions::default() };
     let text = format!("mtllib names\n{text}");
@@ -104,7 +105,8 @@ proptest! {
             }
         }
         let (ours, mut theirs) = (ours(&text), theirs(&text, &NAMES));
-        // tobj gives corners without texture coordinates or normals those of others.
+        // tobj fills in the values of other corners where a corner has no texture coordinates or
+        // normal.
         for (ours, theirs) in ours.iter().zip(&mut theirs) {
             if ours.1.is_empty() {
                 theirs.1.clear();
@@ -117,11 +119,11 @@ proptest! {
     }
 }
 
-/// A wall of two halves by their materials, lit from everywhere and from the front.
+/// A wall of two halves with different materials, lit by ambient light and from the front.
 const HALVES: &str = "mtllib halves.mtl\nv -2 -2 0\nv 0 -2 0\nv 2 -2 0\nv 2 2 0\nv 0 2 0\nv -2 2 0\n\
     vt 0 0\nvt 3 0\nvt 3 3\nvt 0 3\nusemtl brass\nf 1 2 5 6\nusemtl net\nf 2/1 3/2 4/3 5/4\n";
 
-/// A scene with the halves and these keys on their mesh, and these besides.
+/// Returns a scene with the halves, these keys on their mesh, and these further keys.
 fn halves(keys: &str, more: &str) -> String {
     format!(
         r#"{{ "format": "tb-scene", "version": 1, {more}
@@ -149,7 +151,7 @@ fn a_library_is_what_it_says_in_the_scenes_own_words() {
     bench.make(&["scene.json", "-o", "library.png", "--size", "24x16"], b"");
     bench.make(&["own.json", "-o", "own.png", "--size", "24x16"], b"");
     assert_eq!(bench.read("library.png"), bench.read("own.png"));
-    // The scene's own bindings go before the library, and the library before `material`.
+    // The scene's own bindings take precedence over the library, and the library over `material`.
     let mixed = r#""mtl": "lib/halves.mtl", "materials": { "brass": "brass" }, "material": "gold""#;
     bench.write(
         "mixed.json",

@@ -1,8 +1,8 @@
 //! Two scenes whose pictures are known from an independent renderer, at 4096 samples per pixel.
 //!
-//! Both show a checkered floor without lights, above it a ball of Fresnel glass or a mirror tube of
-//! 10,000 quads. The lowest quarter shows the floor alone, the same in both. The tolerances are a
-//! few times what 16 regular samples in a pixel leave of the checks' edges.
+//! Both scenes show a checkered floor without lights, and above it a ball of Fresnel glass or a
+//! mirror tube of 10,000 quads. The lowest quarter of both pictures shows the floor alone. The
+//! tolerances are a few times the error of 16 regular samples per pixel at the edges of the checks.
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
@@ -15,7 +15,8 @@ use std::path::Path;
 
 const SIDE: u32 = 128;
 
-/// The floor in the lowest quarter of both pictures, in four blocks from left to right.
+/// Mean light of the floor in the lowest quarter of both pictures, in four blocks from left to
+/// right.
 const BLOCKS: [f64; 4] = [0.4775, 0.5348, 0.4691, 0.5264];
 
 fn scene(name: &str) -> Scene {

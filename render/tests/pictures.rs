@@ -1,7 +1,7 @@
-//! Pictures with known answers: glass, mirrors, light and shadow.
+//! Pictures with known results: glass, mirrors, light and shadow.
 //!
-//! Colours are summed in `f64` and rounded once, to `f32`. Where a tolerance is larger than that, the test
-//! says why.
+//! Colours are summed in `f64` and rounded once, to `f32`. Where a tolerance is larger than that
+//! rounding, the test states the reason.
 
 use crate::studio;
 
@@ -10,7 +10,7 @@ use render::filter::Filter;
 use render::{Picture, Scene};
 use studio::{FILTERS, assert_near, at, on_film, picture, pixels, png, scene, supersampled};
 
-/// Surfaces that show only what is reflected or refracted.
+/// Materials that show only reflected or refracted light.
 const CLEAR: &str = r#"
 "glass": { "ambient": 0, "diffuse": 0, "reflectivity": 1, "transparency": 1, "fresnel": true },
 "mirror": { "ambient": 0, "diffuse": 0, "reflectivity": 1 },
@@ -21,7 +21,7 @@ const CLEAR: &str = r#"
 const WALL: &str = r#"{ "rectangle": { "corner": [-2, -2, 0], "edge_u": [4, 0, 0],
     "edge_v": [0, 4, 0], "material": "wall", "texture": "checks" } }"#;
 
-/// A scene of a checkered, lit wall and `objects` before it.
+/// A scene of a checkered, lit wall with `objects` in front of it.
 fn before_checks(wall: &str, objects: &str) -> Scene {
     let checks: Vec<[u8; 3]> = (0..64)
         .map(|k| if (k + k / 8) % 2 == 0 { [230, 40, 90] } else { [25, 128, 200] })
@@ -36,7 +36,7 @@ fn before_checks(wall: &str, objects: &str) -> Scene {
     scene(&keys, &[("checks.png", png(8, &checks))])
 }
 
-/// Before a uniform background and nothing else.
+/// A scene of `objects` in front of a uniform background.
 fn before_nothing(background: f64, more: &str, objects: &str) -> Scene {
     let keys = format!(
         r#""background": {background}, {more} "materials": {{ {CLEAR} }}, "objects": [ {objects} ]"#
@@ -59,7 +59,7 @@ fn all_are(picture: &Picture, expected: f32, tolerance: f32) {
 
 #[test]
 fn glass_of_index_1_is_invisible_to_the_last_bit() {
-    // With shadows off, so that only which texel is seen matters.
+    // There are no lights, so only the choice of texels matters.
     let wall = r#"{ "diffuse": 0 }"#;
     let ball = sphere([0.1, 0.05, 0.4], 0.3, "air");
     let without = picture(&before_checks(wall, ""), 96, Filter::Point);
@@ -69,7 +69,7 @@ fn glass_of_index_1_is_invisible_to_the_last_bit() {
 
 #[test]
 fn glass_of_index_1_in_a_light_is_invisible_up_to_rounding() {
-    // The way through the glass ends a rounding beside the straight one, and so does the angle to
+    // The path through the glass ends a rounding beside the straight path, and so does the angle to
     // the light.
     let wall = r#"{ "diffuse": 0.8 }"#;
     let ball = sphere([0.1, 0.05, 0.4], 0.3, "air");
@@ -89,8 +89,8 @@ fn a_perfect_mirror_in_a_uniform_background_disappears() {
 fn fresnel_glass_in_a_white_background_is_white() {
     let ball = sphere([0.0, 0.0, 0.0], 0.7, "glass");
     let scene = before_nothing(1.0, r#""max_depth": 64, "min_weight": 0,"#, &ball);
-    // What is still inside after 64 reflections is lost; it is most at grazing angles, where it
-    // is less than a thousandth.
+    // Light still inside after 64 reflections is lost. It is less than a thousandth, even at
+    // grazing angles.
     all_are(&picture(&scene, 64, Filter::Point), 1.0, 1e-3);
 }
 
@@ -128,7 +128,7 @@ fn a_wall_lit_from_straight_above_has_lamberts_colour() {
 
 #[test]
 fn a_highlight_is_phongs() {
-    // Light and eye in one place: the mirrored ray's angle to the light is twice the angle of
+    // Light and eye coincide. The mirrored ray's angle to the light is twice the angle of
     // incidence.
     let keys = r#""ambient": 0, "lights": [ { "point": { "position": [0, 0, 1] } } ],
         "materials": { "wall": { "ambient": 0, "diffuse": 0, "specular": 0.7, "shininess": 9 } },
@@ -143,7 +143,7 @@ fn a_highlight_is_phongs() {
     }
 }
 
-/// A white wall, half ambient, with a light behind the camera and `objects` between the two.
+/// A white wall, half ambient, with a light behind the camera and `objects` between them.
 fn shaded(objects: &str) -> Picture {
     let comma = if objects.is_empty() { "" } else { "," };
     let keys = format!(
@@ -155,12 +155,12 @@ fn shaded(objects: &str) -> Picture {
     picture(&scene(&keys, &[("sheets.obj", SHEETS.to_vec())]), 48, Filter::Point)
 }
 
-/// Two large sheets one behind the other, between the camera and the light.
+/// Two large sheets, one behind the other, between the camera and the light.
 const SHEETS: &[u8] = b"v -9 -9 1.5\nv 9 -9 1.5\nv 9 9 1.5\nv -9 9 1.5\n\
     v -9 -9 2\nv 9 -9 2\nv 9 9 2\nv -9 9 2\nf 1 2 3 4\nf 5 6 7 8\n";
 
-/// Checks the wall behind a ball at z = 2 whose shadow has the radius 3 tan(asin 0.3) = 0.943:
-/// the light is multiplied by `passed` there, and by 1 beyond.
+/// Checks the wall behind a ball at z = 2 whose shadow has the radius 3 tan(asin 0.3) = 0.943. The
+/// light is multiplied by `passed` in the shadow, and by 1 outside.
 fn assert_shadow(shown: &Picture, passed: f32) {
     let free = shaded("");
     for ((x, y, pixel), free) in pixels(shown).zip(&free.pixels) {
@@ -207,8 +207,9 @@ fn a_ball_beyond_the_light_casts_no_shadow() {
 
 #[test]
 fn below_the_surface_of_glass_light_turns_back_beyond_the_critical_angle() {
-    // The eye is one unit under water that reaches down to a floor of 0.75. Straight up it sees
-    // the background, and past asin(1/1.5) from the vertical the floor, mirrored whole.
+    // The eye is one unit below the surface of water whose floor has colour 0.75. Straight up it
+    // sees the background. Beyond asin(1/1.5) from the vertical it sees the floor, totally
+    // reflected.
     let keys = r#""camera": { "eye": [0, -1, 0], "target": [0, 0, 0], "up": [0, 0, 1],
         "fov_deg": 140 }, "background": 0.5, "ambient": 1,
         "materials": { "water": { "ambient": 0, "diffuse": 0, "transparency": 1 },
@@ -227,8 +228,9 @@ fn below_the_surface_of_glass_light_turns_back_beyond_the_critical_angle() {
 
 #[test]
 fn a_right_angled_prism_turns_the_view_by_a_right_angle() {
-    // Light that enters a leg straight meets the slope at 45 degrees, beyond the critical angle of
-    // 41.8, and leaves through the other leg: so a view along +z shows the floor.
+    // Light that enters one leg of the prism perpendicularly meets the slope at 45 degrees. This is
+    // beyond the critical angle of 41.8 degrees, so the light leaves through the other leg. A view
+    // along +z therefore shows the floor.
     let prism = "v -1 -1 1\nv -1 -1 -1\nv -1 1 -1\nv 1 -1 1\nv 1 -1 -1\nv 1 1 -1\n\
         f 1 3 2\nf 4 5 6\nf 1 2 5 4\nf 2 3 6 5\nf 1 4 6 3\n";
     let prism = prism.as_bytes().to_vec();
@@ -266,7 +268,7 @@ fn samples_are_the_average_of_a_larger_picture() {
     let objects =
         sphere([0.3, 0.1, 0.4], 0.3, "air") + "," + &sphere([-0.3, 0.0, 0.4], 0.3, "pane");
     let scene = before_checks(r#"{ "diffuse": 0.5 }"#, &objects);
-    // Powers of two, so that both send the very same rays.
+    // Sizes are powers of two, so that both pictures send identical rays.
     for (samples, filter) in [(2, Filter::Point), (4, Filter::Point), (2, Filter::Tent)] {
         let large = picture(&scene, 24 * samples, filter);
         let small = supersampled(&scene, 24, samples, filter);

@@ -1,4 +1,4 @@
-//! The print of a pixel: it says what the picture holds, and why.
+//! The print of a pixel states the values of the picture, and their causes.
 
 use crate::bench;
 use crate::studio;
@@ -10,7 +10,7 @@ use render::filter::Filter;
 use render::{Prepared, Sampling, Scene, Settings, inspect};
 use studio::{at, png, scene};
 
-/// A checkered floor, a ball of glass that mirrors and lets through, and a mirror.
+/// A checkered floor, a ball of reflecting glass, and a mirror.
 fn room() -> Scene {
     let texels: Vec<[u8; 3]> = (0..16).map(|k| [k * 16, 255 - k * 9, (k % 4) * 80]).collect();
     let keys = r#""camera": { "eye": [0.2, 1.5, 4], "target": [0, 0.6, 0], "fov_deg": 45 },
@@ -29,7 +29,7 @@ fn room() -> Scene {
     scene(keys, &[("tiles.png", png(4, &texels))])
 }
 
-/// The numbers after a word in a line.
+/// Returns the numbers after a word in a line.
 fn numbers(line: &str, word: &str) -> Vec<f32> {
     let (_, rest) = line.split_once(word).unwrap_or_else(|| panic!("{word} in {line}"));
     let numbers = rest.split([' ', ',']).filter(|part| !part.is_empty());
@@ -71,7 +71,7 @@ fn a_printed_pixel_is_the_pictures_to_the_last_bit() {
     }
 }
 
-/// A node as it was printed: what is asked of it, and its branches.
+/// A printed node: the values that the tests need, and its branches.
 #[derive(Default)]
 struct Printed {
     local: Vec<f32>,
@@ -80,7 +80,7 @@ struct Printed {
     branches: [Option<Box<Printed>>; 2],
 }
 
-/// The node that begins at the first of the lines, which are taken.
+/// Parses and consumes the node that begins at the first of the lines.
 fn parse(lines: &mut std::iter::Peekable<std::str::Lines<'_>>) -> Printed {
     let indent = |line: &str| line.len() - line.trim_start().len();
     let mut node = Printed::default();
@@ -108,7 +108,7 @@ fn parse(lines: &mut std::iter::Peekable<std::str::Lines<'_>>) -> Printed {
     node
 }
 
-/// Checks that a node hands up its own colour and its weighted branches; counts the nodes.
+/// Checks that a node returns its own colour plus its weighted branches, and counts the nodes.
 fn adds_up(node: &Printed) -> usize {
     let mut count = 1;
     if !node.local.is_empty() {
@@ -163,7 +163,7 @@ fn names_footprints_and_reasons_are_told() {
     ] {
         assert!(floor.contains(part), "`{part}` in:\n{floor}");
     }
-    // Four texels to a unit of texture coordinates, both ways.
+    // The texture has four texels per unit of texture coordinates, along both axes.
     let line = floor.lines().find(|line| line.contains("sees a rectangle")).unwrap_or_default();
     let words: Vec<f32> = line.split([' ', ',']).filter_map(|word| word.parse().ok()).collect();
     assert_eq!(words[2..4], [4.0 * words[0], 4.0 * words[1]], "{line}");

@@ -1,4 +1,4 @@
-//! Solid textures and bumps in whole scenes, where the answer is known.
+//! Solid textures and bumps in whole scenes with known results.
 
 use crate::studio;
 
@@ -48,7 +48,7 @@ fn a_lattice_is_filled_only_for_what_is_made_of_noise() {
     let found = stats(&wall(still, "b"), Filter::Tent);
     assert_eq!((found.lattice_bytes, found.solid_points), (0, 48));
     assert_eq!((found.texture_points, found.texture_areas, found.tables), (0, 0, 0));
-    // Solids need no neighbours: no ray is sent beside the picture.
+    // Solids need no neighbours, so no ray is sent beside the picture.
     assert_eq!(found.primary_rays, 48);
     for kind in ["marble", "granite", "wood", "wall", "turbulence", "clouds"] {
         let scene = wall(&format!(r#""t": {{ "{kind}": {{}} }}"#), "t");
@@ -59,7 +59,7 @@ fn a_lattice_is_filled_only_for_what_is_made_of_noise() {
 
 #[test]
 fn solids_and_pictures_keep_their_names_side_by_side() {
-    // By name a picture lies between two solids, and so do their numbers.
+    // By name, a picture lies between two solids, and so do their indices.
     let grey = studio::png(1, &[[255, 255, 255]]);
     let textures = r#""a": { "checker": { "colors": [0.25, 0.25] } }, "b": { "image": "b.png" },
         "c": { "stripes": { "layers": [[1, 0.5]] } }"#;
@@ -79,7 +79,7 @@ fn solids_and_pictures_keep_their_names_side_by_side() {
     assert_eq!(row, [0.5, 0.25, 1.0, 0.5]);
 }
 
-/// Heights that rise by 256/255 over the width of the picture.
+/// Returns heights that rise by 256/255 over the width of the picture.
 fn ramp() -> Vec<u8> {
     let picture = GrayImage::from_fn(256, 1, |x, _| Luma([x as u8]));
     let mut bytes = Cursor::new(Vec::new());
@@ -87,11 +87,11 @@ fn ramp() -> Vec<u8> {
     bytes.into_inner()
 }
 
-/// A wall of width 4 that is bumped to rise by this much to the right, in its middle.
+/// Slope in the middle of a wall of width 4 whose bump rises to the right.
 const RISE: f64 = 0.5 * 256.0 / 255.0;
 
-/// What the middle of a bumped wall shows, with these keys of its material and this before its
-/// objects.
+/// Renders the middle of a bumped wall, with these keys of its material and of the scene, and a
+/// ball at this position. Returns its colour.
 fn bumped(material: &str, keys: &str, ball: [f64; 3]) -> [f32; 3] {
     let keys = format!(
         r#"{keys} "materials": {{ "green": {{ "color": [0, 1, 0], "diffuse": 0 }},
@@ -104,7 +104,8 @@ fn bumped(material: &str, keys: &str, ball: [f64; 3]) -> [f32; 3] {
     at(&picture(&scene(&keys, &[("ramp.png", ramp())]), 1, Filter::Tent), 0, 0)
 }
 
-/// The normal of a surface that rises to the right leans to the left.
+/// Returns x and z of the unit normal of a surface that rises to the right; the normal leans to the
+/// left.
 fn normal() -> [f64; 2] {
     let length = (1.0 + RISE * RISE).sqrt();
     [-RISE / length, 1.0 / length]
@@ -120,7 +121,7 @@ fn light_falls_on_a_bumped_wall_as_on_the_slope_it_stands_for() {
         );
         let found = f64::from(bumped(r#""diffuse": 1"#, &keys, far)[0]);
         let expected = (normal()[0] * light[0] + normal()[1] * light[1]) / 1e6;
-        // The middle of the ramp is straight but for what its ends send through the splines.
+        // The middle of the ramp is straight, up to the influence of its ends through the splines.
         assert!((found - expected.max(0.0)).abs() < 1e-5, "{found} and {expected}");
     }
 }
@@ -138,8 +139,8 @@ fn a_bump_turns_mirrored_rays() {
 #[test]
 fn a_bump_turns_refracted_rays() {
     let [x, z] = normal();
-    // By Snell the ray lies between its own direction and the back of the normal, which leans to
-    // the right.
+    // By Snell the ray lies between its own direction and the reversed normal, which leans to the
+    // right.
     let inside = ((-x) / 1.5).asin();
     let lean = (-x).atan2(z);
     let angle = lean - inside;
@@ -171,7 +172,7 @@ fn a_bump_of_no_strength_changes_nothing() {
     }
 }
 
-/// However strong a bump, all pixels are finite and no light is made.
+/// However strong a bump is, all pixels are finite and no light is created.
 #[test]
 fn a_bump_of_absurd_strength_leaves_finite_pixels() {
     for strength in [1e6, -1e6] {

@@ -1,5 +1,5 @@
-//! The work grows with the input and not with its square: operations counted at one size and at twice
-//! that size, on inputs that are made to be hard.
+//! The work grows with the input and not with its square. Operations are counted at one size and at
+//! twice that size, on inputs that are made to be hard.
 
 use files::json::Document;
 use files::{Embedded, FileError, Source};
@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
-/// Twice the work, and as much again for the logarithm of twice the size.
+/// Largest ratio of the work at twice the size, with a margin for the logarithm of the size.
 const TWICE: f64 = 2.4;
 
 type Corners = [[f32; 3]; 3];
@@ -36,7 +36,8 @@ fn soup(corners: &[Corners]) -> Mesh {
     }
 }
 
-/// The corners of one of several triangles, by its number and by how many there are.
+/// A function that returns the corners of one of several triangles, from its number and their
+/// count.
 type Family = fn(usize, usize) -> Corners;
 
 /// Families of hard triangles.
@@ -73,7 +74,8 @@ fn trees_and_grids_of_twice_the_triangles_take_twice_the_work() {
         let [one, two] = [5000, 10_000].map(|count| cost(count, Structure::Bvh));
         assert!(two.0 <= TWICE * one.0, "tree of triangles {name}: {one:?} {two:?}");
         assert!(two.1 <= TWICE * one.1, "tree of triangles {name}: {one:?} {two:?}");
-        // A grid has 64 entries for each triangle at most, and which of them steps with the size.
+        // A grid has at most 64 entries for each triangle, and their number varies in steps with
+        // the size.
         for count in [5000, 10_000] {
             let (looks, bytes) = cost(count, Structure::Grid);
             assert!(looks <= 150.0 * count as f64, "{count} triangles {name}: {looks}");
@@ -122,7 +124,7 @@ fn hard_triangles_are_hit_as_brute_force_hits_them() {
     }
 }
 
-/// Files that count how often each is read.
+/// A source that counts how often each file is read.
 #[derive(Debug, Default)]
 struct Counted {
     files: BTreeMap<PathBuf, String>,
@@ -142,7 +144,7 @@ impl Source for Counted {
 const HEAD: &str = r#""format": "tb-scene", "version": 1,
     "camera": { "eye": [0, 0, 4], "target": [0, 0, 0], "fov_deg": 60 },"#;
 
-/// Three folders, in each of which the part of a level includes the next level of all three.
+/// Three folders: the part of each level includes the next level of all three folders.
 #[test]
 fn parts_that_include_each_other_crosswise_are_read_once_each() {
     const LEVELS: usize = 12;
@@ -168,7 +170,7 @@ fn parts_that_include_each_other_crosswise_are_read_once_each() {
     assert!(reads.values().all(|&count| count == 1), "{reads:?}");
 }
 
-/// What the check says of surfaces in one place, in a scene of these rectangles.
+/// Returns the coincident surfaces that the check finds in a scene of these rectangles.
 fn coincidences(rectangles: impl Iterator<Item = [f64; 4]>) -> Coincidences {
     let objects: Vec<String> = rectangles
         .map(|[x, y, width, height]| {
@@ -203,7 +205,7 @@ fn surfaces_in_one_place_are_all_counted_the_first_named_and_the_work_is_in_prop
     assert!(said[0].starts_with(first), "{}", said[0]);
     let others = format!("in {} more pairs", 2000 * 1999 / 2 - 20);
     assert!(said[20].contains(&others), "{}", said[20]);
-    // Rectangles of a floor only touch.
+    // Rectangles of a floor only touch each other.
     let floor = |side: usize| {
         coincidences((0..side * side).map(|k| [(k % side) as f64, (k / side) as f64, 1.0, 1.0]))
     };
@@ -214,7 +216,7 @@ fn surfaces_in_one_place_are_all_counted_the_first_named_and_the_work_is_in_prop
 
 #[test]
 fn surfaces_nearly_in_one_place_are_counted_as_trying_all_counts_them() {
-    // Cards dealt on a table: each covers some of the others.
+    // Cards on a table: each overlaps some of the others.
     let part = |k: usize, golden: f64| (k as f64 * golden).fract();
     let card =
         |k: usize| [part(k, 0.618_034), part(k, 0.754_877), 0.05 + 0.1 * part(k, 0.569_84), 0.1];
@@ -228,7 +230,7 @@ fn surfaces_nearly_in_one_place_are_counted_as_trying_all_counts_them() {
         .count();
     assert!(pairs > 500, "{pairs}");
     assert_eq!(coincidences((0..count).map(card)).pairs, pairs as u64);
-    // Thousands through each other: the count says that it may be short.
+    // Thousands of surfaces coincide: the count states that it may be too low.
     let stack = |count: usize| coincidences((0..count).map(|k| [0.0, 0.0, 1.0 + k as f64, 1.0]));
     let [stack, twice] = [3000, 6000].map(stack);
     assert!(twice.looks as f64 <= TWICE * stack.looks as f64, "{} {}", stack.looks, twice.looks);

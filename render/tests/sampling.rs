@@ -1,4 +1,4 @@
-//! What the rays of a pixel add up to, against pictures of other sizes and areas known beforehand.
+//! Sums of the rays of a pixel, compared with pictures of other sizes and with known areas.
 
 use crate::studio;
 
@@ -20,8 +20,9 @@ fn exposed(scene: &Scene, side: u32, sampling: Sampling, filter: Filter) -> Pict
     render::render(&Prepared::new(scene), &settings, &|_, _| {}).0
 }
 
-/// A wall of many colours, placed so that no ray meets the edge of a texel; a lit ball and one of glass before it, seen from (0, 0, 1) at an angle
-/// whose half has this tangent.
+/// A wall of many colours, placed so that no ray meets the edge of a texel. In front of it are a
+/// lit ball and a glass ball. The eye is at (0, 0, 1), and `tangent` is that of half the angle of
+/// view.
 fn room(tangent: f64, objects: &str) -> Scene {
     let texel = |k: u8| [k.wrapping_mul(37), 255 - k.wrapping_mul(11), k.wrapping_mul(91)];
     let texels: Vec<[u8; 3]> = (0..64).map(texel).collect();
@@ -40,13 +41,13 @@ fn room(tangent: f64, objects: &str) -> Scene {
     scene(&keys, &[("colours.png", png(8, &texels))])
 }
 
-/// No ray of the tests is a tangent of them: of that rounding alone would decide.
+/// Two balls. No ray of the tests is tangent to them, since then rounding alone would decide.
 const BALLS: &str = r#", { "sphere": { "center": [-0.41, 0.3, 0.2], "radius": 0.2, "material": "ball",
   "texture": "colours" } }, { "sphere": { "center": [0.3, -0.2, 0.4], "radius": 0.15,
   "material": "glass" } }"#;
 
-/// What the nine weights make of a picture of `2 side + 1` by as many pixels, as the thesis does
-/// it: three rows of the large picture make a row of the small one.
+/// Averages a picture of `2 side + 1` pixels squared with the nine weights, as in the thesis: three
+/// rows of the large picture make a row of the small one.
 fn dwarfed(large: &Picture, side: u32) -> Picture {
     assert_eq!(large.width, 2 * side + 1);
     let mut small = Picture::black(side, side);
@@ -64,8 +65,8 @@ fn dwarfed(large: &Picture, side: u32) -> Picture {
     small
 }
 
-/// The larger picture whose every second pixel has its middle where one of `side` by `side` pixels
-/// has it: it is half a small pixel wider, and so is its angle of view.
+/// Renders the larger picture, in which every second pixel has its middle at the middle of one of
+/// `side` by `side` pixels. It is half a small pixel wider, and so is its angle of view.
 fn larger(side: u32, objects: &str, filter: Filter) -> Picture {
     let wider = f64::from(2 * side + 1) / f64::from(2 * side);
     exposed(&room(wider, objects), 2 * side + 1, Sampling::regular(1), filter)
@@ -75,7 +76,7 @@ fn larger(side: u32, objects: &str, filter: Filter) -> Picture {
 fn the_nine_weights_dwarf_a_larger_picture() {
     for filter in FILTERS {
         let small = exposed(&room(1.0, BALLS), 20, IMAGE, filter);
-        // Sums of nine in f32 here, in f64 there.
+        // Nine values are summed in f32 here and in f64 by the renderer.
         assert_near(&small, &dwarfed(&larger(20, BALLS, filter), 20), 1e-6);
     }
 }
@@ -93,21 +94,22 @@ fn nine_rays_are_the_larger_picture_where_no_neighbours_are_looked_at() {
 fn nine_rays_see_a_wall_through_one_box_which_is_their_pixel() {
     for filter in [Filter::Box, Filter::Tent] {
         let rays = exposed(&room(1.0, ""), 20, RAYS, filter);
-        // There too the neighbours of the sample in the middle of a pixel are at its border.
+        // In the larger picture too, the neighbours of the sample in the middle of a pixel are at
+        // its border.
         let large = larger(20, "", filter);
         let mut middles = Picture::black(20, 20);
         for (k, pixel) in middles.pixels.iter_mut().enumerate() {
             *pixel = at(&large, 2 * (k as u32 % 20) + 1, 2 * (k as u32 / 20) + 1);
         }
         assert_near(&rays, &middles, STEP);
-        // The other way is smoother by far more than that.
+        // The method `image` is smoother by far more than the tolerance.
         let image = exposed(&room(1.0, ""), 20, IMAGE, filter);
         let apart = pixels(&image).zip(&rays.pixels).map(|((.., a), b)| (a[0] - b[0]).abs());
         assert!(apart.fold(0.0, f32::max) > 0.01);
     }
 }
 
-/// Every kind of sampling with `n * n` samples.
+/// Returns every kind of sampling with `n * n` samples.
 fn grids(n: u32) -> Vec<Sampling> {
     let mut grids = vec![IMAGE, RAYS];
     for pattern in [Pattern::Regular, Pattern::Jitter { seed: 1 }] {
@@ -129,7 +131,7 @@ fn a_constant_stays_constant_since_weights_sum_to_one() {
     }
 }
 
-/// The right half of the view is white: the edge lies between two columns of pixels.
+/// The right half of the view is white; the edge lies between two columns of pixels.
 const HALF: &str = r#""ambient": 1, "materials": { "white": { "diffuse": 0 } },
 "objects": [ { "rectangle": { "corner": [0, -3, 0], "edge_u": [3, 0, 0], "edge_v": [0, 6, 0],
 "material": "white" } } ]"#;
@@ -140,9 +142,9 @@ fn a_tent_over_an_edge_counts_the_area_beyond_it() {
     for n in [2, 4, 8] {
         for sampling in grids(n) {
             let picture = exposed(&scene, 6, sampling, Filter::Point);
-            // The edge is half a pixel from the middles beside it. Beyond it lies 1/2 (1/2)^2 of a
-            // tent; samples do not lie on the edge, jittered or not, so every sum is that area. The
-            // nine rays do lie on it, and see the white.
+            // The edge is half a pixel from the middles beside it, and 1/2 (1/2)^2 of a tent lies
+            // beyond it. No sample lies on the edge, jittered or not, so every sum is this area.
+            // Some of the nine rays lie on the edge, and see white.
             let (left, right) = match sampling {
                 Sampling::Grid { pixel_filter: PixelFilter::Box, .. } => (0.0, 1.0),
                 Sampling::Grid { .. } => (0.125, 0.875),
@@ -158,8 +160,8 @@ fn a_tent_over_an_edge_counts_the_area_beyond_it() {
 
 #[test]
 fn jitter_is_right_on_the_average() {
-    // The edge passes at a quarter of the third column from the left: with one ray in a pixel each
-    // of them is black or white, and three quarters are white.
+    // The edge passes at a quarter of the third column from the left. With one ray each pixel is
+    // black or white, and three quarters of the column are white.
     let scene = scene(&HALF.replace("[0, -3, 0]", "[-0.25, -3, 0]"), &[]);
     let sampling = |seed| Sampling::Grid {
         samples: 1,

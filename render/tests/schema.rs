@@ -1,4 +1,4 @@
-//! The schema of scenes against the reader: what one takes the other takes.
+//! The schema of scenes and the reader accept the same documents.
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
@@ -20,7 +20,7 @@ fn validator() -> Validator {
     jsonschema::draft202012::new(&schema::of_scene()).unwrap()
 }
 
-/// What the reader says of a scene, where meshes that it names are not there.
+/// Returns the reader's complaint about a scene, if any. Missing meshes do not count.
 fn complaint(scene: &Value) -> Option<String> {
     let text = scene.to_string();
     let document = Document::new("scene.json", text.as_bytes()).unwrap();
@@ -31,7 +31,7 @@ fn complaint(scene: &Value) -> Option<String> {
     judged.err().map(|error| error.to_string()).filter(|said| !said.contains("was not given"))
 }
 
-/// Whether the keys and the types of a scene are what the reader's types ask for.
+/// Returns whether the keys and types of a scene are those of the reader's types.
 fn is_formed(scene: &Value) -> bool {
     if scene.get("format").is_some_and(|format| format == PART_FORMAT) {
         return serde_json::from_value::<PartFile>(scene.clone()).is_ok();
@@ -39,7 +39,7 @@ fn is_formed(scene: &Value) -> bool {
     serde_json::from_value::<SceneFile>(scene.clone()).is_ok()
 }
 
-/// A scene with one value set by its pointer.
+/// Returns a scene with one value set, at its JSON pointer.
 fn scene(place: &str, value: Value) -> Value {
     let mut scene = json!({
         "format": "tb-scene", "version": 1,
@@ -96,7 +96,7 @@ fn what_is_out_of_its_range_both_refuse() {
     let plain = scene("/max_depth", json!(12));
     assert!(validator.is_valid(&plain));
     assert_eq!(complaint(&plain), None);
-    // At the ends of a range both take it, beyond them both refuse it.
+    // Both accept the ends of a range, and both refuse values beyond them.
     let (large, small) = (limits::LARGEST, limits::SMALLEST);
     let unit = ["ambient", "diffuse", "specular", "reflectivity", "transparency"];
     let mut ranges: Vec<(String, [f64; 2], [f64; 2])> = vec![

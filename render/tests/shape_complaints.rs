@@ -1,10 +1,10 @@
-//! Bad shapes and placements: one sentence that says where.
+//! Bad shapes and placements give one sentence with the position of the fault.
 
 use crate::bench;
 
 use bench::{Bench, MESH_WALL, WALL, WALL_OBJ};
 
-/// The wall's scene with this object before the wall must be refused with these words.
+/// Asserts that the wall's scene with this object in front of the wall is refused with these words.
 fn refuse(object: &str, parts: &[&str]) {
     let scene = WALL.replacen("{ \"rectangle\"", &format!("{object}, {{ \"rectangle\""), 1);
     Bench::with_scene(&scene).refuse(&["scene.json"], b"", 3, parts);
@@ -28,7 +28,7 @@ fn boxes_without_room_are_refused() {
     );
     refuse(&cuboid("[0, 0, 2]", "[1, 1, 1]", ""), &["scene.json:5:", "box.high[2]: found 1"]);
     refuse(&cuboid("[0, 0]", "[1, 1, 1]", ""), &["scene.json:5:", "box.low"]);
-    // Found by the fuzzer: the tree over all boxes panicked.
+    // A case that the fuzzer found: the tree over all boxes panicked.
     refuse(
         &cuboid("[0, 0, 0]", "[1, 1, 1e308]", ", \"place\": [ { \"translate\": [1, 0, 0.1] } ]"),
         &["scene.json:5:", "objects[0].box.high[2]: found 1e308, expected -1e30 to 1e30"],
@@ -108,7 +108,7 @@ fn meshes_that_are_placed_beyond_their_numbers_are_refused() {
     let parts =
         ["scene.json:5:", "objects[0].mesh.place: found vertex 0 moved beyond the range of single"];
     bench.refuse(&["scene.json", "--mesh", "wall=wall.obj"], b"", 3, &parts);
-    // Checked before the mesh is asked for.
+    // The placement is checked before the mesh is requested.
     let bench = Bench::with_scene(&scene("{ \"scale\": [1, 1, 0] }"));
     bench.refuse(&["scene.json"], b"", 3, &["scene.json:5:", "objects[0].mesh.place[0].scale[2]"]);
 }

@@ -1,4 +1,4 @@
-//! Boxes, superquadrics and placed objects: the same picture made in two ways.
+//! Boxes, superquadrics and placed objects: pairs of descriptions that give equal pictures.
 
 use crate::studio;
 
@@ -13,7 +13,7 @@ const MATERIALS: &str = r#""materials": { "paint": { "diffuse": 0.8, "specular":
     "air": { "ambient": 0, "diffuse": 0, "transparency": 1, "index_of_refraction": 1 },
     "glass": { "ambient": 0, "diffuse": 0, "reflectivity": 1, "transparency": 1, "fresnel": true } }"#;
 
-/// Colours that differ everywhere, softly.
+/// Returns a picture of smoothly varying colours.
 fn map() -> Vec<u8> {
     let wave = |k: usize, n: usize| (128.0 + 100.0 * (0.2 * (k * n) as f64).sin()) as u8;
     let texels: Vec<_> =
@@ -28,10 +28,10 @@ fn shown(keys: &str, objects: &str, obj: &[u8]) -> Scene {
     scene(&keys, &[("map.png", map()), ("m.obj", obj.to_vec())])
 }
 
-/// A floor of light under a sky of another.
+/// A floor of light under a sky of different light.
 const WORLD: &str = r#""background": [0.3, 0.5, 0.7], "ambient": 0.6,"#;
 
-/// One of each kind without a mesh, with `place` in each.
+/// Returns one object of each kind except meshes, each with the placement `place`.
 fn one_of_each(material: &str, place: &str) -> [String; 6] {
     let looks = format!(r#""material": "{material}", "texture": "map" {place}"#);
     [
@@ -75,7 +75,7 @@ fn a_placement_that_changes_nothing_gives_the_same_bytes() {
 
 #[test]
 fn a_turned_object_looks_as_it_does_to_a_camera_turned_the_other_way() {
-    // Turned so that the poles and the seams are seen.
+    // The objects are rotated so that their poles and seams are visible.
     let turn = DQuat::from_axis_angle(DVec3::new(1.0, 2.0, -0.5).normalize(), 130f64.to_radians());
     let way = DAffine3::from_rotation_translation(turn, DVec3::new(2.0, -1.0, 0.5));
     let place = r#", "place": [ { "rotate_deg": { "axis": [1, 2, -0.5], "angle": 130 } },
@@ -100,13 +100,14 @@ fn a_turned_object_looks_as_it_does_to_a_camera_turned_the_other_way() {
                 |(a, b): (&[f32; 3], &[f32; 3])| (0..3).any(|k| (a[k] - b[k]).abs() > 1.0 / 255.0);
             let different =
                 plain.pixels.iter().zip(&placed.pixels).filter(|&pair| far(pair)).count();
-            // A rounding may send a ray past an edge, inside glass again and again.
+            // A rounding may send a ray past an edge, repeatedly inside glass.
             assert!(different <= 2, "{different} pixels differ: {material}");
         }
     }
 }
 
-/// The box from -1/2 to 1/2 with a 'usemtl' and the whole picture on each face, outward.
+/// Returns the box from -1/2 to 1/2 as triangles that face outward, with a `usemtl` and the whole
+/// picture on each face.
 fn box_of_triangles() -> String {
     let mut obj: String = (0..8)
         .map(|k: i32| {
@@ -115,7 +116,7 @@ fn box_of_triangles() -> String {
         })
         .collect();
     obj += "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
-    // The corners of each face from the lower left one, counter-clockwise seen from outside.
+    // Corners of each face from the lower left one, counter-clockwise as seen from outside.
     let faces =
         [[0, 4, 6, 2], [5, 1, 3, 7], [0, 1, 5, 4], [6, 7, 3, 2], [1, 0, 2, 3], [4, 5, 7, 6]];
     for (k, face) in faces.iter().enumerate() {
@@ -128,7 +129,7 @@ fn box_of_triangles() -> String {
 #[test]
 fn a_box_of_twelve_triangles_looks_like_the_box() {
     let obj = box_of_triangles();
-    // Exact in f32, so that both are the same box; the second mirrors.
+    // The placements are exact in f32, so that both boxes are equal; the second one mirrors.
     let places = [
         "",
         r#", "place": [ { "scale": [-0.75, 1.25, 1] }, { "translate": [0.125, 0, 0.25] },
@@ -165,8 +166,8 @@ fn a_box_of_twelve_triangles_looks_like_the_box() {
 
 #[test]
 fn no_ray_is_lost_in_a_shape_of_air() {
-    // What is let in and out again shows the world beyond; a ray that meets its own start turns
-    // inside out and sees ever the same surface, until it is cut and black.
+    // Light that enters and leaves again shows the world beyond. A ray that met its own start would
+    // swap inside and outside and meet the surface again, until it is cut and black.
     let stretched = r#", "place": [ { "scale": [1.5, 0.25, 0.75] },
         { "rotate_deg": { "axis": [1, 1, 0], "angle": 40 } }, { "translate": [0.1, 0.1, -0.2] } ]"#;
     for place in ["", stretched] {
@@ -193,8 +194,8 @@ fn a_ball_of_glass_in_a_mirror_is_a_ball_of_glass() {
 
 #[test]
 fn across_the_edge_of_a_box_nothing_is_averaged() {
-    // White at the rim of each face and black within: what saw two faces as one piece of texture
-    // would see the black of a whole face.
+    // The rim of each face is white and its inside black. A filter that joined two faces to one
+    // footprint would see the black of a whole face.
     let rim = |k: usize| [0, 15].contains(&(k % 16)) || [0, 15].contains(&(k / 16));
     let texels: Vec<[u8; 3]> = (0..256).map(|k| [if rim(k) { 255 } else { 0 }; 3]).collect();
     let keys = format!(
@@ -207,13 +208,14 @@ fn across_the_edge_of_a_box_nothing_is_averaged() {
         // The upright edge is in the middle, between two pixels.
         let shown = picture(&scene(&keys, &[("rim.png", png(16, &texels))]), 64, filter);
         for y in 16..48 {
-            // Their middles are 0.1 texels from the edge. The widest filter reaches 1.5 texels from there, and
-            // puts 0.6^3 / 6 of its weight beyond the rim; a footprint of a quarter of a texel adds to that.
+            // The middles of these pixels are 0.1 texels from the edge. The widest filter reaches
+            // 1.5 texels from there, and has 0.6^3 / 6 of its weight beyond the rim. A footprint of
+            // a quarter of a texel adds to that.
             for x in [31, 32] {
                 assert!(at(&shown, x, y)[0] > 0.95, "{filter:?} {x} {y}: {:?}", at(&shown, x, y));
             }
         }
-        // At 2.1 texels from the edge 0.4^3 / 6 of the weight is left for the rim.
+        // At 2.1 texels from the edge, 0.4^3 / 6 of the weight lies on the rim.
         assert!(at(&shown, 20, 32)[0] < 0.05);
     }
 }
@@ -231,13 +233,14 @@ fn a_sharp_superquadric_looks_like_the_box_it_all_but_is() {
         r#"{ "superquadric": { "center": [0, 0, 0], "radii": [0.5, 0.5, 0.5],
         "exponents": [0.05, 0.05], "material": "unlit" } }"#,
     );
-    // It holds the box shrunk by 2.7 %, whose silhouette is 5.3 % smaller.
+    // The shape contains the box shrunk by 2.7 %, whose silhouette is 5.3 % smaller.
     assert!(sharp <= box_ && sharp as f64 > 0.947 * box_ as f64, "{sharp} {box_}");
 }
 
 #[test]
 fn an_octahedron_is_where_the_sum_of_the_coordinates_is_1() {
-    // Exponents 2 and 2: |x| + |y| + |z| = 1, seen along z; its silhouette is the square on its corner.
+    // With exponents 2 and 2 the shape is |x| + |y| + |z| = 1. Seen along z, its silhouette is the
+    // square on its corner.
     let keys =
         r#""camera": { "eye": [0, 0, 1000001], "target": [0, 0, 0], "fov_deg": 0.0001145916 },"#;
     let object = r#"{ "superquadric": { "center": [0, 0, 0], "radii": [1, 1, 1], "exponents": [2, 2],
@@ -246,7 +249,7 @@ fn an_octahedron_is_where_the_sum_of_the_coordinates_is_1() {
     for (x, y, pixel) in pixels(&seen) {
         let [a, b] = on_film(x, y, 64);
         let off = a.abs() + b.abs() - 1.0;
-        // Pixels whose middle lies on the very edge may be either.
+        // Pixels whose middle lies exactly on the edge may be inside or outside.
         assert!(
             off.abs() < 1e-3 || (off < 0.0) == (pixel != [0.3, 0.5, 0.7]),
             "{x} {y}: {pixel:?}"

@@ -1,4 +1,5 @@
-//! The sky against closed forms: seen, mirrored, through glass; and what is refused.
+//! The sky against closed forms: seen directly, mirrored, and through glass; and faults that are
+//! refused.
 
 use crate::studio;
 
@@ -10,11 +11,11 @@ use render::scene::{read, schema};
 use serde_json::{Value, json};
 use studio::{FILTERS, at, picture, pixels, scene, supersampled};
 
-/// A sky with a horizon as sharp as a degree, and what is below it.
+/// A sky whose horizon is one degree sharp, with colours below it.
 const SKY: &str = r#""background": { "by_elevation": [[-60, [0.1, 0, 0]], [-1, [0.5, 0.25, 0.125]],
     [0, 0.75], [30, [0.25, 0.5, 1]]] }, "ambient": 0,"#;
 
-/// The same, by degrees above the horizon.
+/// Returns the colour of [`SKY`] at an elevation in degrees.
 fn sky(elevation: f64) -> [f64; 3] {
     let stops = [
         (-60.0, [0.1, 0.0, 0.0]),
@@ -32,7 +33,8 @@ fn sky(elevation: f64) -> [f64; 3] {
     std::array::from_fn(|k| low.1[k] + part * (high.1[k] - low.1[k]))
 }
 
-/// Degrees above the horizon of the ray through a pixel of the usual camera, which looks along -z.
+/// Returns the elevation, in degrees, of the ray through a pixel of the usual camera, which looks
+/// along -z.
 fn elevation(x: u32, y: u32, side: u32) -> f64 {
     let [a, b] = studio::on_film(x, y, side);
     b.atan2(a.hypot(1.0)).to_degrees()
@@ -77,8 +79,8 @@ fn a_pane_with_parallel_faces_shows_the_sky_in_its_place() {
     let shown = picture(&scene(&keys, &[]), 32, Filter::Tent);
     for (x, y, pixel) in pixels(&shown) {
         let truth = sky(elevation(x, y, 32)).map(|light| 0.9 * 0.9 * light);
-        // Two refractions round the direction by a few units in the last place; the sky's steepest
-        // slope is 0.6 in a degree.
+        // Two refractions round the direction by a few units in the last place. The sky's steepest
+        // slope is 0.6 per degree.
         assert_pixel(pixel, truth, HALF_STEP);
     }
 }
@@ -130,7 +132,7 @@ fn a_sky_that_is_none_is_refused_with_its_place_by_reader_and_schema_alike() {
         assert!(validator.is_valid(&scene), "{scene}");
         assert_eq!(said(&scene), None, "{scene}");
     }
-    // What is not of the form both refuse; what is out of its range the reader knows.
+    // Both refuse a wrong form; only the reader refuses a value out of range.
     for (background, part, form) in [
         (json!("blue"), "background: found the string \"blue\", expected a colour", true),
         (json!({}), "missing key `by_elevation`", true),

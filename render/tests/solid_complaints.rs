@@ -1,17 +1,17 @@
-//! Bad solids and bumps: one sentence that says where.
+//! Bad solids and bumps give one sentence with the position of the fault.
 
 use crate::bench;
 
 use bench::{Bench, WALL};
 
-/// A wall with this texture must be refused with these words; the texture stands in line 4.
+/// Asserts that a wall with this texture, in line 4, is refused with these words.
 fn refuse_texture(texture: &str, parts: &[&str]) {
     let textures = format!("\"textures\": {{ \"t\":\n{texture} }},\n\"materials\"");
     let bench = Bench::with_scene(&WALL.replace("\"materials\"", &textures));
     bench.refuse(&["scene.json"], b"", 3, &[&["scene.json:5:"], parts].concat());
 }
 
-/// A wall with this bump must be refused with these words.
+/// Asserts that a wall with this bump is refused with these words.
 fn refuse_bump(bump: &str, parts: &[&str]) {
     let material = format!("\"diffuse\": 0, \"bump\":\n{bump} }} }},");
     let bench = Bench::with_scene(&WALL.replace("\"diffuse\": 0 } },", &material));

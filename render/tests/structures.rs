@@ -1,5 +1,5 @@
-//! Tree, grids and brute force see the same, to the last bit: on rays through edges and vertices,
-//! along the faces of voxels, on needles, flat, tiny, huge and far away meshes.
+//! Tree, grids and brute force find the same hits, to the last bit: on rays through edges and
+//! vertices and along the faces of voxels, and on needles and flat, tiny, huge and distant meshes.
 
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
@@ -11,12 +11,12 @@ use std::f64::consts::{PI, TAU};
 
 const STRUCTURES: [Structure; 3] = [Structure::None, Structure::Bvh, Structure::Grid];
 
-/// Brute force first.
+/// Builds all structures; brute force is the first.
 fn all_structures(shapes: &[Shape]) -> [Accel<'_>; 3] {
     STRUCTURES.map(|structure| Accel::build(shapes.iter().collect(), structure))
 }
 
-/// A hit to the last bit.
+/// The bits of a hit.
 type Exact = (u64, Piece, [u64; 2]);
 
 fn nearest(accel: &Accel<'_>, ray: &Ray) -> Option<Exact> {
@@ -25,7 +25,7 @@ fn nearest(accel: &Accel<'_>, ray: &Ray) -> Option<Exact> {
         .map(|hit| (hit.t.to_bits(), hit.piece, hit.barycentric.map(f64::to_bits)))
 }
 
-/// All hits before `t_max`, sorted.
+/// Returns all hits before `t_max`, sorted.
 fn all_before(accel: &Accel<'_>, ray: &Ray, t_max: f64) -> Vec<Exact> {
     let mut hits = Vec::new();
     accel.any(ray, t_max, |hit| {
@@ -36,8 +36,8 @@ fn all_before(accel: &Accel<'_>, ray: &Ray, t_max: f64) -> Vec<Exact> {
     hits
 }
 
-/// Asserts that all see the same: the nearest hit, every hit each once, and the hits before one in
-/// the middle.
+/// Asserts that all structures find the same nearest hit, find every hit exactly once, and find the
+/// same hits before a middle distance.
 fn see_the_same(accels: &[Accel<'_>; 3], ray: &Ray) -> Result<(), TestCaseError> {
     let [brute, others @ ..] = accels;
     let first = nearest(brute, ray);
@@ -59,7 +59,7 @@ fn mesh(positions: Vec<[f32; 3]>, triangles: &[[u32; 3]]) -> Mesh {
     Mesh { positions, triangles, surfaces: vec![String::new()], ..Mesh::default() }
 }
 
-/// Triangles that share no corners.
+/// Returns a mesh of triangles that share no corners.
 fn soup(corners: &[[[f32; 3]; 3]]) -> Mesh {
     let numbers: Vec<[u32; 3]> =
         (0..corners.len() as u32).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
@@ -70,13 +70,13 @@ fn vector(v: [f32; 3]) -> DVec3 {
     DVec3::from(v.map(f64::from))
 }
 
-/// Coordinates from a coarse lattice meet each other often: shared corners, flat triangles, and
-/// corners on the faces of voxels.
+/// Draws coordinates from a coarse lattice, which often coincide: shared corners, flat triangles,
+/// and corners on the faces of voxels.
 fn corner() -> impl Strategy<Value = [f32; 3]> {
     prop::array::uniform3((-4i8..=4).prop_map(|k| f32::from(k) * 0.25))
 }
 
-/// Along an axis or a diagonal, with zeros of both signs.
+/// Draws a direction along an axis or a diagonal, with zeros of both signs.
 fn lattice_direction() -> impl Strategy<Value = DVec3> {
     prop::array::uniform3(prop::sample::select(vec![-1.0, -0.0, 0.0, 1.0, 0.5]))
         .prop_map(DVec3::from)
@@ -84,7 +84,7 @@ fn lattice_direction() -> impl Strategy<Value = DVec3> {
         .prop_map(DVec3::normalize)
 }
 
-/// Where a scene lies and how large it is.
+/// Draws the size and the position of a scene.
 fn place() -> impl Strategy<Value = (f32, [f32; 3])> {
     let far = [1e3, -7.0, 3e4];
     prop::sample::select(vec![
@@ -130,7 +130,7 @@ proptest! {
         ];
         let accels = all_structures(&shapes);
         for (eye, off) in eyes {
-            // Some eyes stand on the lattice, others anywhere, in front and inside.
+            // Some eyes are on the lattice, others anywhere, in front and inside.
             let off = if off < 1.0 { 0.0 } else { 3.0 * (off - 1.0) * f64::from(scale) };
             let eye = vector(put(eye)) + off * DVec3::new(0.1, 0.3, 1.0);
             let aimed = targets.iter().map(|&target| (vector(put(target)) - eye).normalize_or(DVec3::X));
@@ -147,8 +147,8 @@ proptest! {
         }
     }
 
-    /// Triangles a few units in the last place wide, seen along their edges: their area as seen is
-    /// rounding, and the hit function may find them anywhere on the line they lie on.
+    /// Triangles are a few units in the last place wide and seen along their edges. Their area as
+    /// seen consists of rounding, and the hit function may find them anywhere on their line.
     #[test]
     fn needles_and_slivers_are_seen_alike(
         needles in prop::collection::vec((corner(), corner(), -1.0..2.0f32, 0u32..3, 0usize..3), 1..40),
@@ -178,7 +178,7 @@ proptest! {
     }
 }
 
-/// The icosahedron, each face cut into four `times` times and put on the unit sphere.
+/// Returns the icosahedron, with each face cut into four `times` times, on the unit sphere.
 fn icosphere(times: usize) -> Mesh {
     let g = (1.0 + 5f64.sqrt()) / 2.0;
     let mut points: Vec<DVec3> = [[0.0, 1.0, g], [0.0, 1.0, -g], [0.0, -1.0, g], [0.0, -1.0, -g]]
@@ -186,7 +186,7 @@ fn icosphere(times: usize) -> Mesh {
         .flat_map(|[x, y, z]| [[x, y, z], [z, x, y], [y, z, x]])
         .map(|p| DVec3::from(p).normalize())
         .collect();
-    // Its faces: the triples of nearest neighbours, outside up.
+    // The faces are the triples of nearest neighbours, with the outside up.
     let near = |a: u32, b: u32| points[a as usize].dot(points[b as usize]) > 0.4;
     let mut faces: Vec<[u32; 3]> = Vec::new();
     for a in 0..12 {
@@ -214,7 +214,7 @@ fn icosphere(times: usize) -> Mesh {
     mesh(points.iter().map(|p| p.to_array().map(|x| x as f32)).collect(), &faces)
 }
 
-/// A torus about y: rings of radius `tube` whose middles lie on the unit circle.
+/// Returns a torus about y: rings of radius `tube` whose middles lie on the unit circle.
 fn torus(rows: u32, cols: u32, tube: f64) -> Mesh {
     let point = |row: u32, col: u32| {
         let (v, u) =
@@ -234,7 +234,8 @@ fn torus(rows: u32, cols: u32, tube: f64) -> Mesh {
     mesh(places.iter().map(|&(r, c)| point(r, c)).collect(), &faces)
 }
 
-/// A cube from -1 to 1 whose faces are cut into squares: axis planes, edges on lattice lines.
+/// Returns a cube from -1 to 1 whose faces are cut into squares. Its faces lie in axis planes, and
+/// its edges on lattice lines.
 fn cube(cuts: u32) -> Mesh {
     let mut numbers = std::collections::BTreeMap::new();
     let mut positions = Vec::new();
@@ -263,7 +264,7 @@ fn cube(cuts: u32) -> Mesh {
     mesh(positions, &faces)
 }
 
-/// Every vertex and the middle of every edge.
+/// Returns every vertex and the middle of every edge.
 fn targets(mesh: &Mesh) -> Vec<DVec3> {
     let corner = |k: u32| vector(mesh.positions[k as usize]);
     let edges = mesh.triangles.iter().flat_map(|triangle| {
@@ -274,9 +275,9 @@ fn targets(mesh: &Mesh) -> Vec<DVec3> {
     mesh.positions.iter().map(|&p| vector(p)).chain(middles).collect()
 }
 
-/// Rays from inside closed meshes through every vertex and the middle of every edge. The edge
-/// functions of neighbours are exact opposites and a zero counts for both, so none gets out; and
-/// no structure loses one that brute force holds.
+/// Rays run from inside closed meshes through every vertex and the middle of every edge. The edge
+/// functions of neighbours are exact opposites and a zero counts for both, so that no ray gets out.
+/// No structure loses a hit that brute force finds.
 #[test]
 fn no_ray_leaks_out_of_a_closed_mesh() {
     let off = DVec3::new(0.013, -0.2, 0.11);
@@ -337,7 +338,7 @@ fn a_flat_mesh_is_seen_from_above_and_along() {
     }
 }
 
-/// Eyes so far away that their own rounding is larger than the mesh, and all between.
+/// Eyes range from near to so far away that their own rounding is larger than the mesh.
 #[test]
 fn from_far_away_all_see_alike() {
     let shapes = [Shape::Mesh(torus(40, 24, 0.4))];
@@ -354,7 +355,7 @@ fn from_far_away_all_see_alike() {
     assert!(seen > 100, "{seen}");
 }
 
-/// Corners and numbers of 1920 triangles take 44 bytes each; beside them a structure is small.
+/// Corners and numbers of 1920 triangles take 44 bytes per triangle; the structure itself is small.
 #[test]
 fn a_structure_tells_its_memory() {
     let shapes = [Shape::Mesh(torus(40, 24, 0.4))];

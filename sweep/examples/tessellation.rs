@@ -23,7 +23,7 @@ const VESSEL: &str = r#"{"format": "tb-sweep", "version": 1, "name": "vessel",
     [[0.9, 1.2], [0.5, 1.9], [0.42, 1.7], [0.8, 2.4]]]}},
 "trajectory": {"rotation": {}}, "mesh": {"rows": 60, "cols": 60}}"#;
 
-/// What is swept: a name, a spec, and the coarsest tolerance, about a hundredth of the size.
+/// A shape to sweep: its name, its spec, and the coarsest tolerance, about a hundredth of the size.
 const SHAPES: [(&str, &str, f64); 5] = [
     ("trefoil", include_str!("../../examples/curves/trefoil.json"), 1e-2),
     ("fluted-vase", include_str!("../../examples/curves/fluted-vase.json"), 1e-2),
@@ -35,7 +35,7 @@ const SHAPES: [(&str, &str, f64); 5] = [
 /// Tolerances of a shape: the coarsest divided by these.
 const FINER: [f64; 4] = [1.0, 3.0, 10.0, 30.0];
 
-/// One way to cut one shape.
+/// A cut of a shape into cells.
 struct Line {
     shape: &'static str,
     adaptive: bool,

@@ -1,4 +1,4 @@
-//! What `--check` says of specs that have a fault, and of those that just have not.
+//! Findings of `--check` about specs with a fault, and about specs that are just free of faults.
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
@@ -16,7 +16,7 @@ fn read(document: &Document<'_>) -> Result<Object, sweep::SweepError> {
     Object::read(document, Path::new(""), &files::Disk, &Resolution::default())
 }
 
-/// A ring with some keys of its own.
+/// Returns the text of a ring's spec with these keys.
 fn ring(keys: &Value) -> String {
     let mut spec = json!({
         "format": "tb-sweep", "version": 1, "name": "ring", "contour": {"circle": 1},
@@ -35,14 +35,14 @@ fn found(keys: &Value) -> Vec<Finding> {
     check::check(&object, &object.grids().unwrap(), Some(&|_, _| {}))
 }
 
-/// The one finding about a spec.
+/// Returns the only finding about a spec.
 fn only(keys: &Value) -> Finding {
     let mut found = found(keys);
     assert_eq!(found.len(), 1, "{keys}: {found:?}");
     found.remove(0)
 }
 
-/// Asserts that there is one finding, and what it says.
+/// Asserts that there is one finding, with this severity, path and text.
 fn says(keys: &Value, severity: Severity, path: &str, words: &str) {
     let finding = only(keys);
     assert_eq!((finding.severity, finding.path.as_str()), (severity, path), "{finding}");
@@ -67,7 +67,7 @@ fn radius(radius: f64) -> Value {
 fn a_torus_folds_when_its_tube_is_wider_than_its_ring() {
     let folded = survey(&radius(0.999));
     assert_eq!(folded.folded_rows(), 48);
-    // 1 - k.q is 1 - 1 / 0.999 on the inner circle; a tube of the ring's radius just passes.
+    // 1 - k.q is 1 - 1 / 0.999 on the inner circle; a tube of the ring's radius just fits.
     assert!((folded.worst().unwrap() - (1.0 - 1.0 / 0.999)).abs() < 1e-12);
     assert!((folded.fits().unwrap() - 0.999).abs() < 1e-12);
     let finding = only_fold(&radius(0.999));
@@ -83,7 +83,7 @@ fn a_torus_folds_when_its_tube_is_wider_than_its_ring() {
     assert_eq!(touching[0].severity, Severity::Hint);
 }
 
-/// The fold among what else a folded surface has.
+/// Returns the fold among the findings about a folded surface.
 fn only_fold(keys: &Value) -> Finding {
     let all = found(keys);
     let wrong: Vec<_> = all.iter().filter(|one| one.severity == Severity::Wrong).collect();
@@ -99,7 +99,7 @@ fn scale_twist_and_relief_count_in_what_passes() {
         "scale": {"keys": [[0, 1], [0.5, 2], [1, 1]], "ease": "smooth"}
     });
     assert!((survey(&laws).fits().unwrap() - 0.75).abs() < 1e-9);
-    // A segment that lies outward at the start and has come round to the axis halfway, off the rows.
+    // A segment that points outward at the start and toward the axis halfway, between two rows.
     let blade = json!({
         "contour": {"svg": "M0 0H1"}, "trajectory": {"circle": {"radius": 0.9}},
         "twist": {"total": 360}, "mesh": {"rows": 47, "cols": 4}
@@ -122,7 +122,7 @@ fn a_relief_deeper_than_the_contour_is_round_folds() {
             "depth": {"mode": "offset", "terms": [{"amp": -amp, "u": 0, "v": 0, "phase_deg": 90}]}
         })
     };
-    // The radius of curvature at the ends of the long axis: speed^2 / |acceleration across|.
+    // Radius of curvature at the ends of the long axis: speed^2 / |acceleration across|.
     let all = found(&grooves(0.9));
     assert!(
         all.iter().any(|one| one.path == "depth" && one.severity == Severity::Wrong),
@@ -133,7 +133,8 @@ fn a_relief_deeper_than_the_contour_is_round_folds() {
 
 #[test]
 fn rows_on_both_sides_of_a_tight_bend_cross() {
-    // Straight, a quarter of a small circle, straight; rows only far from the bend.
+    // A straight piece, a quarter of a small circle, and a straight piece; the rows are far from
+    // the bend.
     let k = 0.552_284_749_8;
     let bend = |r: f64, rows: usize| {
         let c = r * (1.0 - k);
@@ -264,7 +265,7 @@ fn curves_are_looked_at_as_they_were_drawn() {
 
 #[test]
 fn what_f32_loses_is_told_far_from_the_origin() {
-    // Half a step of f32 between 2^15 and 2^16 is 2^-9 at most, on a ring 11 across.
+    // Half a step of f32 between 2^15 and 2^16 is at most 2^-9, on a ring 11 across.
     let away = |x: f64| json!({"position": [x, 0, 0]});
     says(&away(60000.0), Severity::Hint, "position", "1e-4 of the size");
     nothing(&away(6000.0));

@@ -1,4 +1,4 @@
-//! The program as its users meet it: what it writes, what it says, how it ends.
+//! Runs of the program: its output, its messages, and its exit codes.
 
 use fixtures::program::{ending, run};
 use std::fs;
@@ -203,7 +203,7 @@ fn a_grid_larger_than_memory_is_written_row_by_row() {
     let folder = tempfile::tempdir().unwrap();
     let spec = folder.path().join("pipe.json");
     fs::write(&spec, PIPE).unwrap();
-    // 360 MB of grid in 200 MB of addresses.
+    // A grid of 360 MB in an address space of 200 MB.
     let run = Command::new("sh")
         .args(["-c", "ulimit -v 200000 && exec \"$0\" \"$@\"", env!("CARGO_BIN_EXE_sweep")])
         .arg(&spec)
@@ -238,7 +238,7 @@ fn folds_are_noted_unless_quiet() {
     assert_eq!(code, Some(0));
     assert!(message.starts_with("sweep: note: pipe: the surface folds back on itself in 8 rows"));
     assert_eq!(ending(&sweep(&["-q"], &hook)), (Some(0), String::new()));
-    // What was asked for is said all the same.
+    // Requested statistics are printed in spite of -q.
     let (_, message) = ending(&sweep(&["-q", "--stats"], &hook));
     assert!(message.starts_with("object      pipe"), "{message}");
 }

@@ -1,4 +1,4 @@
-//! Corners of trajectories: mitred, rounded, refused.
+//! Corners of trajectories: mitred, rounded or refused.
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
@@ -128,13 +128,13 @@ fn rounded_corners_are_arcs_between_straight_legs() {
         // The known error of a cubic for a quarter of a circle: 2.8e-4 of the radius.
         assert!((p.distance(DVec3::new(3.0, 1.0, 0.0)) - 1.0).abs() < 3e-4, "{p}");
     }
-    // All around, the start too.
+    // The tangent is continuous everywhere, also at the start.
     let closed = swept(&polyline(true, &json!({"round": 0.5})), &json!({}));
     assert!(closed.trajectory().closed() && closed.trajectory().breaks().is_empty());
     for i in 0..100 {
         let tangent = |v: f64| closed.trajectory().station(v).frame.tangent;
         let v = f64::from(i) / 100.0;
-        // The curve is 16 long and bends by less than 6 in a unit of length.
+        // The curve is 16 long and bends by less than 6 radians per unit of length.
         assert!((tangent(v) - tangent((v + 1e-7).fract())).length() < 1e-7 * 16.0 * 6.0);
     }
 }

@@ -1,4 +1,4 @@
-//! Caps and deformations: what becomes of a sweep beyond its ends and in the end.
+//! Caps and deformations: the ends of a sweep, and the last stage of its construction.
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
@@ -39,7 +39,7 @@ fn round_caps_on_a_tube_are_half_spheres() {
     assert!((first - DVec3::new(0.0, 0.0, -0.5)).length() < 1e-14);
     assert!((last - DVec3::new(0.0, 0.0, 2.5)).length() < 1e-14);
     assert!(grid.positions[..24].iter().all(|p| *p == first), "a pole is one point");
-    // Arcs of pi / 4 beside a tube of 2: the rows are shared out by length.
+    // Arcs of pi / 4 beside a tube of 2: the rows are distributed by length.
     let cap = grid.v.iter().filter(|&&v| v > 0.0 && v < 0.2).count();
     assert!((8..=9).contains(&cap), "{cap}");
 }
@@ -62,7 +62,7 @@ fn flat_caps_and_poles_have_the_normals_of_disks_and_cones() {
             assert!((normal + DVec3::Z).length() < NORMAL && point.z == 0.0, "{point}: {normal}");
         }
     }
-    // The rims have the normals of both sides.
+    // Each rim has the normals of both sides.
     let rims = grid.v.windows(2).filter(|pair| pair[0] == pair[1]).count();
     assert_eq!(rims, 2);
 }
@@ -76,7 +76,7 @@ fn caps_stand_on_what_laws_have_made_of_the_contour() {
     }));
     let grid = sweep.grid();
     let top = *grid.positions.last().unwrap();
-    // A quarter of a circle of length 2, and 0.3 straight on.
+    // A quarter of a circle of length 2, and a straight piece of 0.3.
     let radius = 4.0 / std::f64::consts::PI;
     assert!((top - DVec3::new(radius + 0.3, 0.0, radius)).length() < 1e-12, "{top}");
     assert!(grid.normals.iter().all(|n| (n.length() - 1.0).abs() < UNIT));
@@ -85,7 +85,7 @@ fn caps_stand_on_what_laws_have_made_of_the_contour() {
 
 #[test]
 fn the_rim_of_a_cap_is_the_last_section_to_the_last_bit() {
-    // A side cut in its middle comes to a corner near 0, where every bit is left of what is added.
+    // A side cut in its middle has a corner near 0, where every bit of an added number remains.
     let half = 0.137_106_272_763_016_76;
     let sweep = swept(&json!({
         "contour": {"polyline": {"closed": true, "points":
@@ -143,12 +143,12 @@ fn deformations_follow_one_another() {
     let (point, _) = sweep.at(0.0, 0.5);
     let expected = DVec3::new(0.375, 0.375, 0.0) * std::f64::consts::FRAC_1_SQRT_2;
     assert!((point - expected - DVec3::Z * 8.0).length() < 1e-15, "{point}");
-    // A bend tighter than the tube is wide turns it inside out.
+    // A bend tighter than the tube's radius turns the tube inside out.
     let tight = |degrees: f64| {
         let bend = json!({"bend": {"axis": [0, 0, 1], "from": 0, "to": 2, "degrees": degrees, "toward": [1, 0, 0]}});
         swept(&json!({"deform": [bend]})).folded_rows()
     };
-    // Radius 2 / angle against 0.5.
+    // The bend's radius is 2 / angle, against a tube of radius 0.5.
     assert_eq!(tight(220.0), 0);
     assert_eq!(tight(240.0), 41);
 }

@@ -1,4 +1,4 @@
-//! Curves fitted to points: how near, how few, how smooth.
+//! Curves fitted to points: their distance, their number of segments, and their smoothness.
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
@@ -13,14 +13,16 @@ use sweep::curve::vector::angle_between;
 use sweep::curve::{Cubic, turn};
 use sweep::spec::Resolution;
 
-/// Handles of a fit have one direction; what is left is the rounding of control points.
+/// Largest angle at a smooth joint, in radians. Handles of a fit have one direction; the rest is
+/// the rounding of control points.
 const SMOOTH: f64 = 1e-9;
 
 fn circle(count: u32) -> Vec<DVec2> {
     (0..count).map(|i| turn(f64::from(i) / f64::from(count))).collect()
 }
 
-/// The same number from -1 to 1 for the same `i`, without a pattern (a Weyl sequence, scattered).
+/// Returns a number from -1 to 1 that depends on `i` alone and has no pattern (a scattered Weyl
+/// sequence).
 fn noise(i: usize) -> f64 {
     let scattered = (i as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     let mixed = (scattered ^ (scattered >> 29)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -37,7 +39,7 @@ fn figure_eight(count: u32) -> Vec<DVec2> {
     (0..count).map(|i| DVec2::new(2.0 * at(i).x, at(2 * i).y)).collect()
 }
 
-/// Points along lines and arcs: a rectangle of 4 x 2 whose right side is a half circle.
+/// Returns points along lines and arcs: a rectangle of 4 x 2 whose right side is a half circle.
 fn arch(step: f64) -> Vec<DVec2> {
     let mut points = Vec::new();
     let corners = [[3.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [3.0, -1.0]].map(DVec2::from_array);
@@ -51,7 +53,7 @@ fn arch(step: f64) -> Vec<DVec2> {
     points
 }
 
-/// The distance of a point from cubics.
+/// Returns the distance of a point from cubics.
 fn distance(cubics: &[Cubic<DVec2>], point: DVec2) -> f64 {
     let at = |p: DVec2| Point::new(p.x, p.y);
     cubics
@@ -63,7 +65,7 @@ fn distance(cubics: &[Cubic<DVec2>], point: DVec2) -> f64 {
         .fold(f64::INFINITY, f64::min)
 }
 
-/// The angles at the joints of cubics, which meet end to end.
+/// Returns the angles, in radians, at the joints of cubics that meet end to end.
 fn angles(fit: &Fit, closed: bool) -> Vec<f64> {
     let count = fit.cubics.len();
     let joints = if closed { 0..count } else { 1..count };
@@ -76,13 +78,14 @@ fn angles(fit: &Fit, closed: bool) -> Vec<f64> {
         .collect()
 }
 
-/// Fits points, every one of which must be near; `step` leaves some out of the slow measuring.
+/// Fits points and asserts that every `step`th point is near the fit, since the measurement is
+/// slow.
 fn near(points: &[DVec2], closed: bool, tolerance: f64, step: usize) -> Fit {
     let fit = within(points, closed, tolerance);
     assert!(fit.reached <= tolerance, "reached {}", fit.reached);
     for &point in points.iter().step_by(step) {
         let off = distance(&fit.cubics, point);
-        // What is reached is told for parameters, which are near the nearest place and not at it.
+        // `reached` is measured at parameters close to the nearest point, not exactly at it.
         assert!(off <= fit.reached * (1.0 + 1e-6) + 1e-9, "{point} is {off} off");
     }
     fit
@@ -120,8 +123,8 @@ fn corners_stay_where_they_are() {
         let corners: Vec<usize> = (0..angles.len()).filter(|&i| angles[i] > 0.1).collect();
         assert_eq!(corners.len(), 2, "{angles:?}");
         for (i, corner) in corners.into_iter().zip([[-1.0, 1.0], [-1.0, -1.0]]) {
-            // Either side of a corner is straight for a unit at least. A fit that is off by 0.005 half a unit
-            // from the corner has turned by 0.01 there.
+            // Each side of a corner is straight for at least one unit. A fit that is off by 0.005
+            // at half a unit from the corner has turned by 0.01 there.
             assert!((angles[i] - std::f64::consts::FRAC_PI_2).abs() < 0.02, "{}", angles[i]);
             let off = fit.cubics[i].0[0].distance(DVec2::from_array(corner));
             assert!(off <= 2.0 * tolerance, "{off}");
@@ -176,7 +179,8 @@ fn a_hundred_thousand_points_are_no_trouble() {
     assert!(angles(&fit, true).iter().all(|&angle| angle < SMOOTH));
 }
 
-/// What is said of a spec with this contour, or the segments of its fit and how near they are.
+/// Reads a spec with this contour. Returns the number of segments of its fit and their distance
+/// from the points, or the error message.
 fn read(contour: &str, trajectory: &str) -> Result<(usize, f64), String> {
     let text = format!(
         r#"{{"format": "tb-sweep", "version": 1, "name": "a", "contour": {contour},

@@ -1,4 +1,4 @@
-//! Frames that a direction fixes: where they point, that they close, and where there are none.
+//! Frames fixed by a direction: their axes, their closing, and positions without a frame.
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
@@ -22,7 +22,8 @@ fn frame_at(trajectory: &Value, frame: &Value, v: f64) -> Frame {
     sweep.trajectory().station(v).frame
 }
 
-/// One trajectory of each kind, none of which is straight up anywhere; only the first is straight.
+/// Returns one trajectory of each kind. None is parallel to `up` anywhere, and only the first is
+/// straight.
 fn kinds() -> [Value; 6] {
     [
         json!({"line": [[0, 0, 0], [1, 3, 0.5]]}),
@@ -44,7 +45,7 @@ fn an_upright_frame_is_nowhere_nearer_to_its_direction() {
     for trajectory in kinds() {
         for v in places() {
             let frame = frame_at(&trajectory, &json!({"up": up.to_array()}), v);
-            // No w1 and all of what can be had of w2.
+            // The normal is perpendicular to `up`, and the binormal is as close to it as possible.
             assert!(frame.normal.dot(up).abs() < 1e-14, "{trajectory} {v}");
             assert!(frame.binormal.dot(up) > 0.0);
             assert!((frame.normal.cross(frame.binormal) - frame.tangent).length() < 1e-14);
@@ -115,14 +116,15 @@ fn places_without_a_frame_are_refused_wherever_they_lie() {
         let at = text.split("no frame at ").nth(1).unwrap_or_else(|| panic!("{text}"));
         at.split(' ').next().unwrap().parse::<f64>().unwrap()
     };
-    // An inflection off every regular sample, in a plane: the curvature turns over.
+    // A planar inflection off every regular sample, where the curvature changes its side.
     let wave = bezier(json!([[0, 0, 0], [1, 2, 0], [2.1, -2, 0], [3, 0.3, 0]]));
     let at = place(&wave, &json!({"frenet": {}}));
     assert!(at > 0.3 && at < 0.7, "{at}");
-    // A helix and a line are told at once.
+    // A line has no Frenet frame, and a line along `up` has no frame. Both are reported at the
+    // start.
     assert_eq!(place(&kinds()[0], &json!({"frenet": {}})), 0.0);
     assert_eq!(place(&json!({"line": [[0, 0, 0], [0, 3, 0]]}), &json!({"up": [0, 1, 0]})), 0.0);
-    // A circle is straight up at one place, whose up is turned over there.
+    // A circle is parallel to `up` at one position, where the frame would flip.
     let ring = json!({"circle": {"radius": 1, "axis": [0, 0, 1], "angle_deg": 100}});
     let up = |degrees: f64| {
         let (sin, cos) = degrees.to_radians().sin_cos();
@@ -134,7 +136,7 @@ fn places_without_a_frame_are_refused_wherever_they_lie() {
         assert!((place(&ring, &up(degrees)) - degrees / 100.0).abs() < 5.1e-7);
     }
     assert!(read(&ring, &up(-1.0)).is_ok() && read(&ring, &up(101.0)).is_ok());
-    // A cubic that touches the direction without turning over: (t - 0.37)^3 across, t along.
+    // A cubic that is tangent to the direction without crossing it: (t - 0.37)^3 across, t along.
     let a = 0.37_f64;
     let cube = |x: f64, y: f64, z: f64| (x - a) * (y - a) * (z - a);
     let touching = bezier(json!([
@@ -145,7 +147,7 @@ fn places_without_a_frame_are_refused_wherever_they_lie() {
     ]));
     let at = place(&touching, &json!({"up": [0, 1, 0]}));
     assert!(at > 0.3 && at < 0.4, "{at}");
-    // The guide meets the trajectory.
+    // The guide intersects the trajectory.
     let guide = json!({"guide": {"line": [[0, -1, 1], [0, 1, -1]]}});
     assert!((place(&json!({"line": [[0, 0, 1], [0, 0, -1]]}), &guide) - 0.5).abs() < 1e-6);
 }

@@ -1,4 +1,4 @@
-//! How surfaces come back to their start, each with the outcome that is wanted in its name.
+//! Closed surfaces, each with the expected result in the name of its test.
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
@@ -25,13 +25,14 @@ fn swept(keys: &Value) -> Sweep {
 fn example(name: &str) -> Value {
     let path = format!("{}/../examples/curves/{name}.json", env!("CARGO_MANIFEST_DIR"));
     let mut spec: Value = serde_json::from_slice(&std::fs::read(path).unwrap()).unwrap();
-    // They count cells, of which there are others here.
+    // Areas count cells, and the cells here differ.
     spec.as_object_mut().unwrap().remove("areas");
     spec
 }
 
-/// The largest distance from a column's end to the point of the start that it leads to, in units of
-/// eps x (size + |position|): the size is that of the box around all, the position that of the farthest point.
+/// Returns the largest distance from a column's end to the point of the start with which it joins,
+/// in units of eps x (size + |position|). The size is that of the bounding box, and the position
+/// that of the farthest point.
 fn gap(sweep: &Sweep) -> f64 {
     let grid = sweep.grid();
     assert_ne!(grid.seam_v, Seam::Open);
@@ -43,13 +44,13 @@ fn gap(sweep: &Sweep) -> f64 {
         (high - low).length() + grid.positions.iter().map(|p| p.length()).fold(0.0, f64::max);
     let off = (0..grid.cols()).map(|col| {
         let led = grid.seam_v.leads_to(col, grid.shift, grid.cols());
-        // A crease is a column given twice, at one point.
+        // A crease is two columns at one point.
         (sweep.at(grid.u[col], 1.0).0 - grid.positions[led]).length()
     });
     off.fold(0.0, f64::max) / (f64::EPSILON * size)
 }
 
-/// A closed spline through a torus knot.
+/// Returns a closed spline through the points of a torus knot.
 fn knot(count: u32, p: f64, q: f64) -> Value {
     let point = |i: u32| {
         let t = std::f64::consts::TAU * f64::from(i) / f64::from(count);
@@ -59,7 +60,8 @@ fn knot(count: u32, p: f64, q: f64) -> Value {
     json!({"free": {"closed": true, "points": (0..count).map(point).collect::<Vec<_>>()}})
 }
 
-/// A clover of three leaves: six cubics, each the one before turned by a sixth of the whole and mirrored.
+/// Returns a clover of three leaves: six cubics, each the preceding one rotated by a sixth of a
+/// turn and mirrored.
 fn clover() -> Value {
     let [tip, dent] = [0.4, 0.2];
     let polar = |r: f64, turn: f64, side: f64| {
@@ -129,8 +131,8 @@ fn closed_shifted_and_mirrored_surfaces_meet_within_four_ulp_of_their_size() {
     println!("the worst gap is {worst:.2} eps x (size + |position|)");
 }
 
-/// A path along edges of cubes whose frame comes back turned by exactly half a turn: a quarter turn about an
-/// axis at each corner. It starts in the middle of an edge.
+/// Returns a path along edges of cubes whose frame returns rotated by exactly half a turn. Each
+/// corner is a quarter turn about an axis. The path starts in the middle of an edge.
 fn half_turned(off: f64) -> Vec<[f64; 3]> {
     vec![
         [1.0, 0.0, 0.0],
@@ -158,7 +160,8 @@ fn half_a_turn_of_holonomy_is_undone_the_same_way_whatever_rounding_says_and_whi
             .collect::<Vec<_>>()
     };
     let along = frames(&half_turned(0.0));
-    // There is a half turn to undo: carried back, the last frame is the first one's opposite.
+    // There is a half turn to undo: after transport along the path, the last frame is opposite to
+    // the first one.
     let middle = along[100];
     assert!(middle.normal.is_finite());
     for off in [0.0, 1e-15, -1e-15, 1e-12, -1e-12] {
@@ -212,7 +215,7 @@ fn a_clover_on_a_trefoil_closes_with_a_shift_of_thirds_and_turns_a_sixth_at_most
 fn nearly_closed_trajectories_are_closed_below_a_millionth_of_their_size_and_refused_above() {
     for exponent in 3..=15 {
         let off = 10_f64.powi(-exponent);
-        // Of a seam, and of a curve that says it is closed.
+        // A seam, and a curve declared as closed.
         let mut klein = example("klein-bottle");
         klein["trajectory"]["bezier"]["segments"][3][3] = json!([0, off, 0]);
         let half = [[0.0, 0.0, 0.0], [0.0, 2.0, 1.0], [3.0, 2.0, 0.0], [3.0, 0.0, 0.0]];

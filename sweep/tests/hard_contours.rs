@@ -1,4 +1,4 @@
-//! Contours that are hard: what each of them gives.
+//! Contours that are hard to sweep, and their surfaces.
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
@@ -30,23 +30,23 @@ fn grid(contour: &Value) -> GridMesh {
     swept(contour, &json!({})).grid()
 }
 
-/// The sections at 0 and 1.
+/// Returns a contour with the sections `a` at 0 and `b` at 1.
 fn between(a: &Value, b: &Value) -> Value {
     json!({"sections": [{"at": 0, "contour": a}, {"at": 1, "contour": b}]})
 }
 
-/// The points of a row, on the plane of the contour.
+/// Returns the points of a row, in the plane of the contour.
 fn row(grid: &GridMesh, row: usize) -> Vec<DVec2> {
     grid.positions[row * grid.cols()..][..grid.cols()].iter().map(|p| p.truncate()).collect()
 }
 
-/// The area within a row.
+/// Returns the area that a row encloses.
 fn area(points: &[DVec2]) -> f64 {
     let next = points.iter().cycle().skip(1);
     points.iter().zip(next).map(|(a, b)| 0.5 * a.perp_dot(*b)).sum()
 }
 
-/// Points of a circle of radius 1, from a part of a turn.
+/// Returns points of a circle of radius 1, starting at a fraction of a turn.
 fn ring(count: u32, from: f64) -> Vec<[f64; 2]> {
     (0..count)
         .map(|i| (TAU * (f64::from(i) / f64::from(count) + from)).sin_cos())
@@ -62,7 +62,7 @@ fn free(points: &[[f64; 2]]) -> Value {
     json!({"free": {"closed": true, "points": points}})
 }
 
-/// The largest distance between two grids of the same columns.
+/// Returns the largest distance between two grids with equal columns.
 fn apart(a: &GridMesh, b: &GridMesh) -> f64 {
     assert_eq!(a.positions.len(), b.positions.len());
     a.positions.iter().zip(&b.positions).map(|(a, b)| (*a - *b).length()).fold(0.0, f64::max)
@@ -75,7 +75,7 @@ fn sound(grid: &GridMesh) {
 
 #[test]
 fn contours_of_3_and_300_points_with_opposed_starts_do_not_wring_the_surface() {
-    // Blended without a start that matches, the middle would shrink to a tenth.
+    // Blended without aligned starts, the middle would shrink to a tenth.
     for (few, many) in [
         (polygon(&ring(3, 0.5)), polygon(&ring(300, 0.0))),
         (free(&ring(3, 0.5)), free(&ring(300, 0.0))),
@@ -94,7 +94,8 @@ fn halfway_from_a_polygon_to_its_circle_lies_the_circle_nearly() {
         let middle = area(&row(&blended, 10));
         // A polygon of 60 sides is smaller than its circle by (2 pi / 60)^2 / 6.
         assert!((middle / PI - 1.0).abs() < (2.0 * PI / 60.0).powi(2) / 6.0, "{middle}");
-        // As drawn, opposed starts meet in the middle, but for half the height of a side's arc.
+        // Without alignment, opposed starts meet in the middle, up to half the height of a side's
+        // arc.
         let mut wrung = between(&polygon(&ring(60, from)), &json!({"circle": 1}));
         wrung["align"] = json!(false);
         let middle = area(&row(&grid(&wrung), 10));
@@ -144,7 +145,7 @@ fn sections_wrap_around_a_closed_trajectory() {
     assert_eq!(wrapped.grid(), closed.grid());
     for u in [0.0, 0.3, 0.8] {
         assert!((wrapped.at(u, 1.0 - 1e-12).0 - wrapped.at(u, 0.0).0).length() < 1e-10);
-        // A quarter lies half way, on both sides.
+        // Both positions lie halfway between two sections.
         let [before, after] = [0.25, 0.75].map(|v| wrapped.at(u, v).0.with_y(0.0).length());
         assert!((before - after).abs() < 1e-12);
     }
@@ -217,7 +218,8 @@ fn two_points_are_a_line_and_one_is_refused() {
     }
 }
 
-/// The largest angle, as a chord, between a normal and the direction from the axis of a double cone.
+/// Returns the largest angle, as a chord, between a normal and the direction from the axis of a
+/// double cone.
 fn off_cone(sweep: &Sweep, radius: f64) -> f64 {
     let grid = sweep.grid();
     let row = |i: usize| i / grid.cols();
@@ -240,7 +242,7 @@ fn a_scale_through_zero_has_a_pole_inside_and_its_outside_stays_outside() {
         let sweep = swept(&json!({"circle": 2}), &scale);
         let grid = sweep.grid();
         sound(&grid);
-        // The pole is a row given twice, each with the normals of its side.
+        // The pole is two rows, each with the normals of its side.
         let poles: Vec<usize> = (0..grid.rows()).filter(|&row| grid.v[row] == 0.5).collect();
         assert_eq!(poles, [10, 11]);
         for at in 10 * grid.cols()..12 * grid.cols() {
@@ -291,7 +293,8 @@ fn a_negative_scale_on_one_axis_mirrors_the_contour_and_keeps_its_outside() {
             assert!(area(&row(&mirrored, 0)) > 0.0);
         }
     }
-    // An open one has its outer side to the right of its direction, also as mirrored.
+    // The outer side of an open contour is to the right of its direction, also when the contour is
+    // mirrored.
     let bend = json!({"polyline": {"points": [[0, 0], [1, 0], [1, 2]]}});
     let mirrored = swept(&bend, &json!({"scale": [1, -1]})).grid();
     assert_eq!(row(&mirrored, 0)[0], DVec2::new(1.0, -2.0));

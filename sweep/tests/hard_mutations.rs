@@ -1,6 +1,6 @@
-//! Specs that nobody meant to write: numbers and keys of the examples changed at random. Each gives a
-//! surface of finite points, or a sentence with its place, without a panic. How long a case may take is
-//! limited by the fuzzer.
+//! Specs altered at random: numbers and keys of the examples are changed. Each spec gives a surface
+//! of finite points, or one sentence with the position of the fault, and no panic. The fuzzer
+//! limits the time of a case.
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
@@ -15,7 +15,7 @@ use sweep::{Object, SweepError};
 
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples/curves");
 
-/// The examples, and specs with what they do not use.
+/// Returns the examples, and specs with the keys that the examples do not use.
 fn seeds() -> Vec<Value> {
     let mut seeds: Vec<Value> =
         documents(FOLDER.as_ref()).into_iter().map(|(_, spec)| spec).collect();
@@ -83,7 +83,7 @@ const NUMBERS: [f64; 26] = [
     1_000_000.0,
 ];
 
-/// Every `mesh` with few cells.
+/// Limits every `mesh` to few cells.
 fn bounded(spec: &mut Value) {
     let of = |part: &mut Value| {
         let Some(Value::Object(mesh)) = part.get_mut("mesh") else { return };
@@ -103,7 +103,7 @@ fn bounded(spec: &mut Value) {
     spec.get_mut("parts").and_then(Value::as_array_mut).into_iter().flatten().for_each(of);
 }
 
-/// Reads and sweeps a text: whether there is a surface.
+/// Reads and sweeps a text. Returns whether it gives a surface.
 fn judged(text: &[u8]) -> bool {
     let shown = String::from_utf8_lossy(text);
     let document = match Document::new("spec.json", text) {
@@ -134,7 +134,7 @@ fn judged(text: &[u8]) -> bool {
         }
         Err(error) => {
             let message = error.to_string();
-            // A place: the file, a line and a column, and mostly a path.
+            // The position is the file, a line and a column, and mostly a path.
             let placed = matches!(error, SweepError::Memory(_))
                 || message.strip_prefix("spec.json:").is_some_and(|rest| {
                     rest.split(':').take(2).all(|number| number.parse::<u32>().is_ok())

@@ -1,4 +1,4 @@
-//! Trajectories that break modelers, each with the outcome that is wanted in its name.
+//! Trajectories that are hard for modelers, each with the expected result in the name of its test.
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
@@ -39,7 +39,7 @@ const O: [f64; 3] = [0.0; 3];
 
 #[test]
 fn a_zero_length_handle_gives_the_frames_of_the_same_curve_by_length() {
-    // (t^2, t^3) in a plane has its length in closed form, and so t of a length.
+    // The length of (t^2, t^3) in a plane has a closed form, which gives t for each length.
     let sweep = swept(&bezier([O, O, [1.0 / 3.0, 0.0, 0.0], [1.0, 1.0, 0.0]]));
     let length = (13_f64.powf(1.5) - 8.0) / 27.0;
     assert!((sweep.trajectory().length() / length - 1.0).abs() < 1e-12);
@@ -48,7 +48,8 @@ fn a_zero_length_handle_gives_the_frames_of_the_same_curve_by_length() {
         let t = ((((27.0 * s + 8.0).powf(2.0 / 3.0)) - 4.0).max(0.0) / 9.0).sqrt();
         assert!((frame.origin - DVec3::new(t * t, t * t * t, 0.0)).length() < 1e-12);
         let tangent = DVec3::new(2.0, 3.0 * t, 0.0).normalize();
-        // s gives t^2, and so t by a root near the handle; the direction is as good as t is.
+        // Near the handle, t is the root of a number computed from s. The direction is as precise
+        // as t.
         let close = if i == 0 { 1e-7 } else { 1e-12 };
         assert!((frame.tangent - tangent).length() < close, "{i}");
         assert!(
@@ -77,7 +78,7 @@ fn an_inflection_and_a_planar_s_do_not_turn_the_frame_over() {
     let wave = bezier([O, [1.0, 2.0, 0.0], [2.0, -2.0, 0.0], [3.0, 0.0, 0.0]]);
     let frames = frames(&swept(&wave));
     let first = frames[0];
-    // One axis is across the plane all along; which one is the seed's choice.
+    // One axis of the frame stays perpendicular to the plane. The seed determines which axis.
     let across =
         if first.normal.z.abs() > 0.5 { |f: &Frame| f.normal } else { |f: &Frame| f.binormal };
     assert!(frames.iter().all(|frame| (across(frame) - across(&first)).length() < 1e-14));
@@ -111,7 +112,7 @@ fn a_hairpin_whose_radius_goes_to_nothing_is_swept_or_refused_in_bounded_work() 
                 assert!(finite(&sweep.grid()), "{gap:e}");
                 assert!(gap > 0.5 || sweep.folded_rows() > 0, "the fold is told");
             }
-            // Its bend is a billionth of its legs.
+            // The radius of its bend is a billionth of its legs.
             Err(error) => assert!(gap < 1e-8, "{gap:e}: {error}"),
         }
         let bent = bezier([O, [4.0, 0.0, 0.0], [4.0, gap, 0.0], [0.0, gap, 0.0]]);
@@ -160,7 +161,8 @@ fn a_nearly_closed_bezier_is_closed_below_a_millionth_and_refused_above() {
     }
 }
 
-/// The trefoil and a torus knot of 2 and 5, by as many points.
+/// Returns a closed spline through points of a torus knot, such as the trefoil or the knot of 2 and
+/// 5.
 fn knot(count: u32, p: f64, q: f64) -> Value {
     let points: Vec<[f64; 3]> = (0..count)
         .map(|i| {

@@ -1,5 +1,5 @@
-//! Units and places: a power of two in size changes no digit, whatever a spec asks for, and a place far
-//! from the origin costs what its coordinates are rounded by.
+//! Units and positions. Scaling a spec by a power of two changes no digit, whatever its keys. A
+//! position far from the origin costs only the rounding of its coordinates.
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use sweep::spec::Resolution;
 use sweep::{GridMesh, Object};
 
-/// Grids of a spec without its header, and of its parts.
+/// Returns the grids of a spec without its header, and of its parts.
 fn grids(keys: &Value) -> Vec<GridMesh> {
     let mut spec = keys.clone();
     for (key, value) in
@@ -28,14 +28,14 @@ fn grids(keys: &Value) -> Vec<GridMesh> {
     object.grids().unwrap()
 }
 
-/// A spec in another unit of length: numbers that are lengths, multiplied.
+/// Returns a value of a spec in another unit of length: lengths are multiplied by `unit`.
 fn in_unit(key: &str, value: &Value, unit: f64) -> Value {
     let times = |number: &Value| json!(number.as_f64().unwrap() * unit);
     match (key, value) {
         ("twist", Value::Object(keys)) if keys.contains_key("degrees") => {
             in_unit("deform", value, unit)
         }
-        // Laws of pure numbers, directions, counts.
+        // These keys hold laws of pure numbers, directions and counts.
         ("scale" | "twist" | "factor" | "degrees" | "along" | "axis" | "up" | "toward", _)
         | ("at" | "angle_deg" | "turns" | "mitre" | "fov_deg" | "size", _)
         | ("rows" | "cols" | "max_quads" | "pixels" | "u" | "v" | "phase_deg" | "uv", _)
@@ -60,7 +60,7 @@ fn in_unit(key: &str, value: &Value, unit: f64) -> Value {
     }
 }
 
-/// A ring that is the same nowhere, and one with corners.
+/// Returns a closed contour without any symmetry.
 fn blob() -> Value {
     json!({"free": {"closed": true, "points": [[0.3, 0.01], [0.06, 0.2], [-0.3, 0.04], [0.02, -0.17]]}})
 }
@@ -88,7 +88,7 @@ fn legs(corners: &Value, closed: bool) -> Value {
         "corners": corners}})
 }
 
-/// One spec for each thing that a spec can ask for, and some of several.
+/// Returns one spec for each feature of specs, and some specs with several features.
 fn features() -> Vec<Value> {
     let smooth = json!({"keys": [[0, 1], [0.4, 0.6], [1, 1.2]], "ease": "smooth"});
     let cubic = json!({"bezier": [[[0, 0.7], [0.2, 1.2], [0.4, 0.3], [1, 0.9]]]});
@@ -151,7 +151,7 @@ fn features() -> Vec<Value> {
         }
         all.push(spec);
     }
-    // To a tolerance too, of distance and of angle and as a camera sees it.
+    // Specs with a tolerance: of distance, of angle, and as seen by a camera.
     let camera =
         json!({"eye": [0, 1, 9], "target": [0, 0.5, 0], "fov_deg": 40, "size": [128, 128]});
     let meshes = [
@@ -194,7 +194,7 @@ fn a_power_of_two_in_size_changes_no_mantissa_whatever_is_asked_for() {
     }
 }
 
-/// Moves what has a place.
+/// Moves all positions in a value.
 fn moved(key: &str, value: &Value, by: f64) -> Value {
     match (key, value) {
         ("contour" | "scale" | "twist" | "depth" | "mesh" | "axis" | "toward", _)
@@ -217,7 +217,7 @@ fn far_from_the_origin_coordinates_are_within_four_ulp() {
     let shift = 2_f64.powi(30);
     let ulp = shift * f64::EPSILON;
     let o = [0.0; 3];
-    // Places are multiples of 1/64, so that moving them does not change the curve.
+    // Positions are multiples of 1/64, so that a translation does not change the curve.
     let places = [
         json!({"line": [[0.125, 0.25, 0], [0.375, 3, -0.75]]}),
         json!({"bezier": {"segments": [[[0, 0, 0], [2, 0.5, 0.25], [1.875, 1.125, 0.25], [0.25, 0.875, 0.75]],

@@ -1,4 +1,4 @@
-//! Normals of modulated sweeps: against differences, and where differences fail.
+//! Normals of modulated sweeps, compared with differences and tested where differences fail.
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
@@ -25,25 +25,27 @@ fn swept(contour: &Value, trajectory: &Value, laws: &Value) -> Sweep {
     read(contour, trajectory, laws).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// The derivative at 0, of order 8.
+/// Returns the derivative of `f` at 0 by differences of order 8.
 fn slope(f: impl Fn(f64) -> DVec3, h: f64) -> DVec3 {
     let pair = |i: f64| f(i * h) - f(-i * h);
     (pair(1.0) * 0.8 - pair(2.0) * 0.2 + pair(3.0) * (4.0 / 105.0) - pair(4.0) / 280.0) / h
 }
 
-/// Steps of the differences: wide ones, that rounding does not reach, and narrow ones, that a sharp
-/// bend or a frame's fast turn does not. A normal that is off is off from all of them.
+/// Steps of the differences. Rounding does not affect the wide steps, and a sharp bend or a fast
+/// turn of the frame does not affect the narrow ones. A wrong normal differs from the results of
+/// all steps.
 const STEPS: [f64; 4] = [2e-3, 5e-4, 1e-4, 2e-5];
 
-/// The largest distance that the differences leave.
+/// Largest distance between a correct normal and that of the differences.
 ///
-/// Positions of a few units are rounded to 1e-15, and over a step of 1e-4 a slope is off by 1e-11. Where
-/// `S_u x S_v` is a thousandth of its median, a normal is off by a thousand times that.
+/// Positions of a few units are rounded to 1e-15, so that a slope over a step of 1e-4 has an error
+/// of 1e-11. Where `S_u x S_v` is a thousandth of its median, the error of a normal is a thousand
+/// times that.
 const WORST: f64 = 1e-8;
 
-/// The largest distance of a unit normal from that of differences, of the best step at each place,
-/// over places where these have one: clear of `joints` in both directions, and `S_u x S_v` at least
-/// 1e-3 of its median.
+/// Returns the largest distance of a unit normal from that of differences with the best step. Only
+/// positions with reliable differences count: those away from `joints` in both directions, where
+/// `S_u x S_v` is at least 1e-3 of its median.
 fn worst_normal(sweep: &Sweep, joints: &[f64]) -> f64 {
     let place = |i: i32, golden: f64| 0.01 + 0.98 * (f64::from(i) * golden).fract();
     let mut found: Vec<(f64, f64)> = (0..150)
@@ -65,7 +67,7 @@ fn worst_normal(sweep: &Sweep, joints: &[f64]) -> f64 {
     found.iter().filter(|(size, _)| *size >= 1e-3 * median).map(|f| f.1).fold(0.0, f64::max)
 }
 
-/// The joints of the laws and curves below.
+/// Parameters at which the laws and curves below have joints.
 const JOINTS: [f64; 7] = [0.0, 0.2, 0.25, 0.5, 0.75, 0.8, 1.0];
 
 fn law(low: f64, high: f64, closed: bool) -> impl Strategy<Value = Value> {
@@ -103,7 +105,7 @@ fn contour() -> impl Strategy<Value = Value> {
     ]
 }
 
-/// A ring of four cubics whose joints lie at quarters of its length.
+/// Returns a ring of four cubics whose joints lie at quarters of its length.
 fn oval((a, b, handle): (f64, f64, f64)) -> Value {
     let (x, y) = (a * handle, b * handle);
     json!({"bezier": {"closed": true, "segments": [
@@ -112,7 +114,7 @@ fn oval((a, b, handle): (f64, f64, f64)) -> Value {
     ]}})
 }
 
-/// Three contours, the last of which is the first where a trajectory may be closed.
+/// Returns three sections. The last one equals the first, so that a trajectory may be closed.
 fn sections([a, b, c]: [Value; 3], smooth: bool) -> Value {
     let blend = if smooth { "smooth" } else { "linear" };
     json!({"blend": blend, "sections": [
@@ -120,10 +122,10 @@ fn sections([a, b, c]: [Value; 3], smooth: bool) -> Value {
     ]})
 }
 
-/// Trajectories, and whether they are closed.
+/// Returns trajectories, and for each whether it is closed.
 fn trajectories() -> [(Value, bool); 9] {
     let bent = json!([[[0, 0, 0], [2, 0.4, 0.3], [1.9, 1.1, 0.2], [0.2, 0.9, 0.8]]]);
-    // Their symmetries put the joints of both splines at quarters of their lengths.
+    // Symmetry puts the joints of both splines at quarters of their lengths.
     let points = json!([[-1.5, 0, -1], [0, 0.8, 0], [1.5, 0, 1]]);
     let ring = json!([[2, 0.5, 0], [0, -0.5, 2], [-2, 0.5, 0], [0, -0.5, -2]]);
     [
@@ -174,14 +176,14 @@ fn laws(closed: bool) -> impl Strategy<Value = Value> {
     (scale, twist, depth(closed)).prop_map(|((x, y, both), twist, depth)| {
         let scale = if both { x } else { json!([x, y]) };
         let laws = json!({"scale": scale, "twist": twist, "depth": depth});
-        // Each of them comes alone and with the others.
+        // Each law occurs alone and with the others.
         let keys = laws.as_object().unwrap().iter().filter(|(_, value)| !value.is_null());
         Value::Object(keys.map(|(key, value)| (key.clone(), value.clone())).collect())
     })
 }
 
-/// Ways to frame the open trajectories above, none of which comes near to having no frame (where it
-/// turns too fast for differences).
+/// Returns frames for the open trajectories above. None comes near a position without a frame,
+/// where it would turn too fast for differences.
 fn frames() -> [Value; 5] {
     let wave = json!([[0.3, 6, 0], [1, 7, 1], [1, 8, -1], [2, 9, 0.4]]);
     [
@@ -325,7 +327,7 @@ fn folds_are_counted_on_the_contour_as_it_is_scaled() {
     assert_eq!(folded(json!({})), 0);
     assert_eq!(folded(json!({"scale": 1.2})), 25);
     assert_eq!(folded(json!({"scale": {"keys": [[0, 1], [1, 2]]}})), 22);
-    // Turned by a half, the long side points outward.
+    // Rotated by half a turn, the long side points outward.
     assert_eq!(folded(json!({"scale": 1.2, "twist": 180})), 0);
 }
 

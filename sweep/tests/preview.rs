@@ -1,4 +1,4 @@
-//! The page that `--preview` draws: well formed, inside its rim, the same twice.
+//! The SVG of `--preview`: well formed, within its borders, and reproducible.
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
@@ -24,8 +24,8 @@ fn page(text: &[u8]) -> String {
     preview::svg(&object, &grids, &findings)
 }
 
-/// The elements of a page: name and attributes. Asserts that every one is closed, that every value
-/// is quoted, and that no text holds what XML does not.
+/// Returns the elements of a page: name and attributes. Asserts that every element is closed, that
+/// every value is quoted, and that texts contain only valid XML.
 fn elements(page: &str) -> Vec<(String, Vec<(String, String)>)> {
     let mut open: Vec<String> = Vec::new();
     let mut found = Vec::new();
@@ -66,7 +66,8 @@ fn assert_escaped(text: &str) {
     }
 }
 
-/// Asserts that a page is whole and that nothing on it lies beside it; the texts' number of words.
+/// Asserts that a page is well formed and that all its elements lie on it. Returns the number of
+/// words of its texts.
 fn assert_sound(page: &str) -> usize {
     assert!(page.len() < 1_000_000, "{}", page.len());
     let elements = elements(page);

@@ -1,4 +1,4 @@
-//! What holds of every sweep: closed forms, symmetries, and answers to nasty specs.
+//! Properties of every sweep: closed forms, symmetries, and results of extreme specs.
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
@@ -29,7 +29,7 @@ fn grid(contour: &Value, trajectory: &Value) -> GridMesh {
     read(contour, trajectory, &json!({})).unwrap_or_else(|error| panic!("{error}")).grid()
 }
 
-/// Every point with its place on the grid: u, v, position, normal.
+/// Returns every point of a grid: u, v, position, normal.
 fn points(grid: &GridMesh) -> impl Iterator<Item = (f64, f64, DVec3, DVec3)> + '_ {
     grid.positions.iter().zip(&grid.normals).enumerate().map(|(i, (&position, normal))| {
         let (row, col) = (i / grid.cols(), i % grid.cols());
@@ -76,7 +76,7 @@ fn a_half_circle_rotated_is_a_sphere_with_poles() {
     for (u, v, position, normal) in points(&grid) {
         let (sin, cos) = (PI * u).sin_cos();
         let expected = DVec3::new(sin * (TAU * v).cos(), -cos, sin * (TAU * v).sin());
-        // Arcs are drawn by cubics to a billionth of the radius.
+        // Cubics approximate arcs to a billionth of the radius.
         assert!((position - expected).length() < 1e-8);
         assert!((normal - position).length() < 1e-6, "{normal} at {position}");
     }
@@ -98,7 +98,7 @@ fn part_of_a_rotation_about_any_axis_is_open() {
         let from = position - DVec3::ONE;
         assert!((from.truncate().length() - 3.0).abs() < 1e-14);
         assert!((from.z - 2.0 * u).abs() < 1e-14);
-        // From +x, and w1 x w2 = T leads to -y.
+        // The angle starts at +x; w1 x w2 = T leads to -y.
         let angle = DVec2::new(from.x, -from.y).to_angle();
         assert!((angle - 2.0 * FRAC_PI_4 * v).abs() < 1e-14);
     }
@@ -196,7 +196,7 @@ fn a_rotation_from_axis_to_axis_faces_outward_however_it_is_drawn() {
             assert!((a.3 - b.3).length() < 2.0 * NORMAL, "{up}");
         }
     }
-    // From the axis to a rim there is no inside, and the direction decides.
+    // A contour from the axis to a rim has no inside, so its direction decides.
     let bowl = |svg: &str| grid(&json!({"svg": svg}), &json!({"rotation": {}}));
     let (from_axis, to_axis) = (bowl("M0 0H2V-1"), bowl("M2 -1V0H0"));
     assert_eq!(from_axis.normals[0], -to_axis.normals[to_axis.cols() - 1]);
@@ -273,7 +273,7 @@ fn every_example_is_a_spec() {
     assert!(seen >= 4);
 }
 
-/// Finite points, unit normals, rising u and v, all in the numbers that the grid says.
+/// Asserts finite points, unit normals, ascending u and v, and the counts that the grid states.
 fn sound(grid: &GridMesh) {
     assert_eq!(grid.positions.len(), grid.rows() * grid.cols());
     assert_eq!(grid.normals.len(), grid.positions.len());
@@ -290,7 +290,7 @@ fn vector() -> impl Strategy<Value = DVec3> {
     prop::array::uniform3(-1.0..1.0).prop_map(DVec3::from_array)
 }
 
-/// Numbers that are often equal, almost equal, or very different in size.
+/// Draws numbers that are often equal, almost equal, or very different in magnitude.
 fn nasty() -> impl Strategy<Value = f64> {
     prop_oneof![
         4 => (-2..3).prop_map(f64::from),

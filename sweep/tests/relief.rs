@@ -1,4 +1,4 @@
-//! Reliefs by a picture: what they are, and what is wrong with them.
+//! Reliefs made from a picture: their surfaces, and their faults.
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
@@ -25,7 +25,7 @@ fn read(folder: &Path, image: &Value, mode: &str) -> Result<Sweep, SweepError> {
     )
 }
 
-/// Hills of 16 bits, twelve texels across and nine up.
+/// Returns hills of 16 bits, twelve texels across and nine up.
 fn hills() -> ImageBuffer<Luma<u16>, Vec<u16>> {
     ImageBuffer::from_fn(12, 9, |x, y| Luma([((x * x * 7 + y * 13 + x * y * 5) % 97) as u16 * 600]))
 }
@@ -52,7 +52,7 @@ fn normals_on_a_picture_agree_with_differences() {
     for mode in ["factor", "offset"] {
         let image = json!({"file": "hills.png", "amp": 0.2, "repeat": [2, 1.5]});
         let sweep = read(folder.path(), &image, mode).unwrap();
-        // Within one texel, where the splines are polynomials.
+        // The step stays within one texel, where the splines are polynomials.
         let h = 2.5e-4;
         for i in 0..20 {
             let (u, v) = (f64::from(i) / 24.0, (f64::from(i % 12) + 0.5) / 13.5);
@@ -61,7 +61,7 @@ fn normals_on_a_picture_agree_with_differences() {
             let along_u = slope(&|d| sweep.at((u + d + 1.0) % 1.0, v).0);
             let along_v = slope(&|d| sweep.at(u, v + d).0);
             let error = (along_u.cross(along_v).normalize() - sweep.at(u, v).1).length();
-            // Differences of order 4: the fifth derivative, some 1e7, times h^4 / 30.
+            // Error of differences of order 4: the fifth derivative, some 1e7, times h^4 / 30.
             assert!(error < 1e-8, "{mode} at {u} {v}: {error:e}");
         }
     }

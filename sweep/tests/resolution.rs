@@ -1,4 +1,4 @@
-//! Cells to a tolerance: it is kept, by another measure too, and with no more cells than it takes.
+//! Cells for a tolerance: the tolerance is kept, by an independent measurement too, with few cells.
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
@@ -31,8 +31,8 @@ fn example(name: &str, mesh: Value) -> Value {
     spec
 }
 
-/// The distance of a point from a triangle: least over its chords along one side, which is a convex
-/// search.
+/// Returns the distance of a point from a triangle: the least distance from its chords along one
+/// side, by a convex search.
 fn distance(point: DVec3, [a, b, c]: [DVec3; 3]) -> f64 {
     let to_chord = |s: f64| {
         let (from, to) = (a + (b - a) * s, a + (c - a) * s);
@@ -48,9 +48,9 @@ fn distance(point: DVec3, [a, b, c]: [DVec3; 3]) -> f64 {
     to_chord(0.5 * (low + high))
 }
 
-/// The largest distance of places strewn over the surface from the triangles about them: those of
-/// the cell and of its neighbours, by the better of both diagonals where they are cut by a rule that
-/// is not known here.
+/// Returns the largest distance of points scattered over the surface from the triangles of their
+/// cell and its neighbours. The better of both diagonals counts, since the rule of the cut is not
+/// known here.
 fn strewn(sweep: &Sweep, places: u32) -> f64 {
     let grid = sweep.grid();
     let (rows, cols) = (grid.rows(), grid.cols());
@@ -81,7 +81,7 @@ fn strewn(sweep: &Sweep, places: u32) -> f64 {
             let at = |r: usize, c: usize| grid.positions[r * cols + c];
             let [a, b, c, d] = [at(r, c), at(r, c1), at(r1, c1), at(r1, c)];
             let pair = |p, q| distance(point, p).min(distance(point, q));
-            // What either diagonal promises.
+            // The smaller distance for either diagonal.
             let far = pair([a, b, c], [a, c, d]).min(pair([a, b, d], [b, c, d]));
             nearest = nearest.min(far);
         }
@@ -90,7 +90,8 @@ fn strewn(sweep: &Sweep, places: u32) -> f64 {
     worst
 }
 
-/// Reads a spec, and checks that its tolerance is kept, by what is reported and by strewn places.
+/// Reads a spec and checks that its tolerance is kept, by the reported value and by scattered
+/// points.
 fn kept(spec: &Value) -> (Sweep, Reached) {
     let sweep = read(spec).unwrap_or_else(|error| panic!("{error}"));
     let reached = sweep.reached().unwrap();
@@ -102,10 +103,10 @@ fn kept(spec: &Value) -> (Sweep, Reached) {
     let Resolution::Tolerance(asked) = sweep.resolution() else { panic!("not a tolerance") };
     let again = sweep.measure(asked);
     assert_eq!(Reached { rounds: reached.rounds, ..again }, reached);
-    // Inside a cell a surface that is not of the second order may be farther off than in the
-    // middles, where it is measured: up to a ninth, in these.
+    // A surface that is not of second order may be farther off within a cell than at the middles,
+    // where it is measured: by up to a ninth for these specs.
     let strewn = strewn(&sweep, 3000);
-    // The convex search ends within a root of rounding.
+    // The convex search ends within a root of the rounding.
     let positions = sweep.grid().positions;
     let size = positions.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
     assert!(strewn <= 1.2 * reached.tol + 1e-8 * size, "{strewn:e} against {reached:?}");
@@ -180,7 +181,7 @@ fn a_thousand_lobes_are_all_seen() {
     let lobes = json!({"depth": {"mode": "factor", "terms": [{"amp": 0.001, "u": 1000}]}});
     let (lobed, reached) = kept(&spec(json!({"circle": 1}), line, lobes, tol(2e-4)));
     assert!(lobed.cols() > 4000 && lobed.rows() == 1, "{} {}", lobed.rows(), lobed.cols());
-    // Half of what was allowed: the cells are not finer than the lobes need.
+    // At least half of the tolerance is used: the cells are not finer than the lobes need.
     assert!(reached.tol > 1e-4);
 }
 
@@ -209,7 +210,7 @@ fn the_unit_does_not_matter() {
     for by in [2f64.powi(-30), 2f64.powi(30)] {
         assert_eq!(scaled(by), one);
     }
-    // Other factors round the curves themselves, and cells nearly as good may be found instead.
+    // Other factors round the curves themselves, and other cells, nearly as good, may be found.
     for by in [1e-9, 1e9] {
         let other = scaled(by);
         let ratio = (other.0 * other.1) as f64 / (one.0 * one.1) as f64;
@@ -249,7 +250,7 @@ fn too_few_quads_come_as_near_as_they_can() {
     let reached = few.reached().unwrap();
     assert!(!reached.kept && reached.quads <= 5000 && reached.quads > 4500, "{reached:?}");
     assert!(few.missed().unwrap().contains("of at most 5000 quads"));
-    // What they reach could have been asked for, and takes about as many.
+    // A spec with the reached value as its tolerance takes about as many cells.
     let (_, again) = kept(&example("trefoil", tol(reached.tol * 1.001)));
     assert!(again.quads as f64 > 0.9 * reached.quads as f64, "{again:?} against {reached:?}");
 }
@@ -259,7 +260,7 @@ fn adaptive_cells_are_never_more_than_even_ones() {
     for name in ["trefoil", "fluted-vase", "figure-eight", "vase", "horn", "cup-handle"] {
         let (sweep, reached) = kept(&example(name, tol(5e-3)));
         let Resolution::Tolerance(asked) = sweep.resolution().clone() else { panic!() };
-        // Even grids of a few cells less, in all proportions.
+        // Even grids with slightly fewer cells, in all proportions.
         for tilt in -12..=12 {
             let aspect = sweep.rows() as f64 / sweep.cols() as f64 * 1.2_f64.powi(tilt);
             let cols = (0.97 * reached.quads as f64 / aspect).sqrt();

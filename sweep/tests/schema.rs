@@ -1,4 +1,4 @@
-//! The schema of specs against the reader: what one takes the other takes.
+//! The schema of specs and the reader accept the same documents.
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
@@ -21,7 +21,7 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// What the reader says of a spec.
+/// Returns the reader's complaint about a spec, if any.
 fn complaint(spec: &Value) -> Option<String> {
     let text = spec.to_string();
     let document = Document::new("a.json", text.as_bytes()).unwrap();
@@ -30,7 +30,7 @@ fn complaint(spec: &Value) -> Option<String> {
     read.err().map(|error| error.to_string())
 }
 
-/// Whether the keys and the types of a spec are what the reader's types ask for.
+/// Returns whether the keys and types of a spec are those of the reader's types.
 fn is_formed(spec: &Value) -> bool {
     if spec.get("parts").is_some_and(|parts| !parts.is_null()) {
         return serde_json::from_value::<Parts>(spec.clone()).is_ok();
@@ -39,12 +39,12 @@ fn is_formed(spec: &Value) -> bool {
     head && serde_json::from_value::<Spec>(spec.clone()).is_ok()
 }
 
-/// The examples, by their paths.
+/// Returns the examples with their paths.
 fn examples() -> Vec<(String, Value)> {
     documents(&root().join("examples/curves"))
 }
 
-/// The specs on the pages of the spec.
+/// Returns the JSON snippets in the documentation of specs.
 fn snippets() -> Vec<(String, Value)> {
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let mut pages: Vec<PathBuf> = std::fs::read_dir(source.join("spec"))
@@ -60,7 +60,7 @@ fn snippets() -> Vec<(String, Value)> {
         let text: String = lines.map(|line| format!("{line}\n")).collect();
         for snippet in text.split("```json").skip(1) {
             let spec: Value = serde_json::from_str(snippet.split("```").next().unwrap()).unwrap();
-            // Areas are shown alone.
+            // The documentation shows areas without their spec.
             let spec = if spec.is_array() { ring("areas", spec) } else { spec };
             found.push((page.display().to_string(), spec));
         }
@@ -68,7 +68,7 @@ fn snippets() -> Vec<(String, Value)> {
     found
 }
 
-/// A ring with one key set, or taken out by null.
+/// Returns a ring with one key set, or removed by null.
 fn ring(key: &str, value: Value) -> Value {
     let mut spec = json!({
         "format": "tb-sweep", "version": 1, "name": "ring",

@@ -39,7 +39,7 @@ fn grid(spec: &Value) -> GridMesh {
     object(spec).grids().unwrap().pop().unwrap()
 }
 
-/// The corners of all cells, counter-clockwise seen from where the normals point.
+/// Returns the corners of all cells, counter-clockwise as seen from the side of the normals.
 fn cells(grid: &GridMesh) -> impl Iterator<Item = [DVec3; 4]> + '_ {
     let (rows, cols) = (grid.rows(), grid.cols());
     (0..rows * cols).map(move |i| {
@@ -58,15 +58,15 @@ fn area(grid: &GridMesh) -> f64 {
     cells(grid).map(|[a, b, c, d]| 0.5 * (c - a).cross(d - b).length()).sum()
 }
 
-/// By the divergence theorem, over the two triangles of each cell.
+/// Returns the enclosed volume by the divergence theorem, over the two triangles of each cell.
 fn volume(grid: &GridMesh) -> f64 {
     let of = |[a, b, c, d]: [DVec3; 4]| (a.dot(b.cross(c)) + a.dot(c.cross(d))) / 6.0;
     cells(grid).map(of).sum()
 }
 
-/// Weyl's tube formula: what is within t/2 of a surface has the volume `A t + K t^3 / 12`, with K the
-/// integral of its Gaussian curvature. On a Klein bottle that is 2 pi times the Euler number, 0. So
-/// the area, found on the sheet, and the volume, found on the wall, must agree, however it bends.
+/// Checks Weyl's tube formula. The region within t/2 of a surface has the volume `A t + K t^3 /
+/// 12`, where K is the integral of the Gaussian curvature. On a Klein bottle K is 2 pi times the
+/// Euler number, 0. The area of the sheet and the volume of the wall must therefore agree.
 #[test]
 fn the_wall_of_a_klein_bottle_holds_its_area_times_its_thickness() {
     for (name, thickness) in [("klein-bottle", 0.06), ("figure-eight-klein", 0.04)] {
@@ -74,7 +74,7 @@ fn the_wall_of_a_klein_bottle_holds_its_area_times_its_thickness() {
         let wall = grid(&with_wall(sheet.clone(), thickness));
         let expected = area(&grid(&sheet)) * thickness;
         let off = volume(&wall) / expected - 1.0;
-        // Chords of 180 columns cut off (pi / 180)^2 / 2 of a circle, rows a little more.
+        // Chords of 180 columns cut (pi / 180)^2 / 2 off a circle, and rows slightly more.
         assert!(off.abs() < 1e-3, "{name}: {off:e}");
     }
 }
@@ -100,8 +100,8 @@ fn a_wall_is_the_sheet_on_both_sides_and_closes_after_twice_the_way() {
     }
 }
 
-/// From the side of the normals every cell runs round counter-clockwise, also at both ends of the
-/// first side, where a sheet alone turns over.
+/// From the side of the normals every cell runs counter-clockwise, also at both ends of the first
+/// side, where a sheet alone flips.
 #[test]
 fn a_wall_faces_outward_everywhere() {
     let wall = grid(&with_wall(example("klein-bottle", 400, 60), 0.06));

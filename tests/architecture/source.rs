@@ -1,27 +1,27 @@
-//! The source tree as text: its files, and what code says outside its comments, texts and tests.
+//! The source tree as text: its files, and their code without comments, string literals and tests.
 //!
-//! This is no parser of Rust. It knows what comments, texts and braces look like, and how a path or
-//! a tree of `use` is written; that is enough for the rules, and macros could hide things from it.
+//! This module is not a parser of Rust. It recognizes comments, literals, braces, paths and trees
+//! of `use`, which is enough for the rules. Macros could hide code from it.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The root of the workspace.
+/// Returns the root of the workspace.
 pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// The text of a file, by its path from the root.
+/// Returns the text of a file, given by its path from the root.
 pub fn read(path: &str) -> String {
     fs::read_to_string(root().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
 }
 
-/// All Rust files under a folder, by their paths from the root, in order; `""` is the root itself.
+/// Returns all Rust files under a folder, as sorted paths from the root; `""` is the root itself.
 pub fn rust_files(folder: &str) -> Vec<String> {
     files(folder, ".rs")
 }
 
-/// All files under a folder whose names end as given, by their paths from the root, in order.
+/// Returns all files under a folder whose names have this ending, as sorted paths from the root.
 pub fn files(folder: &str, ending: &str) -> Vec<String> {
     let mut found = Vec::new();
     let entries = fs::read_dir(root().join(folder)).unwrap_or_else(|e| panic!("{folder}: {e}"));
@@ -29,7 +29,7 @@ pub fn files(folder: &str, ending: &str) -> Vec<String> {
         let entry = entry.expect("the tree stays as it is while it is read");
         let name = entry.file_name().into_string().expect("names in the tree are text");
         let path = if folder.is_empty() { name.clone() } else { format!("{folder}/{name}") };
-        // What is built, what is hidden, and the pictures of the first command in the README.
+        // Skips build products, hidden files, and the pictures of the first command in the README.
         if name.starts_with('.') || ["target", "out"].contains(&path.as_str()) {
             continue;
         }
@@ -43,7 +43,8 @@ pub fn files(folder: &str, ending: &str) -> Vec<String> {
     found
 }
 
-/// The code without comments and without what stands in texts; lines stay where they are.
+/// Returns the code without comments and without the contents of literals. Lines keep their
+/// numbers.
 pub fn code(text: &str) -> String {
     let mut code = String::with_capacity(text.len());
     let mut rest = text;
@@ -70,7 +71,7 @@ pub fn code(text: &str) -> String {
     code
 }
 
-/// Code (as [`code`] gives it) without the items that are compiled for tests only.
+/// Returns code (a result of [`code`]) without the items that are compiled for tests only.
 pub fn without_tests(code: &str) -> String {
     const MARK: &str = "#[cfg(test)]";
     let mut kept = String::new();
@@ -92,8 +93,8 @@ pub fn without_tests(code: &str) -> String {
     kept + rest
 }
 
-/// Every path in the code that starts with one of `starts`, such as `crate::shape::Mesh`; a tree
-/// of `use` is taken apart.
+/// Returns every path in the code that starts with one of `starts`, such as `crate::shape::Mesh`. A
+/// tree of `use` gives one path for each leaf.
 pub fn paths(code: &str, starts: &[&str]) -> Vec<Vec<String>> {
     let mut found = Vec::new();
     for start in starts {
@@ -107,7 +108,7 @@ pub fn paths(code: &str, starts: &[&str]) -> Vec<Vec<String>> {
     found
 }
 
-/// True when `word` stands alone somewhere in the text.
+/// Returns whether `word` occurs in the text as a whole word.
 pub fn has_word(text: &str, word: &str) -> bool {
     text.match_indices(word).any(|(at, _)| {
         let (before, after) = (&text[..at], &text[at + word.len()..]);
@@ -115,19 +116,19 @@ pub fn has_word(text: &str, word: &str) -> bool {
     })
 }
 
-/// What stands in backquotes on a page, outside its fenced blocks.
+/// Returns the texts in backquotes on a page, outside its fenced blocks.
 pub fn spans(page: &str) -> Vec<&str> {
     let outside = page.split("```").step_by(2);
     outside.flat_map(|part| part.split('`').skip(1).step_by(2)).collect()
 }
 
-/// Reads one `use` tree or path at the start of the text; gives what follows it.
+/// Reads one tree of `use` or path at the start of the text and returns the rest of the text.
 fn tree<'t>(text: &'t str, prefix: &mut Vec<String>, found: &mut Vec<Vec<String>>) -> &'t str {
     let text = text.trim_start();
     if let Some(mut inner) = text.strip_prefix('{') {
         while !inner.is_empty() && !inner.starts_with('}') {
             inner = tree(inner, &mut prefix.clone(), found);
-            // Past an alias.
+            // Skips an alias.
             inner = inner.trim_start_matches(|c: char| c.is_whitespace() || is_word(c));
             inner = inner.trim_start_matches(',').trim_start();
         }
@@ -142,14 +143,14 @@ fn tree<'t>(text: &'t str, prefix: &mut Vec<String>, found: &mut Vec<Vec<String>
         Some(rest) if rest.starts_with(|c: char| is_word(c) || c == '{') => {
             tree(rest, prefix, found)
         }
-        // A star or a type's parameters.
+        // A star or the parameters of a type.
         Some(rest) => {
             found.push(prefix.clone());
             &rest[1..]
         }
         None => {
             found.push(prefix.clone());
-            // Something that is neither a path nor its end must not stop the reading.
+            // Skips a character that belongs to no path, so that reading continues.
             if word.is_empty() { rest.get(1..).unwrap_or_default() } else { rest }
         }
     }
@@ -159,7 +160,7 @@ fn is_word(c: char) -> bool {
     c.is_alphanumeric() || c == '_'
 }
 
-/// The length of a block comment; they nest.
+/// Returns the length of a block comment; block comments nest.
 fn block_comment(text: &str) -> usize {
     let (mut depth, mut at) = (0, 0);
     while at < text.len() {
@@ -175,7 +176,7 @@ fn block_comment(text: &str) -> usize {
     text.len()
 }
 
-/// The length of a raw text, if one starts here.
+/// Returns the length of a raw string literal, if one starts here.
 fn raw_text(text: &str) -> Option<usize> {
     let start = text.strip_prefix("br").or_else(|| text.strip_prefix('r'))?;
     let opened = start.trim_start_matches('#').strip_prefix('"')?;
@@ -185,7 +186,7 @@ fn raw_text(text: &str) -> Option<usize> {
     Some(opened.find(&end).map_or(text.len(), |at| before + at + end.len()))
 }
 
-/// The length up to and with the closing quote.
+/// Returns the length up to and including the closing quote.
 fn quoted(text: &str, quote: char) -> usize {
     let mut escaped = false;
     for (at, c) in text.char_indices() {
@@ -197,7 +198,7 @@ fn quoted(text: &str, quote: char) -> usize {
     text.len()
 }
 
-/// Whether what follows a single quote makes a character and not a lifetime.
+/// Returns whether the text after a single quote is a character and not a lifetime.
 fn is_character(text: &str) -> bool {
     let mut chars = text.chars();
     chars.next() == Some('\\') || chars.next() == Some('\'')

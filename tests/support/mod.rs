@@ -1,18 +1,18 @@
-//! What the tests across crates share: where the programs are, and how they are run.
+//! Support for tests across crates: the programs' folder, and runs of the programs.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 pub use fixtures::program::said;
 
-/// The root of the project.
+/// Returns the root of the project.
 pub fn root() -> PathBuf {
     let pipeline = Path::new(env!("CARGO_MANIFEST_DIR"));
     pipeline.parent().expect("the crate lies in the workspace").to_path_buf()
 }
 
-/// The folder of the programs: the three stand beside `pipeline`, as does `pipeline-report`, which Cargo
-/// builds with it.
+/// Returns the folder of the programs. The three programs are beside `pipeline`, as is
+/// `pipeline-report`, which Cargo builds with it.
 pub fn programs() -> PathBuf {
     let folder = Path::new(env!("CARGO_BIN_EXE_pipeline")).parent().expect("a file has a folder");
     for program in ["sweep", "triangulate", "render"] {
@@ -22,13 +22,13 @@ pub fn programs() -> PathBuf {
     folder.to_path_buf()
 }
 
-/// Runs one of the four programs in `folder`, with nothing on standard input.
+/// Runs one of the four programs in `folder`, with empty standard input.
 pub fn run(program: &str, arguments: &[&str], folder: &Path) -> Output {
     fixtures::program::run(&programs().join(program), arguments, folder, b"")
 }
 
-/// Runs a line of the shell in `folder`, with our programs on the path. The shell stays the parent of the
-/// programs, as an interactive one does.
+/// Runs a command line of the shell in `folder`, with the project's programs on the path. The shell
+/// stays the parent of the programs, as an interactive shell does.
 #[cfg(unix)]
 pub fn shell(line: &str, folder: &Path) -> Output {
     let old = std::env::var_os("PATH").unwrap_or_default();
@@ -41,7 +41,7 @@ pub fn shell(line: &str, folder: &Path) -> Output {
         .expect("the shell starts")
 }
 
-/// As [`shell`], in a folder where `examples` leads to the examples.
+/// Runs a line as [`shell`] does, in a folder where `examples` is a link to the examples.
 #[cfg(unix)]
 pub fn shell_beside_examples(line: &str, folder: &Path) -> Output {
     let link = folder.join("examples");

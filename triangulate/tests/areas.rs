@@ -1,4 +1,4 @@
-//! Areas with pictures of their own: which triangles they have, and how the picture lies on them.
+//! Areas with their own pictures: their triangles, and the position of the picture on them.
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -20,7 +20,7 @@ fn area(rows: [usize; 2], cols: [usize; 2], texture: u32, repeat: [f64; 2]) -> A
     Area { rows, cols, texture: Some(texture), surface: None, repeat }
 }
 
-/// A flat sheet whose points are their own `(u, v)`, unevenly spaced.
+/// Returns a flat sheet whose points are their own `(u, v)`, unevenly spaced.
 fn sheet(rows: usize, cols: usize) -> GridMesh {
     let bent = |x: f64| x * (0.5 + 0.5 * x);
     let mut grid = grid_of([rows + 1, cols + 1], [Seam::Open; 2], |u, v| {
@@ -30,7 +30,7 @@ fn sheet(rows: usize, cols: usize) -> GridMesh {
     grid
 }
 
-/// The material and the picture coordinates that a place of a sheet has, looked up by brute force.
+/// Returns the material and the picture coordinates at a position of a sheet, found by brute force.
 fn truth(grid: &GridMesh, middle: [f64; 2], place: [f64; 2]) -> (u32, [f64; 2]) {
     let within = |x: f64, places: &[f64], [from, to]: [usize; 2]| {
         (places[from] < x && x < places[to]).then(|| [places[from], places[to] - places[from]])
@@ -47,7 +47,7 @@ fn truth(grid: &GridMesh, middle: [f64; 2], place: [f64; 2]) -> (u32, [f64; 2]) 
     (texture, [s * repeat[0], t * repeat[1]])
 }
 
-/// Holds every triangle of a sheet against [`truth`].
+/// Compares every triangle of a sheet with [`truth`].
 fn check(grid: &GridMesh) -> TriMesh {
     let mesh = mesh(grid, &Options::default()).unwrap();
     assert_eq!(mesh.validate(), Vec::<String>::new());
@@ -72,7 +72,7 @@ fn a_picture_is_fitted_to_its_area() {
     let areas = vec![area([1, 3], [2, 5], 7, [2.0, 1.0])];
     let mesh = check(&GridMesh { areas: areas.clone(), ..sheet(4, 6) });
     assert_eq!(mesh.materials().len(), 2);
-    // Points and normals are shared over the rim of the area, picture coordinates are not.
+    // Points and normals are shared across the border of the area, picture coordinates are not.
     assert_eq!((mesh.positions.len(), mesh.normals.len()), (5 * 7, 1));
     assert_eq!(mesh.uvs.len(), 5 * 7 - 2 + 3 * 4);
     let uv = UvLayout { across: Across::Trajectory, repeat: [3.0, 2.0], ..UvLayout::default() };
@@ -125,7 +125,7 @@ fn the_cells_that_lead_back_to_the_start_are_the_last_ones() {
         numbers.iter().filter(of_it).count()
     };
     assert_eq!([0, 1, 2].map(count), [2 * 7 * 5, 2 * 5, 2 * 8]);
-    // Each picture reaches from 0 to 1 on its area, over the seam too.
+    // Each picture spans 0 to 1 on its area, also across the seam.
     for texture in [1, 2] {
         let of_it = numbers.iter().zip(&mesh.triangles);
         let of_it = of_it.filter(|(number, _)| materials[**number as usize].texture == texture);

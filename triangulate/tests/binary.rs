@@ -1,4 +1,4 @@
-//! STL and PLY, read back by small readers of their own.
+//! STL and PLY, read back by small independent readers.
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 use sweep::GridMesh;
 use triangulate::{Options, TriMesh, mesh, write_ply, write_stl};
 
-/// Numbers from the front of a file.
+/// The rest of a file, from which numbers are read.
 struct Bytes<'a>(&'a [u8]);
 
 impl<'a> Bytes<'a> {
@@ -30,7 +30,7 @@ impl<'a> Bytes<'a> {
         [(); N].map(|()| f32::from_le_bytes(self.take(4).try_into().unwrap()))
     }
 
-    /// A line of text, without its end.
+    /// Reads a line of text, without its end.
     fn line(&mut self) -> &'a str {
         let end = self.0.iter().position(|&byte| byte == b'\n').unwrap();
         std::str::from_utf8(&self.take(end + 1)[..end]).unwrap()
@@ -173,10 +173,10 @@ fn a_ply_has_every_corner_of_the_mesh_with_its_normal_and_its_place_on_the_pictu
 
 #[test]
 fn a_ply_is_split_along_seams_and_at_poles_and_nowhere_else() {
-    // One more row and column for the picture's far edges.
+    // There is one more row and column for the far edges of the picture.
     assert_eq!(ply_of(&made(&torus(9, 8))).vertices.len(), 10 * 9);
     assert_eq!(ply_of(&made(&cylinder(3, 10))).vertices.len(), 3 * 11);
-    // A pole is a vertex for each of its triangles.
+    // A pole has one vertex for each of its triangles.
     assert_eq!(ply_of(&made(&sphere(12, 9))).vertices.len(), 13 * 7 + 2 * 12);
 }
 

@@ -12,7 +12,7 @@ use sweep::grid::file::{Encoding, write};
 use sweep::grid::{Seam, UvLayout};
 use sweep::{GridMesh, Sweep};
 
-/// A bent sheet.
+/// Returns the bytes of a bent sheet's grid.
 fn sheet(rows: usize, cols: usize) -> Vec<u8> {
     sheet_at(DVec3::ZERO, rows, cols)
 }
@@ -155,7 +155,7 @@ fn an_output_that_cannot_be_written_is_told_before_reading() {
 #[test]
 fn a_full_disk_is_told() {
     let folder = tempfile::tempdir().unwrap();
-    // Small enough to be written at the end only, and large enough to fail on the way.
+    // A mesh small enough to be written only at the end, and one large enough to fail before.
     for rows in [3, 200] {
         let run = triangulate(&["-o", "/dev/full"], &sheet(rows, 50), folder.path());
         assert_eq!(run.status.code(), Some(5));
@@ -238,7 +238,7 @@ fn a_material_file_is_written_when_asked_for() {
     assert_eq!(material.name, "tex2_surf0");
     assert_eq!(material.diffuse_texture.as_deref(), Some("marble.png"));
 
-    // What cannot be written leaves everything as it was.
+    // A run that cannot write leaves all files unchanged.
     fs::write(path("my_sheet.mtl"), "old").unwrap();
     fs::remove_file(path("my sheet.obj")).unwrap();
     let run = triangulate(&[&arguments[..], &["--no-clobber"]].concat(), &grid, folder.path());
@@ -330,7 +330,8 @@ fn rounding_beyond_the_tolerance_of_the_grid_is_told() {
             "mesh": {{"tol": 1e-5}}}}"#
         )
     };
-    // Doubles hold a tolerance there that seven digits do not; at 100 they move a point by 4e-6.
+    // Doubles distinguish points there that seven digits do not; at 100 seven digits move a point
+    // by 4e-6.
     for (x, told) in [(100.0, false), (1000.0, true)] {
         let text = spec(x);
         let sweep = Sweep::read(&Document::new("a", text.as_bytes()).unwrap()).unwrap();

@@ -1,4 +1,4 @@
-//! Ctrl-C while a file is being written.
+//! Ctrl-C while a file is written.
 
 #![cfg(unix)]
 
@@ -24,9 +24,10 @@ fn ctrl_c_removes_the_temporary_file_and_leaves_the_old_one() {
             .stdin(Stdio::piped())
             .spawn()
             .unwrap();
-        // Waiting would close it, and the end of an empty grid would race the signal.
+        // Waiting for the program would close its input. The end of an empty grid would then race
+        // the signal.
         let _stdin = child.stdin.take();
-        // It opens its output, and waits for a grid that does not come.
+        // The program opens its output and waits for a grid that does not come.
         while !names().iter().any(|name| name.ends_with(".part")) {
             assert!(child.try_wait().unwrap().is_none(), "the program waits for a grid");
             yield_now();

@@ -14,7 +14,7 @@ use sweep::grid::file::{Encoding, GridReader, write_all};
 use sweep::grid::{Fold, Tolerance};
 use triangulate::{Material, MeshReport, Options, Patches, TriMesh, mesh, write_obj};
 
-/// A tube, a ring on it and a ball; the ring has ids of its own.
+/// Returns a tube, a ring on the tube, and a ball; the ring has its own ids.
 fn patches() -> Vec<GridMesh> {
     let named = |name: &str, grid| GridMesh { name: name.into(), ..grid };
     let ring = GridMesh { texture: Some(4), surface: Some(1), ..torus(6, 5) };
@@ -31,7 +31,7 @@ fn run(arguments: &[&str], folder: &Path) -> Output {
     program::run(env!("CARGO_BIN_EXE_triangulate").as_ref(), arguments, folder, b"")
 }
 
-/// Corners of a triangle by what they are, whatever their numbers.
+/// Corners of a triangle by their values, not their numbers.
 type Corners = [([f32; 3], [f32; 2], [f32; 3]); 3];
 
 fn corners(mesh: &TriMesh) -> Vec<Corners> {
@@ -146,7 +146,7 @@ fn every_format_takes_all_patches_and_flags_stand_in_for_their_ids() {
     assert!(header.contains("comment object my_tube\ncomment object ring\ncomment object ball\n"));
     assert!(header.contains("comment texture 0 surface 0\ncomment texture 4 surface 1\n"));
     assert!(header.contains("vertex_indices\nproperty uint texture\nproperty uint surface\nend"));
-    // The last face is of the ball, without a texture; each has its list and two ids.
+    // The last face belongs to the ball, without a texture; each face has its list and two ids.
     assert_eq!(ply[ply.len() - 8..], [0; 8]);
     let lists: Vec<&[u8]> = ply[ply.len() - 21 * faces..].chunks(21).collect();
     assert!(lists.iter().all(|face| face[0] == 3));

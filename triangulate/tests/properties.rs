@@ -1,4 +1,5 @@
-//! The same mesh two ways: in memory and through files, ours and an independent reader's.
+//! Meshes in memory equal those read back from files, by this project's reader and by an
+//! independent one.
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -31,7 +32,7 @@ fn corner_bits(mesh: &TriMesh) -> Vec<[u32; 8]> {
     mesh.triangles.iter().flat_map(of_three).collect()
 }
 
-/// The same, as an independent reader of OBJ sees it.
+/// Returns these bits as an independent reader of OBJ finds them.
 fn corner_bits_by_tobj(obj: &[u8]) -> Vec<[u32; 8]> {
     let no_materials = |_: &std::path::Path| tobj::load_mtl_buf(&mut &b""[..]);
     let (models, _) =
@@ -91,7 +92,7 @@ fn a_cut_grid_gives_an_obj_without_its_end() {
     assert!(!String::from_utf8(obj).unwrap().contains("# end"));
 }
 
-/// Numbers that decimals of f32 get wrong, if any do.
+/// Draws numbers whose decimals are hardest for f32.
 fn nasty() -> impl Strategy<Value = f64> {
     prop_oneof![
         prop::sample::select(vec![
@@ -108,7 +109,7 @@ fn nasty() -> impl Strategy<Value = f64> {
         any::<u32>()
             .prop_map(|bits| f64::from(f32::from_bits(bits)))
             .prop_filter("finite", |x| x.is_finite()),
-        // Few values, so that points coincide.
+        // There are few values, so that points coincide.
         (-1..=1).prop_map(f64::from),
         (-1..=1).prop_map(f64::from),
         -1.0..1.0,
@@ -156,7 +157,7 @@ proptest! {
         prop_assert!(!text.contains("-0 ") && !text.contains("-0\n"));
         let end = format!("# end {} {}\n", mesh.positions.len(), mesh.triangles.len());
         prop_assert!(text.ends_with(&end));
-        // Whatever the points are, no triangle lacks area and no index leads nowhere.
+        // For any points, each triangle has an area and each index is valid.
         let complaints = mesh.validate().join("\n");
         prop_assert!(!complaints.contains("area") && !complaints.contains("less than"));
     }

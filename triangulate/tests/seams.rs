@@ -1,4 +1,5 @@
-//! Rows that come back shifted, or mirrored: tori, Klein bottles and Moebius bands.
+//! Surfaces whose last row joins the first one shifted or mirrored: tori, Klein bottles and Moebius
+//! bands.
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -14,7 +15,7 @@ use sweep::GridMesh;
 use sweep::grid::Seam;
 use triangulate::TriMesh;
 
-/// Positions with more than one normal, as pairs of what they have.
+/// Returns two normals for each position that has more than one.
 fn two_sided(mesh: &TriMesh) -> Vec<[DVec3; 2]> {
     let mut sides: HashMap<u32, Vec<[f32; 3]>> = HashMap::new();
     for triangle in &mesh.triangles {
@@ -30,7 +31,7 @@ fn two_sided(mesh: &TriMesh) -> Vec<[DVec3; 2]> {
     sides.values().filter(|n| n.len() > 1).map(|n| [vector(n[0]), vector(n[1])]).collect()
 }
 
-/// The smallest cosine between a triangle and the normals at its corners.
+/// Returns the smallest cosine of the angle between a triangle and the normals at its corners.
 fn worst_normal(mesh: &TriMesh) -> f64 {
     let vector = |n: [f32; 3]| DVec3::from(n.map(f64::from));
     let of_one = |triangle: &triangulate::Triangle| {
@@ -50,9 +51,10 @@ fn a_klein_bottle_is_closed_and_one_sided() {
         assert!(report.closed && report.manifold && !report.orientable && !report.oriented);
         assert_eq!((counts.collapsed, counts.slivers), (0, 0));
         assert_eq!(walked_twice(&mesh), cols);
-        // A coarse one is off its normals where it bends; a triangle turned over would be at -1.
+        // The triangles of a coarse mesh are tilted against its normals where it bends; a flipped
+        // triangle would give -1.
         assert!(worst_normal(&mesh) > 0.8, "{}", worst_normal(&mesh));
-        // The first row has both sides, and no other does.
+        // The first row has the normals of both sides, and no other row does.
         let sides = two_sided(&mesh);
         assert_eq!(sides.len(), cols);
         assert!(sides.iter().all(|[one, other]| *one == -*other));
@@ -87,8 +89,8 @@ fn the_picture_runs_on_over_a_mirrored_seam() {
     }
 }
 
-/// A tube about the axis whose section is turned by one `sides`th of the whole on its way. With
-/// `creased`, the section is a prism's whose corners are columns given twice.
+/// Returns a ring-shaped tube whose section rotates by one `sides`th of a turn along the ring. With
+/// `creased`, the section is a polygon whose corners are two columns each.
 fn turning(rows: usize, sides: usize, creased: bool) -> GridMesh {
     let cols = if creased { 2 * sides } else { 4 * sides };
     let mut ring = grid_of([rows, cols], [Seam::Closed; 2], |u, v| {
@@ -97,7 +99,7 @@ fn turning(rows: usize, sides: usize, creased: bool) -> GridMesh {
         let corners = if creased { sides } else { cols } as f64;
         let turn = v / sides as f64;
         let (sin, cos) = (TAU * (corner / corners + turn)).sin_cos();
-        // A prism's normals are those of the sides before and after the corner.
+        // The normals at a corner are those of the sides before and after it.
         let half = if creased { (col % 2) as f64 - 0.5 } else { 0.0 };
         let (n_sin, n_cos) = (TAU * ((corner + half) / corners + turn)).sin_cos();
         let (b_sin, b_cos) = (TAU * v).sin_cos();
@@ -120,11 +122,11 @@ fn a_torus_whose_section_comes_back_turned_is_whole() {
     assert_eq!((report.euler, report.boundary_loops), (0, 0));
     assert!(report.closed && report.orientable && report.oriented && report.manifold);
     assert_eq!((counts.collapsed, counts.slivers, mesh.normals.len()), (0, 0, rows * 4 * sides));
-    // No edge is longer than the diagonal of a cell: nothing was joined across the tube.
+    // No edge is longer than the diagonal of a cell, so no cell spans the tube.
     let cell = (TAU * 4.0 / rows as f64).hypot(TAU * (1.0 / 20.0 + 1.0 / 200.0));
     assert!(report.edge_length.unwrap().max < cell);
     assert!(worst_normal(&mesh) > 0.95);
-    // Joined without the shift, it is.
+    // Without the shift, cells span the tube.
     let (_, _, straight) = made(&GridMesh { shift: 0, ..grid });
     assert!(straight.edge_length.unwrap().max > 1.0);
 }
@@ -136,14 +138,16 @@ fn creases_come_out_right_over_a_shifted_seam() {
     assert_eq!((report.vertices, report.faces), (rows * sides, 2 * rows * sides));
     assert_eq!((counts.collapsed, counts.slivers), ((2 * rows * sides) as u64, 0));
     assert_eq!((report.euler, report.oriented, report.manifold), (0, true, true));
-    // A side is twisted, so that its triangles are a little off the normals of the flat section.
+    // A side is twisted, so that its triangles are slightly tilted against the normals of the flat
+    // section.
     assert!(worst_normal(&mesh) > 0.95, "{}", worst_normal(&mesh));
     assert_eq!(two_sided(&mesh).len(), rows * sides);
 }
 
 #[test]
 fn creases_come_out_right_over_a_mirrored_seam() {
-    // A bow tie, its corners given twice. Half a turn makes it itself, read backward.
+    // The section is a bow tie with two columns at each corner. Half a turn maps it to itself, in
+    // reverse order.
     let (rows, cols) = (160, 8);
     let corner = |i: usize| [[1.0, 0.5], [1.0, -0.5], [-1.0, 0.5], [-1.0, -0.5]][i % 4];
     let mut bottle = grid_of([rows, cols], [Seam::Mirror, Seam::Closed], |u, v| {
@@ -153,7 +157,7 @@ fn creases_come_out_right_over_a_mirrored_seam() {
         let turned = |[x, y]: [f64; 2]| [cos * x - sin * y, sin * x + cos * y];
         let on = |[x, y]: [f64; 2]| DVec3::new(x * b_cos, x * b_sin, -y);
         let [x, y] = turned(corner(col / 2));
-        // The side before the corner, or the one after; its normal is to its right.
+        // The sides before and after the corner. A side's normal points to its right.
         let [from, to] = [corner((col + 7) / 2), corner(col.div_ceil(2))];
         let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
         (on([6.0 + x, y]), on(turned([dy, -dx])))

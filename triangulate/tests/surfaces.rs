@@ -1,4 +1,4 @@
-//! Surfaces whose topology is known, and what their reports say of them.
+//! Surfaces with known topology, and their reports.
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -12,7 +12,7 @@ use sweep::grid::Seam;
 use sweep::grid::file::{Encoding, GridReader, write};
 use triangulate::{Counts, MeshReport, Options, Patches, Topology, TriMesh, Triangle};
 
-/// A mesh of a grid as it comes out of a file, and its report.
+/// Returns the report of a grid's mesh, after the grid was written and read back.
 fn report(grid: &GridMesh) -> MeshReport {
     let mut file = Vec::new();
     write(grid, Encoding::Binary, &mut file).unwrap();
@@ -21,8 +21,8 @@ fn report(grid: &GridMesh) -> MeshReport {
     MeshReport::of(&mesh, &counts)
 }
 
-/// A strip of `rows` x `cols` vertices whose last row leads to the first one, turned end to end:
-/// with `closed` columns a Klein bottle, and else a Moebius band.
+/// Returns a strip of `rows` x `cols` vertices whose last row joins the first one in reverse order:
+/// with `closed` columns a Klein bottle, otherwise a Moebius band.
 fn one_sided(rows: usize, cols: usize, closed: bool) -> TriMesh {
     let number = |row: usize, col: usize| {
         let col = if closed { col % cols } else { col };
@@ -32,7 +32,7 @@ fn one_sided(rows: usize, cols: usize, closed: bool) -> TriMesh {
     let mut mesh = TriMesh::default();
     for row in 0..rows {
         for col in 0..cols {
-            // Where they lie is of no weight, as long as no two lie at one place.
+            // The positions do not matter, as long as no two are equal.
             mesh.positions.push([row as f32, col as f32, 0.0]);
         }
         for col in 0..cols - usize::from(!closed) {
@@ -46,15 +46,16 @@ fn one_sided(rows: usize, cols: usize, closed: bool) -> TriMesh {
     mesh
 }
 
-/// Triangles that use each directed edge once: a mesh that passes the rule of `validate`.
+/// Returns whether triangles use each directed edge at most once, which is the rule of `validate`.
 fn directed_edges_are_used_once(mesh: &TriMesh) -> bool {
     let mut edges = mesh.directed_edges();
     edges.sort_unstable();
     edges.windows(2).all(|pair| pair[0] != pair[1])
 }
 
-/// Positions up to 1 are rounded by half a step of `f32` in each coordinate, `2^-25`, at either end of an edge:
-/// the shortest, 0.13, is off by less than this part, and so is an area.
+/// Largest relative error of lengths and areas. Positions up to 1 are rounded by half a step of
+/// `f32` in each coordinate, `2^-25`, at either end of an edge. The relative error of the shortest
+/// edge, 0.13, is less than this.
 const RELATIVE: f64 = 1e-6;
 
 #[test]
@@ -75,7 +76,7 @@ fn a_sphere_with_poles_is_closed_and_orientable_with_euler_number_2() {
     assert_eq!((found.euler, found.boundary_loops), (2, 0));
     assert!(found.closed && found.orientable && found.oriented && found.manifold);
     assert_eq!(found.quads as usize, rows * (cols - 3));
-    // Half of each cell at a pole.
+    // Half of each cell at a pole is left out.
     assert_eq!(found.left_out.collapsed, 2 * rows as u64);
     // The shortest edges lie on the circles next to the poles, the longest are diagonals.
     let circle = 2.0 * (PI / 12.0).sin() * (PI / rows as f64).sin();
@@ -92,7 +93,7 @@ fn a_cylinder_has_two_rims() {
     assert!(!found.closed && found.orientable && found.oriented && found.manifold);
     let side = 2.0 * (PI / cols as f64).sin();
     let (length, area) = (found.edge_length.unwrap(), found.triangle_area.unwrap());
-    // The diagonal over the height on it, in a right triangle with the sides `side` and 1/2.
+    // The diagonal over the height on it, in a right triangle with the legs `side` and 1/2.
     let aspect = side.hypot(0.5).powi(2) / (0.5 * side);
     assert!((found.worst_aspect.unwrap() / aspect - 1.0).abs() < RELATIVE);
     assert!((found.edge_ratio.unwrap() / (side.hypot(0.5) / side) - 1.0).abs() < RELATIVE);
@@ -170,7 +171,7 @@ fn the_displacement_is_what_rounding_did() {
     let truth = sheet.positions.iter().map(|p| p.distance(p.as_vec3().as_dvec3()));
     let found = report(&sheet).displacement;
     assert_eq!(found, truth.fold(0.0, f64::max));
-    // Near three million f32 has steps of 0.25: 0.03 is lost whole.
+    // Near three million the steps of f32 are 0.25, so that 0.03 is lost completely.
     assert!(found > 0.01);
 }
 

@@ -1,4 +1,4 @@
-//! Shapes whose triangles are known.
+//! Shapes with known triangles.
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -24,12 +24,13 @@ fn corners(mesh: &TriMesh) -> impl Iterator<Item = [DVec3; 3]> {
     })
 }
 
-/// Six times the volume, by the signed tetrahedra from the origin: positive when faces face out.
+/// Returns the volume, the sum of signed tetrahedra from the origin. It is positive if faces point
+/// outward.
 fn volume(mesh: &TriMesh) -> f64 {
     corners(mesh).map(|[a, b, c]| a.dot(b.cross(c))).sum::<f64>() / 6.0
 }
 
-/// Vertices - edges + faces.
+/// Returns the Euler number: vertices - edges + faces.
 fn euler(mesh: &TriMesh) -> i64 {
     let mut edges = mesh.directed_edges();
     edges.iter_mut().for_each(|edge| edge.sort_unstable());
@@ -38,14 +39,14 @@ fn euler(mesh: &TriMesh) -> i64 {
     mesh.positions.len() as i64 - edges.len() as i64 + mesh.triangles.len() as i64
 }
 
-/// Edges that no triangle runs along the other way.
+/// Returns the number of directed edges without an opposite directed edge.
 fn rim(mesh: &TriMesh) -> usize {
     let mut edges = mesh.directed_edges();
     edges.sort_unstable();
     edges.iter().filter(|[a, b]| edges.binary_search(&[*b, *a]).is_err()).count()
 }
 
-/// The smallest cosine between a triangle and the normals at its corners.
+/// Returns the smallest cosine of the angle between a triangle and the normals at its corners.
 fn worst_normal(mesh: &TriMesh) -> f64 {
     let of_corners = mesh.triangles.iter().map(|triangle| {
         triangle.normal.map(|i| DVec3::from(mesh.normals[i as usize].map(f64::from)))
@@ -81,7 +82,7 @@ fn a_sphere_is_closed_and_each_pole_is_one_vertex() {
     // Chords of 7.5 degrees lose 0.29 % around the axis and 0.43 % from pole to pole.
     assert!((volume(&mesh) / (4.0 / 3.0 * PI) - 1.0).abs() < 0.0072);
     assert!(worst_normal(&mesh) > 0.99);
-    // Columns without poles, with v = 1; and a half cell for each row at each pole.
+    // Columns without poles, including v = 1, and half a cell for each row at each pole.
     assert_eq!(mesh.uvs.len(), (rows + 1) * (cols - 2) + 2 * rows);
     // The poles have one normal each, for all rows.
     assert_eq!(mesh.normals.len(), mesh.positions.len());
@@ -114,7 +115,7 @@ fn the_tip_of_a_cone_takes_the_normal_between_its_neighbours() {
     for (row, tip) in tips.iter().enumerate() {
         let (sin, cos) = (TAU * (row as f64 + 0.5) / rows as f64).sin_cos();
         let middle = DVec3::new(cos, sin, 1.0).normalize();
-        // The mean of two unit normals is a little steeper than the cone.
+        // The mean of two unit normals is slightly steeper than the cone.
         assert!(DVec3::from(tip.map(f64::from)).dot(middle) > 0.999);
         assert!((f64::from(tip[1]) * cos - f64::from(tip[0]) * sin).abs() < 1e-6);
     }
@@ -139,7 +140,7 @@ fn a_cylinder_has_two_rims_and_its_picture_goes_once_around() {
     let mesh = made(&cylinder(5, 32));
     assert_eq!((euler(&mesh), rim(&mesh)), (0, 64));
     assert_eq!((mesh.positions.len(), mesh.uvs.len()), (5 * 32, 5 * 33));
-    // The normals of a column are all the same, so they are told once.
+    // The normals of a column are equal, so the file lists them once.
     assert_eq!(mesh.normals.len(), 32);
     for [x, y, _] in &mesh.positions {
         assert!((x.hypot(*y) - 1.0).abs() < UNIT);
@@ -148,7 +149,7 @@ fn a_cylinder_has_two_rims_and_its_picture_goes_once_around() {
     let truth = 2.0 * 32.0 * 2.0 * (PI / 32.0).sin();
     // Rounding moves the ends of a side of 0.196 by 3e-8 in each direction.
     assert!((area / truth - 1.0).abs() < 5e-7, "{area} against {truth}");
-    // No triangle spans more than one cell of the picture, at the seam either.
+    // No triangle spans more than one cell of the picture, even at the seam.
     for triangle in &mesh.triangles {
         let s = triangle.uv.map(|i| mesh.uvs[i as usize][0]);
         let width = s.iter().fold(0.0, |w: f32, a| s.iter().fold(w, |w, b| w.max(a - b)));
@@ -178,13 +179,15 @@ fn a_crease_has_one_vertex_and_two_normals() {
     let mut prism = grid_of([3, 8], [Seam::Open, Seam::Closed], |u, v| {
         let col = (u * 8.0).round() as usize;
         let [x, y] = corner(col / 2);
-        // The first of the two belongs to the side before the corner, the second to the one after.
+        // The first column of a corner has the normal of the side before it, the second that of the
+        // side after it.
         let [p, q] = [corner((col + 7) / 2 % 4), corner(col.div_ceil(2))];
         (DVec3::new(x, y, v), DVec3::new(p[0] + q[0], p[1] + q[1], 0.0))
     });
     prism.u = vec![0.0, 0.0, 0.25, 0.25, 0.5, 0.5, 0.75, 0.75];
     let mesh = made(&prism);
-    // One normal a side for all rows; that of the side over the seam is told at both its ends.
+    // Each side has one normal for all rows. The side across the seam has its normal listed at both
+    // ends.
     assert_eq!((mesh.positions.len(), mesh.normals.len()), (3 * 4, 4 + 1));
     assert_eq!(mesh.uvs.len(), 3 * 5);
     assert_eq!(mesh.triangles.len(), 2 * 4 * 2);

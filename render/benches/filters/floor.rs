@@ -3,53 +3,55 @@
 use glam::{DVec2, DVec3};
 use render::texture::Texture;
 
-/// Texels across the short side of a pixel's piece of texture, by its anisotropy: thin, middle, far.
+/// Texels across the short side of a pixel's footprint, divided by the anisotropy: thin, middle and
+/// far.
 pub const SCALES: [f64; 3] = [1.0 / 32.0, 1.0 / 8.0, 1.0 / 2.0];
 
-/// Texels from which the short side of a pixel's piece of texture is thin, middling and broad.
+/// Texels from which the short side of a pixel's footprint is thin, middling and broad.
 pub const BREADTHS: [f64; 3] = [0.0, 1.0, 2.0];
 
 /// Degrees between the texture's axes and the view.
 pub const ANGLES: [f64; 3] = [0.0, 15.0, 45.0];
 
-/// Anisotropies from 1 to 64, evenly by their logarithms.
+/// Number of anisotropies from 1 to 64, at equal logarithmic steps.
 const ANISOTROPIES: usize = 32;
 
-/// Places on the texture for each of them.
+/// Number of positions on the texture for each anisotropy.
 const PLACES: usize = 8;
 
-/// The side of a pixel by the distance of the film: 512 of them see 60 degrees.
+/// Side of a pixel over the distance of the film: 512 pixels see 60 degrees.
 const PITCH: f64 = 0.002_255;
 
-/// A pixel and what it sees.
+/// A pixel and its footprint on a textured floor.
 #[derive(Debug)]
 pub struct Pixel {
-    /// Which texture.
+    /// Index of the texture.
     pub texture: usize,
-    /// Which of [`SCALES`].
+    /// Index into [`SCALES`].
     pub scale: usize,
-    /// Which of [`ANGLES`].
+    /// Index into [`ANGLES`].
     pub angle: usize,
-    /// The middle of the box around nine hits, in texture coordinates.
+    /// Middle of the box around nine hits, in texture coordinates.
     pub center: DVec2,
-    /// Half its width and height.
+    /// Half the width and height of this box, in texture coordinates.
     pub half: DVec2,
-    /// The tangent of the angle by which its middle lies below the horizon.
+    /// Tangent of the angle by which the pixel's middle lies below the horizon.
     below: f64,
-    /// From the floor to the texture: a turned and scaled first axis, and a place.
+    /// First axis of the map from the floor to the texture, which rotates and scales.
     turned: DVec2,
     place: DVec2,
 }
 
 impl Pixel {
-    /// The texture coordinates that the place (x, y) of the pixel sees; it reaches from -1/2 to 1/2.
+    /// Returns the texture coordinates seen at the position (x, y) in the pixel, which covers
+    /// [-1/2, 1/2] along each axis.
     pub fn uv(&self, x: f64, y: f64) -> DVec2 {
-        // From a unit above the floor; further down on the film is nearer.
+        // The eye is one unit above the floor; positions lower on the film are nearer.
         let far = 1.0 / (self.below + PITCH * y);
         self.place + self.turned.rotate(DVec2::new(PITCH * x * far, far))
     }
 
-    /// Which of [`BREADTHS`] the short side of its piece of texture is.
+    /// Returns the index into [`BREADTHS`] of the footprint's short side.
     pub fn breadth(&self, texture: &Texture) -> usize {
         let size = DVec2::new(texture.width as f64, texture.height as f64);
         let span = |a: DVec2, b: DVec2| ((a - b) * size).length();
@@ -58,7 +60,7 @@ impl Pixel {
         BREADTHS.iter().filter(|&&from| short >= from).count() - 1
     }
 
-    /// The mean of N x N bilinear samples, evenly spread.
+    /// Returns the mean of n x n bilinear samples, evenly spread over the pixel.
     pub fn samples(&self, texture: &Texture, n: u32) -> DVec3 {
         let at = |k: u32| (f64::from(k) + 0.5) / f64::from(n) - 0.5;
         let mut sum = DVec3::ZERO;
@@ -70,8 +72,9 @@ impl Pixel {
         sum / f64::from(n * n)
     }
 
-    /// The averages of the bilinear texture under the pixel's box, and under the tent of twice its
-    /// width, by brute force: samples jittered in cells of at most a quarter of a texel.
+    /// Returns the averages of the bilinear texture under the pixel's box, and under the tent of
+    /// twice its width. They are computed by brute force: samples are jittered in cells of at most
+    /// a quarter of a texel.
     pub fn truth(&self, texture: &Texture) -> [DVec3; 2] {
         self.brute_force(texture, 4.0, 1)
     }
@@ -79,10 +82,10 @@ impl Pixel {
     fn brute_force(&self, texture: &Texture, per_texel: f64, seed: u64) -> [DVec3; 2] {
         let size = DVec2::new(texture.width as f64, texture.height as f64);
         let span = |a: DVec2, b: DVec2| ((a - b) * size).length();
-        // An even number, so that the box ends between cells.
+        // The number is even, so that the box ends between cells.
         let cells = |texels: f64| 2 * ((0.5 * per_texel * texels).ceil() as u32).max(16);
         let across = cells(span(self.uv(-0.5, -0.5), self.uv(0.5, -0.5)));
-        // The upper half of the tent's support is the longest; below it cells are smaller still.
+        // The upper half of the tent's support is the longer one; cells below it are smaller still.
         let down = cells(span(self.uv(0.0, -0.5), self.uv(0.0, 0.5)));
         let (mut sums, mut weights) = ([DVec3::ZERO; 2], [0.0; 2]);
         let mut state = seed;
@@ -109,8 +112,8 @@ impl Pixel {
     }
 }
 
-/// The root mean square of the truth's own error against the box: how far apart two of them are, of
-/// every 37th pixel.
+/// Returns the root mean square error of the truth against the box. It is found from the difference
+/// between two independent truths of every 37th pixel.
 pub fn noise(pixels: &[Pixel], textures: &[(&str, Texture)], truths: &[[DVec3; 2]]) -> f64 {
     let some = || pixels.iter().zip(truths).step_by(37);
     let squares: f64 = some()
@@ -119,11 +122,11 @@ pub fn noise(pixels: &[Pixel], textures: &[(&str, Texture)], truths: &[[DVec3; 2
             (again[0].x - truth[0].x).powi(2)
         })
         .sum();
-    // Each of the two has half of it.
+    // Each of the two truths contributes half of the mean square.
     (0.5 * squares / some().count() as f64).sqrt()
 }
 
-/// All pixels, texture by texture.
+/// Returns all pixels, texture by texture.
 pub fn pixels(textures: usize) -> Vec<Pixel> {
     let mut pixels = Vec::new();
     let mut state = 1u64;
@@ -136,8 +139,8 @@ pub fn pixels(textures: usize) -> Vec<Pixel> {
         for (scale, texels) in SCALES.iter().enumerate() {
             for (angle, degrees) in ANGLES.iter().enumerate() {
                 for step in 0..ANISOTROPIES {
-                    // One end is at the anisotropy of 64, the other at 1, straight down, where
-                    // the tangent would be infinite: there the slant is a little less.
+                    // The range ends half a step from the anisotropies 64 and 1, since the tangent
+                    // is infinite straight down.
                     let a = 64f64.powf((step as f64 + 0.5) / ANISOTROPIES as f64);
                     let below = 1.0 / (a * a - 1.0).sqrt();
                     for _ in 0..PLACES {
@@ -168,9 +171,9 @@ fn pixel(
     degrees: f64,
     place: DVec2,
 ) -> Pixel {
-    // The short side of the piece is the pixel's side by the distance, on the floor straight ahead.
+    // On the floor straight ahead, the short side is the pixel's side times the distance.
     let width = PITCH / below;
-    // Texture coordinates of one unit of floor; textures are square, sizes come in below.
+    // Texture coordinates per unit of floor; textures are square, and their sizes enter below.
     let side = super::textures::SIDES[texture] as f64;
     let turned = DVec2::from_angle(degrees.to_radians()) * (short / width / side);
     let mut pixel = Pixel {

@@ -1,7 +1,7 @@
 //! Speed of each filter as a ratio to bilinear interpolation, and its error, on one set of footprints.
 //!
 //! `cargo bench -p render --bench filters -- docs/measured` writes `filters.csv` and `filters.svg`
-//! there; without a folder it only prints. What is measured is told in docs/filters.md.
+//! to that folder. Without a folder it only prints. docs/filters.md describes the measurement.
 
 #![expect(clippy::print_stdout, reason = "a bench is read on the terminal")]
 
@@ -19,29 +19,29 @@ use std::hint::black_box;
 use std::path::Path;
 use std::time::Instant;
 
-/// Times that every method goes over a chunk of footprints, in turn with the others.
+/// Number of times that every method passes over a chunk of footprints, in turn with the others.
 const ROUNDS: usize = 15;
 
-/// Footprints of a chunk, which is done in less time than a shared machine gives at a stretch. It
-/// divides those of a scale.
+/// Footprints of a chunk. A pass over a chunk is shorter than the time slices of a shared machine.
+/// The number divides the footprints of a scale.
 const CHUNK: usize = 32;
 
-/// Kinds of footprints: by texture, angle and breadth.
+/// Number of kinds of footprints, by texture, angle and breadth.
 const CELLS: usize = 4 * ANGLES.len() * BREADTHS.len();
 
-/// What is measured.
+/// A method that is measured.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Method {
-    /// A filter over the box around nine neighbours, as the renderer has it.
+    /// A filter over the box around nine neighbours, as in the renderer.
     Filter(Filter),
     /// The box filter over half that box along each axis: about one pixel.
     BoxOfOnePixel,
-    /// Bilinear interpolation at N x N places of the pixel, averaged.
+    /// The mean of bilinear interpolation at N x N positions in the pixel.
     Samples(u32),
 }
 
 impl Method {
-    /// What the table calls it.
+    /// Returns the name of the method in tables.
     pub fn name(self) -> String {
         match self {
             Self::Filter(filter) => filter.to_string(),
@@ -51,26 +51,26 @@ impl Method {
     }
 }
 
-/// What came of a method.
+/// The measured values of a method.
 #[derive(Debug)]
 pub struct Line {
     /// The method.
     pub method: Method,
-    /// Nanoseconds of one average.
+    /// Time of one average, in nanoseconds.
     pub time: f64,
-    /// Time by that of bilinear interpolation.
+    /// Time divided by that of bilinear interpolation.
     pub ratio: f64,
-    /// The same by scale.
+    /// Ratios by scale.
     pub ratios: [f64; 3],
-    /// Root mean square errors, of a texture from 0 to 1, against the pixel's box and tent.
+    /// Root mean square errors of a texture from 0 to 1, against the pixel's box and tent.
     pub error: [f64; 2],
-    /// Those against the box, by texture.
+    /// Errors against the box, by texture.
     pub by_texture: [f64; 4],
-    /// By angle.
+    /// Errors against the box, by angle.
     pub by_angle: [f64; 3],
-    /// And by the short side of the pixel's piece of texture.
+    /// Errors against the box, by the short side of the footprint.
     pub by_breadth: [f64; 3],
-    /// Bytes beside the textures.
+    /// Memory besides the textures, in bytes.
     pub bytes: u64,
 }
 
@@ -113,7 +113,7 @@ fn prepared(method: Method, texture: &Texture) -> FilteredTexture<'_> {
     FilteredTexture::new(texture, filter)
 }
 
-/// The footprint that a method gets.
+/// Returns the footprint over which a method averages.
 fn footprint(method: Method, pixel: &Pixel) -> Footprint {
     match method {
         Method::Filter(filter) if filter.wants_area() => {
@@ -126,9 +126,9 @@ fn footprint(method: Method, pixel: &Pixel) -> Footprint {
     }
 }
 
-/// Seconds by scale and chunk of footprints; the median of the rounds. In each round every method
-/// takes its turn at a chunk, and does it twice, of which the second time counts: so tables are in
-/// the cache as far as they would be after a pixel's neighbours.
+/// Returns the median time of the rounds in seconds, by scale and chunk of footprints. In each
+/// round every method passes over the chunk twice, and the second pass counts. Tables are then in
+/// the cache as they would be after a pixel's neighbours.
 fn times(
     methods: &[Method],
     textures: &[(&str, Texture)],

@@ -1,9 +1,9 @@
-//! The measured lines as a table and as a drawing.
+//! Formats the measured lines as a table and as a drawing.
 
 use super::{Line, Method};
 use std::fmt::{self, Write};
 
-/// One line for each method.
+/// Returns the table as CSV, with one row for each method.
 pub fn csv(lines: &[Line]) -> String {
     let mut text = String::from(
         "method,ns,ratio,ratio thin,ratio middle,ratio far,rms box,rms tent,\
@@ -28,7 +28,7 @@ const HEIGHT: f64 = 400.0;
 const RATIOS: [f64; 2] = [0.2, 500.0];
 const ERRORS: [f64; 2] = [0.02, 0.5];
 
-/// Errors against ratios, both axes by powers of ten.
+/// Draws errors against ratios, both axes logarithmic.
 pub fn svg(lines: &[Line]) -> Result<String, fmt::Error> {
     let part = |value: f64, [low, high]: [f64; 2]| (value / low).ln() / (high / low).ln();
     let x = |ratio: f64| LEFT + WIDTH * part(ratio, RATIOS);
@@ -70,7 +70,7 @@ pub fn svg(lines: &[Line]) -> Result<String, fmt::Error> {
         let samples = matches!(line.method, Method::Samples(_));
         let color = if samples { "#888" } else { "#1b6ca8" };
         let x = x(line.ratio);
-        // A full dot against the pixel's box, a ring against its tent.
+        // A full dot marks the error against the pixel's box, a ring the error against its tent.
         let [of_box, of_tent] = line.error.map(y);
         writeln!(
             out,
@@ -82,7 +82,7 @@ pub fn svg(lines: &[Line]) -> Result<String, fmt::Error> {
             "<circle cx=\"{x:.1}\" cy=\"{of_tent:.1}\" r=\"5\" fill=\"white\" stroke=\"{color}\" stroke-width=\"2\"/>"
         )?;
         let name = line.method.name();
-        // Where there is room: to the right, or below.
+        // Labels stand to the right, or below where another label stands to the right.
         let (right, down) =
             if line.method == Method::BoxOfOnePixel { (-22.0, 20.0) } else { (9.0, 4.0) };
         let (x, y) = (x + right, of_box + down);

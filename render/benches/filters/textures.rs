@@ -1,11 +1,11 @@
-//! Four textures of 16-bit codes, as sRGB pictures become: edges, a chirp, nature and letters.
+//! Four textures of 16-bit codes, as read from sRGB pictures: edges, a chirp, nature and letters.
 
 use render::texture::Texture;
 
 /// Texels along each side.
 pub const SIDES: [usize; 4] = [512, 1024, 1024, 512];
 
-/// The textures with their names.
+/// Returns the textures with their names.
 pub fn all() -> Vec<(&'static str, Texture)> {
     let clouds = clouds(SIDES[2]);
     vec![
@@ -23,13 +23,14 @@ fn texture(side: usize, value: impl Fn(usize, usize) -> f64) -> Texture {
     Texture { width: side, height: side, texels, white: u16::MAX, ..Texture::default() }
 }
 
-/// Black and white rings that grow finer outward, to a texel and a half.
+/// Returns the value of black and white rings that become finer outward, down to 1.5 texels.
 fn zones(i: usize, j: usize) -> f64 {
     let [x, y] = [i, j].map(|k| (k as f64 + 0.5 - 512.0) / 512.0);
     f64::from(u8::from((512.0 * 0.35 * std::f64::consts::PI * (x * x + y * y)).cos() > 0.0))
 }
 
-/// Octaves of interpolated random values, each of half the height of the one before, that repeat.
+/// Returns repeating octaves of interpolated random values, each with half the amplitude of the one
+/// before.
 fn clouds(side: usize) -> Vec<f64> {
     let mut sum = vec![0.5; side * side];
     let mut height = 0.35;
@@ -55,7 +56,7 @@ fn clouds(side: usize) -> Vec<f64> {
     sum
 }
 
-/// Rows of five by seven bits, by letter, the topmost row first.
+/// Bitmaps of letters: rows of five bits, seven rows per letter, the topmost first.
 const LETTERS: [[u8; 7]; 8] = [
     [0x0e, 0x11, 0x11, 0x1f, 0x11, 0x11, 0x11],
     [0x1e, 0x11, 0x11, 0x1e, 0x11, 0x11, 0x1e],
@@ -67,7 +68,7 @@ const LETTERS: [[u8; 7]; 8] = [
     [0x1f, 0x04, 0x04, 0x04, 0x04, 0x04, 0x04],
 ];
 
-/// Black letters, two texels for each bit, on white.
+/// Returns the value of black letters on white, two texels for each bit.
 fn letters(i: usize, j: usize) -> f64 {
     let (column, row) = (i / 2, j / 2);
     let letter = &LETTERS[(column / 6 * 5 + row / 9 * 3) % 8];

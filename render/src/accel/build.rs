@@ -5,29 +5,29 @@
 //! Interactive Ray Tracing 2007. Large parts are sorted into bins by the middles of their boxes, small
 //! ones are sorted and tried at every cut.
 //!
-//! **The work is bounded.** Where no plane parts the middles (boxes in one place), and below
+//! **The work is bounded.** Where no plane separates the middles (coincident boxes), and below
 //! `Builder::deepest` (boxes whose sizes shrink without end), a part is halved by count. So the tree
 //! is at most `3 log2 n` + 8 levels deep, each level looks at each box a fixed number of times, and
 //! building takes O(n log n) whatever the boxes are.
 
 use glam::{DVec3, Vec3A};
 
-/// A leaf has at most so many boxes.
+/// Largest number of boxes in a leaf.
 ///
-/// Larger, and rays try pieces that a further cut would have kept from them; smaller, and the tree
+/// If larger, rays try pieces that a further cut would have kept from them. If smaller, the tree
 /// takes more memory for no fewer tests.
 const MOST_IN_LEAF: usize = 4;
 
-/// What a test of two sibling boxes costs, in tests of a piece.
+/// Cost of a test of two sibling boxes, in tests of a piece.
 ///
-/// Larger, and leaves grow; smaller, and rays walk through more nodes than there are pieces to try.
+/// If larger, leaves grow. If smaller, rays pass more nodes than there are pieces to try.
 const STEP_COST: f64 = 1.0;
 
-/// Bins along each axis. More cost time while building and find hardly better cuts.
+/// Bins along each axis. More bins take longer and hardly find better cuts.
 const BINS: usize = 32;
 
-/// Parts of at most so many boxes are sorted instead of binned. Larger, and building takes longer;
-/// smaller, and the lower levels, where most of the nodes are, are cut less well.
+/// Parts of at most this many boxes are sorted instead of binned. If larger, building takes longer.
+/// If smaller, the lower levels, which hold most of the nodes, are cut less well.
 const SORTED: usize = 64;
 
 /// A box along the axes in `f32`.
@@ -40,7 +40,7 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// The box of nothing, which joins to the other box.
+    /// The empty box. Its union with another box is that other box.
     const NONE: Self = Self { low: Vec3A::INFINITY, high: Vec3A::NEG_INFINITY };
 
     /// The smallest box of `f32` around a box of `f64`.
@@ -59,35 +59,37 @@ impl Bounds {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
 
-    /// Half the surface, in `f64`, where no sides of `f32` are too long; 0 for the box of nothing.
+    /// Half the surface area, in `f64`, where no side of an `f32` box overflows; 0 for the empty
+    /// box.
     #[must_use]
     pub fn half_area(&self) -> f64 {
         let [x, y, z] = (self.high - self.low).to_array().map(|side| f64::from(side.max(0.0)));
         x * y + y * z + z * x
     }
 
-    /// Twice the middle.
+    /// Twice the middle of the box.
     fn middle(&self) -> Vec3A {
         self.low + self.high
     }
 }
 
-/// What a part of the boxes becomes.
+/// The decision about a part of the boxes.
 #[derive(Debug, Clone, Copy)]
 pub enum Part {
-    /// A leaf.
+    /// The part becomes a leaf.
     Leaf,
-    /// Two parts: the boxes before and from this position, with their bounds.
+    /// The part is cut in two: the boxes before this position and those from it on, with their
+    /// bounds.
     Cut(usize, [Bounds; 2]),
 }
 
-/// Divides one set of boxes.
+/// Divides one set of boxes into parts.
 #[derive(Debug)]
 pub struct Builder<'a> {
     boxes: &'a [Bounds],
-    /// Parts this deep and deeper are halved by count.
+    /// Parts at this depth or deeper are halved by count.
     deepest: usize,
-    /// How many boxes were looked at so far, each time counted.
+    /// Number of boxes examined so far; a box counts each time it is examined.
     pub looks: u64,
 }
 
@@ -101,15 +103,15 @@ struct Cut {
 }
 
 impl<'a> Builder<'a> {
-    /// A builder over `boxes`.
+    /// Creates a builder over `boxes`.
     #[must_use]
     pub fn new(boxes: &'a [Bounds]) -> Self {
         let levels = usize::BITS - boxes.len().leading_zeros();
         Self { boxes, deepest: 2 * levels as usize + 8, looks: 0 }
     }
 
-    /// Divides the boxes whose numbers are `part`, and reorders these; `bounds` is around them and
-    /// `depth` counts the cuts that led to them.
+    /// Divides the boxes whose numbers are in `part`, and reorders `part`. `bounds` surrounds these
+    /// boxes, and `depth` is the number of cuts that led to them.
     pub fn divide(&mut self, part: &mut [u32], bounds: &Bounds, depth: usize) -> Part {
         let count = part.len();
         if count == 1 {
@@ -128,7 +130,7 @@ impl<'a> Builder<'a> {
             self.best_binned(part, &spread)
         };
         let cut = cut.filter(|cut| cut.cost.is_finite());
-        // What a cut saves is measured against trying all boxes.
+        // The saving of a cut is measured against trying all boxes.
         let area = bounds.half_area();
         let worth_it = |cut: &Cut| STEP_COST * area + cut.cost < count as f64 * area;
         if count <= MOST_IN_LEAF && !cut.as_ref().is_some_and(worth_it) {
@@ -154,7 +156,7 @@ impl<'a> Builder<'a> {
         Part::Cut(at, [around(&part[..at]), around(&part[at..])])
     }
 
-    /// The best cut between bins; nothing when all middles are in one place.
+    /// Returns the best cut between bins, or `None` if all middles coincide.
     fn best_binned(&mut self, part: &[u32], spread: &Bounds) -> Option<Cut> {
         self.looks += part.len() as u64;
         let axes = [0, 1, 2].map(|axis| Bins::new(spread, axis));
@@ -196,7 +198,7 @@ impl<'a> Builder<'a> {
         best
     }
 
-    /// The best of all cuts of a small part.
+    /// Returns the best of all cuts of a small part.
     fn best_sorted(&mut self, part: &mut [u32]) -> Option<Cut> {
         let mut best: Option<Cut> = None;
         let mut areas = [0.0; SORTED];
@@ -226,7 +228,8 @@ impl<'a> Builder<'a> {
         part.sort_unstable_by(|a, b| key(a).total_cmp(&key(b)).then(a.cmp(b)));
     }
 
-    /// Puts the lower half of a part first, along the axis on which its middles spread the most.
+    /// Moves the lower half of a part to its front, along the axis on which its middles spread the
+    /// most.
     fn halve(&mut self, part: &mut [u32], spread: &Bounds) -> usize {
         self.looks += part.len() as u64;
         let size = (spread.high - spread.low).to_array();
@@ -243,7 +246,7 @@ impl<'a> Builder<'a> {
 struct Bins {
     axis: usize,
     low: f32,
-    /// Bins for each unit of length; 0 when all middles are in one place.
+    /// Bins per unit of length; 0 if all middles coincide.
     scale: f32,
 }
 
@@ -255,14 +258,15 @@ impl Bins {
         Self { axis, low: spread.low[axis], scale }
     }
 
-    /// The bin of a box. Conversion takes what is below 0, and NaN, for 0.
+    /// Returns the bin of a box. The conversion turns negative values and NaN into 0.
     fn of(&self, bounds: &Bounds) -> usize {
         let place = (bounds.middle()[self.axis] - self.low) * self.scale;
         (place as usize).min(BINS - 1)
     }
 }
 
-/// Puts those first for which `is_first` holds, in any order; returns how many there are.
+/// Moves the elements for which `is_first` holds to the front, in any order, and returns their
+/// number.
 fn partition(part: &mut [u32], is_first: impl Fn(&u32) -> bool) -> usize {
     let mut at = 0;
     for k in 0..part.len() {

@@ -4,30 +4,31 @@
 //! boxes of a group are `f32`, counted from the middle of the tree, and are tested together.
 //!
 //! **Nothing missed.** [`SlabRay::crosses`] decides in `f64` which boxes a ray crosses. The test in
-//! `f32` lets through all of those: the ray is first moved to where it enters the whole tree, so
-//! that everything is as small as the tree, and boxes are widened by more than the roundings. With
-//! `h` the tree's largest coordinate and in units of `2^-24 h` these are 1 for the start, 1 for
-//! moving it by the widening, 2 for its distance from a plane, 4 for the product with the inverse:
-//! 8 of about 17 that are given. Those of `f64` are added as parts of their scale.
+//! `f32` accepts all of those boxes. The ray is first moved to where it enters the whole tree, so
+//! that all numbers are as small as the tree. The boxes are widened by more than the roundings. Let
+//! `h` be the tree's largest coordinate. In units of `2^-24 h` the roundings are 1 for the start, 1
+//! for its move by the widening, 2 for its distance from a plane and 4 for the product with the
+//! inverse. Their sum is 8; the widening is about 17. The roundings in `f64` are added as parts of
+//! their scale.
 
 use super::build::{Bounds, Builder, Part};
 use super::slabs::SlabRay;
 use super::wide::{self, Group, WIDTH};
 use glam::{DVec3, Vec4};
 
-/// How many nodes may wait at once before the walk recurses, at least [`WIDTH`].
+/// Capacity of the walk's stack of nodes, at least [`WIDTH`]. Beyond it the walk recurses.
 ///
-/// Larger, and every ray clears memory that it does not use; smaller, and large meshes recurse,
-/// which tests are made to do.
+/// If larger, every ray clears memory that it does not use. If smaller, rays recurse in large
+/// meshes. Tests use the smallest capacity, so that they recurse.
 const STACK: usize = if cfg!(test) { WIDTH } else { 32 };
 
-/// A tree over boxes, which are renumbered in the tree's order.
+/// A tree over boxes. The boxes are renumbered in the tree's order.
 #[derive(Debug)]
 pub struct Bvh {
     bounds: [DVec3; 2],
-    /// The middle of the tree, from which its boxes count.
+    /// The middle of the tree, the origin of its boxes' coordinates.
     middle: DVec3,
-    /// The largest coordinate of any box, from the middle and without its sign.
+    /// The largest absolute coordinate of any box, from the middle.
     half: f64,
     root: Child,
     groups: Vec<Group>,
@@ -37,29 +38,29 @@ pub struct Bvh {
 /// Two siblings of the binary tree.
 #[derive(Debug, Clone, Copy)]
 pub struct Pair {
-    /// The boxes of both.
+    /// Boxes of both siblings.
     pub bounds: [Bounds; 2],
-    /// Both without their boxes.
+    /// Both siblings, without their boxes.
     pub children: [Child; 2],
 }
 
 /// A node without its box.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Child {
-    /// Its first box, or where its own children are.
+    /// Index of its first box, or of its group of children.
     pub first: u32,
-    /// How many boxes it has; 0 for children.
+    /// Number of its boxes; 0 if the node has children.
     pub count: u32,
 }
 
 /// A ray prepared for the tests of one tree.
 #[derive(Debug, Clone, Copy)]
 struct GroupRay {
-    /// Where the ray enters the tree; distances count from here.
+    /// Distance at which the ray enters the tree; distances in the tree count from it.
     start: f64,
-    /// Along each axis, which of a box's sides the ray meets first: 0 the lower, 1 the upper.
+    /// The side of a box that the ray meets first, along each axis: 0 the lower, 1 the upper.
     near: [usize; 3],
-    /// Where the ray starts along each axis, moved for the near sides and for the far ones.
+    /// Start of the ray along each axis, moved once for the near sides and once for the far ones.
     near_start: [Vec4; 3],
     far_start: [Vec4; 3],
     inverse: [Vec4; 3],
@@ -69,10 +70,10 @@ impl GroupRay {
     fn new(tree: &Bvh, ray: &SlabRay, start: f64) -> Self {
         let widening = (1e-6 * tree.half + 64.0 * f64::EPSILON * ray.scale) as f32 + 1e-37;
         let place = ray.origin + start * ray.direction - tree.middle;
-        // Where this cuts, the ray stays on one side of all planes in the tree.
+        // Where the clamp applies, the ray stays on one side of all planes in the tree.
         let inverse = ray.inverse.clamp(DVec3::splat(-1e30), DVec3::splat(1e30)).as_vec3();
         let inverse = inverse.to_array();
-        // Lower sides are moved down and upper sides up, which is the same as widening every box.
+        // Lower sides are moved down and upper sides up. This is equivalent to widening every box.
         let starts = |axis: usize| {
             let place = place[axis].clamp(f64::from(f32::MIN), f64::from(f32::MAX)) as f32;
             let (for_lower, for_upper) = (place + widening, place - widening);
@@ -88,13 +89,13 @@ impl GroupRay {
         }
     }
 
-    /// A distance of the ray as one in the tree, not less.
+    /// Converts a distance along the ray into one from the tree's entry, rounded up.
     fn distance(&self, t: f64) -> f32 {
         ((t - self.start) as f32).next_up()
     }
 
-    /// For each box of a group where the ray enters it, and a mask of those that it enters before
-    /// `t_max`.
+    /// Returns for each box of a group the distance at which the ray enters it, and a mask of the
+    /// boxes that it enters before `t_max`.
     #[inline]
     fn enters(&self, group: &Group, t_max: f32) -> ([f32; WIDTH], u32) {
         let near = |axis: usize| {
@@ -110,8 +111,8 @@ impl GroupRay {
 }
 
 impl Bvh {
-    /// A tree over boxes given as lower and upper corners, and the boxes' numbers in its order;
-    /// nothing for no boxes.
+    /// Builds a tree over boxes given as lower and upper corners. Returns the tree and the boxes'
+    /// numbers in its order, or `None` without boxes.
     #[must_use]
     pub fn build(boxes: &[[DVec3; 2]]) -> Option<(Self, Vec<u32>)> {
         let bounds = boxes.iter().copied().reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])?;
@@ -128,20 +129,20 @@ impl Bvh {
         Some((Self { bounds, middle, half, root, groups, looks: builder.looks }, order))
     }
 
-    /// How many boxes were looked at to build the tree, each time counted.
+    /// Number of boxes examined to build the tree; a box counts each time it is examined.
     #[must_use]
     pub fn looks(&self) -> u64 {
         self.looks
     }
 
-    /// Memory in bytes.
+    /// Memory of the tree, in bytes.
     #[must_use]
     pub fn bytes(&self) -> usize {
         size_of_val(&*self.groups)
     }
 
-    /// Gives `visit` every box that the ray may meet within `t_max`, nearer ones first as far as
-    /// the tree tells; `visit` takes the current `t_max` and returns the one to go on with.
+    /// Calls `visit` with every box that the ray may meet within `t_max`, nearer ones first as far
+    /// as the tree can tell. `visit` takes the current `t_max` and returns the next one.
     pub fn walk(&self, ray: &SlabRay, t_max: f64, mut visit: impl FnMut(u32, f64) -> f64) {
         if let Some([enter, _]) = ray.crosses(self.bounds).filter(|[enter, _]| *enter <= t_max) {
             self.walk_from(self.root, &GroupRay::new(self, ray, enter), t_max, &mut visit);
@@ -166,7 +167,7 @@ impl Bvh {
                 }
                 limit = ray.distance(t_max);
             } else if count + WIDTH > STACK {
-                // A tree deeper than the stack.
+                // The tree is deeper than the stack.
                 t_max = self.walk_from(current, ray, t_max, visit);
                 limit = ray.distance(t_max);
             } else {
@@ -184,7 +185,7 @@ impl Bvh {
                         if other.1 < nearest.1 {
                             std::mem::swap(&mut nearest, &mut other);
                         }
-                        // The nearer ones are taken off the stack first.
+                        // The nearer nodes leave the stack first.
                         let mut at = count;
                         while at > first && waiting[at - 1].1 < other.1 {
                             waiting[at] = waiting[at - 1];
@@ -197,7 +198,7 @@ impl Bvh {
                     continue;
                 }
             }
-            // The nearest node that still matters.
+            // Takes the nearest node that begins within `t_max`.
             while count > 0 {
                 count -= 1;
                 let (node, enter) = waiting[count];
@@ -211,17 +212,17 @@ impl Bvh {
     }
 }
 
-/// A part of the boxes that is still to be divided.
+/// A part of the boxes that is not divided yet.
 struct Open {
-    /// Where its boxes are in the order.
+    /// Range of its boxes in the order.
     boxes: std::ops::Range<usize>,
     bounds: Bounds,
     depth: usize,
-    /// The pair and the side that lead to the part; nothing for the whole.
+    /// The pair and the side that lead to the part; `None` for the root.
     parent: Option<(usize, usize)>,
 }
 
-/// The nodes in pairs, parents first, and the boxes' numbers in the order of the leaves.
+/// Returns the nodes in pairs, parents first, and the boxes' numbers in the order of the leaves.
 fn laid_out(
     builder: &mut Builder<'_>,
     whole: Bounds,
@@ -241,7 +242,7 @@ fn laid_out(
                 let at = boxes.start + at;
                 let part =
                     |boxes, bounds, side| Open { boxes, bounds, depth, parent: Some((pair, side)) };
-                // The first part is divided next, so that it lies beside its parent.
+                // The first part is divided next and therefore lies beside its parent.
                 open.push(part(at..boxes.end, b, 1));
                 open.push(part(boxes.start..at, a, 0));
                 Child { first: pair as u32, count: 0 }

@@ -1,44 +1,48 @@
-//! The thesis's uniform grids (5.2, fig. 5.1 and 5.2): each object in a box along the axes, the box
-//! cut into equal voxels, each voxel with a list of the pieces in it, and rays that step from voxel
-//! to voxel by 3DDDA.
+//! The thesis's uniform grids (5.2, fig. 5.1 and 5.2). Each object has an axis-parallel box, which
+//! is cut into equal voxels. Each voxel has a list of its pieces, and rays step from voxel to voxel
+//! by 3DDDA.
 //!
 //! Amanatides, Woo: *A Fast Voxel Traversal Algorithm for Ray Tracing*, Eurographics 1987. A step
 //! takes comparisons and one addition.
 //!
 //! **Each piece once.** A piece is listed in every voxel that its box meets, and a ray would try it
-//! in each. Mailboxes would need memory for each ray; here a bit does. The voxels of a piece are a
-//! box of voxels, and a ray that has left it on an axis never comes back. So a ray that stepped
-//! along an axis has met the piece before unless the piece's voxels begin, on that axis and that
-//! way, with the voxel it stepped into: six bits for each entry of a list.
+//! in each. Mailboxes would need memory for each ray; one bit suffices here. The voxels of a piece
+//! form a box of voxels, and a ray that has left this box on an axis never returns to it. A ray
+//! steps along an axis into a voxel. It has met the piece before, unless the piece's voxels begin
+//! with this voxel on this axis and in this direction. Each entry of a list stores this in six
+//! bits.
 //!
-//! **Nothing missed.** A piece's hit lies where the ray crosses its widened box (the hit function
-//! sees to it). At that distance the walk is in a voxel that is off the ray by roundings: those of
-//! the planes, and those that additions have piled up. The boxes are listed wider than all of them
-//! together, for any ray that starts within [`Grid::reach`]. A ray from farther away tries every piece.
+//! **Nothing missed.** The hit function guarantees that a piece's hit lies where the ray crosses
+//! its widened box. At that distance the walk's voxel differs from the ray's position only by
+//! roundings: those of the planes, and those accumulated by the additions. The margin of the listed
+//! boxes exceeds all of them together, for any ray that starts within [`Grid::reach`]. A ray from
+//! farther away tries every piece.
 //!
 //! **Not too early.** A hit found in a voxel may lie in a later one, and an equal hit of an earlier
-//! piece may be listed only there. So the walk goes on until a voxel begins beyond the nearest hit.
+//! piece may be listed only there. The walk therefore continues until a voxel begins beyond the
+//! nearest hit.
 
 use super::slabs::SlabRay;
 use glam::DVec3;
 
 /// Voxels for each piece of an object.
 ///
-/// The thesis wants about one or two triangles in a voxel. A surface leaves most voxels empty, so
-/// that the filled ones hold more. Larger, and rays step through more empty voxels and triangles are
-/// listed in more of them; smaller, and more triangles are tried. docs/acceleration.md has figures.
+/// The thesis asks for about one or two triangles in a voxel. A surface leaves most voxels empty,
+/// so the others hold more. If larger, rays step through more empty voxels and triangles are listed
+/// in more of them. If smaller, more triangles are tried. docs/acceleration.md has figures.
 const DENSITY: f64 = 2.0;
 
-/// List entries for each piece at most; an object of long thin pieces that would need more gets
-/// larger voxels.
+/// Largest number of list entries per piece, averaged over an object. An object of long thin pieces
+/// that would need more gets larger voxels.
 const MOST_ENTRIES: usize = 64;
 
-/// By which part of a voxel boxes are listed wider than they are.
+/// Margin of the listed boxes on each side, as a fraction of a voxel.
 ///
-/// Larger, and pieces are listed where they are not; smaller, and rays must start nearer.
+/// If larger, pieces are listed in voxels that they do not meet. If smaller, rays must start
+/// nearer.
 const SLACK: f64 = 1.0 / 1024.0;
 
-/// For the voxel in which a ray starts: no piece was met before.
+/// The bit of the voxel in which a ray starts: no piece was met before.
 const START: u8 = 1 << 6;
 
 /// The grids of all objects.
@@ -52,38 +56,40 @@ pub struct Grids {
 pub struct Grid {
     bounds: [DVec3; 2],
     cut: Cut,
-    /// The object's pieces are numbered from here.
+    /// Range of the object's pieces in the scene's numbering.
     pieces: std::ops::Range<u32>,
-    /// Where each voxel's list begins, x fastest, and where the last one ends.
+    /// Start of each voxel's list in `listed`, x fastest, and the end of the last list.
     starts: Vec<u32>,
-    /// The lists, one after another.
+    /// Pieces of all lists, one list after another.
     listed: Vec<u32>,
-    /// For each entry which of the six sides of the piece's box of voxels this voxel lies on:
-    /// [`side`], and always [`START`].
+    /// For each entry the sides of the piece's box of voxels on which this voxel lies, as bits:
+    /// those of [`side`], and always [`START`].
     sides: Vec<u8>,
-    /// Rays whose [`SlabRay::scale`] is larger try every piece.
+    /// Largest [`SlabRay::scale`] of a ray that walks the grid; other rays try every piece.
     reach: f64,
-    /// How many boxes were looked at, for each voxel that one is listed in.
+    /// Number of boxes examined to build the grid; a box counts once for each voxel that lists it.
     looks: u64,
 }
 
-/// How a box is cut into voxels.
+/// The division of a box into voxels.
 #[derive(Debug, Clone, Copy)]
 struct Cut {
     low: DVec3,
-    /// Sides of a voxel; not used on an axis that is not cut.
+    /// Sides of a voxel, in scene units; not used on an axis that is not cut.
     voxel: DVec3,
     /// Voxels along each axis, at least 1.
     count: [u32; 3],
 }
 
-/// The bit of a side of a box of voxels: where rays enter that go up or down an axis.
+/// Returns the bit of the side through which rays enter a box of voxels: rays that go up or down an
+/// axis.
 const fn side(axis: usize, up: bool) -> u8 {
     1 << (2 * axis + up as usize)
 }
 
 impl Grids {
-    /// Grids over boxes, given as lower and upper corners; `objects` are ranges of them.
+    /// Builds grids over boxes, given as lower and upper corners; `objects` are ranges of the
+    /// boxes.
     #[must_use]
     pub fn build(boxes: &[[DVec3; 2]], objects: &[std::ops::Range<u32>]) -> Self {
         let grids =
@@ -91,7 +97,7 @@ impl Grids {
         Self { grids }
     }
 
-    /// Memory in bytes.
+    /// Memory of all grids, in bytes.
     #[must_use]
     pub fn bytes(&self) -> usize {
         let lists =
@@ -99,14 +105,14 @@ impl Grids {
         size_of_val(&*self.grids) + self.grids.iter().map(lists).sum::<usize>()
     }
 
-    /// How many boxes were looked at to build the grids, each time counted.
+    /// Number of boxes examined to build the grids; a box counts each time it is examined.
     #[must_use]
     pub fn looks(&self) -> u64 {
         self.grids.iter().map(|grid| grid.looks).sum()
     }
 
-    /// Gives `visit` every box that the ray may meet within `t_max`, each once, the nearer ones of
-    /// an object first; `visit` takes the current `t_max` and returns the one to go on with.
+    /// Calls `visit` once with every box that the ray may meet within `t_max`, the nearer ones of
+    /// an object first. `visit` takes the current `t_max` and returns the next one.
     pub fn walk(&self, ray: &SlabRay, mut t_max: f64, mut visit: impl FnMut(u32, f64) -> f64) {
         for grid in &self.grids {
             t_max = grid.walk(ray, t_max, &mut visit);
@@ -137,7 +143,7 @@ impl Grid {
             wanted /= 8.0;
         };
 
-        // A counting sort of the pieces into voxels, in the pieces' order.
+        // A counting sort puts the pieces into voxels, in the pieces' order.
         let mut starts = vec![0u32; cut.all() + 1];
         for piece in own {
             cut.each(&cut.voxels(piece), |voxel, _| starts[voxel + 1] += 1);
@@ -171,9 +177,9 @@ impl Grid {
         let Cut { low, voxel, count } = self.cut;
         let strides = [1, count[0] as usize, count[0] as usize * count[1] as usize];
         let mut at = 0;
-        // Along each axis: planes still ahead, where the ray meets the next one and how far it is
-        // from one to another. Beyond the last plane a voxel has no end, so that nothing is lost
-        // at the faces of the box; the walk ends where the ray leaves the widened box.
+        // Along each axis: the number of planes ahead, the distance to the next one, and the
+        // distance between two. Beyond the last plane a voxel has no end, so that nothing is lost
+        // at the faces of the box. The walk ends where the ray leaves the widened box.
         let mut ahead = [0u32; 3];
         let mut next = [f64::INFINITY; 3];
         let mut delta = [0.0; 3];
@@ -224,13 +230,13 @@ impl Grid {
 }
 
 impl Cut {
-    /// The box cut into about `wanted` voxels, as near to cubes as it goes. An axis along which the
-    /// box is shorter than a voxel is not cut.
+    /// Cuts the box into about `wanted` voxels, which are as close to cubes as possible. An axis
+    /// along which the box is shorter than a voxel is not cut.
     fn new([low, high]: [DVec3; 2], wanted: f64) -> Self {
         let size = high - low;
         let mut cut = [0, 1, 2].map(|axis| size[axis] > 0.0);
         let mut edge = 0.0;
-        // At most three rounds: each but the last takes an axis away.
+        // At most three rounds: each but the last removes an axis.
         loop {
             let axes = || (0..3).filter(|&axis| cut[axis]);
             if axes().count() == 0 {
@@ -251,12 +257,12 @@ impl Cut {
         Self { low, voxel, count }
     }
 
-    /// How many voxels there are.
+    /// Number of voxels.
     fn all(&self) -> usize {
         self.count.iter().map(|&count| count as usize).product()
     }
 
-    /// The first and last voxel along each axis that a box may meet.
+    /// Returns the first and the last voxel along each axis that a box may meet.
     fn voxels(&self, [low, high]: &[DVec3; 2]) -> [[u32; 2]; 3] {
         [0, 1, 2].map(|axis| {
             let last = self.count[axis] - 1;
@@ -264,13 +270,14 @@ impl Cut {
                 return [0, 0];
             }
             let place = |x: f64| (x - self.low[axis]) / self.voxel[axis];
-            // Conversion takes what is below 0 for 0.
+            // The conversion turns negative values into 0.
             let [first, end] = [place(low[axis]) - SLACK, place(high[axis]) + SLACK];
             [(first as u32).min(last), (end as u32).min(last)]
         })
     }
 
-    /// Gives `each` the number of every voxel in a box of voxels, with the sides that it lies on.
+    /// Calls `each` with the number of every voxel in a box of voxels, and the sides on which it
+    /// lies.
     fn each(&self, [x, y, z]: &[[u32; 2]; 3], mut each: impl FnMut(usize, u8)) {
         let sides = |axis: usize, at: u32, [first, last]: [u32; 2]| {
             let upward = if at == first { side(axis, true) } else { 0 };
@@ -289,11 +296,12 @@ impl Cut {
         }
     }
 
-    /// The largest [`SlabRay::scale`] for which the slack is wider than all roundings together.
+    /// Returns the largest [`SlabRay::scale`] for which the margin exceeds the sum of all
+    /// roundings.
     ///
-    /// As parts of the scale, in units of `f64::EPSILON`: the widening 16, where the ray crosses a
-    /// box 3, the first plane 5, the place of entry 4, the distance between planes 4, the voxels
-    /// of a box 4, and half for each addition.
+    /// The roundings are parts of the scale. In units of `f64::EPSILON` they are 16 for the widening,
+    /// 3 for the crossing of a box, 5 for the first plane and 4 for the point of entry. They are 4
+    /// for the distance between planes, 4 for the voxels of a box, and 1/2 for each addition.
     fn reach(&self) -> f64 {
         let cut = (0..3).filter(|&axis| self.count[axis] > 1);
         let most = f64::from(self.count.into_iter().max().unwrap_or(1));
@@ -331,8 +339,8 @@ mod tests {
         assert!(grid.starts.len() > 10, "it is still cut");
     }
 
-    /// A ray passes a row of voxels and is given one piece from each, in order; then all at once
-    /// from beyond the grid's reach.
+    /// A ray passes a row of voxels and gets one piece from each, in order. From beyond the grid's
+    /// reach it gets all pieces at once.
     #[test]
     fn the_walk_goes_from_voxel_to_voxel() {
         let at = |k: u32| DVec3::new(f64::from(k) + 0.5, 0.5, 0.5);

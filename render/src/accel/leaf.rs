@@ -1,4 +1,4 @@
-//! Pieces of surface as the structures hold them, and the one test of a ray against a piece.
+//! Pieces of surface as the structures store them, and the only test of a ray against a piece.
 //!
 //! A hit lies where the ray crosses the box of its piece. Cheap conditions are tested first: whether
 //! the piece can lie before `t_max`, then the hit itself, and last whether the ray starts on the
@@ -21,8 +21,8 @@ pub struct Leaf {
     corners: [[f32; 3]; 3],
 }
 
-/// Takes the position of a triangle's index in a leaf that is a whole shape. No mesh has so many
-/// triangles ([`crate::shape::Mesh::check`]).
+/// Stands for the triangle's index in a leaf that is a whole shape. No mesh has so many triangles
+/// ([`crate::shape::Mesh::check`]).
 const WHOLE: u32 = u32::MAX;
 
 impl Leaf {
@@ -50,10 +50,10 @@ impl Leaf {
 pub struct Probe<'a> {
     ray: &'a Ray,
     sheared: ShearedRay,
-    /// The ray against boxes.
+    /// The ray, prepared for tests against boxes.
     pub slabs: SlabRay,
-    /// Rounding of the start as a point of the surface that the ray leaves, in scene units; 0 for a
-    /// ray from the eye.
+    /// Rounding of the start as a point of the surface on which the ray starts, in scene units; 0
+    /// for a ray from the eye.
     skin: f64,
     /// Bound on the error of distances to corners, in scene units.
     slack: f64,
@@ -74,15 +74,16 @@ impl<'a> Probe<'a> {
     fn skin(&self, accel: &Accel<'_>, object: u32) -> f64 {
         match self.ray.leaving {
             Some(_) => self.skin + accel.rounding(object, DVec3::ZERO),
-            // What is meant to be on a surface is off it by the rounding of its own digits.
+            // A start that is meant to lie on a surface is off it by the rounding of its own
+            // coordinates.
             None => {
                 super::EYE_ROUNDINGS / super::ROUNDINGS * accel.rounding(object, self.ray.origin)
             }
         }
     }
 
-    /// Returns the hit of the ray with a leaf, with `t` in `(0, t_max]`. Whether there is one, and
-    /// where, does not depend on `t_max`.
+    /// Returns the hit of the ray with a leaf, with `t` in `(0, t_max]`. The existence and the
+    /// position of a hit do not depend on `t_max`.
     #[inline]
     pub fn meet(&self, accel: &Accel<'_>, leaf: &Leaf, t_max: f64) -> Option<Hit> {
         if leaf.triangle == WHOLE {
@@ -95,7 +96,7 @@ impl<'a> Probe<'a> {
         self.settle(accel, Hit { t, piece, barycentric }, &leaf.corners, t_max)
     }
 
-    /// Completes the hit of a triangle.
+    /// Completes the hit of a triangle with its box and its start tests.
     fn settle(
         &self,
         accel: &Accel<'_>,

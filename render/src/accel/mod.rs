@@ -1,21 +1,23 @@
-//! Finds what a ray hits.
+//! Finds the hits of rays with surfaces.
 //!
-//! A few shapes stand apart and are tried one by one: planes, which have no box, and shapes so
-//! large beside the rest (a floor under a vase) that they would spoil any structure. All others are
-//! leaves of a [`Structure`]: one tree of boxes, or the thesis's grids, or none. One function,
-//! `Probe::meet`, decides for all, and one rule, [`Hit::before`], says which hit is seen.
+//! A few shapes stand apart, and every ray tries each of them. These are planes, which have no box,
+//! and shapes so large beside the rest (a floor under a vase) that they would spoil any structure.
+//! All others are leaves of a [`Structure`]: one tree of boxes, the thesis's grids, or none. One
+//! function, `Probe::meet`, decides about hits for all of them, and one rule, [`Hit::before`],
+//! selects the visible hit.
 //!
-//! So that all structures see the same to the last bit, a hit lies where the ray crosses the box of
-//! its piece, widened by the roundings of the hit function (`Probe::meet`). A structure then has to
-//! give every piece whose box the ray crosses before the nearest hit, and needs to know no more.
-//! Where the arithmetic is sound this changes nothing; it holds triangles that are seen edge on,
-//! whose distance is all rounding, to a place where they are.
+//! All structures find the same hits to the last bit. For this, a hit must lie where the ray
+//! crosses the box of its piece, widened by the roundings of the hit function (`Probe::meet`). A
+//! structure must find every piece whose box the ray crosses before the nearest hit, and needs no
+//! other property. Where roundings are small this rule changes nothing. It bounds the distance of
+//! triangles that are seen edge on, which otherwise consists of rounding only.
 //!
-//! A ray that leaves a surface does not hit it again at its start, nor any surface that coincides
-//! with it there: those whose distance from the start, measured across the surface, is less than
-//! the rounding of both. Measured along the ray that distance would have no bound, since it grows
-//! as the ray becomes flat. There is no epsilon in units of length, so a scene may be of any size.
-//! An eye on a surface sees past it by the same rule.
+//! A ray that starts on a surface does not hit this surface again at its start, nor any surface
+//! that coincides with it there. Surfaces coincide if their distance from the start, measured
+//! across the surface, is less than the rounding of both. Measured along the ray, that distance
+//! would have no bound, since it grows as the ray becomes flat. No epsilon is given in units of
+//! length, so a scene may have any size. The same rule lets an eye on a surface see past that
+//! surface.
 
 mod brute;
 mod build;
@@ -35,30 +37,31 @@ use grid::Grids;
 use leaf::{Leaf, Probe};
 use serde::Deserialize;
 
-/// A shape is outsized when its box is longer than this part of the box around everything.
+/// A shape is outsized when its box is longer than this fraction of the box around everything.
 ///
-/// Smaller, and the parts of ordinary objects stand apart and cost a test on every ray; larger,
-/// and a floor twice as wide as its scene is already in the tree, where it does little harm.
+/// If smaller, the parts of ordinary objects stand apart and cost a test on every ray. If larger, a
+/// floor twice as wide as its scene is in the tree, where it does little harm.
 const OUTSIZED: f64 = 0.5;
 
-/// At most so many shapes stand apart, since every ray tries each of them.
+/// Outsized shapes stand apart only while fewer than this many shapes do, since every ray tries each
+/// of them. Planes always stand apart.
 const MOST_APART: usize = 8;
 
-/// A computed point lies at most this many units in the last place of the largest coordinate off
-/// the surface it was computed for.
+/// Bound on the distance of a computed point from its surface, in units in the last place of the
+/// largest coordinate.
 ///
 /// The longest chain (a point on a parallelogram, whose normal is rounded as well) takes about 20
-/// roundings. Larger, and cracks narrower than that are passed over, which nothing can see before
-/// thousands; smaller, and coincident surfaces begin to shade each other in speckles.
+/// roundings. If larger, rays pass over cracks narrower than the bound, which become visible only
+/// at thousands. If smaller, coincident surfaces begin to shade each other in speckles.
 const ROUNDINGS: f64 = 64.0;
 
-/// So many for an eye, whose place is given and not computed. Larger, and a floor of 1e15 units is
-/// not seen from a unit above it.
+/// The bound for an eye, whose position is given and not computed. If larger, an eye one unit above
+/// a floor of 1e15 units does not see the floor.
 const EYE_ROUNDINGS: f64 = 4.0;
 
-/// What finds the pieces that a ray may meet. All give the same picture, byte for byte. The name of
-/// a structure on the command line and in JSON is that of the variant; the attribute `help` is the
-/// text of `--help`.
+/// A structure that finds the pieces which a ray may meet. All structures give the same picture,
+/// byte for byte. The name of a structure on the command line and in JSON is that of the variant;
+/// the attribute `help` is the text of `--help`.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, ValueEnum)]
 #[serde(rename_all = "lowercase")]
 pub enum Structure {
@@ -69,7 +72,7 @@ pub enum Structure {
     /// The thesis's uniform grid for each object (5.2).
     #[value(help = "A uniform grid for each object, as in the thesis")]
     Grid,
-    /// None: every ray tries every piece.
+    /// No structure: every ray tries every piece.
     #[value(help = "Nothing: every ray tries every triangle")]
     None,
 }
@@ -79,18 +82,18 @@ impl Structure {
     pub const ALL: [Self; 3] = [Self::Bvh, Self::Grid, Self::None];
 }
 
-/// The shapes of a scene, ready for rays.
+/// The shapes of a scene, prepared for rays.
 #[derive(Debug)]
 pub struct Accel<'a> {
     shapes: Vec<&'a Shape>,
     apart: Vec<Leaf>,
     index: Index,
     leaves: Vec<Leaf>,
-    /// The boxes of shapes that are one piece; none for meshes and for planes.
+    /// Boxes of shapes that are one piece; `None` for meshes and planes.
     bounds: Vec<Option<[DVec3; 2]>>,
-    /// The largest coordinate that each shape's points are computed from, without its sign.
+    /// The largest absolute coordinate from which each shape's points are computed.
     extents: Vec<f64>,
-    /// The largest of them.
+    /// The largest of the extents.
     extent: f64,
 }
 
@@ -103,7 +106,7 @@ enum Index {
 }
 
 impl<'a> Accel<'a> {
-    /// Gets the shapes ready; the index of a shape becomes [`Piece::object`].
+    /// Prepares the shapes; the index of a shape becomes [`Piece::object`].
     #[must_use]
     pub fn build(shapes: Vec<&'a Shape>, structure: Structure) -> Self {
         let mut apart = Vec::new();
@@ -139,12 +142,12 @@ impl<'a> Accel<'a> {
             [all[0].min(b[0]), all[1].max(b[1])]
         });
         let limit = OUTSIZED * (whole[1] - whole[0]).max_element();
-        let mut room = MOST_APART.saturating_sub(apart.len());
+        let mut free = MOST_APART.saturating_sub(apart.len());
         bounded.retain(|(leaf, [low, high])| {
-            let outsized = room > 0 && (*high - *low).max_element() > limit;
+            let outsized = free > 0 && (*high - *low).max_element() > limit;
             if outsized {
                 apart.push(*leaf);
-                room -= 1;
+                free -= 1;
             }
             !outsized
         });
@@ -169,7 +172,7 @@ impl<'a> Accel<'a> {
         Self { shapes, apart, index, leaves, bounds, extents, extent }
     }
 
-    /// Memory in bytes: the structure, and the copies of triangles that it leads to.
+    /// Memory in bytes of the structure and of its copies of triangles.
     #[must_use]
     pub fn bytes(&self) -> usize {
         let index = match &self.index {
@@ -180,7 +183,7 @@ impl<'a> Accel<'a> {
         index + size_of_val(&*self.leaves)
     }
 
-    /// How many boxes were looked at to build the structure, each time counted.
+    /// Number of boxes examined to build the structure; a box counts each time it is examined.
     #[must_use]
     pub fn looks(&self) -> u64 {
         match &self.index {
@@ -190,8 +193,8 @@ impl<'a> Accel<'a> {
         }
     }
 
-    /// Returns the hit that is seen among those with `t` up to `t_max`: the nearest, and of equally
-    /// near ones the first by [`Piece`].
+    /// Returns the visible hit among those with `t` up to `t_max`: the nearest, and among equally
+    /// near hits the first by [`Piece`].
     #[must_use]
     pub fn closest(&self, ray: &Ray, t_max: f64) -> Option<Hit> {
         let mut best: Option<Hit> = None;
@@ -204,7 +207,7 @@ impl<'a> Accel<'a> {
         best
     }
 
-    /// Returns whether `test` accepts a hit nearer than `t_max`. Shows the hits to `test` in no
+    /// Returns whether `test` accepts a hit nearer than `t_max`. Calls `test` with the hits in no
     /// particular order until it accepts one. A test that accepts none sees all of them.
     pub fn any(&self, ray: &Ray, t_max: f64, mut test: impl FnMut(Hit) -> bool) -> bool {
         let mut found = false;
@@ -224,8 +227,8 @@ impl<'a> Accel<'a> {
     }
 
     /// Finds for several rays, each given with its `t_max`, whether `test` accepts a hit. The
-    /// results are those of [`Accel::any`] for each ray. `test` also gets the index of the ray;
-    /// hits of different rays may come in any order. `found` has one element for each ray.
+    /// results are those of [`Accel::any`] for each ray. `test` also gets the index of the ray; the
+    /// hits of different rays may alternate. `found` has one element for each ray.
     pub fn any_of(
         &self,
         rays: &[(Ray, f64)],
@@ -237,35 +240,36 @@ impl<'a> Accel<'a> {
         }
     }
 
-    /// The surface point of a hit of `ray`.
+    /// Returns the surface point of a hit of `ray`.
     #[must_use]
     pub fn surface_point(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         let shape = self.shapes[hit.piece.object as usize];
         shape.surface_point(hit.piece.triangle, hit.barycentric, ray.at(hit.t))
     }
 
-    /// Returns the unit normal of the surface itself at a hit of `ray`: that of
-    /// [`Accel::surface_point`], without the rest.
+    /// Returns the unit normal of the surface at a hit of `ray`: that of [`Accel::surface_point`],
+    /// without computing the other values.
     #[must_use]
     pub fn geometric_normal(&self, ray: &Ray, hit: &Hit) -> DVec3 {
         let shape = self.shapes[hit.piece.object as usize];
         shape.geometric_normal(hit.piece.triangle, ray.at(hit.t))
     }
 
-    /// How far a point that was computed for a surface of this object may lie off it.
+    /// Returns a bound on the distance of a computed point of this object from its surface, in
+    /// scene units.
     #[must_use]
     pub fn rounding(&self, object: u32, point: DVec3) -> f64 {
         let largest = self.extents[object as usize] + point.abs().max_element();
         ROUNDINGS * f64::EPSILON * largest
     }
 
-    /// Which of its object's surfaces a hit is on.
+    /// Returns the number of the surface within its object on which a hit lies.
     #[must_use]
     pub fn part(&self, hit: &Hit) -> u32 {
         self.shapes[hit.piece.object as usize].part(hit.piece.triangle)
     }
 
-    /// Shows `see` hits up to the distance it last returned, which starts as `t_max`.
+    /// Calls `see` with hits up to the distance that it last returned, initially `t_max`.
     #[inline]
     fn walk(&self, ray: &Ray, mut t_max: f64, mut see: impl FnMut(Hit) -> f64) {
         let probe = Probe::new(self, ray);
@@ -307,7 +311,7 @@ mod tests {
     }
 
     proptest! {
-        /// Rays that are traced together see what each of them sees alone.
+        /// Rays that are traced together find the hits that each finds alone.
         #[test]
         fn a_slice_of_rays_is_traced_as_one_by_one(
             centers in prop::collection::vec(place(), 1..20),
@@ -332,8 +336,8 @@ mod tests {
             }
         }
 
-        /// What the structures promise, without any hit function: the boxes that a ray crosses
-        /// before `t_max`, and no box twice.
+        /// Every structure visits the boxes that a ray crosses before `t_max`, and no box twice.
+        /// The test calls no hit function.
         #[test]
         fn every_box_that_a_ray_crosses_is_given_once(
             boxes in prop::collection::vec((place(), place()), 1..200),
@@ -341,7 +345,7 @@ mod tests {
             nudge in prop::sample::select(vec![0.0, 1e-16, -1e-16, 1e-9]),
         ) {
             let boxes: Vec<_> = boxes.into_iter().map(|(a, b)| {
-                // Small ones, many of them flat.
+                // Many small boxes, some of them flat.
                 let b = a + 0.25 * (b - a);
                 [a.min(b), a.max(b)]
             }).collect();

@@ -1,44 +1,46 @@
 //! Rays against boxes along the axes.
 //!
-//! The hit function and every structure use this one test, and it is monotone: each step of it
-//! rounds, but rounding keeps order, so a ray crosses a box for at least as long as any box inside
-//! it. A structure therefore never loses a piece whose own box the ray crosses.
+//! The hit function and every structure use this one test. The test is monotone: each of its steps
+//! rounds, but rounding keeps order. A ray therefore crosses a box for at least as long as any box
+//! inside it, and a structure never loses a piece whose own box the ray crosses.
 //!
-//! The triangle test works on coordinates relative to the ray's origin and is off by their
-//! rounding, so a ray that misses a box by that much may still hit what is in it. Boxes are
-//! therefore widened, for each ray, by a bound on it.
+//! The triangle test works on coordinates relative to the ray's origin and is inexact by their
+//! rounding. A ray that misses a box by this error may still hit a triangle in the box. Boxes are
+//! therefore widened, for each ray, by a bound on the error.
 
 use glam::DVec3;
 
 /// A ray prepared for tests against boxes.
 #[derive(Debug, Clone, Copy)]
 pub struct SlabRay {
-    /// Where it starts.
+    /// Start of the ray.
     pub origin: DVec3,
-    /// Where it goes; unit.
+    /// Direction of the ray, a unit vector.
     pub direction: DVec3,
-    /// One over the direction; where that is zero, huge and of its sign.
+    /// One over the direction; where a component is zero, a huge number of its sign.
     pub inverse: DVec3,
-    /// The largest coordinate of the origin and of all boxes together: what roundings are parts of.
+    /// The largest absolute coordinate of the origin and of all boxes. Roundings are parts of it.
     pub scale: f64,
-    /// The origin moved up and down by the widening, which is the same as widening every box.
+    /// The origin moved up and down by the widening, which is equivalent to widening every box.
     above: DVec3,
     below: DVec3,
 }
 
 impl SlabRay {
-    /// Components of a direction up to this size are taken for zero: their inverse would overflow.
+    /// Components of a direction up to this size are treated as zero, since their inverse would
+    /// overflow.
     pub const ZERO: f64 = 1e-300;
 
-    /// The ray for boxes whose coordinates are `extent` at most, without their sign.
+    /// Prepares the ray for boxes whose absolute coordinates are at most `extent`.
     #[must_use]
     pub fn new(origin: DVec3, direction: DVec3, extent: f64) -> Self {
-        // A zero component becomes a huge finite inverse: no product is NaN, even on a box's face.
+        // A zero component gets a huge finite inverse: no product is NaN, even on a box's face.
         let invert =
             |d: f64| if d.abs() > Self::ZERO { 1.0 / d } else { Self::ZERO.recip().copysign(d) };
         let inverse = DVec3::new(invert(direction.x), invert(direction.y), invert(direction.z));
         let scale = origin.abs().max_element() + extent;
-        // Shearing rounds each coordinate four times; twice that, and the box test's own three.
+        // Shearing rounds each coordinate four times. The bound is twice that, and three roundings
+        // of the box test.
         let widening = 16.0 * f64::EPSILON * scale;
         let (above, below) = (origin + widening, origin - widening);
         Self { origin, direction, inverse, scale, above, below }
@@ -51,8 +53,8 @@ impl SlabRay {
         64.0 * f64::EPSILON * self.scale
     }
 
-    /// Where the ray enters the box and where it leaves it, from its start on; nothing if it does
-    /// not meet it.
+    /// Returns the distances at which the ray enters and leaves the box, from its start on, or
+    /// `None` if the ray does not meet it.
     #[must_use]
     pub fn crosses(&self, [low, high]: [DVec3; 2]) -> Option<[f64; 2]> {
         let low = (low - self.above) * self.inverse;

@@ -1,8 +1,8 @@
 //! Collapses a binary tree of boxes into one whose nodes have up to four children.
 //!
-//! A ray tests the four boxes of a node at once. This costs little more than a test of two, and
-//! takes the place of up to three. Dammertz, Hanika, Keller: *Shallow Bounding Volume Hierarchies
-//! for Fast SIMD Ray Tracing of Incoherent Rays*, Computer Graphics Forum 27(4), 2008.
+//! A ray tests the four boxes of a node at once. This costs little more than a test of two boxes,
+//! and replaces up to three such tests. Dammertz, Hanika, Keller: *Shallow Bounding Volume
+//! Hierarchies for Fast SIMD Ray Tracing of Incoherent Rays*, Computer Graphics Forum 27(4), 2008.
 
 use super::build::Bounds;
 use super::bvh::{Child, Pair};
@@ -14,21 +14,21 @@ pub const WIDTH: usize = 4;
 /// The children of a node, and their boxes.
 #[derive(Debug, Clone, Copy)]
 pub struct Group {
-    /// Along each axis the lower sides of all boxes, and then the upper ones. No ray crosses a box
-    /// that is not used: its lower sides are at infinity, and its upper sides at minus infinity.
+    /// Along each axis the lower sides of all boxes, then the upper ones. An unused box has its
+    /// lower sides at infinity and its upper sides at minus infinity, so that no ray crosses it.
     pub sides: [[Vec4; 2]; 3],
     /// The children.
     pub children: [Child; WIDTH],
 }
 
-/// A group in work: its children and their boxes.
+/// A group under construction: its children and their boxes.
 struct Members {
     members: [(Child, Bounds); WIDTH],
     count: usize,
 }
 
 impl Members {
-    /// Begins with a pair and replaces the largest child that is no leaf by its own two children,
+    /// Starts with a pair. Replaces the largest child that is no leaf by its own two children,
     /// until the group is full.
     fn of(pair: &Pair, pairs: &[Pair]) -> Self {
         let nothing = Bounds { low: Vec3A::INFINITY, high: Vec3A::NEG_INFINITY };
@@ -50,7 +50,7 @@ impl Members {
         self.count = self.count.max(at + 1);
     }
 
-    /// The child with the largest box that is no leaf.
+    /// Returns the index of the child with the largest box that is no leaf.
     fn largest(&self) -> Option<usize> {
         let area = |k: &usize| self.members[*k].1.half_area();
         let inner = (0..self.count).filter(|&k| self.members[k].0.count == 0);
@@ -74,7 +74,7 @@ pub fn collapsed(root: Child, pairs: &[Pair]) -> (Child, Vec<Group>) {
     if root.count > 0 {
         return (root, groups);
     }
-    // Pairs that still become groups, each with the group and the child that lead to it.
+    // Pairs that are not grouped yet, each with the group and the child that lead to it.
     let mut open: Vec<(u32, Option<(usize, usize)>)> = vec![(root.first, None)];
     while let Some((pair, parent)) = open.pop() {
         let members = Members::of(&pairs[pair as usize], pairs);
@@ -82,7 +82,7 @@ pub fn collapsed(root: Child, pairs: &[Pair]) -> (Child, Vec<Group>) {
         if let Some((group, child)) = parent {
             groups[group].children[child].first = number as u32;
         }
-        // The first child is grouped next, so that it lies beside its parent.
+        // The first child is grouped next and therefore lies beside its parent.
         for k in (0..members.count).rev() {
             let (child, _) = members.members[k];
             if child.count == 0 {

@@ -16,13 +16,13 @@ pub struct SamplingArguments {
     /// Rays along each side of a pixel: N times N in each, N from 1 to 256
     #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_SAMPLES)))]
     samples: u32,
-    /// Where in its part of the pixel each ray goes
+    /// Position of each ray in its part of the pixel
     #[arg(long, value_name = "PATTERN", default_value = "regular")]
     pattern: PatternName,
-    /// Which jitter: a whole number from 0 to 2^64 - 1 [default: 0]
+    /// Seed of the jitter: a whole number from 0 to 2^64 - 1 [default: 0]
     #[arg(long, value_name = "S")]
     seed: Option<u64>,
-    /// What the rays of a pixel count for
+    /// Weights of the rays of a pixel
     #[arg(long, value_name = "SHAPE", default_value = "box")]
     pixel_filter: PixelFilter,
     /// In place of --samples: twice the size, of which each pixel takes its middle with weight 1/4,

@@ -9,7 +9,7 @@ use render::stats::Stats;
 
 #[derive(Debug, Args)]
 pub struct WorkArguments {
-    /// What finds the surfaces that rays hit; the picture is the same
+    /// Structure that finds the surfaces that rays hit; the picture is the same
     #[arg(long, value_name = "STRUCTURE", default_value = "bvh")]
     pub accel: Structure,
     /// Worker threads, 1 to 1024 [default: one for each core]
@@ -43,7 +43,7 @@ impl WorkArguments {
         pool.map_err(|error| UseError::Threads(threads, error))
     }
 
-    /// Prints the statistics that `--stats` asks for, and warns of pixels that are not finite.
+    /// Prints the statistics that `--stats` requests, and warns of pixels that are not finite.
     pub fn print_stats(&self, stats: &Stats) {
         if stats.not_finite > 0 {
             let count = stats.not_finite;

@@ -45,7 +45,7 @@ impl Crop {
         ends(self.x, self.width, width) && ends(self.y, self.height, height)
     }
 
-    /// Returns the rectangle that `settings` ask to render.
+    /// Returns the rectangle that `settings` select.
     #[must_use]
     pub fn of(settings: &Settings) -> Self {
         settings.crop.unwrap_or(Self::whole(settings.width, settings.height))

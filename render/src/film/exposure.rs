@@ -123,7 +123,7 @@ impl Exposure<'_> {
         }
     }
 
-    /// Exposes a rectangle of pixels by the method that the settings ask for.
+    /// Exposes a rectangle of pixels by the method that the settings choose.
     pub fn expose<W: Witness>(&self, tile: &Crop, witness: &mut W) -> Exposed {
         let pixels = tile.width as usize * tile.height as usize;
         let channels = self.settings.layers.iter().map(|layer| layer.channels().len()).sum();

@@ -1,4 +1,4 @@
-//! The memory that a picture takes, worked out from sizes before anything of it is made.
+//! The memory that a picture takes, computed from sizes before any of it is allocated.
 
 use super::encode::Format;
 use super::{Crop, Layer, Settings};
@@ -6,18 +6,18 @@ use crate::filter::Filter;
 use crate::scene::Scene;
 use files::memory::{Budget, MemoryError, Reserved};
 
-/// Bytes a triangle, an estimate: a mesh with vertices of its own (88), what finds hits (about 130, and
-/// about as much again while it is built), and charts, which textured meshes have.
+/// Bytes per triangle, an estimate. A mesh with its own vertices takes 88 bytes. The structure
+/// takes about 130, and about as much again while it is built. Textured meshes also have charts.
 const OF_TRIANGLE: u64 = 600;
 
-/// Takes the memory for a scene that was read and for its picture: textures, their tables or pyramids
-/// where some surface shows them, meshes and what finds hits, the pixels with all layers, and the file
-/// of the given format, if one is made.
+/// Reserves the memory for a scene that was read and for its picture: textures, the tables or
+/// pyramids of those that some surface shows, meshes, and the structure that finds hits. The
+/// picture takes its pixels with all layers and, if it is written, the file of the given format.
 ///
-/// Work for single rays and tiles is not in it; it is small.
+/// Temporary memory for single rays and tiles is not included; it is small.
 ///
 /// # Errors
-/// With the first of these for which there is no memory beside the others.
+/// With the first of these for which no memory is left beside the others.
 pub fn reserve<'b>(
     scene: &Scene,
     settings: &Settings,
@@ -38,11 +38,11 @@ pub fn reserve<'b>(
     Ok(reserved)
 }
 
-/// Takes the memory for the tables or pyramids of one filter, which a prepared scene keeps for the
-/// pictures that follow.
+/// Reserves the memory for the tables or pyramids of one filter. A prepared scene keeps them for
+/// the pictures that follow.
 ///
 /// # Errors
-/// With the first texture for whose table there is no memory.
+/// With the first texture for whose table no memory is left.
 pub fn reserve_tables<'b>(
     scene: &Scene,
     filter: Filter,
@@ -53,7 +53,8 @@ pub fn reserve_tables<'b>(
     Ok(reserved)
 }
 
-/// Takes the memory for the tables or pyramids of one filter: of the textures that some surface shows.
+/// Reserves the memory for the tables or pyramids of one filter, for the textures that some surface
+/// shows.
 fn add_tables(
     reserved: &mut Reserved<'_>,
     scene: &Scene,
@@ -70,20 +71,21 @@ fn add_tables(
     Ok(())
 }
 
-/// Bytes a pixel with this many numbers besides its colour, the making of its file included.
+/// Returns the bytes per pixel with this many numbers besides its colour, including the encoding of
+/// its file.
 #[must_use]
 pub fn of_pixel(channels: usize, format: Option<Format>) -> u64 {
     let linear = 12 + 4 * channels as u64;
     match format {
         None => linear,
-        // Bytes of three channels, once as a picture and at most twice as a growing file.
+        // Three channels, one byte each: once as a picture and at most twice as a growing file.
         Some(Format::Png) => linear + 3 * 3,
-        // The channels sorted, and a file that compression may not make smaller.
+        // The sorted channels, and a file that compression may not make smaller.
         Some(Format::Exr) => 3 * linear,
     }
 }
 
-/// A picture in words.
+/// Returns a description of a picture, for messages.
 fn of_size(crop: &Crop, layers: &[Layer]) -> String {
     let size = format!("a picture of {}x{} pixels", crop.width, crop.height);
     match layers.len() {

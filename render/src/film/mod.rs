@@ -240,7 +240,7 @@ mod tests {
     fn the_picture_does_not_depend_on_how_it_is_cut_into_tiles() {
         let scene = scene();
         let prepared = Prepared::new(&scene);
-        for settings in every_way() {
+        for settings in every_kind() {
             let cut = |side| render_in_tiles(&prepared, &settings, side, &|_, _| {}).0;
             let whole = cut(1000);
             for side in [1, 10, 64] {
@@ -252,7 +252,7 @@ mod tests {
     #[test]
     fn a_crop_is_that_part_of_the_whole() {
         let scene = scene();
-        for settings in every_way() {
+        for settings in every_kind() {
             let (whole, _) = render(&Prepared::new(&scene), &settings, &|_, _| {});
             for crop in [
                 Crop { x: 0, y: 0, width: 1, height: 1 },
@@ -281,7 +281,7 @@ mod tests {
     }
 
     /// Settings of every kind.
-    fn every_way() -> Vec<Settings> {
+    fn every_kind() -> Vec<Settings> {
         let grid =
             |samples, pattern, pixel_filter| Sampling::Grid { samples, pattern, pixel_filter };
         let jitter = Pattern::Jitter { seed: 5 };

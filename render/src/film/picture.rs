@@ -12,7 +12,7 @@ pub struct Picture {
     pub height: u32,
     /// Pixels row by row from the top, linear RGB in the `f32` of an EXR file.
     pub pixels: Vec<[f32; 3]>,
-    /// Channels of the layers that were asked for.
+    /// Channels of the requested layers.
     pub channels: Vec<Channel>,
 }
 

@@ -37,23 +37,23 @@ pub enum Sampling {
 ///
 /// A new pixel filter provides, and the compiler leads to each `match`:
 ///
-/// - its range of samples ([`Sampling::under`]) and its weights ([`Sampling::weight`]): products of
-///   whole numbers along both axes, none negative, whose sum over a pixel is [`Sampling::whole`]
-///   along each axis;
+/// - in `lattice/mod.rs` its range of samples (`Lattice::under`) and its weights (`Lattice::weight`):
+///   products of whole numbers along both axes, none negative, whose sum over a pixel is
+///   `Lattice::whole` along each axis;
 /// - a weight in a mirrored column that equals the weight in the column itself;
 /// - if it needs more than one sample, a complaint in `cli/sampling.rs` and in pipeline's `job/mode.rs`;
-/// - tests: the three tests below take the filter from `all()`; a constant picture stays constant.
+/// - tests: an entry in `all()` of the tests of `lattice/mod.rs`; a constant picture stays constant.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, ValueEnum)]
 #[serde(rename_all = "snake_case")]
 pub enum PixelFilter {
     /// Equal weights for the samples in the pixel, and none for others.
     #[default]
-    #[value(help = "Those in the pixel, equally")]
+    #[value(help = "Equal weights for the rays in the pixel")]
     Box,
     /// A tent that reaches to the middles of the neighbouring pixels. With one sample in each pixel
     /// the tent covers only the pixel's own sample.
     #[value(
-        help = "By a tent that reaches to the middles of the neighbouring pixels; N is at least 2 for it"
+        help = "A tent that reaches to the middles of the neighbouring pixels; N is at least 2 for it"
     )]
     Tent,
 }

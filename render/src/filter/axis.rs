@@ -69,13 +69,13 @@ pub const WIDEST_CLAMPED: f64 = 4.0;
 /// One axis of a filter: the points at which it reads the table, and their weights.
 #[derive(Debug, Clone, Copy)]
 pub struct Axis {
-    /// How the entries are reduced to small integers.
+    /// Reduction of the entries to small integers.
     pub reduce: Reduce,
     /// Integer parts `i_k` of the points. Each point uses the entries `i_k` to `i_k + n`.
     pub points: [i64; MOST_POINTS],
     /// One weight for each reduced integer in use.
     pub weights: [f64; MOST_REDUCED],
-    /// Whether all entries are stored in the table, so that none has to be continued.
+    /// True if all entries are stored in the table, so that none has to be continued.
     pub plain: bool,
     /// The table's axis.
     pub line: Line,

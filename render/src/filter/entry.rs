@@ -32,7 +32,7 @@ pub struct Line {
     pub n: usize,
     /// Number of texels along the axis. The table has `n` entries more.
     pub size: i64,
-    /// How the texture continues beyond its edges.
+    /// Continuation of the texture beyond its edges.
     pub wrap: Wrap,
 }
 
@@ -43,7 +43,7 @@ pub struct Entry {
     pub index: usize,
     /// 1, -1, or 0.
     pub sign: i8,
-    /// Whether the entries at the ends contribute too.
+    /// True if the entries at the ends contribute too.
     pub goes_on: bool,
     /// Factor of each of the entries [`Line::ends`].
     pub factors: [i128; MOST_ENDS],

@@ -157,7 +157,7 @@ mod tests {
         assert_eq!(next.branch(), Branch::Background(0));
     }
 
-    /// Shading cannot tell one ray from nine but by the footprint.
+    /// Shading one ray and shading nine rays differ only in the footprint.
     #[test]
     fn a_single_ray_walks_as_the_middle_of_nine() {
         let trees = grid(|_| 0, |x, y| DVec2::new(0.5 + 0.1 * x, 0.5 + 0.1 * y));

@@ -57,9 +57,9 @@ struct Recorder<'a> {
     pixel: (u32, u32),
     all: bool,
     text: String,
-    /// Whether the current sample is printed.
+    /// True while the current sample is printed.
     wanted: bool,
-    /// How each open branch continues its parent, from the root on; `None` for the root.
+    /// Role of each open branch in its parent, from the root on; `None` for the root.
     open: Vec<Option<Child>>,
     /// For each open branch, the text of its finished children.
     branches: Vec<String>,
@@ -96,9 +96,9 @@ impl Observer for Recorder<'_> {
         if !self.wanted {
             return;
         }
-        let (Some(way), Some(below)) = (self.open.pop(), self.branches.pop()) else { return };
+        let (Some(role), Some(below)) = (self.open.pop(), self.branches.pop()) else { return };
         let depth = self.open.len();
-        let way = match way {
+        let role = match role {
             None => "from the eye",
             Some(Child::Reflected) => "reflected",
             Some(Child::Refracted) => "refracted",
@@ -106,7 +106,7 @@ impl Observer for Recorder<'_> {
         let margin = " ".repeat(STEP * (depth + 1));
         let mut lines = node::lines(self.scene, seen).into_iter();
         let first = lines.next().unwrap_or_default();
-        let mut text = format!("{margin}{depth} {way}: {first}\n");
+        let mut text = format!("{margin}{depth} {role}: {first}\n");
         for line in lines {
             // Writing to a string does not fail.
             let _ = writeln!(text, "{margin}  {line}");

@@ -75,7 +75,8 @@ fn named(names: &[String], index: usize) -> String {
         .map_or_else(|| index.to_string(), |name| format!("\"{}\"", files::words::shown(name)))
 }
 
-/// Describes the part of its texture that a node sees, or why it sees a point.
+/// Describes the part of its texture that a node sees, or the reason for which the node sees a
+/// point.
 fn footprint<S: Sight>(
     scene: &Scene,
     sight: &S,
@@ -102,7 +103,7 @@ fn footprint<S: Sight>(
     )
 }
 
-/// Describes why a node sees a point.
+/// Describes the reason for which a node sees a point.
 fn point(scene: &Scene, reason: PointReason<'_>) -> String {
     match reason {
         PointReason::Alone => "sees a point, as the filter asks".into(),

@@ -7,8 +7,8 @@
 //! differ only in their outlines. The thesis's own perturbation, `dnoise`, is added unchanged.
 //!
 //! The slopes of a bump determine its shading. Slopes of trilinear noise jump at the faces of its
-//! cells, which appear as creases. Bumps are therefore interpolated smoothly unless linear
-//! interpolation is asked for.
+//! cells, which appear as creases. Bumps are therefore interpolated smoothly unless the scene
+//! requests linear interpolation.
 
 use super::heights::Heights;
 use super::noise::Noise;

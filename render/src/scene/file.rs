@@ -65,7 +65,7 @@
 //! | an object's shape | keys | its texture |
 //! |---|---|---|
 //! | `sphere` | `center`, `radius` | a map: longitude from -z over +z, latitude from -y to +y |
-//! | `rectangle` | `corner`, `edge_u`, `edge_v` | `repeat` times, default once each way |
+//! | `rectangle` | `corner`, `edge_u`, `edge_v` | `repeat` times, default once across and once up |
 //! | `plane` | `point`, `edge_u`, `edge_v` | once on the parallelogram, continued over the plane |
 //! | `box` | `low`, `high`, two corners | once on each face, upright on the four sides |
 //! | `superquadric` | `center`, `radii`, `exponents`, `ring` | as on a sphere; around the tube of a ring |

@@ -11,7 +11,8 @@ use glam::DVec3;
 ///   arrives at a point. The light that arrives is finite, also at the light's own position;
 /// - its key in scene files: a variant of [`LightFile`](crate::scene::file::LightFile), and the check
 ///   of each range in `scene/read/lights.rs`;
-/// - a line of `--check` (`scene/check/inventory.rs`), and whether it can be shut in (`check/lights.rs`);
+/// - a line of `--check` (`scene/check/inventory.rs`), and a test whether an object encloses it
+///   (`check/lights.rs`);
 /// - the start of its shadow rays (`shade/shadow.rs`, `trace/volume.rs`). A light with a size also needs a
 ///   sample number in `Shader::shade`, which today has none;
 /// - tests: a closed form of the light on a plane (`render/tests/light.rs`), and its complaints

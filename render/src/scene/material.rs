@@ -30,8 +30,8 @@ pub struct Material {
     pub transparency: f64,
     /// Index of refraction of the inside, 0.1 to 10. The index of air is 1.
     pub index_of_refraction: f64,
-    /// Whether the reflected weight is multiplied by Fresnel's reflectance, and the refracted weight
-    /// by the rest.
+    /// True if the reflected weight is multiplied by Fresnel's reflectance, and the refracted
+    /// weight by the rest.
     pub fresnel: bool,
     /// Index of the bump that perturbs the normals, in the scene's `procedural.bumps`.
     pub bump: Option<usize>,

@@ -35,8 +35,8 @@ pub struct Shader<'a> {
     /// Texture coordinate charts of each object, by object index. They are empty unless
     /// [`Shader::wants_area`].
     pub charts: &'a [Charts],
-    /// Whether footprints are areas: the filter averages over areas, and a surface shows a texture.
-    /// If not, a sampling method needs no rays near those that are shaded.
+    /// True if footprints are areas: the filter averages over areas, and a surface shows a texture.
+    /// Otherwise a sampling method needs no rays near those that are shaded.
     pub wants_area: bool,
     /// The scene's closed volumes, which bend and absorb light.
     pub volumes: &'a Volumes,

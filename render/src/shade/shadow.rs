@@ -1,4 +1,4 @@
-//! How much of a light reaches a point (thesis 4.5.2).
+//! Traces shadow rays: the part of each light that reaches a point (thesis 4.5.2).
 
 use super::Shader;
 use crate::color::Color;
@@ -8,8 +8,8 @@ use crate::trace::medium::{Media, Medium};
 use crate::trace::tree::Node;
 use glam::DVec3;
 
-/// A boundary of a volume between a point and a light: how far from the point, whose, and whether
-/// the way to the light leaves the volume there.
+/// A boundary of a volume between a point and a light: its distance from the point, the volume, and
+/// whether a ray toward the light leaves the volume there.
 type Crossing = (f64, Medium, bool);
 
 /// A light that shines on the front of a surface.
@@ -35,11 +35,11 @@ pub struct Shadows {
     lights: Vec<Facing>,
     /// For each ray, the transmittance to its light.
     transmittance: Vec<Color>,
-    /// For each ray, whether an opaque surface is hit.
+    /// For each ray, true if it hits an opaque surface.
     blocked: Vec<bool>,
-    /// For each ray, whether any surface is hit.
+    /// For each ray, true if it hits any surface.
     met: Vec<bool>,
-    /// Transparent surfaces that are hit: ray, object and part.
+    /// Transparent surfaces that rays hit: ray, object and part.
     crossed: Vec<(usize, u32, u32)>,
     crossings: Vec<Crossing>,
     hits: Vec<Hit>,
@@ -57,9 +57,9 @@ impl Shadows {
     pub fn add(&mut self, scene: &Scene, node: &Node, facing: Facing) {
         let (direction, distance) = match scene.lights[facing.light] {
             Light::Point(PointLight { position, .. }) => {
-                let way = position - node.position;
-                let distance = way.length();
-                (way / distance, distance)
+                let toward = position - node.position;
+                let distance = toward.length();
+                (toward / distance, distance)
             }
             Light::Directional(light) => (light.toward, f64::INFINITY),
         };
@@ -67,8 +67,8 @@ impl Shadows {
         self.lights.push(facing);
     }
 
-    /// The light of each ray, and the transmittance to it that [`Shader::trace_shadows`] found,
-    /// linear RGB, [0, 1] per channel.
+    /// Returns the light of each ray, and the transmittance to it that [`Shader::trace_shadows`]
+    /// found, linear RGB, [0, 1] per channel.
     pub fn results(&self) -> impl Iterator<Item = (&Facing, Color)> {
         self.lights.iter().zip(self.transmittance.iter().copied())
     }
@@ -77,11 +77,11 @@ impl Shadows {
 impl Shader<'_> {
     /// Finds for each ray of `shadows` the part of its light that reaches its start.
     ///
-    /// An opaque surface on the way takes all of it. A transparent one multiplies it by its
-    /// transparency, once however often the way crosses it; the way itself stays straight, as in the
-    /// thesis. What absorbs light does so along that straight way, by Beer's law: so a coloured
-    /// glass throws a coloured shadow, and a deep one a dark shadow. A surface that the light lies
-    /// on takes nothing. The way to a directional light has no end.
+    /// An opaque surface between the start and the light blocks all light. A transparent surface
+    /// multiplies the light by its transparency, once for each object and part, however often the
+    /// ray crosses it. The ray stays straight, as in the thesis. Volumes absorb light along the ray
+    /// by Beer's law: coloured glass casts a coloured shadow, and thick glass a dark one. A surface
+    /// on which the light itself lies blocks nothing. The ray to a directional light has no end.
     pub fn trace_shadows(&self, shadows: &mut Shadows) {
         let Self { scene, accel, .. } = *self;
         let Shadows { rays, lights, transmittance, blocked, met, crossed, .. } = shadows;
@@ -104,7 +104,7 @@ impl Shader<'_> {
             opaque
         };
         accel.any_of(rays, opaque, blocked);
-        // In the scene's order, so that the product does not depend on the order of the hits.
+        // The scene's order is used, so that the product does not depend on the order of the hits.
         crossed.sort_unstable();
         crossed.dedup();
         transmittance.clear();
@@ -139,12 +139,14 @@ impl Shader<'_> {
             + self.accel.rounding(from.object, position)
     }
 
-    /// Returns what the volumes between the start of ray `k` and its light leave of the light.
+    /// Returns the transmittance of the volumes between the start of ray `k` and its light, linear
+    /// RGB, [0, 1] per channel.
     fn absorbed(&self, k: usize, shadows: &mut Shadows) -> Color {
         let Self { scene, accel, volumes, .. } = *self;
         let (ray, distance) = shadows.rays[k];
         let Shadows { crossings, hits, media, .. } = shadows;
-        // From the point to the light, since a directional one has no place to begin at.
+        // Crossings are found from the point to the light, since a directional light has no
+        // position.
         crossings.clear();
         if shadows.met[k] {
             let (mut step, mut start) = (ray, 0.0);
@@ -162,17 +164,18 @@ impl Shader<'_> {
                 }
             }
         }
-        // Back from the light, as the light goes: what is around it is known.
+        // The media are followed from the light to the point, since the volumes around the light
+        // are known.
         media.start_in(&self.around_lights[shadows.lights[k].light]);
         let mut left = Color::ONE;
         let mut far = distance;
-        let mut pass = |medium: Option<u32>, way: f64| {
+        let mut pass = |medium: Option<u32>, length: f64| {
             if let Some(material) = medium {
-                left *= scene.materials[material as usize].transmittance(way);
+                left *= scene.materials[material as usize].transmittance(length);
             }
         };
         for &(near, own, leaves) in crossings.iter().rev() {
-            // What the way to the light leaves, the light enters.
+            // Light enters the volumes that a ray toward the light leaves.
             let boundary = media.boundary(own, !leaves, &scene.materials);
             pass(boundary.before, far - near);
             media.cross(own, !leaves, &scene.materials);
@@ -182,15 +185,16 @@ impl Shader<'_> {
         left
     }
 
-    /// Returns the closest hit of a ray that begins `start` from the point, if it lies before the
-    /// light at `distance`.
+    /// Returns the closest hit of a ray whose origin lies at distance `start` from the point, if
+    /// the hit lies before the light at `distance`.
     fn next_boundary(&self, ray: &Ray, start: f64, distance: f64) -> Option<Hit> {
-        // No hit farther than this passes the exact test, whatever its rounding.
+        // No hit beyond this distance passes the exact test below, whatever its rounding.
         let t_max = (distance - start) * (1.0 + 1e-9) + f64::EPSILON * start;
         self.accel.closest(ray, t_max).filter(|hit| start + hit.t < distance)
     }
 
-    /// Adds the boundaries of volumes on a ray that begins `start` from the point, up to the light.
+    /// Adds the boundaries of volumes on a ray whose origin lies at distance `start` from the
+    /// point, up to the light.
     fn cross_the_rest(
         &self,
         ray: &Ray,
@@ -215,13 +219,14 @@ impl Shader<'_> {
     }
 }
 
-/// A way to a light is followed from boundary to boundary so far; the rest is found at once.
+/// Largest number of boundaries that are found one after another on a shadow ray. The others are
+/// found by a single search.
 ///
-/// In volumes inside each other each step looks at all of them again. Larger, and thousands of such
-/// volumes take long; smaller, and boundaries in one place are no longer told apart from one as often.
+/// In nested volumes each step tests all volumes again. If larger, thousands of nested volumes take
+/// long. If smaller, more rays count coincident boundaries separately, which a step counts as one.
 const MOST_STEPS: usize = 1 << 6;
 
-/// Boundaries between a point and a light that are told apart at most: a bound on the work.
+/// Largest number of boundaries on a shadow ray that are counted, a bound on the work.
 const MOST_CROSSINGS: usize = 1 << 12;
 
 fn transparency(scene: &Scene, (object, part): (u32, u32)) -> f64 {

@@ -38,8 +38,9 @@ use glam::{DVec2, DVec3};
 ///   what a new key provides;
 /// - answers of `--check`: `contains` and `height` in `scene/check/solid.rs`, `None` where not computed;
 /// - tests: the nearest hit equals a closed form; `uv_gradients` equals differences (tests below);
-///   a ray that leaves the surface does not meet its start; hits lie within `bounds`; a placed shape
-///   equals the shape seen by a transformed ray (`placed.rs`); a scene in examples/ shows the shape.
+///   a ray that leaves the surface does not meet its start. Hits lie within `bounds`; a placed
+///   shape equals the shape seen by a transformed ray (`placed.rs`); a scene in examples/ shows the
+///   shape.
 #[derive(Debug, Clone)]
 pub enum Shape {
     /// A sphere.

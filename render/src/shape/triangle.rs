@@ -1,15 +1,15 @@
 //! The watertight ray-triangle test.
 //!
 //! Woop, Benthin, Wald: *Watertight Ray/Triangle Intersection*, JCGT 2(1), 2013. The triangle is
-//! sheared into a space where the ray runs along z; the three edge functions are then signed areas
-//! in the plane. Two triangles that share an edge compute that edge's function from the same two
-//! sheared points with the factors exchanged, so their results are exact opposites and no ray
-//! slips between them. Products are rounded one by one (no fused multiply-add) to keep that true,
-//! and an exactly zero edge function counts as inside on both sides.
+//! sheared into a space where the ray runs along z. The three edge functions are then signed areas
+//! in the plane. Two triangles that share an edge compute the function of that edge from the same
+//! two sheared points, with the factors exchanged. Their results are exact opposites, so no ray
+//! slips between the triangles. This holds only if products are rounded one by one (no fused
+//! multiply-add). An edge function of exactly zero counts as inside on both sides.
 
 use glam::DVec3;
 
-/// What the test needs of a ray, made once for many triangles.
+/// A ray prepared for tests against many triangles.
 #[derive(Debug, Clone, Copy)]
 pub struct ShearedRay {
     origin: DVec3,
@@ -17,9 +17,9 @@ pub struct ShearedRay {
     shear: [f64; 3],
 }
 
-/// The order of the axes after shearing: the direction's largest component comes last. The first
-/// two are exchanged where that component is negative. This keeps the winding, so that the sign of
-/// the area is the side.
+/// The order of the axes after shearing. The direction's largest component comes last. The first
+/// two axes are exchanged where that component is negative. The exchange keeps the winding, so that
+/// the sign of the area gives the side.
 #[derive(Debug, Clone, Copy)]
 enum Order {
     Xyz,
@@ -56,11 +56,11 @@ impl Order {
     }
 }
 
-/// Distance and the weights of the second and third corner.
+/// Distance of a hit in scene units, and the weights of the second and third corner.
 pub type TriangleHit = (f64, [f64; 2]);
 
 impl ShearedRay {
-    /// The ray that starts at `origin`; `direction` is unit.
+    /// Prepares the ray that starts at `origin`; `direction` is unit.
     #[must_use]
     pub fn new(origin: DVec3, direction: DVec3) -> Self {
         let order = Order::of(direction);
@@ -68,13 +68,13 @@ impl ShearedRay {
         Self { origin, order, shear: [x / z, y / z, 1.0 / z] }
     }
 
-    /// The hit with a distance above 0, from either side. Triangles of zero area as seen along the
-    /// ray are missed, and so are triangles whose corners all lie farther along the ray than
+    /// Returns the hit with a distance above 0, from either side. The test misses triangles of zero
+    /// area as seen along the ray, and triangles whose corners all lie farther along the ray than
     /// `limit`.
     #[must_use]
     #[inline]
     pub fn intersect(&self, corners: &[[f32; 3]; 3], limit: f64) -> Option<TriangleHit> {
-        // Axes that are known when the program is compiled save a third of the time.
+        // Constant axes save a third of the time.
         match self.order {
             Order::Xyz => self.intersect_in::<0, 1, 2>(corners, limit),
             Order::Yxz => self.intersect_in::<1, 0, 2>(corners, limit),
@@ -92,7 +92,7 @@ impl ShearedRay {
         limit: f64,
     ) -> Option<TriangleHit> {
         let from = |corner: [f32; 3], axis: usize| f64::from(corner[axis]) - self.origin[axis];
-        // Distances of the corners along the axis of depth, sheared and not.
+        // Distances of the corners along the axis of depth, before shearing.
         let depths = corners.map(|corner| from(corner, Z));
         let [az, bz, cz] = depths.map(|depth| self.shear[2] * depth);
         if (az > limit) & (bz > limit) & (cz > limit) {
@@ -114,7 +114,7 @@ impl ShearedRay {
         (t > 0.0).then_some((t, [weights[1], weights[2]]))
     }
 
-    /// Whether the ray starts within `skin` of the triangle's plane.
+    /// Returns whether the ray starts within `skin` of the triangle's plane, in scene units.
     #[must_use]
     pub fn starts_on(&self, corners: &[[f32; 3]; 3], skin: f64) -> bool {
         let [a, b, c] = corners.map(|corner| DVec3::from(corner.map(f64::from)) - self.origin);
@@ -123,17 +123,17 @@ impl ShearedRay {
     }
 }
 
-/// Whether two of a triangle's corners are equal.
+/// Returns whether two of a triangle's corners are equal.
 ///
 /// No ray meets such a triangle: two of its edge functions are exact opposites and the third is
-/// exactly zero, so that [`ShearedRay::intersect`] misses. Of three different corners in a line that
-/// does not hold: rounding leaves an area that a ray may meet.
+/// exactly zero, so that [`ShearedRay::intersect`] misses. A triangle of three different corners on
+/// a line may be met, since rounding leaves it an area.
 #[must_use]
 pub fn is_segment([a, b, c]: &[[f32; 3]; 3]) -> bool {
     a == b || b == c || c == a
 }
 
-/// Lower and upper corner of a triangle's box.
+/// Lower and upper corner of a triangle's bounding box.
 #[must_use]
 pub fn bounds(corners: &[[f32; 3]; 3]) -> [DVec3; 2] {
     let [a, b, c] = corners.map(|corner| DVec3::from(corner.map(f64::from)));
@@ -157,7 +157,7 @@ mod tests {
     }
 
     proptest! {
-        /// What is left out of every structure is what no ray meets.
+        /// The structures omit only triangles that no ray meets.
         #[test]
         fn no_ray_meets_a_triangle_of_two_corners(
             a in prop::array::uniform3(any::<f32>()), b in prop::array::uniform3(-1.0..1.0f32),

@@ -1,13 +1,15 @@
-//! What a ray is in: the volumes that it has entered and not left.
+//! The media of a ray: the volumes that it has entered and not left.
 //!
-//! A boundary lies between what the ray was in and what it comes into, so that glass filled with
-//! water bends light at their common boundary by the indices of both. Volumes may overlap: of those
-//! that a place lies in, the one with the highest [`Material::priority`] is there, and of equals the
-//! one that was entered last (after Schmidt and Budge, "Simple Nested Dielectrics in Ray Traced
-//! Images", 2002). A boundary of any other is hidden; rays pass it as if it were not there.
+//! A boundary lies between the medium before it and the medium behind it. Glass filled with water
+//! therefore bends light at their common boundary by the indices of both. Volumes may overlap. Of
+//! the volumes that contain a point, the one with the highest [`Material::priority`] is the medium
+//! there. Of equal priorities, the volume that was entered last is the medium (after Schmidt and
+//! Budge, "Simple Nested Dielectrics in Ray Traced Images", 2002). The boundaries of the other
+//! volumes are hidden, and rays pass them unchanged.
 //!
-//! Whether a ray enters or leaves is read off the side that it meets, and not off the list: so a
-//! crossing that was missed (at an edge, within rounding) is set right at the next one.
+//! The side of the surface that a ray meets decides whether the ray enters or leaves; the list does
+//! not. A crossing that was missed, at an edge or within rounding, is therefore corrected at the
+//! next crossing.
 
 use super::ranked::{Rank, Ranked};
 use crate::scene::Material;
@@ -16,27 +18,28 @@ use std::sync::Arc;
 /// The inside of an object.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Medium {
-    /// Which object, an index into the scene's.
+    /// Index of the object in the scene.
     pub object: u32,
-    /// What it is made of, an index into the scene's.
+    /// Index of the object's material in the scene.
     pub material: u32,
 }
 
-/// The volumes that a ray is in.
+/// The volumes that contain the current point of a ray.
 ///
-/// What a ray enters and leaves is written down, so that following one and coming back takes as many
-/// steps as it crossed boundaries, however many volumes there are.
+/// Each crossing is recorded and can be undone. Following a ray and returning takes as many steps
+/// as the ray crossed boundaries, however many volumes there are.
 #[derive(Debug, Clone, Default)]
 pub struct Media {
     inside: Ranked,
-    /// What the ray started in, shared with all that start there; nothing for free space.
+    /// The volumes around the ray's start, shared by all rays that start there; `None` for free
+    /// space.
     start: Option<Arc<Ranked>>,
     changes: Vec<Change>,
-    /// The order of the volume that is entered next.
+    /// Order of the volume that is entered next.
     next: u64,
 }
 
-/// A step to be taken back.
+/// A recorded crossing, which can be undone.
 #[derive(Debug, Clone, Copy)]
 enum Change {
     /// The volume of an object was entered.
@@ -45,23 +48,25 @@ enum Change {
     Left(Rank, Medium),
 }
 
-/// A state of [`Media`] to come back to: how many changes led to it.
+/// A state of [`Media`] to which it can return: the number of changes that led to it.
 #[derive(Debug, Clone, Copy)]
 pub struct Mark(usize);
 
 /// A surface between two media, as a ray meets it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Boundary {
-    /// What the ray came through, an index into the scene's materials; nothing for free space.
+    /// Material in front of the surface, an index into the scene's materials; `None` for free
+    /// space.
     pub before: Option<u32>,
-    /// What is behind the surface.
+    /// Material behind the surface, an index into the scene's materials; `None` for free space.
     pub behind: Option<u32>,
-    /// False when another volume hides it.
+    /// False if another volume hides the surface.
     pub seen: bool,
 }
 
 impl Boundary {
-    /// Index of refraction before over that behind: the thesis's eta.
+    /// Returns the index of refraction in front of the surface over the index behind it: the
+    /// thesis's eta.
     #[must_use]
     pub fn eta(&self, materials: &[Material]) -> f64 {
         let index = |side: Option<u32>| {
@@ -72,7 +77,7 @@ impl Boundary {
 }
 
 impl Media {
-    /// The media of a place that lies in these volumes, entered in this order.
+    /// Creates the media of a point that lies in these volumes, entered in this order.
     #[must_use]
     pub fn within(volumes: impl IntoIterator<Item = Medium>, materials: &[Material]) -> Self {
         let mut media = Self::default();
@@ -84,14 +89,14 @@ impl Media {
         media
     }
 
-    /// How many volumes there are.
+    /// Number of volumes.
     #[must_use]
     pub fn count(&self) -> usize {
         self.inside.len()
     }
 
-    /// Makes these the same volumes as `other`, which is of [`Media::within`], and keeps the memory.
-    /// Nothing is copied where the last ray started in the same.
+    /// Starts in the volumes of `other`, which was made by [`Media::within`], and keeps the memory.
+    /// Nothing is copied if the last ray started in the same volumes.
     pub fn start_in(&mut self, other: &Self) {
         self.back_to(Mark(0));
         let same = match (&self.start, &other.start) {
@@ -106,13 +111,13 @@ impl Media {
         self.next = other.next;
     }
 
-    /// The state now.
+    /// Returns the current state.
     #[must_use]
     pub fn mark(&self) -> Mark {
         Mark(self.changes.len())
     }
 
-    /// Goes back to an earlier state.
+    /// Returns to an earlier state.
     pub fn back_to(&mut self, mark: Mark) {
         for change in self.changes.drain(mark.0..).rev() {
             match change {
@@ -124,13 +129,14 @@ impl Media {
         }
     }
 
-    /// The material that the ray is in; nothing for free space.
+    /// Material at the current point of the ray; `None` for free space.
     #[must_use]
     pub fn current(&self) -> Option<u32> {
         self.inside.first().map(|(_, medium)| medium.material)
     }
 
-    /// The boundary of a closed volume, met from its inside or from outside.
+    /// Returns the boundary at the surface of a closed volume. `inside` is true if the ray meets
+    /// the surface from the inside.
     #[must_use]
     pub fn boundary(&self, own: Medium, inside: bool, materials: &[Material]) -> Boundary {
         if self.inside.is_empty() {
@@ -138,7 +144,8 @@ impl Media {
             return self.sheet(own.material, inside);
         }
         let outer = self.inside.first_but(own.object);
-        // Left, it is where it was entered; if that was missed, it was entered last.
+        // A volume that is left keeps the rank of its entry. A volume that is entered, or whose
+        // entry was missed, ranks as the last one entered.
         let entered = if inside { self.inside.rank_of(own.object) } else { None };
         let order = entered.map_or(u64::MAX, |rank| rank.order);
         let rank = Rank { priority: materials[own.material as usize].priority, order };
@@ -152,8 +159,8 @@ impl Media {
         }
     }
 
-    /// The surface of an object that has no inside: what is behind it lasts no longer than the
-    /// surface itself. `inside` says that its back was met.
+    /// Returns the boundary at a surface of an object that has no inside. The medium on its back is
+    /// the object's own material, and has no thickness. `inside` is true if the ray meets the back.
     #[must_use]
     pub fn sheet(&self, material: u32, inside: bool) -> Boundary {
         let (own, outer) = (Some(material), self.current());
@@ -161,7 +168,8 @@ impl Media {
         Boundary { before, behind, seen: true }
     }
 
-    /// Crosses the boundary of a volume.
+    /// Crosses the boundary of a volume. `inside` is true if the ray meets the boundary from the
+    /// inside and leaves.
     pub fn cross(&mut self, own: Medium, inside: bool, materials: &[Material]) {
         if let Some((rank, medium)) = self.inside.remove(own.object) {
             self.changes.push(Change::Left(rank, medium));
@@ -192,7 +200,7 @@ mod tests {
         [1.5, 1.33, 1.0].into_iter().zip(priorities).map(material).collect()
     }
 
-    /// The boundaries of these crossings, from free space.
+    /// Returns eta and visibility of the boundaries of these crossings, starting in free space.
     fn walk(crossings: &[(Medium, bool)], materials: &[Material]) -> Vec<(f64, bool)> {
         let mut media = Media::default();
         let step = |&(own, inside)| {
@@ -238,7 +246,8 @@ mod tests {
     fn a_crossing_that_was_missed_is_set_right() {
         let materials = materials([0; 3]);
         let met = |crossings: &[(Medium, bool)]| walk(crossings, &materials).pop().unwrap();
-        // Leaving what was never entered, and entering what was never left.
+        // The first crossing leaves a volume that was never entered. The others enter volumes again
+        // that were never left.
         assert_eq!(met(&[(GLASS, true)]), (1.5, true));
         assert_eq!(met(&[(WATER, false), (GLASS, true)]), (1.5 / 1.33, true));
         assert_eq!(met(&[(GLASS, false), (GLASS, false)]), (1.0 / 1.5, true));

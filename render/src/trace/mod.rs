@@ -1,8 +1,8 @@
-//! Follows rays through the scene and keeps what they hit (thesis 4.5.1, fig. 4.3).
+//! Follows rays through the scene and stores their hits (thesis 4.5.1, fig. 4.3).
 //!
-//! Tracing is classic: one ray at a time, mirrored and refracted at surfaces. What is unusual is
-//! that nothing is shaded on the way. Each place on the film gets an [`tree::IntersectionTree`],
-//! and shading waits until its neighbours have theirs.
+//! Tracing is classic: one ray at a time, mirrored and refracted at surfaces. Nothing is shaded
+//! during tracing, which is unusual. Each sample on the film gets an [`tree::IntersectionTree`].
+//! The sample is shaded only when its neighbours have trees too.
 
 pub mod medium;
 mod ranked;
@@ -23,8 +23,8 @@ use split::{Split, mirror};
 use tree::{Branch, IntersectionTree, Node};
 use volume::Volumes;
 
-/// A ray passes at most so many boundaries that other volumes hide before it is given up: more
-/// than any scene can mean, and a bound on the work for one ray.
+/// Largest number of hidden boundaries that a ray passes before it is dropped. No meaningful scene
+/// has as many; the limit bounds the work for one ray.
 const MOST_HIDDEN: usize = 1 << 12;
 
 /// Follows rays through one scene.
@@ -32,54 +32,54 @@ const MOST_HIDDEN: usize = 1 << 12;
 pub struct Tracer<'a> {
     /// The scene.
     pub scene: &'a Scene,
-    /// What finds the hits.
+    /// Structure that finds the hits.
     pub accel: &'a Accel<'a>,
-    /// Its volumes.
+    /// The volumes of the scene.
     pub volumes: &'a Volumes,
-    /// Those that the camera stands in.
+    /// The volumes that contain the camera.
     pub around_eye: Media,
 }
 
-/// How many rays were sent, by kind, and how many of them hit something.
+/// Number of rays by kind, and number of rays that hit a surface.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct RayCounts {
     /// Rays from the eye.
     pub primary: u64,
     /// Mirrored rays, also those inside glass.
     pub reflected: u64,
-    /// Rays that passed a surface.
+    /// Rays that passed through a surface.
     pub refracted: u64,
-    /// Rays of all three kinds that hit something.
+    /// Rays of all three kinds that hit a surface.
     pub hits: u64,
 }
 
-/// Where a ray ends: at a surface that is seen, or nowhere.
+/// The end of a ray: a visible surface, the background, or a dropped ray.
 enum End {
     Surface(Hit, SurfacePoint, Boundary),
     Background,
     Lost,
 }
 
-/// A surface that a ray has come to.
+/// A visible surface that a ray reaches.
 struct Seen {
     hit: Hit,
     point: SurfacePoint,
     boundary: Boundary,
-    /// How often the ray was divided before.
+    /// Number of reflections and refractions before this surface.
     depth: u32,
-    /// What it counts for in its pixel.
+    /// Weight in the pixel of the light from this surface, linear RGB.
     weight: Color,
 }
 
 impl<'a> Tracer<'a> {
-    /// A tracer for the scene's camera.
+    /// Creates a tracer for the scene's camera.
     #[must_use]
     pub fn new(scene: &'a Scene, accel: &'a Accel<'a>, volumes: &'a Volumes) -> Self {
         let around_eye = volumes.around(scene, accel, scene.camera.eye());
         Self { scene, accel, volumes, around_eye }
     }
 
-    /// The intersection tree of a ray from the eye.
+    /// Traces a ray from the eye and fills its intersection tree.
     pub fn trace(&self, ray: &Ray, tree: &mut IntersectionTree, counts: &mut RayCounts) {
         tree.clear();
         counts.primary += 1;
@@ -89,11 +89,12 @@ impl<'a> Tracer<'a> {
         tree.media = media;
     }
 
-    /// Adds what a ray hits, and what its mirrored and refracted rays hit, to the tree. Gives what
-    /// it came to, and what its way there leaves of the light.
+    /// Adds the hit of a ray, and the hits of its mirrored and refracted rays, to the tree. Returns
+    /// the branch that the ray reaches and the transmittance up to it, linear RGB, [0, 1] per
+    /// channel.
     ///
-    /// `media` is what the ray starts in, and is left as it was; `weight` is what the ray counts for
-    /// in its pixel.
+    /// `media` are the volumes around the ray's start and are restored at the end. `weight` is the
+    /// ray's weight in its pixel, linear RGB.
     fn follow(
         &self,
         ray: &Ray,
@@ -120,7 +121,7 @@ impl<'a> Tracer<'a> {
         (branch, through)
     }
 
-    /// The normal to shade with, turned by the material's bump if it has one.
+    /// Returns the unit normal for shading, perturbed by the material's bump if it has one.
     fn bumped(&self, material: &Material, hit: &Hit, point: &SurfacePoint) -> DVec3 {
         let Some(bump) = material.bump.map(|bump| &self.scene.procedural.bumps[bump]) else {
             return point.shading_normal;
@@ -136,7 +137,7 @@ impl<'a> Tracer<'a> {
         bump.normal(&object.to_own_space, &place)
     }
 
-    /// Adds a surface that a ray has come to, and what follows from it.
+    /// Adds a visible surface to the tree, and follows its mirrored and refracted rays.
     #[inline]
     fn divide(
         &self,
@@ -151,13 +152,13 @@ impl<'a> Tracer<'a> {
         let object = &self.scene.objects[hit.piece.object as usize];
         let material = &self.scene.materials[object.parts[point.part as usize].material];
 
-        // Turn both normals to the side the ray comes from.
+        // Both normals are turned to the side from which the ray comes.
         let inside = ray.direction.dot(point.geometric_normal) > 0.0;
         let side = if inside { -1.0 } else { 1.0 };
         let geometric_normal = side * point.geometric_normal;
         let mut normal = side * self.bumped(material, &hit, &point);
         if ray.direction.dot(normal) >= 0.0 {
-            // Seen from behind its interpolated normal: only the facet itself tells the truth.
+            // The ray meets the back of the interpolated normal. The facet's normal replaces it.
             normal = geometric_normal;
         }
 
@@ -183,7 +184,7 @@ impl<'a> Tracer<'a> {
             return Branch::Node(slot);
         }
 
-        // What counts for little in each channel is left out.
+        // A ray is followed if its weight in the pixel is large enough in some channel.
         let worth_it = |share: Color| {
             let most = (weight * share).max_element();
             most > 0.0 && most >= self.scene.min_weight
@@ -193,10 +194,10 @@ impl<'a> Tracer<'a> {
             let direction = mirror(ray.direction, normal, geometric_normal);
             let mirrored = Ray::leaving(hit.piece, point.position, direction);
             let share = weight * reflect_weight;
-            let (branch, way) = self.follow(&mirrored, media, depth + 1, share, tree, counts);
+            let (branch, through) = self.follow(&mirrored, media, depth + 1, share, tree, counts);
             let node = tree.node_mut(slot);
             node.reflected = branch;
-            node.reflect_weight *= way;
+            node.reflect_weight *= through;
         }
         if let Some(direction) = split.refracted.filter(|_| worth_it(refract_weight)) {
             counts.refracted += 1;
@@ -205,16 +206,17 @@ impl<'a> Tracer<'a> {
             if let Some(own) = self.volumes.medium(self.scene, hit.piece.object, point.part) {
                 media.cross(own, inside, &self.scene.materials);
             }
-            let (branch, way) = self.follow(&passed, media, depth + 1, share, tree, counts);
+            let (branch, through) = self.follow(&passed, media, depth + 1, share, tree, counts);
             let node = tree.node_mut(slot);
             node.refracted = branch;
-            node.refract_weight *= way;
+            node.refract_weight *= through;
         }
         Branch::Node(slot)
     }
 
-    /// Sends a ray to the first surface that no other volume hides; gives what its way leaves of
-    /// light that comes back along it. `media` becomes what it is in there.
+    /// Sends a ray to the first surface that no other volume hides. Returns the end of the ray and
+    /// the transmittance up to it, linear RGB, [0, 1] per channel. `media` become the volumes in
+    /// front of that surface.
     #[inline]
     fn arrive(&self, ray: &Ray, media: &mut Media) -> (End, Color) {
         let Self { scene, volumes, .. } = self;
@@ -228,7 +230,7 @@ impl<'a> Tracer<'a> {
             let point = self.accel.surface_point(&ray, &hit);
             let inside = ray.direction.dot(point.geometric_normal) > 0.0;
             let Some(own) = volumes.medium(scene, hit.piece.object, point.part) else {
-                // A sheet has no inside that the way could lie in.
+                // An object without an inside is no medium; the ray stays in its current one.
                 let medium = media.current();
                 through *= self.transmittance(medium, hit.t);
                 let surface = scene.objects[hit.piece.object as usize].parts[point.part as usize];
@@ -246,10 +248,11 @@ impl<'a> Tracer<'a> {
         (End::Lost, through)
     }
 
-    /// What a way through a material leaves of the light.
-    fn transmittance(&self, medium: Option<u32>, way: f64) -> Color {
+    /// Returns the transmittance of a material over a distance in scene units, linear RGB, [0, 1]
+    /// per channel.
+    fn transmittance(&self, medium: Option<u32>, distance: f64) -> Color {
         medium.map_or(Color::ONE, |material| {
-            self.scene.materials[material as usize].transmittance(way)
+            self.scene.materials[material as usize].transmittance(distance)
         })
     }
 }

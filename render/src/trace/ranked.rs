@@ -1,22 +1,24 @@
-//! Volumes in the order in which they count where they overlap.
+//! Volumes that may overlap, in the order of their precedence.
 //!
-//! A ray is in few volumes, nearly always, and these are looked through one by one. Beyond [`FEW`]
-//! there is an index over them, so that no step takes longer than the logarithm of their number.
+//! Nearly all rays are in few volumes, which are searched one by one. For more than [`FEW`] volumes
+//! an index is built, so that a step takes at most the logarithm of their number.
 
 use super::medium::Medium;
 use std::collections::BTreeMap;
 
-/// So many volumes are looked through without an index.
+/// Largest number of volumes that are searched without an index.
 ///
-/// Larger, and rays through thousands of volumes get slower; smaller, and those through a handful.
+/// If larger, rays through thousands of volumes become slower. If smaller, rays through a handful
+/// of volumes become slower.
 const FEW: usize = 16;
 
-/// How much a volume counts: the highest priority first, and of equals the one entered last.
+/// Precedence of a volume: the highest priority first, and of equal priorities the volume entered
+/// last.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Rank {
-    /// The priority of its material.
+    /// Priority of the volume's material.
     pub priority: u8,
-    /// When it was entered: larger is later.
+    /// Order of entry: a larger number is later.
     pub order: u64,
 }
 
@@ -24,7 +26,7 @@ pub struct Rank {
 #[derive(Debug, Clone, Default)]
 pub struct Ranked {
     few: Vec<(Rank, Medium)>,
-    /// All of them where they are many; `few` is then empty.
+    /// All volumes if there are many; `few` is then empty.
     many: Option<Box<Many>>,
 }
 
@@ -36,19 +38,19 @@ struct Many {
 }
 
 impl Ranked {
-    /// How many volumes there are.
+    /// Number of volumes.
     #[must_use]
     pub fn len(&self) -> usize {
         self.many.as_ref().map_or(self.few.len(), |many| many.by_rank.len())
     }
 
-    /// Whether there are none.
+    /// Returns whether there are no volumes.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// The rank of an object's volume, if it is among them.
+    /// Returns the rank of an object's volume, if the list contains it.
     #[must_use]
     pub fn rank_of(&self, object: u32) -> Option<Rank> {
         match &self.many {
@@ -57,7 +59,7 @@ impl Ranked {
         }
     }
 
-    /// The volume that counts most.
+    /// Returns the volume of the highest rank.
     #[must_use]
     pub fn first(&self) -> Option<(Rank, Medium)> {
         match &self.many {
@@ -66,12 +68,12 @@ impl Ranked {
         }
     }
 
-    /// The volume that counts most of all but that of an object.
+    /// Returns the volume of the highest rank among those of other objects.
     #[must_use]
     pub fn first_but(&self, object: u32) -> Option<(Rank, Medium)> {
         match &self.many {
             Some(many) => {
-                // The object has one volume at most, so two steps are enough.
+                // The object has at most one volume, so two steps suffice.
                 let mut all = many.by_rank.iter().rev();
                 let other = all.find(|(_, medium)| medium.object != object);
                 other.map(|(rank, medium)| (*rank, *medium))
@@ -96,7 +98,7 @@ impl Ranked {
         }
     }
 
-    /// Takes out the volume of an object, if it is among them.
+    /// Removes the volume of an object, if the list contains it, and returns it.
     pub fn remove(&mut self, object: u32) -> Option<(Rank, Medium)> {
         if let Some(many) = &mut self.many {
             let rank = many.of_object.remove(&object)?;
@@ -120,7 +122,8 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// Against a plain list, across the number at which the index begins.
+        /// Compares with a plain list, below and above the number of volumes at which the index
+        /// begins.
         #[test]
         fn few_and_many_volumes_are_ranked_alike(
             steps in prop::collection::vec((0u32..40, 0u8..3, any::<bool>()), 1..200),

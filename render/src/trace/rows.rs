@@ -29,7 +29,7 @@ impl RowWindow {
     }
 
     /// Moves the window by two rows and returns the two freed rows, which the caller fills. The
-    /// third row becomes the first, as the thesis asks when nine rays are sent for each pixel.
+    /// third row becomes the first, as the thesis requires when nine rays are sent for each pixel.
     pub fn advance_by_two(&mut self) -> &mut [Vec<IntersectionTree>] {
         self.rows.rotate_left(2);
         &mut self.rows[1..]

@@ -1,4 +1,4 @@
-//! Which objects have an inside that light passes, and what a place lies in.
+//! Finds the transparent closed objects, and the volumes that contain a point.
 
 use super::medium::{Media, Medium};
 use crate::accel::Accel;
@@ -8,21 +8,21 @@ use crate::shape::Shape;
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A direction that no edge of a scene is likely to lie in: a ray that meets an edge may count
+/// A direction along which no edge of a scene is likely to lie. A ray that meets an edge may count
 /// both of its triangles.
 const ASKEW: DVec3 = DVec3::new(0.4199743416, 0.5532967357, 0.7193814786);
 
 /// The volumes of a scene.
 #[derive(Debug)]
 pub struct Volumes {
-    /// For each object whether it is one: transparent, and closed.
+    /// For each object, true if it bounds a volume: if it is transparent and closed.
     volumes: Vec<bool>,
-    /// Whether light is absorbed in one of them.
+    /// True if some volume absorbs light.
     absorb: bool,
 }
 
 impl Volumes {
-    /// Finds them. A mesh is looked at only if it is transparent.
+    /// Finds the volumes of a scene. A mesh is examined only if it is transparent.
     #[must_use]
     pub fn of(scene: &Scene) -> Self {
         let transparent = |object: &Object| {
@@ -37,13 +37,14 @@ impl Volumes {
         Self { volumes, absorb }
     }
 
-    /// Whether light is absorbed anywhere.
+    /// Returns whether some volume absorbs light.
     #[must_use]
     pub fn absorb(&self) -> bool {
         self.absorb
     }
 
-    /// The volume whose boundary this surface is, if it is one.
+    /// Returns the volume that a surface bounds, if it bounds one. `object` and `part` are indices
+    /// of the object and of its surface.
     #[must_use]
     pub fn medium(&self, scene: &Scene, object: u32, part: u32) -> Option<Medium> {
         if !self.volumes[object as usize] {
@@ -54,14 +55,15 @@ impl Volumes {
         transparent.then_some(Medium { object, material: material as u32 })
     }
 
-    /// The volumes that a place lies in, the innermost last.
+    /// Returns the volumes that contain a point, the innermost last.
     ///
-    /// They are those whose back a ray from there meets once more often than their front. Of two,
-    /// the one that the ray leaves first counts as the inner one.
+    /// A ray from the point meets the back of such a volume once more often than its front. Of two
+    /// volumes, the one that the ray leaves first counts as the inner one.
     #[must_use]
     pub fn around(&self, scene: &Scene, accel: &Accel<'_>, place: DVec3) -> Media {
         let ray = Ray::from_eye(place, ASKEW.normalize());
-        // For each volume that is met: its boundary, how much more often from its inside, and where.
+        // For each volume that the ray meets: the volume, the number of backs minus the number of
+        // fronts, and the distance of the farthest hit.
         let mut met: BTreeMap<u32, (Medium, i32, f64)> = BTreeMap::new();
         if self.volumes.contains(&true) {
             accel.any(&ray, f64::INFINITY, |hit| {
@@ -83,7 +85,7 @@ impl Volumes {
         ordered(around, scene)
     }
 
-    /// The volumes that one is in that is endlessly far away in a direction.
+    /// Returns the volumes that contain a point at infinite distance in a direction.
     fn around_far(&self, scene: &Scene, toward: DVec3) -> Media {
         let behind = |object: &Object| match &object.shape {
             Shape::Quad(quad) => quad.normal().dot(toward) < 0.0,
@@ -97,7 +99,8 @@ impl Volumes {
         ordered(media.map(|own| (own, f64::INFINITY)).collect(), scene)
     }
 
-    /// What each light lies in; only needed, and only known, where light is absorbed.
+    /// Returns the volumes that contain each light. They are empty if no volume absorbs light,
+    /// since they are then not needed.
     #[must_use]
     pub fn around_lights(&self, scene: &Scene, accel: &Accel<'_>) -> Vec<Media> {
         let around = |light: &Light| match light {
@@ -108,7 +111,8 @@ impl Volumes {
         scene.lights.iter().map(around).collect()
     }
 
-    /// The half spaces behind planes that a place lies in; a ray may never meet their boundary.
+    /// Returns the half spaces behind planes that contain a point. A ray may never meet their
+    /// boundary.
     fn endless<'s>(&'s self, scene: &'s Scene, place: DVec3) -> impl Iterator<Item = Medium> + 's {
         self.all(scene).filter(move |own| match &scene.objects[own.object as usize].shape {
             Shape::Quad(quad) => (place - quad.corner()).dot(quad.normal()) < 0.0,
@@ -120,13 +124,14 @@ impl Volumes {
         })
     }
 
-    /// The volumes of one surface.
+    /// Returns the volume of each object that bounds one, taken from the object's first surface.
     fn all<'s>(&'s self, scene: &'s Scene) -> impl Iterator<Item = Medium> + 's {
         (0..scene.objects.len() as u32).filter_map(|object| self.medium(scene, object, 0))
     }
 }
 
-/// What is left last comes first; a half space that is met is also endless, and counts as that.
+/// Sorts volumes from the farthest boundary to the nearest. A half space that the ray also meets
+/// counts as endless.
 fn ordered(mut media: Vec<(Medium, f64)>, scene: &Scene) -> Media {
     media.sort_by(|(a, near), (b, far)| far.total_cmp(near).then(a.object.cmp(&b.object)));
     let mut known = BTreeSet::new();

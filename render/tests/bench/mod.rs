@@ -1,4 +1,4 @@
-//! A folder with inputs in it, and runs of the program there.
+//! A folder with input files, and runs of the program in it.
 
 #![allow(dead_code, reason = "each test module uses its part of the bench")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
@@ -13,8 +13,8 @@ use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
 use tempfile::TempDir;
 
-/// A grey wall that fills the view, lit by nothing but ambient light: every pixel is
-/// `0.5 * [1, 0.25, 0]`.
+/// A grey wall that fills the view and is lit by ambient light only: every pixel is `0.5 * [1,
+/// 0.25, 0]`.
 pub const WALL: &str = r#"{ "format": "tb-scene", "version": 1,
 "camera": { "eye": [0, 0, 1], "target": [0, 0, 0], "fov_deg": 90 },
 "ambient": 0.5,
@@ -22,14 +22,14 @@ pub const WALL: &str = r#"{ "format": "tb-scene", "version": 1,
 "objects": [ { "rectangle": { "corner": [-2, -2, 0], "edge_u": [4, 0, 0], "edge_v": [0, 4, 0],
   "material": "wall" } } ] }"#;
 
-/// As [`WALL`], but the wall is a mesh that is given on the command line.
+/// The scene of [`WALL`] with a mesh as the wall. The command line gives the mesh.
 pub const MESH_WALL: &str = r#"{ "format": "tb-scene", "version": 1,
 "camera": { "eye": [0, 0, 1], "target": [0, 0, 0], "fov_deg": 90 },
 "ambient": 0.5,
 "materials": { "wall": { "color": [1, 0.25, 0], "diffuse": 0 } },
 "objects": [ { "mesh": { "name": "wall", "material": "wall" } } ] }"#;
 
-/// As [`WALL`], with the picture `checks.png` on it.
+/// The scene of [`WALL`] with the picture `checks.png` on the wall.
 pub const TEXTURED_WALL: &str = r#"{ "format": "tb-scene", "version": 1,
 "camera": { "eye": [0, 0, 1], "target": [0, 0, 0], "fov_deg": 90 },
 "ambient": 0.5,
@@ -41,46 +41,46 @@ pub const TEXTURED_WALL: &str = r#"{ "format": "tb-scene", "version": 1,
 /// The wall of [`MESH_WALL`].
 pub const WALL_OBJ: &str = "v -2 -2 0\nv 2 -2 0\nv 2 2 0\nv -2 2 0\nf 1 2 3 4\n";
 
-/// A folder of its own.
+/// A temporary folder.
 pub struct Bench {
     folder: TempDir,
 }
 
 impl Bench {
-    /// An empty folder.
+    /// Creates an empty folder.
     pub fn new() -> Self {
         Self { folder: tempfile::tempdir().unwrap() }
     }
 
-    /// A folder with `scene.json` in it.
+    /// Creates a folder with `scene.json` in it.
     pub fn with_scene(text: &str) -> Self {
         let bench = Self::new();
         bench.write("scene.json", text);
         bench
     }
 
-    /// Puts a file into the folder.
+    /// Writes a file to the folder.
     pub fn write(&self, name: &str, bytes: impl AsRef<[u8]>) {
         fs::write(self.path(name), bytes).unwrap();
     }
 
-    /// A file in the folder.
+    /// Returns the path of a file in the folder.
     pub fn path(&self, name: &str) -> PathBuf {
         self.folder.path().join(name)
     }
 
-    /// The content of a file in the folder.
+    /// Returns the bytes of a file in the folder.
     pub fn read(&self, name: &str) -> Vec<u8> {
         fs::read(self.path(name)).unwrap()
     }
 
-    /// The names in the folder, hidden ones too.
+    /// Returns the names in the folder, hidden ones too.
     pub fn names(&self) -> BTreeSet<String> {
         let entries = fs::read_dir(self.folder.path()).unwrap();
         entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
     }
 
-    /// The program, to be run in the folder, with its streams caught.
+    /// Returns a command that runs the program in the folder and captures its output.
     pub fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_render"));
         command
@@ -97,16 +97,16 @@ impl Bench {
         program::run(env!("CARGO_BIN_EXE_render").as_ref(), arguments, self.folder.path(), input)
     }
 
-    /// Runs the program, which must do its work without a word.
+    /// Runs the program, which must succeed and print nothing.
     pub fn make(&self, arguments: &[&str], input: &[u8]) -> Output {
         let run = self.run(arguments, input);
         assert_eq!(ending(&run), (Some(0), String::new()), "{arguments:?}");
         run
     }
 
-    /// Runs the program at an existing `out.png`, which must fail with `code` and one sentence
-    /// that begins with the first of `parts` and holds the others. What the folder holds stays as
-    /// it was, byte for byte, and nothing is left beside it.
+    /// Runs the program at an existing `out.png`. It must fail with `code` and one sentence that
+    /// begins with the first of `parts` and contains the others. All files in the folder must keep
+    /// their bytes, and no file may be added.
     pub fn refuse(&self, arguments: &[&str], input: &[u8], code: i32, parts: &[&str]) {
         self.write("out.png", "old");
         let before = self.names();
@@ -125,14 +125,14 @@ impl Bench {
     }
 }
 
-/// A picture as the bytes of a file.
+/// Encodes a picture as the bytes of a file.
 pub fn encoded(picture: impl Into<DynamicImage>, format: ImageFormat) -> Vec<u8> {
     let mut bytes = Cursor::new(Vec::new());
     picture.into().write_to(&mut bytes, format).unwrap();
     bytes.into_inner()
 }
 
-/// Two by two texels, white and black.
+/// Returns a picture of two by two texels, white and black.
 pub fn checks() -> Vec<u8> {
     let texel = |x, y| image::Rgb([if (x + y) % 2 == 0 { 255 } else { 0 }; 3]);
     encoded(RgbImage::from_fn(2, 2, texel), ImageFormat::Png)

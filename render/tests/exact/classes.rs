@@ -1,18 +1,18 @@
-//! Triangles and hits, from easy to hard.
+//! Classes of triangles and hits, from easy to hard.
 
 use super::dice::{Dice, Directions};
 use super::{Sample, doubles};
 use glam::DVec3;
 
-/// Triangles and hits of one kind.
+/// A class of triangles and hits.
 pub struct Class {
-    /// What is hard about them.
+    /// Name of the class, which states its difficulty.
     pub name: &'static str,
     make: Box<dyn Fn(&mut Dice) -> Sample>,
 }
 
 impl Class {
-    /// So many of its samples, the same every time.
+    /// Returns `count` samples of the class, the same in every run.
     pub fn samples(&self, count: usize) -> Vec<Sample> {
         let mut dice = Dice::new(0);
         (0..count).map(|_| (self.make)(&mut dice)).collect()
@@ -23,7 +23,7 @@ fn class(name: &'static str, make: impl Fn(&mut Dice) -> Sample + 'static) -> Cl
     Class { name, make: Box::new(make) }
 }
 
-/// All classes.
+/// Returns all classes.
 pub fn classes() -> Vec<Class> {
     let mut all = vec![class("well shaped", |dice| inside(dice, well))];
     for (axis, name) in ["plane x = const", "plane y = const", "plane z = const"].iter().enumerate()
@@ -100,20 +100,20 @@ pub fn classes() -> Vec<Class> {
 
 type Corners = [[f32; 3]; 3];
 
-/// Draws weights of the corners.
+/// A function that draws weights of the corners.
 type Weights = fn(&mut Dice) -> [f64; 3];
 
 fn rounded(v: DVec3) -> [f32; 3] {
     v.to_array().map(|x| x as f32)
 }
 
-/// Smallest height by longest side.
+/// Returns the smallest height of a triangle over its longest side.
 fn shape([a, b, c]: [DVec3; 3]) -> f64 {
     let longest = [a - b, b - c, c - a].map(DVec3::length_squared).into_iter().fold(0.0, f64::max);
     (b - a).cross(c - a).length() / longest
 }
 
-/// Corners up to 1 from the origin.
+/// Draws corners at most 1 from the origin.
 fn well(dice: &mut Dice) -> Corners {
     loop {
         let corners = std::array::from_fn(|_| rounded(dice.direction() * dice.between(0.3, 1.0)));
@@ -127,7 +127,7 @@ fn nudged(dice: &mut Dice, x: f32, ulps: usize) -> f32 {
     (0..dice.below(ulps + 1)).fold(x, |x, _| x.next_up())
 }
 
-/// In a coordinate plane, or up to some ulps off.
+/// Draws corners in a coordinate plane, or up to some ulps off it.
 fn flat(dice: &mut Dice, axis: usize, ulps: usize) -> Corners {
     let level = dice.between(-1.0, 1.0) as f32;
     loop {
@@ -142,7 +142,8 @@ fn flat(dice: &mut Dice, axis: usize, ulps: usize) -> Corners {
     }
 }
 
-/// In the plane y = x/2, which stands upright on the x-y plane, or up to some ulps off.
+/// Draws corners in the plane y = x/2, which is perpendicular to the x-y plane, or up to some ulps
+/// off it.
 fn upright(dice: &mut Dice, ulps: usize) -> Corners {
     loop {
         let mut corners = well(dice);
@@ -156,7 +157,7 @@ fn upright(dice: &mut Dice, ulps: usize) -> Corners {
     }
 }
 
-/// One short side at the origin; each corner is the sharp one in turn.
+/// Draws a triangle with one short side at the origin; each corner in turn is the sharp one.
 fn needle(dice: &mut Dice, aspect: f64) -> Corners {
     let long = dice.direction();
     let across = long.any_orthonormal_vector();
@@ -166,7 +167,7 @@ fn needle(dice: &mut Dice, aspect: f64) -> Corners {
     corners
 }
 
-/// One corner nearly on the side between the others; each corner in turn.
+/// Draws a triangle with one corner nearly on the opposite side; each corner in turn.
 fn sliver(dice: &mut Dice, aspect: f64) -> Corners {
     let end = rounded(dice.direction());
     let across = doubles(end).any_orthonormal_vector();
@@ -175,7 +176,7 @@ fn sliver(dice: &mut Dice, aspect: f64) -> Corners {
     corners
 }
 
-/// Each coordinate of a size of its own.
+/// Draws corners whose coordinates have independent magnitudes.
 fn mixed(dice: &mut Dice) -> Corners {
     loop {
         let corners = std::array::from_fn(|_| {
@@ -190,7 +191,7 @@ fn mixed(dice: &mut Dice) -> Corners {
     }
 }
 
-/// Weights that sum to about 1, none near 0.
+/// Draws weights that sum to about 1, none near 0.
 fn weights(dice: &mut Dice) -> [f64; 3] {
     std::array::from_fn(|_| dice.between(0.1, 1.0))
 }
@@ -207,14 +208,14 @@ fn inside(dice: &mut Dice, corners: impl Fn(&mut Dice) -> Corners) -> Sample {
     seen(dice, corners, weights, cosine)
 }
 
-/// A ray from four sizes away to the point with these weights, at an angle of this cosine from the
-/// normal.
+/// Returns a ray from four triangle sizes away to the point with these weights. `cosine` is that of
+/// its angle to the normal.
 fn seen(dice: &mut Dice, corners: Corners, weights: [f64; 3], cosine: f64) -> Sample {
     let [a, b, c] = corners.map(doubles);
     let sum: f64 = weights.iter().sum();
     let target = (weights[0] * a + weights[1] * b + weights[2] * c) / sum;
     let size = [a - b, b - c, c - a].map(DVec3::length).into_iter().fold(0.0, f64::max);
-    // Sizes of 1e-9 squared are far from the end of f64.
+    // The square of a size of 1e-9 is far above the smallest `f64`.
     let normal = (b - a).cross(c - a).normalize();
     let along = dice.direction().reject_from(normal).normalize();
     let from = cosine * normal + (1.0 - cosine * cosine).sqrt() * along;
@@ -222,14 +223,15 @@ fn seen(dice: &mut Dice, corners: Corners, weights: [f64; 3], cosine: f64) -> Sa
     Sample { corners, origin, direction: (target - origin).normalize() }
 }
 
-/// A ray along the axis that the triangle faces most, to the point with these weights, over corners
-/// in multiples of 3/16; the point is exact when the weights are eighths or all the same.
+/// Returns a ray along the axis that the triangle faces most, to the point with these weights. The
+/// corners are multiples of 3/16. The point is exact if the weights are eighths or all equal.
 fn straight(dice: &mut Dice, weights: [f64; 3]) -> Sample {
     loop {
         let mut lattice = || (dice.below(129) as f32 - 64.0) * 3.0 / 16.0;
         let corners: Corners = std::array::from_fn(|_| std::array::from_fn(|_| lattice()));
         let [a, b, c] = corners.map(doubles);
-        // Seen so, every form has the coordinate planes it needs; they are classes of their own.
+        // Seen from here, every form has the coordinate planes that it needs; other positions are
+        // classes of their own.
         let normal = (b - a).cross(c - a);
         if shape([a, b, c]) < 0.2 || normal.abs().max_element() > normal.z.abs() {
             continue;

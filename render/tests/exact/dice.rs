@@ -3,7 +3,7 @@
 pub use fixtures::Dice;
 use glam::DVec3;
 
-/// What dice for geometry have besides numbers.
+/// Random directions from dice.
 pub trait Directions {
     /// Returns a vector of length 1.
     fn direction(&mut self) -> DVec3;

@@ -1,4 +1,4 @@
-//! Texture coordinates on a triangle, exactly, and in the forms that are held against that.
+//! Texture coordinates on a triangle: exact values, and the forms that are compared with them.
 
 #![allow(dead_code, reason = "the test and the measurement each use their part")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
@@ -17,18 +17,18 @@ use render::shape::triangle::ShearedRay;
 /// A ray and a triangle that it meets.
 #[derive(Debug, Clone, Copy)]
 pub struct Sample {
-    /// `A`, `B` and `C`; the texture's right angle is at `B`, its legs have length 1.
+    /// Corners `A`, `B` and `C`. The texture's right angle is at `B`, and its legs have length 1.
     pub corners: [[f32; 3]; 3],
-    /// Where the ray starts.
+    /// Start of the ray.
     pub origin: DVec3,
-    /// Where it goes.
+    /// Direction of the ray.
     pub direction: DVec3,
 }
 
-/// A way to compute texture coordinates.
+/// A form of the map from a hit to texture coordinates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Form {
-    /// Barycentric weights as the intersection itself gives them: the form in use.
+    /// Barycentric weights as the intersection returns them: the form in use.
     Weights,
     /// Barycentric weights of the hit point, by areas in the best coordinate plane.
     Areas,
@@ -44,7 +44,7 @@ pub const FORMS: [Form; 5] =
     [Form::Weights, Form::Areas, Form::Thesis, Form::AreasBest, Form::ThesisBest];
 
 impl Form {
-    /// Its name in tables.
+    /// Returns the name of the form in tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::Weights => "weights",
@@ -56,12 +56,12 @@ impl Form {
     }
 }
 
-/// A number as a fraction.
+/// Converts a number to a fraction.
 fn exact(x: f64) -> BigRational {
     BigRational::from_float(x).unwrap()
 }
 
-/// A vector times a power of two that makes whole numbers of all its components.
+/// Returns a vector times a power of two that makes all its components whole numbers.
 fn whole(v: DVec3) -> [BigRational; 3] {
     let scale = exact(2f64.powi(200));
     v.to_array().map(|x| exact(x) * &scale)
@@ -81,7 +81,8 @@ pub fn doubles(corner: [f32; 3]) -> DVec3 {
 }
 
 impl Sample {
-    /// The exact weights of the corners where the exact ray meets the exact plane.
+    /// Returns the exact weights of the corners at the point where the exact ray meets the exact
+    /// plane.
     pub fn truth(&self) -> [BigRational; 3] {
         let direction = whole(self.direction);
         let origin = whole(self.origin);
@@ -96,7 +97,7 @@ impl Sample {
         parts.map(|part| part / &sum)
     }
 
-    /// The exact hit point, each coordinate rounded once.
+    /// Returns the exact hit point, each coordinate rounded once.
     pub fn best_point(&self, truth: &[BigRational; 3]) -> DVec3 {
         let coordinate = |k: usize| {
             let terms = (0..3).map(|i| &truth[i] * exact(f64::from(self.corners[i][k])));
@@ -105,9 +106,9 @@ impl Sample {
         DVec3::new(coordinate(0), coordinate(1), coordinate(2))
     }
 
-    /// The errors of all forms, in the order of [`FORMS`]: the larger one of both coordinates, of a
-    /// texture whose sides are 1; infinite where a form gives no number. Nothing when the ray, as
-    /// it is rounded, misses the triangle.
+    /// Returns the errors of all forms, in the order of [`FORMS`]. An error is the larger one of
+    /// both coordinates, for a texture whose sides are 1. It is infinite where a form gives no
+    /// number. Returns `None` if the rounded ray misses the triangle.
     pub fn errors(&self) -> Option<[f64; 5]> {
         let ray = ShearedRay::new(self.origin, self.direction);
         let (t, weights) = ray.intersect(&self.corners, f64::INFINITY)?;
@@ -133,8 +134,9 @@ impl Sample {
         }))
     }
 
-    /// How much the triangle magnifies a rounding of the coordinates: the distance of the farthest
-    /// corner from the eye by the smallest height of the triangle, as the ray sees it.
+    /// Returns the factor by which the triangle magnifies a rounding of the coordinates: the
+    /// distance of the farthest corner from the eye over the smallest height of the triangle as
+    /// seen along the ray.
     pub fn condition(&self) -> f64 {
         let [a, b, c] = self.corners.map(|corner| doubles(corner) - self.origin);
         let far = [a, b, c].map(DVec3::length).into_iter().fold(0.0, f64::max);
@@ -143,7 +145,7 @@ impl Sample {
         far * longest / area
     }
 
-    /// The triangle as a mesh with the right triangle as its texture coordinates.
+    /// Returns the triangle as a mesh whose texture coordinates are the right triangle.
     fn mesh(&self) -> Mesh {
         let corners = [0, 1, 2];
         let triangle = Triangle { position: corners, uv: corners, normal: [NONE; 3], surface: 0 };
@@ -157,8 +159,8 @@ impl Sample {
     }
 }
 
-/// The weights of the first and third corner for a point, by areas in the coordinate plane in which
-/// the triangle is largest.
+/// Returns the weights of the first and third corner for a point, by areas in the coordinate plane
+/// in which the triangle is largest.
 fn areas([a, b, c]: [DVec3; 3], point: DVec3) -> DVec2 {
     let normal = (b - a).cross(c - a).abs();
     let [i, j] = if normal.x >= normal.y && normal.x >= normal.z {

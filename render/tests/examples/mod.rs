@@ -1,4 +1,4 @@
-//! The scenes in `examples`, and what stands in for the files that they name.
+//! The scenes in `examples`, and substitutes for the files that they name.
 
 #![allow(dead_code, reason = "each test module uses its part of the examples")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
@@ -9,7 +9,8 @@ use serde_json::Value;
 use std::io::ErrorKind;
 use std::path::Path;
 
-/// A source that gives a small picture for each `.png`, a triangle for each `.obj`, and no other file.
+/// A source that returns a small picture for each `.png`, a triangle for each `.obj`, and no other
+/// file.
 #[derive(Debug)]
 pub struct Meshless;
 
@@ -31,7 +32,7 @@ impl Source for Meshless {
     }
 }
 
-/// The scenes of `examples/scenes` with their paths.
+/// Returns the scenes of `examples/scenes` with their paths.
 pub fn examples() -> Vec<(String, Value)> {
     documents(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/scenes"))
 }

@@ -1,4 +1,4 @@
-//! Objects as a scene file has them, and meshes as an OBJ file has them.
+//! Objects in the form of a scene file, and meshes in the form of an OBJ file.
 
 use glam::DVec3;
 use std::fmt::Write;
@@ -9,7 +9,7 @@ pub fn sphere(center: [f64; 3], radius: f64, material: &str) -> String {
     )
 }
 
-/// A rectangle.
+/// Returns a rectangle.
 pub fn quad(corner: [f64; 3], edge_u: [f64; 3], edge_v: [f64; 3], material: &str) -> String {
     format!(
         r#"{{ "rectangle": {{ "corner": {corner:?}, "edge_u": {edge_u:?}, "edge_v": {edge_v:?},
@@ -24,12 +24,12 @@ pub fn plane(point: [f64; 3], edge_u: [f64; 3], edge_v: [f64; 3], material: &str
     )
 }
 
-/// The object with the picture `image` on it.
+/// Returns the object with the picture `image` on it.
 pub fn textured(object: &str) -> String {
     object.replace("\"material\"", "\"texture\": \"image\", \"material\"")
 }
 
-/// The mesh of the file `m.obj`.
+/// Returns the mesh of the file `m.obj`.
 pub fn mesh(material: &str) -> String {
     format!(r#"{{ "mesh": {{ "name": "m", "file": "m.obj", "material": "{material}" }} }}"#)
 }
@@ -38,8 +38,8 @@ pub fn light(position: [f64; 3]) -> String {
     format!(r#""lights": [ {{ "point": {{ "position": {position:?} }} }} ],"#)
 }
 
-/// A closed ball of triangles around `center`, of `columns` by `rows` cells with poles along y; with
-/// the normals of the sphere, if they are to be interpolated.
+/// Returns a closed ball of triangles around `center`, of `columns` by `rows` cells, with poles
+/// along y. With `normals` it has the normals of the sphere, for interpolation.
 pub fn ball(center: DVec3, radius: f64, columns: usize, rows: usize, normals: bool) -> Vec<u8> {
     let mut text = String::new();
     let vertex = |column: usize, row: usize| {

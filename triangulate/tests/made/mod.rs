@@ -1,4 +1,4 @@
-//! Meshes as they come out of grid files.
+//! Meshes of grids that were written to a file and read back.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
@@ -6,7 +6,7 @@ use sweep::GridMesh;
 use sweep::grid::file::{Encoding, GridReader, write};
 use triangulate::{Counts, MeshReport, Options, Patches, TriMesh};
 
-/// Returns the mesh of a grid that was written and read, and its report.
+/// Returns the mesh of a grid that was written and read back, and its report.
 pub fn made(grid: &GridMesh) -> (TriMesh, Counts, MeshReport) {
     let mut file = Vec::new();
     write(grid, Encoding::Binary, &mut file).unwrap();

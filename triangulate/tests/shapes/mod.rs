@@ -1,4 +1,4 @@
-//! Grids of shapes whose points and normals are known.
+//! Grids of shapes with known points and normals.
 
 #![allow(dead_code, reason = "not every test uses every shape")]
 
@@ -7,7 +7,7 @@ use std::f64::consts::{PI, TAU};
 use sweep::GridMesh;
 use sweep::grid::Seam;
 
-/// A grid of a surface given by point and normal at `(u, v)`, evenly spaced.
+/// Returns the grid of a surface that is given by point and normal at `(u, v)`, evenly spaced.
 pub fn grid_of(
     [rows, cols]: [usize; 2],
     [seam_v, seam_u]: [Seam; 2],
@@ -31,20 +31,21 @@ pub fn grid_of(
     GridMesh { name, seam_u, seam_v, shift, u, v, positions, normals, ..GridMesh::default() }
 }
 
-/// Radii 3 and 1. Along `u` around the tube, along `v` around the hole.
+/// Returns a torus with radii 3 and 1. `u` goes around the tube, `v` around the hole.
 pub fn torus(rows: usize, cols: usize) -> GridMesh {
     grid_of([rows, cols], [Seam::Closed; 2], |u, v| {
         let ((a_sin, a_cos), (b_sin, b_cos)) = ((TAU * u).sin_cos(), (TAU * v).sin_cos());
-        // Counter-clockwise around the tube seen along the trajectory, so that S_u x S_v points out.
+        // Counter-clockwise around the tube as seen along the trajectory, so that S_u x S_v points
+        // outward.
         let normal = DVec3::new(a_cos * b_cos, a_cos * b_sin, -a_sin);
         (3.0 * DVec3::new(b_cos, b_sin, 0.0) + normal, normal)
     })
 }
 
-/// Radius 1: a half circle from pole to pole, rotated.
+/// Returns a sphere of radius 1: a half circle from pole to pole, rotated.
 pub fn sphere(rows: usize, cols: usize) -> GridMesh {
     grid_of([rows, cols], [Seam::Closed, Seam::Open], |u, v| {
-        // From the upper pole to the lower one, so that S_u x S_v points out.
+        // From the upper pole to the lower one, so that S_u x S_v points outward.
         let (height, radius) = if u == 0.0 || u == 1.0 {
             (1.0 - 2.0 * u, 0.0)
         } else {
@@ -56,7 +57,7 @@ pub fn sphere(rows: usize, cols: usize) -> GridMesh {
     })
 }
 
-/// Radius 1, height 2, from row to row upward.
+/// Returns a cylinder of radius 1 and height 2, with rows going upward.
 pub fn cylinder(rows: usize, cols: usize) -> GridMesh {
     grid_of([rows, cols], [Seam::Open, Seam::Closed], |u, v| {
         let (sin, cos) = (TAU * u).sin_cos();
@@ -64,13 +65,13 @@ pub fn cylinder(rows: usize, cols: usize) -> GridMesh {
     })
 }
 
-/// A figure of eight, turned half round on its way about an axis: the Klein bottle that crosses
-/// itself along a circle of radius 3.
+/// Returns the Klein bottle made of a figure of eight that makes half a turn while it goes around
+/// an axis. It crosses itself along a circle of radius 3.
 pub fn klein_bottle(rows: usize, cols: usize) -> GridMesh {
     grid_of([rows, cols], [Seam::Mirror, Seam::Closed], |u, v| {
         let (a, b) = (TAU * u, TAU * v);
         let (sin, cos) = (0.5 * b).sin_cos();
-        // The figure of eight (sin a, sin 2a) in a plane turned by b/2, and its derivatives.
+        // The figure of eight (sin a, sin 2a) in a plane, rotated by b/2, and its derivatives.
         let turned = |x: f64, y: f64| [cos * x - sin * y, sin * x + cos * y];
         let around = |[r, z]: [f64; 2], b: f64| DVec3::new(r * b.cos(), r * b.sin(), z);
         let (eight, along) = ([a.sin(), (2.0 * a).sin()], [a.cos(), 2.0 * (2.0 * a).cos()]);
@@ -81,7 +82,8 @@ pub fn klein_bottle(rows: usize, cols: usize) -> GridMesh {
     })
 }
 
-/// A straight line of length 2, turned half round on its way about an axis, at radius 3.
+/// Returns the Moebius band made of a line of length 2 that makes half a turn while it goes around
+/// an axis, at radius 3.
 pub fn moebius_band(rows: usize, cols: usize) -> GridMesh {
     grid_of([rows, cols], [Seam::Mirror, Seam::Open], |u, v| {
         let (w, b) = (2.0 * u - 1.0, TAU * v);

@@ -1,4 +1,5 @@
-//! Transparent objects: whether they have an inside, and whether rays are followed through all of them.
+//! Transparent objects: those that are open or inside out, and lines of sight through more of them
+//! than a ray passes.
 
 use super::solid;
 use super::subject::{Item, Subject};

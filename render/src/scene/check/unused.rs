@@ -8,7 +8,7 @@ use std::collections::HashMap;
 #[must_use]
 pub fn findings(subject: &Subject<'_>) -> Vec<Finding> {
     let mut used = vec![false; subject.scene.materials.len()];
-    // For each texture that is on a surface: whether a material shows it.
+    // For each texture that is on a surface: true if a material shows it.
     let mut shown = HashMap::new();
     for part in subject.items.iter().flat_map(|item| &item.object.parts) {
         used[part.material] = true;

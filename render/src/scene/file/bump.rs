@@ -108,7 +108,7 @@ pub struct ImageReliefFile {
     /// 1e6, default once.
     #[serde(default = "once")]
     pub repeat: [f64; 2],
-    /// Whether the picture is mirrored at its edges instead of repeated; default false.
+    /// True if the picture is mirrored at its edges instead of repeated; default false.
     #[serde(default)]
     pub mirror: bool,
 }

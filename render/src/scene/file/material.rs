@@ -34,7 +34,7 @@ pub struct MaterialFile {
     /// Index of refraction of the inside, 0.1 to 10; 1.5 if left out. The index of air is 1.
     #[schemars(transform = keywords::range(0.1..=10.0))]
     pub index_of_refraction: f64,
-    /// Whether Fresnel's equations divide the light: the weight of the mirrored ray is multiplied
+    /// True if Fresnel's equations divide the light: the weight of the mirrored ray is multiplied
     /// by their reflectance, and the weight of the refracted ray by the rest; false if left out.
     pub fresnel: bool,
     /// Relief that perturbs the normals; none if left out.

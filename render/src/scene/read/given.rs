@@ -1,4 +1,4 @@
-//! Gives the meshes that the caller passed to the objects that name them.
+//! Hands out the meshes that the caller passed to the objects that name them.
 
 use super::MeshSource;
 use super::draft::{SceneText, meshes};

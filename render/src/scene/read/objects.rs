@@ -12,7 +12,7 @@ use files::json::nearest;
 use glam::{DVec2, DVec3};
 use std::collections::BTreeMap;
 
-/// An object of which everything is checked that needs no other file.
+/// An object that is checked as far as this needs no other file.
 #[derive(Debug)]
 pub(super) enum Planned<'a> {
     /// An object that is not a mesh.
@@ -245,7 +245,7 @@ impl<'a> Reader<'a> {
         };
         let texture = bindings.textures.get(texture_key).copied();
         let texture = texture.or(own.and_then(|own| own.texture)).or(bindings.texture);
-        // Texture id 0 says that there is none; any other id was meant to be seen.
+        // Texture id 0 means no texture; any other id was meant to be seen.
         if texture.is_none() && ids.is_some() && texture_key != "0" {
             let message = format!(
                 "found texture id {texture_key} in mesh {}, expected an entry for it in \

@@ -2,8 +2,8 @@
 //! sections.
 //!
 //! Barr: *Superquadrics and Angle-Preserving Transformations*, IEEE Computer Graphics &
-//! Applications 1(1),
-//! 1981. With x, y, z in units of the radii and the axis along y, like the poles of a sphere,
+//! Applications 1(1), 1981. With x, y, z in units of the radii and the axis along y, like the poles
+//! of a sphere, the surfaces are:
 //!
 //! ```text
 //! superellipsoid   (|x|^(2/e2) + |z|^(2/e2))^(e2/e1) + |y|^(2/e1) = 1
@@ -189,8 +189,8 @@ impl Superquadric {
         [self.center - reach, self.center + reach]
     }
 
-    /// Returns whether the surface is within `skin`, in scene units, of a point: whether it
-    /// separates the two points at this distance along the gradient.
+    /// Returns whether the surface is within `skin`, in scene units, of a point: whether the
+    /// surface separates the two points at this distance along the gradient.
     fn is_near(&self, point: DVec3, skin: f64) -> bool {
         let offset = skin * self.field.direction(point, self.radii) / self.radii;
         (self.field.value(point + offset) < 1.0) != (self.field.value(point - offset) < 1.0)

@@ -93,7 +93,7 @@ struct Search<'a> {
     line: &'a Line,
     smallest: f64,
     start: f64,
-    /// Whether the line is outside at the point that the search has reached.
+    /// True if the line is outside at the point that the search has reached.
     outside: bool,
     /// Number of pieces that may still be searched.
     pieces: u32,
@@ -169,8 +169,8 @@ impl Search<'_> {
     }
 }
 
-/// Returns whether a range of values is outside (true) or inside (false), or `None` if it is on
-/// both.
+/// Returns the side of a range of values: `true` for outside, `false` for inside, and `None` if the
+/// range reaches both sides.
 fn side(value: Range) -> Option<bool> {
     if value[0] > 0.0 {
         Some(true)

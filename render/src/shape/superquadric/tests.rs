@@ -246,7 +246,7 @@ fn what_starts_near_a_crease_but_off_the_surface_is_not_on_it() {
 
 #[test]
 fn from_the_edge_of_a_fin_the_next_fin_is_seen() {
-    // The slope at the edge is the same for both sides and says that the ray leads inside. The fin
+    // The slope at the edge is equal on both sides and implies that the ray leads inside. The fin
     // is thinner there than any ray.
     let fins = unit([1.0, 4.0]);
     let (edge, inside) = (DVec3::new(0.0, 0.6, 0.8), DVec3::new(0.5, 0.0, 0.0));
