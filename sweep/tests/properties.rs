@@ -265,7 +265,10 @@ fn every_example_is_a_spec() {
                 assert_eq!(sweep.contour().creases(), 1, "only the inner edge of the foot");
                 let heights = || sweep.grid().positions.into_iter().map(|p| p.y);
                 assert_eq!(heights().fold(f64::INFINITY, f64::min), 0.0);
-                assert!((heights().fold(0.0, f64::max) - 2.0).abs() < 1e-12);
+                // The rim has its top at 2, between two columns. The nearer one is at most half a
+                // column, 0.0155, away, and the curvature of the rim is at most 20.8: a sagitta of
+                // 0.5 * 20.8 * 0.0155^2.
+                assert!((heights().fold(0.0, f64::max) - 2.0).abs() < 2.5e-3);
             }
         }
         seen += 1;
