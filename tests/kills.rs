@@ -1,7 +1,7 @@
 //! Programs that are killed at random moments. Every file is the complete old or the complete new
 //! one, inputs are unchanged, and a mixture of old and new files is announced.
 //!
-//! Each program is killed 20 times, or as often as the environment variable `TOPOBOOK_KILLS`
+//! Each program is killed 40 times, or as often as the environment variable `TOPOBOOK_KILLS`
 //! states. The moments depend on a seed, `TOPOBOOK_KILL_SEED` or 1, which is printed. Half of the
 //! moments are anywhere in a run. The other half follow the first appearance of the marker, since
 //! files are replaced in a small part of a run.
@@ -112,7 +112,7 @@ struct Counts {
 
 #[test]
 fn a_killed_program_leaves_whole_files_and_announces_a_mix() {
-    let (kills, seed) = (setting("TOPOBOOK_KILLS", 20), setting("TOPOBOOK_KILL_SEED", 1));
+    let (kills, seed) = (setting("TOPOBOOK_KILLS", 40), setting("TOPOBOOK_KILL_SEED", 1));
     println!("{kills} kills of each program, TOPOBOOK_KILL_SEED={seed}");
     let mut dice = Dice::new(seed);
     let mut up_to = |longest: Duration| longest.mul_f64(dice.fraction());
