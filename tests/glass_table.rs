@@ -55,7 +55,7 @@ fn ways_to_the_sea(pixel: &str) -> Vec<Vec<String>> {
             }
             _ => way.last_mut().into_iter().for_each(|step| *step += &format!("\n{text}")),
         }
-        if text.starts_with("colour handed up")
+        if text.starts_with("colour returned")
             && way.last().is_some_and(|step| step.contains("object 0, plane"))
         {
             ways.push(way.clone());

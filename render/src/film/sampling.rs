@@ -48,12 +48,13 @@ pub enum Sampling {
 pub enum PixelFilter {
     /// Equal weights for the samples in the pixel, and none for others.
     #[default]
-    #[value(help = "Those in the pixel, equally")]
+    #[value(help = "Equal weights for the rays in the pixel")]
     Box,
     /// A tent that reaches to the middles of the neighbouring pixels. With one sample in each pixel
     /// the tent covers only the pixel's own sample.
     #[value(
-        help = "By a tent that reaches to the middles of the neighbouring pixels; N is at least 2 for it"
+        help = "A tent that reaches to the middles of the neighbouring pixels; needs --samples of \
+                at least 2"
     )]
     Tent,
 }
