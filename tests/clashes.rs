@@ -231,7 +231,10 @@ fn a_name_that_belongs_to_another_format_is_refused() {
     refused(
         &folder,
         &[
-            ("sweep spec.json -o a.obj", "a.obj would hold a grid, which its extension denies"),
+            (
+                "sweep spec.json -o a.obj",
+                "a.obj would hold a grid, but its extension names another format",
+            ),
             ("sweep spec.json -o a.json", "expected .grid"),
             ("sweep spec.json --format json -o a.stl", "expected .grid or .json"),
             ("sweep spec.json --preview a.png", "a.png would hold an SVG drawing"),

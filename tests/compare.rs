@@ -105,7 +105,7 @@ fn a_limit_that_is_passed_ends_with_1_and_says_which() {
         let sentence = support::said(&said);
         assert!(sentence.ends_with(passed), "{limits}: {sentence}");
         if code == 1 {
-            let start = "pipeline: lighter.exr differs from grey.exr by more than was allowed: ";
+            let start = "pipeline: lighter.exr differs from grey.exr by more than is allowed: ";
             assert!(sentence.starts_with(start), "{sentence}");
         }
         // The numbers are printed although they exceed the limit, when they matter most.
@@ -172,7 +172,5 @@ fn every_exit_code_is_told_in_the_help_and_in_the_conventions() {
     let conventions = std::fs::read_to_string(root().join("docs/conventions.md")).unwrap();
     assert!(conventions.contains("| 1 | `pipeline compare`: the pictures differ by more"));
     let help = data(&run("pipeline", &["--help"], &root()));
-    assert!(
-        help.contains("Exit codes: 1 pictures that differ by more than was allowed, 2 bad use")
-    );
+    assert!(help.contains("Exit codes: 1 pictures that differ by more than is allowed, 2 bad use"));
 }

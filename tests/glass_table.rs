@@ -55,8 +55,8 @@ fn paths_to_the_sea(pixel: &str) -> Vec<Vec<String>> {
             }
             _ => path.last_mut().into_iter().for_each(|step| *step += &format!("\n{text}")),
         }
-        if text.starts_with("colour handed up")
-            && path.last().is_some_and(|step| step.contains("object 0, plane"))
+        if text.starts_with("colour returned")
+            && way.last().is_some_and(|step| step.contains("object 0, plane"))
         {
             paths.push(path.clone());
         }

@@ -226,7 +226,7 @@ fn pixels_that_are_not_finite_are_told() {
     let job = "{\"format\": \"tb-job\", \"version\": 1, \"scene\": \"s.json\"}";
     fs::write(folder.path().join("bright.json"), job).unwrap();
     let ran = run("pipeline", &["run", "bright.json", "-q", "--size", "3x2"], folder.path());
-    let told = "pipeline: bright tent: 6 pixels came out not finite and are black\n";
+    let told = "pipeline: bright tent: 6 pixels are not finite and were made black\n";
     assert_eq!(said(&ran), told);
 }
 

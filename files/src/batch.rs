@@ -61,7 +61,9 @@ impl<'a> Batch<'a> {
             Ok(text) if text.starts_with(HEADER) => Some(listed(&text, folder)),
             Err(error) if error.kind() == io::ErrorKind::NotFound => None,
             _ => {
-                let source = io::Error::other("it is no list of files being replaced: move it");
+                let source = io::Error::other(
+                    "this file is not a list of files that a run replaces: move this file",
+                );
                 return Err(failed(&marker, source));
             }
         };
@@ -101,13 +103,14 @@ impl<'a> Batch<'a> {
         let earlier = self.earlier.as_ref()?;
         let rest = earlier.difference(&self.files).count();
         let now = match rest {
-            0 => "this run replaces them".into(),
-            1 => "this run replaces all but one of them".into(),
-            _ => format!("this run replaces all but {rest} of them"),
+            0 => "this run replaces all of the files".into(),
+            1 => "this run replaces all of the files but one".into(),
+            _ => format!("this run replaces all of the files but {rest}"),
         };
         let marker = self.marker.display();
         Some(format!(
-            "{marker} tells of an earlier run that stopped between the files it lists, old and new: {now}"
+            "{marker} lists files of which some are old and some are new, since an earlier run \
+             stopped between two of the files: {now}"
         ))
     }
 
@@ -289,8 +292,8 @@ mod tests {
             let batch = Batch::new(folder.path(), "all", some).unwrap();
             let remark = batch.remark().unwrap();
             let rest = match left {
-                0 => "this run replaces them".into(),
-                1 => "all but one of them".into(),
+                0 => "this run replaces all of the files".into(),
+                1 => "all of the files but one".into(),
                 _ => format!("all but {left} of them"),
             };
             assert!(remark.ends_with(&rest), "{remark}");
@@ -313,7 +316,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         fs::write(folder.path().join("all.incomplete"), "mine").unwrap();
         let error = Batch::new(folder.path(), "all", &three(&folder)).unwrap_err().to_string();
-        assert!(error.contains("all.incomplete: it is no list of files being replaced"), "{error}");
+        assert!(error.contains("all.incomplete: this file is not a list of files"), "{error}");
     }
 
     #[test]

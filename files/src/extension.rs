@@ -16,7 +16,7 @@ const KNOWN: [&str; 42] = [
 
 /// An output whose extension promises another format than the content.
 #[derive(Debug, Error)]
-#[error("{name} would hold {content}, which its extension denies: expected {expected}")]
+#[error("{name} would hold {content}, but its extension names another format: expected {expected}")]
 pub struct WrongExtension {
     name: String,
     content: &'static str,
@@ -60,7 +60,8 @@ mod tests {
         for name in ["a.glb", "b/a.PNG", "a.obj.gz"] {
             let error = check(Path::new(name), "an OBJ mesh", &["obj"]).unwrap_err();
             assert_eq!(error.exit(), Exit::Use);
-            let expected = "would hold an OBJ mesh, which its extension denies: expected .obj";
+            let expected =
+                "would hold an OBJ mesh, but its extension names another format: expected .obj";
             assert_eq!(error.to_string(), format!("{name} {expected}"));
         }
     }

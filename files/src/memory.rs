@@ -208,14 +208,16 @@ impl fmt::Display for Remedy<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let MemoryError { taken, limit, refused_by_system, .. } = *self.0;
         if refused_by_system {
-            return f.write_str("which the system does not give: make it smaller");
+            return f.write_str(
+                "and the system does not provide them: make the input or the result smaller",
+            );
         }
         write!(f, "and {} are allowed", Bytes(limit))?;
         // A few bytes taken for other purposes explain nothing.
         if taken > limit / 100 {
-            write!(f, ", of which {} are taken", Bytes(taken))?;
+            write!(f, ", of which {} are in use", Bytes(taken))?;
         }
-        f.write_str(": make it smaller, or raise --max-memory")
+        f.write_str(": make the input or the result smaller, or raise --max-memory")
     }
 }
 
@@ -284,14 +286,15 @@ mod tests {
         let error = budget.reserve(28 << 30, || "a picture".into()).unwrap_err();
         assert_eq!(
             error.to_string(),
-            "a picture needs 28.0 GB, and 20.0 GB are allowed, of which 1.0 GB are taken: make it \
-             smaller, or raise --max-memory"
+            "a picture needs 28.0 GB, and 20.0 GB are allowed, of which 1.0 GB are in use: make \
+             the input or the result smaller, or raise --max-memory"
         );
         assert_eq!(error.exit(), Exit::Resource);
         let endless = Budget::new(u64::MAX).reserve(1 << 60, || "a grid".into()).unwrap_err();
         assert_eq!(
             endless.to_string(),
-            "a grid needs 1073741824.0 GB, which the system does not give: make it smaller"
+            "a grid needs 1073741824.0 GB, and the system does not provide them: make the input \
+             or the result smaller"
         );
         let error = Budget::new(7).reserve(u64::MAX, || "a mesh".into()).unwrap_err().to_string();
         assert!(error.contains("and 7 bytes are allowed: make"), "{error}");

@@ -136,7 +136,7 @@ pub fn size(bytes: &[u8], formats: &[ImageFormat]) -> Result<(u32, u32), Picture
 
 /// Returns the error for a decoder that panicked.
 fn damaged() -> PictureError {
-    PictureError::Broken("the decoder stumbled over it; the file is damaged".into())
+    PictureError::Broken("the decoder failed; the file is damaged".into())
 }
 
 /// Returns the width that the header of a PNG claims, in pixels, or 0 without a header.
@@ -152,7 +152,7 @@ fn png_width(bytes: &[u8]) -> u64 {
 fn broken(error: ImageError) -> PictureError {
     PictureError::Broken(match error {
         ImageError::Limits(_) => {
-            format!("more than {} beside its pixels", crate::memory::Bytes(MOST_BESIDE))
+            format!("more than {} of data beside the pixels", crate::memory::Bytes(MOST_BESIDE))
         }
         other => without_types(other.to_string()),
     })

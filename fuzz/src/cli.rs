@@ -30,31 +30,31 @@ Exit codes: 0 nothing found, 1 something found, 2 bad use, 5 the fuzzer itself c
 #[derive(Debug, Parser)]
 #[command(version, after_help = EXAMPLES)]
 pub struct Arguments {
-    /// Cases in all, shared evenly among the readers
+    /// Total number of cases, shared evenly among the readers
     #[arg(long, value_name = "N", conflicts_with = "seconds")]
     cases: Option<u64>,
-    /// Seconds by the clock, shared evenly among the readers [default: 60]
+    /// Wall-clock time in seconds, shared evenly among the readers [default: 60]
     #[arg(long, value_name = "S")]
     seconds: Option<f64>,
-    /// The seed of all cases; taken from the clock when left out, and always printed
+    /// The seed of all cases; always printed [default: taken from the clock]
     #[arg(long, value_name = "SEED")]
     seed: Option<u64>,
-    /// The readers to try, with commas between them; all when left out
+    /// The readers to try, with commas between them [default: all]
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     reader: Vec<Reader>,
-    /// Processes at a time; as many as there are cores when left out
+    /// Number of parallel processes [default: one for each core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     jobs: Option<u16>,
-    /// A folder for inputs with a fault: as they were found, and minimized
+    /// A folder for inputs with a fault, original and minimized
     #[arg(long, value_name = "DIR")]
     keep: Option<PathBuf>,
-    /// Try this case alone
+    /// Try only this case
     #[arg(long, value_name = "K", requires = "seed", requires = "reader")]
     case: Option<u64>,
-    /// Try this file alone
+    /// Try only this file
     #[arg(long, value_name = "FILE", requires = "reader", conflicts_with = "case")]
     input: Option<PathBuf>,
-    /// Print the seeds of the readers as files into the folder of --keep, and do nothing else
+    /// Write the seeds of the readers as files into the folder of --keep, and do nothing else
     #[arg(long, requires = "keep", conflicts_with_all = ["case", "input", "cases", "seconds"])]
     seeds: bool,
     /// Run as a child process, which reads the cases to try from standard input
@@ -69,7 +69,7 @@ pub enum FuzzError {
     #[error(transparent)]
     Seed(#[from] SeedError),
     /// A pipe or process failed.
-    #[error("a child process cannot be started or talked to: {0}")]
+    #[error("a child process cannot be started, or its pipe failed: {0}")]
     Io(#[from] std::io::Error),
     /// A child ended before it tried anything.
     #[error("a child process {0}")]

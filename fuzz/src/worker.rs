@@ -26,9 +26,9 @@ pub fn run() -> Result<(), FuzzError> {
     files::memory::allow(Some(MOST_MEMORY / 4 * 3));
     let bench = Bench::load()?;
     let last_panic = LastPanic::default();
-    let said = Arc::clone(&last_panic);
+    let message = Arc::clone(&last_panic);
     panic::set_hook(Box::new(move |info| {
-        *said.lock().unwrap_or_else(PoisonError::into_inner) = Some(told(info));
+        *message.lock().unwrap_or_else(PoisonError::into_inner) = Some(panic_message(info));
     }));
     let worker = Worker { bench, watch: Watch::start(), last_panic };
     let mut input = stdin().lock();
@@ -98,7 +98,7 @@ impl Worker {
 }
 
 /// Returns the position and the message of a panic, in one line.
-fn told(info: &PanicHookInfo<'_>) -> String {
+fn panic_message(info: &PanicHookInfo<'_>) -> String {
     let place = info.location().map_or_else(String::new, |place| {
         // Only the last names of a path into another crate.
         let names: Vec<&str> = place.file().rsplit('/').take(3).collect();

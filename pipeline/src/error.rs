@@ -107,7 +107,8 @@ pub enum PipelineError {
     },
     /// There is no page of that name.
     #[error(
-        "there is no page {name:?}{near}; `pipeline list` names those there are; a job of your own is named by its .json file"
+        "there is no page {name:?}{near}; `pipeline list` prints all pages; name a job of your \
+         own by its .json file"
     )]
     UnknownPage {
         /// The requested name.

@@ -96,7 +96,7 @@ mod tests {
         let error = page("glas-sphere").unwrap_err().to_string();
         assert!(error.contains("did you mean glass-sphere?"), "{error}");
         let error = page("x").unwrap_err().to_string();
-        assert!(error.starts_with("there is no page \"x\"; `pipeline list` names"), "{error}");
+        assert!(error.starts_with("there is no page \"x\"; `pipeline list` prints"), "{error}");
     }
 
     #[test]

@@ -27,10 +27,10 @@ Examples:
   render --emit-schema > tb-scene.schema.json
   render scene.json --crop 200,250,100x100 --layers normal,depth -o part.exr
 
-The picture is never a file that is read (the scene, its parts, meshes, materials, pictures).
+The picture never replaces an input (the scene, its parts, meshes, materials, pictures).
 
-Exit codes: 2 bad use, 3 malformed input, 4 wrong by --check, 5 cannot read or write, 6 too large,
-70 a bug, 130 interrupted, 141 closed pipe.";
+Exit codes: 2 bad use, 3 malformed input, 4 --check found something wrong, 5 cannot read or write,
+6 too large, 70 a bug, 130 interrupted, 141 closed pipe.";
 
 /// Renders a JSON scene with area sampled textures.
 #[derive(Debug, Parser)]
@@ -55,7 +55,7 @@ enum UseError {
     UnknownFormat(String),
     #[error("{0} is a PNG and cannot hold --layers: name it .exr, or leave them out")]
     LayersInPng(String),
-    #[error("standard input (-) can be read once, found it for {0} and {1}")]
+    #[error("standard input (-) can be read once: found - for {0} and {1}")]
     TwoFromStdin(String, String),
     #[error("--mesh {0} was given twice")]
     SameMesh(String),
@@ -73,7 +73,7 @@ enum UseError {
         "--pixel-filter tent needs rays between the middles of pixels: add --samples 2 or more"
     )]
     TentOfOne,
-    #[error("{0}: the check found {1} wrong")]
+    #[error("{0}: number of findings marked `wrong`: {1}")]
     Wrong(String, usize),
     #[error("cannot start {0} threads: {1}")]
     Threads(usize, rayon::ThreadPoolBuildError),

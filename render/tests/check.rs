@@ -261,7 +261,10 @@ fn a_scene_from_standard_input_is_checked_and_wrong_ends_with_4() {
     let away = WALL.replace("\"target\": [0, 0, 0]", "\"target\": [0, 0, 2]");
     let run = bench.run(&["--check", "-"], away.as_bytes());
     let (code, said) = ending(&run);
-    assert_eq!((code, said.as_str()), (Some(4), "render: <stdin>: the check found 1 wrong\n"));
+    assert_eq!(
+        (code, said.as_str()),
+        (Some(4), "render: <stdin>: number of findings marked `wrong`: 1\n")
+    );
     assert!(String::from_utf8(run.stdout).unwrap().contains("wrong: camera: found no object"));
     assert!(bench.names().is_empty(), "nothing is written");
 }

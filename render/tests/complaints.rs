@@ -291,7 +291,7 @@ fn a_mesh_that_is_given_wrongly_ends_with_2() {
     refuse(&twice, &["--mesh wall was given twice"]);
     refuse(
         &["-", "--mesh", "wall=-"],
-        &["standard input (-) can be read once, found it for the scene and --mesh wall"],
+        &["standard input (-) can be read once: found - for the scene and --mesh wall"],
     );
     let without = Bench::with_scene(WALL);
     let arguments = ["scene.json", "--mesh", "wall=wall.obj"];

@@ -198,6 +198,6 @@ fn materials_out_of_range_are_refused_with_their_place() {
     material(r#""thin_film": {}"#, &["missing key `thickness_nm`"]);
     material(
         r#""by_angle": [[0, 1]], "thin_film": { "thickness_nm": 100 }"#,
-        &["materials.m.by_angle: found beside \"thin_film\""],
+        &["materials.m.by_angle: found this key beside \"thin_film\""],
     );
 }

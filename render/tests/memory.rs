@@ -57,7 +57,7 @@ fn several_textures_share_what_there_is() {
     bench.write("scene.json", text);
     // The first picture keeps 393216 bytes, and a row takes 4096.
     let arguments = ["scene.json", "--max-memory", "1000000"];
-    let said = ["scene.json:4:", "textures.more.image: ", "of which 397312 bytes are taken"];
+    let said = ["scene.json:4:", "textures.more.image: ", "of which 397312 bytes are in use"];
     bench.refuse(&arguments, b"", 6, &said);
 }
 
@@ -91,8 +91,8 @@ fn a_picture_with_layers_is_measured_before_it_is_rendered() {
     let run = bench.run(&[&arguments[..], &["--max-memory", "20G"]].concat(), b"");
     let (code, said) = ending(&run);
     assert_eq!(code, Some(6), "{said}");
-    let expected = "render: a picture of 65536x4096 pixels with 5 layers needs 36.0 GB, and 20.0 GB \
-                    are allowed: make it smaller, or raise --max-memory\n";
+    let expected = "render: a picture of 65536x4096 pixels with 5 layers needs 36.0 GB, and 20.0 \
+                    GB are allowed: make the input or the result smaller, or raise --max-memory\n";
     assert_eq!(said, expected);
     // A crop takes only the memory of its own pixels.
     let crop = ["--crop", "0,0,8x8", "--max-memory", "1M"];

@@ -167,11 +167,11 @@ fn names_footprints_and_reasons_are_told() {
     let line = floor.lines().find(|line| line.contains("sees a rectangle")).unwrap_or_default();
     let words: Vec<f32> = line.split([' ', ',']).filter_map(|word| word.parse().ok()).collect();
     assert_eq!(words[2..4], [4.0 * words[0], 4.0 * words[1]], "{line}");
-    assert!(print(Filter::Point, 3, 18).contains("sees a point, as the filter asks\n"));
+    assert!(print(Filter::Point, 3, 18).contains("sees a point, as the filter requires\n"));
     let places = (0..20).flat_map(|y| (0..24).map(move |x| (x, y)));
     let texts: Vec<String> = places.map(|(x, y)| print(Filter::Tent, x, y)).collect();
     let told = |part: &str| texts.iter().any(|text| text.contains(part));
-    assert!(told(" neighbour came to object 1, sphere, part 0\n"));
+    assert!(told(" neighbour hit object 1, sphere, part 0\n"));
     assert!(told("1 reflected: object 0, plane\n") && told("1 refracted: object 1, sphere\n"));
     assert!(print(Filter::Tent, 0, 0).contains("0 from the eye: the background\n"));
 }

@@ -75,22 +75,25 @@ fn placements_that_cannot_be_are_refused() {
         "[ { \"translate\": [1, 0, 1] }, { \"rotate_deg\": { \"axis\": [0, 0, 0], \"angle\": 1 } } ]",
         &["place[1].rotate_deg.axis: found an axis without length"],
     );
-    placed("[ { \"scale\": [1, 1, 1e9] } ]", &["place: found a map that flattens the object"]);
+    placed(
+        "[ { \"scale\": [1, 1, 1e9] } ]",
+        &["place: found a transform that flattens the object"],
+    );
     placed(
         "[ { \"matrix\": [[1, 0, 0, 0], [0, 1, 0, 0], [1, 1, 0, 0]] } ]",
-        &["place: found a map that flattens the object"],
+        &["place: found a transform that flattens the object"],
     );
     placed(
         "[ { \"scale\": [1e70, 1e70, 1e70] } ]",
-        &["place: found a map that stretches too much"],
+        &["place: found a transform that stretches too much"],
     );
     placed(
         "[ { \"scale\": [1e200, 1, 1] }, { \"scale\": [1e200, 1, 1] } ]",
-        &["place: found a map that stretches too much"],
+        &["place: found a transform that stretches too much"],
     );
     placed(
         "[ { \"translate\": [0, -1.7e308, 0] } ]",
-        &["place: found a map that moves points by more than 1e60"],
+        &["place: found a transform that moves points by more than 1e60"],
     );
     placed("[ { \"matrix\": [[1, 0, 0], [0, 1, 0], [0, 0, 1]] } ]", &["place[0].matrix"]);
     placed("[ { \"rotate\": 1 } ]", &["place[0]", "expected one of `scale`, `rotate_deg`"]);

@@ -31,7 +31,8 @@ fn a_texture_is_of_exactly_one_kind() {
     refuse_texture(r#"{ "marble": { "fold": 1 } }"#, &["(did you mean `folds`?)"]);
     refuse_texture(
         r#"{ "marble": {}, "wrap": "clamp" }"#,
-        &["textures.t.wrap: found it on a texture that fills space, expected it only on pictures"],
+        &["textures.t.wrap: found this key on a texture that fills space, expected it only on \
+           pictures"],
     );
     refuse_texture(
         r#"{ "marble": {}, "values": "srgb" }"#,
@@ -39,7 +40,8 @@ fn a_texture_is_of_exactly_one_kind() {
     );
     refuse_texture(
         r#"{ "image": "a.png", "place": {} }"#,
-        &["textures.t.place: found it on a picture, expected it only on textures that fill space"],
+        &["textures.t.place: found this key on a picture, expected it only on textures that fill \
+           space"],
     );
 }
 
@@ -99,7 +101,7 @@ fn a_bump_has_exactly_one_relief_and_numbers_in_range() {
         (
             r#"{ "image": { "file": "a.png" }, "strength": 1, "place": {} }"#,
             ".place",
-            "found it on a picture",
+            "found this key on a picture",
         ),
         (
             r#"{ "image": { "file": "a.png", "repeat": [0, 1] }, "strength": 1 }"#,

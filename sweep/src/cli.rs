@@ -30,8 +30,8 @@ Examples:
   sweep --check examples/curves/klein-bottle.json
   sweep --preview trefoil.svg examples/curves/trefoil.json
 
-An output is never a file that the spec is read from, and its name does not end as another format
-does: a grid is .grid (or .json with --format json), a preview .svg; other endings are free.
+No output replaces an input. The extension of an output must not belong to another format: a grid is
+.grid (or .json with --format json), a preview .svg; unknown extensions are allowed.
 The grid and the preview are replaced together.";
 
 /// Sweep a contour along a trajectory: a JSON spec in, a grid of points and normals out.
@@ -46,27 +46,27 @@ pub struct Arguments {
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 
-    /// Say what is wrong or suspicious on standard output; ends with 4 if something is wrong
+    /// Print what is wrong or suspicious on standard output; the exit code is 4 if something is wrong
     #[arg(long)]
     check: bool,
 
-    /// Check also where parts of a surface meet far from each other
+    /// Check also whether distant parts of a surface cross each other
     #[arg(long)]
     check_self: bool,
 
-    /// Draw contour, trajectory, frames, laws and surface: an SVG file
+    /// Draw contour, trajectory, frames, laws and surface into an SVG file
     #[arg(long, value_name = "FILE")]
     preview: Option<PathBuf>,
 
-    /// How the rows of the grid are written
+    /// Format of the grid
     #[arg(long, value_enum, default_value_t = Format::Bin)]
     format: Format,
 
     #[command(flatten)]
     resolution: ResolutionArguments,
 
-    /// Memory to take at most, in bytes or with k, M or G; what needs more is refused before it is
-    /// begun [default: 90 % of what is free]
+    /// Most memory to use, in bytes or with k, M or G. A larger request is refused before the work
+    /// starts [default: 90 % of the free memory]
     #[arg(long, value_name = "BYTES", value_parser = files::memory::bytes)]
     max_memory: Option<u64>,
     /// Threads to use, up to 1024; all cores by default
@@ -96,9 +96,11 @@ enum UseError {
     Terminal,
     #[error("cannot start {threads} threads: {source}")]
     Threads { threads: u16, source: rayon::ThreadPoolBuildError },
-    #[error("found two things for standard output, expected one: name files with -o and --preview")]
+    #[error(
+        "found two outputs for standard output, expected one: name files with -o and --preview"
+    )]
     Crowded,
-    #[error("{name}: the check found {count} wrong")]
+    #[error("{name}: number of findings marked `wrong`: {count}")]
     Wrong { name: String, count: NonZeroUsize },
 }
 

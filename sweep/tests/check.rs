@@ -241,7 +241,7 @@ fn curves_are_looked_at_as_they_were_drawn() {
         &polyline(true, json!([[0, 0], [1, 0], [1, 1e-7], [0, 1e-7]])),
         Severity::Hint,
         "contour",
-        "encloses hardly anything",
+        "encloses an area of only",
     );
     let bow = found(&polyline(true, json!([[0, 0], [2, 2], [2, 0], [0, 2]])));
     assert!(bow[0].message.contains("crosses itself once, first at (1, 1)"), "{bow:?}");
@@ -249,7 +249,7 @@ fn curves_are_looked_at_as_they_were_drawn() {
         &polyline(false, json!([[0, 0], [1, 0], [1, 1], [0.0009, 0]])),
         Severity::Hint,
         "contour",
-        "is it to be closed?",
+        "should the curve be closed?",
     );
     nothing(&polyline(false, json!([[0, 0], [1, 0], [1, 1], [0.01, 0]])));
     let bezier = |gap: f64| {
@@ -259,7 +259,7 @@ fn curves_are_looked_at_as_they_were_drawn() {
     says(&bezier(1e-7), Severity::Remark, "contour.bezier.segments", "the widest of 1.00e-7");
     nothing(&bezier(0.0));
     let arc = |angle: f64| json!({"trajectory": {"circle": {"radius": 3, "angle_deg": angle}}});
-    says(&arc(359.9), Severity::Hint, "trajectory", "is it to be closed?");
+    says(&arc(359.9), Severity::Hint, "trajectory", "should the curve be closed?");
     nothing(&arc(350.0));
 }
 
@@ -312,7 +312,7 @@ fn the_program_ends_with_4_only_when_something_is_wrong() {
     assert!(String::from_utf8(wrong.stdout).unwrap().contains("\nwrong: trajectory: "));
     assert_eq!(
         String::from_utf8(wrong.stderr).unwrap(),
-        "sweep: <stdin>: the check found 1 wrong\n"
+        "sweep: <stdin>: number of findings marked `wrong`: 1\n"
     );
     let malformed = run(&["--check"], "{");
     assert_eq!(malformed.status.code(), Some(3));

@@ -84,12 +84,12 @@ fn a_tolerance_takes_the_place_of_rows_and_cols() {
         Some(0)
     );
     for (arguments, expected) in [
-        (&["--rows", "2"][..], "sweep: cols: found none beside rows, expected both\n"),
+        (&["--rows", "2"][..], "sweep: cols: found rows without cols, expected both\n"),
         (&["--tol", "0"], "sweep: tol: found 0.0, expected a number above 0 and below 1e60\n"),
         (&["--max-quads", "2"], "sweep: max_quads: found 2, expected at least 3, the fewest"),
         (
             &["--pixels", "1"],
-            "sweep: pixels: found no camera beside it, expected one in mesh.camera",
+            "sweep: pixels: found pixels without a camera, expected a camera in mesh.camera",
         ),
     ] {
         let (code, message) = ending(&sweep(arguments, &fine));

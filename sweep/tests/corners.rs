@@ -175,10 +175,14 @@ fn corners_have_their_complaints() {
         (
             sharp(json!({"round": 2.1})),
             json!({}),
-            "corners.round: found 2.1, expected at most 2.0, half of the way",
+            "corners.round: found 2.1, expected at most 2.0, half the length",
         ),
         (sharp(json!({"round": 0})), json!({}), "corners.round: found 0.0"),
-        (sharp(json!({})), json!({}), "corners: found no way, expected one of round, mitre"),
+        (
+            sharp(json!({})),
+            json!({}),
+            "corners: found no corner style, expected one of round, mitre",
+        ),
         (
             cusp(json!({"mitre": 4})),
             json!({}),
@@ -193,7 +197,7 @@ fn corners_have_their_complaints() {
         (
             tilted.clone(),
             json!({"frame": {"up": [0, 1, 3]}}),
-            "frame.up: found a mitre that the frame does not pass straight",
+            "frame.up: found a mitre at which the frame turns",
         ),
         (
             json!({"line": [[0, 0, 0], [0, 0, 9]]}),

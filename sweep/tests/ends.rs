@@ -114,7 +114,10 @@ fn caps_are_refused_where_they_would_not_close_anything() {
             "caps: found a rotation",
         ),
         (json!({"contour": {"svg": "M1 0V1"}}), "caps: found an open contour"),
-        (json!({"scale": {"total": 1}}), "caps.start: found a cap on a section that no place"),
+        (
+            json!({"scale": {"total": 1}}),
+            "caps.start: found a cap on a section that is not star-shaped",
+        ),
         (
             json!({"contour": {"svg": "M0 0H9V-9H8V-1H1V-9H0Z"}}),
             "caps.start: found a cap on a section",

@@ -159,7 +159,7 @@ fn frames_have_their_complaints() {
     let corner = json!({"bezier": {"segments": [
         [[0, 0, 0], [1, 0, 0.5], [2, 0, 0.5], [3, 0, 0]], [[3, 0, 0], [4, 0, -0.5], [5, 2, -0.5], [6, 2, 0]]]}});
     for (trajectory, frame, message, exit) in [
-        (wire, json!({"up": [0, 0, 0]}), "frame.up: found no direction", 3),
+        (wire, json!({"up": [0, 0, 0]}), "frame.up: found a vector without length", 3),
         (wire, json!({"frenet": {"a": 1}}), "frame.frenet", 3),
         (wire, json!({}), "frame: found no frame, expected one of start, up, frenet, guide", 3),
         (wire, json!({"up": [0, 1, 0], "frenet": {}}), "found both `up` and `frenet`", 3),

@@ -193,8 +193,11 @@ fn a_klein_bottle_of_an_asymmetric_contour_is_refused_with_its_mismatch() {
     let mut spec = example("klein-bottle");
     spec["contour"] = json!({"free": {"closed": true, "points": [[1, 0], [0.3, 0.9], [-0.8, 0.2], [-0.1, -0.5]]}});
     let error = read(&spec).unwrap_err().to_string();
-    assert!(error.contains("seam: found a contour that misses itself by"), "{error}");
-    assert!(error.contains("of its size when it comes back turned and mirrored"), "{error}");
+    assert!(error.contains("seam: found a contour that differs by"), "{error}");
+    assert!(
+        error.contains("of its size from the contour at the start when turned and mirrored"),
+        "{error}"
+    );
 }
 
 #[test]

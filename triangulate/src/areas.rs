@@ -126,14 +126,14 @@ impl Areas {
     }
 
     /// Returns the order in which a band writes its triangles: grouped by material, so that the
-    /// material changes as seldom as possible. `told`, the material written last, comes first; the
+    /// material changes as seldom as possible. `last`, the material written last, comes first; the
     /// others follow in the order of `owners`.
-    pub fn ranks(&self, told: Material, owners: &[u32]) -> HashMap<Material, usize> {
+    pub fn ranks(&self, last: Material, owners: &[u32]) -> HashMap<Material, usize> {
         let mut ranks = HashMap::new();
         let materials = owners.iter().map(|&owner| self.material(owner));
         for material in materials {
             let next = ranks.len() + 1;
-            ranks.entry(material).or_insert(if material == told { 0 } else { next });
+            ranks.entry(material).or_insert(if material == last { 0 } else { next });
         }
         ranks
     }

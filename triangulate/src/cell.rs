@@ -2,16 +2,16 @@
 
 use crate::areas::Areas;
 use crate::diagonal::{self, Diagonal, is_flat};
-use crate::station::{Station, ToldUv, UNTOLD};
+use crate::station::{NumberedUv, Station, UNNUMBERED};
 use crate::triangulator::{Counts, Sink};
 use crate::{Material, Options, Triangle};
 use glam::DVec3;
 use sweep::grid::Seam;
 use sweep::grid::file::Header;
 
-/// A sink, and the counts of the numbers passed to the sink.
+/// Writes the vertices and triangles of cells to a sink, and counts them.
 #[derive(Debug)]
-pub struct Teller<S> {
+pub struct CellWriter<S> {
     pub sink: S,
     pub counts: Counts,
     pub picture: Picture,
@@ -67,8 +67,8 @@ impl Picture {
     }
 }
 
-impl<S: Sink> Teller<S> {
-    /// Makes a teller for a patch. `material` is the material passed to the sink for this patch.
+impl<S: Sink> CellWriter<S> {
+    /// Makes a writer for a patch. `material` is the material passed to the sink for this patch.
     pub fn new(sink: S, counts: Counts, picture: Picture, material: Material) -> Self {
         Self { sink, counts, picture, material, triangles: Vec::new() }
     }
@@ -116,7 +116,7 @@ impl<S: Sink> Teller<S> {
                 self.counts.slivers += 1;
                 continue;
             }
-            let told = triangle.map(|corner| {
+            let numbers = triangle.map(|corner| {
                 let position = cell.of(corner, |station, col| station.position[col]);
                 match pole {
                     Some(side) if SIDES[side].contains(&corner) => {
@@ -128,9 +128,9 @@ impl<S: Sink> Teller<S> {
                 }
             });
             let triangle = Triangle {
-                position: told.map(|[position, _, _]| position),
-                uv: told.map(|[_, uv, _]| uv),
-                normal: told.map(|[_, _, normal]| normal),
+                position: numbers.map(|[position, _, _]| position),
+                uv: numbers.map(|[_, uv, _]| uv),
+                normal: numbers.map(|[_, _, normal]| normal),
             };
             self.triangles.push((owner, triangle));
             self.counts.triangles += 1;
@@ -142,14 +142,14 @@ impl<S: Sink> Teller<S> {
     fn uv(&mut self, cell: &mut Cell<'_>, owner: u32, corner: usize) -> u32 {
         let col = self.picture.same[cell.picture_col(corner)];
         let station = cell.station(corner);
-        let known = |told: &&ToldUv| told.owner == owner && told.number != UNTOLD;
-        if let Some(told) = station.uv[col].iter().find(known) {
-            return told.number;
+        let known = |uv: &&NumberedUv| uv.owner == owner && uv.number != UNNUMBERED;
+        if let Some(uv) = station.uv[col].iter().find(known) {
+            return uv.number;
         }
         let uv = self.picture.areas.coordinates(owner, self.picture.u[col], station.v);
-        let number = self.tell_uv(uv);
-        let told = &mut cell.station(corner).uv[col];
-        *told = [ToldUv { owner, number }, told[0]];
+        let number = self.write_uv(uv);
+        let slots = &mut cell.station(corner).uv[col];
+        *slots = [NumberedUv { owner, number }, slots[0]];
         number
     }
 
@@ -158,17 +158,17 @@ impl<S: Sink> Teller<S> {
     fn normal(&mut self, cell: &mut Cell<'_>, corner: usize) -> u32 {
         let col = cell.col(corner);
         let station = cell.station(corner);
-        if station.normal[col] != UNTOLD {
+        if station.normal[col] != UNNUMBERED {
             return station.normal[col];
         }
         let normal = station.normals[col];
         let left = (col > 0 && station.normals[col - 1] == normal)
             .then(|| station.normal[col - 1])
-            .filter(|&number| number != UNTOLD);
+            .filter(|&number| number != UNNUMBERED);
         let below = (on_top(corner) && cell.lower.normals[col] == normal)
             .then(|| cell.lower.normal[col])
-            .filter(|&number| number != UNTOLD);
-        let number = left.or(below).unwrap_or_else(|| self.tell_normal(normal));
+            .filter(|&number| number != UNNUMBERED);
+        let number = left.or(below).unwrap_or_else(|| self.write_normal(normal));
         cell.station(corner).normal[col] = number;
         number
     }
@@ -182,14 +182,14 @@ impl<S: Sink> Teller<S> {
             let v = ends.map(|corner| cell.station(corner).v);
             [0.5 * (u[0] + u[1]), 0.5 * (v[0] + v[1])]
         };
-        let uv = self.tell_uv(self.picture.areas.coordinates(owner, u, v));
+        let uv = self.write_uv(self.picture.areas.coordinates(owner, u, v));
 
         let [m, n] = ends.map(|corner| cell.of(corner, |station, col| station.normals[col]));
         let middle = (m != n)
             .then(|| DVec3::from(m.map(f64::from)) + DVec3::from(n.map(f64::from)))
             .and_then(DVec3::try_normalize);
         let normal = match middle {
-            Some(middle) => self.tell_normal(middle.to_array().map(|x| x as f32 + 0.0)),
+            Some(middle) => self.write_normal(middle.to_array().map(|x| x as f32 + 0.0)),
             None => {
                 let normal = self.normal(cell, ends[0]);
                 // The normal of the second end has a number from here on, so the next row can share it.
@@ -200,12 +200,12 @@ impl<S: Sink> Teller<S> {
         (uv, normal)
     }
 
-    fn tell_uv(&mut self, uv: [f32; 2]) -> u32 {
+    fn write_uv(&mut self, uv: [f32; 2]) -> u32 {
         self.sink.uv(uv);
         counted(&mut self.counts.uvs)
     }
 
-    fn tell_normal(&mut self, normal: [f32; 3]) -> u32 {
+    fn write_normal(&mut self, normal: [f32; 3]) -> u32 {
         self.sink.normal(normal);
         counted(&mut self.counts.normals)
     }

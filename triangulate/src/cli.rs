@@ -29,9 +29,9 @@ Examples:
 
 An output file is replaced only when the whole grid was read and found undamaged. An OBJ on
 standard output is whole when its last line is `# end V F` (numbers of v and f lines).
-Mesh, material file and report are replaced together. None of them is ever a file that is read, and
-none has a name that ends as another format does (a.glb), unless --format asks for it; endings of no
-known format are free.";
+Mesh, material file and report are replaced together. No output replaces an input.
+The extension of an output must not belong to another format (a.glb), unless --format is given;
+unknown extensions are allowed.";
 
 /// Makes triangles of a grid that `sweep` wrote, as OBJ, STL or PLY.
 #[derive(Debug, Parser)]
@@ -43,16 +43,16 @@ pub struct Arguments {
     /// The mesh file; - is standard output
     #[arg(short, long, value_name = "MESH", default_value = "-")]
     pub output: PathBuf,
-    /// How the mesh is written; by default as the output's name ends (.stl, .ply), and else as OBJ
+    /// Format of the mesh [default: the format of the output's extension (.stl, .ply), or else OBJ]
     #[arg(long, value_enum)]
     format: Option<Format>,
-    /// Texture id, which a scene binds to a picture; 0 is none. In place of those in the grid
+    /// Texture id, which a scene binds to a picture; 0 is none. Replaces the ids in the grid
     #[arg(long, value_name = "ID")]
     texture: Option<u32>,
-    /// Surface id, which a scene binds to a material. In place of those in the grid
+    /// Surface id, which a scene binds to a material. Replaces the ids in the grid
     #[arg(long, value_name = "ID")]
     surface: Option<u32>,
-    /// Texture areas (tb-areas JSON) to lay on the grid's own. Keeps the grid in memory
+    /// Texture areas (tb-areas JSON) that cover the areas of the grid. Keeps the grid in memory
     #[arg(long, value_name = "FILE.json")]
     pub areas: Option<PathBuf>,
     /// Write a material file beside the OBJ, under its name with .mtl
@@ -61,18 +61,18 @@ pub struct Arguments {
     /// Picture that the MTL names, exactly as given; readers look for it beside the MTL
     #[arg(long, value_name = "FILE", requires = "mtl", value_parser = map_name)]
     pub map: Option<String>,
-    /// Write what the mesh is like (Euler number, rims, sides, measures) as JSON; - is standard output.
-    /// Keeps the mesh in memory
+    /// Write a report about the mesh (Euler number, rims, sides, measures) as JSON; - is standard
+    /// output. Keeps the mesh in memory
     #[arg(long, value_name = "FILE.json")]
     pub report: Option<PathBuf>,
-    /// Memory to take at most, in bytes or with k, M or G; what needs more is refused before it is
-    /// begun [default: 90 % of what is free]
+    /// Most memory to use, in bytes or with k, M or G. A larger request is refused before the work
+    /// starts [default: 90 % of the free memory]
     #[arg(long, value_name = "BYTES", value_parser = files::memory::bytes)]
     pub max_memory: Option<u64>,
-    /// Say nothing but errors
+    /// Print only errors
     #[arg(short, long)]
     pub quiet: bool,
-    /// Print how many vertices and triangles were made, to standard error
+    /// Print the numbers of vertices and triangles on standard error
     #[arg(long)]
     pub stats: bool,
     /// Do not replace an existing output file

@@ -16,7 +16,7 @@ use clap::ValueEnum;
 ///   same f32 corners; a mesh without triangles is a valid file (`tests/binary.rs`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Format {
-    /// Text, written row by row; what render reads
+    /// Text, written row by row; the format that render reads
     Obj,
     /// Binary STL: triangles only, for printers; needs the mesh in memory
     Stl,

@@ -6,7 +6,7 @@ use sweep::grid::file::Header;
 use sweep::grid::{Row, Seam};
 
 /// The number of a vertex that has not been passed to the sink.
-pub const UNTOLD: u32 = u32::MAX;
+pub const UNNUMBERED: u32 = u32::MAX;
 
 /// A row, rounded to f32, with the numbers of its vertices.
 #[derive(Debug, Default)]
@@ -24,22 +24,22 @@ pub struct Station {
     pub normal: Vec<u32>,
     /// Numbers of the picture coordinates, by column, with one more entry for `u = 1` at a seam. Each
     /// entry keeps the last two, since two cells of a band meet at a point.
-    pub uv: Vec<[ToldUv; 2]>,
+    pub uv: Vec<[NumberedUv; 2]>,
 }
 
 /// Number of the picture coordinates of a point in one area. Each area that meets at the point has its
 /// own.
 #[derive(Debug, Clone, Copy)]
-pub struct ToldUv {
+pub struct NumberedUv {
     /// The number of the area.
     pub owner: u32,
-    /// The index of the picture coordinates in the mesh, or [`UNTOLD`].
+    /// The index of the picture coordinates in the mesh, or [`UNNUMBERED`].
     pub number: u32,
 }
 
-impl ToldUv {
+impl NumberedUv {
     /// No picture coordinates passed to the sink yet.
-    pub const NONE: Self = Self { owner: 0, number: UNTOLD };
+    pub const NONE: Self = Self { owner: 0, number: UNNUMBERED };
 }
 
 impl Station {
@@ -79,9 +79,9 @@ impl Station {
         }
         self.position.clear();
         self.normal.clear();
-        self.normal.resize(self.normals.len(), UNTOLD);
+        self.normal.resize(self.normals.len(), UNNUMBERED);
         self.uv.clear();
-        self.uv.resize(uv_slots, [ToldUv::NONE; 2]);
+        self.uv.resize(uv_slots, [NumberedUv::NONE; 2]);
         Ok(())
     }
 
@@ -95,14 +95,14 @@ impl Station {
         let mirrored = header.seam_v == Seam::Mirror;
         // Subtracting from zero makes 0 into +0.
         let turned = |n: [f32; 3]| if mirrored { n.map(|x| 0.0 - x) } else { n };
-        let normal = |&col: &usize| if mirrored { UNTOLD } else { self.normal[col] };
+        let normal = |&col: &usize| if mirrored { UNNUMBERED } else { self.normal[col] };
         Self {
             v: 1.0,
             points: from.iter().map(|&col| self.points[col]).collect(),
             normals: from.iter().map(|&col| turned(self.normals[col])).collect(),
             position: from.iter().map(|&col| self.position[col]).collect(),
             normal: from.iter().map(normal).collect(),
-            uv: vec![[ToldUv::NONE; 2]; self.uv.len()],
+            uv: vec![[NumberedUv::NONE; 2]; self.uv.len()],
         }
     }
 }

@@ -181,7 +181,7 @@ mod tests {
     #[test]
     fn materials_are_numbered_as_triangles_first_have_them() {
         let mut mesh = TriMesh::default();
-        let mut told = |texture: Option<u32>, triangles: usize| {
+        let mut add = |texture: Option<u32>, triangles: usize| {
             if let Some(texture) = texture {
                 mesh.material(material(texture));
             }
@@ -189,12 +189,12 @@ mod tests {
                 mesh.triangle(&Triangle { position: [0; 3], uv: [0; 3], normal: [0; 3] });
             }
         };
-        told(None, 1);
-        told(Some(7), 0);
-        told(Some(5), 2);
-        told(Some(5), 1);
-        told(Some(0), 1);
-        told(Some(6), 0);
+        add(None, 1);
+        add(Some(7), 0);
+        add(Some(5), 2);
+        add(Some(5), 1);
+        add(Some(0), 1);
+        add(Some(6), 0);
         assert_eq!(mesh.runs.len(), 3);
         assert_eq!(mesh.materials(), [material(0), material(5)]);
         assert_eq!(mesh.material_numbers(), [0, 1, 1, 1, 0]);

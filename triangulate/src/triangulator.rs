@@ -1,6 +1,6 @@
 //! Turns rows into vertices and triangles.
 
-use crate::cell::{Cell, Picture, Teller};
+use crate::cell::{Cell, CellWriter, Picture};
 use crate::station::Station;
 use crate::{Material, Options, Triangle, TriangulateError};
 use glam::DVec3;
@@ -152,7 +152,7 @@ const MAX_REPEAT: f64 = 1e30;
 #[derive(Debug)]
 pub struct Triangulator<S> {
     header: Header,
-    teller: Teller<S>,
+    writer: CellWriter<S>,
     /// The first row as it follows the last row, if the last row leads back to it.
     first: Option<Station>,
     before: Option<Station>,
@@ -208,7 +208,7 @@ impl<S: Sink> Triangulator<S> {
         sink.material(material);
         Ok(Self {
             header,
-            teller: Teller::new(sink, counts, picture, material),
+            writer: CellWriter::new(sink, counts, picture, material),
             first: None,
             before: None,
             spare: Station::default(),
@@ -230,7 +230,7 @@ impl<S: Sink> Triangulator<S> {
         }
         self.rows += 1;
         let mut station = std::mem::take(&mut self.spare);
-        station.take(&row, &self.header.name, self.rows, self.teller.picture.cols())?;
+        station.take(&row, &self.header.name, self.rows, self.writer.picture.cols())?;
         self.rounding.add(row.positions, &station.points);
         self.number_positions(&mut station);
         if let Some(mut before) = self.before.take() {
@@ -242,7 +242,7 @@ impl<S: Sink> Triangulator<S> {
             }
         }
         self.before = Some(station);
-        self.teller.sink.row_done().map_err(TriangulateError::Write)
+        self.writer.sink.row_done().map_err(TriangulateError::Write)
     }
 
     /// Closes the seam, if there is one, and returns the sink with the counts of all patches so far.
@@ -255,9 +255,9 @@ impl<S: Sink> Triangulator<S> {
         }
         if let (Some(mut first), Some(mut last)) = (self.first.take(), self.before.take()) {
             self.band(&mut last, &mut first);
-            self.teller.sink.row_done().map_err(TriangulateError::Write)?;
+            self.writer.sink.row_done().map_err(TriangulateError::Write)?;
         }
-        let before = self.teller.counts;
+        let before = self.writer.counts;
         let displacement = self.rounding.displacement_sq.sqrt();
         let asked = self.header.tolerance.and_then(|tolerance| tolerance.asked);
         let used = asked.map_or(0.0, |asked| displacement / asked);
@@ -267,7 +267,7 @@ impl<S: Sink> Triangulator<S> {
             tolerance_used: before.tolerance_used.max(used),
             ..before
         };
-        Ok((self.teller.sink, counts))
+        Ok((self.writer.sink, counts))
     }
 
     /// Numbers the points of a row. A point that equals its neighbour to the left, below, or across a
@@ -289,7 +289,7 @@ impl<S: Sink> Triangulator<S> {
                 .or_else(|| in_column(self.before.as_ref()))
                 .or_else(|| in_column(over_seam))
                 .or_else(|| (closed && col > 0 && col + 1 == cols).then(|| in_row(0)).flatten());
-            let number = known.unwrap_or_else(|| self.teller.position(point));
+            let number = known.unwrap_or_else(|| self.writer.position(point));
             station.position.push(number);
         }
     }
@@ -308,13 +308,13 @@ impl<S: Sink> Triangulator<S> {
     /// Passes the triangles between two rows to the sink.
     fn band(&mut self, lower: &mut Station, upper: &mut Station) {
         let cols = self.header.cols();
-        self.teller.picture.areas.next_band([lower.v, upper.v]);
-        for left in 0..self.teller.picture.cols() - 1 {
+        self.writer.picture.areas.next_band([lower.v, upper.v]);
+        for left in 0..self.writer.picture.cols() - 1 {
             let right = if left + 1 == cols { 0 } else { left + 1 };
             let mut cell = Cell { lower, upper, left, right };
-            self.teller.cell(&mut cell);
+            self.writer.cell(&mut cell);
         }
-        self.teller.band_done();
+        self.writer.band_done();
     }
 }
 

@@ -33,7 +33,7 @@ impl TriMesh {
                 }
             }
         }
-        let wild = complaints.close("indices that point nowhere");
+        let wild = complaints.close("indices out of range");
 
         for (what, arrays) in [
             ("position", self.positions.iter().map(<[f32; 3]>::as_slice).collect::<Vec<_>>()),

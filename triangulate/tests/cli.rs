@@ -117,7 +117,7 @@ fn what_is_no_grid_is_called_by_its_name() {
     for (input, expected) in [
         (&b""[..], "<stdin> is empty, expected a grid: the program before the pipe wrote nothing"),
         (b"v 0 0 0\n", "<stdin> is not a grid: it looks like an OBJ mesh"),
-        (b"{\"contour\": {}}\n", "if it is a curve spec, `sweep` makes the grid of it"),
+        (b"{\"contour\": {}}\n", "if it is a curve spec, `sweep` makes its grid"),
     ] {
         let run = triangulate(&["-q"], input, folder.path());
         assert_eq!(run.status.code(), Some(3));

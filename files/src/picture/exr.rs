@@ -34,7 +34,7 @@ pub(super) fn unpacked(file: &[u8]) -> Result<Unpacked, String> {
     if largest.bytes / 2 > MOST_EXPANDED.saturating_mul(file.len() as u64) {
         let Unpacked { width, height, channels, .. } = largest;
         let claim = format!("a data window of {width}x{height} pixels with {channels} channels");
-        return Err(format!("{claim}, which no file of {} bytes holds", file.len()));
+        return Err(format!("{claim}, more than a file of {} bytes can hold", file.len()));
     }
     Ok(largest)
 }

@@ -13,22 +13,19 @@ const SENTENCES: [(&str, &str); 16] = [
     ("EOF while parsing a value", "found the end of the text, expected a value"),
     (
         "control character (\\u0000-\\u001F) found while parsing a string",
-        "found a control character inside a string, expected \\u and its number in its place",
+        "found a control character inside a string, expected \\u and the number of the character",
     ),
-    ("expected ident", "found a word that is none of JSON's, expected true, false or null"),
+    ("expected ident", "found an unknown word, expected true, false or null"),
     ("expected value", "expected a value"),
-    (
-        "invalid escape",
-        "found a backslash before what is no escape, expected `\\\\` for a backslash",
-    ),
-    ("invalid number", "found a number that is not written as JSON has it"),
+    ("invalid escape", "found a backslash that begins no escape, expected `\\\\` for a backslash"),
+    ("invalid number", "found a number in a notation that JSON does not have"),
     ("key must be a string", "expected a key in double quotes"),
     ("lone leading surrogate in hex escape", "found half of a pair of \\u escapes, expected both"),
     ("number out of range", "found a number out of range"),
-    ("recursion limit exceeded", "found brackets in brackets more than a hundred deep"),
+    ("recursion limit exceeded", "found brackets nested more than a hundred deep"),
     ("unexpected end of hex escape", "found half of a pair of \\u escapes, expected both"),
-    ("trailing characters", "found more text behind the end of the JSON, expected nothing"),
-    ("trailing comma", "found a comma behind the last value, expected none"),
+    ("trailing characters", "found more text after the end of the JSON, expected nothing"),
+    ("trailing comma", "found a comma after the last value, expected none"),
 ];
 
 /// Pieces that describe the found value.
@@ -151,9 +148,9 @@ mod tests {
             ("[[1]]", "found 1 values, expected 2"),
             ("[[1, 2]", "found the end of the text inside an array, expected `]`"),
             ("[[\"integer `\", 2]]", "found the string \"integer `\", expected a number"),
-            ("[nul]", "found a word that is none of JSON's, expected true, false or null"),
+            ("[nul]", "found an unknown word, expected true, false or null"),
             ("[[1, 1e999]]", "found a number out of range"),
-            ("[[1, 2],]", "found a comma behind the last value, expected none"),
+            ("[[1, 2],]", "found a comma after the last value, expected none"),
         ] {
             assert_eq!(complaint(text), expected, "{text}");
         }

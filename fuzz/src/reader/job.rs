@@ -1,7 +1,7 @@
 //! Reads jobs, with the specs and scenes that they name.
 
 use super::scene::picture;
-use crate::seeds::shelf::Shelf;
+use crate::seeds::memory_files::MemoryFiles;
 use crate::seeds::{PAGES, small};
 use crate::verdict::{Tried, refused};
 use files::Source;
@@ -19,9 +19,9 @@ const MOST_MODES: usize = 2;
 ///
 /// # Errors
 /// When the job is refused, or a picture is wrong.
-pub fn read(bytes: &[u8], shelf: &Shelf) -> Tried {
+pub fn read(bytes: &[u8], stored: &MemoryFiles) -> Tried {
     debug_assert!(Path::new(PATH).starts_with(PAGES));
-    let source = shelf.with(PATH, bytes);
+    let source = stored.with(PATH, bytes);
     let job = Job::read(Path::new(PATH), &source).map_err(refused)?;
     if small::asks_for_much(bytes) {
         return Ok(());

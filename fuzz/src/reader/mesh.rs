@@ -1,7 +1,7 @@
 //! Reads meshes and material libraries, in a scene that shows them.
 
 use super::scene;
-use crate::seeds::shelf::Shelf;
+use crate::seeds::memory_files::MemoryFiles;
 use crate::verdict::{Tried, refused};
 use render::scene::{mtl, obj};
 use render::shape::mesh::NONE;
@@ -36,22 +36,22 @@ const MOST: usize = 20_000;
 ///
 /// # Errors
 /// When the mesh is refused, or its picture is wrong.
-pub fn read_obj(bytes: &[u8], shelf: &Shelf) -> Tried {
+pub fn read_obj(bytes: &[u8], stored: &MemoryFiles) -> Tried {
     let mesh = obj::read("tried.obj", bytes).map_err(refused)?;
     if mesh.triangles.len() > MOST || mesh.positions.len() > MOST {
         return Ok(());
     }
     let textured = mesh.triangles.iter().all(|triangle| !triangle.uv.contains(&NONE));
     let scene = if textured { SCENE.into() } else { SCENE.replace(", \"texture\": \"net\"", "") };
-    scene::read_with(scene.as_bytes(), shelf, &[("tried", mesh)])
+    scene::read_with(scene.as_bytes(), stored, &[("tried", mesh)])
 }
 
 /// Reads a library and renders a mesh with its materials.
 ///
 /// # Errors
 /// When the library is refused, or its picture is wrong.
-pub fn read_mtl(bytes: &[u8], shelf: &Shelf) -> Tried {
+pub fn read_mtl(bytes: &[u8], stored: &MemoryFiles) -> Tried {
     mtl::read("tried.mtl", bytes).map_err(refused)?;
     let mesh = obj::read("tried.obj", MESH.as_bytes()).map_err(refused)?;
-    scene::read_with(LIBRARY.as_bytes(), &shelf.with(PATH, bytes), &[("tried", mesh)])
+    scene::read_with(LIBRARY.as_bytes(), &stored.with(PATH, bytes), &[("tried", mesh)])
 }

@@ -1,7 +1,7 @@
 //! Reads picture files: as a texture, as a bump, and in a comparison.
 
 use super::scene;
-use crate::seeds::shelf::Shelf;
+use crate::seeds::memory_files::MemoryFiles;
 use crate::verdict::{Stop, Tried, broken, refused};
 use compare::{Difference, Scale, map, read, ssim};
 use render::Picture;
@@ -35,16 +35,16 @@ const MOST_PIXELS: usize = 1 << 16;
 ///
 /// # Errors
 /// When the file is refused, or the picture that shows it is wrong.
-pub fn read_jpeg(bytes: &[u8], shelf: &Shelf) -> Tried {
-    scene::read(SMOOTH.as_bytes(), &shelf.with(PATH, bytes))
+pub fn read_jpeg(bytes: &[u8], stored: &MemoryFiles) -> Tried {
+    scene::read(SMOOTH.as_bytes(), &stored.with(PATH, bytes))
 }
 
 /// Shows a PNG file on a sphere, as its bumps too, and compares the picture with others.
 ///
 /// # Errors
 /// When both readers refuse the file, or one of them fails.
-pub fn read_png(bytes: &[u8], shelf: &Shelf) -> Tried {
-    let shown = scene::read(BUMPY.as_bytes(), &shelf.with(PATH, bytes));
+pub fn read_png(bytes: &[u8], stored: &MemoryFiles) -> Tried {
+    let shown = scene::read(BUMPY.as_bytes(), &stored.with(PATH, bytes));
     match (shown, compare(bytes)) {
         (Err(Stop::Broken(what)), _) | (_, Err(Stop::Broken(what))) => Err(Stop::Broken(what)),
         (Ok(()), _) | (_, Ok(())) => Ok(()),

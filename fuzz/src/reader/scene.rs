@@ -1,8 +1,8 @@
 //! Reads scenes and the parts that they include.
 
-use super::spec::said;
+use super::spec::check_line;
 use crate::seeds::SCENES;
-use crate::seeds::shelf::Shelf;
+use crate::seeds::memory_files::MemoryFiles;
 use crate::verdict::{Tried, broken, hold, refused};
 use files::json::Document;
 use files::{Budget, Source};
@@ -49,8 +49,8 @@ pub fn read(bytes: &[u8], source: &dyn Source) -> Tried {
 ///
 /// # Errors
 /// See [`read()`].
-pub fn read_part(bytes: &[u8], shelf: &Shelf) -> Tried {
-    read(WHOLE.as_bytes(), &shelf.with(PART, bytes))
+pub fn read_part(bytes: &[u8], stored: &MemoryFiles) -> Tried {
+    read(WHOLE.as_bytes(), &stored.with(PART, bytes))
 }
 
 /// Reads a scene with the meshes in `given`. Every other mesh without a file is a tetrahedron.
@@ -79,7 +79,7 @@ pub fn read_with(bytes: &[u8], source: &dyn Source, given: &[(&str, Mesh)]) -> T
     let tables = |texture: &_| filter.bytes_for(texture);
     let report = check::check(&draft, &scene, 1.2, &tables)
         .map_err(|error| broken("--check refuses what was read")(&error))?;
-    report.to_string().lines().try_for_each(|line| said(line.into()))?;
+    report.to_string().lines().try_for_each(|line| check_line(line.into()))?;
     picture(scene, filter)
 }
 
@@ -99,12 +99,12 @@ pub fn picture(mut scene: Scene, filter: Filter) -> Tried {
     let prepared = Prepared::new(&scene);
     let (picture, _) = render::render(&prepared, &settings, &|_, _| {});
     let light = |pixel: &[f32; 3]| pixel.iter().all(|x| x.is_finite() && *x >= 0.0);
-    hold(picture.pixels.iter().all(light), "a pixel is no light")?;
+    hold(picture.pixels.iter().all(light), "a pixel is not finite, or is negative")?;
     if filter == Filter::Tent {
         let text = inspect::pixel(&prepared, &settings, (3, 2), Encoding::Srgb, true);
         text.lines()
             .filter(|line| !line.trim().is_empty())
-            .try_for_each(|line| said(line.into()))?;
+            .try_for_each(|line| check_line(line.into()))?;
     }
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! Reads specs, and the paths and pictures in them.
 
 use super::grid;
-use crate::seeds::shelf::Shelf;
+use crate::seeds::memory_files::MemoryFiles;
 use crate::seeds::{CURVES, small};
 use crate::verdict::{Stop, Tried, hold, refused, wording_fault};
 use files::Source;
@@ -39,7 +39,7 @@ pub fn read(bytes: &[u8], source: &dyn Source) -> Tried {
     grids.iter().try_for_each(sound)?;
     let findings = check::check(&object, &grids, (cells < MOST_STRANDS).then_some(&|_, _| {}));
     let parts = object.parts().iter().zip(&grids).map(|(part, grid)| check::summary(part, grid));
-    parts.chain(findings.iter().map(ToString::to_string)).try_for_each(said)?;
+    parts.chain(findings.iter().map(ToString::to_string)).try_for_each(check_line)?;
     let page = preview::svg(&object, &grids, &findings);
     let bad = |c: char| c.is_control() && c != '\n';
     hold(!page.contains(bad), "the preview holds a control character")?;
@@ -72,13 +72,13 @@ pub fn read_path(path: &[u8], source: &dyn Source) -> Tried {
 ///
 /// # Errors
 /// See [`read`].
-pub fn read_depths(picture: &[u8], shelf: &Shelf) -> Tried {
+pub fn read_depths(picture: &[u8], stored: &MemoryFiles) -> Tried {
     let spec = json!({"format": "tb-sweep", "version": 1, "name": "relief",
         "contour": {"circle": 0.6}, "trajectory": {"line": [[0, 0, 0], [0, 2, 0]]},
         "depth": {"mode": "factor", "image": {"file": "../textures/tried.png", "amp": 0.06,
             "repeat": [3, 2], "zero": 0}},
         "mesh": {"rows": 12, "cols": 12}});
-    read(spec.to_string().as_bytes(), &shelf.with(PICTURE, picture))
+    read(spec.to_string().as_bytes(), &stored.with(PICTURE, picture))
 }
 
 /// Checks what is true of every grid.
@@ -91,7 +91,7 @@ fn sound(grid: &GridMesh) -> Tried {
 }
 
 /// Checks that a line of `--check`, as the programs print it, is a valid message.
-pub fn said(line: String) -> Tried {
+pub fn check_line(line: String) -> Tried {
     let line = files::words::line(&line).to_string();
     match wording_fault(&line) {
         Some(_) => Err(Stop::Refused(line)),

@@ -6,14 +6,14 @@
 //! the same order.
 
 pub mod exr;
+pub mod memory_files;
 pub mod png;
-pub mod shelf;
 pub mod small;
 
 use crate::verdict::{Stop, refused};
 use files::json::Document;
+use memory_files::MemoryFiles;
 use serde_json::Value;
-use shelf::Shelf;
 use std::path::{Path, PathBuf};
 use sweep::spec::Resolution;
 use sweep::{GridMesh, Object};
@@ -51,7 +51,7 @@ pub enum SeedError {
 #[derive(Debug)]
 pub struct Corpus {
     /// The examples, made small.
-    pub shelf: Shelf,
+    pub stored: MemoryFiles,
     /// Specs whose meshes have few cells.
     pub specs: Vec<Value>,
     /// Scenes.
@@ -68,32 +68,32 @@ impl Corpus {
     /// # Errors
     /// When a folder is missing or one of its files is broken.
     pub fn load() -> Result<Self, SeedError> {
-        let mut shelf = Shelf::default();
+        let mut stored = MemoryFiles::default();
         for (path, bytes) in folder(&root().join("examples/textures"), "png")? {
             let small = small::picture(&bytes).map_err(|error| wrong(&path, &error))?;
-            shelf.put(on_shelf("examples/textures", &path), small);
+            stored.put(path_from_root("examples/textures", &path), small);
         }
         let mut specs = Vec::new();
         for (path, mut spec) in values("examples/curves", "spec")? {
             small::bound(&mut spec);
-            shelf.put(on_shelf(CURVES, &path), spec.to_string().into_bytes());
+            stored.put(path_from_root(CURVES, &path), spec.to_string().into_bytes());
             specs.push(spec);
         }
         let mut scenes = Vec::new();
         for (path, scene) in values("examples/scenes", "scene")? {
-            shelf.put(on_shelf(SCENES, &path), scene.to_string().into_bytes());
+            stored.put(path_from_root(SCENES, &path), scene.to_string().into_bytes());
             scenes.push(scene);
         }
         let mut jobs = Vec::new();
         for (path, mut job) in values("examples/pages", "job")? {
             small::bound_job(&mut job);
-            shelf.put(on_shelf(PAGES, &path), job.to_string().into_bytes());
+            stored.put(path_from_root(PAGES, &path), job.to_string().into_bytes());
             jobs.push(job);
         }
-        let grids = specs.iter().filter_map(|spec| grids_of(spec, &shelf).ok()).collect();
-        let mut corpus = Self { shelf, specs, scenes, jobs, grids };
+        let grids = specs.iter().filter_map(|spec| grids_of(spec, &stored).ok()).collect();
+        let mut corpus = Self { stored, specs, scenes, jobs, grids };
         let tube = corpus.obj(0).unwrap_or_default();
-        corpus.shelf.put("examples/meshes/tube.obj", tube);
+        corpus.stored.put("examples/meshes/tube.obj", tube);
         Ok(corpus)
     }
 
@@ -121,12 +121,12 @@ pub fn extra(reader: &str) -> Result<Vec<Vec<u8>>, SeedError> {
 }
 
 /// Sweeps a spec with very few cells.
-fn grids_of(spec: &Value, shelf: &Shelf) -> Result<Vec<GridMesh>, Stop> {
+fn grids_of(spec: &Value, stored: &MemoryFiles) -> Result<Vec<GridMesh>, Stop> {
     let mut spec = spec.clone();
     small::bound_to(&mut spec, 10, 200);
     let text = spec.to_string();
     let document = Document::new("spec.json", text.as_bytes()).map_err(refused)?;
-    let object = Object::read(&document, CURVES.as_ref(), shelf, &Resolution::default());
+    let object = Object::read(&document, CURVES.as_ref(), stored, &Resolution::default());
     object.and_then(|object| object.grids()).map_err(refused)
 }
 
@@ -135,7 +135,7 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-fn on_shelf(folder: &str, path: &Path) -> PathBuf {
+fn path_from_root(folder: &str, path: &Path) -> PathBuf {
     Path::new(folder).join(path.file_name().unwrap_or_default())
 }
 

@@ -95,8 +95,10 @@ impl Front {
                     h1 { "The picture book" }
                     p.lead {
                         "A contour is swept along a trajectory, the grid is split into triangles, and a ray tracer shows "
-                        "them with textures that are averaged over what a pixel sees of them. The figures are those "
-                        "of a thesis of 1993, " cite { "Texture Mapping with Ray Tracing" } ", made anew; then come ours."
+                        "them with textures that are averaged over the footprint of each pixel. \
+                         The figures are those "
+                        "of a thesis of 1993, " cite { "Texture Mapping with Ray Tracing" }
+                        ", made again; ours follow."
                     }
                 }
                 @if let Some((picture, title)) = &self.frontispiece {
@@ -112,18 +114,20 @@ impl Front {
                 h2 { "How to read it" }
                 div.columns {
                 p {
-                    "The tabs over a picture change its mode in place; a click on it enlarges it. The frames in it "
-                    "are the details below it, shown pixel by pixel."
+                    "The tabs over a picture change its mode; a click on the picture enlarges it. \
+                     The frames in a picture "
+                    "mark the details below the picture, which are shown pixel by pixel."
                 }
                 p {
-                    "Times are of this making, on this machine. The times of 1993 are the thesis’s own, from a Sun Sparc "
+                    "Times were measured when this page was made, on this machine. The times of \
+                     1993 are the thesis’s own, from a Sun Sparc "
                     "workstation."
                 }
                 @if self.truth > 0 {
                     p {
                         "Numbers beside a detail are its error: root mean square in linear light, where white is 1, against a "
-                        "truth of " (rays) " jittered rays in each pixel that average no textures. What the "
-                        "truth itself is wrong by is not counted in it."
+                        "truth of " (rays) " jittered rays in each pixel that average no "
+                        "textures. The noise of the truth itself is not included."
                     }
                 }
                 }

@@ -40,7 +40,7 @@ pub fn leaf(
                 (views(plate, id)?)
                 div.facts {
                     (costs(plate))
-                    p.faint { "Slowest is the stage “" (stage) "”, " (percent(part)) "." }
+                    p.faint { "The slowest stage is “" (stage) "”, " (percent(part)) "." }
                     @if !plate.meshes.is_empty() { p.faint { (meshes(plate)) } }
                 }
             }
@@ -223,7 +223,7 @@ fn strip(plate: &Plate, detail: &Detail, letter: &str) -> Result<Markup, Pipelin
                 }
                 @if let (Some(truth), Some(judged)) = (&truth, &detail.judged) {
                     figure.truth {
-                        img src=(truth) style=(size(&judged.truth)) alt=(format!("{}, as it ought to be", detail.title));
+                        img src=(truth) style=(size(&judged.truth)) alt={ (detail.title) ", truth" };
                         figcaption { "truth" }
                     }
                 }
@@ -231,7 +231,8 @@ fn strip(plate: &Plate, detail: &Detail, letter: &str) -> Result<Markup, Pipelin
             @if let Some(judged) = &detail.judged {
                 @if !judged.wide_errors.is_empty() {
                     p.faint.note {
-                        "Where a pixel spans more than two texels both ways (" (percent(judged.wide)) " of it): "
+                        "RMS error in pixels that span more than two texels in both directions ("
+                        (percent(judged.wide)) " of the detail): "
                         @for (k, (shot, value)) in shots.iter().zip(&judged.wide_errors).enumerate() {
                             @if k > 0 { ", " } (shot.mode.name) " " span.error { (error(*value)) }
                         }

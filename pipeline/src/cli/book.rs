@@ -17,17 +17,17 @@ use std::time::Instant;
 /// Arguments of `pipeline book`.
 #[derive(Debug, Args)]
 pub struct BookArguments {
-    /// Pages by name, figures of the thesis by number, which stand for their pages, or job files; all pages if none are
-    /// named
+    /// Pages by name, pages by the number of a figure that they show, or job files [default: all
+    /// pages]
     #[arg(value_name = "NAME|all|A.N|FILE.json")]
     jobs: Vec<String>,
-    /// The folder for the book; made if it is missing
+    /// The folder for the book; created if it is missing
     #[arg(short, long, value_name = "DIR", default_value = "book")]
     output: PathBuf,
     /// Pixels across and down of each picture
     #[arg(long, value_name = "WxH", default_value = "512x512", value_parser = render::film::size)]
     size: (u32, u32),
-    /// Rays along each side of a pixel of a truth, for each of two seeds; 0 for no truths and no errors
+    /// Rays along each side of a pixel of a truth, for each of two seeds; 0 omits truths and errors
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(0..=256))]
     truth: u32,
     #[command(flatten)]

@@ -23,17 +23,17 @@ impl Failure for ThreadsError {
 /// Arguments of every command that renders.
 #[derive(Debug, Args)]
 pub struct CommonArguments {
-    /// Memory to take at most, in bytes or with k, M or G; what needs more is refused before it is
-    /// begun [default: 90 % of what is free]
+    /// Most memory to use, in bytes or with k, M or G. A larger request is refused before the work
+    /// starts [default: 90 % of the free memory]
     #[arg(long, value_name = "BYTES", value_parser = files::memory::bytes)]
     max_memory: Option<u64>,
     /// Worker threads [default: one for each core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024).map(usize::from))]
     threads: Option<usize>,
-    /// Print nothing but errors
+    /// Print only errors
     #[arg(short, long)]
     pub quiet: bool,
-    /// Refuse to replace existing files
+    /// Fail if an output exists
     #[arg(long)]
     no_clobber: bool,
 }

@@ -19,7 +19,8 @@ Measures, in linear light where white is 1:
   bias  mean of A minus B: above 0 where A is brighter
   ssim  structural similarity of luma as a screen shows it (Wang and others 2004); 1 if equal
 
-Ends with 1 if one of the limits given is passed. A PNG is taken as sRGB, an EXR as linear.";
+The exit code is 1 if a measure exceeds its limit, or ssim is below its limit. A PNG is read as
+sRGB, an EXR as linear.";
 
 /// Arguments of `pipeline compare`.
 #[derive(Debug, Args)]
@@ -34,7 +35,7 @@ pub struct CompareArguments {
     /// Draw a map of the differences
     #[arg(long, value_name = "FILE.png")]
     map: Option<PathBuf>,
-    /// The range of errors that the map shows, linear:MOST or log:LEAST:MOST
+    /// Range of the errors in the map, linear:MOST or log:LEAST:MOST
     #[arg(long, value_name = "SCALE", default_value = "log:1e-4:1", requires = "map")]
     map_scale: Scale,
     /// The largest RMSE that is allowed
@@ -49,17 +50,17 @@ pub struct CompareArguments {
     /// The least structural similarity that is allowed, up to 1
     #[arg(long, value_name = "X", allow_negative_numbers = true, value_parser = similarity)]
     ssim: Option<f64>,
-    /// Compare a part only: its upper left pixel and its size
+    /// Compare only this part: column and row of its upper left pixel, and its size
     #[arg(long, value_name = "X,Y,WxH", value_parser = Crop::parse)]
     crop: Option<Crop>,
     /// Print the numbers as JSON
     #[arg(long)]
     json: bool,
-    /// Memory to take at most, in bytes or with k, M or G; what needs more is refused before it is
-    /// begun [default: 90 % of what is free]
+    /// Most memory to use, in bytes or with k, M or G. A larger request is refused before the work
+    /// starts [default: 90 % of the free memory]
     #[arg(long, value_name = "BYTES", value_parser = files::memory::bytes)]
     max_memory: Option<u64>,
-    /// Refuse to replace an existing map
+    /// Fail if the map exists
     #[arg(long)]
     no_clobber: bool,
 }
@@ -79,7 +80,7 @@ fn similarity(text: &str) -> Result<f64, String> {
 /// A reason why a comparison fails.
 #[derive(Debug, Error)]
 enum Unequal {
-    #[error("{first} differs from {second} by more than was allowed: {passed}")]
+    #[error("{first} differs from {second} by more than is allowed: {passed}")]
     Limits { first: String, second: String, passed: String },
     #[error("a map is a PNG file: found {0}, expected a name that ends in .png")]
     MapName(String),

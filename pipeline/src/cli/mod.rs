@@ -27,12 +27,13 @@ Examples:
   pipeline book -o book
   pipeline compare a.png b.png --map difference.png --rmse 0.01
 
-No output is ever a file that is read: a job, a scene and its parts, a spec, a mesh, a picture.
+No output replaces an input: a job, a scene and its parts, a spec, a mesh, a picture.
 Files that belong together (those of a job; with --sheet of all jobs; those of a report; textures)
-are replaced one after another. Meanwhile NAME.incomplete lists them beside them; it stays if the
-program is stopped between two of them, and goes with the next whole run.
+are replaced one after another. Meanwhile the file NAME.incomplete in their folder lists the
+files. NAME.incomplete remains if the program stops between two of the files, until the next
+complete run.
 
-Exit codes: 1 pictures that differ by more than was allowed, 2 bad use, 3 malformed input,
+Exit codes: 1 pictures that differ by more than is allowed, 2 bad use, 3 malformed input,
 4 impossible geometry, 5 cannot read or write, 6 too large, 70 a bug, 130 interrupted, 141 closed pipe.";
 
 /// From curves to pictures: sweep, triangulate and render in one process.
@@ -45,15 +46,15 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Name the pages that are built in, and the figures of the thesis that they show
+    /// List the built-in pages, and the figures of the thesis that each page shows
     List,
-    /// Make the pictures of pages or of jobs of your own
+    /// Make the pictures of built-in pages or of your own jobs
     Run(run::RunArguments),
-    /// Measure what each method of rendering pages costs, and how wrong its pictures are
+    /// Measure the cost of each rendering method and the error of its pictures
     Report(report::ReportArguments),
     /// Make the picture book: pages with their modes, costs and errors, as one file of HTML
     Book(book::BookArguments),
-    /// Say how far one picture is from another, in linear light
+    /// Measure the differences between two pictures, in linear light
     Compare(compare::CompareArguments),
 }
 

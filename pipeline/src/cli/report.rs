@@ -36,16 +36,17 @@ pub struct ReportArguments {
     /// thesis and the two scenes that other renderers were measured on]
     #[arg(value_name = "NAME|all|FILE.json")]
     pages: Vec<String>,
-    /// The folder for the report; made if it is missing
+    /// The folder for the report; created if it is missing
     #[arg(short, long, value_name = "DIR", default_value = "report")]
     output: PathBuf,
-    /// Pixels across and down, of every picture [default: 128x128, with --quick 64x64]
+    /// Pixels across and down of every picture [default: 128x128, with --quick 64x64]
     #[arg(long, value_name = "WxH", value_parser = render::film::size)]
     size: Option<(u32, u32)>,
     /// Few methods and small pictures: two minutes for all default pages
     #[arg(long)]
     quick: bool,
-    /// Rays along each side of a pixel for the truth, where its noise asks for so many; 32 at least
+    /// Most rays along each side of a pixel of a truth, at least 32; a truth with little noise gets
+    /// fewer
     /// [default: 256, with --quick 64]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(32..=MOST_SAMPLES.into()))]
     truth: Option<u32>,
@@ -55,7 +56,7 @@ pub struct ReportArguments {
 
 /// The program that counts memory cannot be started.
 #[derive(Debug, Error)]
-#[error("cannot start {COUNTING}, which stands beside pipeline and measures for it: {0}")]
+#[error("cannot start {COUNTING}, the program beside pipeline that measures for the report: {0}")]
 pub struct CountingError(io::Error);
 
 impl Failure for CountingError {

@@ -25,7 +25,7 @@ pub struct RunArguments {
     /// Pages by name, all of them, figures of the thesis by number, or job files, whose names end in .json
     #[arg(required = true, value_name = "NAME|all|A.N|FILE.json")]
     jobs: Vec<String>,
-    /// The folder for the pictures; made if it is missing
+    /// The folder for the pictures; created if it is missing
     #[arg(short, long, value_name = "DIR", default_value = "out")]
     output: PathBuf,
     /// Pixels across and down
@@ -34,10 +34,10 @@ pub struct RunArguments {
     /// Make only the pictures of this mode, which all jobs must have; may be given several times
     #[arg(long = "mode", value_name = "NAME")]
     modes: Vec<String>,
-    /// Write the grids and OBJ files too, as the programs would have piped them
+    /// Also write the grids and OBJ files, as the three programs would pipe them
     #[arg(long)]
     keep: bool,
-    /// Show the last picture of each job on one sheet too, small: sheet.png
+    /// Also write sheet.png, which shows the last picture of each job, reduced
     #[arg(long)]
     sheet: bool,
     /// Print counts of rays, hits and texels and the time of each stage on standard error
@@ -209,7 +209,7 @@ impl<'a> Listener<'a> {
                 }
                 if stats.not_finite > 0 {
                     let (job, count) = (self.job, stats.not_finite);
-                    let words = "pixels came out not finite and are black";
+                    let words = "pixels are not finite and were made black";
                     say(format_args!("pipeline: {job} {mode}: {count} {words}"));
                 }
                 if self.arguments.stats {

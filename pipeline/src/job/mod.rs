@@ -86,7 +86,7 @@ pub struct MeshJob {
     /// Keys that replace those of the spec's resolution.
     pub resolution: spec::Resolution,
     /// The text of the job file, for the positions of complaints.
-    said: Arc<JobText>,
+    text: Arc<JobText>,
 }
 
 /// The text of a job file, kept for complaints that arise only when its meshes are made.
@@ -103,7 +103,7 @@ impl MeshJob {
     /// The text is parsed for the position here, and not for each mesh of a job.
     pub(crate) fn resolution_fault(&self, message: String) -> JsonError {
         let path = format!("meshes.{}.mesh", self.name);
-        match Document::new(&self.said.file, &self.said.bytes) {
+        match Document::new(&self.text.file, &self.text.bytes) {
             Ok(document) => document.fault(&path, message),
             Err(error) => error,
         }
@@ -236,7 +236,7 @@ impl Job {
     /// Reads a job from the bytes of a file. Relative paths start at `folder`.
     fn parse(file: &str, bytes: &[u8], name: &str, folder: &Path) -> Result<Self, JsonError> {
         let document = &Document::new(file, bytes)?;
-        let said = Arc::new(JobText { file: file.into(), bytes: bytes.into() });
+        let text = Arc::new(JobText { file: file.into(), bytes: bytes.into() });
         document.expect("tb-job", 1)?;
         let file: JobFile = document.parse()?;
         for mesh in file.meshes.keys() {
@@ -249,7 +249,7 @@ impl Job {
             }
         }
         let meshes = file.meshes.into_iter().map(|(name, mesh)| MeshJob {
-            said: Arc::clone(&said),
+            text: Arc::clone(&text),
             name,
             spec: folder.join(mesh.spec),
             options: Options { texture: mesh.texture, surface: mesh.surface },

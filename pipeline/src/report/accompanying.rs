@@ -32,7 +32,7 @@ macro_rules! measured {
 pub const ALL: [Accompanying; 3] = [
     Accompanying {
         name: "filters",
-        title: "What an average costs, and how far it is from the truth",
+        title: "Cost and error of an average",
         about: "Averages of four textures over 9216 footprints of a floor in perspective: nanoseconds, their \
                 ratio to bilinear interpolation, and root mean square errors for a texture from black (0) to white \
                 (1), also by texture and by the angle between view and texture.",
@@ -43,8 +43,8 @@ pub const ALL: [Accompanying; 3] = [
     Accompanying {
         name: "tessellation",
         title: "Quads and seconds against the distance to the surface",
-        about: "Rows and columns placed where the surface bends, and even ones in the proportion that needs the \
-                fewest quads, both measured by one rule.",
+        about: "Rows and columns placed where the surface bends, against evenly spaced rows and \
+                columns in the proportion that needs the fewest quads, both measured by one rule.",
         command: "cargo run --release -p sweep --example tessellation -- docs/measured",
         table: measured!("tessellation.csv"),
         drawing: measured!("tessellation.svg"),
@@ -52,8 +52,9 @@ pub const ALL: [Accompanying; 3] = [
     Accompanying {
         name: "mapping",
         title: "Texture coordinates on a triangle: the thesis's map against barycentric weights",
-        about: "Errors against exact fractions, 1000 hits in each class of triangles, as parts of the texture: \
-                median and largest, and how many hits gave no number. The weights are what is in use.",
+        about: "Errors against exact fractions, 1000 hits in each class of triangles, as \
+                fractions of the texture: median and largest, and the number of hits without a \
+                result. The renderer uses the weights.",
         command: "cargo run --release -p render --example mapping -- docs/measured",
         table: measured!("mapping.csv"),
         drawing: measured!("mapping.svg"),

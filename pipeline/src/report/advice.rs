@@ -111,14 +111,14 @@ fn cost(pages: &[PageMeasured]) -> Option<Sentence> {
         Some(tent?.saturating_sub(one?) as u64)
     });
     let text = format!(
-        "One ray with the tent takes {} times the time of one bilinear ray, and its tables hold up to {} more.",
+        "One ray with the tent takes {} times the time of one bilinear ray, and its tables take up to {} more memory.",
         times(ratio),
         bytes(more.max()?)
     );
     Some(Sentence::general(Question::Cost, text))
 }
 
-/// Returns the number of rays from which bilinear interpolation is as near as the tent.
+/// Returns the number of rays from which bilinear interpolation has as small an error as the tent.
 fn many_rays(pages: &[PageMeasured]) -> Option<Sentence> {
     let errors = |n: u32| {
         let both = [Filter::Tent, Filter::Bilinear].map(|filter| whole(pages, &evenly(filter, n)));
@@ -129,7 +129,8 @@ fn many_rays(pages: &[PageMeasured]) -> Option<Sentence> {
     let as_near = errors.iter().rev().take_while(|(_, tent, rays)| *rays <= AS_NEAR * tent);
     let &(n, tent, rays) = as_near.last()?;
     let text = format!(
-        "From {n} x {n} rays in a pixel on, bilinear rays are as near to the truth as the tent ({} and {}).",
+        "From {n} x {n} rays in a pixel on, bilinear rays have as small an error as the tent ({} \
+         and {}).",
         error(rays),
         error(tent)
     );
@@ -166,7 +167,8 @@ fn region(pages: &[PageMeasured], name: &str) -> Option<Sentence> {
         false => (Question::Use, "a filter helps"),
     };
     let text = format!(
-        "Region {name}: {helps}. With one ray the nearest filter is the {best} ({}); bilinear is {} off.",
+        "Region {name}: {helps}. With one ray the filter with the smallest error is the {best} \
+         ({}); the error of bilinear is {}.",
         error(least),
         error(bilinear)
     );
@@ -182,8 +184,8 @@ fn worth(page: &PageMeasured) -> Option<Sentence> {
     let as_near =
         |n: &u32| rays(*n).is_some_and(|rays| rays.whole.rmse <= AS_NEAR * own.whole.rmse);
     let (n, which) = match counts.iter().copied().find(as_near) {
-        Some(n) => (n, "the fewest measured that are as near"),
-        None => (*counts.last()?, "the most measured, which are not as near"),
+        Some(n) => (n, "the fewest measured rays with as small an error"),
+        None => (*counts.last()?, "the most measured rays, whose error is larger"),
     };
     let rays = rays(n)?;
     let ratio = own.cost.cpu / rays.cost.cpu;
@@ -271,7 +273,7 @@ mod tests {
     fn the_cost_of_one_ray_is_its_time_and_its_tables() {
         let pages = vec![fixture::page("a", &floor, &[]), fixture::page("b", &floor, &[])];
         let text = "One ray with the tent takes 2.0 times the time of one bilinear ray, and its tables hold \
-                    up to 16 MiB more.";
+                    up to 16 MiB more memory.";
         assert_eq!(
             one(&said(pages), "takes 2.0 times the time of"),
             expected(Question::Cost, text)
@@ -281,8 +283,8 @@ mod tests {
     #[test]
     fn one_ray_is_worth_the_rays_that_are_as_near() {
         // The tent leaves 0.2 of the error of one bilinear ray, and 8 x 8 rays 0.125.
-        let text = "On floor one ray with the tent (0.040) takes 0.031 times the time of 8 x 8 bilinear rays \
-                    (0.025), the fewest measured that are as near.";
+        let text = "On floor one ray with the tent (0.040) takes 0.031 times the time of 8 x 8 \
+                    bilinear rays (0.025), the fewest measured rays with as small an error.";
         let said = |tent: f64, price: f64| {
             let law = move |filter, n: f64| match filter {
                 Filter::Tent => (tent / n, price * n * n),
@@ -298,7 +300,7 @@ mod tests {
                 0.01,
                 0.04,
                 Question::Cost,
-                "8 x 8 bilinear rays (0.025), the most measured, which are not",
+                "8 x 8 bilinear rays (0.025), the most measured rays, whose error",
             ),
         ] {
             let (found, text) = said(tent, price).unwrap();
@@ -311,11 +313,11 @@ mod tests {
     fn in_silhouettes_no_filter_helps_unless_one_does() {
         let page = fixture::page("page", &floor, &[("silhouettes", &edges), ("far floor", &floor)]);
         let claims = said(vec![page]);
-        let text = "Region silhouettes: no filter helps. With one ray the nearest filter is the mip (0.21); \
-                    bilinear is 0.21 off.";
+        let text = "Region silhouettes: no filter helps. With one ray the filter with the \
+                    smallest error is the mip (0.21); the error of bilinear is 0.21.";
         assert_eq!(one(&claims, "silhouettes"), expected(Question::Fails, text));
-        let text = "Region far floor: a filter helps. With one ray the nearest filter is the quadratic \
-                    (0.040); bilinear is 0.20 off.";
+        let text = "Region far floor: a filter helps. With one ray the filter with the smallest \
+                    error is the quadratic (0.040); the error of bilinear is 0.20.";
         assert_eq!(one(&claims, "far floor"), expected(Question::Use, text));
         for (mip, question) in [(0.18, Question::Use), (0.20, Question::Fails)] {
             let law = |filter, n: f64| match filter {
@@ -331,13 +333,13 @@ mod tests {
     fn with_many_rays_the_filter_counts_as_long_as_it_does() {
         // 0.2 / n^0.8 against 1 / n: the tent stays ahead up to 8 x 8.
         assert_eq!(one(&said(vec![fixture::page("floor", &floor, &[])]), "From"), None);
-        // The tent stays at 0.1. Bilinear interpolation, 0.2 / n, is as near with n = 2.
+        // The tent stays at 0.1. Bilinear interpolation, 0.2 / n, has as small an error with n = 2.
         let law = |filter, n: f64| match filter {
             Filter::Tent => (0.1, floor(filter, n).1),
             filter => floor(filter, n),
         };
-        let text = "From 2 x 2 rays in a pixel on, bilinear rays are as near to the truth as the tent (0.10 \
-                    and 0.10).";
+        let text = "From 2 x 2 rays in a pixel on, bilinear rays have as small an error as the \
+                    tent (0.10 and 0.10).";
         let said = said(vec![fixture::page("floor", &law, &[])]);
         assert_eq!(one(&said, "From"), expected(Question::Fails, text));
     }

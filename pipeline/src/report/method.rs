@@ -24,7 +24,7 @@ impl Method {
                 };
                 let jitter = if pattern == Pattern::Regular { "" } else { ", jittered" };
                 let tent =
-                    if pixel_filter == PixelFilter::Box { "" } else { ", weighed by a tent" };
+                    if pixel_filter == PixelFilter::Box { "" } else { ", weighted by a tent" };
                 format!("{grid}{jitter}{tent}")
             }
         }
@@ -60,7 +60,7 @@ mod tests {
             (Sampling::regular(3), "tent, 3 x 3 rays", Some(3)),
             (Sampling::Supersample(Supersample::Image), "tent, supersampled", None),
             (Sampling::Supersample(Supersample::Rays), "tent, nine rays", None),
-            (jitter, "tent, 4 x 4 rays, jittered, weighed by a tent", None),
+            (jitter, "tent, 4 x 4 rays, jittered, weighted by a tent", None),
         ] {
             let method = Method { filter: Filter::Tent, sampling };
             assert_eq!(method.name(), name);

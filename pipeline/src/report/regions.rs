@@ -18,7 +18,7 @@
 //! even light of the surface at its end. A path that leaves the scene counts as if it ended on white.
 
 use super::measured::Region;
-use super::sight::{self, Looker, Seen};
+use super::sight::{self, PixelTracer, PixelView};
 use rayon::prelude::*;
 use render::Scene;
 use render::trace::volume::Volumes;
@@ -31,16 +31,16 @@ pub const MINIFIED: f64 = 2.0;
 /// Runs on the threads of the current rayon pool. The result is the same for any number of threads.
 #[must_use]
 pub fn regions(scene: &Scene, size: (u32, u32)) -> Vec<Region> {
-    let seen = sights(scene, size);
-    let silhouettes = silhouettes(&seen, size.0 as usize);
-    let elsewhere = |belongs: &dyn Fn(&Seen) -> bool| -> Vec<bool> {
-        seen.iter().zip(&silhouettes).map(|(sight, edge)| !edge && belongs(sight)).collect()
+    let views = views(scene, size);
+    let silhouettes = silhouettes(&views, size.0 as usize);
+    let elsewhere = |belongs: &dyn Fn(&PixelView) -> bool| -> Vec<bool> {
+        views.iter().zip(&silhouettes).map(|(view, edge)| !edge && belongs(view)).collect()
     };
-    let far = |sight: &Seen| sight.flat.is_some_and(|minor| minor > MINIFIED);
+    let far = |view: &PixelView| view.flat.is_some_and(|minor| minor > MINIFIED);
     let regions = [
         Region { name: "far floor", mask: elsewhere(&far) },
-        Region { name: "in mirrors", mask: elsewhere(&|sight| sight.mirrored > 0.5) },
-        Region { name: "through glass", mask: elsewhere(&|sight| sight.through > 0.5) },
+        Region { name: "in mirrors", mask: elsewhere(&|view| view.mirrored > 0.5) },
+        Region { name: "through glass", mask: elsewhere(&|view| view.through > 0.5) },
         Region { name: "silhouettes", mask: silhouettes },
     ];
     regions.into_iter().filter(|region| region.mask.contains(&true)).collect()
@@ -51,32 +51,32 @@ pub fn regions(scene: &Scene, size: (u32, u32)) -> Vec<Region> {
 /// glass. There the minor axis of the footprint is longer than [`MINIFIED`] texels.
 #[must_use]
 pub fn minified(scene: &Scene, size: (u32, u32)) -> Vec<bool> {
-    let seen = sights(scene, size);
-    seen.iter().map(|sight| sight.minor.is_some_and(|minor| minor > MINIFIED)).collect()
+    let views = views(scene, size);
+    views.iter().map(|view| view.minor.is_some_and(|minor| minor > MINIFIED)).collect()
 }
 
-/// Returns the sight of every pixel, row by row.
-fn sights(scene: &Scene, size: (u32, u32)) -> Vec<Seen> {
+/// Returns what every pixel sees, row by row.
+fn views(scene: &Scene, size: (u32, u32)) -> Vec<PixelView> {
     let accel = sight::accel_of(scene);
     let volumes = Volumes::of(scene);
-    let looker = Looker::new(scene, &accel, &volumes, size);
+    let tracer = PixelTracer::new(scene, &accel, &volumes, size);
     let rows = (0..size.1).into_par_iter().map(|y| {
         let mut trees = sight::Trees::default();
-        (0..size.0).map(|x| looker.look(x, y, &mut trees)).collect::<Vec<_>>()
+        (0..size.0).map(|x| tracer.view(x, y, &mut trees)).collect::<Vec<_>>()
     });
     rows.flatten_iter().collect()
 }
 
 /// Returns a mask of the pixels whose neighbours do not all see the same object first.
-fn silhouettes(seen: &[Seen], width: usize) -> Vec<bool> {
-    let height = seen.len().checked_div(width).unwrap_or(0);
+fn silhouettes(views: &[PixelView], width: usize) -> Vec<bool> {
+    let height = views.len().checked_div(width).unwrap_or(0);
     let edge = |k: usize| {
         let (x, y) = (k % width, k / width);
         let columns = x.saturating_sub(1)..(x + 2).min(width);
         let mut rows = y.saturating_sub(1)..(y + 2).min(height);
-        rows.any(|y| columns.clone().any(|x| seen[y * width + x].object != seen[k].object))
+        rows.any(|y| columns.clone().any(|x| views[y * width + x].object != views[k].object))
     };
-    (0..seen.len()).map(edge).collect()
+    (0..views.len()).map(edge).collect()
 }
 
 #[cfg(test)]
@@ -176,14 +176,14 @@ mod tests {
     fn the_axes_are_exact_in_every_pixel() {
         let scene = scene(0.9, "");
         let texels = texels_a_unit(&scene, 0.9);
-        for (sight, (x, y)) in sights(&scene, SIZE)
+        for (view, (x, y)) in views(&scene, SIZE)
             .iter()
             .zip((0..SIZE.1).flat_map(|y| (0..SIZE.0).map(move |x| (x, y))))
         {
             let (across, up) = direction(x, y);
             let expected = (up < 0.0).then(|| minor_on_floor((across, up), texels));
-            assert_eq!(sight.minor, sight.flat);
-            match (sight.minor, expected) {
+            assert_eq!(view.minor, view.flat);
+            match (view.minor, expected) {
                 // Half a pixel below the horizon the difference quotient is off by (1/32)^2.
                 (Some(found), Some(expected)) => {
                     assert!((found / expected - 1.0).abs() < 2e-3, "{x},{y}: {found} {expected}");
@@ -258,10 +258,10 @@ mod tests {
         let scene = scene(17.0, ball);
         let with = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| sights(&scene, SIZE))
+            pool.install(|| views(&scene, SIZE))
         };
         let alone = with(1);
-        assert!(alone.iter().any(|sight| sight.through > 0.5), "the ball shows the floor");
+        assert!(alone.iter().any(|view| view.through > 0.5), "the ball shows the floor");
         assert_eq!(alone, with(3));
     }
 
@@ -271,9 +271,9 @@ mod tests {
             "edge_v": [0, 18, 0], "material": "bare" } }"#;
         let scene = scene(17.0, board);
         assert!(region(&regions(&scene, SIZE), "far floor").iter().all(|set| !set));
-        let seen = sights(&scene, SIZE);
+        let views = views(&scene, SIZE);
         assert!(
-            seen.iter().filter(|sight| sight.object == Some(1)).all(|sight| sight.minor.is_none())
+            views.iter().filter(|view| view.object == Some(1)).all(|view| view.minor.is_none())
         );
     }
 }

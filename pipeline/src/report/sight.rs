@@ -39,9 +39,9 @@ const NAMES: [&str; 5] = ["middle", "right", "left", "lower", "upper"];
 /// The trees of a pixel's rays, reused for each pixel.
 pub(super) type Trees = [IntersectionTree; PLACES.len()];
 
-/// The sight of a pixel's middle.
+/// The view through the middle of a pixel.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct Seen {
+pub(super) struct PixelView {
     /// The object that is hit first; `None` where the ray leaves the scene.
     pub object: Option<u32>,
     /// Minor axis of the footprint at the first hit, in texels, if the object there is flat and shows a
@@ -57,14 +57,14 @@ pub(super) struct Seen {
 }
 
 /// Finds what the pixels of a scene see.
-pub(super) struct Looker<'a> {
+pub(super) struct PixelTracer<'a> {
     scene: &'a Scene,
     tracer: Tracer<'a>,
     charts: Vec<Charts>,
     size: DVec2,
 }
 
-impl<'a> Looker<'a> {
+impl<'a> PixelTracer<'a> {
     pub(super) fn new(
         scene: &'a Scene,
         accel: &'a Accel<'a>,
@@ -80,7 +80,7 @@ impl<'a> Looker<'a> {
     }
 
     /// Returns what the pixel sees that lies in column `x` and row `y`. The trees are overwritten.
-    pub(super) fn look(&self, x: u32, y: u32, trees: &mut Trees) -> Seen {
+    pub(super) fn view(&self, x: u32, y: u32, trees: &mut Trees) -> PixelView {
         let middle = DVec2::new(f64::from(x), f64::from(y)) + 0.5;
         let mut counts = RayCounts::default();
         for (tree, offset) in trees.iter_mut().zip(PLACES) {
@@ -89,12 +89,12 @@ impl<'a> Looker<'a> {
         }
         let five = Five(Bundle::of(trees.each_ref(), 0));
         let mut found = Found::default();
-        self.weigh(&five, five.through(), Way::default(), &mut found);
+        self.weigh(&five, five.through(), PathKinds::default(), &mut found);
         let first = five.node();
         let flat =
             first.filter(|node| is_flat(&self.scene.objects[node.piece.object as usize].shape));
         let part = |weight: f64| if found.all > 0.0 { weight / found.all } else { 0.0 };
-        Seen {
+        PixelView {
             object: first.map(|node| node.piece.object),
             flat: flat.and_then(|node| self.minor_axis(&five, node)),
             mirrored: part(found.mirrored),
@@ -105,7 +105,7 @@ impl<'a> Looker<'a> {
 
     /// Adds up the weights of a branch and of all branches below it. `weight` is the product of the
     /// factors up to the branch.
-    fn weigh(&self, five: &Five<'_>, weight: Color, way: Way, found: &mut Found) {
+    fn weigh(&self, five: &Five<'_>, weight: Color, path: PathKinds, found: &mut Found) {
         let Some(node) = five.node() else {
             if matches!(five.branch(), Branch::Background(_)) {
                 found.all += mean(weight);
@@ -116,22 +116,22 @@ impl<'a> Looker<'a> {
         let own = mean(weight * own_color(self.scene, &self.scene.materials[surface.material]));
         found.all += own;
         if own > 0.0 && surface.picture().is_some() {
-            match way {
-                Way { refracted: true, .. } => found.through += own,
-                Way { reflected: true, .. } => found.mirrored += own,
-                Way { .. } => {}
+            match path {
+                PathKinds { refracted: true, .. } => found.through += own,
+                PathKinds { reflected: true, .. } => found.mirrored += own,
+                PathKinds { .. } => {}
             }
             if own > found.most {
                 (found.most, found.minor) = (own, self.minor_axis(five, node));
             }
         }
         if node.reflect_weight != Color::ZERO {
-            let way = Way { reflected: true, ..way };
-            self.weigh(&five.step(Child::Reflected), weight * node.reflect_weight, way, found);
+            let path = PathKinds { reflected: true, ..path };
+            self.weigh(&five.step(Child::Reflected), weight * node.reflect_weight, path, found);
         }
         if node.refract_weight != Color::ZERO {
-            let way = Way { refracted: true, ..way };
-            self.weigh(&five.step(Child::Refracted), weight * node.refract_weight, way, found);
+            let path = PathKinds { refracted: true, ..path };
+            self.weigh(&five.step(Child::Refracted), weight * node.refract_weight, path, found);
         }
     }
 
@@ -150,7 +150,7 @@ impl<'a> Looker<'a> {
 
 /// The kinds of rays on the path from the eye so far.
 #[derive(Debug, Clone, Copy, Default)]
-struct Way {
+struct PathKinds {
     reflected: bool,
     refracted: bool,
 }

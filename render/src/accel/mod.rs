@@ -73,7 +73,7 @@ pub enum Structure {
     #[value(help = "A uniform grid for each object, as in the thesis")]
     Grid,
     /// No structure: every ray tries every piece.
-    #[value(help = "Nothing: every ray tries every triangle")]
+    #[value(help = "No structure: every ray is tested against every triangle")]
     None,
 }
 

@@ -15,11 +15,11 @@ pub struct InputArguments {
     /// The scene: a JSON file, or - for standard input
     #[arg(required_unless_present = "emit_schema")]
     scene: Option<PathBuf>,
-    /// A mesh for the scene: its name there, and an OBJ file or - for standard input
+    /// A mesh for the scene: its name in the scene, and an OBJ file or - for standard input
     #[arg(long = "mesh", value_name = "NAME=FILE", value_parser = mesh_argument)]
     meshes: Vec<MeshArgument>,
-    /// Render nothing: list the contents of the scene, and what is wrong or suspicious, on standard
-    /// output; ends with 4 if something is wrong
+    /// Render nothing: print the contents of the scene, and what is wrong or suspicious, on standard
+    /// output; the exit code is 4 if something is wrong
     #[arg(long, conflicts_with_all = ["output", "pixel"])]
     pub check: bool,
     /// Print the JSON Schema of scenes and do nothing else

@@ -15,17 +15,17 @@ pub struct OutputArguments {
     /// The picture: a .png or .exr file, or - for standard output
     #[arg(short, long, value_name = "FILE", required_unless_present_any = ["pixel", "check", "emit_schema"])]
     output: Option<PathBuf>,
-    /// The kind of file, if the extension does not show it
+    /// Format of the file, if its extension is not .png or .exr
     #[arg(long)]
     format: Option<Format>,
-    /// How a PNG, and the codes of --pixel, are encoded: srgb, or a gamma from 0.1 to 10
+    /// Encoding of a PNG and of the codes of --pixel: srgb, or a gamma from 0.1 to 10
     #[arg(long, value_name = "srgb|G", default_value = "srgb", value_parser = gamma_argument)]
     pub gamma: Encoding,
-    /// Values besides the colour in an EXR, those of the first hit of each pixel's middle ray: some
-    /// of normal, depth, uv, object, footprint, with commas between them
+    /// Layers of an EXR besides the colour, for the first hit of each pixel's middle ray: some of
+    /// normal, depth, uv, object, footprint, with commas between them
     #[arg(long, value_name = "LIST", value_delimiter = ',', requires = "output")]
     layers: Vec<Layer>,
-    /// Refuse to replace an existing file
+    /// Fail if the picture file exists
     #[arg(long)]
     no_clobber: bool,
 }

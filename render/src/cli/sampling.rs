@@ -10,32 +10,33 @@ pub struct SamplingArguments {
     /// Pixels across and down, 1 to 65536 each
     #[arg(long, value_name = "WxH", default_value = "512x512", value_parser = render::film::size)]
     pub size: (u32, u32),
-    /// Make only this part of the picture: its upper left pixel, from 0, and its size
+    /// Make only this part of the picture: column and row of its upper left pixel, from 0, and its
+    /// size
     #[arg(long, value_name = "X,Y,WxH", value_parser = Crop::parse)]
     pub crop: Option<Crop>,
-    /// Rays along each side of a pixel: N times N in each, N from 1 to 256
+    /// Rays along each side of a pixel, 1 to 256: N times N rays in each pixel
     #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_SAMPLES)))]
     samples: u32,
-    /// Position of each ray in its part of the pixel
+    /// Position of each ray in its cell of the pixel
     #[arg(long, value_name = "PATTERN", default_value = "regular")]
     pattern: PatternName,
     /// Seed of the jitter: a whole number from 0 to 2^64 - 1 [default: 0]
     #[arg(long, value_name = "S")]
     seed: Option<u64>,
-    /// Weights of the rays of a pixel
+    /// Weights of the rays in a pixel
     #[arg(long, value_name = "SHAPE", default_value = "box")]
     pixel_filter: PixelFilter,
-    /// In place of --samples: twice the size, of which each pixel takes its middle with weight 1/4,
-    /// its sides with 1/8 and its corners with 1/16. Textures are averaged for each ray (image), or
-    /// for the nine rays of a pixel together (rays)
+    /// Instead of --samples, trace nine rays for each pixel: the middle with weight 1/4, the sides
+    /// with 1/8 and the corners with 1/16. Textures are averaged for each ray (image), or for the
+    /// nine rays of a pixel together (rays)
     #[arg(long, value_name = "HOW", num_args = 0..=1, require_equals = true,
         default_missing_value = "image", conflicts_with_all = ["samples", "pattern", "seed", "pixel_filter"])]
     supersample: Option<Supersample>,
-    /// Print what this pixel is made of: the tree of reflections and refractions of the ray in its
-    /// middle, and its colour. Column and row count from 0, in the whole picture
+    /// Print the colour of this pixel, and the tree of reflections and refractions of the ray in its
+    /// middle. Column and row count from 0, in the whole picture
     #[arg(long, value_name = "X,Y", value_parser = crop::pixel)]
     pub pixel: Option<(u32, u32)>,
-    /// With --pixel: the trees of all rays that count in the pixel
+    /// With --pixel: print the trees of all rays that have a weight in the pixel
     #[arg(long, requires = "pixel")]
     pub all_samples: bool,
 }

@@ -5,7 +5,7 @@ use render::filter::Filter;
 
 #[derive(Debug, Args)]
 pub struct TextureArguments {
-    /// How textures are averaged
+    /// Filter that averages textures
     #[arg(long, default_value = "tent")]
     pub filter: Filter,
 }

@@ -9,14 +9,14 @@ use render::stats::Stats;
 
 #[derive(Debug, Args)]
 pub struct WorkArguments {
-    /// Structure that finds the surfaces that rays hit; the picture is the same
+    /// Structure that finds the surfaces hit by rays; does not change the picture
     #[arg(long, value_name = "STRUCTURE", default_value = "bvh")]
     pub accel: Structure,
     /// Worker threads, 1 to 1024 [default: one for each core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024).map(usize::from))]
     threads: Option<usize>,
-    /// Memory to take at most, in bytes or with k, M or G; what needs more is refused before it is
-    /// begun [default: 90 % of what is free]
+    /// Most memory to use, in bytes or with k, M or G. A larger request is refused before the work
+    /// starts [default: 90 % of the free memory]
     #[arg(long, value_name = "BYTES", value_parser = files::memory::bytes)]
     pub max_memory: Option<u64>,
     /// Print counts of rays, hits and texels and the time of each stage on standard error
@@ -47,7 +47,7 @@ impl WorkArguments {
     pub fn print_stats(&self, stats: &Stats) {
         if stats.not_finite > 0 {
             let count = stats.not_finite;
-            say(format_args!("render: {count} pixels came out not finite and are black"));
+            say(format_args!("render: {count} pixels are not finite and were made black"));
         }
         match self.stats {
             Some(StatsForm::Text) => say(stats.to_string().trim_end()),

@@ -65,7 +65,7 @@ fn add_tables(
         reserved.grow(table, || {
             let (width, height) = (texture.width, texture.height);
             let name = files::words::shown(&texture.name);
-            format!("texture {name}: what the {filter} filter makes of its {width}x{height} texels")
+            format!("texture {name}: the data of the {filter} filter for {width}x{height} texels")
         })?;
     }
     Ok(())

@@ -29,10 +29,10 @@ pub enum Pattern {
 pub enum PatternName {
     /// The name of [`Pattern::Regular`].
     #[default]
-    #[value(help = "In the middle")]
+    #[value(help = "The middle of the cell")]
     Regular,
     /// The name of [`Pattern::Jitter`].
-    #[value(help = "Anywhere, by a hash of the ray's number and --seed")]
+    #[value(help = "A pseudo-random position, from a hash of the ray's number and --seed")]
     Jitter,
 }
 

@@ -53,7 +53,8 @@ pub enum PixelFilter {
     /// A tent that reaches to the middles of the neighbouring pixels. With one sample in each pixel
     /// the tent covers only the pixel's own sample.
     #[value(
-        help = "A tent that reaches to the middles of the neighbouring pixels; N is at least 2 for it"
+        help = "A tent that reaches to the middles of the neighbouring pixels; needs --samples of \
+                at least 2"
     )]
     Tent,
 }

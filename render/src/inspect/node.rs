@@ -41,7 +41,7 @@ pub fn lines<S: Sight>(scene: &Scene, seen: &Seen<'_, S>) -> Vec<String> {
     }
     let [reflect, refract] = [node.reflect_weight, node.refract_weight].map(light);
     lines.push(format!("weights: reflected {reflect}; refracted {refract}"));
-    lines.push(format!("colour handed up {}", light(seen.color)));
+    lines.push(format!("colour returned {}", light(seen.color)));
     lines
 }
 
@@ -106,17 +106,17 @@ fn footprint<S: Sight>(
 /// Describes the reason for which a node sees a point.
 fn point(scene: &Scene, reason: PointReason<'_>) -> String {
     match reason {
-        PointReason::Alone => "sees a point, as the filter asks".into(),
+        PointReason::Alone => "sees a point, as the filter requires".into(),
         PointReason::OtherChart => {
-            "sees a point, since a neighbour lies on another piece of the picture".into()
+            "sees a point, since a neighbour lies on another chart of the picture".into()
         }
         PointReason::Stranger { position, branch, node } => {
             let came_to = match (branch, node) {
                 (_, Some(other)) => {
                     let piece = piece(scene, other);
-                    format!("came to {piece}, part {}", other.part)
+                    format!("hit {piece}, part {}", other.part)
                 }
-                (Branch::Background(_), None) => "came to the background".into(),
+                (Branch::Background(_), None) => "reached the background".into(),
                 (Branch::Cut | Branch::Node(_), None) => "came by another path".into(),
             };
             format!("sees a point, since its {position} neighbour {came_to}")

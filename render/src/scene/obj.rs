@@ -27,7 +27,7 @@ pub enum ObjError {
     },
     /// The file has another format.
     #[error(
-        "{file}: found JSON or a grid, expected an OBJ mesh; `triangulate` makes one of a grid"
+        "{file}: found JSON or a grid, expected an OBJ mesh; `triangulate` makes a mesh from a grid"
     )]
     Json {
         /// Name of the file.

@@ -25,9 +25,9 @@ pub fn of_scene() -> Value {
     json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "tb-scene",
-        "description": "What there is to see, how it is lit and from where it is seen; or a part of \
-                        that, of format tb-scene-part. Lengths are in any one unit, angles in degrees, \
-                        colours are linear, axes right-handed.",
+        "description": "A scene (camera, lights, textures, materials and objects), or a part of a \
+                        scene, of format tb-scene-part. Lengths are in any one unit, angles in \
+                        degrees, colours are linear, axes right-handed.",
         "type": "object",
         "if": is_part,
         "then": part,

@@ -24,15 +24,18 @@ pub struct Placement {
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum PlacementError {
     /// A number of the map is not finite, or a stretch is outside the range of computation.
-    #[error("found a map that stretches too much or too little, expected 1e-60 to 1e60 times")]
+    #[error(
+        "found a transform that stretches too much or too little, expected 1e-60 to 1e60 times"
+    )]
     NotFinite,
     /// The map flattens the object, or nearly so.
     #[error(
-        "found a map that flattens the object, expected stretches that differ at most a million times"
+        "found a transform that flattens the object, expected stretches that differ at most a \
+         million times"
     )]
     Flat,
     /// The map moves points so far that boxes around them have no numbers.
-    #[error("found a map that moves points by more than 1e60, expected at most 1e60")]
+    #[error("found a transform that moves points by more than 1e60, expected at most 1e60")]
     Away,
     /// A vertex of a mesh is moved beyond the range of its coordinates.
     #[error(

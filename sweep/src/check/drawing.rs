@@ -193,13 +193,14 @@ fn shape(path: &str, cubics: &[Cubic<DVec2>], closed: bool, found: &mut Vec<Find
     let whole = curve.length().powi(2);
     if crossings == 0 && area.abs() < THIN * whole {
         let message = format!(
-            "the contour encloses hardly anything, an area of {}: its two sides lie on each other; \
-             an open contour has one side",
+            "the contour encloses an area of only {}: the two sides of the contour coincide; an \
+             open contour has one side",
             short(area.abs())
         );
         found.push(Finding::new(Severity::Hint, path, message));
     } else if area < -NO_AREA * whole {
-        let message = "the contour runs clockwise and was turned round, so that its outside is out";
+        let message = "the contour runs clockwise and was reversed, so that the normals point \
+                       outward";
         found.push(Finding::new(Severity::Remark, path, message));
     }
 }
@@ -208,7 +209,8 @@ fn shape(path: &str, cubics: &[Cubic<DVec2>], closed: bool, found: &mut Vec<Find
 fn nearly_closed(sweep: &Sweep) -> Vec<Finding> {
     let close = |path: &str, gap: f64, size: f64| {
         let message = format!(
-            "the ends are {} apart, {} of the size, and the curve is open: is it to be closed?",
+            "the ends are {} apart, {} of the size, and the curve is open: should the curve be \
+             closed?",
             short(gap),
             short(gap / size)
         );

@@ -23,7 +23,8 @@ impl Survey {
             "the trajectory bends more sharply than the contour is wide: the least stretch \
              1 - k.q is {worst}, and a contour of up to {fits} times this size passes"
         );
-        let relief = "the relief is deeper than the contour is round: a smaller amp passes";
+        let relief = "the relief is deeper than the contour's radius of curvature: a smaller \
+                      amp passes";
         let bent = folds(&self.bent, "trajectory", &bend).or_else(|| {
             let (worst, [_, v]) = self.worst?;
             let between = format!(
@@ -32,7 +33,8 @@ impl Survey {
             );
             let touches = format!(
                 "the surface touches itself at v {}, where the contour reaches the axis that the \
-                 trajectory bends about: a contour of below {fits} times this size does not",
+                 trajectory bends about: a contour smaller than {fits} times this size does not \
+                 touch itself",
                 short(v)
             );
             if worst < -TOUCHES {

@@ -89,7 +89,7 @@ pub fn summary(sweep: &Sweep, grid: &GridMesh) -> String {
         },
         (false, Seam::Closed) => "closed along the trajectory",
         (true, Seam::Closed) => "closed in both directions",
-        (_, Seam::Mirror) => "closed with its other side out",
+        (_, Seam::Mirror) => "closed with inside and outside exchanged",
     };
     let [made_rows, made_cols] = grid.cells();
     let survey = sweep.survey();
@@ -145,7 +145,7 @@ fn ranges(rows: &[Stop], is: &[bool]) -> String {
         }
     });
     let more = ranges.len().saturating_sub(MOST);
-    let more = (more > 0).then(|| format!("{more} ranges more"));
+    let more = (more > 0).then(|| format!("{more} more ranges"));
     words.chain(more).collect::<Vec<_>>().join("; ")
 }
 

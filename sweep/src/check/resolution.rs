@@ -46,9 +46,9 @@ pub fn aliases(sweep: &Sweep) -> Vec<Finding> {
 fn counts(sweep: &Sweep, key: &str, asked: usize, made: usize) -> Option<Finding> {
     let why = match (key, &sweep.shape.closing) {
         ("cols", Some(closing)) if closing.mirrored => {
-            "that meet themselves over the mirrored seam"
+            "so that columns meet over the mirrored seam"
         }
-        ("cols", Some(_)) => "that meet themselves over the shifted seam",
+        ("cols", Some(_)) => "so that columns meet over the shifted seam",
         ("cols", None) => "for the pieces between creases",
         _ => "for corners, poles and caps",
     };
@@ -94,8 +94,8 @@ fn twist(sweep: &Sweep, rows: &[Stop], closed: bool) -> Option<Finding> {
         .map(|[a, b]| ((degrees(Stop::before(b)) - degrees(Stop::after(a))).abs(), a));
     let (angle, v) = coarsest(angles)?;
     let message = format!(
-        "the twist turns the contour by {} degrees from one row to the next at v {}: {} rows would \
-         bring it down to {COARSE_DEG}",
+        "the twist turns the contour by {} degrees from one row to the next at v {}: {} rows \
+         would reduce the angle to {COARSE_DEG}",
         short(angle),
         short(v),
         enough(sweep.rows(), angle)
@@ -113,8 +113,8 @@ fn bends(sweep: &Sweep, rows: &[Stop], closed: bool) -> Option<Finding> {
     });
     let (angle, v) = coarsest(angles)?;
     let message = format!(
-        "the trajectory turns by {} degrees from one row to the next at v {}: {} rows would bring \
-         it down to {COARSE_DEG}",
+        "the trajectory turns by {} degrees from one row to the next at v {}: {} rows would \
+         reduce the angle to {COARSE_DEG}",
         short(angle),
         short(v),
         enough(sweep.rows(), angle)
@@ -138,8 +138,8 @@ fn turns(sweep: &Sweep, columns: &[Column]) -> Option<Finding> {
     });
     let (angle, u) = coarsest(angles)?;
     let message = format!(
-        "the contour turns by {} degrees from one column to the next at u {}: {} cols would bring \
-         it down to {COARSE_DEG}",
+        "the contour turns by {} degrees from one column to the next at u {}: {} cols would \
+         reduce the angle to {COARSE_DEG}",
         short(angle),
         short(u),
         enough(sweep.cols(), angle)
@@ -158,7 +158,7 @@ fn waves(sweep: &Sweep) -> Vec<Finding> {
             let each = made as f64 / count.abs();
             if each < CELLS_A_WAVE {
                 let message = format!(
-                    "{} waves on {made} {what} are {} cells to a wave: {} {what} would give each \
+                    "{} waves on {made} {what} have {} cells per wave: {} {what} would have \
                      {CELLS_A_WAVE}",
                     short(count.abs()),
                     short(each),

@@ -5,9 +5,9 @@ use sweep::grid::file::Encoding;
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
 pub enum Format {
-    /// Little-endian numbers: small and fast
+    /// Binary little-endian numbers: small and fast
     Bin,
-    /// One JSON array a row, for people and diffs
+    /// One JSON array per row, for reading and comparing
     Json,
 }
 

@@ -5,15 +5,15 @@ use sweep::spec::Resolution;
 
 #[derive(Debug, Args)]
 pub struct ResolutionArguments {
-    /// Cells along the trajectory, in place of the spec's
+    /// Number of cells along the trajectory; replaces the number in the spec
     #[arg(long, value_name = "N")]
     rows: Option<usize>,
 
-    /// Cells along the contour, in place of the spec's
+    /// Number of cells along the contour; replaces the number in the spec
     #[arg(long, value_name = "N")]
     cols: Option<usize>,
 
-    /// The largest distance between triangles and surface, in place of the spec's resolution
+    /// The largest distance between triangles and surface; replaces the spec's resolution
     #[arg(long, value_name = "LENGTH", conflicts_with_all = ["rows", "cols", "pixels"])]
     tol: Option<f64>,
 
@@ -21,11 +21,11 @@ pub struct ResolutionArguments {
     #[arg(long, value_name = "DEGREES", conflicts_with_all = ["rows", "cols"])]
     angle: Option<f64>,
 
-    /// The largest distance in pixels of the spec's camera
+    /// The largest distance between triangles and surface, in pixels of the spec's camera
     #[arg(long, value_name = "N", conflicts_with_all = ["rows", "cols"])]
     pixels: Option<f64>,
 
-    /// Cells at most where a tolerance is asked for [default: 2000000]
+    /// Largest number of cells if a tolerance is given [default: 2000000]
     #[arg(long, value_name = "N", conflicts_with_all = ["rows", "cols"])]
     max_quads: Option<usize>,
 }

@@ -66,8 +66,8 @@ impl Area {
         {
             if from >= to || to > most {
                 let message = format!(
-                    "found [{from}, {to}], expected two rising numbers from 0 to {most}, the cells \
-                     that there are"
+                    "found [{from}, {to}], expected two rising numbers from 0 to {most}, the \
+                     number of cells"
                 );
                 return Some((key, message));
             }

@@ -73,7 +73,7 @@ pub(super) fn check_parameter(found: f64, before: Option<f64>, seam: Seam) -> Re
         (Some(before), _) if found >= before && found < 1.0 => return Ok(()),
         (Some(before), _) => {
             format!(
-                "a number from {} (the one before it) to below 1, where it closes",
+                "a number from {} (the one before it) to below 1, since the grid is closed here",
                 number(before)
             )
         }

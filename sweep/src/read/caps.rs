@@ -29,7 +29,7 @@ impl Reader<'_> {
         };
         if !contour.closed() || trajectory.closed() || trajectory.is_rotation() {
             let found = if trajectory.is_rotation() {
-                "a rotation, which a contour that meets the axis closes"
+                "a rotation, whose ends close where the contour meets the axis"
             } else if trajectory.closed() {
                 "a closed trajectory"
             } else {
@@ -60,8 +60,8 @@ impl Reader<'_> {
         let (center, _) = center_of(polygon)
             .filter(|(_, area)| area.abs() > NO_AREA * size * size)
             .ok_or_else(|| {
-                let message = "found a cap on a section that no place in it sees all of, expected \
-                               one that a point can be joined to without crossing it";
+                let message = "found a cap on a section that is not star-shaped, expected a \
+                               section whose outline is visible from one point inside";
                 self.geometry(path, message)
             })?;
         let closing = polygon.iter().cycle().skip(1);

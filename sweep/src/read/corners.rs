@@ -89,9 +89,11 @@ impl Reader<'_> {
         let expected = if !straight {
             "straight segments on both sides for a mitre; use `round`".to_owned()
         } else if needed > 1e6 {
-            "none that sharp; use `round`".to_owned()
+            "a blunter corner for a mitre; use `round`".to_owned()
         } else if 1.0 / (0.5 * joint.angle).cos() > limit {
-            format!("a mitre of at most {limit:?}, where this needs {needed:?}; or use `round`")
+            format!(
+                "a mitre of at most {limit:?}, where this corner needs {needed:?}; or use `round`"
+            )
         } else {
             return Ok(());
         };
@@ -124,7 +126,7 @@ impl Reader<'_> {
             let (from, to) = (leg[0], leg[1]);
             if (is_corner(from) || is_corner(to)) && cut > 0.5 * (to - from) + rounding {
                 let message = format!(
-                    "found {cut:?}, expected at most {:?}, half of the way between the corners or \
+                    "found {cut:?}, expected at most {:?}, half the length between the corners or \
                      ends at {from:?} and {to:?} of the length {length:?}",
                     0.5 * (to - from)
                 );
@@ -143,8 +145,8 @@ impl Reader<'_> {
                 let chord = (b.position - a.position).length();
                 if chord <= ON_EACH_OTHER * cut {
                     let message = format!(
-                        "found {} whose legs lie on each other, expected some way between them to \
-                         round it",
+                        "found {} whose legs lie on each other, expected an angle between the \
+                         legs, so that an arc fits",
                         described(joint)
                     );
                     return Err(self.geometry(&path_of(joint.sources[1]), message));
@@ -162,8 +164,8 @@ impl Reader<'_> {
             None => Ok(Course::Path(curve)),
             Some(joint) => {
                 let message = format!(
-                    "found {:.1} degrees left of a corner that is rounded, expected a shorter or a \
-                     longer cut",
+                    "found {:.1} degrees left at a rounded corner, expected a shorter or a longer \
+                     cut",
                     joint.angle.to_degrees()
                 );
                 Err(self.geometry(&format!("{path}.round"), message))

@@ -144,7 +144,10 @@ impl Reader<'_> {
             return Err(self.geometry(path, message));
         }
         Path::new(cubics, closed).ok_or_else(|| {
-            self.geometry(path, "found points that all coincide, expected a curve of some length")
+            self.geometry(
+                path,
+                "found points that all coincide, expected a curve with a length above 0",
+            )
         })
     }
 }

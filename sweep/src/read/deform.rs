@@ -86,14 +86,15 @@ impl Reader<'_> {
         self.point(&axis_path, &axis)?;
         self.point(&format!("{path}.origin"), &origin)?;
         let Some(axis) = DVec3::from_array(axis).try_normalize() else {
-            return Err(self.fault(&axis_path, "found no direction, expected an axis"));
+            return Err(self.fault(&axis_path, "found a vector without length, expected an axis"));
         };
         let [from, to] = span;
         self.number(&format!("{path}.from"), from)?;
         let to_path = format!("{path}.to");
         self.number(&to_path, to)?;
         if to <= from {
-            let message = format!("found {to:?}, expected more than {from:?}, where it begins");
+            let message =
+                format!("found {to:?}, expected more than {from:?}, where the deformation begins");
             return Err(self.fault(&to_path, message));
         }
         if to - from < SMALLEST {
@@ -130,7 +131,7 @@ mod tests {
             ("{\"taper\": {\"from\": 0, \"to\": 1}}", "missing key `factor`"),
             (
                 "{\"twist\": {\"from\": 0, \"to\": 1, \"degrees\": 9, \"axis\": [0, 0, 0]}}",
-                "twist.axis: found no direction",
+                "twist.axis: found a vector without length",
             ),
             (
                 "{\"bend\": {\"from\": 0, \"to\": 1, \"degrees\": 9, \"toward\": [0, 2, 0]}}",

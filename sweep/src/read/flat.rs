@@ -38,7 +38,9 @@ impl Reader<'_> {
             return Err(self.geometry(&z, message));
         }
         let Some(flat) = Flat::new(plane, &law.graph()) else {
-            return Err(self.geometry(path, "found no length, expected a curve of some length"));
+            return Err(
+                self.geometry(path, "found no length, expected a curve with a length above 0")
+            );
         };
         let corner = flat.joints().find(|(_, angle)| angle.to_degrees() > CORNER_DEG);
         let Some((s, angle)) = corner else {

@@ -33,7 +33,7 @@ impl Reader<'_> {
             self.law_point(&path, key)?;
             if i > 0 && key[0] <= keys[i - 1][0] {
                 let message = format!(
-                    "found a key at {:?}, expected it after {:?}, where the key before is",
+                    "found a key at {:?}, expected a position after that of the previous key, {:?}",
                     key[0],
                     keys[i - 1][0]
                 );

@@ -63,8 +63,8 @@ impl Reader<'_> {
         if low > ON_AXIS * high {
             return Ok(());
         }
-        let message = "found a contour that touches the axis of the rotation, expected one that \
-                       keeps off it, since all rows share the pole there";
+        let message = "found a contour that touches the axis of the rotation, expected a contour \
+                       that does not touch the axis, since all rows share the pole there";
         Err(self.geometry(path, message))
     }
 
@@ -102,7 +102,7 @@ impl Reader<'_> {
         let law = self.law(path, law)?;
         let (low, high) = law.range();
         if low == 0.0 && high == 0.0 {
-            return Err(self.fault(path, "found a scale of 0 everywhere, expected some other"));
+            return Err(self.fault(path, "found a scale of 0 everywhere, expected another number"));
         }
         if trajectory.is_rotation() {
             let x = path != "scale[1]";
@@ -114,8 +114,8 @@ impl Reader<'_> {
                 return Err(self.geometry(path, message));
             }
             if low <= 0.0 && high >= 0.0 {
-                let message = "found a scale that reaches 0, expected one of one sign about the axis \
-                               of a rotation";
+                let message = "found a scale that reaches 0, expected a scale of one sign about \
+                               the axis of a rotation";
                 return Err(self.geometry(path, message));
             }
         }

@@ -50,13 +50,14 @@ fn resolution(asked: &spec::Resolution) -> Result<Resolution, Fault> {
     let first = tolerance.into_iter().find_map(|(key, given)| given.then_some(key));
     match (counted, first) {
         (true, Some(key)) => {
-            let message = "found it beside a number of rows or cols, expected one or the other";
+            let message = "found this key beside a number of rows or cols, expected only one of \
+                           the two";
             Err((key, message.into()))
         }
         (true, None) => match (asked.rows, asked.cols) {
             (Some(rows), Some(cols)) => Ok(Resolution::Cells { rows, cols }),
-            (Some(_), None) => Err(("cols", "found none beside rows, expected both".into())),
-            _ => Err(("rows", "found none beside cols, expected both".into())),
+            (Some(_), None) => Err(("cols", "found rows without cols, expected both".into())),
+            _ => Err(("rows", "found cols without rows, expected both".into())),
         },
         (false, _) => tolerance_of(asked).map(Resolution::Tolerance),
     }
@@ -77,17 +78,17 @@ fn tolerance_of(asked: &spec::Resolution) -> Result<Tolerance, Fault> {
     }
     let distance = match (asked.tol, asked.pixels, &asked.camera) {
         (Some(_), Some(_), _) => {
-            return Err(("pixels", "found it beside tol, expected one or the other".into()));
+            return Err(("pixels", "found pixels beside tol, expected only one of the two".into()));
         }
         (_, Some(pixels), Some(camera)) => Some(Distance::Pixels(pixels, view(camera)?)),
         (_, Some(_), None) => {
-            let message = "found no camera beside it, expected one in mesh.camera, or to be made by \
-                           `pipeline run`, which takes the scene's";
+            let message = "found pixels without a camera, expected a camera in mesh.camera; \
+                           `pipeline run` takes the camera of the scene";
             return Err(("pixels", message.into()));
         }
         (Some(tol), None, None) => Some(Distance::Everywhere(tol)),
         (_, None, Some(_)) => {
-            return Err(("camera", "found it without pixels, expected pixels beside it".into()));
+            return Err(("camera", "found a camera without pixels, expected both".into()));
         }
         (None, None, None) => None,
     };
@@ -138,15 +139,15 @@ mod tests {
                       \"size\": [9, 9]}";
         let pixels = |camera: &str| format!("\"pixels\": 1, {camera}");
         for (mesh, message) in [
-            ("\"rows\": 9".into(), "a.json:4:9: mesh.cols: found none beside rows"),
-            ("\"cols\": 9".into(), "a.json:4:9: mesh.rows: found none beside cols"),
+            ("\"rows\": 9".into(), "a.json:4:9: mesh.cols: found rows without cols"),
+            ("\"cols\": 9".into(), "a.json:4:9: mesh.rows: found cols without rows"),
             ("\"max_quads\": 9".into(), "mesh: found no resolution, expected rows and cols"),
-            ("\"rows\": 9, \"tol\": 1".into(), "mesh.tol: found it beside a number of rows"),
+            ("\"rows\": 9, \"tol\": 1".into(), "mesh.tol: found this key beside a number of rows"),
             ("\"tol\": -1".into(), "mesh.tol: found -1.0, expected a number above 0"),
             ("\"angle_deg\": 90".into(), "mesh.angle_deg: found 90.0, expected a number"),
-            ("\"tol\": 1, \"pixels\": 1".into(), "mesh.pixels: found it beside tol"),
-            ("\"pixels\": 1".into(), "mesh.pixels: found no camera beside it"),
-            (format!("\"tol\": 1, {camera}"), "mesh.camera: found it without pixels"),
+            ("\"tol\": 1, \"pixels\": 1".into(), "mesh.pixels: found pixels beside tol"),
+            ("\"pixels\": 1".into(), "mesh.pixels: found pixels without a camera"),
+            (format!("\"tol\": 1, {camera}"), "mesh.camera: found a camera without pixels"),
             (pixels(&camera.replace("40", "180")), "mesh.camera.fov_deg: found 180.0"),
             (pixels(&camera.replace("0, 0, 1", "0, 0, 0")), "mesh.camera: found an eye at its"),
             (pixels(&camera.replace("9, 9", "9, 0")), "mesh.camera.size: found 9 x 0"),

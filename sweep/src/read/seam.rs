@@ -37,7 +37,9 @@ impl Reader<'_> {
         }
         if shape.trajectory.breaks().first() == Some(&0.0) {
             return refused(
-                "found a corner where the trajectory closes, expected it to start elsewhere".into(),
+                "found a corner where the trajectory closes, expected a trajectory that starts at \
+                 another point"
+                    .into(),
             );
         }
         let stops: Vec<Stop> = (0..SAMPLES + usize::from(!closed))
@@ -59,8 +61,8 @@ impl Reader<'_> {
         let off = from.tangent.distance(to.tangent * agree);
         if off > ALIKE {
             return refused(format!(
-                "found a trajectory that comes back at {:.2} degrees to its direction, expected it \
-                 along that or against it",
+                "found a trajectory whose directions at the start and at the end differ by {:.2} \
+                 degrees, expected 0 or 180",
                 from.tangent.dot(to.tangent).clamp(-1.0, 1.0).acos().to_degrees()
             ));
         }
@@ -83,8 +85,8 @@ impl Reader<'_> {
                 (false, false) => "shifted after its twist",
             };
             refusal(format!(
-                "found a contour that misses itself by {missed:.1e} of its size when it comes back \
-                 {how}, expected one that meets itself"
+                "found a contour that differs by {missed:.1e} of its size from the contour at the \
+                 start when {how}, expected a contour that coincides with the one at the start"
             ))
         })?;
         shape.modulation.turn = closing.turn;
@@ -95,8 +97,8 @@ impl Reader<'_> {
             return Ok(shape);
         }
         refused(
-            "found corners of the contour that do not meet corners, expected a contour that is cut \
-             where it meets itself"
+            "found corners of the contour that do not meet corners over the seam, expected \
+             columns at the same positions on both sides of the seam"
                 .into(),
         )
     }
@@ -126,8 +128,8 @@ mod tests {
             (
                 "{\"svg\": \"M0 0H1\"}",
                 "\"seam\": \"mirror\"",
-                "seam: found a contour that misses itself by 1.0e0 of its size when it comes back \
-                 turned and mirrored",
+                "seam: found a contour that differs by 1.0e0 of its size from the contour at the \
+                 start when turned and mirrored",
             ),
             (
                 "{\"svg\": \"M-1 0H1\"}",
@@ -137,7 +139,7 @@ mod tests {
             (
                 "{\"svg\": \"M2 0L-1 1L-1 -1.1Z\"}",
                 "\"seam\": \"mirror\"",
-                "seam: found a contour that misses itself by",
+                "seam: found a contour that differs by",
             ),
         ] {
             let (found, exit) = complaint("{\"circle\": 0.25}", &format!("{contour}, {keys}"));

@@ -118,7 +118,7 @@ impl Reader<'_> {
         self.points(path, ends)?;
         let [from, end] = ends.map(DVec3::from_array);
         let Some(tangent) = (end - from).try_normalize() else {
-            let message = "found ends that coincide, expected a line of some length";
+            let message = "found ends that coincide, expected a line with a length above 0";
             return Err(self.geometry(path, message));
         };
         let start = self.first_frame(&Local3::straight(from, tangent), start)?;
@@ -153,7 +153,8 @@ impl Reader<'_> {
             spec::Frame::Up(up) => {
                 self.point("frame.up", up)?;
                 let Some(up) = DVec3::from_array(*up).try_normalize() else {
-                    return Err(self.fault("frame.up", "found no direction, expected one"));
+                    return Err(self
+                        .fault("frame.up", "found a vector without length, expected a direction"));
                 };
                 ("frame.up", Directed::Up(up), "the direction lies along the trajectory")
             }
@@ -180,8 +181,8 @@ impl Reader<'_> {
         let turned = mitred.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|worst| worst.1 > MIRRORED);
         let lack = directed.lack(&course);
         if turned.is_some() && !matches!(lack, Some(Lack::Along(_))) {
-            let message = "found a mitre that the frame does not pass straight, expected one \
-                           without `up` or `guide`, or corners that are rounded";
+            let message = "found a mitre at which the frame turns, expected a frame without `up` \
+                           or `guide`, or rounded corners";
             return Err(self.geometry(path, message));
         }
         match lack {
@@ -227,7 +228,7 @@ impl Reader<'_> {
         let axis_path = format!("{path}.axis");
         self.point(&axis_path, &axis)?;
         let Some(axis) = DVec3::from_array(axis).try_normalize() else {
-            return Err(self.fault(&axis_path, "found no direction, expected an axis"));
+            return Err(self.fault(&axis_path, "found a vector without length, expected an axis"));
         };
         // The frame of a line along the axis has the right w1. The rotation starts perpendicular to w1 and
         // the axis.
@@ -297,7 +298,7 @@ mod tests {
             ("{\"helix\": {\"radius\": 1, \"turns\": 1}}", "helix", 3),
             (
                 "{\"rotation\": {\"axis\": [0, 0, 0]}}",
-                "3:37: trajectory.rotation.axis: found no direction",
+                "3:37: trajectory.rotation.axis: found a vector without length",
                 3,
             ),
             ("{\"rotation\": {\"angle_deg\": 0}}", "trajectory.rotation.angle_deg: found 0.0", 3),

@@ -99,7 +99,7 @@ impl TryFrom<CornersKeys> for Corners {
 
     fn try_from(keys: CornersKeys) -> Result<Self, String> {
         only(
-            "way",
+            "corner style",
             [("round", keys.round.map(Self::Round)), ("mitre", keys.mitre.map(Self::Mitre))],
         )
     }

@@ -46,7 +46,7 @@ pub fn print(arguments: &Arguments, grid: &str, counts: &Counts) {
     } else if *moved > MOVED {
         say(format_args!(
             "triangulate: note: {grid}: the seven digits of {} moved points by up to {moved:.0e} \
-             of the object's size; it would keep its shape nearer to the origin",
+             of the object's size; the object would keep its shape nearer to the origin",
             format.with_article()
         ));
     }

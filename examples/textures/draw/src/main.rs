@@ -12,7 +12,7 @@ use std::process::ExitCode;
 #[derive(Debug, Parser)]
 #[command(version)]
 struct Arguments {
-    /// The folder for the pictures; made if it is missing
+    /// The folder for the pictures; created if it is missing
     #[arg(short, long, value_name = "DIR", default_value = "textures")]
     output: PathBuf,
     /// Refuse to replace existing files

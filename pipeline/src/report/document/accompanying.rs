@@ -9,7 +9,7 @@ use maud::{Markup, html};
 pub fn section() -> Markup {
     html! {
         section id="alone" {
-            p.eyebrow { "By themselves" }
+            p.eyebrow { "Separate measurements" }
             h2 { "Filters, texture coordinates and meshes" }
             @for own in &ALL { (one(own)) }
         }
@@ -29,7 +29,7 @@ fn one(own: &Accompanying) -> Markup {
         div.table id=(own.name) {
             h3 { (own.title) }
             p { (own.about) }
-            p.faint { "Made again by " code { (own.command) } }
+            p.faint { "Command: " code { (own.command) } }
             img.drawing src=(svg_address(own.drawing)) alt=(own.title);
             details {
                 summary { "The table: " (rows.len()) " rows" }

@@ -33,13 +33,13 @@ pub fn document(measured: &Measured, advice: &[Sentence]) -> Result<String, Pipe
             p.eyebrow { "Measured" }
             h1 { "Speed against error" }
             p.lead {
-                "What each way of rendering a page costs, and how far its picture is from the truth: "
+                "The cost of each method of rendering a page, and the error of its picture: "
                 (count(measured.pages.len(), "page")) ", " (count(measured.threads, "thread")) "."
             }
             @if measured.quick {
                 p.notice {
-                    "Made in haste: small pictures, few methods and few rounds. Take its sentences as a "
-                    "sketch; times in particular are rough."
+                    "A quick report: small pictures, few methods and few rounds. Its sentences are "
+                    "approximate, and its times are rough."
                 }
             }
         }

@@ -35,12 +35,12 @@ pub fn pictures(page: &PageMeasured) -> Result<Markup, PipelineError> {
             @for (why, trial, own, errors) in &shown {
                 figure {
                     img src=(own) alt={ (page.name) " by " (trial.method.name()) };
-                    img src=(errors) alt={ "Where " (trial.method.name()) " is wrong" };
+                    img src=(errors) alt={ "Errors of " (trial.method.name()) };
                     figcaption {
                         b { (super::set(&trial.method.name())) }
                         @if !why.is_empty() { br; span.faint { (why) } }
                         br;
-                        (error(trial.whole.rmse)) " off, " (seconds(trial.cost.cpu))
+                        "error " (error(trial.whole.rmse)) ", " (seconds(trial.cost.cpu))
                     }
                 }
             }
@@ -71,8 +71,8 @@ fn chosen(page: &PageMeasured) -> Vec<(&'static str, &Trial, &Picture)> {
         ("as in 1993 without filtering", find(Filter::Point, Sampling::regular(1))),
         ("prefiltered", one),
         ("prefiltered and supersampled", nine),
-        ("nearest without tables in the time of the last", rival),
-        ("nearest of all", nearest(&|_| true)),
+        ("smallest error without tables in the time of the previous method", rival),
+        ("smallest error of all", nearest(&|_| true)),
     ];
     let mut chosen: Vec<(&'static str, &Trial, &Picture)> = Vec::new();
     for (why, trial) in wished {

@@ -21,7 +21,7 @@ pub fn section(measured: &Measured, advice: &[Sentence]) -> Markup {
             h2 { "What the numbers say" }
             p.faint {
                 "The thesis\u{2019}s method is prefiltering by repeated integration: box, tent and quadratic (n = "
-                "1, 2, 3). The tent stands for it."
+                "1, 2, 3). The tent represents this method."
             }
             @for (question, heading) in GROUPS {
                 @let own: Vec<&Sentence> =
@@ -45,7 +45,7 @@ fn glance(pages: &[PageMeasured]) -> Markup {
             h2 { "The pages at a glance" }
             p.faint {
                 "Errors of one ray in each pixel with four filters, and of the thesis\u{2019}s supersampling with the "
-                "tent; in brackets the processor time by that of one bilinear ray."
+                "tent; in brackets the ratio of the processor time to that of one bilinear ray."
             }
             div.wide {
                 table.glance {
@@ -53,7 +53,7 @@ fn glance(pages: &[PageMeasured]) -> Markup {
                         th { "Page" }
                         @for filter in SHOWN { th { (filter) } }
                         th { "tent, super-" br; "sampled" }
-                        th { "nearest of all" }
+                        th { "smallest error of all" }
                     } }
                     tbody { @for page in pages { (row(page)) } }
                 }

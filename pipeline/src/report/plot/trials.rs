@@ -77,7 +77,7 @@ fn chart(page: &PageMeasured, of: &Error<'_>, noise: f64, across: Axis, up: Axis
     let front = pareto::front(&points);
     let point = |k: usize| {
         let (trial, (x, y)) = (&page.trials[k], points[k]);
-        let name = format!("{}: {} off, {}", trial.method.name(), error(y), seconds(x));
+        let name = format!("{}: error {}, {}", trial.method.name(), error(y), seconds(x));
         let samples = trial.method.evenly().filter(|_| front.contains(&k));
         Point { x, y, name, note: samples.map(|n| n.to_string()) }
     };

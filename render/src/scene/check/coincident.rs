@@ -82,7 +82,7 @@ pub fn findings(subject: &Subject<'_>) -> Coincidences {
                 With::Flat(other) => {
                     let (other, _) = flat[other];
                     let what = format!(
-                        "the surface lies in {} ({}), which is seen",
+                        "the surface lies in the same plane as {} ({}), which is seen",
                         other.path, other.kind
                     );
                     pair(subject, item, other, &what)

@@ -31,7 +31,7 @@ impl Reader<'_> {
             }
             ReliefKind::Wall(wall) => {
                 if wall.colors.is_some() {
-                    let message = "found it on a bump, expected it only on textures";
+                    let message = "found this key on a bump, expected it only on textures";
                     return self.fault(&format!("{at}.wall.colors"), message);
                 }
                 Relief::Wall(self.wall(&format!("{at}.wall"), wall)?)
@@ -39,8 +39,8 @@ impl Reader<'_> {
             ReliefKind::Dnoise(dnoise) => Relief::Dnoise(self.noise(dnoise.interpolation)),
             ReliefKind::Image(image) => {
                 if file.place.is_some() {
-                    let message =
-                        "found it on a picture, expected it only where a relief fills space";
+                    let message = "found this key on a picture, expected it only on a relief that \
+                                   fills space";
                     return self.fault(&format!("{at}.place"), message);
                 }
                 Relief::Picture(self.heights(&format!("{at}.image"), image)?)

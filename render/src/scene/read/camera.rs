@@ -21,7 +21,8 @@ pub(super) fn read(document: &Document<'_>, file: &CameraFile) -> Result<Camera,
         Some(camera) => Ok(camera),
         None => fault(
             "camera",
-            "found an eye at its target, or an up along the view; expected three directions apart"
+            "found an eye at its target, or an up along the view; expected an eye apart from its \
+             target, and an up across the view"
                 .into(),
         ),
     }

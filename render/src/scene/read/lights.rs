@@ -53,8 +53,8 @@ impl Reader<'_> {
             reference: self.above_zero(&format!("{at}.reference"), file.reference)?,
         };
         if falloff.constant == 0.0 && falloff.linear == 0.0 && falloff.quadratic == 0.0 {
-            let message = "found a light that does not fade to anything, expected \"constant\", \
-                           \"linear\" or \"quadratic\" above 0";
+            let message = "found a falloff without terms, expected \"constant\", \"linear\" or \
+                           \"quadratic\" above 0";
             return self.fault(at, message);
         }
         Ok(falloff)

@@ -51,7 +51,7 @@ impl Reader<'_> {
             (None, None) => Ok(None),
             (None, Some(film)) => self.thin_film(name, film).map(Some),
             (Some(_), Some(_)) => {
-                self.fault(&at, "found beside \"thin_film\", expected one of the two")
+                self.fault(&at, "found this key beside \"thin_film\", expected only one of the two")
             }
             (Some(file), None) => self.colors_by_angle(&at, file, 0.0).map(Some),
         }

@@ -13,13 +13,17 @@ impl Reader<'_> {
         for axis in 0..3 {
             let (low, high) = (file.low[axis], file.high[axis]);
             if high <= low {
-                let message = format!("found {high}, expected more than {low}, which is in low");
+                let message =
+                    format!("found {high}, expected more than {low}, the same component of low");
                 return self.fault(&format!("{path}.high[{axis}]"), message);
             }
         }
         match Cuboid::new(file.low.into(), file.high.into()) {
             Some(cuboid) => Ok(Shape::Cuboid(cuboid)),
-            None => self.fault(&format!("{path}.high"), "found no box, expected numbers above low"),
+            None => self.fault(
+                &format!("{path}.high"),
+                "found a box without extent, expected numbers above low",
+            ),
         }
     }
 
@@ -41,7 +45,7 @@ impl Reader<'_> {
         let (center, radii) = (file.center.into(), file.radii.into());
         match Superquadric::new(center, radii, file.exponents, file.ring) {
             Some(superquadric) => Ok(Shape::Superquadric(superquadric)),
-            None => self.fault(path, "found no superquadric, expected radii above 0"),
+            None => self.fault(path, "found a superquadric without extent, expected larger radii"),
         }
     }
 }

@@ -54,7 +54,8 @@ impl Reader<'_> {
                     } else {
                         ("a texture that fills space", "pictures")
                     };
-                    let message = format!("found it on {found}, expected it only on {expected}");
+                    let message =
+                        format!("found this key on {found}, expected it only on {expected}");
                     return self.fault(&format!("{at}.{key}"), message);
                 }
             }

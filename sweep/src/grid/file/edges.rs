@@ -25,7 +25,7 @@ impl Edges {
         for (i, PlacedArea { area, v: ends }) in areas.iter().enumerate() {
             for (k, (&row, &found)) in area.rows.iter().zip(ends).enumerate() {
                 if row == edge && found != v {
-                    let message = format!("found {found:?}, expected {v:?}, where that row lies");
+                    let message = format!("found {found:?}, expected {v:?}, the v of the row");
                     return Err(Fault { subject: format!("areas[{i}].v[{k}]"), message });
                 }
             }

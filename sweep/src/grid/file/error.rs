@@ -59,8 +59,8 @@ pub enum GridError {
     },
     /// The grid has an unsupported version.
     #[error(
-        "{name}: found a grid of version {found}, expected version {expected}: make it anew with \
-         the `sweep` that came with this program"
+        "{name}: found a grid of version {found}, expected version {expected}: make the grid \
+         again with the `sweep` of this program's release"
     )]
     Version {
         /// The file as the user named it.
@@ -99,7 +99,7 @@ pub enum GridError {
     },
     /// The file ends after the last row, before the end of the footer.
     #[error(
-        "{name}: the row count and checksum behind the last of {rows} rows are cut short: the \
+        "{name}: the row count and checksum after the last of {rows} rows are cut short: the \
          program that wrote it stopped early"
     )]
     FooterCut {
@@ -111,7 +111,7 @@ pub enum GridError {
     /// Header and footer have different numbers of rows.
     #[error(
         "{name}: found {found} rows in the closing count, expected the {expected} of the header: \
-         the file was damaged on its way"
+         the file was damaged after it was written"
     )]
     Count {
         /// The file as the user named it.
@@ -135,7 +135,7 @@ pub enum GridError {
         expected: u32,
     },
     /// Bytes follow the last footer.
-    #[error("{name}: found bytes behind the end of the grid, expected another grid or nothing")]
+    #[error("{name}: found bytes after the end of the grid, expected another grid or nothing")]
     Trailing {
         /// The file as the user named it.
         name: String,
@@ -151,7 +151,7 @@ pub enum GridError {
         patch: Patch,
     },
     /// Patches do not follow in order.
-    #[error("{name}: found {found}, expected {expected}: the file was put together wrongly")]
+    #[error("{name}: found {found}, expected {expected}: the patches are not in their order")]
     PatchOrder {
         /// The file as the user named it.
         name: String,

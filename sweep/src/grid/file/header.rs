@@ -216,8 +216,10 @@ impl Header {
     pub(super) fn check(&self) -> Result<(), Fault> {
         let Patch { number, of } = self.patch;
         if !(1..=of).contains(&number) {
-            let message =
-                format!("found [{number}, {of}], expected a number from 1 and how many there are");
+            let message = format!(
+                "found [{number}, {of}], expected the patch's number, from 1, and the number of \
+                 patches"
+            );
             return Err(Fault { subject: "patch".into(), message });
         }
         for (subject, count, seam, limit) in [

@@ -91,7 +91,7 @@ fn patches_out_of_order_are_noticed() {
     let without_the_second = [&text[..at[1]], &text[at[2]..]].concat();
     assert_eq!(
         complaint(without_the_second.as_bytes()),
-        "cup.grid: found patch 3 of 3, expected patch 2 of 3: the file was put together wrongly"
+        "cup.grid: found patch 3 of 3, expected patch 2 of 3: the patches are not in their order"
     );
     let message = complaint(&text.as_bytes()[at[1]..]);
     assert!(message.contains("found patch 2 of 3, expected patch 1 of 3"), "{message}");

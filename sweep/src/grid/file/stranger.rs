@@ -7,7 +7,7 @@ const KNOWN: [(&[u8], &str); 7] = [
     (b"v/1\x01", "it is an EXR picture"),
     (b"\x1f\x8b", "it is compressed; unpack it first"),
     (b"\xef\xbb\xbf", "it starts with the byte order mark of a text editor"),
-    (b"\xff\xfe", "it is UTF-16 text; a program on the way recoded it"),
+    (b"\xff\xfe", "it is UTF-16 text; a program changed the encoding after `sweep` wrote the grid"),
     (b"[", "it is JSON without the header line of a grid"),
 ];
 
@@ -16,7 +16,7 @@ const OBJ_WORDS: [&str; 9] = ["#", "o", "g", "v", "vt", "vn", "f", "mtllib", "us
 
 /// Description of JSON that does not state that it is a grid.
 pub(super) const OTHER_JSON: &str = "it is JSON without \"format\":\"tb-grid\" in its first line; \
-     if it is a curve spec, `sweep` makes the grid of it";
+                                     if it is a curve spec, `sweep` makes its grid";
 
 /// Describes a file that starts with `bytes`, which do not start with a brace.
 pub(super) fn described(bytes: &[u8]) -> String {

@@ -113,7 +113,7 @@ fn a_cut_says_which_row() {
         complaint(&bytes[..header_len(&bytes) + row + 1]),
         "grid.tbg: row 2 of 3 is cut short: the program that wrote it stopped early"
     );
-    assert!(complaint(&bytes[..bytes.len() - 1]).contains("behind the last of 3 rows"));
+    assert!(complaint(&bytes[..bytes.len() - 1]).contains("after the last of 3 rows"));
     let message = read("<stdin>", &[][..]).unwrap_err().to_string();
     assert_eq!(
         message,
@@ -172,7 +172,7 @@ fn nothing_may_follow() {
     for encoding in ENCODINGS {
         let mut bytes = bytes_of(&small(), encoding);
         bytes.push(b'\n');
-        assert!(complaint(&bytes).contains("bytes behind the end"));
+        assert!(complaint(&bytes).contains("bytes after the end"));
     }
 }
 
@@ -274,7 +274,7 @@ fn other_files_are_called_by_their_names() {
     for (bytes, expected) in [
         (&b"# topobook triangulate OBJ 1\no a\nv 0 0 0\n"[..], "looks like an OBJ mesh"),
         (b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", "is a PNG picture"),
-        (b"{\n  \"contour\": {}\n}\n", "if it is a curve spec, `sweep` makes the grid of it"),
+        (b"{\n  \"contour\": {}\n}\n", "if it is a curve spec, `sweep` makes its grid"),
         (b"{\"contour\":{}}", "if it is a curve spec"),
         (b"hello", "starts with \"hello\", expected {\"format\":\"tb-grid\""),
     ] {
