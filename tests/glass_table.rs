@@ -56,7 +56,7 @@ fn paths_to_the_sea(pixel: &str) -> Vec<Vec<String>> {
             _ => path.last_mut().into_iter().for_each(|step| *step += &format!("\n{text}")),
         }
         if text.starts_with("colour returned")
-            && way.last().is_some_and(|step| step.contains("object 0, plane"))
+            && path.last().is_some_and(|step| step.contains("object 0, plane"))
         {
             paths.push(path.clone());
         }

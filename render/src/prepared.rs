@@ -89,8 +89,7 @@ impl<'a> Prepared<'a> {
         let started = Instant::now();
         let accel = self.structures[structure as usize].get_or_init(|| {
             built.structures = 1;
-            let shapes = self.scene.objects.iter().map(|object| &object.shape);
-            Accel::build(shapes.collect(), structure)
+            self.structured(structure)
         });
         built.structure_time = started.elapsed();
         let started = Instant::now();
@@ -109,6 +108,18 @@ impl<'a> Prepared<'a> {
         let volumes = &self.volumes;
         let scene = self.scene;
         (Shader { scene, accel, textures, charts, wants_area, volumes, around_lights }, built)
+    }
+
+    /// Returns a structure that finds the hits of rays.
+    #[must_use]
+    pub fn accel(&self, structure: Structure) -> &Accel<'a> {
+        self.structures[structure as usize].get_or_init(|| self.structured(structure))
+    }
+
+    /// Builds a structure over all objects.
+    fn structured(&self, structure: Structure) -> Accel<'a> {
+        let shapes = self.scene.objects.iter().map(|object| &object.shape);
+        Accel::build(shapes.collect(), structure)
     }
 
     /// Prepares the textures that surfaces show for a filter.

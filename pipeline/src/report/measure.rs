@@ -50,9 +50,10 @@ pub fn page(
     tell: Tell<'_>,
 ) -> Result<PageMeasured, CompareError> {
     tell("regions", 0, 1);
-    let regions = regions::regions(scene, plan.size);
+    let prepared = Prepared::new(scene);
+    let regions = regions::regions(&prepared, plan.size);
     let measured = take_turns(scene, plan, memory, tell);
-    let (pair, settled) = settle(scene, plan, &measured, tell)?;
+    let (pair, settled) = settle(&prepared, plan, &measured, tell)?;
     let truth = pair.mean();
     let (samples, most_samples) = pair.samples();
     let noise = pair.noise(None);
@@ -165,13 +166,12 @@ fn measure(scene: &Scene, plan: &Plan, method: &Method, memory: &dyn Memory) -> 
 /// Returns the truth, refined until its two pictures differ little in comparison to the smallest error,
 /// and whether that was reached.
 fn settle(
-    scene: &Scene,
+    prepared: &Prepared<'_>,
     plan: &Plan,
     all: &[Rounds],
     tell: Tell<'_>,
 ) -> Result<(Refined, bool), CompareError> {
-    let prepared = Prepared::new(scene);
-    let mut pair = Refined::render(&prepared, plan.size, plan.truth_samples, &|done, total| {
+    let mut pair = Refined::render(prepared, plan.size, plan.truth_samples, &|done, total| {
         tell("truth", done, total);
     });
     for _ in 0..MOST_REFINEMENTS {
@@ -180,7 +180,7 @@ fn settle(
             break;
         }
         let more = |done: usize, total: usize| tell("more rays for the truth", done, total);
-        if !pair.refine(&prepared, goal, plan.most_truth_samples, &more) {
+        if !pair.refine(prepared, goal, plan.most_truth_samples, &more) {
             break;
         }
     }

@@ -20,8 +20,7 @@
 use super::measured::Region;
 use super::sight::{self, PixelTracer, PixelView};
 use rayon::prelude::*;
-use render::Scene;
-use render::trace::volume::Volumes;
+use render::Prepared;
 
 /// Length of a footprint's minor axis above which the texture counts as minified, in texels.
 pub const MINIFIED: f64 = 2.0;
@@ -30,7 +29,7 @@ pub const MINIFIED: f64 = 2.0;
 ///
 /// Runs on the threads of the current rayon pool. The result is the same for any number of threads.
 #[must_use]
-pub fn regions(scene: &Scene, size: (u32, u32)) -> Vec<Region> {
+pub fn regions(scene: &Prepared<'_>, size: (u32, u32)) -> Vec<Region> {
     let views = views(scene, size);
     let silhouettes = silhouettes(&views, size.0 as usize);
     let elsewhere = |belongs: &dyn Fn(&PixelView) -> bool| -> Vec<bool> {
@@ -50,16 +49,14 @@ pub fn regions(scene: &Scene, size: (u32, u32)) -> Vec<Region> {
 /// pixel's weight comes from one hit on a surface with a texture, seen directly or by mirrors and
 /// glass. There the minor axis of the footprint is longer than [`MINIFIED`] texels.
 #[must_use]
-pub fn minified(scene: &Scene, size: (u32, u32)) -> Vec<bool> {
+pub fn minified(scene: &Prepared<'_>, size: (u32, u32)) -> Vec<bool> {
     let views = views(scene, size);
     views.iter().map(|view| view.minor.is_some_and(|minor| minor > MINIFIED)).collect()
 }
 
 /// Returns what every pixel sees, row by row.
-fn views(scene: &Scene, size: (u32, u32)) -> Vec<PixelView> {
-    let accel = sight::accel_of(scene);
-    let volumes = Volumes::of(scene);
-    let tracer = PixelTracer::new(scene, &accel, &volumes, size);
+fn views(scene: &Prepared<'_>, size: (u32, u32)) -> Vec<PixelView> {
+    let tracer = PixelTracer::new(scene, size);
     let rows = (0..size.1).into_par_iter().map(|y| {
         let mut trees = sight::Trees::default();
         (0..size.0).map(|x| tracer.view(x, y, &mut trees)).collect::<Vec<_>>()
@@ -84,6 +81,7 @@ mod tests {
     use super::*;
     use crate::pages;
     use files::json::Document;
+    use render::Scene;
     use render::scene::MeshSource;
     use render::scene::read::{self, Draft};
     use std::path::Path;
@@ -157,7 +155,7 @@ mod tests {
         let side = 17.0;
         let scene = scene(side, "");
         let texels = texels_a_unit(&scene, side);
-        let found = regions(&scene, SIZE);
+        let found = regions(&Prepared::new(&scene), SIZE);
         // The horizon lies between two rows.
         let silhouettes = mask(|_, y| y == 31 || y == 32);
         assert_eq!(region(&found, "silhouettes"), silhouettes);
@@ -165,7 +163,7 @@ mod tests {
             let (across, up) = direction(x, y);
             up < 0.0 && minor_on_floor((across, up), texels) > MINIFIED
         };
-        assert_eq!(minified(&scene, SIZE), mask(small));
+        assert_eq!(minified(&Prepared::new(&scene), SIZE), mask(small));
         assert_eq!(region(&found, "far floor"), mask(|x, y| y > 32 && small(x, y)));
         let count = mask(small).into_iter().filter(|set| *set).count();
         assert!((200..2800).contains(&count), "{count} pixels: the edge lies in the picture");
@@ -176,7 +174,7 @@ mod tests {
     fn the_axes_are_exact_in_every_pixel() {
         let scene = scene(0.9, "");
         let texels = texels_a_unit(&scene, 0.9);
-        for (view, (x, y)) in views(&scene, SIZE)
+        for (view, (x, y)) in views(&Prepared::new(&scene), SIZE)
             .iter()
             .zip((0..SIZE.1).flat_map(|y| (0..SIZE.0).map(move |x| (x, y))))
         {
@@ -200,7 +198,7 @@ mod tests {
             "edge_v": [0, 3, 0], "material": "mirror" } }"#;
         let scene = scene(60.0, mirror);
         let texels = texels_a_unit(&scene, 60.0);
-        let found = regions(&scene, SIZE);
+        let found = regions(&Prepared::new(&scene), SIZE);
         let silhouettes = region(&found, "silhouettes");
         let on_mirror = |x, y| {
             let (across, up) = direction(x, y);
@@ -218,7 +216,7 @@ mod tests {
             inside.iter().zip(mask(small)).filter(|(inside, small)| **inside && !small);
         assert!(edge_in_mirror.count() > 50, "some of the mirrored floor is not minified");
         // The floor behind the mirror is hidden, but its mirror image is seen at the same distance.
-        assert_eq!(minified(&scene, SIZE), mask(small));
+        assert_eq!(minified(&Prepared::new(&scene), SIZE), mask(small));
         let far = mask(|x, y| small(x, y) && !on_mirror(x, y));
         let far: Vec<bool> = far.iter().zip(&silhouettes).map(|(a, b)| *a && !b).collect();
         assert_eq!(region(&found, "far floor"), far);
@@ -229,7 +227,7 @@ mod tests {
     fn a_pane_shows_the_floor_behind_it() {
         let pane =
             r#", { "box": { "low": [-3, 0.01, -4.2], "high": [3, 3, -4], "material": "glass" } }"#;
-        let found = regions(&scene(1.7, pane), SIZE);
+        let found = regions(&Prepared::new(&scene(1.7, pane)), SIZE);
         let silhouettes = region(&found, "silhouettes");
         // Only pixels well inside the front count. Their rays have passed through front and back: the
         // floor is seen below the horizon, and no texture above it.
@@ -258,7 +256,7 @@ mod tests {
         let scene = scene(17.0, ball);
         let with = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| views(&scene, SIZE))
+            pool.install(|| views(&Prepared::new(&scene), SIZE))
         };
         let alone = with(1);
         assert!(alone.iter().any(|view| view.through > 0.5), "the ball shows the floor");
@@ -270,8 +268,8 @@ mod tests {
         let board = r#", { "rectangle": { "corner": [-9, -9, -1.5], "edge_u": [18, 0, 0],
             "edge_v": [0, 18, 0], "material": "bare" } }"#;
         let scene = scene(17.0, board);
-        assert!(region(&regions(&scene, SIZE), "far floor").iter().all(|set| !set));
-        let views = views(&scene, SIZE);
+        assert!(region(&regions(&Prepared::new(&scene), SIZE), "far floor").iter().all(|set| !set));
+        let views = views(&Prepared::new(&scene), SIZE);
         assert!(
             views.iter().filter(|view| view.object == Some(1)).all(|view| view.minor.is_none())
         );

@@ -7,15 +7,14 @@
 //! derivative with respect to film position. This method also works behind mirrors and glass.
 
 use glam::{DMat2, DVec2};
-use render::Scene;
-use render::accel::{Accel, Structure};
+use render::accel::Structure;
 use render::color::Color;
 use render::footprint::{Bundle, Footprint, PointReason, Sight};
 use render::scene::Material;
 use render::shape::{Charts, Shape};
 use render::trace::tree::{Branch, Child, IntersectionTree, Node};
-use render::trace::volume::Volumes;
 use render::trace::{RayCounts, Tracer};
+use render::{Prepared, Scene};
 
 /// Distance of the four points from a pixel's middle, in pixels.
 ///
@@ -65,15 +64,12 @@ pub(super) struct PixelTracer<'a> {
 }
 
 impl<'a> PixelTracer<'a> {
-    pub(super) fn new(
-        scene: &'a Scene,
-        accel: &'a Accel<'a>,
-        volumes: &'a Volumes,
-        (width, height): (u32, u32),
-    ) -> Self {
+    pub(super) fn new(prepared: &'a Prepared<'_>, (width, height): (u32, u32)) -> Self {
+        let scene = prepared.scene();
+        let accel = prepared.accel(Structure::default());
         Self {
             scene,
-            tracer: Tracer::new(scene, accel, volumes),
+            tracer: Tracer::new(scene, accel, prepared.volumes()),
             charts: scene.objects.iter().map(|object| object.shape.charts()).collect(),
             size: DVec2::new(f64::from(width), f64::from(height)),
         }
@@ -244,12 +240,6 @@ fn smaller_singular_value(m: DMat2) -> f64 {
     let turning = DVec2::new(m.x_axis.x + m.y_axis.y, m.x_axis.y - m.y_axis.x).length();
     let mirrored = DVec2::new(m.x_axis.x - m.y_axis.y, m.x_axis.y + m.y_axis.x).length();
     0.5 * (turning - mirrored).abs()
-}
-
-/// Builds the structure that finds the hits of a scene's rays.
-pub(super) fn accel_of(scene: &Scene) -> Accel<'_> {
-    let shapes = scene.objects.iter().map(|object| &object.shape).collect();
-    Accel::build(shapes, Structure::default())
 }
 
 #[cfg(test)]
