@@ -294,7 +294,7 @@ mod tests {
             let rest = match left {
                 0 => "this run replaces all of the files".into(),
                 1 => "all of the files but one".into(),
-                _ => format!("all but {left} of them"),
+                _ => format!("all of the files but {left}"),
             };
             assert!(remark.ends_with(&rest), "{remark}");
             some.iter().for_each(|file| batch.replace(filled(file, "again")).unwrap());

@@ -152,7 +152,7 @@ fn the_data_window_of_an_exr_is_measured_and_not_only_what_is_displayed() {
         let error = read(&file, &budget).unwrap_err();
         let PictureError::Broken(error) = error else { panic!("{corners:?}: {error:?}") };
         let expected =
-            format!("pixels with 3 channels, which no file of {} bytes holds", file.len());
+            format!("pixels with 3 channels, more than a file of {} bytes can hold", file.len());
         assert!(error.ends_with(&expected), "{error}");
     }
     // The file is long enough to hold the pixels, so only the budget refuses it.

@@ -272,7 +272,7 @@ mod tests {
     #[test]
     fn the_cost_of_one_ray_is_its_time_and_its_tables() {
         let pages = vec![fixture::page("a", &floor, &[]), fixture::page("b", &floor, &[])];
-        let text = "One ray with the tent takes 2.0 times the time of one bilinear ray, and its tables hold \
+        let text = "One ray with the tent takes 2.0 times the time of one bilinear ray, and its tables take \
                     up to 16 MiB more memory.";
         assert_eq!(
             one(&said(pages), "takes 2.0 times the time of"),
