@@ -67,7 +67,7 @@ fn tables_are_measured_before_they_are_built() {
     for (filter, table) in [("tent", 258 * 258 * 24u64), ("quadratic", 259 * 259 * 24)] {
         let limit = (table + 393_215).to_string();
         let arguments = ["scene.json", "--filter", filter, "--max-memory", &limit];
-        let said = ["texture checks: what the ", filter, "256x256 texels needs "];
+        let said = ["texture checks: the data of the ", filter, "256x256 texels needs "];
         wall().refuse(&arguments, b"", 6, &said);
         let enough = (table + 393_216 + BESIDE).to_string();
         let arguments = ["scene.json", "--filter", filter, "--max-memory", &enough];

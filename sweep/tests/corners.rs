@@ -165,7 +165,7 @@ fn corners_have_their_complaints() {
         (
             sharp(json!({"mitre": 4})),
             json!({}),
-            "expected a mitre of at most 4.0, where this needs 8.185",
+            "expected a mitre of at most 4.0, where this corner needs 8.185",
         ),
         (
             sharp(json!({"mitre": 0.5})),

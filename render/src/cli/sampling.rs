@@ -26,9 +26,9 @@ pub struct SamplingArguments {
     /// Weights of the rays in a pixel
     #[arg(long, value_name = "SHAPE", default_value = "box")]
     pixel_filter: PixelFilter,
-    /// Instead of --samples, trace nine rays for each pixel: the middle with weight 1/4, the sides
-    /// with 1/8 and the corners with 1/16. Textures are averaged for each ray (image), or for the
-    /// nine rays of a pixel together (rays)
+    /// Instead of --samples, trace the picture at twice the size. Each pixel is the mean of nine rays:
+    /// its middle with weight 1/4, its sides with 1/8 and its corners with 1/16. Textures are averaged
+    /// for each ray (image), or for the nine rays of a pixel together (rays)
     #[arg(long, value_name = "HOW", num_args = 0..=1, require_equals = true,
         default_missing_value = "image", conflicts_with_all = ["samples", "pattern", "seed", "pixel_filter"])]
     supersample: Option<Supersample>,

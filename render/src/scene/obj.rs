@@ -257,7 +257,7 @@ mod tests {
         assert!(complaint("").contains("found nothing"));
         assert!(complaint("# only a comment\n").contains("no triangles"));
         assert!(complaint(SQUARE).contains("no triangles"));
-        assert!(complaint("{\"format\":\"tb-grid\"}").contains("`triangulate` makes one"));
+        assert!(complaint("{\"format\":\"tb-grid\"}").contains("`triangulate` makes a mesh"));
         let error = read("a.obj", b"v 0 0 0\n\xff").unwrap_err().to_string();
         assert!(error.starts_with("a.obj:2: found bytes"), "{error}");
         let mesh = read("a.obj", format!("\u{feff}{SQUARE}f 1 2 3\n").as_bytes()).unwrap();

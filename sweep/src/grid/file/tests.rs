@@ -241,13 +241,13 @@ fn an_area_that_the_rows_do_not_have_is_refused() {
     };
     assert_eq!(
         with("\"v\":[0.0,1.0]", "\"v\":[0.0,0.5]"),
-        "grid.tbg: row 3 of 3: areas[0].v[1]: found 0.5, expected 1.0, where that row lies"
+        "grid.tbg: row 3 of 3: areas[0].v[1]: found 0.5, expected 1.0, the v of the row"
     );
     // Two rows at one `v` are one edge of cells.
     assert_eq!(
         with("[0.3333333333333333,0,", "[0.0,0,"),
         "grid.tbg: row 3 of 3: areas[0].area.rows: found [0, 2], expected two rising numbers from 0 to 1, \
-         the cells that there are"
+         the number of cells"
     );
 }
 
