@@ -135,7 +135,8 @@ fn surfaces_in_the_same_place_are_told() {
              \"edge_v\": [0, {size}, 0], \"material\": \"ball\" }} }}"
         )
     };
-    let in_it = "remark: objects[1].rectangle: the surface lies in objects[0].rectangle";
+    let in_it =
+        "remark: objects[1].rectangle: the surface lies in the same plane as objects[0].rectangle";
     finds(ball, &tile("[1, 1, 0]", 0.5), in_it);
     finds(ball, &tile("[1.9, 1.9, 0]", 0.5), in_it);
     // Beside the wall with a common edge, and above the wall, there is no finding.

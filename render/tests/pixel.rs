@@ -102,7 +102,8 @@ fn parse(lines: &mut std::iter::Peekable<std::str::Lines<'_>>) -> Printed {
         } else if line.contains("weights:") {
             node.weights = [numbers(line, "reflected ")[0], numbers(line, "refracted ")[0]];
         } else if line.contains("colour") {
-            node.handed = numbers(line, if line.contains("up") { "up " } else { "colour " });
+            node.handed =
+                numbers(line, if line.contains("returned") { "returned " } else { "colour " });
         }
     }
     node

@@ -200,8 +200,7 @@ fn surfaces_in_one_place_are_all_counted_the_first_named_and_the_work_is_in_prop
     assert!(two.looks as f64 <= TWICE * one.looks as f64, "{} {}", one.looks, two.looks);
     let said: Vec<String> = two.findings.iter().map(ToString::to_string).collect();
     assert_eq!(said.len(), 21);
-    let first =
-        "remark: objects[1].rectangle: the surface lies in objects[0].rectangle (rectangle)";
+    let first = "remark: objects[1].rectangle: the surface lies in the same plane as objects[0].rectangle (rectangle)";
     assert!(said[0].starts_with(first), "{}", said[0]);
     let others = format!("in {} more pairs", 2000 * 1999 / 2 - 20);
     assert!(said[20].contains(&others), "{}", said[20]);

@@ -96,7 +96,10 @@ fn patches_out_of_order_are_noticed() {
     let message = complaint(&text.as_bytes()[at[1]..]);
     assert!(message.contains("found patch 2 of 3, expected patch 1 of 3"), "{message}");
     let message = complaint(text.replacen("\"patch\":[1,3]", "\"patch\":[4,3]", 1).as_bytes());
-    assert!(message.contains("patch: found [4, 3], expected a number from 1"), "{message}");
+    assert!(
+        message.contains("patch: found [4, 3], expected the patch's number, from 1"),
+        "{message}"
+    );
 }
 
 #[test]
