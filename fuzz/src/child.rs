@@ -1,6 +1,6 @@
 //! The parent's connection to one child process.
 
-use crate::cli::FuzzError;
+use crate::error::FuzzError;
 use crate::protocol::{Answer, Reply, Request};
 use crate::reader::Reader;
 use crate::verdict::{Fault, Kind, Verdict};

@@ -1,11 +1,11 @@
 //! The flags of the program, and their execution.
 
 use crate::child::Child;
+use crate::error::FuzzError;
 use crate::protocol::Answer;
 use crate::reader::{Bench, Reader};
 use crate::run;
 use crate::schedule::Until;
-use crate::seeds::SeedError;
 use crate::tally::Group;
 use crate::verdict::Verdict;
 use crate::worker;
@@ -14,7 +14,6 @@ use files::exit::say;
 use std::io::{Write, stdout};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
-use thiserror::Error;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -60,31 +59,6 @@ pub struct Arguments {
     /// Run as a child process, which reads the cases to try from standard input
     #[arg(long, exclusive = true, hide = true)]
     worker: bool,
-}
-
-/// A reason why the fuzzer could not work.
-#[derive(Debug, Error)]
-pub enum FuzzError {
-    /// The seeds cannot be read.
-    #[error(transparent)]
-    Seed(#[from] SeedError),
-    /// A pipe or process failed.
-    #[error("a child process cannot be started, or its pipe failed: {0}")]
-    Io(#[from] std::io::Error),
-    /// A child ended before it tried anything.
-    #[error("a child process {0}")]
-    Worker(String),
-    /// A line that is not part of the protocol.
-    #[error("found {0:?} between parent and child, expected a request or an answer")]
-    Protocol(String),
-    /// A file cannot be read or written.
-    #[error("{path}: {source}")]
-    File {
-        /// The file.
-        path: String,
-        /// The error of the operating system.
-        source: std::io::Error,
-    },
 }
 
 /// Does what the arguments request, and returns the number of different faults.

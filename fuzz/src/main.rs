@@ -8,6 +8,7 @@
 //! | module       | what                                                             |
 //! |--------------|------------------------------------------------------------------|
 //! | [`cli`]      | the flags                                                        |
+//! | [`error`]    | the error of the program                                         |
 //! | [`dice`]     | random numbers of a case                                         |
 //! | [`seeds`]    | the inputs from which mutation starts                            |
 //! | [`mutate`]   | the mutations of inputs                                          |
@@ -25,6 +26,7 @@
 mod child;
 mod cli;
 mod dice;
+mod error;
 mod minimize;
 mod mutate;
 mod protocol;

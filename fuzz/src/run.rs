@@ -1,7 +1,7 @@
 //! Runs all children, until the cases or the seconds are used up.
 
 use crate::child::Child;
-use crate::cli::FuzzError;
+use crate::error::FuzzError;
 use crate::minimize;
 use crate::mutate::grid;
 use crate::protocol::Answer;

@@ -1,6 +1,6 @@
 //! The child process: tries inputs and measures them.
 
-use crate::cli::FuzzError;
+use crate::error::FuzzError;
 use crate::protocol::{Answer, Reply, Request};
 use crate::reader::{Bench, Reader};
 use crate::verdict::{Fault, Kind, Stop, Verdict, wording_fault};

@@ -13,7 +13,7 @@
 
 use super::build::{Bounds, Builder, Part};
 use super::slabs::SlabRay;
-use super::wide::{self, Group, WIDTH};
+use super::wide::{self, Child, Group, Pair, WIDTH};
 use glam::{DVec3, Vec4};
 
 /// Capacity of the walk's stack of nodes, at least [`WIDTH`]. Beyond it the walk recurses.
@@ -33,24 +33,6 @@ pub struct Bvh {
     root: Child,
     groups: Vec<Group>,
     looks: u64,
-}
-
-/// Two siblings of the binary tree.
-#[derive(Debug, Clone, Copy)]
-pub struct Pair {
-    /// Boxes of both siblings.
-    pub bounds: [Bounds; 2],
-    /// Both siblings, without their boxes.
-    pub children: [Child; 2],
-}
-
-/// A node without its box.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Child {
-    /// Index of its first box, or of its group of children.
-    pub first: u32,
-    /// Number of its boxes; 0 if the node has children.
-    pub count: u32,
 }
 
 /// A ray prepared for the tests of one tree.

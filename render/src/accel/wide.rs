@@ -5,11 +5,28 @@
 //! Hierarchies for Fast SIMD Ray Tracing of Incoherent Rays*, Computer Graphics Forum 27(4), 2008.
 
 use super::build::Bounds;
-use super::bvh::{Child, Pair};
 use glam::{Vec3A, Vec4};
 
 /// Number of boxes in a group.
 pub const WIDTH: usize = 4;
+
+/// Two siblings of the binary tree.
+#[derive(Debug, Clone, Copy)]
+pub struct Pair {
+    /// Boxes of both siblings.
+    pub bounds: [Bounds; 2],
+    /// Both siblings, without their boxes.
+    pub children: [Child; 2],
+}
+
+/// A node without its box.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Child {
+    /// Index of its first box, or of its group of children.
+    pub first: u32,
+    /// Number of its boxes; 0 if the node has children.
+    pub count: u32,
+}
 
 /// The children of a node, and their boxes.
 #[derive(Debug, Clone, Copy)]

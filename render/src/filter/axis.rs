@@ -47,14 +47,8 @@
 //! [`Wrap::Mirror`].
 
 use super::entry::{Entry, Line};
-use super::reduce::Reduce;
+use super::reduce::{MOST_POINTS, Reduce};
 use crate::texture::Wrap;
-
-/// Highest order of a table.
-pub const HIGHEST: usize = 3;
-
-/// Largest number of points in a difference.
-pub const MOST_POINTS: usize = HIGHEST + 1;
 
 /// Largest number of reduced integers of an axis.
 pub const MOST_REDUCED: usize = 11;

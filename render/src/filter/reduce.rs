@@ -5,9 +5,14 @@
 //! subtracted from all but the texel, which removes the sums from the table's origin. All steps are
 //! additions, subtractions and multiplications by whole numbers, exact modulo 2^B.
 
-use super::axis::MOST_POINTS;
 use super::entry::binomial;
 use super::word::Word;
+
+/// Highest order of a table.
+pub const HIGHEST: usize = 3;
+
+/// Largest number of points in a difference.
+pub const MOST_POINTS: usize = HIGHEST + 1;
 
 /// Coefficients `c_k` of an n-th difference, indexed by `n`.
 pub const DIFFERENCES: [[i64; MOST_POINTS]; 4] =

@@ -7,8 +7,9 @@
 //! exact texels, up to the rounding of its last few operations in `f64`. One axis is described in
 //! [`super::axis`].
 
-use super::axis::{self, Axis, HIGHEST, Part};
+use super::axis::{self, Axis, Part};
 use super::direct;
+use super::reduce::HIGHEST;
 use super::reduce::plus;
 use super::weigh::weigh;
 use super::word::Word;
