@@ -1,6 +1,6 @@
 //! The source tree as text: its files, and their code without comments, string literals and tests.
 //!
-//! This module is not a parser of Rust. It recognizes comments, literals, braces, paths and trees
+//! The module does not parse Rust. The module recognizes comments, literals, braces, paths and trees
 //! of `use`, which is enough for the rules. Macros could hide code from it.
 
 use std::fs;

@@ -1,7 +1,7 @@
 //! Measurements of the modeler, the filters and the texture coordinates that accompany the pages of a
 //! report.
 //!
-//! They need a machine for themselves, or exact arithmetic with numbers of any length. Programs of
+//! These measurements need an idle machine, or exact arithmetic with numbers of any length. Programs of
 //! other crates made them. Each is built in as a table and a drawing, with the command that makes both
 //! again.
 

@@ -44,7 +44,7 @@ pub struct Truth {
     /// Largest number of such rays, in the noisiest block of the picture.
     pub most_samples: u32,
     /// Half the root mean square difference between the pictures of the two seeds, in linear light.
-    /// This half is about the error of their mean.
+    /// This number estimates the error of the mean of the two pictures.
     pub noise: f64,
     /// The noise within each of the page's regions, in their order.
     pub noise_by_region: Vec<f64>,
