@@ -263,3 +263,18 @@ fn far_from_the_origin_coordinates_are_within_four_ulp() {
         }
     }
 }
+
+/// Where a cap is so long that a tolerance asks for more cells than there are numbers, the allowed
+/// number of cells is the limit.
+#[test]
+fn a_cap_of_any_height_stays_within_the_allowed_cells() {
+    for power in (0..60).step_by(4) {
+        let grids = grids(&json!({
+            "contour": {"circle": 0.1}, "trajectory": {"circle": {"radius": 2, "angle_deg": 250}},
+            "caps": {"start": "round", "end": {"pole": 10.0_f64.powi(power)}},
+            "mesh": {"tol": 0.01, "max_quads": 300},
+        }));
+        let cells: usize = grids.iter().map(|grid| grid.rows() * grid.cols()).sum();
+        assert!(cells <= 400, "1e{power}: {cells}");
+    }
+}

@@ -29,6 +29,10 @@ const STEPS: usize = 60;
 /// finite, and is far too small to add a cell.
 const LEAST_LOAD: f64 = 1e-4;
 
+/// Largest number of cells in an interval. Sizes that overflow ask for infinitely many cells, and a
+/// number that is not finite cannot be made smaller by a factor until it fits the allowed cells.
+const MOST_CELLS: f64 = 1e12;
+
 /// Costs that differ by less than this fraction are equal, and the earlier counts. So rounding, and with it
 /// the unit of length, cannot decide.
 pub const ALIKE: f64 = 1e-9;
@@ -104,7 +108,8 @@ pub fn fewest(field: &Field, even: bool) -> [Density; 2] {
         cells: spans
             .iter()
             .zip(sizes)
-            .map(|([from, to], size)| (to - from) * scale / size.sqrt())
+            // A NaN becomes the largest number too.
+            .map(|([from, to], size)| ((to - from) * scale / size.sqrt()).min(MOST_CELLS))
             .collect(),
     };
     [density(&v, &sizes.y), density(&u, &sizes.x)]
