@@ -25,15 +25,16 @@ type Layers = &'static [(&'static str, &'static [&'static str])];
 /// The modules of `render`.
 const RENDER: Layers = &[
     ("color", &[]),
+    ("differential", &[]),
     ("optics", &[]),
     ("ray", &[]),
-    ("shape", &[]),
+    ("shape", &["differential"]),
     ("texture", &["color"]),
     ("procedural", &["color"]),
-    ("scene", &["color", "optics", "procedural", "ray", "shape", "texture"]),
+    ("scene", &["color", "differential", "optics", "procedural", "ray", "shape", "texture"]),
     ("accel", &["ray", "shape"]),
-    ("trace", &["accel", "color", "optics", "procedural", "ray", "scene", "shape"]),
-    ("footprint", &["color", "shape", "trace"]),
+    ("trace", &["accel", "color", "differential", "optics", "procedural", "ray", "scene", "shape"]),
+    ("footprint", &["color", "differential", "shape", "trace"]),
     ("filter", &["color", "footprint", "texture"]),
     (
         "shade",

@@ -16,6 +16,7 @@
 
 pub mod accel;
 pub mod color;
+pub mod differential;
 pub mod film;
 pub mod filter;
 pub mod footprint;

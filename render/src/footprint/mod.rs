@@ -10,19 +10,23 @@
 //! |---|---|---|
 //! | [`Neighbourhood`] | 3 x 3 neighbours, the thesis's method | the box around nine points |
 //! | [`Alone`] | one | a point |
+//! | [`Beam`] | one, with its differential | a parallelogram |
 //!
 //! Another sampling method adds a file to this module and, if it needs a new shape, a variant of
 //! [`Footprint`]. [`Bundle`] walks any number of trees in step and serves as its base.
 
 pub mod alone;
+pub mod beam;
 pub mod bundle;
 pub mod neighbours;
 
 pub use alone::Alone;
+pub use beam::Beam;
 pub use bundle::Bundle;
 pub use neighbours::Neighbourhood;
 
 use crate::color::Color;
+use crate::differential::Spread;
 use crate::shape::Charts;
 use crate::trace::tree::{Branch, Child, IntersectionTree, Node};
 use glam::{DVec2, DVec3};
@@ -40,9 +44,15 @@ pub enum Footprint {
         /// Half the width and half the height of the rectangle, 0 or more.
         half: DVec2,
     },
-    /// A convex quadrilateral with these corners, in order around it. Filters average over its
-    /// bounding rectangle.
+    /// A convex quadrilateral with these corners, in order around it.
     Quadrilateral([DVec2; 4]),
+    /// A parallelogram.
+    Parallelogram {
+        /// Middle of the parallelogram.
+        center: DVec2,
+        /// Two sides that meet at a corner. They may be parallel, or zero.
+        sides: [DVec2; 2],
+    },
 }
 
 impl Footprint {
@@ -57,6 +67,7 @@ impl Footprint {
                 let (low, high) = (a.min(b).min(c.min(d)), a.max(b).max(c.max(d)));
                 (0.5 * (low + high), 0.5 * (high - low))
             }
+            Self::Parallelogram { center, sides: [a, b] } => (center, 0.5 * (a.abs() + b.abs())),
         }
     }
 
@@ -70,6 +81,7 @@ impl Footprint {
                 let (before, _) = self.bounds();
                 Self::Quadrilateral(corners.map(|corner| corner + (center - before)))
             }
+            Self::Parallelogram { sides, .. } => Self::Parallelogram { center, sides },
         }
     }
 
@@ -78,7 +90,7 @@ impl Footprint {
     pub fn is_point(&self) -> bool {
         match self {
             Self::Point(_) => true,
-            Self::Rectangle { .. } | Self::Quadrilateral(_) => false,
+            Self::Rectangle { .. } | Self::Quadrilateral(_) | Self::Parallelogram { .. } => false,
         }
     }
 }
@@ -109,6 +121,13 @@ pub trait Sight: Copy {
     /// Returns the reason for which the footprint of `node`, the current node, is a point. The
     /// result means nothing if the footprint has an area.
     fn point_reason(&self, node: &Node) -> PointReason<'_>;
+
+    /// Returns how the current node changes across and down the part of the film that the sight
+    /// stands for; `None` if the sampling method does not tell. Solid textures and highlights are
+    /// averaged with it.
+    fn spread(&self) -> Option<&Spread> {
+        None
+    }
 
     /// Transmittance from the eye to the root, linear RGB, [0, 1] per channel.
     fn through(&self) -> Color {
@@ -141,6 +160,8 @@ pub enum PointReason<'a> {
         /// The node of this branch, if any.
         node: Option<&'a Node>,
     },
+    /// The ray has no derivative, because it meets a surface edge on or at the critical angle.
+    NoDerivative,
     /// All rays hit the same textured area, but not the same chart of its texture coordinates.
     OtherChart,
 }

@@ -88,6 +88,7 @@ fn footprint<S: Sight>(
         Footprint::Point(_) => return point(scene, sight.point_reason(node)),
         Footprint::Rectangle { .. } => "a rectangle",
         Footprint::Quadrilateral(_) => "a quadrilateral within a rectangle",
+        Footprint::Parallelogram { .. } => "a parallelogram within a rectangle",
     };
     let (center, half) = textured.footprint.bounds();
     let texture = &scene.textures[texture];
@@ -106,6 +107,9 @@ fn footprint<S: Sight>(
 /// Describes the reason for which a node sees a point.
 fn point(scene: &Scene, reason: PointReason<'_>) -> String {
     match reason {
+        PointReason::NoDerivative => {
+            "sees a point: the ray meets a surface edge on or at the critical angle".into()
+        }
         PointReason::Alone => "sees a point, as the filter requires".into(),
         PointReason::OtherChart => {
             "sees a point, since a neighbour lies on another chart of the picture".into()

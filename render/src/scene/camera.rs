@@ -1,5 +1,6 @@
 //! The camera, which turns positions on the film into rays.
 
+use crate::differential::{self, RayDifferential};
 use crate::ray::Ray;
 use glam::{DVec2, DVec3};
 
@@ -51,10 +52,24 @@ impl Camera {
     /// Returns the ray through a position on a film of `size` pixels.
     #[must_use]
     pub fn ray(&self, position: DVec2, size: DVec2) -> Ray {
+        Ray::from_eye(self.eye, self.toward(position, size).normalize())
+    }
+
+    /// Returns the differential of [`Camera::ray`] for a step of `step` pixels across and down the
+    /// film.
+    #[must_use]
+    pub fn differential(&self, position: DVec2, size: DVec2, step: f64) -> RayDifferential {
+        let per_step = 2.0 * step / size.y * self.half_height;
+        let changes = [per_step * self.right, -per_step * self.up];
+        let direction = differential::normalized(self.toward(position, size), changes);
+        RayDifferential { origin: [DVec3::ZERO; 2], direction }
+    }
+
+    /// Returns the vector from the eye to a position on the film at distance 1.
+    fn toward(&self, position: DVec2, size: DVec2) -> DVec3 {
         let x = (2.0 * position.x - size.x) / size.y * self.half_height;
         let y = (size.y - 2.0 * position.y) / size.y * self.half_height;
-        let direction = self.forward + x * self.right + y * self.up;
-        Ray::from_eye(self.eye, direction.normalize())
+        self.forward + x * self.right + y * self.up
     }
 }
 

@@ -1,6 +1,7 @@
 //! The triangle mesh, with coordinates exactly as in its file.
 
 use super::{Placement, PlacementError, SurfacePoint, triangle};
+use crate::differential;
 use glam::{DVec2, DVec3};
 use thiserror::Error;
 
@@ -184,18 +185,45 @@ impl Mesh {
         if corners.uv[0] == NONE {
             return [DVec3::ZERO; 2];
         }
-        let [p0, p1, p2] = corners.position.map(|i| as_dvec3(self.positions[i as usize]));
+        let Some([by_b, by_c]) = self.weight_gradients(triangle) else { return [DVec3::ZERO; 2] };
         let uvs = corners.uv.map(|i| DVec2::from(self.uvs[i as usize].map(f64::from)));
+        let (along_b, along_c) = (uvs[1] - uvs[0], uvs[2] - uvs[0]);
+        [along_b.x * by_b + along_c.x * by_c, along_b.y * by_b + along_c.y * by_c]
+    }
+
+    /// Returns the changes of the interpolated unit normal as [`super::Shape::normal_changes`] does.
+    /// They are zero if the triangle has no normals or no area.
+    #[must_use]
+    pub fn normal_changes(
+        &self,
+        triangle: u32,
+        barycentric: [f64; 2],
+        steps: [DVec3; 2],
+    ) -> [DVec3; 2] {
+        let corners = &self.triangles[triangle as usize];
+        let gradients = self.weight_gradients(triangle);
+        let (false, Some([by_b, by_c])) = (corners.normal[0] == NONE, gradients) else {
+            return [DVec3::ZERO; 2];
+        };
+        let [b, c] = barycentric;
+        let normals = corners.normal.map(|i| as_dvec3(self.normals[i as usize]));
+        let sum = weighted([1.0 - b - c, b, c], normals);
+        if sum == DVec3::ZERO {
+            return [DVec3::ZERO; 2];
+        }
+        let (along_b, along_c) = (normals[1] - normals[0], normals[2] - normals[0]);
+        let of_sum = steps.map(|step| by_b.dot(step) * along_b + by_c.dot(step) * along_c);
+        differential::normalized(sum, of_sum)
+    }
+
+    /// Returns the gradients of the barycentric weights of a triangle's second and third corner, or
+    /// `None` if the triangle has no area.
+    fn weight_gradients(&self, triangle: u32) -> Option<[DVec3; 2]> {
+        let [p0, p1, p2] = self.corners(triangle).map(as_dvec3);
         let (b, c) = (p1 - p0, p2 - p0);
         let normal = b.cross(c);
         let area_sq = normal.length_squared();
-        if area_sq == 0.0 {
-            return [DVec3::ZERO; 2];
-        }
-        // Gradients of the weights of the second and the third corner.
-        let (by_b, by_c) = (c.cross(normal) / area_sq, normal.cross(b) / area_sq);
-        let (along_b, along_c) = (uvs[1] - uvs[0], uvs[2] - uvs[0]);
-        [along_b.x * by_b + along_c.x * by_c, along_b.y * by_b + along_c.y * by_c]
+        (area_sq > 0.0).then(|| [c.cross(normal) / area_sq, normal.cross(b) / area_sq])
     }
 
     /// Lower and upper corner of a triangle's bounding box.

@@ -268,6 +268,27 @@ impl Shape {
             Self::Placed(placed) => placed.uv_gradients(number, position),
         }
     }
+
+    /// Returns the changes of the unit normal for shading when the point of a hit moves by `steps`
+    /// along the surface. The normal is that of [`Shape::surface_point`], and so are `number` and
+    /// `barycentric`; `position` is the point. The changes are derivatives: those of steps of twice
+    /// the length are twice as large.
+    #[must_use]
+    pub fn normal_changes(
+        &self,
+        number: u32,
+        barycentric: [f64; 2],
+        position: DVec3,
+        steps: [DVec3; 2],
+    ) -> [DVec3; 2] {
+        match self {
+            Self::Sphere(sphere) => steps.map(|step| step / sphere.radius),
+            Self::Quad(_) | Self::Cuboid(_) => [DVec3::ZERO; 2],
+            Self::Mesh(mesh) => mesh.normal_changes(number, barycentric, steps),
+            Self::Superquadric(superquadric) => superquadric.normal_changes(position, steps),
+            Self::Placed(placed) => placed.normal_changes(number, position, steps),
+        }
+    }
 }
 
 /// Position, normals and texture coordinates at a point of a shape.

@@ -5,6 +5,7 @@
 //! the nearest.
 
 use super::{Placement, Shape, Start, SurfacePoint};
+use crate::differential;
 use glam::DVec3;
 
 /// Margin of the bounding box of a placed shape, in roundings of the largest coordinate.
@@ -78,6 +79,18 @@ impl Placed {
             let gradient = to_own.matrix3.transpose() * own;
             gradient - gradient.dot(normal) * normal
         })
+    }
+
+    /// Returns changes of the unit normal as [`Shape::normal_changes`] does, in scene space.
+    #[must_use]
+    pub fn normal_changes(&self, face: u32, position: DVec3, steps: [DVec3; 2]) -> [DVec3; 2] {
+        let to_own = self.placement.to_own();
+        let near = to_own.transform_point3(position);
+        let own = self.shape.surface_point(face, [0.0; 2], near);
+        let own_steps = steps.map(|step| to_own.transform_vector3(step));
+        let changes = self.shape.normal_changes(face, [0.0; 2], own.position, own_steps);
+        let turned = |normal: DVec3| self.placement.normal(normal);
+        differential::normalized(turned(own.shading_normal), changes.map(turned))
     }
 
     /// Lower and upper corner of the bounding box, in scene space.

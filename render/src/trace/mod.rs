@@ -13,13 +13,14 @@ pub mod volume;
 
 use crate::accel::Accel;
 use crate::color::Color;
+use crate::differential::{RayDifferential, Spread};
 use crate::procedural::Place;
 use crate::ray::{Hit, Ray};
 use crate::scene::{Material, Scene};
 use crate::shape::SurfacePoint;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use medium::{Boundary, Media};
-use split::{Split, mirror};
+use split::{Split, Turned, mirror};
 use tree::{Branch, IntersectionTree, Node};
 use volume::Volumes;
 
@@ -60,6 +61,25 @@ enum End {
     Lost,
 }
 
+/// A ray and, if footprints come from it alone, its differential.
+type Carried<'a> = (&'a Ray, Option<&'a RayDifferential>);
+
+/// The spreads of a hit, which differ in the normal.
+#[derive(Clone, Copy)]
+struct Spreads {
+    /// With the normal of the surface itself.
+    facet: Spread,
+    /// With the normal for shading.
+    shading: Spread,
+}
+
+impl Spreads {
+    /// Returns the spread and the normal that turned a ray, of the two normals given.
+    fn of(&self, turned: Turned, shading: DVec3, facet: DVec3) -> (Spread, DVec3) {
+        if turned.by_facet { (self.facet, facet) } else { (self.shading, shading) }
+    }
+}
+
 /// A visible surface that a ray reaches.
 struct Seen {
     hit: Hit,
@@ -81,11 +101,32 @@ impl<'a> Tracer<'a> {
 
     /// Traces a ray from the eye and fills its intersection tree.
     pub fn trace(&self, ray: &Ray, tree: &mut IntersectionTree, counts: &mut RayCounts) {
+        self.trace_carried((ray, None), tree, counts);
+    }
+
+    /// Traces a ray from the eye as [`Tracer::trace`] does, and stores the spread of each hit in the
+    /// tree. `differential` is that of the ray.
+    pub fn trace_spread(
+        &self,
+        ray: &Ray,
+        differential: &RayDifferential,
+        tree: &mut IntersectionTree,
+        counts: &mut RayCounts,
+    ) {
+        self.trace_carried((ray, Some(differential)), tree, counts);
+    }
+
+    fn trace_carried(
+        &self,
+        carried: Carried<'_>,
+        tree: &mut IntersectionTree,
+        counts: &mut RayCounts,
+    ) {
         tree.clear();
         counts.primary += 1;
         let mut media = std::mem::take(&mut tree.media);
         media.start_in(&self.around_eye);
-        (tree.root, tree.through) = self.follow(ray, &mut media, 0, Color::ONE, tree, counts);
+        (tree.root, tree.through) = self.follow(carried, &mut media, 0, Color::ONE, tree, counts);
         tree.media = media;
     }
 
@@ -97,7 +138,7 @@ impl<'a> Tracer<'a> {
     /// ray's weight in its pixel, linear RGB.
     fn follow(
         &self,
-        ray: &Ray,
+        carried: Carried<'_>,
         media: &mut Media,
         depth: u32,
         weight: Color,
@@ -108,11 +149,12 @@ impl<'a> Tracer<'a> {
             return (Branch::Cut, Color::ONE);
         }
         let start = media.mark();
+        let (ray, _) = carried;
         let (end, through) = self.arrive(ray, media);
         let branch = match end {
             End::Surface(hit, point, boundary) => {
                 let seen = Seen { hit, point, boundary, depth, weight: weight * through };
-                self.divide(ray, media, &seen, tree, counts)
+                self.divide(carried, media, &seen, tree, counts)
             }
             End::Background => tree.leave(ray.direction),
             End::Lost => Branch::Cut,
@@ -137,11 +179,45 @@ impl<'a> Tracer<'a> {
         bump.normal(&object.to_own_space, &place)
     }
 
+    /// Returns the spread of a hit on the surface without its bump. `side` is -1 if the ray comes
+    /// from inside and 1 otherwise.
+    fn spread(
+        &self,
+        ray: &Ray,
+        differential: &RayDifferential,
+        hit: &Hit,
+        point: &SurfacePoint,
+        side: f64,
+    ) -> Spread {
+        let shape = &self.scene.objects[hit.piece.object as usize].shape;
+        // The ray may have passed hidden boundaries, so the distance is not that of the hit.
+        let t = (point.position - ray.origin).dot(ray.direction);
+        let position = differential.transferred(ray.direction, t, point.geometric_normal);
+        let incident = differential.direction;
+        let number = hit.piece.triangle;
+        let gradients = shape.uv_gradients(number, point.position);
+        let uv = position.map(|step| DVec2::from(gradients.map(|gradient| gradient.dot(step))));
+        let normal = shape.normal_changes(number, hit.barycentric, point.position, position);
+        let normal = normal.map(|change| side * change);
+        Spread { position, uv, normal, incident, roughness: 0.0 }
+    }
+
+    /// Returns the spread of a hit with the bump of its material, from the spread without it.
+    fn bumped_spread(
+        &self,
+        _material: &Material,
+        _hit: &Hit,
+        _point: &SurfacePoint,
+        smooth: Spread,
+    ) -> Spread {
+        smooth
+    }
+
     /// Adds a visible surface to the tree, and follows its mirrored and refracted rays.
     #[inline]
     fn divide(
         &self,
-        ray: &Ray,
+        (ray, differential): Carried<'_>,
         media: &mut Media,
         seen: &Seen,
         tree: &mut IntersectionTree,
@@ -157,10 +233,22 @@ impl<'a> Tracer<'a> {
         let side = if inside { -1.0 } else { 1.0 };
         let geometric_normal = side * point.geometric_normal;
         let mut normal = side * self.bumped(material, &hit, &point);
-        if ray.direction.dot(normal) >= 0.0 {
-            // The ray meets the back of the interpolated normal. The facet's normal replaces it.
+        // The ray may meet the back of the interpolated normal. The facet's normal replaces it.
+        let from_behind = ray.direction.dot(normal) >= 0.0;
+        if from_behind {
             normal = geometric_normal;
         }
+        let spreads = differential.map(|differential| {
+            let smooth = self.spread(ray, differential, &hit, &point, side);
+            let flat = object.shape.mesh().is_some();
+            let facet = if flat { Spread { normal: [DVec3::ZERO; 2], ..smooth } } else { smooth };
+            let shading = if from_behind {
+                facet
+            } else {
+                self.bumped_spread(material, &hit, &point, smooth)
+            };
+            Spreads { facet, shading }
+        });
 
         let eta = boundary.eta(&self.scene.materials);
         let split = Split::at(material, ray.direction, normal, geometric_normal, eta);
@@ -180,6 +268,9 @@ impl<'a> Tracer<'a> {
             reflect_weight,
             refract_weight,
         });
+        if let Some(Spreads { shading, .. }) = spreads {
+            tree.push_spread(shading);
+        }
         if depth >= self.scene.max_depth {
             return Branch::Node(slot);
         }
@@ -191,22 +282,32 @@ impl<'a> Tracer<'a> {
         };
         if worth_it(reflect_weight) {
             counts.reflected += 1;
-            let direction = mirror(ray.direction, normal, geometric_normal);
-            let mirrored = Ray::leaving(hit.piece, point.position, direction);
+            let turned = mirror(ray.direction, normal, geometric_normal);
+            let mirrored = Ray::leaving(hit.piece, point.position, turned.direction);
+            let differential = spreads.map(|spreads| {
+                let (spread, normal) = spreads.of(turned, normal, geometric_normal);
+                spread.reflected(ray.direction, normal)
+            });
+            let mirrored = (&mirrored, differential.as_ref());
             let share = weight * reflect_weight;
-            let (branch, through) = self.follow(&mirrored, media, depth + 1, share, tree, counts);
+            let (branch, through) = self.follow(mirrored, media, depth + 1, share, tree, counts);
             let node = tree.node_mut(slot);
             node.reflected = branch;
             node.reflect_weight *= through;
         }
-        if let Some(direction) = split.refracted.filter(|_| worth_it(refract_weight)) {
+        if let Some(turned) = split.refracted.filter(|_| worth_it(refract_weight)) {
             counts.refracted += 1;
-            let passed = Ray::leaving(hit.piece, point.position, direction);
+            let passed = Ray::leaving(hit.piece, point.position, turned.direction);
+            let differential = spreads.map(|spreads| {
+                let (spread, normal) = spreads.of(turned, normal, geometric_normal);
+                spread.refracted(ray.direction, normal, eta)
+            });
+            let passed = (&passed, differential.as_ref());
             let share = weight * refract_weight;
             if let Some(own) = self.volumes.medium(self.scene, hit.piece.object, point.part) {
                 media.cross(own, inside, &self.scene.materials);
             }
-            let (branch, through) = self.follow(&passed, media, depth + 1, share, tree, counts);
+            let (branch, through) = self.follow(passed, media, depth + 1, share, tree, counts);
             let node = tree.node_mut(slot);
             node.refracted = branch;
             node.refract_weight *= through;

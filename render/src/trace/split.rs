@@ -11,8 +11,18 @@ pub struct Split {
     pub reflect_weight: f64,
     /// Weight of the refracted ray, [0, 1].
     pub refract_weight: f64,
-    /// Unit direction of the refracted ray, if there is one.
-    pub refracted: Option<DVec3>,
+    /// The refracted ray, if there is one.
+    pub refracted: Option<Turned>,
+}
+
+/// The direction of a mirrored or refracted ray, and the normal that turned it.
+#[derive(Debug, Clone, Copy)]
+pub struct Turned {
+    /// Unit direction of the ray.
+    pub direction: DVec3,
+    /// True if the facet's normal turned the ray, because the interpolated normal would have sent
+    /// it to the wrong side of the surface.
+    pub by_facet: bool,
 }
 
 impl Split {
@@ -41,21 +51,22 @@ impl Split {
         // The facet's normal replaces an interpolated normal that would keep the ray on this side.
         let refracted = optics::refract(incident, normal, eta).and_then(|direction| {
             if direction.dot(geometric_normal) < 0.0 {
-                Some(direction)
+                Some(Turned { direction, by_facet: false })
             } else {
-                optics::refract(incident, geometric_normal, eta)
+                let direction = optics::refract(incident, geometric_normal, eta)?;
+                Some(Turned { direction, by_facet: true })
             }
         });
         match refracted {
-            Some(direction) if material.fresnel => Self {
+            Some(turned) if material.fresnel => Self {
                 reflect_weight: reflectivity * share,
                 refract_weight: transparency * (1.0 - share),
-                refracted: Some(direction),
+                refracted: Some(turned),
             },
-            Some(direction) => Self {
+            Some(turned) => Self {
                 reflect_weight: reflectivity,
                 refract_weight: transparency,
-                refracted: Some(direction),
+                refracted: Some(turned),
             },
             // Total internal reflection. Fresnel's reflectance reaches 1 continuously at the
             // critical angle, so the weights have no step there.
@@ -66,15 +77,15 @@ impl Split {
     }
 }
 
-/// Returns the unit direction of the mirrored ray. The facet's normal replaces the interpolated
+/// Returns the mirrored ray. The facet's normal replaces the interpolated
 /// normal where the latter would send the ray through the surface.
 #[must_use]
-pub fn mirror(incident: DVec3, normal: DVec3, geometric_normal: DVec3) -> DVec3 {
+pub fn mirror(incident: DVec3, normal: DVec3, geometric_normal: DVec3) -> Turned {
     let direction = optics::reflect(incident, normal);
     if direction.dot(geometric_normal) > 0.0 {
-        direction
+        Turned { direction, by_facet: false }
     } else {
-        optics::reflect(incident, geometric_normal)
+        Turned { direction: optics::reflect(incident, geometric_normal), by_facet: true }
     }
 }
 
@@ -100,7 +111,7 @@ mod tests {
         ) {
             let facet = if incident.dot(facet) < 0.0 { facet } else { -facet };
             prop_assume!(incident.dot(facet) < -1e-3 && incident.dot(normal) < -1e-3);
-            prop_assert!(mirror(incident, normal, facet).dot(facet) > 0.0);
+            prop_assert!(mirror(incident, normal, facet).direction.dot(facet) > 0.0);
             let glass = Material {
                 reflectivity: 1.0,
                 transparency: 1.0,
@@ -108,8 +119,8 @@ mod tests {
                 ..Material::default()
             };
             let split = Split::at(&glass, incident, normal, facet, eta);
-            if let Some(direction) = split.refracted {
-                prop_assert!(direction.dot(facet) < 0.0);
+            if let Some(turned) = split.refracted {
+                prop_assert!(turned.direction.dot(facet) < 0.0);
             }
             if fresnel {
                 prop_assert!((split.reflect_weight + split.refract_weight - 1.0).abs() < 1e-12);

@@ -2,6 +2,7 @@
 
 use super::medium::Media;
 use crate::color::Color;
+use crate::differential::Spread;
 use crate::ray::Piece;
 use glam::{DVec2, DVec3};
 
@@ -27,6 +28,8 @@ pub struct IntersectionTree {
     /// the eye is inside an absorbing volume.
     pub through: Color,
     nodes: Vec<Node>,
+    /// Spreads of the nodes, by index; empty if the ray was traced without a differential.
+    spreads: Vec<Spread>,
     /// Unit directions of the rays that left the scene.
     away: Vec<DVec3>,
     /// Media of the current ray while the tree is made; kept here for its allocation.
@@ -107,6 +110,7 @@ impl IntersectionTree {
         self.root = Branch::Cut;
         self.through = Color::ONE;
         self.nodes.clear();
+        self.spreads.clear();
         self.away.clear();
     }
 
@@ -120,6 +124,21 @@ impl IntersectionTree {
     pub fn push(&mut self, node: Node) -> u32 {
         self.nodes.push(node);
         self.nodes.len() as u32 - 1
+    }
+
+    /// Stores the spread of the node that was added last.
+    pub fn push_spread(&mut self, spread: Spread) {
+        self.spreads.push(spread);
+    }
+
+    /// Returns the spread of a branch's node, or `None` if the branch hit nothing or the ray was
+    /// traced without a differential.
+    #[must_use]
+    pub fn spread(&self, branch: Branch) -> Option<&Spread> {
+        match branch {
+            Branch::Node(slot) => self.spreads.get(slot as usize),
+            Branch::Cut | Branch::Background(_) => None,
+        }
     }
 
     /// Returns the node of a branch, or `None` if the branch hit nothing.

@@ -102,6 +102,36 @@ impl Field {
         )
     }
 
+    /// Returns the change of the gradient for a small step, to first order. A part of it that is
+    /// infinite, at a crease, is left out.
+    pub fn gradient_change(&self, point: DVec3, step: DVec3) -> DVec3 {
+        // With a ratio r of a size to its norm, a part of the gradient is |r|^(p - 1) with the sign
+        // of r, and its change is (p - 1) |r|^(p - 2) times that of r.
+        let part = |ratio: f64, p: f64| ratio.abs().powf(p - 1.0).copysign(ratio);
+        let change = |ratio: f64, of_ratio: f64, p: f64| {
+            let change = (p - 1.0) * ratio.abs().powf(p - 2.0) * of_ratio;
+            if of_ratio != 0.0 && change.is_finite() { change } else { 0.0 }
+        };
+        let h = self.axis_norm(point);
+        let (x, z) = if h > 0.0 { (point.x / h, point.z / h) } else { (0.0, 0.0) };
+        let (h_x, h_z) = (part(x, self.across), part(z, self.across));
+        let of_h = h_x * step.x + h_z * step.z;
+        let around = |ratio: f64, step: f64| {
+            change(ratio, if h > 0.0 { (step - ratio * of_h) / h } else { 0.0 }, self.across)
+        };
+        let value = self.value(point);
+        let (tube, y) = ((h - self.ring) / value, point.y / value);
+        let (f_tube, f_y) = (part(tube, self.section), part(y, self.section));
+        let of_value = f_tube * of_h + f_y * step.y;
+        let of_tube = change(tube, (of_h - tube * of_value) / value, self.section);
+        let of_y = change(y, (step.y - y * of_value) / value, self.section);
+        DVec3::new(
+            of_tube * h_x + f_tube * around(x, step.x),
+            of_y,
+            of_tube * h_z + f_tube * around(z, step.z),
+        )
+    }
+
     /// Returns the unit direction of the gradient, in a space whose coordinates are `radii` times
     /// as large.
     pub fn direction(&self, point: DVec3, radii: DVec3) -> DVec3 {

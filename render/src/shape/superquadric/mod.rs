@@ -22,6 +22,7 @@ mod field;
 mod root;
 
 use super::{SeamPeriod, Start, SurfacePoint};
+use crate::differential;
 use field::{Field, Line};
 use glam::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
@@ -146,6 +147,20 @@ impl Superquadric {
             uv: DVec2::new(longitude, up),
             part: 0,
         }
+    }
+
+    /// Returns changes of the unit normal as
+    /// [`Shape::normal_changes`](super::Shape::normal_changes) does.
+    #[must_use]
+    pub fn normal_changes(&self, position: DVec3, steps: [DVec3; 2]) -> [DVec3; 2] {
+        let point = (position - self.center) / self.radii;
+        let gradient = self.field.gradient(point) / self.radii;
+        if !gradient.is_finite() || gradient == DVec3::ZERO {
+            return [DVec3::ZERO; 2];
+        }
+        let of_gradient =
+            steps.map(|step| self.field.gradient_change(point, step / self.radii) / self.radii);
+        differential::normalized(gradient, of_gradient)
     }
 
     /// Returns gradients as [`Shape::uv_gradients`](super::Shape::uv_gradients) does.
