@@ -70,9 +70,12 @@ enum UseError {
     #[error("--seed chooses a jitter: add --pattern jitter, or leave it out")]
     SeedOfNothing,
     #[error(
-        "--pixel-filter tent needs rays between the middles of pixels: add --samples 2 or more"
+        "--pixel-filter {0} needs rays between the middles of pixels: add --samples 2 or more, or \
+         leave out --sampling thesis"
     )]
-    TentOfOne,
+    WideFilterOfOne(String),
+    #[error("{0} belongs to --sampling {1}: add --sampling {1}, or leave {0} out")]
+    OfOtherSampling(&'static str, &'static str),
     #[error("{0}: number of findings marked `wrong`: {1}")]
     Wrong(String, usize),
     #[error("cannot start {0} threads: {1}")]
@@ -93,7 +96,8 @@ impl Failure for UseError {
             | Self::CropOutside(..)
             | Self::PixelOutside(..)
             | Self::SeedOfNothing
-            | Self::TentOfOne => Exit::Use,
+            | Self::WideFilterOfOne(_)
+            | Self::OfOtherSampling(..) => Exit::Use,
         }
     }
 }

@@ -1,9 +1,14 @@
 //! The flags for the size of the picture, its crop, and the rays of a pixel.
 
 use super::UseError;
-use clap::Args;
+use clap::{Args, ValueEnum};
 use render::Sampling;
-use render::film::{Crop, MOST_SAMPLES, PatternName, PixelFilter, Supersample, crop};
+use render::film::{
+    Crop, MOST_SAMPLES, PatternName, PixelFilter, SamplingMethod, Supersample, THRESHOLD, crop,
+};
+
+/// Thresholds of --split. A smaller one would split every pixel into 256 parts.
+const SPLITS: std::ops::RangeInclusive<f64> = 1e-4..=1.0;
 
 #[derive(Debug, Args)]
 pub struct SamplingArguments {
@@ -14,19 +19,26 @@ pub struct SamplingArguments {
     /// size
     #[arg(long, value_name = "X,Y,WxH", value_parser = Crop::parse)]
     pub crop: Option<Crop>,
+    /// Method of choosing rays and the areas that they stand for
+    #[arg(long, value_name = "METHOD", default_value = "area")]
+    sampling: SamplingMethod,
     /// Rays along each side of a pixel, 1 to 256: N times N rays in each pixel
     #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_SAMPLES)))]
     samples: u32,
-    /// Position of each ray in its cell of the pixel
-    #[arg(long, value_name = "PATTERN", default_value = "regular")]
-    pattern: PatternName,
-    /// Seed of the jitter: a whole number from 0 to 2^64 - 1 [default: 0]
+    /// With --sampling area: split a pixel, or a part of one, while its estimated error times its
+    /// area is above this: a number from 0.0001 to 1, in linear light, or none [default: 0.05]
+    #[arg(long, value_name = "E|none", value_parser = split)]
+    split: Option<Split>,
+    /// With --sampling thesis: position of each ray in its cell of the pixel [default: regular]
+    #[arg(long, value_name = "PATTERN")]
+    pattern: Option<PatternName>,
+    /// Seed of --pattern jitter: a whole number from 0 to 2^64 - 1 [default: 0]
     #[arg(long, value_name = "S")]
     seed: Option<u64>,
     /// Weights of the rays in a pixel
     #[arg(long, value_name = "SHAPE", default_value = "box")]
     pixel_filter: PixelFilter,
-    /// Instead of --samples, trace the picture at twice the size. Each pixel is the mean of nine rays:
+    /// With --sampling thesis, instead of --samples: trace the picture at twice the size. Each pixel is the mean of nine rays:
     /// its middle with weight 1/4, its sides with 1/8 and its corners with 1/16. Textures are averaged
     /// for each ray (image), or for the nine rays of a pixel together (rays)
     #[arg(long, value_name = "HOW", num_args = 0..=1, require_equals = true,
@@ -59,14 +71,55 @@ impl SamplingArguments {
 
     /// Returns number, position and weight of the rays of a pixel.
     pub fn sampling(&self) -> Result<Sampling, UseError> {
-        if let Some(nine) = self.supersample {
-            return Ok(Sampling::Supersample(nine));
+        let Self { sampling, samples, split, pattern, seed, pixel_filter, supersample, .. } = *self;
+        match sampling {
+            SamplingMethod::Area => {
+                let given = [
+                    ("--pattern", pattern.is_some()),
+                    ("--seed", seed.is_some()),
+                    ("--supersample", supersample.is_some()),
+                ];
+                if let Some((flag, _)) = given.into_iter().find(|(_, given)| *given) {
+                    return Err(UseError::OfOtherSampling(flag, "thesis"));
+                }
+                let threshold = split.map_or(Some(THRESHOLD), |Split(threshold)| threshold);
+                Ok(Sampling::Area { samples, pixel_filter, threshold })
+            }
+            SamplingMethod::Thesis => {
+                if split.is_some() {
+                    return Err(UseError::OfOtherSampling("--split", "area"));
+                }
+                if let Some(nine) = supersample {
+                    return Ok(Sampling::Supersample(nine));
+                }
+                let pattern = pattern.unwrap_or_default();
+                let pattern = pattern.pattern(seed).ok_or(UseError::SeedOfNothing)?;
+                match pixel_filter {
+                    PixelFilter::Tent | PixelFilter::Gaussian if samples < 2 => {
+                        let name = pixel_filter.to_possible_value();
+                        let name = name.as_ref().map_or("", |value| value.get_name());
+                        Err(UseError::WideFilterOfOne(name.into()))
+                    }
+                    PixelFilter::Box | PixelFilter::Tent | PixelFilter::Gaussian => {
+                        Ok(Sampling::Grid { samples, pattern, pixel_filter })
+                    }
+                }
+            }
         }
-        let pattern = self.pattern.pattern(self.seed).ok_or(UseError::SeedOfNothing)?;
-        let pixel_filter = match self.pixel_filter {
-            PixelFilter::Tent if self.samples < 2 => return Err(UseError::TentOfOne),
-            filter @ (PixelFilter::Box | PixelFilter::Tent) => filter,
-        };
-        Ok(Sampling::Grid { samples: self.samples, pattern, pixel_filter })
     }
+}
+
+/// The threshold of --split; `None` for no splitting.
+#[derive(Debug, Clone, Copy)]
+struct Split(Option<f64>);
+
+/// Reads the value of --split.
+fn split(text: &str) -> Result<Split, String> {
+    if text == "none" {
+        return Ok(Split(None));
+    }
+    let threshold = text.parse().ok().filter(|threshold| SPLITS.contains(threshold));
+    threshold.map(|threshold| Split(Some(threshold))).ok_or_else(|| {
+        format!("expected none or a number from {} to {}", SPLITS.start(), SPLITS.end())
+    })
 }

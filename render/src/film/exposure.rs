@@ -11,6 +11,7 @@
 //! - the counts of all rays that it traces, and of all shading,
 //! - a call of [`Witness::sample`] before each sample is shaded, with the witness as the observer.
 
+use super::area::Area;
 use super::crop::Crop;
 use super::lattice::Lattice;
 use super::layer::{Layer, MOST_CHANNELS};
@@ -57,11 +58,16 @@ pub trait Sample {
 
 /// Observes the exposure of a tile: which samples are shaded, and all steps of their shading.
 pub trait Witness: Observer {
+    /// False if the witness ignores all reports, so that a method need not prepare them.
+    const LISTENS: bool = true;
+
     /// Called before a sample is shaded.
     fn sample(&mut self, sample: &impl Sample);
 }
 
 impl Witness for () {
+    const LISTENS: bool = false;
+
     fn sample(&mut self, _: &impl Sample) {}
 }
 
@@ -120,6 +126,9 @@ impl Exposure<'_> {
                 Lattice::grid(n, pattern, pixel_filter).tile_side(samples)
             }
             Sampling::Supersample(method) => Lattice::supersample(method).tile_side(samples),
+            Sampling::Area { samples: n, pixel_filter, threshold } => {
+                Area::new(n, pixel_filter, threshold).tile_side(samples)
+            }
         }
     }
 
@@ -142,14 +151,37 @@ impl Exposure<'_> {
             Sampling::Supersample(method) => {
                 Lattice::supersample(method).expose(self, tile, &mut exposed, witness);
             }
+            Sampling::Area { samples, pixel_filter, threshold } => {
+                let area = Area::new(samples, pixel_filter, threshold);
+                area.expose(self, tile, &mut exposed, witness);
+            }
         }
         exposed
     }
 
     /// Traces the ray through a position on the film, in pixels from the upper left corner.
     pub fn trace(&self, position: DVec2, tree: &mut IntersectionTree, rays: &mut RayCounts) {
-        let size = DVec2::new(f64::from(self.settings.width), f64::from(self.settings.height));
-        self.tracer.trace(&self.tracer.scene.camera.ray(position, size), tree, rays);
+        self.tracer.trace(&self.tracer.scene.camera.ray(position, self.size()), tree, rays);
+    }
+
+    /// Traces the ray through a position on the film, with its differential for a step of `side`
+    /// pixels.
+    pub fn trace_spread(
+        &self,
+        position: DVec2,
+        side: f64,
+        tree: &mut IntersectionTree,
+        rays: &mut RayCounts,
+    ) {
+        let camera = &self.tracer.scene.camera;
+        let ray = camera.ray(position, self.size());
+        let differential = camera.differential(position, self.size(), side);
+        self.tracer.trace_spread(&ray, &differential, tree, rays);
+    }
+
+    /// Size of the film, in pixels.
+    fn size(&self) -> DVec2 {
+        DVec2::new(f64::from(self.settings.width), f64::from(self.settings.height))
     }
 }
 

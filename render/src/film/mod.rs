@@ -6,6 +6,7 @@
 //! samples of its neighbours too. Each tile is therefore complete by itself, and the picture does
 //! not depend on the tiles or on the threads. `exposure.rs` is the interface for other methods.
 
+mod area;
 pub mod crop;
 pub mod encode;
 mod exposure;
@@ -21,7 +22,7 @@ pub use exposure::{Sample, Witness};
 pub use layer::Layer;
 pub use pattern::{Pattern, PatternName};
 pub use picture::Picture;
-pub use sampling::{MOST_SAMPLES, PixelFilter, Sampling, Supersample};
+pub use sampling::{MOST_SAMPLES, PixelFilter, Sampling, SamplingMethod, Supersample, THRESHOLD};
 
 use crate::accel::Structure;
 use crate::filter::Filter;
@@ -40,7 +41,7 @@ use std::time::Instant;
 const TILE_SAMPLES: u32 = 64;
 
 /// The size, the sampling and the parts of a picture to render.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
     /// Pixels across, at least 1.
     pub width: u32,
@@ -284,8 +285,15 @@ mod tests {
     fn every_kind() -> Vec<Settings> {
         let grid =
             |samples, pattern, pixel_filter| Sampling::Grid { samples, pattern, pixel_filter };
+        let area =
+            |samples, pixel_filter, threshold| Sampling::Area { samples, pixel_filter, threshold };
         let jitter = Pattern::Jitter { seed: 5 };
         [
+            (Filter::Tent, area(1, PixelFilter::Box, Some(THRESHOLD))),
+            (Filter::Tent, area(1, PixelFilter::Box, None)),
+            (Filter::Bilinear, area(2, PixelFilter::Box, Some(0.002))),
+            (Filter::Tent, area(1, PixelFilter::Tent, Some(THRESHOLD))),
+            (Filter::Mip, area(1, PixelFilter::Gaussian, Some(THRESHOLD))),
             (Filter::Tent, Sampling::regular(1)),
             (Filter::Box, Sampling::regular(2)),
             (Filter::Point, Sampling::regular(2)),

@@ -9,7 +9,7 @@ use serde::Deserialize;
 pub const MOST_SAMPLES: u32 = 256;
 
 /// Number, position and weight of the samples of a pixel.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Sampling {
     /// `samples * samples` samples in each pixel.
     Grid {
@@ -30,6 +30,39 @@ pub enum Sampling {
     /// `2k + 1` and `2k + 2`, and shares the outer two with its neighbours; rows likewise. Samples
     /// on the border of the film and beyond it are traced like all others.
     Supersample(Supersample),
+    /// Cells whose rays carry differentials, and which are split where neighbours disagree.
+    Area {
+        /// Cells along each side of a pixel, 1 to [`MOST_SAMPLES`]. A pixel filter that reaches
+        /// beyond the pixel doubles the number.
+        samples: u32,
+        /// Weights of the cells.
+        pixel_filter: PixelFilter,
+        /// Estimated error of a cell times its area in pixels, in linear light, above which the
+        /// cell is split; `None` if no cell is split.
+        threshold: Option<f64>,
+    },
+}
+
+/// The threshold of [`Sampling::Area`] unless another one is given.
+///
+/// A larger one leaves steps at edges of little contrast. A smaller one costs rays and gains
+/// little, since the error of unsplit cells remains.
+pub const THRESHOLD: f64 = 0.05;
+
+/// The name of a sampling method on the command line and in JSON. The attribute `help` is the text
+/// of `--help`.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, ValueEnum)]
+#[serde(rename_all = "snake_case")]
+pub enum SamplingMethod {
+    /// The name of [`Sampling::Area`].
+    #[default]
+    #[value(
+        help = "One ray for each pixel, with the area that it stands for; pixels split at edges"
+    )]
+    Area,
+    /// The name of [`Sampling::Grid`] and [`Sampling::Supersample`].
+    #[value(help = "The thesis's lattice of rays; areas are boxes around a ray's eight neighbours")]
+    Thesis,
 }
 
 /// Weights of a grid's samples in a pixel. The name on the command line and in JSON is that of the
@@ -57,6 +90,13 @@ pub enum PixelFilter {
                 at least 2"
     )]
     Tent,
+    /// A Gaussian with a standard deviation of half a pixel, up to one and a half pixels from the
+    /// middle of the pixel.
+    #[value(
+        help = "A Gaussian with a standard deviation of half a pixel; with --sampling thesis it \
+                needs --samples of at least 2"
+    )]
+    Gaussian,
 }
 
 /// Choice of the neighbours that span the footprints of a pixel's nine rays; see

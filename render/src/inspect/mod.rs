@@ -11,7 +11,7 @@ use crate::footprint::Sight;
 use crate::prepared::Prepared;
 use crate::scene::Scene;
 use crate::shade::observer::{Observer, Seen};
-use crate::trace::tree::Child;
+use crate::trace::tree::{Child, Node};
 use glam::DVec3;
 use std::fmt::Write;
 
@@ -85,7 +85,7 @@ impl Witness for Recorder<'_> {
 }
 
 impl Observer for Recorder<'_> {
-    fn follow(&mut self, child: Child) {
+    fn follow(&mut self, _: &Node, child: Child) {
         if self.wanted {
             self.open.push(Some(child));
             self.branches.push(String::new());

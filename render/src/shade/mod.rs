@@ -103,12 +103,12 @@ impl Shader<'_> {
                 let local = self.local(node, sight, work);
                 let mut color = local.color;
                 if node.reflect_weight != Color::ZERO {
-                    observer.follow(Child::Reflected);
+                    observer.follow(node, Child::Reflected);
                     let reflected = sight.step(Child::Reflected);
                     color += node.reflect_weight * self.branch(&reflected, work, observer);
                 }
                 if node.refract_weight != Color::ZERO {
-                    observer.follow(Child::Refracted);
+                    observer.follow(node, Child::Refracted);
                     let refracted = sight.step(Child::Refracted);
                     color += node.refract_weight * self.branch(&refracted, work, observer);
                 }
@@ -127,6 +127,7 @@ impl Shader<'_> {
         let Lighting { diffuse, highlight } = self.lighting(node, material, work);
         let counts = &mut work.counts;
         let mut color = highlight;
+        let mut plain = highlight;
         let mut textured = None;
         if material.shows_color() {
             let texture = surface.picture().and_then(|index| self.textures[index].as_ref());
@@ -136,12 +137,13 @@ impl Shader<'_> {
                 let count =
                     if footprint.is_point() { &mut counts.points } else { &mut counts.areas };
                 *count += 1;
-                let average = if object.shape.has_poles() {
-                    texture.average(&texture.between_poles(footprint))
+                let averaged = if object.shape.has_poles() {
+                    texture.between_poles(footprint)
                 } else {
-                    texture.average(&footprint)
+                    footprint
                 };
-                Textured { footprint, average }
+                let average = texture.average(&averaged);
+                Textured { footprint, average, contrast: 0.5 }
             });
             let texture = textured.map_or(Color::ONE, |textured| textured.average);
             let carved = surface.solid().map_or(Color::ONE, |index| {
@@ -149,12 +151,11 @@ impl Shader<'_> {
                 let solid = &self.scene.procedural.solids[index];
                 solid.color(&object.to_own_space, node.position)
             });
-            color += material.color
-                * texture
-                * carved
-                * (material.ambient * self.scene.ambient + diffuse);
+            let light = material.ambient * self.scene.ambient + diffuse;
+            color += material.color * texture * carved * light;
+            plain += material.color * light;
         }
-        Local { textured, color }
+        Local { textured, color, plain }
     }
 
     /// Sums the light that the scene's lights send to a node.

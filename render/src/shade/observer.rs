@@ -6,7 +6,7 @@
 
 use crate::color::Color;
 use crate::footprint::{Footprint, Sight};
-use crate::trace::tree::Child;
+use crate::trace::tree::{Child, Node};
 
 /// The contribution of a texture to a surface's colour.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,6 +15,9 @@ pub struct Textured {
     pub footprint: Footprint,
     /// Average of the texture over the footprint, linear RGB.
     pub average: Color,
+    /// Estimate of how much of a moved footprint's average would differ, 0 to 1; see
+    /// [`crate::filter::FilteredTexture::average_and_contrast`].
+    pub contrast: f64,
 }
 
 /// The colour of a surface itself, without the reflected and refracted light.
@@ -24,6 +27,8 @@ pub struct Local {
     pub textured: Option<Textured>,
     /// The surface's own colour, linear RGB.
     pub color: Color,
+    /// The surface's own colour if all its textures were white, linear RGB.
+    pub plain: Color,
 }
 
 /// A branch that has been shaded.
@@ -40,13 +45,13 @@ pub struct Seen<'a, S> {
 
 /// Receives the branches of a tree in the order of shading: depth first, from the root.
 pub trait Observer {
-    /// Called before a child of the current node is shaded.
-    fn follow(&mut self, child: Child);
+    /// Called before a child of `node`, the current node, is shaded.
+    fn follow(&mut self, node: &Node, child: Child);
     /// Called when the current branch has its colour. The root is reported too, as the last branch.
     fn leave<S: Sight>(&mut self, seen: &Seen<'_, S>);
 }
 
 impl Observer for () {
-    fn follow(&mut self, _: Child) {}
+    fn follow(&mut self, _: &Node, _: Child) {}
     fn leave<S: Sight>(&mut self, _: &Seen<'_, S>) {}
 }

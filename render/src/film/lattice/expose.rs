@@ -14,10 +14,6 @@ use crate::trace::tree::IntersectionTree;
 use glam::DVec2;
 use std::ops::Range;
 
-/// Smallest side of a tile in pixels, where pixels share samples. A smaller tile increases the part
-/// of the work that is repeated for the next tile (a half at 4).
-const LEAST_SHARING: u32 = 4;
-
 /// The sample in column `x` and row `y` of a lattice.
 struct LatticeSample {
     lattice: Lattice,
@@ -46,8 +42,7 @@ impl Sample for LatticeSample {
 
 impl Method for Lattice {
     fn tile_side(&self, samples: u32) -> u32 {
-        let least = if self.shares() { LEAST_SHARING } else { 1 };
-        (samples / self.per_pixel as u32).max(least)
+        Lattice::tile_side(*self, samples)
     }
 
     fn expose<W: Witness>(
@@ -60,7 +55,10 @@ impl Method for Lattice {
         let mut work = Work { lattice: *self, shared, tile, exposed, witness };
         match self.weights {
             Weights::Supersample(Supersample::Rays) => work.expose_nine(),
-            Weights::Supersample(Supersample::Image) | Weights::Even | Weights::Tent => {
+            Weights::Supersample(Supersample::Image)
+            | Weights::Even
+            | Weights::Tent
+            | Weights::Gaussian => {
                 work.expose_rows();
             }
         }
@@ -83,9 +81,7 @@ impl<W: Witness> Work<'_, '_, W> {
     fn expose_rows(&mut self) {
         let columns = self.lattice.under(self.tile.columns());
         let rows = self.lattice.under(self.tile.rows());
-        // Weights of the columns, or rows, of a pixel. They are the same in all pixels.
-        let own = self.lattice.under(0..1);
-        let weights: Vec<i64> = own.map(|column| self.lattice.weight(0, column)).collect();
+        let weights = self.lattice.weights();
         let mut colors = vec![Color::ZERO; (columns.end - columns.start) as usize];
         if self.shared.shader.wants_area {
             let mut window = RowWindow::new(colors.len() + 2);
@@ -97,7 +93,8 @@ impl<W: Witness> Work<'_, '_, W> {
                         colors[k] =
                             self.shade([x, y - 1], &Neighbourhood::of(window.around(k + 1)));
                     }
-                    self.gather((y - 1 - rows.start) as usize, &weights, &colors);
+                    let down = (y - 1 - rows.start) as usize;
+                    self.gather(down, &weights, &colors);
                 }
             }
         } else {
@@ -112,23 +109,9 @@ impl<W: Witness> Work<'_, '_, W> {
         }
     }
 
-    /// Adds row `down` of the tile's samples to the pixels in which it has a weight. `weights` are
-    /// those of a pixel along either axis.
+    /// Adds row `down` of the tile's samples to its pixels.
     fn gather(&mut self, down: usize, weights: &[i64], colors: &[Color]) {
-        let per_pixel = self.lattice.per_pixel as usize;
-        let width = self.tile.width as usize;
-        // Pixels use the samples from `per_pixel` times their row on.
-        let first = (down + 1).saturating_sub(weights.len()).div_ceil(per_pixel);
-        let last = (down / per_pixel).min(self.tile.height as usize - 1);
-        for row in first..=last {
-            let down = weights[down - row * per_pixel];
-            let pixels = &mut self.exposed.pixels[row * width..][..width];
-            for (column, pixel) in pixels.iter_mut().enumerate() {
-                for (across, color) in weights.iter().zip(&colors[column * per_pixel..]) {
-                    *pixel += (down * across) as f64 * *color;
-                }
-            }
-        }
+        self.lattice.gather(down, self.tile, weights, colors, &mut self.exposed.pixels);
     }
 
     /// Exposes the tile by shading all nine rays of each pixel. Of the three rows of trees, the last

@@ -18,10 +18,16 @@
 
 mod expose;
 
+use super::Crop;
 use super::pattern::Pattern;
 use super::sampling::{PixelFilter, Supersample};
+use crate::color::Color;
 use glam::DVec2;
 use std::ops::Range;
+
+/// Smallest side of a tile in pixels, where pixels share samples. A smaller tile increases the part
+/// of the work that is repeated for the next tile (a half at 4).
+const LEAST_SHARING: u32 = 4;
 
 /// A lattice of samples over the whole film.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,6 +46,8 @@ enum Weights {
     Even,
     /// A tent up to the middles of the neighbouring pixels.
     Tent,
+    /// A Gaussian up to one and a half pixels from the middle of the pixel.
+    Gaussian,
     /// 1, 2 and 1: the nine samples of the thesis, which lie at the corners of their cells.
     Supersample(Supersample),
 }
@@ -50,6 +58,7 @@ impl Lattice {
         let weights = match pixel_filter {
             PixelFilter::Box => Weights::Even,
             PixelFilter::Tent => Weights::Tent,
+            PixelFilter::Gaussian => Weights::Gaussian,
         };
         Self { per_pixel: i64::from(samples), pattern, weights }
     }
@@ -59,12 +68,55 @@ impl Lattice {
         Self { per_pixel: 2, pattern: Pattern::Regular, weights: Weights::Supersample(method) }
     }
 
+    /// Number of columns per pixel, which is also the number of rows per pixel.
+    pub fn per_pixel(self) -> i64 {
+        self.per_pixel
+    }
+
+    /// Returns a side of tiles, in pixels, at which about `samples` samples lie along it.
+    pub fn tile_side(self, samples: u32) -> u32 {
+        let least = if self.shares() { LEAST_SHARING } else { 1 };
+        (samples / self.per_pixel as u32).max(least)
+    }
+
+    /// Returns the weights of the columns, or rows, of a pixel. They are the same in all pixels.
+    pub fn weights(self) -> Vec<i64> {
+        self.under(0..1).map(|column| self.weight(0, column)).collect()
+    }
+
+    /// Adds row `down` of a tile's samples to the pixels in which it has a weight. `weights` are
+    /// those of [`Lattice::weights`], `colors` those of the row's samples, and `pixels` those of the
+    /// tile, row by row.
+    pub fn gather(
+        self,
+        down: usize,
+        tile: &Crop,
+        weights: &[i64],
+        colors: &[Color],
+        pixels: &mut [Color],
+    ) {
+        let per_pixel = self.per_pixel as usize;
+        let width = tile.width as usize;
+        // Pixels use the samples from `per_pixel` times their row on.
+        let first = (down + 1).saturating_sub(weights.len()).div_ceil(per_pixel);
+        let last = (down / per_pixel).min(tile.height as usize - 1);
+        for row in first..=last {
+            let down = weights[down - row * per_pixel];
+            let pixels = &mut pixels[row * width..][..width];
+            for (column, pixel) in pixels.iter_mut().enumerate() {
+                for (across, color) in weights.iter().zip(&colors[column * per_pixel..]) {
+                    *pixel += (down * across) as f64 * *color;
+                }
+            }
+        }
+    }
+
     /// Returns the position on the film of the sample in column `x` and row `y`, in pixels from the
     /// upper left corner.
-    fn position(self, x: i64, y: i64) -> DVec2 {
+    pub fn position(self, x: i64, y: i64) -> DVec2 {
         let corner = DVec2::new(x as f64, y as f64);
         match self.weights {
-            Weights::Even | Weights::Tent => {
+            Weights::Even | Weights::Tent | Weights::Gaussian => {
                 (corner + self.pattern.offset(x, y)) / self.per_pixel as f64
             }
             Weights::Supersample(_) => 0.5 * corner,
@@ -73,19 +125,20 @@ impl Lattice {
 
     /// Returns the column of the sample that represents a pixel: the sample in its middle, or the
     /// first one after the middle. Rows follow the same rule.
-    fn middle(self, pixel: u32) -> i64 {
+    pub fn middle(self, pixel: u32) -> i64 {
         let n = self.per_pixel;
         i64::from(pixel) * n + n / 2
     }
 
     /// Returns the columns of the samples that have a weight in a range of pixels. Rows follow the
     /// same rule.
-    fn under(self, pixels: Range<u32>) -> Range<i64> {
+    pub fn under(self, pixels: Range<u32>) -> Range<i64> {
         let n = self.per_pixel;
         let (start, end) = (i64::from(pixels.start) * n, i64::from(pixels.end) * n);
         match self.weights {
             Weights::Even => start..end,
             Weights::Tent => start - n / 2..end + n / 2,
+            Weights::Gaussian => start - n..end + n,
             Weights::Supersample(_) => start..end + 1,
         }
     }
@@ -97,7 +150,7 @@ impl Lattice {
 
     /// Returns the weight of a column of samples in a pixel, as a part of [`Lattice::whole`]. The
     /// weight is 0 outside [`Lattice::under`]. Rows follow the same rule.
-    fn weight(self, pixel: u32, column: i64) -> i64 {
+    pub fn weight(self, pixel: u32, column: i64) -> i64 {
         if !self.under(pixel..pixel + 1).contains(&column) {
             return 0;
         }
@@ -107,19 +160,42 @@ impl Lattice {
             Weights::Even => 1,
             // Distance of the middles of the sample's cell and of the pixel, in halves of a cell.
             Weights::Tent => 2 * n - (2 * into + 1 - n).abs(),
+            Weights::Gaussian => gaussian(into, n),
             Weights::Supersample(_) => 2 - (into - 1).abs(),
         }
     }
 
     /// Returns the sum of the weights of a pixel along one axis.
-    fn whole(self) -> i64 {
+    pub fn whole(self) -> i64 {
         let n = self.per_pixel;
         match self.weights {
             Weights::Even => n,
             Weights::Tent => 2 * n * n,
+            Weights::Gaussian => (-n..2 * n).map(|into| gaussian(into, n)).sum(),
             Weights::Supersample(_) => 4,
         }
     }
+}
+
+/// Standard deviation of the Gaussian filter, in pixels: that of a filter which neither blurs nor
+/// shows the pixels. A larger one blurs; a smaller one comes close to a box.
+const SIGMA: f64 = 0.5;
+
+/// Returns the weight of column `into` of a pixel with `n` columns, of which negative ones lie to
+/// the left of it: the Gaussian's integral over the column, as a part of about 2^24.
+fn gaussian(into: i64, n: i64) -> i64 {
+    // Simpson's rule; the error is below a unit of the result.
+    const PARTS: i32 = 16;
+    let density = |at: f64| (-0.5 * (at / SIGMA).powi(2)).exp();
+    let (width, from) = (1.0 / n as f64, into as f64 / n as f64 - 0.5);
+    let sum: f64 = (0..=PARTS)
+        .map(|k| {
+            let times = if k == 0 || k == PARTS { 1.0 } else { f64::from(2 + 2 * (k % 2)) };
+            times * density(from + width * f64::from(k) / f64::from(PARTS))
+        })
+        .sum();
+    let integral = sum * width / (3.0 * f64::from(PARTS));
+    ((1 << 24) as f64 * integral / (SIGMA * (2.0 * std::f64::consts::PI).sqrt())).round() as i64
 }
 
 #[cfg(test)]

@@ -1,0 +1,161 @@
+//! Area sampling: one ray for each cell of the film, whose differential spans the footprints, and
+//! cells that split where their neighbours disagree.
+//!
+//! A cell is a pixel, or a part of a pixel if the settings request more rays or a pixel filter that
+//! reaches beyond a pixel. A ray through the middle of the cell is traced with its differential.
+//! Its footprints are parallelograms, and a filter averages over all of each. The footprints need
+//! no neighbours.
+//!
+//! One ray does not show where a cell is cut by an edge: a silhouette, the edge of a shadow, a bent
+//! mirror. The samples of neighbouring cells differ there ([`compare`]). A cell is split into four
+//! cells with rays of their own ([`split`]) if its estimated error, times its area in pixels, is
+//! above a threshold. Its parts are split by the same rule.
+//!
+//! The samples of a tile include one cell around those that the tile shows, for the comparison.
+//! Whether a cell is split does therefore not depend on the tiles.
+
+mod compare;
+mod leaf;
+mod sampler;
+mod samples;
+mod split;
+
+use super::exposure::{Exposed, Exposure, Method, Sample, Witness};
+use super::lattice::Lattice;
+use super::sampling::PixelFilter;
+use super::{Crop, Pattern};
+use crate::color::Color;
+use glam::DVec2;
+use sampler::{Sampler, Shot};
+use samples::Samples;
+use split::Splitter;
+use std::ops::Range;
+
+/// A square of the film that one ray stands for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Cell {
+    /// Middle of the cell, in pixels from the upper left corner of the film.
+    middle: DVec2,
+    /// Side of the cell, in pixels.
+    side: f64,
+}
+
+/// A method of exposing tiles by areas.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Area {
+    /// Positions and weights of the cells.
+    cells: Lattice,
+    /// Estimated error, in linear light times the part of a pixel, above which a cell is split;
+    /// `None` if no cell is split.
+    threshold: Option<f64>,
+}
+
+impl Area {
+    /// `samples * samples` cells in each pixel, or twice as many along each side for a filter that
+    /// reaches beyond the pixel.
+    pub fn new(samples: u32, pixel_filter: PixelFilter, threshold: Option<f64>) -> Self {
+        let per_pixel = match pixel_filter {
+            PixelFilter::Box => samples,
+            PixelFilter::Tent | PixelFilter::Gaussian => 2 * samples,
+        };
+        Self { cells: Lattice::grid(per_pixel, Pattern::Regular, pixel_filter), threshold }
+    }
+
+    fn cell(self, x: i64, y: i64) -> Cell {
+        Cell { middle: self.cells.position(x, y), side: 1.0 / self.cells.per_pixel() as f64 }
+    }
+}
+
+impl Method for Area {
+    fn tile_side(&self, samples: u32) -> u32 {
+        self.cells.tile_side(samples)
+    }
+
+    fn expose<W: Witness>(
+        &self,
+        shared: &Exposure<'_>,
+        tile: &Crop,
+        exposed: &mut Exposed,
+        witness: &mut W,
+    ) {
+        let (columns, rows) = (self.cells.under(tile.columns()), self.cells.under(tile.rows()));
+        let halo = i64::from(self.threshold.is_some());
+        let widened = |range: &Range<i64>| range.start - halo..range.end + halo;
+        let mut sampler = Sampler::new(shared, exposed);
+        let samples = Samples::take(*self, widened(&columns), widened(&rows), &mut sampler);
+        let errors = self.threshold.map(|_| samples.errors(shared.shader.charts));
+        let mut colors = vec![Color::ZERO; (columns.end - columns.start) as usize];
+        let weights = self.cells.weights();
+        for (down, y) in rows.enumerate() {
+            for (color, x) in colors.iter_mut().zip(columns.clone()) {
+                let (cell, index) = (self.cell(x, y), samples.index(x, y));
+                let error = errors.as_ref().map_or(0.0, |errors| f64::from(errors[index]));
+                let own = samples.color(index);
+                let mut shots = W::LISTENS.then(Vec::new);
+                let splits = self.threshold.filter(|most| error * cell.side * cell.side > *most);
+                *color = match splits {
+                    Some(threshold) => {
+                        Splitter::new(threshold, &mut sampler, shots.as_mut()).split(cell, own)
+                    }
+                    None => {
+                        let offset = DVec2::ZERO;
+                        shots.iter_mut().for_each(|s| s.push(Shot { cell, offset, weight: 1.0 }));
+                        own
+                    }
+                };
+                for shot in shots.into_iter().flatten() {
+                    witness.sample(&AreaSample { area: *self, at: [x, y], shot });
+                    sampler.show(&shot, witness);
+                }
+            }
+            self.cells.gather(down, tile, &weights, &colors, &mut sampler.exposed.pixels);
+        }
+        if !shared.settings.layers.is_empty() {
+            for (down, y) in tile.rows().enumerate() {
+                for (across, x) in tile.columns().enumerate() {
+                    let middle = DVec2::new(f64::from(x), f64::from(y)) + 0.5;
+                    sampler.keep_layers(down * tile.width as usize + across, middle);
+                }
+            }
+        }
+        let whole = (self.cells.whole() as f64).powi(2);
+        exposed.pixels.iter_mut().for_each(|pixel| *pixel /= whole);
+    }
+}
+
+/// A sample of a first cell, in column and row `at`, or of one of its parts.
+struct AreaSample {
+    area: Area,
+    at: [i64; 2],
+    shot: Shot,
+}
+
+impl Sample for AreaSample {
+    fn name(&self) -> String {
+        let [x, y] = self.at;
+        let first = self.area.cell(x, y);
+        let parts = (first.side / self.shot.cell.side).round();
+        if parts == 1.0 {
+            return format!("{x},{y}");
+        }
+        let corner = first.middle - 0.5 * first.side;
+        let part = ((self.shot.cell.middle - corner) / self.shot.cell.side).floor();
+        format!("{x},{y} part {},{} of {parts}x{parts}", part.x, part.y)
+    }
+
+    fn position(&self) -> DVec2 {
+        self.shot.cell.middle + self.shot.cell.side * self.shot.offset
+    }
+
+    fn represents(&self, (column, row): (u32, u32)) -> bool {
+        let [x, y] = self.at;
+        let whole = self.shot.cell == self.area.cell(x, y);
+        whole && self.area.cells.middle(column) == x && self.area.cells.middle(row) == y
+    }
+
+    fn weight(&self, (column, row): (u32, u32)) -> (f64, f64) {
+        let [x, y] = self.at;
+        let cell = self.area.cells.weight(column, x) * self.area.cells.weight(row, y);
+        (cell as f64 * self.shot.weight, self.area.cells.whole().pow(2) as f64)
+    }
+}
