@@ -40,6 +40,16 @@ struct Cell {
     side: f64,
 }
 
+/// A first cell is split as well if its error in the codes of an sRGB picture, with white as 1, is
+/// above this part of the threshold.
+///
+/// With a larger part, dark outlines and the edges of faint shadows show steps. With a smaller one,
+/// pixels are split for differences that nobody sees.
+const VISIBLE: f64 = 0.25;
+
+/// Steepest slope of the codes of an sRGB picture, at black.
+const STEEPEST: f64 = 12.92;
+
 /// A method of exposing tiles by areas.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Area {
@@ -59,6 +69,16 @@ impl Area {
             PixelFilter::Tent | PixelFilter::Gaussian => 2 * samples,
         };
         Self { cells: Lattice::grid(per_pixel, Pattern::Regular, pixel_filter), threshold }
+    }
+
+    /// Returns whether a first cell is split. `error` is its estimated error, root mean square of
+    /// linear RGB, and `color` is the colour of its own sample.
+    fn splits(self, cell: Cell, error: f32, color: Color) -> bool {
+        let Some(threshold) = self.threshold else { return false };
+        let error = f64::from(error) * cell.side * cell.side;
+        // The steps of a dark edge are seen though its error is small.
+        let visible = || error * slope_of_codes(color) > VISIBLE * threshold;
+        error > threshold || error * STEEPEST > VISIBLE * threshold && visible()
     }
 
     fn cell(self, x: i64, y: i64) -> Cell {
@@ -89,11 +109,11 @@ impl Method for Area {
         for (down, y) in rows.enumerate() {
             for (color, x) in colors.iter_mut().zip(columns.clone()) {
                 let (cell, index) = (self.cell(x, y), samples.index(x, y));
-                let error = errors.as_ref().map_or(0.0, |errors| f64::from(errors[index]));
+                let error = errors.as_ref().map_or(0.0, |errors| errors[index]);
                 let own = samples.color(index);
                 let mut shots = W::LISTENS.then(Vec::new);
-                let splits = self.threshold.filter(|most| error * cell.side * cell.side > *most);
-                *color = match splits {
+                let splits = self.splits(cell, error, own);
+                *color = match self.threshold.filter(|_| splits) {
                     Some(threshold) => {
                         Splitter::new(threshold, &mut sampler, shots.as_mut()).split(cell, own)
                     }
@@ -158,4 +178,11 @@ impl Sample for AreaSample {
         let cell = self.area.cells.weight(column, x) * self.area.cells.weight(row, y);
         (cell as f64 * self.shot.weight, self.area.cells.whole().pow(2) as f64)
     }
+}
+
+/// Returns the slope of the codes of an sRGB picture, with white as 1, at the brightest channel of a
+/// linear colour.
+fn slope_of_codes(color: Color) -> f64 {
+    let light = color.max_element().clamp(0.0031308, 1.0);
+    1.055 / 2.4 * light.powf(1.0 / 2.4 - 1.0)
 }
