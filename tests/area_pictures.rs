@@ -13,7 +13,7 @@ use triangulate::Options;
 
 const AREA_FILTERS: [Filter; 2] = [Filter::Box, Filter::Tent];
 
-fn swept(keys: &Value) -> GridMesh {
+pub fn swept(keys: &Value) -> GridMesh {
     let mut spec = json!({ "format": "tb-sweep", "version": 1, "name": "test" });
     for (key, value) in keys.as_object().expect("keys") {
         spec[key] = value.clone();
@@ -32,7 +32,7 @@ fn tube(areas: &Value) -> GridMesh {
 }
 
 /// Returns a scene of the surface with pictures on it, unlit, by texture id.
-fn shown(grid: &GridMesh, eye: DVec3, textures: &[(u32, usize, Vec<[u8; 3]>)]) -> Scene {
+pub fn shown(grid: &GridMesh, eye: DVec3, textures: &[(u32, usize, Vec<[u8; 3]>)]) -> Scene {
     let mut obj = Vec::new();
     triangulate::write_obj(grid, &Options::default(), &mut obj).expect("memory takes it");
     let mut files = vec![("m.obj".to_string(), obj)];

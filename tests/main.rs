@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 mod architecture;
+mod area_limits;
 mod area_pictures;
 mod book;
 mod clashes;
