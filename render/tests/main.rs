@@ -7,6 +7,7 @@ mod bench;
 mod check;
 mod cli;
 mod complaints;
+mod differentials;
 mod exact;
 mod examples;
 mod hard_cases;

@@ -10,6 +10,7 @@
 pub mod blocks;
 pub mod bump;
 pub mod clouds;
+mod curvature;
 mod dnoise;
 pub mod grains;
 pub mod granite;

@@ -70,36 +70,21 @@ impl Noise {
     #[must_use]
     pub fn gradient(&self, point: DVec3) -> DVec3 {
         let cell = Cell::of(point);
-        let v = self.corners(&cell);
-        let o = self.faded(&cell);
-        // The figure's interpolation, differentiated by each of its three weights.
-        let [n00, n01] = [v[0] + o.x * (v[1] - v[0]), v[2] + o.x * (v[3] - v[2])];
-        let [n10, n11] = [v[4] + o.x * (v[5] - v[4]), v[6] + o.x * (v[7] - v[6])];
-        let [n0, n1] = [n00 + o.y * (n10 - n00), n01 + o.y * (n11 - n01)];
-        let between = |lower: f64, upper: f64, t: f64| lower + t * (upper - lower);
-        let by_x = between(
-            between(v[1] - v[0], v[5] - v[4], o.y),
-            between(v[3] - v[2], v[7] - v[6], o.y),
-            o.z,
-        );
-        let by_y = between(n10 - n00, n11 - n01, o.z);
-        let by_z = n1 - n0;
-        let slope = |t| self.interpolation.slope(t);
-        DVec3::new(
-            by_x * slope(cell.offset.x),
-            by_y * slope(cell.offset.y),
-            by_z * slope(cell.offset.z),
-        )
+        by_weights(self.corners(&cell), self.faded(&cell)) * self.fade_slopes(&cell)
     }
 
     /// Returns the values at the corners of a cell, in the figure's order. Bit 0 of the corner's
     /// index selects the upper x, bit 1 the upper z and bit 2 the upper y.
-    fn corners(&self, cell: &Cell) -> [f64; 8] {
+    pub(super) fn corners(&self, cell: &Cell) -> [f64; 8] {
         std::array::from_fn(|k| self.lattice.value(cell.at(step(k))))
     }
 
     pub(super) fn faded(&self, cell: &Cell) -> DVec3 {
         cell.offset.map(|t| self.interpolation.fade(t))
+    }
+
+    pub(super) fn fade_slopes(&self, cell: &Cell) -> DVec3 {
+        cell.offset.map(|t| self.interpolation.slope(t))
     }
 }
 
@@ -117,4 +102,19 @@ pub(super) fn interpolated(v: [f64; 8], o: DVec3) -> f64 {
     let n0 = n00 + o.y * (n10 - n00);
     let n1 = n01 + o.y * (n11 - n01);
     n0 + o.z * (n1 - n0)
+}
+
+/// Returns the derivatives of [`interpolated`] by its three weights.
+pub(super) fn by_weights(v: [f64; 8], o: DVec3) -> DVec3 {
+    let [n00, n01] = [v[0] + o.x * (v[1] - v[0]), v[2] + o.x * (v[3] - v[2])];
+    let [n10, n11] = [v[4] + o.x * (v[5] - v[4]), v[6] + o.x * (v[7] - v[6])];
+    let [n0, n1] = [n00 + o.y * (n10 - n00), n01 + o.y * (n11 - n01)];
+    let between = |lower: f64, upper: f64, t: f64| lower + t * (upper - lower);
+    let by_x = between(
+        between(v[1] - v[0], v[5] - v[4], o.y),
+        between(v[3] - v[2], v[7] - v[6], o.y),
+        o.z,
+    );
+    let by_y = between(n10 - n00, n11 - n01, o.z);
+    DVec3::new(by_x, by_y, n1 - n0)
 }

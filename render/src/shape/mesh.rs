@@ -1,6 +1,6 @@
 //! The triangle mesh, with coordinates exactly as in its file.
 
-use super::{Placement, PlacementError, SurfacePoint, triangle};
+use super::{Changes, Placement, PlacementError, SurfacePoint, triangle};
 use crate::differential;
 use glam::{DVec2, DVec3};
 use thiserror::Error;
@@ -186,34 +186,44 @@ impl Mesh {
             return [DVec3::ZERO; 2];
         }
         let Some([by_b, by_c]) = self.weight_gradients(triangle) else { return [DVec3::ZERO; 2] };
-        let uvs = corners.uv.map(|i| DVec2::from(self.uvs[i as usize].map(f64::from)));
-        let (along_b, along_c) = (uvs[1] - uvs[0], uvs[2] - uvs[0]);
+        let [along_b, along_c] = self.uv_sides(corners);
         [along_b.x * by_b + along_c.x * by_c, along_b.y * by_b + along_c.y * by_c]
     }
 
-    /// Returns the changes of the interpolated unit normal as [`super::Shape::normal_changes`] does.
-    /// They are zero if the triangle has no normals or no area.
+    /// Returns changes as [`Shape::changes`](super::Shape::changes) does. They are zero on a triangle
+    /// without area, and those of the normal also on a triangle without normals.
     #[must_use]
-    pub fn normal_changes(
-        &self,
-        triangle: u32,
-        barycentric: [f64; 2],
-        steps: [DVec3; 2],
-    ) -> [DVec3; 2] {
+    pub fn changes(&self, triangle: u32, barycentric: [f64; 2], steps: [DVec3; 2]) -> Changes {
+        let mut changes = Changes::default();
         let corners = &self.triangles[triangle as usize];
-        let gradients = self.weight_gradients(triangle);
-        let (false, Some([by_b, by_c])) = (corners.normal[0] == NONE, gradients) else {
-            return [DVec3::ZERO; 2];
-        };
-        let [b, c] = barycentric;
-        let normals = corners.normal.map(|i| as_dvec3(self.normals[i as usize]));
-        let sum = weighted([1.0 - b - c, b, c], normals);
-        if sum == DVec3::ZERO {
-            return [DVec3::ZERO; 2];
+        let (with_uv, with_normal) = (corners.uv[0] != NONE, corners.normal[0] != NONE);
+        if !with_uv && !with_normal {
+            return changes;
         }
-        let (along_b, along_c) = (normals[1] - normals[0], normals[2] - normals[0]);
-        let of_sum = steps.map(|step| by_b.dot(step) * along_b + by_c.dot(step) * along_c);
-        differential::normalized(sum, of_sum)
+        let Some([by_b, by_c]) = self.weight_gradients(triangle) else { return changes };
+        let weights = steps.map(|step| [by_b.dot(step), by_c.dot(step)]);
+        if with_uv {
+            let [along_b, along_c] = self.uv_sides(corners);
+            changes.uv = weights.map(|[b, c]| b * along_b + c * along_c);
+        }
+        if with_normal {
+            let [b, c] = barycentric;
+            let normals = corners.normal.map(|i| as_dvec3(self.normals[i as usize]));
+            let sum = weighted([1.0 - b - c, b, c], normals);
+            if sum != DVec3::ZERO {
+                let [along_b, along_c] = [normals[1] - normals[0], normals[2] - normals[0]];
+                let of_sum = weights.map(|[b, c]| b * along_b + c * along_c);
+                changes.normal = differential::normalized(sum, of_sum);
+            }
+        }
+        changes
+    }
+
+    /// Returns the differences of a triangle's texture coordinates from the first corner to the
+    /// second and to the third. The triangle has texture coordinates.
+    fn uv_sides(&self, corners: &Triangle) -> [DVec2; 2] {
+        let uvs = corners.uv.map(|i| DVec2::from(self.uvs[i as usize].map(f64::from)));
+        [uvs[1] - uvs[0], uvs[2] - uvs[0]]
     }
 
     /// Returns the gradients of the barycentric weights of a triangle's second and third corner, or

@@ -4,7 +4,7 @@
 //! transformed back. The map keeps the ratios of distances along a ray, so the nearest hit stays
 //! the nearest.
 
-use super::{Placement, Shape, Start, SurfacePoint};
+use super::{Changes, Placement, Shape, Start, SurfacePoint};
 use crate::differential;
 use glam::DVec3;
 
@@ -74,23 +74,31 @@ impl Placed {
     pub fn uv_gradients(&self, face: u32, position: DVec3) -> [DVec3; 2] {
         let to_own = self.placement.to_own();
         let near = to_own.transform_point3(position);
-        let normal = self.surface_point(face, position).geometric_normal;
+        let normal = self.normal(face, position);
         self.shape.uv_gradients(face, near).map(|own| {
             let gradient = to_own.matrix3.transpose() * own;
             gradient - gradient.dot(normal) * normal
         })
     }
 
-    /// Returns changes of the unit normal as [`Shape::normal_changes`] does, in scene space.
+    /// Returns changes as [`Shape::changes`] does, in scene space.
     #[must_use]
-    pub fn normal_changes(&self, face: u32, position: DVec3, steps: [DVec3; 2]) -> [DVec3; 2] {
+    pub fn changes(&self, face: u32, point: &SurfacePoint, steps: [DVec3; 2]) -> Changes {
         let to_own = self.placement.to_own();
-        let near = to_own.transform_point3(position);
-        let own = self.shape.surface_point(face, [0.0; 2], near);
+        // Normals are transformed to own space by the transpose of the map to the scene. The shape
+        // has no interpolated normals, so this one is also the normal for shading.
+        let back = self.placement.to_scene().matrix3.transpose() * point.geometric_normal;
+        let normal = back.normalize_or(DVec3::Y);
+        let own = SurfacePoint {
+            position: to_own.transform_point3(point.position),
+            geometric_normal: normal,
+            shading_normal: normal,
+            ..*point
+        };
         let own_steps = steps.map(|step| to_own.transform_vector3(step));
-        let changes = self.shape.normal_changes(face, [0.0; 2], own.position, own_steps);
+        let Changes { uv, normal: changes } = self.shape.changes(face, [0.0; 2], &own, own_steps);
         let turned = |normal: DVec3| self.placement.normal(normal);
-        differential::normalized(turned(own.shading_normal), changes.map(turned))
+        Changes { uv, normal: differential::normalized(turned(normal), changes.map(turned)) }
     }
 
     /// Lower and upper corner of the bounding box, in scene space.

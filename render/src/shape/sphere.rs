@@ -1,6 +1,6 @@
 //! The sphere as a shape.
 
-use super::SurfacePoint;
+use super::{Changes, SurfacePoint};
 use glam::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 
@@ -80,6 +80,22 @@ impl Sphere {
         let north = normal.cross(east);
         let parallel = self.radius * normal.x.hypot(normal.z);
         [east / (TAU * parallel), north / (PI * self.radius)]
+    }
+
+    /// Returns changes as [`Shape::changes`](super::Shape::changes) does, where the outward unit
+    /// normal is `normal`. Those of the texture coordinates are zero at a pole.
+    #[must_use]
+    pub fn changes(&self, normal: DVec3, steps: [DVec3; 2]) -> Changes {
+        let DVec3 { x, z, .. } = normal;
+        let parallel_sq = x * x + z * z;
+        let changes = steps.map(|step| step / self.radius);
+        let uv = if parallel_sq > 0.0 {
+            let (around, up) = (TAU * parallel_sq, PI * parallel_sq.sqrt());
+            changes.map(|n| DVec2::new((z * n.x - x * n.z) / around, n.y / up))
+        } else {
+            [DVec2::ZERO; 2]
+        };
+        Changes { uv, normal: changes }
     }
 
     /// Returns the period of the texture coordinates, which jump by 1 across the seam meridian.

@@ -17,8 +17,8 @@ use crate::differential::{RayDifferential, Spread};
 use crate::procedural::Place;
 use crate::ray::{Hit, Ray};
 use crate::scene::{Material, Scene};
-use crate::shape::SurfacePoint;
-use glam::{DVec2, DVec3};
+use crate::shape::{Changes, SurfacePoint};
+use glam::DVec3;
 use medium::{Boundary, Media};
 use split::{Split, Turned, mirror};
 use tree::{Branch, IntersectionTree, Node};
@@ -194,10 +194,8 @@ impl<'a> Tracer<'a> {
         let t = (point.position - ray.origin).dot(ray.direction);
         let position = differential.transferred(ray.direction, t, point.geometric_normal);
         let incident = differential.direction;
-        let number = hit.piece.triangle;
-        let gradients = shape.uv_gradients(number, point.position);
-        let uv = position.map(|step| DVec2::from(gradients.map(|gradient| gradient.dot(step))));
-        let normal = shape.normal_changes(number, hit.barycentric, point.position, position);
+        let Changes { uv, normal } =
+            shape.changes(hit.piece.triangle, hit.barycentric, point, position);
         let normal = normal.map(|change| side * change);
         Spread { position, uv, normal, incident, roughness: 0.0 }
     }

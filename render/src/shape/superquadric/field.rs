@@ -54,6 +54,40 @@ fn slope(ratio: f64, p: f64) -> f64 {
     if p == 2.0 { ratio } else { ratio.powf(p - 1.0) }
 }
 
+/// The field's derivatives at a point.
+#[derive(Debug, Clone, Copy)]
+pub struct Bend {
+    /// As [`Field::axis_norm`].
+    pub axis_norm: f64,
+    /// As [`Field::axis_gradient`].
+    pub axis_gradient: DVec3,
+    /// As [`Field::gradient`].
+    pub gradient: DVec3,
+    /// Changes of the gradient for two steps, to first order. A part that is infinite, at a crease,
+    /// is left out.
+    pub changes: [DVec3; 2],
+}
+
+/// Returns the derivative of the norm by a signed size, and its own derivative by the ratio. The
+/// size is `ratio` times the norm. Both results are 0 where they have no bound.
+fn part(ratio: f64, p: f64) -> (f64, f64) {
+    if p == 2.0 {
+        return (ratio, 1.0);
+    }
+    if ratio == 0.0 {
+        return (0.0, 0.0);
+    }
+    let size = ratio.abs();
+    let slope = size.powf(p - 1.0);
+    (slope.copysign(ratio), (p - 1.0) * slope / size)
+}
+
+/// Returns the product, or 0 if it has no bound.
+fn times(curve: f64, change: f64) -> f64 {
+    let product = curve * change;
+    if product.is_finite() { product } else { 0.0 }
+}
+
 impl Field {
     /// Returns whether the surface is convex. If so, the function is convex too.
     pub fn is_convex(&self) -> bool {
@@ -102,34 +136,32 @@ impl Field {
         )
     }
 
-    /// Returns the change of the gradient for a small step, to first order. A part of it that is
-    /// infinite, at a crease, is left out.
-    pub fn gradient_change(&self, point: DVec3, step: DVec3) -> DVec3 {
-        // With a ratio r of a size to its norm, a part of the gradient is |r|^(p - 1) with the sign
-        // of r, and its change is (p - 1) |r|^(p - 2) times that of r.
-        let part = |ratio: f64, p: f64| ratio.abs().powf(p - 1.0).copysign(ratio);
-        let change = |ratio: f64, of_ratio: f64, p: f64| {
-            let change = (p - 1.0) * ratio.abs().powf(p - 2.0) * of_ratio;
-            if of_ratio != 0.0 && change.is_finite() { change } else { 0.0 }
-        };
+    /// Returns the gradient at a point, and its changes for two small steps.
+    pub fn bend(&self, point: DVec3, steps: [DVec3; 2]) -> Bend {
         let h = self.axis_norm(point);
-        let (x, z) = if h > 0.0 { (point.x / h, point.z / h) } else { (0.0, 0.0) };
-        let (h_x, h_z) = (part(x, self.across), part(z, self.across));
-        let of_h = h_x * step.x + h_z * step.z;
-        let around = |ratio: f64, step: f64| {
-            change(ratio, if h > 0.0 { (step - ratio * of_h) / h } else { 0.0 }, self.across)
-        };
-        let value = self.value(point);
-        let (tube, y) = ((h - self.ring) / value, point.y / value);
-        let (f_tube, f_y) = (part(tube, self.section), part(y, self.section));
-        let of_value = f_tube * of_h + f_y * step.y;
-        let of_tube = change(tube, (of_h - tube * of_value) / value, self.section);
-        let of_y = change(y, (step.y - y * of_value) / value, self.section);
-        DVec3::new(
-            of_tube * h_x + f_tube * around(x, step.x),
-            of_y,
-            of_tube * h_z + f_tube * around(z, step.z),
-        )
+        let [x, z] = if h > 0.0 { [point.x / h, point.z / h] } else { [0.0; 2] };
+        let [(h_x, curve_x), (h_z, curve_z)] = [x, z].map(|ratio| part(ratio, self.across));
+        let tube = h - self.ring;
+        let value = norm(tube.abs(), point.y.abs(), self.section);
+        let [tube, y] = [tube / value, point.y / value];
+        let [(f_tube, curve_tube), (f_y, curve_y)] =
+            [tube, y].map(|ratio| part(ratio, self.section));
+        let changes = steps.map(|step| {
+            let of_h = h_x * step.x + h_z * step.z;
+            let around = |ratio: f64, curve: f64, step: f64| {
+                if h > 0.0 { times(curve, (step - ratio * of_h) / h) } else { 0.0 }
+            };
+            let of_value = f_tube * of_h + f_y * step.y;
+            let of_tube = times(curve_tube, (of_h - tube * of_value) / value);
+            let of_y = times(curve_y, (step.y - y * of_value) / value);
+            DVec3::new(
+                of_tube * h_x + f_tube * around(x, curve_x, step.x),
+                of_y,
+                of_tube * h_z + f_tube * around(z, curve_z, step.z),
+            )
+        });
+        let gradient = DVec3::new(f_tube * h_x, f_y, f_tube * h_z);
+        Bend { axis_norm: h, axis_gradient: DVec3::new(h_x, 0.0, h_z), gradient, changes }
     }
 
     /// Returns the unit direction of the gradient, in a space whose coordinates are `radii` times

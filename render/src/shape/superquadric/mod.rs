@@ -21,7 +21,7 @@
 mod field;
 mod root;
 
-use super::{SeamPeriod, Start, SurfacePoint};
+use super::{Changes, SeamPeriod, Start, SurfacePoint};
 use crate::differential;
 use field::{Field, Line};
 use glam::{DVec2, DVec3};
@@ -149,18 +149,38 @@ impl Superquadric {
         }
     }
 
-    /// Returns changes of the unit normal as
-    /// [`Shape::normal_changes`](super::Shape::normal_changes) does.
+    /// Returns changes as [`Shape::changes`](super::Shape::changes) does. Those of the texture
+    /// coordinates are zero on the axis, and those of the normal where two creases meet.
     #[must_use]
-    pub fn normal_changes(&self, position: DVec3, steps: [DVec3; 2]) -> [DVec3; 2] {
+    pub fn changes(&self, position: DVec3, steps: [DVec3; 2]) -> Changes {
         let point = (position - self.center) / self.radii;
-        let gradient = self.field.gradient(point) / self.radii;
-        if !gradient.is_finite() || gradient == DVec3::ZERO {
-            return [DVec3::ZERO; 2];
-        }
-        let of_gradient =
-            steps.map(|step| self.field.gradient_change(point, step / self.radii) / self.radii);
-        differential::normalized(gradient, of_gradient)
+        let own_steps = steps.map(|step| step / self.radii);
+        let bend = self.field.bend(point, own_steps);
+        let DVec3 { x, y, z } = point;
+        let from_axis_sq = x * x + z * z;
+        let uv = own_steps.map(|step| {
+            if from_axis_sq == 0.0 {
+                return DVec2::ZERO;
+            }
+            let around = (z * step.x - x * step.z) / (TAU * from_axis_sq);
+            // Distance across the axis, from the axis itself or from the middle of the tube.
+            let (out, of_out, turn) = if self.is_ring() {
+                (bend.axis_norm - self.field.ring, bend.axis_gradient.dot(step), TAU)
+            } else {
+                let from_axis = from_axis_sq.sqrt();
+                (from_axis, (x * step.x + z * step.z) / from_axis, PI)
+            };
+            let up = (out * step.y - y * of_out) / (turn * (out * out + y * y));
+            let change = DVec2::new(around, up);
+            if change.is_finite() { change } else { DVec2::ZERO }
+        });
+        let gradient = bend.gradient / self.radii;
+        let normal = if gradient.is_finite() && gradient != DVec3::ZERO {
+            differential::normalized(gradient, bend.changes.map(|change| change / self.radii))
+        } else {
+            [DVec3::ZERO; 2]
+        };
+        Changes { uv, normal }
     }
 
     /// Returns gradients as [`Shape::uv_gradients`](super::Shape::uv_gradients) does.
