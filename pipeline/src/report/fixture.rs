@@ -25,6 +25,9 @@ pub fn floor(filter: Filter, n: f64) -> (f64, f64) {
         Filter::Box => (0.28, 0.8, 1.8),
         Filter::Tent => (0.20, 0.8, 2.0),
         Filter::Quadratic => (0.198, 0.8, 6.0),
+        Filter::Exact | Filter::Ewa8 | Filter::Ewa16 | Filter::Ewa64 | Filter::Probes => {
+            (0.19, 0.8, 3.0)
+        }
     };
     (0.2 * left / n.powf(slope), 0.02 * price * n * n)
 }
@@ -39,7 +42,7 @@ pub fn edges(filter: Filter, n: f64) -> (f64, f64) {
 pub fn page(name: &str, whole: &Law<'_>, regions: &[(&'static str, &Law<'_>)]) -> PageMeasured {
     let pixels = (SIZE.0 * SIZE.1) as usize;
     let mut methods: Vec<(Method, f64)> = Vec::new();
-    for filter in Filter::ALL {
+    for filter in Filter::THESIS {
         for n in COUNTS {
             methods.push((Method { filter, sampling: Sampling::regular(n) }, f64::from(n)));
         }

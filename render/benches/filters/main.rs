@@ -1,7 +1,9 @@
 //! Speed of each filter as a ratio to bilinear interpolation, and its error, on one set of footprints.
 //!
 //! `cargo bench -p render --bench filters -- docs/measured` writes `filters.csv` and `filters.svg`
-//! to that folder. Without a folder it only prints. docs/filters.md describes the measurement.
+//! to that folder. Without a folder it only prints. docs/filters.md describes the measurement. With
+//! `--full` the errors, and not the times, are those of 110 592 footprints instead of 9216. With
+//! `--only=exact` only methods whose names begin so are measured, beside bilinear interpolation.
 
 #![expect(clippy::print_stdout, reason = "a bench is read on the terminal")]
 
@@ -9,8 +11,9 @@ mod floor;
 mod report;
 mod textures;
 
-use floor::{ANGLES, BREADTHS, Pixel, SCALES};
-use glam::DVec3;
+use floor::{ANGLES, BREADTHS, FULL, Pixel, SCALES, SMALL, STRETCHES};
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 use render::filter::{Filter, FilteredTexture};
 use render::footprint::Footprint;
 use render::texture::Texture;
@@ -26,14 +29,19 @@ const ROUNDS: usize = 15;
 /// The number divides the footprints of a scale.
 const CHUNK: usize = 32;
 
-/// Number of kinds of footprints, by texture, angle and breadth.
-const CELLS: usize = 4 * ANGLES.len() * BREADTHS.len();
+/// Numbers of kinds of footprints, by texture, angle, breadth and stretch.
+const KINDS: [usize; 4] = [4, ANGLES.len(), BREADTHS.len(), STRETCHES.len()];
 
 /// A method that is measured.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Method {
-    /// A filter over the box around nine neighbours, as in the renderer.
+    /// A filter over the box around nine neighbours, or over the pixel's quadrilateral if the filter
+    /// averages over any shape.
     Filter(Filter),
+    /// The exact filter over the parallelogram of the pixel's derivatives.
+    Parallelogram,
+    /// The mean of the exact filter over N x N parts of the pixel.
+    Parts(u32),
     /// The box filter over half that box along each axis: about one pixel.
     BoxOfOnePixel,
     /// The mean of bilinear interpolation at N x N positions in the pixel.
@@ -46,6 +54,8 @@ impl Method {
         match self {
             Self::Filter(filter) => filter.to_string(),
             Self::BoxOfOnePixel => "box, 1 px".into(),
+            Self::Parallelogram => "exact, parallelogram".into(),
+            Self::Parts(n) => format!("exact, {n} x {n}"),
             Self::Samples(n) => format!("bilinear, {n} x {n}"),
         }
     }
@@ -64,12 +74,16 @@ pub struct Line {
     pub ratios: [f64; 3],
     /// Root mean square errors of a texture from 0 to 1, against the pixel's box and tent.
     pub error: [f64; 2],
+    /// Largest error against the box.
+    pub largest: f64,
     /// Errors against the box, by texture.
-    pub by_texture: [f64; 4],
+    pub by_texture: Vec<f64>,
     /// Errors against the box, by angle.
-    pub by_angle: [f64; 3],
+    pub by_angle: Vec<f64>,
     /// Errors against the box, by the short side of the footprint.
-    pub by_breadth: [f64; 3],
+    pub by_breadth: Vec<f64>,
+    /// Errors against the box, by anisotropy.
+    pub by_stretch: Vec<f64>,
     /// Memory besides the textures, in bytes.
     pub bytes: u64,
 }
@@ -77,21 +91,33 @@ pub struct Line {
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = std::env::args().skip(1).find(|argument| !argument.starts_with('-'));
     let textures = textures::all();
-    let pixels = floor::pixels(textures.len());
+    let set = if std::env::args().any(|argument| argument == "--full") { FULL } else { SMALL };
+    let pixels = floor::pixels(textures.len(), set);
     let truths: Vec<[DVec3; 2]> =
-        pixels.iter().map(|pixel| pixel.truth(&textures[pixel.texture].1)).collect();
-    let noise = floor::noise(&pixels, &textures, &truths);
+        pixels.par_iter().map(|pixel| pixel.truth(&textures[pixel.texture].1, set)).collect();
+    let noise = floor::noise(&pixels, &textures, &truths, set);
+    let only =
+        std::env::args().find_map(|argument| Some(argument.strip_prefix("--only=")?.to_owned()));
+    let wanted = |method: &Method| {
+        let bilinear = *method == Method::Filter(Filter::Bilinear);
+        bilinear || only.as_ref().is_none_or(|only| method.name().starts_with(only))
+    };
     let methods: Vec<Method> = Filter::ALL
         .map(Method::Filter)
         .into_iter()
-        .chain([Method::BoxOfOnePixel])
+        .chain([Method::BoxOfOnePixel, Method::Parallelogram])
+        .chain([2, 4].map(Method::Parts))
         .chain([2, 4, 8].map(Method::Samples))
+        .filter(wanted)
         .collect();
-    let times = times(&methods, &textures, &pixels);
+    let bilinear = methods.iter().position(|&method| method == Method::Filter(Filter::Bilinear));
+    let times = times(&methods, &textures, &floor::pixels(textures.len(), SMALL));
     let lines: Vec<Line> = methods
         .iter()
         .zip(&times)
-        .map(|(&method, own)| line(method, own, &times[1], &textures, &pixels, &truths))
+        .map(|(&method, own)| {
+            line(method, own, &times[bilinear.unwrap_or(0)], &textures, &pixels, &truths)
+        })
         .collect();
     println!("{} footprints, noise of the truth {noise:.1e}", pixels.len());
     print!("{}", report::csv(&lines));
@@ -108,6 +134,7 @@ fn prepared(method: Method, texture: &Texture) -> FilteredTexture<'_> {
     let filter = match method {
         Method::Filter(filter) => filter,
         Method::BoxOfOnePixel => Filter::Box,
+        Method::Parallelogram | Method::Parts(_) => Filter::Exact,
         Method::Samples(_) => Filter::Bilinear,
     };
     FilteredTexture::new(texture, filter)
@@ -116,13 +143,44 @@ fn prepared(method: Method, texture: &Texture) -> FilteredTexture<'_> {
 /// Returns the footprint over which a method averages.
 fn footprint(method: Method, pixel: &Pixel) -> Footprint {
     match method {
+        Method::Filter(
+            Filter::Exact | Filter::Ewa8 | Filter::Ewa16 | Filter::Ewa64 | Filter::Probes,
+        ) => Footprint::Quadrilateral(pixel.corners(DVec2::splat(-0.5), DVec2::splat(0.5))),
+        Method::Parallelogram => {
+            Footprint::Parallelogram { center: pixel.uv(0.0, 0.0), sides: pixel.sides() }
+        }
         Method::Filter(filter) if filter.wants_area() => {
             Footprint::Rectangle { center: pixel.center, half: pixel.half }
         }
         Method::BoxOfOnePixel => {
             Footprint::Rectangle { center: pixel.center, half: 0.5 * pixel.half }
         }
-        Method::Filter(_) | Method::Samples(_) => Footprint::Point(pixel.uv(0.0, 0.0)),
+        Method::Filter(_) | Method::Parts(_) | Method::Samples(_) => {
+            Footprint::Point(pixel.uv(0.0, 0.0))
+        }
+    }
+}
+
+/// Returns the result of a method whose footprint for this pixel is `print`.
+fn average(
+    method: Method,
+    ready: &FilteredTexture<'_>,
+    texture: &Texture,
+    pixel: &Pixel,
+    print: &Footprint,
+) -> DVec3 {
+    match method {
+        Method::Samples(n) => pixel.samples(texture, n),
+        Method::Parts(n) => {
+            let side = 1.0 / f64::from(n);
+            let parts = (0..n).flat_map(|i| (0..n).map(move |j| DVec2::new(i.into(), j.into())));
+            let part = |at: DVec2| {
+                let low = at * side - 0.5;
+                ready.average(&Footprint::Quadrilateral(pixel.corners(low, low + side)))
+            };
+            parts.map(part).sum::<DVec3>() * side * side
+        }
+        _ => ready.average(print),
     }
 }
 
@@ -166,14 +224,8 @@ fn pass(
     chunk: &[&Pixel],
     prints: &[Footprint],
 ) {
-    if let Method::Samples(n) = method {
-        chunk.iter().for_each(|pixel| {
-            black_box(pixel.samples(texture, n));
-        });
-        return;
-    }
-    for print in prints {
-        black_box(ready.average(black_box(print)));
+    for (pixel, print) in chunk.iter().zip(prints) {
+        black_box(average(method, ready, texture, pixel, black_box(print)));
     }
 }
 
@@ -186,38 +238,43 @@ fn line(
     truths: &[[DVec3; 2]],
 ) -> Line {
     let sum = |times: &[Vec<f64>]| times.iter().flatten().sum::<f64>();
-    let mut squares = [[0.0; 2]; CELLS];
-    let mut counts = [0; CELLS];
+    let mut errors: Vec<([usize; 4], [f64; 2])> = Vec::with_capacity(pixels.len());
     let mut bytes = 0;
     for (k, (_, texture)) in textures.iter().enumerate() {
         let ready = prepared(method, texture);
         bytes += ready.table_bytes() as u64;
-        for (pixel, truth) in pixels.iter().zip(truths).filter(|(pixel, _)| pixel.texture == k) {
-            let found = match method {
-                Method::Samples(n) => pixel.samples(texture, n),
-                _ => ready.average(&footprint(method, pixel)),
-            };
-            let cell = (k * ANGLES.len() + pixel.angle) * BREADTHS.len() + pixel.breadth(texture);
-            counts[cell] += 1;
-            for (sum, truth) in squares[cell].iter_mut().zip(truth) {
-                *sum += (found.x - truth.x).powi(2);
-            }
-        }
+        let own: Vec<_> = pixels
+            .par_iter()
+            .zip(truths)
+            .filter(|(pixel, _)| pixel.texture == k)
+            .map(|(pixel, truth)| {
+                let found = average(method, &ready, texture, pixel, &footprint(method, pixel));
+                let kind = [k, pixel.angle, pixel.breadth(texture), pixel.stretch()];
+                (kind, truth.map(|truth| found.x - truth.x))
+            })
+            .collect();
+        errors.extend(own);
     }
-    let rms = |truth: usize, seen: &dyn Fn(usize) -> bool| {
-        let cells = || (0..CELLS).filter(|&cell| seen(cell));
-        let sum: f64 = cells().map(|cell| squares[cell][truth]).sum();
-        (sum / cells().map(|cell| counts[cell]).sum::<usize>() as f64).sqrt()
+    let rms = |truth: usize, seen: &dyn Fn(&[usize; 4]) -> bool| {
+        let of_kind = || errors.iter().filter(|(kind, _)| seen(kind));
+        let sum: f64 = of_kind().map(|(_, error)| error[truth] * error[truth]).sum();
+        (sum / of_kind().count() as f64).sqrt()
     };
+    let by = |at: usize| -> Vec<f64> {
+        (0..KINDS[at]).map(|value| rms(0, &|kind| kind[at] == value)).collect()
+    };
+    let [by_texture, by_angle, by_breadth, by_stretch] = [0, 1, 2, 3].map(by);
     Line {
         method,
-        time: 1e9 * sum(own) / pixels.len() as f64,
+        time: 1e9 * sum(own) / floor::pixels(textures.len(), SMALL).len() as f64,
         ratio: sum(own) / sum(bilinear),
         ratios: [0, 1, 2].map(|scale| sum(&own[scale..=scale]) / sum(&bilinear[scale..=scale])),
         error: [0, 1].map(|truth| rms(truth, &|_| true)),
-        by_texture: [0, 1, 2, 3].map(|texture| rms(0, &|cell| cell / 9 == texture)),
-        by_angle: [0, 1, 2].map(|angle| rms(0, &|cell| cell / 3 % 3 == angle)),
-        by_breadth: [0, 1, 2].map(|breadth| rms(0, &|cell| cell % 3 == breadth)),
+        largest: errors.iter().fold(0.0, |most, (_, error)| f64::max(most, error[0].abs())),
+        by_texture,
+        by_angle,
+        by_breadth,
+        by_stretch,
         bytes,
     }
 }

@@ -8,13 +8,13 @@ pub fn csv(lines: &[Line]) -> String {
     let mut text = String::from(
         "method,ns,ratio,ratio thin,ratio middle,ratio far,rms box,rms tent,\
          rms checks,rms zones,rms clouds,rms letters,rms 0 deg,rms 15 deg,rms 45 deg,rms below 1 texel,rms 1 to 2 texels,rms from 2 texels,\
-         bytes\n",
+         rms anisotropy 1,rms anisotropy 4,rms anisotropy 16,rms anisotropy 40,largest box,bytes\n",
     );
     for line in lines {
         text += &format!("\"{}\",{:.1},{:.2}", line.method.name(), line.time, line.ratio);
         line.ratios.iter().for_each(|ratio| text += &format!(",{ratio:.2}"));
-        let errors =
-            line.error.iter().chain(&line.by_texture).chain(&line.by_angle).chain(&line.by_breadth);
+        let kinds = [&line.by_texture, &line.by_angle, &line.by_breadth, &line.by_stretch];
+        let errors = line.error.iter().chain(kinds.into_iter().flatten()).chain([&line.largest]);
         errors.for_each(|error| text += &format!(",{error:.4}"));
         text += &format!(",{}\n", line.bytes);
     }
@@ -26,7 +26,7 @@ const TOP: f64 = 30.0;
 const WIDTH: f64 = 640.0;
 const HEIGHT: f64 = 400.0;
 const RATIOS: [f64; 2] = [0.2, 500.0];
-const ERRORS: [f64; 2] = [0.02, 0.5];
+const ERRORS: [f64; 2] = [0.002, 0.5];
 
 /// Draws errors against ratios, both axes logarithmic.
 pub fn svg(lines: &[Line]) -> Result<String, fmt::Error> {
@@ -46,7 +46,7 @@ pub fn svg(lines: &[Line]) -> Result<String, fmt::Error> {
             bottom + 18.0
         )?;
     }
-    for error in [0.02, 0.05, 0.1, 0.2, 0.5] {
+    for error in [0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5] {
         let (y, right) = (y(error), LEFT + WIDTH);
         writeln!(out, "<path d=\"M{LEFT} {y:.1}H{right}\" stroke=\"#ddd\"/>")?;
         writeln!(

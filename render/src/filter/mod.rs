@@ -8,20 +8,31 @@
 //! | `box`       | the average under a box that fills it (summed areas; order 1)                |
 //! | `tent`      | the average under a tent that fills it (repeated integration, order 2)       |
 //! | `quadratic` | the average under a quadratic B-spline that fills it (the same, order 3)     |
+//! | `exact`     | the average over it                                                          |
+//! | `ewa8`      | the average under an elliptical Gaussian, at most 8 times as long as broad   |
+//! | `ewa16`     | the same, at most 16 times                                                   |
+//! | `ewa64`     | the same, at most 64 times                                                   |
+//! | `probes`    | up to 31 averages of `mip` along its longer axis                             |
 //!
-//! The last four filters use pyramids or tables, which are built only for textures that a scene
-//! shows.
+//! The last five see a slanted footprint as it is, and the others see the box around it. All but
+//! `point` and `bilinear` use pyramids or tables, which are built only for textures that a scene shows.
 
 mod axis;
 mod direct;
 mod entry;
+mod ewa;
+mod exact;
 mod kernel;
+mod outline;
+mod probes;
 mod pyramid;
 mod reduce;
 mod table;
 mod weigh;
 mod word;
 
+pub use ewa::Ewa;
+pub use exact::Exact;
 pub use pyramid::Pyramid;
 pub use table::PrefilteredTable;
 
@@ -29,7 +40,8 @@ use crate::color::Color;
 use crate::footprint::Footprint;
 use crate::texture::Texture;
 use clap::ValueEnum;
-use glam::DVec2;
+use glam::{DVec2, DVec3};
+use outline::Outline;
 use serde::Deserialize;
 use std::fmt;
 
@@ -66,11 +78,44 @@ pub enum Filter {
     /// A quadratic B-spline over the footprint (n = 3).
     #[value(help = "The average under a quadratic B-spline over the footprint (n = 3)")]
     Quadratic,
+    /// The exact average over the footprint, of any shape and orientation.
+    #[value(help = "The exact average over the footprint, of any shape and orientation")]
+    Exact,
+    /// An elliptical Gaussian over the footprint (EWA), of an aspect up to 8.
+    #[value(
+        help = "The average under an elliptical Gaussian (EWA), at most 8 times as long as broad"
+    )]
+    Ewa8,
+    /// An elliptical Gaussian over the footprint, of an aspect up to 16.
+    #[value(help = "The same, at most 16 times as long as broad")]
+    Ewa16,
+    /// An elliptical Gaussian over the footprint, of an aspect up to 64.
+    #[value(help = "The same, at most 64 times as long as broad")]
+    Ewa64,
+    /// Averages of a pyramid along the longer axis of the footprint.
+    #[value(help = "Up to 31 averages of a pyramid along the longer axis of the footprint")]
+    Probes,
 }
 
 impl Filter {
     /// All filters from the simplest on, in the order of their discriminants.
-    pub const ALL: [Self; 6] =
+    pub const ALL: [Self; 11] = [
+        Self::Point,
+        Self::Bilinear,
+        Self::Mip,
+        Self::Box,
+        Self::Tent,
+        Self::Quadratic,
+        Self::Exact,
+        Self::Ewa8,
+        Self::Ewa16,
+        Self::Ewa64,
+        Self::Probes,
+    ];
+
+    /// The filters whose footprint is the box around the neighbours of a ray, as in the thesis, and the
+    /// two without footprint. The others see slanted shapes.
+    pub const THESIS: [Self; 6] =
         [Self::Point, Self::Bilinear, Self::Mip, Self::Box, Self::Tent, Self::Quadratic];
 
     /// Returns whether this filter averages over areas. If so, the neighbours of each sample must
@@ -79,7 +124,7 @@ impl Filter {
     pub fn wants_area(self) -> bool {
         match self {
             Self::Point | Self::Bilinear => false,
-            Self::Mip | Self::Box | Self::Tent | Self::Quadratic => true,
+            _ => true,
         }
     }
 
@@ -87,10 +132,22 @@ impl Filter {
     #[must_use]
     pub fn order(self) -> Option<usize> {
         match self {
-            Self::Point | Self::Bilinear | Self::Mip => None,
+            Self::Point | Self::Bilinear | Self::Mip | Self::Exact => None,
+            Self::Ewa8 | Self::Ewa16 | Self::Ewa64 | Self::Probes => None,
             Self::Box => Some(1),
             Self::Tent => Some(2),
             Self::Quadratic => Some(3),
+        }
+    }
+
+    /// Returns the largest aspect of an elliptical Gaussian, or `None` for another filter.
+    #[must_use]
+    pub fn ewa_aspect(self) -> Option<u32> {
+        match self {
+            Self::Ewa8 => Some(8),
+            Self::Ewa16 => Some(16),
+            Self::Ewa64 => Some(64),
+            _ => None,
         }
     }
 
@@ -100,10 +157,13 @@ impl Filter {
     pub fn bytes_for(self, texture: &Texture) -> u64 {
         match self {
             Self::Point | Self::Bilinear => 0,
-            Self::Mip => Pyramid::bytes_for(texture),
+            Self::Mip | Self::Ewa8 | Self::Ewa16 | Self::Ewa64 | Self::Probes => {
+                Pyramid::bytes_for(texture)
+            }
             Self::Box => PrefilteredTable::bytes_for(texture, 1),
             Self::Tent => PrefilteredTable::bytes_for(texture, 2),
             Self::Quadratic => PrefilteredTable::bytes_for(texture, 3),
+            Self::Exact => Exact::bytes_for(texture),
         }
     }
 }
@@ -121,6 +181,8 @@ pub struct FilteredTexture<'a> {
     texture: &'a Texture,
     filter: Filter,
     prepared: Prepared,
+    /// Largest standard deviation of any channel of the texture, in light.
+    deviation: f64,
 }
 
 /// Data built before the first average.
@@ -132,6 +194,9 @@ enum Prepared {
     FourTexels,
     Pyramid(Pyramid),
     Table(PrefilteredTable),
+    Exact(Exact),
+    Ewa(Ewa),
+    Probes(Pyramid),
 }
 
 impl<'a> FilteredTexture<'a> {
@@ -145,8 +210,13 @@ impl<'a> FilteredTexture<'a> {
             Filter::Box => Prepared::Table(PrefilteredTable::build(texture, 1)),
             Filter::Tent => Prepared::Table(PrefilteredTable::build(texture, 2)),
             Filter::Quadratic => Prepared::Table(PrefilteredTable::build(texture, 3)),
+            Filter::Exact => Prepared::Exact(Exact::build(texture)),
+            Filter::Ewa8 => Prepared::Ewa(Ewa::build(texture, 8.0)),
+            Filter::Ewa16 => Prepared::Ewa(Ewa::build(texture, 16.0)),
+            Filter::Ewa64 => Prepared::Ewa(Ewa::build(texture, 64.0)),
+            Filter::Probes => Prepared::Probes(Pyramid::build(texture)),
         };
-        Self { texture, filter, prepared }
+        Self { texture, filter, prepared, deviation: deviation(texture) }
     }
 
     /// Returns the average of the texture over the footprint, linear RGB.
@@ -156,8 +226,30 @@ impl<'a> FilteredTexture<'a> {
         match &self.prepared {
             Prepared::Table(table) => table.average(self.texture, center, half),
             Prepared::Pyramid(pyramid) => pyramid.average(self.texture, center, half),
+            Prepared::Exact(exact) => exact.average(self.texture, footprint),
+            Prepared::Ewa(ewa) => match Outline::of(footprint, self.texture) {
+                Some(outline) => ewa.average(self.texture, &outline),
+                None => self.texture.point(center),
+            },
+            Prepared::Probes(pyramid) => match Outline::of(footprint, self.texture) {
+                Some(outline) => probes::average(pyramid, self.texture, &outline),
+                None => self.texture.point(center),
+            },
             Prepared::Texel => self.texture.point(center),
             Prepared::FourTexels => self.texture.bilinear(center),
+        }
+    }
+
+    /// Returns the average over the footprint, and an estimate of how much it could change if the
+    /// footprint moved, both in linear light. The estimate is the largest of any channel.
+    ///
+    /// For the filter `exact` the estimate looks at the texels near the footprint. It costs little
+    /// beside the average. For other filters it is the standard deviation of the texture.
+    #[must_use]
+    pub fn average_and_contrast(&self, footprint: &Footprint) -> (Color, f64) {
+        match &self.prepared {
+            Prepared::Exact(exact) => exact.average_and_contrast(self.texture, footprint),
+            _ => (self.average(footprint), self.deviation),
         }
     }
 
@@ -166,7 +258,8 @@ impl<'a> FilteredTexture<'a> {
     ///
     /// On a sphere these rows are the poles. The texture repeats, but one pole is not next to the
     /// other. Footprints end at the poles. The function therefore moves only a footprint below a
-    /// table's smallest width, by less than a texel, and the square of a pyramid.
+    /// table's smallest width, by less than a texel, the square of a pyramid, and an ellipse, which is
+    /// larger than its footprint.
     #[must_use]
     pub fn between_poles(&self, footprint: Footprint) -> Footprint {
         let (center, half) = footprint.bounds();
@@ -175,12 +268,26 @@ impl<'a> FilteredTexture<'a> {
         let smallest = match self.filter {
             Filter::Mip => pyramid::side(self.texture, half).max(0.5),
             Filter::Point | Filter::Bilinear => 0.5,
+            Filter::Exact | Filter::Ewa8 | Filter::Ewa16 | Filter::Ewa64 | Filter::Probes => {
+                self.outline_reach(&footprint)
+            }
             Filter::Box | Filter::Tent | Filter::Quadratic => {
                 0.5 * self.filter.order().unwrap_or(1) as f64
             }
         };
         let reach = half.y.max(smallest / self.texture.height as f64).min(0.5);
         footprint.centered_at(DVec2::new(center.x, center.y.clamp(reach, 1.0 - reach)))
+    }
+
+    /// Returns the largest distance down from the middle of a footprint, in texels, to a texel that a
+    /// filter of slanted shapes reads.
+    fn outline_reach(&self, footprint: &Footprint) -> f64 {
+        let reach = |outline: Outline| match &self.prepared {
+            Prepared::Ewa(ewa) => ewa.reach(&outline).y,
+            Prepared::Probes(_) => probes::reach(&outline).y,
+            _ => exact::reach(&outline).y,
+        };
+        Outline::of(footprint, self.texture).map_or(0.5, reach)
     }
 
     /// Returns the nominal number of texels or table entries that one average reads. Footprints of
@@ -195,6 +302,14 @@ impl<'a> FilteredTexture<'a> {
             Filter::Box => 16,
             Filter::Tent => 81,
             Filter::Quadratic => 256,
+            // Eight lines with two edges each, and two sums and four texels at an edge.
+            Filter::Exact => 96,
+            // The texels in the longest ellipse, whose breadth is four texels on average, and a quarter
+            // as many on the coarser level.
+            Filter::Ewa8 | Filter::Ewa16 | Filter::Ewa64 => {
+                8 * u64::from(self.filter.ewa_aspect().unwrap_or(1))
+            }
+            Filter::Probes => 31 * 8,
         }
     }
 
@@ -203,10 +318,25 @@ impl<'a> FilteredTexture<'a> {
     pub fn table_bytes(&self) -> usize {
         match &self.prepared {
             Prepared::Texel | Prepared::FourTexels => 0,
-            Prepared::Pyramid(pyramid) => pyramid.bytes(),
+            Prepared::Pyramid(pyramid) | Prepared::Probes(pyramid) => pyramid.bytes(),
+            Prepared::Ewa(ewa) => ewa.bytes(),
             Prepared::Table(table) => table.bytes(),
+            Prepared::Exact(exact) => exact.bytes(),
         }
     }
+}
+
+/// Returns the largest standard deviation of any channel, in light.
+fn deviation(texture: &Texture) -> f64 {
+    let (mut sum, mut squares) = (DVec3::ZERO, DVec3::ZERO);
+    for texel in &texture.texels {
+        let codes = DVec3::from(texel.map(f64::from));
+        sum += codes;
+        squares += codes * codes;
+    }
+    let count = texture.texels.len() as f64;
+    let variance = squares / count - sum * sum / (count * count);
+    variance.max_element().max(0.0).sqrt() * texture.unit()
 }
 
 #[cfg(test)]

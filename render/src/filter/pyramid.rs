@@ -35,6 +35,12 @@ impl Pyramid {
         Self { levels }
     }
 
+    /// The levels above the texture, from the largest to a single texel.
+    #[must_use]
+    pub fn levels(&self) -> &[Texture] {
+        &self.levels
+    }
+
     /// Memory of all levels without the texture itself, in bytes. It is about a third of the
     /// texture's.
     #[must_use]
@@ -53,7 +59,13 @@ impl Pyramid {
     /// built.
     #[must_use]
     pub fn average(&self, texture: &Texture, center: DVec2, half: DVec2) -> Color {
-        let d = side(texture, half).log2();
+        self.trilinear(texture, center, side(texture, half).log2())
+    }
+
+    /// Interpolates between texels and levels at a point, linear RGB. `d` is the logarithm to base 2 of
+    /// the width of the texels, in texels of the texture. `center` is in texture coordinates.
+    #[must_use]
+    pub fn trilinear(&self, texture: &Texture, center: DVec2, d: f64) -> Color {
         if d.is_nan() || d <= 0.0 || self.levels.is_empty() {
             return texture.bilinear(center);
         }
@@ -74,13 +86,17 @@ pub fn side(texture: &Texture, half: DVec2) -> f64 {
     (half.abs() * DVec2::new(texture.width as f64, texture.height as f64)).max_element()
 }
 
-/// Lists the widths and heights of the levels above a texture.
-fn sizes(texture: &Texture) -> impl Iterator<Item = (usize, usize)> {
+/// Lists the widths and heights of a texture and of the levels above it.
+pub fn all_sizes(texture: &Texture) -> impl Iterator<Item = (usize, usize)> {
     let size = (texture.width, texture.height);
     std::iter::successors(Some(size), |&(width, height)| {
         ((width, height) != (1, 1)).then(|| (half_of(width), half_of(height)))
     })
-    .skip(1)
+}
+
+/// Lists the widths and heights of the levels above a texture.
+fn sizes(texture: &Texture) -> impl Iterator<Item = (usize, usize)> {
+    all_sizes(texture).skip(1)
 }
 
 fn half_of(size: usize) -> usize {

@@ -15,7 +15,7 @@ use std::io::{Cursor, ErrorKind};
 use std::path::Path;
 
 /// All filters.
-pub const FILTERS: [Filter; 6] = Filter::ALL;
+pub const FILTERS: [Filter; 6] = Filter::THESIS;
 
 /// Contents of the files that a scene names, by path.
 #[derive(Debug)]

@@ -101,7 +101,7 @@ mod tests {
 
     #[test]
     fn every_filter_has_a_mark_and_a_colour_of_its_own() {
-        let looks = Filter::ALL.map(Look::filter);
+        let looks = Filter::THESIS.map(Look::filter);
         for (k, a) in looks.iter().enumerate() {
             for b in &looks[k + 1..] {
                 assert!(a.mark != b.mark && a.color != b.color, "{a:?} {b:?}");

@@ -83,7 +83,7 @@ fn chart(page: &PageMeasured, of: &Error<'_>, noise: f64, across: Axis, up: Axis
     };
     let mut series: Vec<Series> = Vec::new();
     let mut key = Vec::new();
-    for filter in Filter::ALL {
+    for filter in Filter::THESIS {
         let look = Look::filter(filter);
         let own = |k: &usize| page.trials[*k].method.filter == filter;
         let (mut even, other): (Vec<usize>, Vec<usize>) = (0..page.trials.len())
@@ -115,7 +115,7 @@ mod tests {
         let page = fixture::page("floor", &fixture::floor, &[("silhouettes", &fixture::edges)]);
         let chart = whole(&page);
         let joined: Vec<&Series> = chart.series.iter().filter(|series| series.joined).collect();
-        assert_eq!(joined.len(), Filter::ALL.len());
+        assert_eq!(joined.len(), Filter::THESIS.len());
         for series in joined {
             assert_eq!(series.points.len(), fixture::COUNTS.len());
             assert!(series.points.windows(2).all(|w| w[0].x < w[1].x && w[0].y > w[1].y));

@@ -1,0 +1,125 @@
+//! The exact average of one level of a texture over a quadrilateral, by Green's theorem.
+//!
+//! With `F1` the integral of the texture along each line, the integral over a polygon is
+//!
+//! ```text
+//!   sum over edges, and over the lines that an edge crosses:  dy * (mean of F1 along the crossing)
+//! ```
+//!
+//! The sum has one term for each line and edge, however many texels the lines hold. A quadrilateral
+//! that is wide and low therefore costs little. One that is narrow and high is turned: the level
+//! also keeps its columns as lines.
+
+use super::floor;
+use super::line::{Code, Lines};
+use super::outline::bounds;
+use crate::texture::Wrap;
+use glam::DVec2;
+
+/// One level of a texture, ready to be averaged.
+#[derive(Debug)]
+pub struct Level<T: Code, const C: usize> {
+    /// The rows of the texture, from the top.
+    rows: Lines<T, C>,
+    /// The columns of the texture, from the left.
+    columns: Lines<T, C>,
+}
+
+impl<T: Code, const C: usize> Level<T, C> {
+    /// Prepares a level from its texels, row by row from the top, `width` of them each.
+    #[must_use]
+    pub fn new(codes: Vec<[T; C]>, width: usize, wrap: Wrap, palette: T::Palette) -> Self {
+        let height = codes.len() / width;
+        let mut turned = Vec::with_capacity(codes.len());
+        for i in 0..width {
+            turned.extend((0..height).map(|j| codes[j * width + i]));
+        }
+        Self {
+            rows: Lines::new(codes, width, wrap, palette.clone()),
+            columns: Lines::new(turned, height, wrap, palette),
+        }
+    }
+
+    /// Width and height of the level, in its texels.
+    #[must_use]
+    pub fn size(&self) -> DVec2 {
+        DVec2::new(self.rows.length as f64, self.rows.count as f64)
+    }
+
+    /// Memory of the level, in bytes.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.rows.bytes() + self.columns.bytes()
+    }
+
+    /// Returns the value of [`Self::bytes`] for a level of this width and height.
+    #[must_use]
+    pub fn bytes_for(width: usize, height: usize) -> u64 {
+        Lines::<T, C>::bytes_for(width, height) + Lines::<T, C>::bytes_for(height, width)
+    }
+
+    /// Returns the average code over a quadrilateral with these corners, in texels of this level, `y`
+    /// downward. The corners are in order around it, in either direction, and its area is not 0.
+    #[must_use]
+    pub fn average(&self, corners: &[DVec2; 4]) -> [f64; C] {
+        let (low, high) = bounds(corners);
+        let extent = high - low;
+        if extent.y <= extent.x {
+            over(&self.rows, corners)
+        } else {
+            over(&self.columns, &corners.map(|corner| DVec2::new(corner.y, corner.x)))
+        }
+    }
+}
+
+/// Averages over a quadrilateral whose corners are positions along and across the lines.
+fn over<T: Code, const C: usize>(lines: &Lines<T, C>, corners: &[DVec2; 4]) -> [f64; C] {
+    let diagonals = (corners[2] - corners[0]).perp_dot(corners[3] - corners[1]);
+    let mut sum = [0.0; C];
+    for k in 0..4 {
+        add_edge(lines, corners[k], corners[(k + 1) % 4], &mut sum);
+    }
+    let scale = 2.0 / diagonals;
+    sum.map(|sum| scale * sum)
+}
+
+/// Adds the integral of `F1` over the height of an edge, upward or downward.
+#[inline(always)]
+fn add_edge<T: Code, const C: usize>(
+    lines: &Lines<T, C>,
+    from: DVec2,
+    to: DVec2,
+    sum: &mut [f64; C],
+) {
+    let (sign, low, high) = if from.y < to.y { (1.0, from, to) } else { (-1.0, to, from) };
+    let height = high.y - low.y;
+    if height <= 0.0 {
+        return;
+    }
+    let count = lines.count as f64;
+    let (mut at, mut j) = (low, floor(low.y));
+    loop {
+        // A clamped texture has equal lines beyond its edges: each side is one tall line.
+        let clamped = lines.wrap == Wrap::Clamp;
+        let end = match j {
+            _ if clamped && j < 0.0 => 0.0,
+            _ if clamped && j >= count - 1.0 => f64::INFINITY,
+            _ => j + 1.0,
+        };
+        let next = if end >= high.y {
+            high
+        } else {
+            DVec2::new(low.x + (end - low.y) / height * (high.x - low.x), end)
+        };
+        let line = lines.line(lines.wrap.index(j, lines.count));
+        let mean = line.mean_integral(at.x, next.x);
+        let weight = sign * (next.y - at.y);
+        for (sum, mean) in sum.iter_mut().zip(mean) {
+            *sum += weight * mean;
+        }
+        if end >= high.y {
+            return;
+        }
+        (at, j) = (next, end);
+    }
+}

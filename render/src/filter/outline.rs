@@ -1,0 +1,168 @@
+//! The outline of a footprint on a texture, and its growth by a texel.
+
+use crate::footprint::Footprint;
+use crate::texture::{Texture, Wrap};
+use glam::DVec2;
+
+/// A quadrilateral on a texture, in texels, `y` downward.
+///
+/// A corner lies at `center + u * first + v * second + bend` for `u` and `v` of -1/2 or 1/2. The bend
+/// changes its sign from corner to corner. It is 0 for a parallelogram.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Outline {
+    /// Mean of the corners.
+    pub center: DVec2,
+    /// Mean of one pair of opposite sides, and of the other pair.
+    pub sides: [DVec2; 2],
+    /// Displacement of the first and third corner from those of a parallelogram.
+    pub bend: DVec2,
+    /// Axes of the ellipse that has the covariance of the parallelogram.
+    pub axes: Axes,
+}
+
+/// Principal axes of a parallelogram: the singular value decomposition of its sides.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Axes {
+    /// Unit vector along the longer axis. The shorter axis is perpendicular, at +90 degrees.
+    pub along: DVec2,
+    /// Length of the longer axis, in texels: the side of a square of the same second moment.
+    pub major: f64,
+    /// Length of the shorter axis, in texels, 0 or more.
+    pub minor: f64,
+}
+
+impl Axes {
+    /// Returns the axes of a parallelogram with these sides.
+    #[must_use]
+    pub fn of([a, b]: [DVec2; 2]) -> Self {
+        let (xx, xy, yy) = (a.x * a.x + b.x * b.x, a.x * a.y + b.x * b.y, a.y * a.y + b.y * b.y);
+        let (half, difference) = (0.5 * (xx + yy), 0.5 * (xx - yy));
+        let root = (difference * difference + xy * xy).sqrt();
+        let square = half + root;
+        // The longer of the two columns of S - (smaller eigenvalue) is the better direction.
+        let along = if difference > 0.0 {
+            DVec2::new(root + difference, xy)
+        } else {
+            DVec2::new(xy, root - difference)
+        };
+        let major = square.sqrt();
+        let minor = if major > 0.0 { a.perp_dot(b).abs() / major } else { 0.0 };
+        Self { along: along.try_normalize().unwrap_or(DVec2::X), major, minor }
+    }
+
+    /// Unit vector along the shorter axis.
+    #[must_use]
+    pub fn across(&self) -> DVec2 {
+        self.along.perp()
+    }
+}
+
+impl Outline {
+    /// Returns the outline of a footprint on a texture. Returns `None` if a coordinate is not
+    /// finite.
+    ///
+    /// A footprint far from the origin is replaced by an equal one near it: by whole periods of the
+    /// texture, or up to a clamped texture's edge. Its position is rounded as its coordinates are.
+    #[must_use]
+    pub fn of(footprint: &Footprint, texture: &Texture) -> Option<Self> {
+        let size = DVec2::new(texture.width as f64, texture.height as f64);
+        let scale = DVec2::new(size.x, -size.y);
+        let (center, sides, bend) = match *footprint {
+            Footprint::Point(at) => (at, [DVec2::ZERO; 2], DVec2::ZERO),
+            Footprint::Rectangle { center, half } => {
+                (center, [2.0 * half.x * DVec2::X, 2.0 * half.y * DVec2::Y], DVec2::ZERO)
+            }
+            Footprint::Parallelogram { center, sides } => (center, sides, DVec2::ZERO),
+            Footprint::Quadrilateral([a, b, c, d]) => {
+                let center = 0.25 * (a + b + c + d);
+                let sides = [0.5 * (b - a + c - d), 0.5 * (d - a + c - b)];
+                (center, sides, 0.25 * (a - b + c - d))
+            }
+        };
+        let (sides, bend) = (sides.map(|side| side * scale), bend * scale);
+        let center = texture.in_texels(center);
+        let axes = Axes::of(sides);
+        if !(center.is_finite() && axes.major.is_finite() && bend.is_finite()) {
+            return None;
+        }
+        let reach = 0.5 * (sides[0].abs() + sides[1].abs()) + bend.abs() + 2.0;
+        let near = |at: f64, size: f64, reach: f64| match texture.wrap {
+            Wrap::Repeat if at < 0.0 || at >= size => at.rem_euclid(size),
+            Wrap::Mirror if at < 0.0 || at >= 2.0 * size => at.rem_euclid(2.0 * size),
+            Wrap::Clamp => at.clamp(-reach, size + reach),
+            _ => at,
+        };
+        let center = DVec2::new(near(center.x, size.x, reach.x), near(center.y, size.y, reach.y));
+        Some(Self { center, sides, bend, axes })
+    }
+
+    /// Returns the corners, in order.
+    #[must_use]
+    pub fn corners(&self) -> [DVec2; 4] {
+        let [half_a, half_b] = self.sides.map(|side| 0.5 * side);
+        let (sum, difference) = (half_a + half_b, half_a - half_b);
+        [
+            self.center - sum + self.bend,
+            self.center + difference - self.bend,
+            self.center + sum + self.bend,
+            self.center - difference - self.bend,
+        ]
+    }
+
+    /// Returns the outline, grown so that the square of each axis is larger by `square` texels.
+    ///
+    /// The shape under a box of one texel has the covariance of the shape grown by 1.
+    ///
+    /// The formula holds for a shape without area too. A quadrilateral that is folded, or not convex,
+    /// becomes the parallelogram of its mean sides.
+    #[must_use]
+    pub fn grown(&self, square: f64) -> Self {
+        let Axes { along, major, minor } = self.axes;
+        let across = self.axes.across();
+        let [a, b] = self.sides;
+        // The sides in units of the major axis: a unit vector. The rest of the decomposition is
+        // perpendicular to it, and orientation is kept.
+        let unit = DVec2::new(a.dot(along), b.dot(along)).try_normalize().unwrap_or(DVec2::X);
+        let turn = if a.perp_dot(b) < 0.0 { -1.0 } else { 1.0 };
+        let [major, minor] = [major, minor].map(|axis| (axis * axis + square).sqrt());
+        let side = |u: f64, v: f64| major * u * along + minor * v * turn * across;
+        let sides = [side(unit.x, -unit.y), side(unit.y, unit.x)];
+        let mut grown = Self { sides, axes: Axes { along, major, minor }, ..*self };
+        if !grown.is_convex() {
+            grown.bend = DVec2::ZERO;
+        }
+        grown
+    }
+
+    /// Returns whether the outline turns in one direction at all corners.
+    fn is_convex(&self) -> bool {
+        if self.bend == DVec2::ZERO {
+            return true;
+        }
+        let corners = self.corners();
+        let turn = |k: usize| {
+            let [a, b, c] = [k, k + 1, k + 2].map(|k| corners[k % 4]);
+            (b - a).perp_dot(c - b)
+        };
+        let turns = [turn(0), turn(1), turn(2), turn(3)];
+        turns.iter().all(|&turn| turn > 0.0) || turns.iter().all(|&turn| turn < 0.0)
+    }
+
+    /// Returns the lowest and the highest coordinates of the corners.
+    #[must_use]
+    pub fn bounds(&self) -> (DVec2, DVec2) {
+        bounds(&self.corners())
+    }
+
+    /// Returns the outline, moved.
+    #[must_use]
+    pub fn moved(&self, by: DVec2) -> Self {
+        Self { center: self.center + by, ..*self }
+    }
+}
+
+/// Returns the lowest and the highest coordinates of four corners.
+#[must_use]
+pub fn bounds([a, b, c, d]: &[DVec2; 4]) -> (DVec2, DVec2) {
+    (a.min(*b).min(c.min(*d)), a.max(*b).max(c.max(*d)))
+}

@@ -1,0 +1,59 @@
+//! Averages several probes of a pyramid along the longer axis of a footprint.
+//!
+//! The method is that of OpenImageIO (`compute_ellipse_sampling` in `texturesys.cpp`). It is a form of
+//! McCormack et al., *Feline: Fast Elliptical Lines for Anisotropic Texture Mapping*, SIGGRAPH 1999.
+//! A footprint of aspect `a` gets `2a - 1` probes, rounded down. The probes are as wide as its shorter
+//! axis and lie evenly between its ends. Their weights fall off as a Gaussian. A footprint longer than
+//! [`MOST_ASPECT`] times its breadth is widened, which blurs.
+
+use super::outline::{Axes, Outline};
+use super::pyramid::Pyramid;
+use crate::color::Color;
+use crate::texture::Texture;
+use glam::DVec2;
+
+/// Largest aspect. Twice as much costs up to twice the time.
+pub const MOST_ASPECT: f64 = 16.0;
+
+/// Returns the axes of the ellipse that is averaged, in texels: not below one texel, and not longer
+/// than `aspect` times the breadth.
+#[must_use]
+pub fn widened(axes: Axes, aspect: f64, least: f64) -> Axes {
+    let minor = axes.minor.max(axes.major / aspect).max(least);
+    Axes { minor, major: axes.major.max(minor), ..axes }
+}
+
+/// Returns the average over an outline, linear RGB. `pyramid` was built from `texture`.
+#[must_use]
+pub fn average(pyramid: &Pyramid, texture: &Texture, outline: &Outline) -> Color {
+    let Axes { along, major, minor } = widened(outline.axes, MOST_ASPECT, 1.0);
+    let level = minor.log2();
+    let count = ((2.0 * major / minor - 1.0) as u32).max(1);
+    let size = DVec2::new(texture.width as f64, texture.height as f64);
+    let probe = |offset: f64| {
+        let at = (outline.center + offset * along) / size;
+        pyramid.trilinear(texture, DVec2::new(at.x, 1.0 - at.y), level)
+    };
+    if count == 1 {
+        return probe(0.0);
+    }
+    let length = major - minor;
+    let (mut sum, mut weights) = (Color::ZERO, 0.0);
+    for k in 0..count {
+        let place = (f64::from(k) + 0.5) / f64::from(count) - 0.5;
+        let x = place * major / length;
+        let weight = (-2.0 * x * x).exp();
+        sum += weight * probe(place * length);
+        weights += weight;
+    }
+    sum / weights
+}
+
+/// Returns the largest distance in texels, across and down, from the centre of an outline to a place
+/// that the average reads.
+#[must_use]
+pub fn reach(outline: &Outline) -> DVec2 {
+    let Axes { along, major, minor } = widened(outline.axes, MOST_ASPECT, 1.0);
+    // Interpolation reaches half a texel of the coarser of two levels: at most the breadth.
+    0.5 * (major - minor) * along.abs() + minor
+}
