@@ -147,7 +147,12 @@ impl Shader<'_> {
             let carved = surface.solid().map_or(Color::ONE, |index| {
                 counts.solids += 1;
                 let solid = &self.scene.procedural.solids[index];
-                solid.color(&object.to_own_space, node.position)
+                match sight.spread() {
+                    Some(spread) => {
+                        solid.average(&object.to_own_space, node.position, spread.position)
+                    }
+                    None => solid.color(&object.to_own_space, node.position),
+                }
             });
             color += material.color
                 * texture
