@@ -32,9 +32,9 @@ fn truth(scene: &Scene, pixel_filter: PixelFilter) -> Picture {
 /// pixels.
 fn error(a: &Picture, b: &Picture, counts: impl Fn(usize) -> bool) -> (f64, usize) {
     let chosen: Vec<usize> = (0..a.pixels.len()).filter(|&k| counts(k)).collect();
-    let squares = chosen.iter().flat_map(|&k| {
-        a.pixels[k].iter().zip(b.pixels[k]).map(|(a, b)| f64::from(a - b).powi(2))
-    });
+    let squares = chosen
+        .iter()
+        .flat_map(|&k| a.pixels[k].iter().zip(b.pixels[k]).map(|(a, b)| f64::from(a - b).powi(2)));
     ((squares.sum::<f64>() / (3 * chosen.len()) as f64).sqrt(), chosen.len())
 }
 
@@ -113,8 +113,9 @@ fn edges_of_shadows_are_smooth() {
 
 /// A glass ball and a mirror over a floor with a fine pattern.
 fn still_life() -> Scene {
-    let texels: Vec<[u8; 3]> =
-        (0..256_u32).map(|k| if (k / 8 + k / 128) % 2 == 0 { [230, 200, 26] } else { [26, 90, 230] }).collect();
+    let texels: Vec<[u8; 3]> = (0..256_u32)
+        .map(|k| if (k / 8 + k / 128) % 2 == 0 { [230, 200, 26] } else { [26, 90, 230] })
+        .collect();
     let keys = r#""camera": { "eye": [0.3, 1.5, 5], "target": [0, 0.8, 0], "fov_deg": 40 },
         "ambient": 1, "background": [0.2, 0.3, 0.4],
         "textures": { "checks": { "image": "checks.png", "values": "linear" } },

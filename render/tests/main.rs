@@ -37,6 +37,7 @@ mod schema;
 mod shape_complaints;
 mod shapes;
 mod sky;
+mod solid_averages;
 mod solid_complaints;
 mod structures;
 mod studio;

@@ -149,6 +149,7 @@ fn a_tent_over_an_edge_counts_the_area_beyond_it() {
                 Sampling::Grid { pixel_filter: PixelFilter::Box, .. } => (0.0, 1.0),
                 Sampling::Grid { .. } => (0.125, 0.875),
                 Sampling::Supersample(_) => (0.25, 1.0),
+                Sampling::Area { .. } => unreachable!("no grid"),
             };
             for (x, _, pixel) in pixels(&picture) {
                 let expected = [0.0, 0.0, left, right, 1.0, 1.0][x as usize];

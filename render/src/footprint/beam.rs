@@ -4,7 +4,7 @@ use super::{Footprint, PointReason, Sight};
 use crate::differential::Spread;
 use crate::shape::Charts;
 use crate::trace::tree::{Branch, Child, IntersectionTree, Node};
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 /// A tree whose nodes have spreads. Every node sees the parallelogram that its spread spans on the
 /// texture.
@@ -56,5 +56,13 @@ impl Sight for Beam<'_> {
 
     fn spread(&self) -> Option<&Spread> {
         self.tree.spread(self.branch)
+    }
+
+    fn middle(&self, node: &Node) -> DVec3 {
+        let Some(Spread { position: [across, down], .. }) = self.spread() else {
+            return node.position;
+        };
+        let middle = node.position - self.offset.x * *across - self.offset.y * *down;
+        if middle.is_finite() { middle } else { node.position }
     }
 }

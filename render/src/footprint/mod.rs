@@ -129,6 +129,12 @@ pub trait Sight: Copy {
         None
     }
 
+    /// Returns the point of the surface in the middle of that part of the film, for `node`, the current
+    /// node. The ray may lie beside the middle.
+    fn middle(&self, node: &Node) -> DVec3 {
+        node.position
+    }
+
     /// Transmittance from the eye to the root, linear RGB, [0, 1] per channel.
     fn through(&self) -> Color {
         self.tree().through

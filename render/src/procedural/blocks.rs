@@ -3,9 +3,7 @@
 //! The colour of a point depends on the number of its cell and on its position within the cell. A
 //! surface that lies in a face between cells, as a floor does at height 0, would see either side,
 //! depending on the rounding of its coordinates. All faces therefore lie [`BELOW`] lower than
-//! stated, so that the surface sees the upper side everywhere. These patterns could be averaged
-//! over a box in closed form. They are looked up at a point like all solids, as in the thesis;
-//! supersampling smooths their edges.
+//! stated, so that the surface sees the upper side everywhere.
 
 use super::lattice::{mixed_at, share};
 use crate::color::Color;

@@ -1,5 +1,6 @@
 //! Turbulence and clouds: colours from a sum of octaves.
 
+use super::patch::Patch;
 use super::ramp::Ramp;
 use super::turbulence::Octaves;
 use crate::color::Color;
@@ -34,5 +35,16 @@ impl Clouds {
             Sum::Turbulence => self.octaves.turbulence(point) / self.octaves.weight(),
         };
         self.colors.color(part)
+    }
+
+    /// Returns the average over a patch of texture space, linear RGB.
+    #[must_use]
+    pub(super) fn average(&self, patch: &Patch) -> Color {
+        let weight = 1.0 / self.octaves.weight();
+        let part = match self.sum {
+            Sum::Fractal => self.octaves.fractal_over(patch).blur().scaled(0.5 * weight, 0.5),
+            Sum::Turbulence => self.octaves.turbulence_over(patch).scaled(weight, 0.0),
+        };
+        self.colors.average(part)
     }
 }

@@ -4,12 +4,18 @@
 //! gives every point a height and perturbs normals as if the surface had this relief. Both use one
 //! `noise` on a lattice ([`lattice`], [`noise`]), sums of this noise ([`turbulence`]) and patterns
 //! without noise ([`blocks`]). Textures are evaluated in the object's own space, so that they move
-//! with the object. They are evaluated at the point that a ray hits: the thesis filters pictures
-//! only.
+//! with the object.
+//!
+//! The thesis evaluates them at the point that a ray hits; it filters pictures only. If a sampling
+//! method knows the part of the surface that a ray stands for, solid textures are averaged over
+//! this part ([`Solid::average`]).
 
 pub mod blocks;
+mod blocks_average;
+mod blur;
 pub mod bump;
 pub mod clouds;
+mod convex;
 mod curvature;
 mod dnoise;
 pub mod grains;
@@ -18,12 +24,15 @@ pub mod heights;
 pub mod lattice;
 pub mod marble;
 pub mod noise;
+mod noise_average;
+mod patch;
 pub mod placement;
 pub mod ramp;
 #[cfg(test)]
 mod tests;
 pub mod turbulence;
 pub mod wall;
+mod wave;
 pub mod wood;
 
 pub use bump::{Bump, Place, Relief};
@@ -40,6 +49,7 @@ use clouds::Clouds;
 use glam::{DAffine3, DVec3};
 use granite::Granite;
 use marble::Marble;
+use patch::Patch;
 use std::sync::Arc;
 use wall::WallPaint;
 use wood::Wood;
@@ -78,11 +88,13 @@ pub struct Solid {
 ///
 /// - a file in this folder with the pattern and its `color`, a linear RGB that is finite at every
 ///   point, also far from the origin;
-/// - a variant here, and its arm in [`Solid::color`];
+/// - an `average` over a patch, which is `color` if the patch is a point, and whose work is bounded;
+/// - a variant here, and its arms in [`Solid::color`] and [`Solid::average`];
 /// - its keys in scene files: a struct in `scene/file/solid.rs` and a variant of
 ///   [`TextureKind`](crate::scene::file::TextureKind), which states what a new key provides;
-/// - tests: the pattern against its formula (`tests.rs` of this folder), and its complaints
-///   (`render/tests/solid_complaints.rs`); a texture in examples/scenes shows the pattern.
+/// - tests: the pattern against its formula (`tests.rs` of this folder), its average
+///   (`render/tests/solid_averages.rs`) and its complaints (`render/tests/solid_complaints.rs`);
+/// - a texture in examples/scenes that shows the pattern.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Pattern {
     /// Veined stone.
@@ -120,4 +132,56 @@ impl Solid {
             Pattern::Brick(brick) => brick.color(at),
         }
     }
+
+    /// Returns the average colour over a parallelogram of the scene, linear RGB. `point` is its
+    /// middle, and `steps` are two sides that meet at a corner. `to_own_space` maps the scene to
+    /// the object's own space.
+    ///
+    /// Over a single point the average is [`Solid::color`]. If a step is infinite or NaN, the
+    /// average is the mean over all space.
+    #[must_use]
+    pub fn average(&self, to_own_space: &DAffine3, point: DVec3, steps: [DVec3; 2]) -> Color {
+        let own = Patch::mapped(to_own_space, point, steps);
+        let patch = Patch::mapped(self.placement.map(), own.center, own.steps);
+        if patch.is_point() || !patch.center.is_finite() {
+            return self.color(to_own_space, point);
+        }
+        match &self.pattern {
+            Pattern::Checker(checker) if patch.is_finite() => checker.average(&patch),
+            Pattern::Checker(checker) => checker.mean(),
+            Pattern::Stripes(stripes) if patch.is_finite() => stripes.average(&patch),
+            Pattern::Stripes(stripes) => stripes.mean(),
+            Pattern::Brick(brick) if patch.is_finite() => brick.average(&patch),
+            Pattern::Brick(brick) => brick.mean(),
+            Pattern::Marble(marble) => over_parts(&patch, OF_NOISE, |part| marble.average(part)),
+            Pattern::Granite(granite) => {
+                over_parts(&patch, OF_CRYSTALS, |part| granite.average(part))
+            }
+            Pattern::Wood(wood) => over_parts(&patch, OF_NOISE, |part| wood.average(part)),
+            Pattern::Wall(wall) => over_parts(&patch, OF_NOISE, |part| wall.average(part)),
+            Pattern::Clouds(clouds) => over_parts(&patch, OF_NOISE, |part| clouds.average(part)),
+        }
+    }
 }
+
+/// Lengths of a step, in units of the texture, from which a patch of noise is divided into this many
+/// parts. More parts are more exact and cost time in proportion. From the last length on the
+/// texture is nearly its mean.
+const OF_NOISE: &[(f64, u32)] = &[(0.0, 1), (0.35, 2), (12.0, 1)];
+
+/// The same for crystals. Their edges are sharp and are seen in patches of any size.
+const OF_CRYSTALS: &[(f64, u32)] = &[(0.0, 1), (0.05, 2), (0.8, 3), (6.0, 2), (12.0, 1)];
+
+/// Returns the mean of the averages over the parts of a patch. A step that is not finite is
+/// replaced by a very long one.
+fn over_parts(patch: &Patch, finer: &[(f64, u32)], average: impl Fn(&Patch) -> Color) -> Color {
+    let steps = patch.steps.map(|step| if step.is_finite() { step } else { FAR });
+    let (patch, _) = Patch { steps, ..*patch }.cut(FAR.x);
+    let (sum, count) = patch
+        .parts(finer)
+        .fold((Color::ZERO, 0.0), |(sum, count), part| (sum + average(&part), count + 1.0));
+    sum / count
+}
+
+/// Step over which all noise of a texture averages out.
+const FAR: DVec3 = DVec3::splat(1e6);

@@ -26,6 +26,12 @@ impl Placement {
         Self { to_texture: DAffine3 { matrix3: back, translation: -(back * translate) } }
     }
 
+    /// The map from the object's own space to texture space.
+    #[must_use]
+    pub fn map(&self) -> &DAffine3 {
+        &self.to_texture
+    }
+
     /// Maps a point of the object's own space to texture space.
     #[must_use]
     pub fn to_texture(&self, own: DVec3) -> DVec3 {

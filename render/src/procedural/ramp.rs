@@ -1,5 +1,6 @@
 //! Colour ramps.
 
+use super::blur::Blur;
 use crate::color::Color;
 
 /// Colours at rising positions. Between positions the ramp is linear, and beyond the ends constant.
@@ -32,6 +33,26 @@ impl Ramp {
             (None, None) => Color::ZERO,
         }
     }
+
+    /// Returns the mean of the linear RGB colours at all positions of a distribution.
+    #[must_use]
+    pub(super) fn average(&self, positions: Blur) -> Color {
+        if positions.variance == 0.0 {
+            return self.color(positions.mean);
+        }
+        let Some(&(_, first)) = self.stops.first() else { return Color::ZERO };
+        let tent = positions.tent();
+        self.stops.windows(2).fold(first, |sum, pair| {
+            let [(low, from), (high, to)] = [pair[0], pair[1]];
+            // The mean of a function that rises from 0 at `low` to 1 at `high`.
+            let risen = if high > low {
+                (tent.above(low) - tent.above(high)) / (high - low)
+            } else {
+                tent.beyond(low)
+            };
+            sum + risen * (to - from)
+        })
+    }
 }
 
 #[cfg(test)]
@@ -58,6 +79,30 @@ mod tests {
             (9.0, 1.0),
         ] {
             assert_eq!(ramp.color(position), grey(expected), "{position}");
+        }
+    }
+
+    /// Each stop has its share of the tent. The sum is over the middles of 4000 intervals, and a
+    /// step or a kink misplaces at most one.
+    #[test]
+    fn the_average_of_a_ramp_is_that_of_its_colours() {
+        let stops = [(0.0, 0.25), (0.5, 0.75), (0.5, 0.0), (0.8, 1.0)];
+        let ramp = Ramp::new(stops.map(|(at, grey)| (at, Color::splat(grey))).to_vec()).unwrap();
+        let constant = Ramp::new(vec![(0.0, Color::X), (1.0, Color::X)]).unwrap();
+        for mean in [-2.0, -0.1, 0.0, 0.3, 0.5, 0.75, 1.4] {
+            assert_eq!(ramp.average(Blur::sharp(mean)), ramp.color(mean));
+            for variance in [1e-6, 0.01, 0.1, 1.0_f64] {
+                let reach = (6.0 * variance).sqrt();
+                let sum: Color = (0..4000)
+                    .map(|k| {
+                        let place = (f64::from(k) + 0.5) / 2000.0 - 1.0;
+                        (1.0 - place.abs()) / 2000.0 * ramp.color(mean + reach * place)
+                    })
+                    .sum();
+                let average = ramp.average(Blur { mean, variance });
+                assert!(average.abs_diff_eq(sum, 1e-3), "{mean} {variance}: {average} {sum}");
+                assert_eq!(constant.average(Blur { mean, variance }), Color::X);
+            }
         }
     }
 

@@ -13,7 +13,7 @@ use glam::{DMat3, DVec3};
 pub const MOST_OCTAVES: u32 = 12;
 
 /// Linear map from an octave's space to the next one's: a rotation and a factor of two.
-const FINER: DMat3 = DMat3::from_cols_array(&[
+pub(super) const FINER: DMat3 = DMat3::from_cols_array(&[
     4.0 / 3.0,
     4.0 / 3.0,
     -2.0 / 3.0,
@@ -26,7 +26,7 @@ const FINER: DMat3 = DMat3::from_cols_array(&[
 ]);
 
 /// Translation to the next octave's space, in cells. Its three fractional parts differ.
-const MOVED: DVec3 = DVec3::new(0.371, 5.593, 11.817);
+pub(super) const MOVED: DVec3 = DVec3::new(0.371, 5.593, 11.817);
 
 /// A noise summed over several octaves.
 #[derive(Debug, Clone, PartialEq)]

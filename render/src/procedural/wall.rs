@@ -5,6 +5,7 @@
 //! has slopes. The fast noise roughens the whole wall.
 
 use super::noise::Noise;
+use super::patch::Patch;
 use super::ramp::Ramp;
 use crate::color::Color;
 use glam::DVec3;
@@ -57,5 +58,18 @@ impl WallPaint {
         let [low, high] = self.wall.clamp;
         let (lowest, highest) = (low - self.wall.rough, high + self.wall.rough);
         self.colors.color((self.wall.height(point) - lowest) / (highest - lowest))
+    }
+
+    /// Returns the average over a patch of texture space, linear RGB.
+    #[must_use]
+    pub(super) fn average(&self, patch: &Patch) -> Color {
+        let Wall { clamp: [low, high], rough, frequency, noise } = &self.wall;
+        let fast = noise.over(&patch.moved(|at| *frequency * at, DVec3::ZERO)).blur();
+        let scale = 1.0 / (high - low + 2.0 * rough);
+        let fast = fast.scaled(scale * rough, scale * (rough - low));
+        noise.over(patch).blur().color(|slow| {
+            let slow = slow.clamp(*low, *high);
+            self.colors.average(fast.scaled(1.0, scale * slow))
+        })
     }
 }

@@ -3,10 +3,12 @@
 //! A ring is light in spring and darkens towards its end, where the next ring begins at once. Noise
 //! makes the rings wander slowly along the trunk, and fibres run along it.
 
+use super::blur::Blur;
 use super::noise::Noise;
+use super::patch::{Form, Patch};
 use super::ramp::Ramp;
 use crate::color::Color;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 /// The part of a ring in which late wood changes back to early wood.
 const FALL: f64 = 0.12;
@@ -41,6 +43,40 @@ impl Wood {
         let pore = self.noise.value(DVec3::new(17.0, 0.8, 17.0) * point + DVec3::splat(3.9));
         let dark = 0.22 * fibre + 0.5 * ((pore - 0.15) / 0.5).clamp(0.0, 1.0) * (1.0 - 0.5 * late);
         self.colors.color(late + 0.12 * self.grain * fibre) * (1.0 - self.grain * dark.max(0.0))
+    }
+
+    /// Returns the average over a patch of texture space, linear RGB.
+    #[must_use]
+    pub(super) fn average(&self, patch: &Patch) -> Color {
+        let noise = |scale: DVec3, start: f64| {
+            self.noise.over(&patch.moved(|at| scale * at, DVec3::splat(start))).blur()
+        };
+        let slow = |x: f64, y: f64| noise(DVec3::new(x, y, x), 0.0);
+        let wander = slow(0.23, 0.06).plus(slow(0.9, 0.17).scaled(0.35, 0.0));
+        let radius = Self::across(patch).plus(wander.scaled(self.waver, 0.0));
+        let years = DVec3::new(0.83 * radius.mean, 7.5, 0.5);
+        let wide = 0.83 * (12.0 * radius.variance).sqrt() * DVec3::X;
+        let year = self.noise.over(&Patch { center: years, steps: [wide, DVec3::ZERO] }).blur();
+        let ring = radius.plus(year.scaled(0.28, 0.0));
+        let fibre = slow(9.0, 0.35);
+        let pore = noise(DVec3::new(17.0, 0.8, 17.0), 3.9).scaled(2.0, -0.3).clamped(0.0, 1.0);
+        ring.periods(|ring| {
+            let late = self.late(ring - ring.floor());
+            let pores = pore.scaled(0.5 * (1.0 - 0.5 * late), 0.0);
+            let dark = fibre.scaled(0.22, 0.0).plus(pores).tent().above(0.0);
+            let shade = fibre.scaled(0.12 * self.grain, late);
+            self.colors.average(shade) * (1.0 - self.grain * dark)
+        })
+    }
+
+    /// Returns the distances of a patch from the axis. Except near the axis they are nearly a
+    /// linear function.
+    fn across(patch: &Patch) -> Blur {
+        let [center, a, b] =
+            [patch.center, patch.steps[0], patch.steps[1]].map(|v| DVec2::new(v.x, v.z));
+        let outward = center.normalize_or_zero();
+        let slopes = DVec2::new(a.dot(outward), b.dot(outward));
+        Form { middle: center.length(), slopes }.blur()
     }
 
     /// Returns how late in the year the wood grew, 0 to 1. `part` is the position within a ring,

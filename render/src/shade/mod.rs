@@ -142,14 +142,24 @@ impl Shader<'_> {
                 } else {
                     footprint
                 };
-                let average = texture.average(&averaged);
-                Textured { footprint, average, contrast: 0.5 }
+                // Only a method with spreads compares samples.
+                let (average, contrast) = if sight.spread().is_some() {
+                    texture.average_and_contrast(&averaged)
+                } else {
+                    (texture.average(&averaged), 0.0)
+                };
+                Textured { footprint, average, contrast }
             });
             let texture = textured.map_or(Color::ONE, |textured| textured.average);
             let carved = surface.solid().map_or(Color::ONE, |index| {
                 counts.solids += 1;
                 let solid = &self.scene.procedural.solids[index];
-                solid.color(&object.to_own_space, node.position)
+                match sight.spread() {
+                    Some(spread) => {
+                        solid.average(&object.to_own_space, sight.middle(node), spread.position)
+                    }
+                    None => solid.color(&object.to_own_space, node.position),
+                }
             });
             let light = material.ambient * self.scene.ambient + diffuse;
             color += material.color * texture * carved * light;

@@ -15,7 +15,7 @@ pub struct Textured {
     pub footprint: Footprint,
     /// Average of the texture over the footprint, linear RGB.
     pub average: Color,
-    /// Estimate of how much of a moved footprint's average would differ, 0 to 1; see
+    /// Estimate of how much the average of a moved footprint differs, 0 to 1; see
     /// [`crate::filter::FilteredTexture::average_and_contrast`].
     pub contrast: f64,
 }
