@@ -7,6 +7,7 @@
 //! with the object. They are evaluated at the point that a ray hits: the thesis filters pictures
 //! only.
 
+mod averaged;
 pub mod blocks;
 pub mod bump;
 pub mod clouds;
@@ -17,15 +18,19 @@ pub mod granite;
 pub mod heights;
 pub mod lattice;
 pub mod marble;
+mod moments;
 pub mod noise;
 pub mod placement;
+mod probes;
 pub mod ramp;
+pub mod slopes;
 #[cfg(test)]
 mod tests;
 pub mod turbulence;
 pub mod wall;
 pub mod wood;
 
+pub use averaged::{AveragedNormal, PlaceChanges};
 pub use bump::{Bump, Place, Relief};
 pub use heights::Heights;
 pub use lattice::NoiseLattice;
