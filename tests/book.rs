@@ -36,9 +36,9 @@ fn the_book_refers_to_nothing_outside() {
     }
     let pictures = values(&text, "src");
     assert!(pictures.iter().all(|source| source.starts_with("data:image/png;base64,")));
-    // Each page has one picture in the contents, three modes, and details of three modes and a
+    // Each page has one picture in the contents, four modes, and details of four modes and a
     // truth.
-    assert_eq!(pictures.len(), (1 + 3 + 3 * 4) + (1 + 3 + 2 * 4));
+    assert_eq!(pictures.len(), (1 + 4 + 3 * 5) + (1 + 4 + 2 * 5));
     let ids = values(&text, "id");
     assert_eq!(ids.len(), ids.iter().collect::<BTreeSet<_>>().len());
     for link in values(&text, "href") {
@@ -65,7 +65,7 @@ fn pictures_and_errors_of_the_book_are_the_same_on_one_thread_and_on_three() {
             .skip(1)
             .map(|part| part.split_once('<').unwrap().0.into())
             .collect();
-        assert!(errors.len() >= 3 * 3 + 2);
+        assert!(errors.len() >= 3 * 4 + 3);
         (pictures, errors)
     };
     assert!(made("1") == made("3"));

@@ -87,7 +87,7 @@ fn prefiltering_calms_the_tiles_and_supersampling_the_outlines() {
     let page = fs::read_to_string(examples.join("pages/cup-and-vase.json")).unwrap();
     let job = page.replace("\"../", &format!("\"{}/", examples.display())).replace(
         "\"modes\": [",
-        "\"modes\": [{ \"name\": \"truth\", \"filter\": \"bilinear\", \"samples\": 8 },",
+        "\"modes\": [{ \"name\": \"truth\", \"filter\": \"bilinear\", \"sampling\": \"thesis\", \"samples\": 8 },",
     );
     fs::write(folder.path().join("still.json"), job).unwrap();
     let ran = run("pipeline", &["run", "still.json", "-q", "--size", "144x144"], folder.path());

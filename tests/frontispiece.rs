@@ -46,19 +46,22 @@ fn lettering_through_glass_is_nearer_to_the_truth_when_prefiltered() {
     let folder = tempfile::tempdir().unwrap();
     make_bottle(folder.path());
     let light = |more: &[&str]| light(more, folder.path());
-    let jittered = ["--filter", "point", "--samples", "8", "--pattern", "jitter", "--seed", "1"];
-    let truth = light(&jittered);
-    let error = |filter: &str| {
-        let found = light(&["--filter", filter]);
-        let squares = found.iter().zip(&truth).map(|(a, b)| (a - b).powi(2));
+    let thesis = ["--sampling", "thesis", "--filter"];
+    let jittered = ["point", "--samples", "8", "--pattern", "jitter", "--seed", "1"];
+    let truth = light(&[&thesis[..], &jittered].concat());
+    let error = |more: &[&str]| {
+        let squares = light(more).into_iter().zip(&truth).map(|(a, b)| (a - b).powi(2));
         (squares.sum::<f64>() / truth.len() as f64).sqrt()
     };
-    let (point, prefiltered) = (error("point"), error("tent"));
+    let [point, prefiltered] =
+        ["point", "tent"].map(|name| error(&[&thesis[..], &[name]].concat()));
+    let exact = error(&["--sampling", "area", "--filter", "exact"]);
     assert!(point > 0.04, "there are letters: {point}");
     assert!(prefiltered < 0.6 * point, "{prefiltered}, and {point} without a filter");
+    assert!(exact < prefiltered, "{exact}, and {prefiltered} by the thesis's method");
 }
 
-/// The page has three modes: one without a filter, and two with the tent.
+/// The page has four modes: one without a filter, two with the tent, and one exact.
 #[test]
 fn the_modes_of_a_page_share_one_structure_and_the_tables_of_each_filter() {
     let folder = tempfile::tempdir().unwrap();
@@ -70,10 +73,13 @@ fn the_modes_of_a_page_share_one_structure_and_the_tables_of_each_filter() {
         let counts = said.lines().filter_map(|line| line.strip_prefix(what));
         counts.map(|count| count.trim().parse().expect("a count")).collect()
     };
-    assert_eq!(built("structures built"), [1, 0, 0]);
-    let [none, some, again] = built("tables built")[..] else { panic!("three modes: {said}") };
+    assert_eq!(built("structures built"), [1, 0, 0, 0]);
+    let [none, some, again, exact] = built("tables built")[..] else {
+        panic!("four modes: {said}")
+    };
     assert_eq!((none, again), (0, 0));
-    assert!(some > 0);
+    // Each filter has a table for each texture.
+    assert!(some > 0 && exact == some);
     let bytes = built("table bytes");
     assert_eq!(bytes[1], bytes[2], "the third picture uses the tables of the second");
 }

@@ -40,6 +40,7 @@ fn paths_to_the_sea(pixel: &str) -> Vec<Vec<String>> {
     let meshes = ["glass", "water", "prism"].map(mesh);
     let mut arguments =
         vec![scene.to_str().expect("its name is text"), "--size", SIZE, "--pixel", pixel];
+    arguments.extend(["--sampling", "thesis", "--filter", "tent"]);
     arguments.extend(meshes.iter().flat_map(|mesh| ["--mesh", mesh]));
     let ran = run("render", &arguments, folder.path());
     assert!(ran.status.success(), "{}", said(&ran));

@@ -62,7 +62,7 @@ fn a_sheet_shows_the_last_picture_of_each_page() {
     };
     let sheet = picture("sheet.png");
     assert_eq!(sheet.dimensions(), (2 * 48 + 8, 38 + 8));
-    for (k, last) in (0..).zip(["vase-supersampled.png", "spring-prefiltered.png"]) {
+    for (k, last) in (0..).zip(["vase-exact.png", "spring-exact.png"]) {
         let shown = image::imageops::crop_imm(&sheet, 8 + 48 * k, 8, 40, 30).to_image();
         assert_eq!(shown, picture(last), "{last}");
     }
@@ -147,7 +147,7 @@ fn the_strip_shows_the_modes_side_by_side() {
         image::load_from_memory(bytes).unwrap().to_rgb8()
     };
     let strip = picture("glass-sphere.png");
-    assert_eq!(strip.dimensions(), (60 * 3 + 8 * 2, 40));
+    assert_eq!(strip.dimensions(), (60 * 4 + 8 * 3, 40));
     let second = picture("glass-sphere-prefiltered.png");
     for (x, y, pixel) in second.enumerate_pixels() {
         assert_eq!(strip.get_pixel(x + 68, y), pixel);
@@ -196,7 +196,7 @@ fn a_job_of_ones_own_runs_from_its_file() {
     fs::write(folder.path().join("mine.json"), job).unwrap();
     let files = make(&["run", "mine.json", "-o", "out", "--size", "16x16"], folder.path());
     let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
-    assert_eq!(names, ["mine-tent.png"]);
+    assert_eq!(names, ["mine-exact.png"]);
 }
 
 #[test]
@@ -226,7 +226,7 @@ fn pixels_that_are_not_finite_are_told() {
     let job = "{\"format\": \"tb-job\", \"version\": 1, \"scene\": \"s.json\"}";
     fs::write(folder.path().join("bright.json"), job).unwrap();
     let ran = run("pipeline", &["run", "bright.json", "-q", "--size", "3x2"], folder.path());
-    let told = "pipeline: bright tent: 6 pixels are not finite and were made black\n";
+    let told = "pipeline: bright exact: 6 pixels are not finite and were made black\n";
     assert_eq!(said(&ran), told);
 }
 

@@ -19,8 +19,13 @@ fn a_page_is_measured_by_every_method_of_a_hasty_report() {
     let column = |name: &str| rows[0].iter().position(|column| *column == name).unwrap();
     let whole: Vec<&Vec<&str>> =
         rows[1..].iter().filter(|row| row[column("region")] == "whole").collect();
-    // Six filters, each with three samplings.
-    assert_eq!(whole.len(), 18);
+    // Six filters, each with three samplings on the thesis's lattice, and four methods by areas.
+    assert_eq!(whole.len(), 6 * 3 + 4);
+    let by_areas = whole.iter().filter(|row| row[column("sampling")] == "area");
+    let by_areas: Vec<_> =
+        by_areas.map(|row| (row[column("filter")], row[column("split")])).collect();
+    let expected = [("ewa16", "none"), ("probes", "none"), ("exact", "none"), ("exact", "0.05")];
+    assert_eq!(by_areas, expected);
     let number = |row: &[&str], name: &str| row[column(name)].parse::<f64>().unwrap();
     for row in &rows[1..] {
         assert_eq!(row.len(), rows[0].len());

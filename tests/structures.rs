@@ -24,12 +24,8 @@ fn tree_grids_and_brute_force_make_the_same_pages() {
         let mut job = Job::read(page, &files::Disk).unwrap();
         let folder = tempfile::tempdir().unwrap();
         let mode = |name: &str, accel| Mode {
-            name: name.into(),
-            filter: Filter::Point,
-            sampling: Sampling::regular(1),
             accel,
-            figure: None,
-            thesis_minutes: None,
+            ..Mode::new(name, Filter::Point, Sampling::regular(1))
         };
         job.modes = vec![
             mode("none", Structure::None),

@@ -7,9 +7,9 @@ use render::film::{Crop, Layer};
 use render::filter::Filter;
 use render::{Picture, Prepared, Settings};
 
-/// Side of a detail in pixels. Four details enlarged three times fit side by side on a desktop screen,
+/// Side of a detail in pixels. Five details enlarged three times fit side by side on a desktop screen,
 /// and two enlarged twice on a telephone.
-pub const SIDE: u32 = 84;
+pub const SIDE: u32 = 66;
 
 /// Number of texels that a pixel must span in both directions to count as wide.
 const WIDE: f64 = 2.0;
@@ -114,7 +114,8 @@ fn around(place: &Place, (width, height): (u32, u32)) -> Crop {
 /// an object with a texture. There the pixel spans more than two texels in both directions.
 fn wide_pixels(prepared: &Prepared<'_>, (width, height): (u32, u32), crop: Crop) -> Vec<bool> {
     let layers = vec![Layer::Object, Layer::Footprint];
-    let settings = Settings::new(width, height, Filter::Tent);
+    // The layers hold the thesis's footprints, which are two pixels wide.
+    let settings = Settings::new(width, height, Filter::Tent).with_samples(1);
     let settings = Settings { crop: Some(crop), layers, ..settings };
     let (picture, _) = render::render(prepared, &settings, &|_, _| {});
     let scene = prepared.scene();
@@ -149,7 +150,8 @@ mod tests {
         for (k, pixel) in picture.pixels.iter_mut().enumerate() {
             pixel[0] = k as f32;
         }
-        for (at, corner) in [([0.0, 0.0], (0, 0)), ([1.0, 1.0], (116, 16)), ([0.5, 0.5], (58, 8))] {
+        for (at, corner) in [([0.0, 0.0], (0, 0)), ([1.0, 1.0], (134, 34)), ([0.5, 0.5], (67, 17))]
+        {
             let crop = around(&Place { title: String::new(), at }, size);
             assert_eq!((crop.x, crop.y, crop.width, crop.height), (corner.0, corner.1, SIDE, SIDE));
             let part = read::part(&picture, &crop);

@@ -38,6 +38,8 @@ struct Time {
     mode: String,
     minutes: u32,
     now: Duration,
+    /// The time of the same page by exact averages over areas, if it has such a mode.
+    exact: Option<Duration>,
 }
 
 impl Front {
@@ -61,6 +63,8 @@ impl Front {
         let Some(Shot { picture, .. }) = plate.shots.iter().rfind(|shot| shot.own) else {
             return Ok(());
         };
+        let time = |shot: &Shot| plate.shared.total() + shot.stages.total();
+        let exact = plate.shots.iter().find(|shot| shot.own && shot.mode.is_exact()).map(time);
         if frontispiece {
             self.frontispiece = Some((address(id, picture)?, entry.job.title.clone()));
         }
@@ -74,8 +78,8 @@ impl Front {
                 .iter()
                 .filter_map(|shot| {
                     let (figure, mode) = (shot.mode.figure.clone()?, shot.mode.name.clone());
-                    let now = plate.shared.total() + shot.stages.total();
-                    Some(Time { figure, mode, minutes: shot.mode.thesis_minutes?, now })
+                    let minutes = shot.mode.thesis_minutes?;
+                    Some(Time { figure, mode, minutes, now: time(shot), exact })
                 })
                 .collect(),
         });
@@ -119,6 +123,12 @@ impl Front {
                     "mark the details below the picture, which are shown pixel by pixel."
                 }
                 p {
+                    "The modes point, prefiltered and supersampled are the thesis’s: rays on a lattice, and a "
+                    "box around each ray’s neighbours as its area. The mode exact is ours: each ray carries the area "
+                    "of its pixel with it, through glass and over mirrors, and textures are averaged exactly "
+                    "over this area. Pixels at edges are split into smaller areas."
+                }
+                p {
                     "Times were measured when this page was made, on this machine. The times of \
                      1993 are the thesis’s own, from a Sun Sparc "
                     "workstation."
@@ -151,6 +161,7 @@ fn times(lines: &[&Line]) -> Markup {
                             th scope="col" { "in 1993" }
                             th scope="col" { "now" }
                             th scope="col" { "times as fast" }
+                            th scope="col" { "in mode exact" }
                         } }
                         tbody {
                             @for (line, time) in rows() {
@@ -159,7 +170,8 @@ fn times(lines: &[&Line]) -> Markup {
                                     td.mode { (time.mode) }
                                     td { (number::minutes(time.minutes)) }
                                     td { (number::seconds(time.now.as_secs_f64())) }
-                                    td { (number::times(60.0 * f64::from(time.minutes) / time.now.as_secs_f64())) }
+                                    td.ratio { (number::times(60.0 * f64::from(time.minutes) / time.now.as_secs_f64())) }
+                                    td { (time.exact.map_or("–".into(), |exact| number::seconds(exact.as_secs_f64()))) }
                                 }
                             }
                         }

@@ -8,7 +8,6 @@ use crate::job::{Mode, Place};
 use crate::run::{self, Event};
 use crate::stages::Stages;
 use crate::truth::Pair;
-use render::accel::Structure;
 use render::color::Encoding;
 use render::film::Crop;
 use render::film::encode::{self, Format};
@@ -70,14 +69,7 @@ impl Plate {
             shots.push(Shot::make(&prepared, mode, true, options.size)?);
         }
         if !shots.iter().any(|shot| shot.mode.filter == Filter::Point) {
-            let mode = Mode {
-                name: "point".into(),
-                filter: Filter::Point,
-                sampling: Sampling::regular(1),
-                accel: Structure::default(),
-                figure: None,
-                thesis_minutes: None,
-            };
+            let mode = Mode::new("point", Filter::Point, Sampling::regular(1));
             shots.push(Shot::make(&prepared, &mode, false, options.size)?);
         }
         // A job with several modes is a comparison, so whole pictures are measured too.

@@ -22,7 +22,7 @@ Examples:
   pipeline run A.11 -o out
   pipeline run all -o out --size 1024x1024 --keep
   pipeline run my-job.json -o out --stats
-  pipeline run frontispiece --mode supersampled --size 4096x4096 -o poster
+  pipeline run frontispiece --mode exact --size 4096x4096 -o poster
   pipeline report glass-sphere -o report --quick
   pipeline book -o book
   pipeline compare a.png b.png --map difference.png --rmse 0.01

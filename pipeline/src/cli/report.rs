@@ -6,7 +6,7 @@ use super::common::CommonArguments;
 use super::named::{self, NamedJob};
 use super::{OTHER_FOLDER, make_folder};
 use crate::report::measure::{self, Memory};
-use crate::report::measured::{PageMeasured, Truth};
+use crate::report::measured::{Method, PageMeasured, Truth};
 use crate::report::{self, Measured, Plan};
 use crate::run::Options;
 use crate::{Job, PipelineError};
@@ -102,8 +102,9 @@ pub fn report(arguments: &ReportArguments, memory: &dyn Memory) -> Result<(), Re
     // once.
     let scenes = jobs.iter().map(|named| {
         let scene = crate::run::scene(&named.job, named.source, &options, &|_| {})?;
-        for &filter in &plan.filters {
+        for Method { filter, sampling } in plan.methods() {
             let settings = Settings::new(options.size.0, options.size.1, filter);
+            let settings = Settings { sampling, ..settings };
             film_memory::reserve(&scene, &settings, None, of_process()).map(drop)?;
         }
         Ok(scene)

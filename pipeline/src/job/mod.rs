@@ -10,11 +10,13 @@
 //!                         "mesh": { "rows": 60, "cols": 60 } } },
 //!   "scene": "../scenes/vase.json",
 //!   "modes": [
-//!     { "name": "point", "filter": "point" },
-//!     { "name": "prefiltered", "filter": "tent", "samples": 1 },
-//!     { "name": "jittered", "filter": "tent", "samples": 4,
+//!     { "name": "exact" },
+//!     { "name": "fine", "samples": 2, "split": 0.01, "pixel_filter": "gaussian" },
+//!     { "name": "point", "filter": "point", "sampling": "thesis" },
+//!     { "name": "jittered", "filter": "tent", "sampling": "thesis", "samples": 4,
 //!       "pattern": "jitter", "seed": 7, "pixel_filter": "tent" },
-//!     { "name": "nine", "filter": "tent", "supersample": "image", "figure": "A.4", "thesis_minutes": 90 }
+//!     { "name": "nine", "filter": "tent", "sampling": "thesis", "supersample": "image",
+//!       "figure": "A.4", "thesis_minutes": 90 }
 //!   ]
 //! }
 //! ```
@@ -22,14 +24,24 @@
 //! `meshes` names the spec of each mesh that the scene names, and the texture and surface ids of
 //! its triangles. Ids that are left out are those of the spec, or 0. `mesh` holds keys that replace
 //! those of the spec's resolution ([`sweep::spec::Resolution`]). The scene is rendered once in each
-//! mode; without `modes`, once with the tent filter. Relative paths start at the job file's folder.
+//! mode; without `modes`, once in a mode `exact`. Relative paths start at the job file's folder.
 //!
-//! A mode must have a `filter`. Its other keys are the flags of `render`: `samples` (1 to 256, by
-//! default 1), `pattern` (`regular` or `jitter`, with a `seed`), and `pixel_filter` (`box` or
-//! `tent`). Instead of these, a mode may have `supersample` (`image` or `rays`). `figure` names the
-//! figure of the thesis that the mode reproduces. The command line can request the mode by this
-//! figure, which no other mode has. `thesis_minutes` is the time of that figure in the thesis, in
-//! minutes.
+//! The keys of a mode are flags of `render`. All but `name` may be left out:
+//!
+//! | key | values | default |
+//! |---|---|---|
+//! | `filter` | a texture filter, such as `exact` or `tent` | `exact` |
+//! | `sampling` | `area`, or `thesis` for the thesis's lattice of rays | `area` |
+//! | `samples` | rays along each side of a pixel, 1 to 256 | 1 |
+//! | `pixel_filter` | `box`, `tent` or `gaussian` | `box` |
+//! | `split` | of `area`: a threshold from 0.0001 to 1 above which pixels are split, or `none` | 0.05 |
+//! | `pattern`, `seed` | of `thesis`: `regular`, or `jitter` with a seed | `regular` |
+//! | `supersample` | of `thesis`, instead of the other keys: `image` or `rays` | |
+//! | `accel` | the acceleration structure: `bvh`, `grid` or `none` | `bvh` |
+//!
+//! `figure` names the figure of the thesis that the mode reproduces. The command line can request
+//! the mode by this figure, which no other mode has. `thesis_minutes` is the time of that figure in
+//! the thesis, in minutes.
 //!
 //! `caption` and `crops` are for the book. Crops are positions, as fractions of width and height,
 //! whose pixels are worth a close look.
@@ -47,6 +59,7 @@ use triangulate::Options;
 
 pub mod figure;
 pub mod mode;
+mod sampling;
 
 pub use mode::Mode;
 
@@ -300,18 +313,35 @@ mod tests {
         let job = parse(&text).unwrap();
         assert_eq!(job.meshes[0].options, Options { texture: Some(2), surface: Some(0) });
         assert_eq!(job.scene, Path::new("jobs/../scenes/vase.json"));
-        assert_eq!(job.modes[0].filter, Filter::Point);
+        let filters: Vec<Filter> = job.modes.iter().map(|mode| mode.filter).collect();
+        let (exact, tent) = (Filter::Exact, Filter::Tent);
+        assert_eq!(filters, [exact, exact, Filter::Point, tent, tent]);
+        let fine = PixelFilter::Gaussian;
+        let fine = Sampling::Area { samples: 2, pixel_filter: fine, threshold: Some(0.01) };
         let pattern = Pattern::Jitter { seed: 7 };
         let jittered = Sampling::Grid { samples: 4, pattern, pixel_filter: PixelFilter::Tent };
         let nine = Sampling::Supersample(Supersample::Image);
         let samplings: Vec<Sampling> = job.modes.iter().map(|mode| mode.sampling).collect();
-        assert_eq!(samplings, [Sampling::regular(1), Sampling::regular(1), jittered, nine]);
+        let exact = Mode::exact();
+        assert_eq!(samplings, [exact.sampling, fine, Sampling::regular(1), jittered, nine]);
         assert_eq!(
-            (job.modes[3].figure.as_deref(), job.modes[3].thesis_minutes),
+            (job.modes[4].figure.as_deref(), job.modes[4].thesis_minutes),
             (Some("A.4"), Some(90))
         );
         assert_eq!(job.meshes[0].resolution.rows, Some(60));
         assert_eq!(job.crops[0].at, [0.2, 0.45]);
+    }
+
+    #[test]
+    fn without_modes_the_scene_is_rendered_exactly() {
+        let job = |modes: &str| {
+            let start = "{\"format\": \"tb-job\", \"version\": 1, \"scene\": \"s.json\"";
+            parse(&format!("{start}{modes}}}")).unwrap().modes
+        };
+        assert_eq!(job(""), [Mode::exact()]);
+        // A mode without keys differs from the default mode only in its name.
+        let named = Mode { name: "a".into(), ..Mode::exact() };
+        assert_eq!(job(", \"modes\": [{\"name\": \"a\"}]"), [named]);
     }
 
     #[test]
@@ -329,26 +359,6 @@ mod tests {
                 "crops[0].at: found [0.0, 1.5], expected two fractions",
             ),
             (
-                format!("{scene}, \"modes\": [{{\"name\": \"../x\", \"filter\": \"tent\"}}]"),
-                "modes[0].name: found name \"../x\"",
-            ),
-            (
-                format!("{scene}, \"modes\": [{{\"name\": \"a\", \"filter\": \"tend\"}}]"),
-                "did you mean `tent`?",
-            ),
-            (
-                format!(
-                    "{scene}, \"modes\": [{{\"name\": \"a\", \"filter\": \"box\", \"samples\": 0}}]"
-                ),
-                "modes[0].samples: found 0, expected 1 to 256",
-            ),
-            (
-                format!(
-                    "{scene}, \"modes\": [{{\"name\": \"a\", \"filter\": \"box\", \"accel\": \"grids\"}}]"
-                ),
-                "did you mean `grid`?",
-            ),
-            (
                 format!(
                     "{scene}, \"meshes\": {{\"a\": {{\"spec\": \"b\"}}, \"a\": {{\"spec\": \"c\"}}}}"
                 ),
@@ -361,14 +371,14 @@ mod tests {
             assert!(complaint.contains(expected), "{complaint}");
         }
         for (mode, expected) in [
-            (r#""seed": 1"#, "modes[0].seed: found a seed, expected it beside"),
-            (r#""pixel_filter": "tent""#, "modes[0].pixel_filter: found tent, expected"),
-            (r#""supersample": "rays", "samples": 1"#, "modes[0].samples: found samples beside"),
-            (r#""supersample": "ray""#, "did you mean `rays`?"),
-            (r#""pattern": "jiter""#, "did you mean `jitter`?"),
-            (r#""figure": "A.05""#, "modes[0].figure: found \"A.05\", expected a figure"),
+            (r#""name": "../x""#, "modes[0].name: found name \"../x\""),
+            (r#""name": "a", "filter": "tend""#, "did you mean `tent`?"),
+            (r#""name": "a", "accel": "grids""#, "did you mean `grid`?"),
+            (r#""name": "a", "samples": 0"#, "modes[0].samples: found 0, expected 1 to 256"),
+            (r#""name": "a", "seed": 1"#, "modes[0].seed: found seed, expected it beside"),
+            (r#""name": "a", "figure": "A.05""#, "modes[0].figure: found \"A.05\", expected a"),
         ] {
-            let mode = format!(r#"{{"name": "a", "filter": "box", {mode}}}"#);
+            let mode = format!("{{{mode}}}");
             let complaint = job(&format!("{scene}, \"modes\": [{mode}]"));
             assert!(complaint.contains(expected), "{complaint}");
         }

@@ -1,23 +1,24 @@
 //! The modes in which a scene is rendered, and the thesis's figures that they reproduce.
 
+use super::sampling::{SamplingKeys, Split};
 use super::{check_word, figure};
 use files::JsonError;
 use files::json::Document;
 use render::Sampling;
 use render::accel::Structure;
-use render::film::{MOST_SAMPLES, PatternName, PixelFilter, Supersample};
+use render::film::{PatternName, PixelFilter, SamplingMethod, Supersample, THRESHOLD};
 use render::filter::Filter;
 use serde::Deserialize;
 use std::collections::HashSet;
 
 /// The settings of one rendering of a scene.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Mode {
     /// The name of the mode. The name of its picture file is that of the job and this name.
     pub name: String,
     /// The filter that averages textures.
     pub filter: Filter,
-    /// The pattern of rays in a pixel.
+    /// The rays of a pixel, and the areas that they stand for.
     pub sampling: Sampling,
     /// The structure that finds the hits. All structures give the same picture.
     pub accel: Structure,
@@ -28,6 +29,27 @@ pub struct Mode {
 }
 
 impl Mode {
+    /// Returns the mode of this name without a figure, by this filter and sampling.
+    #[must_use]
+    pub fn new(name: &str, filter: Filter, sampling: Sampling) -> Self {
+        let (accel, figure, thesis_minutes) = (Structure::default(), None, None);
+        Self { name: name.into(), filter, sampling, accel, figure, thesis_minutes }
+    }
+
+    /// Returns the mode `exact`: exact averages over areas, with pixels split at edges.
+    #[must_use]
+    pub fn exact() -> Self {
+        let (pixel_filter, threshold) = (PixelFilter::Box, Some(THRESHOLD));
+        let sampling = Sampling::Area { samples: 1, pixel_filter, threshold };
+        Self::new("exact", Filter::Exact, sampling)
+    }
+
+    /// Returns whether the mode averages exactly over areas, as the mode [`Mode::exact`] does.
+    #[must_use]
+    pub fn is_exact(&self) -> bool {
+        self.filter == Filter::Exact && matches!(self.sampling, Sampling::Area { .. })
+    }
+
     /// Returns the number of the figure that the mode reproduces.
     #[must_use]
     pub fn figure_number(&self) -> Option<u8> {
@@ -39,11 +61,16 @@ impl Mode {
 #[serde(deny_unknown_fields)]
 pub(super) struct ModeFile {
     name: String,
-    filter: Filter,
+    #[serde(default)]
+    filter: Option<Filter>,
     #[serde(default)]
     accel: Structure,
     #[serde(default)]
+    sampling: Option<SamplingMethod>,
+    #[serde(default)]
     samples: Option<u32>,
+    #[serde(default)]
+    split: Option<Split>,
     #[serde(default)]
     pattern: Option<PatternName>,
     #[serde(default)]
@@ -58,20 +85,21 @@ pub(super) struct ModeFile {
     thesis_minutes: Option<u32>,
 }
 
-/// Checks the modes of a job. A job file without modes has one, with the tent filter.
+impl ModeFile {
+    /// Returns the keys that choose the rays of a pixel.
+    pub(super) fn sampling_keys(&self) -> SamplingKeys {
+        let Self { sampling, samples, split, pattern, seed, pixel_filter, supersample, .. } = *self;
+        SamplingKeys { sampling, samples, split, pattern, seed, pixel_filter, supersample }
+    }
+}
+
+/// Checks the modes of a job. A job file without modes has one, [`Mode::exact`].
 pub(super) fn modes(
     document: &Document<'_>,
     modes: Option<Vec<ModeFile>>,
 ) -> Result<Vec<Mode>, JsonError> {
     let Some(modes) = modes else {
-        return Ok(vec![Mode {
-            name: "tent".into(),
-            filter: Filter::Tent,
-            sampling: Sampling::regular(1),
-            accel: Structure::Bvh,
-            figure: None,
-            thesis_minutes: None,
-        }]);
+        return Ok(vec![Mode::exact()]);
     };
     if modes.is_empty() {
         return Err(document.fault("modes", "found no modes, expected at least one"));
@@ -85,45 +113,15 @@ pub(super) fn modes(
             let message = format!("found {:?} twice, expected a name for each mode", mode.name);
             return Err(document.fault(&name_path, message));
         }
-        let sampling = sampling(document, &format!("modes[{k}]"), &mode)?;
+        let sampling = mode.sampling_keys().check(document, &format!("modes[{k}]"))?;
         if let Some(figure) = &mode.figure {
             check_figure(document, &format!("modes[{k}].figure"), figure)?;
         }
         let ModeFile { name, filter, accel, figure, thesis_minutes, .. } = mode;
+        let filter = filter.unwrap_or(Filter::Exact);
         checked.push(Mode { name, filter, sampling, accel, figure, thesis_minutes });
     }
     Ok(checked)
-}
-
-/// Returns the pattern of rays in a pixel, for the mode at `path`.
-fn sampling(document: &Document<'_>, path: &str, mode: &ModeFile) -> Result<Sampling, JsonError> {
-    let fault = |key: &str, message: String| Err(document.fault(&format!("{path}.{key}"), message));
-    if let Some(nine) = mode.supersample {
-        let others = [
-            ("samples", mode.samples.is_some()),
-            ("pattern", mode.pattern.is_some()),
-            ("seed", mode.seed.is_some()),
-            ("pixel_filter", mode.pixel_filter.is_some()),
-        ];
-        return match others.iter().find(|(_, there)| *there) {
-            Some((key, _)) => {
-                fault(key, format!("found {key} beside supersample, expected one of them"))
-            }
-            None => Ok(Sampling::Supersample(nine)),
-        };
-    }
-    let samples = mode.samples.unwrap_or(1);
-    if !(1..=MOST_SAMPLES).contains(&samples) {
-        return fault("samples", format!("found {samples}, expected 1 to {MOST_SAMPLES}"));
-    }
-    let Some(pattern) = mode.pattern.unwrap_or_default().pattern(mode.seed) else {
-        return fault("seed", "found a seed, expected it beside \"pattern\": \"jitter\"".into());
-    };
-    let pixel_filter = mode.pixel_filter.unwrap_or_default();
-    if pixel_filter == PixelFilter::Tent && samples < 2 {
-        return fault("pixel_filter", "found tent, expected it beside samples of 2 or more".into());
-    }
-    Ok(Sampling::Grid { samples, pattern, pixel_filter })
 }
 
 fn check_figure(document: &Document<'_>, path: &str, figure: &str) -> Result<(), JsonError> {

@@ -1,6 +1,7 @@
 //! Made-up measurements for tests of plots and sentences.
 
 use super::measured::{Cost, Measured, Method, PageMeasured, Region, Trial, Truth};
+use super::plan::Plan;
 use compare::Difference;
 use render::film::Supersample;
 use render::filter::Filter;
@@ -25,9 +26,11 @@ pub fn floor(filter: Filter, n: f64) -> (f64, f64) {
         Filter::Box => (0.28, 0.8, 1.8),
         Filter::Tent => (0.20, 0.8, 2.0),
         Filter::Quadratic => (0.198, 0.8, 6.0),
-        Filter::Exact | Filter::Ewa8 | Filter::Ewa16 | Filter::Ewa64 | Filter::Probes => {
-            (0.19, 0.8, 3.0)
-        }
+        Filter::Ewa8 => (0.06, 0.8, 3.0),
+        Filter::Ewa16 => (0.05, 0.8, 4.0),
+        Filter::Ewa64 => (0.045, 0.8, 7.0),
+        Filter::Probes => (0.06, 0.8, 1.6),
+        Filter::Exact => (0.03, 0.8, 1.5),
     };
     (0.2 * left / n.powf(slope), 0.02 * price * n * n)
 }
@@ -37,10 +40,9 @@ pub fn edges(filter: Filter, n: f64) -> (f64, f64) {
     (0.212 / n, floor(filter, n).1)
 }
 
-/// Makes a page with the methods of a report. The whole page has the law `whole`, and each region its
-/// own.
+/// Makes a page with the methods of a report on the thesis's lattice. The whole page has the law
+/// `whole`, and each region its own.
 pub fn page(name: &str, whole: &Law<'_>, regions: &[(&'static str, &Law<'_>)]) -> PageMeasured {
-    let pixels = (SIZE.0 * SIZE.1) as usize;
     let mut methods: Vec<(Method, f64)> = Vec::new();
     for filter in Filter::THESIS {
         for n in COUNTS {
@@ -48,6 +50,34 @@ pub fn page(name: &str, whole: &Law<'_>, regions: &[(&'static str, &Law<'_>)]) -
         }
         methods.push((Method { filter, sampling: Sampling::Supersample(Supersample::Image) }, 2.0));
     }
+    measured_by(methods, name, whole, regions)
+}
+
+/// Makes a page as [`page`] does, with the methods by areas. Splitting has the effect of more rays.
+pub fn with_areas(
+    name: &str,
+    whole: &Law<'_>,
+    regions: &[(&'static str, &Law<'_>)],
+) -> PageMeasured {
+    let methods = Plan::full().areas.into_iter().map(|method| {
+        let (samples, threshold) = method.areas().unwrap();
+        let split = threshold.map_or(1.0, |threshold| 1.0 + 0.02 / threshold);
+        (method, f64::from(samples) * split)
+    });
+    let areas = measured_by(methods.collect(), name, whole, regions);
+    let mut page = page(name, whole, regions);
+    page.trials.extend(areas.trials);
+    page
+}
+
+/// Makes a page with these methods, each with its number of rays along each side of a pixel.
+fn measured_by(
+    methods: Vec<(Method, f64)>,
+    name: &str,
+    whole: &Law<'_>,
+    regions: &[(&'static str, &Law<'_>)],
+) -> PageMeasured {
+    let pixels = (SIZE.0 * SIZE.1) as usize;
     let trials = methods.into_iter().enumerate().map(|(k, (method, n))| {
         let (error, cpu) = whole(method.filter, n);
         let by_region = regions

@@ -221,7 +221,8 @@ mod tests {
         Plan {
             size: (20, 20),
             filters: vec![Filter::Point, Filter::Tent],
-            samplings: [1, 2, 4, 16].map(Sampling::regular).into(),
+            lattices: [1, 2, 4, 16].map(Sampling::regular).into(),
+            areas: [None, Some(0.05)].map(|split| Method::area(Filter::Exact, 1, split)).into(),
             truth_samples: 32,
             most_truth_samples: 64,
             patience: std::time::Duration::ZERO,

@@ -30,7 +30,7 @@ pub struct PageMeasured {
     pub truth: Truth,
     /// Parts of the picture that are judged separately; those without pixels are left out.
     pub regions: Vec<Region>,
-    /// One trial for each method: by filter, and within a filter from few rays to many.
+    /// One trial for each method: those on the thesis's lattice by filter, then those by areas.
     pub trials: Vec<Trial>,
 }
 
@@ -63,11 +63,11 @@ pub struct Region {
 }
 
 /// A method of rendering a picture.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Method {
     /// The texture filter.
     pub filter: Filter,
-    /// The pattern of rays in a pixel.
+    /// The rays of a pixel, and the areas that they stand for.
     pub sampling: Sampling,
 }
 

@@ -2,7 +2,7 @@
 
 use super::measured::Method;
 use render::Sampling;
-use render::film::{MOST_SAMPLES, Supersample};
+use render::film::{MOST_SAMPLES, Supersample, THRESHOLD};
 use render::filter::Filter;
 use std::time::Duration;
 
@@ -11,10 +11,12 @@ use std::time::Duration;
 pub struct Plan {
     /// Width and height of all pictures, in pixels.
     pub size: (u32, u32),
-    /// Filters, from the simplest to the most costly.
+    /// Filters over the boxes of the thesis's lattice, from the simplest to the most costly.
     pub filters: Vec<Filter>,
-    /// Patterns of rays in a pixel, from few rays to many.
-    pub samplings: Vec<Sampling>,
+    /// Patterns of rays of the thesis's lattice, from few rays to many.
+    pub lattices: Vec<Sampling>,
+    /// Methods by areas, from few rays to many.
+    pub areas: Vec<Method>,
     /// Least number of rays along each side of a pixel of the truth, for each of two seeds.
     pub truth_samples: u32,
     /// Largest number of rays along each side of a pixel of the truth, where the noise requires more.
@@ -25,8 +27,14 @@ pub struct Plan {
     pub quick: bool,
 }
 
+/// Filters that are measured over the same areas as the exact average.
+const OF_AREAS: [Filter; 4] = [Filter::Ewa8, Filter::Ewa16, Filter::Ewa64, Filter::Probes];
+
 /// Numbers of rays along each side of a pixel, evenly spread, in a full report.
 const SAMPLES: [u32; 6] = [1, 2, 3, 4, 8, 16];
+
+/// Thresholds of splitting in a full report, from few splits to many.
+const THRESHOLDS: [f64; 3] = [THRESHOLD, 0.02, 0.005];
 
 impl Plan {
     /// Returns a plan of all methods, at 128 x 128 pixels.
@@ -35,10 +43,15 @@ impl Plan {
         let [one, two, rest @ ..] = SAMPLES.map(Sampling::regular);
         let thesis =
             [Sampling::Supersample(Supersample::Image), Sampling::Supersample(Supersample::Rays)];
+        let exact = |samples, threshold| Method::area(Filter::Exact, samples, threshold);
+        let whole = OF_AREAS.map(|filter| Method::area(filter, 1, None));
+        let split = THRESHOLDS.map(|threshold| exact(1, Some(threshold)));
+        let more = [exact(2, None), exact(2, Some(THRESHOLD))];
         Self {
             size: (128, 128),
             filters: Filter::THESIS.into(),
-            samplings: [&[one, two], thesis.as_slice(), &rest].concat(),
+            lattices: [&[one, two], thesis.as_slice(), &rest].concat(),
+            areas: [&whole[..], &[exact(1, None)], &split, &more].concat(),
             truth_samples: 32,
             most_truth_samples: MOST_SAMPLES,
             patience: Duration::from_millis(200),
@@ -49,12 +62,16 @@ impl Plan {
     /// Returns a plan of few methods and small pictures, 64 x 64 pixels.
     #[must_use]
     pub fn quick() -> Self {
-        let samplings =
+        let lattices =
             [Sampling::regular(1), Sampling::Supersample(Supersample::Rays), Sampling::regular(4)]
                 .into();
+        let whole = [Filter::Ewa16, Filter::Probes, Filter::Exact];
+        let whole = whole.map(|filter| Method::area(filter, 1, None));
+        let split = Method::area(Filter::Exact, 1, Some(THRESHOLD));
         Self {
             size: (64, 64),
-            samplings,
+            lattices,
+            areas: [whole.as_slice(), &[split]].concat(),
             most_truth_samples: 64,
             patience: Duration::from_millis(20),
             quick: true,
@@ -70,12 +87,13 @@ impl Plan {
         let image = Sampling::Supersample(Supersample::Image);
         let rays = Sampling::Supersample(Supersample::Rays);
         let twice = |filter: Filter, sampling| {
-            !filter.wants_area() && sampling == rays && self.samplings.contains(&image)
+            !filter.wants_area() && sampling == rays && self.lattices.contains(&image)
         };
-        let all = self.filters.iter().flat_map(|&filter| {
-            self.samplings.iter().map(move |&sampling| Method { filter, sampling })
+        let lattice = self.filters.iter().flat_map(|&filter| {
+            self.lattices.iter().map(move |&sampling| Method { filter, sampling })
         });
-        all.filter(|method| !twice(method.filter, method.sampling)).collect()
+        let lattice = lattice.filter(|method| !twice(method.filter, method.sampling));
+        lattice.chain(self.areas.iter().copied()).collect()
     }
 }
 
@@ -87,13 +105,17 @@ mod tests {
     fn a_full_report_has_every_filter_with_all_its_rays() {
         let methods = Plan::full().methods();
         // Six grids for each of six filters. The thesis's supersampling has two forms for four filters,
-        // and one for the two that look up points.
-        assert_eq!(methods.len(), 6 * 6 + 4 * 2 + 2);
+        // and one for the two that look up points. Four filters and the exact average over the same
+        // areas, three thresholds, and two methods with more areas.
+        assert_eq!(methods.len(), 6 * 6 + 4 * 2 + 2 + 5 + 3 + 2);
         for filter in Filter::THESIS {
             for samples in [1, 16] {
                 let method = Method { filter, sampling: Sampling::regular(samples) };
                 assert!(methods.contains(&method), "{method:?}");
             }
+        }
+        for filter in Filter::ALL {
+            assert!(methods.iter().any(|method| method.filter == filter), "{filter}");
         }
         for (k, method) in methods.iter().enumerate() {
             assert!(!methods[..k].contains(method), "twice: {method:?}");
@@ -103,9 +125,13 @@ mod tests {
     #[test]
     fn a_quick_one_has_the_thesis_and_what_it_is_held_against() {
         let methods = Plan::quick().methods();
-        assert_eq!(methods.len(), 6 * 3);
+        assert_eq!(methods.len(), 6 * 3 + 4);
         let nine =
             Method { filter: Filter::Tent, sampling: Sampling::Supersample(Supersample::Rays) };
         assert!(methods.contains(&nine) && Plan::quick().truth_samples >= 32);
+        let full = Plan::full().methods();
+        assert!(methods.iter().all(|method| full.contains(method)), "a quick report has no others");
+        let exact = |threshold| Method::area(Filter::Exact, 1, threshold);
+        assert!(methods.contains(&exact(None)) && methods.contains(&exact(Some(THRESHOLD))));
     }
 }

@@ -52,6 +52,17 @@ pub fn mean(pages: &[PageMeasured], of: impl Fn(&PageMeasured) -> Option<f64>) -
     (mean.is_finite() && mean > 0.0).then_some(mean)
 }
 
+/// Returns the root mean square error of a method over the pixels of a region of all pages that have
+/// it. `None` if no page has it, or the method was not measured on a page that has it.
+pub fn in_region(pages: &[PageMeasured], method: &Method, name: &str) -> Option<f64> {
+    let parts = pages.iter().filter_map(|page| {
+        Some((page, page.regions.iter().position(|region| region.name == name)?))
+    });
+    let parts: Option<Vec<&Difference>> =
+        parts.map(|(page, k)| trial(page, method)?.by_region.get(k)).collect();
+    pooled(parts?.into_iter())
+}
+
 /// Returns the processor time of one method over that of another, in the geometric mean of the pages.
 pub fn time_ratio(pages: &[PageMeasured], method: &Method, by: &Method) -> Option<f64> {
     mean(pages, |page| Some(trial(page, method)?.cost.cpu / trial(page, by)?.cost.cpu))

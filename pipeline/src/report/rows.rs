@@ -13,7 +13,9 @@ struct Row<'a> {
     width: u32,
     height: u32,
     filter: String,
+    sampling: &'static str,
     rays_in_a_pixel: String,
+    split: String,
     region: &'a str,
     pixels: usize,
     #[serde(serialize_with = "light")]
@@ -77,13 +79,17 @@ impl<'a> Row<'a> {
         error: &Difference,
         noise: f64,
     ) -> Self {
-        let cost = &trial.cost;
+        let (cost, areas) = (&trial.cost, trial.method.areas());
         Self {
             page: &page.name,
             width: page.size.0,
             height: page.size.1,
             filter: trial.method.filter.to_string(),
+            sampling: if areas.is_some() { "area" } else { "thesis" },
             rays_in_a_pixel: rays(trial.method.sampling),
+            split: areas.map_or(String::new(), |(_, threshold)| {
+                threshold.map_or("none".into(), |threshold| threshold.to_string())
+            }),
             region,
             pixels: error.pixels,
             rmse: error.rmse,
@@ -114,7 +120,7 @@ fn seconds<S: Serializer>(seconds: &f64, serializer: S) -> Result<S::Ok, S::Erro
 }
 
 /// Returns the rays of a pixel in the words of the flags of `render`: `3` for `--samples 3`, or the
-/// name of the thesis's supersampling.
+/// name of the thesis's supersampling. Other weights than equal ones are named after the number.
 fn rays(sampling: Sampling) -> String {
     match sampling {
         Sampling::Supersample(Supersample::Image) => "supersample=image".into(),
@@ -124,11 +130,17 @@ fn rays(sampling: Sampling) -> String {
             if let Pattern::Jitter { seed } = pattern {
                 text += &format!(" jitter {seed}");
             }
-            if pixel_filter == PixelFilter::Tent {
-                text += " tent";
-            }
-            text
+            text + weights(pixel_filter)
         }
+        Sampling::Area { samples, pixel_filter, .. } => samples.to_string() + weights(pixel_filter),
+    }
+}
+
+fn weights(pixel_filter: PixelFilter) -> &'static str {
+    match pixel_filter {
+        PixelFilter::Box => "",
+        PixelFilter::Tent => " tent",
+        PixelFilter::Gaussian => " gaussian",
     }
 }
 
@@ -139,19 +151,22 @@ mod tests {
 
     #[test]
     fn a_row_has_the_numbers_of_its_trial() {
-        let page = fixture::page("a, b", &fixture::floor, &[("far floor", &fixture::edges)]);
+        let regions: [(&str, &fixture::Law<'_>); 1] = [("far floor", &fixture::edges)];
+        let page = fixture::with_areas("a, b", &fixture::floor, &regions);
         let rows = 2 * page.trials.len();
         let text = csv(&fixture::measured(vec![page]));
         let mut reader = csv::Reader::from_reader(text.as_slice());
         let columns = reader.headers().unwrap().clone();
         let records: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
-        assert_eq!((columns.len(), records.len()), (20, rows));
+        assert_eq!((columns.len(), records.len()), (22, rows));
         let expected = [
             "a, b",
             "96",
             "64",
             "point",
+            "thesis",
             "1",
+            "",
             "far floor",
             "1536",
             "2.1200e-1",
@@ -169,6 +184,14 @@ mod tests {
             "2",
         ];
         assert_eq!(records[1], csv::StringRecord::from(expected.as_slice()));
+        // The columns of the method, of the three last methods by areas: rays, and splitting.
+        let ends = [6, 4, 2].map(|k| {
+            let record = &records[records.len() - k];
+            [3, 4, 5, 6].map(|column| record[column].to_string())
+        });
+        assert_eq!(ends[0], ["exact", "area", "1", "0.005"]);
+        assert_eq!(ends[1], ["exact", "area", "2", "none"]);
+        assert_eq!(ends[2], ["exact", "area", "2", "0.05"]);
     }
 
     #[test]
@@ -179,6 +202,11 @@ mod tests {
             pixel_filter: PixelFilter::Tent,
         };
         assert_eq!(rays(Sampling::regular(3)), "3");
+        let pixel_filter = PixelFilter::Gaussian;
+        assert_eq!(
+            rays(Sampling::Area { samples: 2, pixel_filter, threshold: None }),
+            "2 gaussian"
+        );
         assert_eq!(rays(jittered), "4 jitter 7 tent");
         assert_eq!(rays(Sampling::Supersample(Supersample::Rays)), "supersample=rays");
     }

@@ -96,7 +96,7 @@ mod tests {
         let regions: [(&str, &fixture::Law<'_>); 2] =
             [("far floor", &fixture::floor), ("silhouettes", &fixture::edges)];
         fixture::measured(vec![
-            fixture::page("floor", &fixture::floor, &regions),
+            fixture::with_areas("floor", &fixture::floor, &regions),
             fixture::page("edges", &fixture::edges, &regions[1..]),
         ])
     }

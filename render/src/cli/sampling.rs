@@ -4,11 +4,9 @@ use super::UseError;
 use clap::{Args, ValueEnum};
 use render::Sampling;
 use render::film::{
-    Crop, MOST_SAMPLES, PatternName, PixelFilter, SamplingMethod, Supersample, THRESHOLD, crop,
+    Crop, MOST_SAMPLES, PatternName, PixelFilter, SPLITS, SamplingMethod, Supersample, THRESHOLD,
+    crop,
 };
-
-/// Thresholds of --split. A smaller one would split every pixel into 256 parts.
-const SPLITS: std::ops::RangeInclusive<f64> = 1e-4..=1.0;
 
 #[derive(Debug, Args)]
 pub struct SamplingArguments {

@@ -22,7 +22,9 @@ pub use exposure::{Sample, Witness};
 pub use layer::Layer;
 pub use pattern::{Pattern, PatternName};
 pub use picture::Picture;
-pub use sampling::{MOST_SAMPLES, PixelFilter, Sampling, SamplingMethod, Supersample, THRESHOLD};
+pub use sampling::{
+    MOST_SAMPLES, PixelFilter, SPLITS, Sampling, SamplingMethod, Supersample, THRESHOLD,
+};
 
 use crate::accel::Structure;
 use crate::filter::Filter;

@@ -3,6 +3,7 @@
 use super::pattern::Pattern;
 use clap::ValueEnum;
 use serde::Deserialize;
+use std::ops::RangeInclusive;
 
 /// Largest number of samples along each side of a pixel. More samples would not change a 16-bit
 /// file.
@@ -49,6 +50,9 @@ pub enum Sampling {
 /// little, since the error of unsplit cells remains.
 pub const THRESHOLD: f64 = 0.05;
 
+/// Thresholds that a user may choose. A smaller one would split every pixel into 256 parts.
+pub const SPLITS: RangeInclusive<f64> = 1e-4..=1.0;
+
 /// The name of a sampling method on the command line and in JSON. The attribute `help` is the text
 /// of `--help`.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, ValueEnum)]
@@ -74,7 +78,7 @@ pub enum SamplingMethod {
 ///   products of whole numbers along both axes, none negative, whose sum over a pixel is
 ///   `Lattice::whole` along each axis;
 /// - a weight in a mirrored column that equals the weight in the column itself;
-/// - if it needs more than one sample, a complaint in `cli/sampling.rs` and in pipeline's `job/mode.rs`;
+/// - if it needs more than one sample, a complaint in `cli/sampling.rs` and in pipeline's `job/sampling.rs`;
 /// - tests: an entry in `all()` of the tests of `lattice/mod.rs`; a constant picture stays constant.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, ValueEnum)]
 #[serde(rename_all = "snake_case")]

@@ -54,7 +54,7 @@ pub fn document(measured: &Measured, advice: &[Sentence]) -> Result<String, Pipe
 /// Returns a description of a page's plot for readers who cannot see it.
 pub fn about_plot(page: &PageMeasured) -> String {
     format!(
-        "{}: RMS error against processor time, a curve for each filter over its numbers of rays",
+        "{}: RMS error against processor time, a curve for each filter over its numbers of rays or areas",
         page.title
     )
 }

@@ -1,14 +1,14 @@
 //! Shows the pictures of a page beside the truth, with maps of their errors.
 
-use super::super::measured::{PageMeasured, Trial};
+use super::super::measured::{Method, PageMeasured, Trial};
 use crate::PipelineError;
 use crate::html::png_address;
 use crate::number::{error, seconds};
 use compare::{Scale, map, scale};
 use maud::{Markup, html};
 use render::color::Encoding;
-use render::film::Supersample;
 use render::film::encode::{Format, encode};
+use render::film::{Supersample, THRESHOLD};
 use render::filter::Filter;
 use render::{Picture, Sampling};
 
@@ -49,9 +49,9 @@ pub fn pictures(page: &PageMeasured) -> Result<Markup, PipelineError> {
 }
 
 /// Returns the pictures to show. The first three are one ray without and with the thesis's filter, and
-/// the thesis's supersampling. Next comes the method without tables that is nearest to the truth in no
-/// more time than the supersampling, or than one filtered ray if there is no supersampling. The last is
-/// the nearest of all.
+/// the thesis's supersampling. Next come exact averages over whole and over split pixels. Then comes the
+/// bilinear or mip-mapped method on the lattice that is nearest to the truth in no more time than the
+/// supersampling, or than one filtered ray if there is no supersampling. The last is the nearest of all.
 fn chosen(page: &PageMeasured) -> Vec<(&'static str, &Trial, &Picture)> {
     let find = |filter: Filter, sampling: Sampling| {
         let is =
@@ -66,12 +66,24 @@ fn chosen(page: &PageMeasured) -> Vec<(&'static str, &Trial, &Picture)> {
         own.min_by(|a, b| a.whole.rmse.total_cmp(&b.whole.rmse))
     };
     let time = nine.or(one).map_or(0.0, |trial| trial.cost.cpu);
-    let rival = nearest(&|trial| trial.method.filter.order().is_none() && trial.cost.cpu <= time);
+    let rival = nearest(&|trial| {
+        let without_tables = trial.method.filter.order().is_none();
+        without_tables && trial.method.areas().is_none() && trial.cost.cpu <= time
+    });
+    let exact = |threshold| {
+        let Method { filter, sampling } = Method::area(Filter::Exact, 1, threshold);
+        find(filter, sampling)
+    };
     let wished = [
         ("as in 1993 without filtering", find(Filter::Point, Sampling::regular(1))),
         ("prefiltered", one),
         ("prefiltered and supersampled", nine),
-        ("smallest error without tables in the time of the previous method", rival),
+        ("averaged exactly over whole pixels", exact(None)),
+        ("averaged exactly over pixels split at edges", exact(Some(THRESHOLD))),
+        (
+            "smallest error without tables in the time of the prefiltered and supersampled one",
+            rival,
+        ),
         ("smallest error of all", nearest(&|_| true)),
     ];
     let mut chosen: Vec<(&'static str, &Trial, &Picture)> = Vec::new();

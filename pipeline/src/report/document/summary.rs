@@ -1,15 +1,16 @@
 //! The section of conclusions, and a table of all pages.
 
 use super::super::advice::{Question, Sentence};
-use super::super::measured::{Measured, PageMeasured, Trial};
+use super::super::measured::{Measured, Method, PageMeasured, Trial};
 use crate::number::{error, times};
 use maud::{Markup, html};
 use render::Sampling;
-use render::film::Supersample;
+use render::film::{Supersample, THRESHOLD};
 use render::filter::Filter;
 
-const GROUPS: [(Question, &str); 4] = [
-    (Question::Use, "Which filter to use"),
+const GROUPS: [(Question, &str); 5] = [
+    (Question::Use, "Which method to use"),
+    (Question::Areas, "What areas gain"),
     (Question::Cost, "What the tent costs"),
     (Question::Fails, "Where filters fail"),
     (Question::Doubt, "What is in doubt"),
@@ -21,7 +22,9 @@ pub fn section(measured: &Measured, advice: &[Sentence]) -> Markup {
             h2 { "What the numbers say" }
             p.faint {
                 "The thesis\u{2019}s method is prefiltering by repeated integration: box, tent and quadratic (n = "
-                "1, 2, 3). The tent represents this method."
+                "1, 2, 3), over boxes around rays on a lattice. The tent represents this method. By areas, each "
+                "ray carries the area that it stands for; \u{201c}exact\u{201d} averages over this area without error, and "
+                "pixels at edges are split."
             }
             @for (question, heading) in GROUPS {
                 @let own: Vec<&Sentence> =
@@ -44,8 +47,8 @@ fn glance(pages: &[PageMeasured]) -> Markup {
         section id="pages" {
             h2 { "The pages at a glance" }
             p.faint {
-                "Errors of one ray in each pixel with four filters, and of the thesis\u{2019}s supersampling with the "
-                "tent; in brackets the ratio of the processor time to that of one bilinear ray."
+                "Errors of one ray in each pixel with four filters, of the thesis\u{2019}s supersampling with the tent, and "
+                "of exact averages over areas; in brackets the ratio of the processor time to that of one bilinear ray."
             }
             div.wide {
                 table.glance {
@@ -53,6 +56,8 @@ fn glance(pages: &[PageMeasured]) -> Markup {
                         th { "Page" }
                         @for filter in SHOWN { th { (filter) } }
                         th { "tent, super-" br; "sampled" }
+                        th { "exact," br; "1 area" }
+                        th { "exact, split" br; "at " (THRESHOLD) }
                         th { "smallest error of all" }
                     } }
                     tbody { @for page in pages { (row(page)) } }
@@ -70,6 +75,10 @@ fn row(page: &PageMeasured) -> Markup {
     };
     let one = |filter| find(filter, &|sampling| sampling == Sampling::regular(1));
     let nine = |form| find(Filter::Tent, &move |sampling| sampling == Sampling::Supersample(form));
+    let exact = |threshold| {
+        let method = Method::area(Filter::Exact, 1, threshold);
+        page.trials.iter().find(|trial| trial.method == method)
+    };
     let nearest = page.trials.iter().min_by(|a, b| a.whole.rmse.total_cmp(&b.whole.rmse));
     let unit = one(Filter::Bilinear).map(|trial| trial.cost.cpu);
     let cell = |trial: Option<&Trial>| {
@@ -90,6 +99,8 @@ fn row(page: &PageMeasured) -> Markup {
             td { a href={ "#" (page.name) } { (page.name) } }
             @for filter in SHOWN { td { (cell(one(filter))) } }
             td { (cell(nine(Supersample::Image).or_else(|| nine(Supersample::Rays)))) }
+            td { (cell(exact(None))) }
+            td { (cell(exact(Some(THRESHOLD)))) }
             td {
                 (cell(nearest))
                 @if let Some(nearest) = nearest { br; span.faint { (super::set(&nearest.method.name())) } }

@@ -18,12 +18,18 @@ pub enum Mark {
     Diamond,
     /// A triangle with its tip down.
     Wedge,
+    /// A star of five points.
+    Star,
+    /// An upright cross of two strokes.
+    Plus,
+    /// A lying rectangle.
+    Bar,
 }
 
 /// The look of a curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Look {
-    /// The number of its colour, one of the six of the style, from 0 to 5.
+    /// The number of its colour, one of the nine of the style, from 0 to 8.
     pub color: u8,
     /// The shape of its mark.
     pub mark: Mark,
@@ -32,19 +38,38 @@ pub struct Look {
 }
 
 impl Look {
-    /// Returns look `k` of six looks, which differ in colour and mark. From 6 on the looks repeat.
+    /// Returns look `k` of nine looks, which differ in colour and mark. From 9 on the looks repeat.
     #[must_use]
     pub fn number(k: usize) -> Self {
-        let marks =
-            [Mark::Cross, Mark::Circle, Mark::Triangle, Mark::Square, Mark::Diamond, Mark::Wedge];
+        let marks = [
+            Mark::Cross,
+            Mark::Circle,
+            Mark::Triangle,
+            Mark::Square,
+            Mark::Diamond,
+            Mark::Wedge,
+            Mark::Star,
+            Mark::Plus,
+            Mark::Bar,
+        ];
         let color = k % marks.len();
         Self { color: color as u8, mark: marks[color], hollow: false }
     }
 
-    /// Returns the look of a filter, the same in all plots.
+    /// Returns the look of a filter, the same in all plots. Elliptic filters share one look.
     #[must_use]
     pub fn filter(filter: Filter) -> Self {
-        Self::number(Filter::ALL.iter().position(|&known| known == filter).unwrap_or(0))
+        Self::number(match filter {
+            Filter::Point => 0,
+            Filter::Bilinear => 1,
+            Filter::Mip => 2,
+            Filter::Box => 3,
+            Filter::Tent => 4,
+            Filter::Quadratic => 5,
+            Filter::Exact => 6,
+            Filter::Ewa8 | Filter::Ewa16 | Filter::Ewa64 => 7,
+            Filter::Probes => 8,
+        })
     }
 
     /// Returns this look with an empty mark.
@@ -79,6 +104,21 @@ impl Look {
                 svg.line(&[(x - arm, y - arm), (x + arm, y + arm)], style);
                 svg.line(&[(x - arm, y + arm), (x + arm, y - arm)], style);
             }
+            Mark::Plus => {
+                svg.line(&[(x - radius, y), (x + radius, y)], style);
+                svg.line(&[(x, y - radius), (x, y + radius)], style);
+            }
+            Mark::Bar => {
+                outline(svg, radius, &[(-1.1, -0.5), (1.1, -0.5), (1.1, 0.5), (-1.1, 0.5)]);
+            }
+            Mark::Star => {
+                let corner = |k: u32| {
+                    let angle = f64::from(k) * std::f64::consts::PI / 5.0;
+                    let size = if k % 2 == 0 { 1.0 } else { 0.45 };
+                    (size * angle.sin(), -size * angle.cos())
+                };
+                outline(svg, 1.4 * radius, &(0..10).map(corner).collect::<Vec<_>>());
+            }
             Mark::Square => {
                 outline(svg, 0.88 * radius, &[(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]);
             }
@@ -101,10 +141,12 @@ mod tests {
 
     #[test]
     fn every_filter_has_a_mark_and_a_colour_of_its_own() {
-        let looks = Filter::THESIS.map(Look::filter);
-        for (k, a) in looks.iter().enumerate() {
-            for b in &looks[k + 1..] {
-                assert!(a.mark != b.mark && a.color != b.color, "{a:?} {b:?}");
+        let elliptic = |filter| matches!(filter, Filter::Ewa8 | Filter::Ewa16 | Filter::Ewa64);
+        for (k, &first) in Filter::ALL.iter().enumerate() {
+            for &second in &Filter::ALL[k + 1..] {
+                let (a, b) = (Look::filter(first), Look::filter(second));
+                let alike = elliptic(first) && elliptic(second);
+                assert_eq!((a.mark == b.mark, a.color == b.color), (alike, alike), "{a:?} {b:?}");
             }
         }
     }

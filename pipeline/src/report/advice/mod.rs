@@ -2,17 +2,17 @@
 //!
 //! Each sentence has one form, which is filled with numbers, and is left out where the numbers are
 //! missing. The tent with one ray stands for the thesis's method, and one bilinear ray in each pixel is
-//! the unit of time.
+//! the unit of time. `areas.rs` holds the sentences on area sampling.
+
+mod areas;
+mod sentence;
+
+pub use sentence::{AS_NEAR, Question, Sentence};
 
 use super::measured::{Measured, Method, PageMeasured};
-use super::pool::{counts, evenly, mean, pooled, time_ratio, trial, whole};
+use super::pool::{counts, evenly, in_region, mean, time_ratio, trial, whole};
 use crate::number::{bytes, error, times};
 use render::filter::Filter;
-
-/// Two errors count as equal if the larger is at most this times the smaller.
-///
-/// The noise of the truth changes an error of five times its size by 2 % at most.
-pub const AS_NEAR: f64 = 1.05;
 
 /// No filter helps where even the best leaves more than this fraction of the error of bilinear
 /// interpolation.
@@ -25,41 +25,12 @@ const BUDGETS: [u32; 5] = [2, 5, 20, 80, 300];
 /// causes no doubt. Both are root mean squares.
 const NOISE: f64 = 0.2;
 
-/// The question that a sentence answers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Question {
-    /// The choice of a method.
-    Use,
-    /// The cost of the thesis's method, and its value.
-    Cost,
-    /// The failures of filters.
-    Fails,
-    /// The doubtful numbers.
-    Doubt,
-}
-
-/// A sentence of a report.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Sentence {
-    /// The question that the sentence answers.
-    pub question: Question,
-    /// The name of the page that the sentence is about; `None` for all pages.
-    pub page: Option<String>,
-    /// The text.
-    pub text: String,
-}
-
-impl Sentence {
-    fn general(question: Question, text: String) -> Self {
-        Self { question, page: None, text }
-    }
-}
-
 /// Returns all sentences that the numbers support.
 #[must_use]
 pub fn sentences(measured: &Measured) -> Vec<Sentence> {
     let pages = &measured.pages;
     let mut all = budgets(pages);
+    all.extend(areas::sentences(pages));
     all.extend(cost(pages));
     all.extend(many_rays(pages));
     all.extend(regions(pages));
@@ -137,7 +108,8 @@ fn many_rays(pages: &[PageMeasured]) -> Option<Sentence> {
     Some(Sentence::general(Question::Fails, text))
 }
 
-/// Returns for each region the nearest filter with one ray, and whether it helps.
+/// Returns for each region the nearest filter with one ray on the thesis's lattice, and whether it
+/// helps.
 fn regions(pages: &[PageMeasured]) -> Vec<Sentence> {
     let mut names: Vec<&'static str> = Vec::new();
     for region in pages.iter().flat_map(|page| &page.regions) {
@@ -149,15 +121,7 @@ fn regions(pages: &[PageMeasured]) -> Vec<Sentence> {
 }
 
 fn region(pages: &[PageMeasured], name: &str) -> Option<Sentence> {
-    let with_region = pages.iter().filter_map(|page| {
-        Some((page, page.regions.iter().position(|region| region.name == name)?))
-    });
-    let with_region: Vec<(&PageMeasured, usize)> = with_region.collect();
-    let of = |filter: Filter| {
-        let method = evenly(filter, 1);
-        let own = with_region.iter().map(|&(page, k)| trial(page, &method)?.by_region.get(k));
-        pooled(own.collect::<Option<Vec<_>>>()?.into_iter())
-    };
+    let of = |filter: Filter| in_region(pages, &evenly(filter, 1), name);
     let bilinear = of(Filter::Bilinear)?;
     let areas = Filter::ALL.into_iter().filter(|filter| filter.wants_area());
     let errors = areas.filter_map(|filter| Some((filter, of(filter)?)));
@@ -167,8 +131,8 @@ fn region(pages: &[PageMeasured], name: &str) -> Option<Sentence> {
         false => (Question::Use, "a filter helps"),
     };
     let text = format!(
-        "Region {name}: {helps}. With one ray the filter with the smallest error is the {best} \
-         ({}); the error of bilinear is {}.",
+        "Region {name}: {helps} on the lattice. With one ray the filter with the smallest error is \
+         the {best} ({}); the error of bilinear is {}.",
         error(least),
         error(bilinear)
     );
@@ -313,11 +277,11 @@ mod tests {
     fn in_silhouettes_no_filter_helps_unless_one_does() {
         let page = fixture::page("page", &floor, &[("silhouettes", &edges), ("far floor", &floor)]);
         let claims = said(vec![page]);
-        let text = "Region silhouettes: no filter helps. With one ray the filter with the \
-                    smallest error is the mip (0.21); the error of bilinear is 0.21.";
+        let text = "Region silhouettes: no filter helps on the lattice. With one ray the filter with \
+                    the smallest error is the mip (0.21); the error of bilinear is 0.21.";
         assert_eq!(one(&claims, "silhouettes"), expected(Question::Fails, text));
-        let text = "Region far floor: a filter helps. With one ray the filter with the smallest \
-                    error is the quadratic (0.040); the error of bilinear is 0.20.";
+        let text = "Region far floor: a filter helps on the lattice. With one ray the filter with the \
+                    smallest error is the quadratic (0.040); the error of bilinear is 0.20.";
         assert_eq!(one(&claims, "far floor"), expected(Question::Use, text));
         for (mip, question) in [(0.18, Question::Use), (0.20, Question::Fails)] {
             let law = |filter, n: f64| match filter {
