@@ -239,10 +239,20 @@ impl<T: Code, const C: usize> Line<'_, T, C> {
     /// Returns the deviation of texel `i`, of either sign, from the mean.
     #[inline(always)]
     fn texel(&self, i: i64) -> [f64; C] {
-        let length = self.codes.len();
-        let inside =
-            if (i as u64) < length as u64 { i as usize } else { self.wrap.index(i as f64, length) };
-        let texel = self.codes[inside];
+        let length = self.codes.len() as i64;
+        let inside = if (i as u64) < length as u64 {
+            i
+        } else {
+            match self.wrap {
+                Wrap::Repeat => i.rem_euclid(length),
+                Wrap::Clamp => i.clamp(0, length - 1),
+                Wrap::Mirror => {
+                    let turned = i.rem_euclid(2 * length);
+                    turned.min(2 * length - 1 - turned)
+                }
+            }
+        };
+        let texel = self.codes[inside as usize];
         from_fn(|c| f64::from(texel[c].value(self.palette)) - self.balance.mean[c])
     }
 
@@ -302,9 +312,9 @@ impl<T: Code, const C: usize> Line<'_, T, C> {
             return self.double_integral_inside(x);
         }
         match self.wrap {
-            Wrap::Repeat => self.double_integral_inside(x.rem_euclid(length).min(length)),
+            Wrap::Repeat => self.double_integral_inside(reduced(x, length)),
             Wrap::Mirror => {
-                let x = x.rem_euclid(2.0 * length).min(2.0 * length);
+                let x = reduced(x, 2.0 * length);
                 self.double_integral_inside(x.min(2.0 * length - x))
             }
             Wrap::Clamp => {
@@ -351,4 +361,9 @@ impl<T: Code, const C: usize> Line<'_, T, C> {
             double - x * (0.5 * mean[c] * x + constant[c])
         })
     }
+}
+/// Returns the position in `[0, period]` that equals `x` up to whole periods.
+#[inline(always)]
+fn reduced(x: f64, period: f64) -> f64 {
+    (x - period * floor(x / period)).clamp(0.0, period)
 }
