@@ -234,6 +234,12 @@ fn whole_periods_have_the_mean_colour() {
         let patch = (point, [2.15 * f64::from(periods) * DVec3::X, DVec3::Y]);
         let mean = (0.5 * Color::ONE + 0.65 * Color::X + Color::Y) / 2.15;
         assert!(average(&stripes(), patch).abs_diff_eq(mean, 1e-13), "{periods}");
+        // What remains of an incomplete period vanishes over a very long step.
+        for far in [1e9, 1e200, f64::MAX, f64::INFINITY, f64::NAN] {
+            let patch = (point, [far * DVec3::X, 0.5 * far * DVec3::Z]);
+            assert!(average(&checker(), patch).abs_diff_eq(Color::splat(0.5), 1e-5), "{far}");
+            assert!(average(&stripes(), patch).abs_diff_eq(mean, 1e-5), "{far}");
+        }
     }
 }
 

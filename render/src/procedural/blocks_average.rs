@@ -10,7 +10,7 @@ use super::lattice::{mixed_at, share};
 use super::patch::{Form, Patch};
 use super::wave::{Wave, average};
 use crate::color::Color;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 /// Limits of the work for checkers.
 const CHECKERS: Limits = Limits { parts: 96.0, cells: 196.0 };
@@ -120,7 +120,9 @@ impl Stripes {
     pub fn average(&self, patch: &Patch) -> Color {
         let form = patch.form(DVec3::X, BELOW);
         self.weighted(|start, thickness, period| {
-            let of_layer = form.scaled(start, 1.0 / period);
+            let mut of_layer = form.scaled(start, 1.0 / period);
+            let longest = DVec2::splat(LONGEST);
+            of_layer.slopes = of_layer.slopes.clamp(-longest, longest);
             average([(of_layer, Wave::pulse(thickness / period))]).clamp(0.0, 1.0)
         })
     }
