@@ -143,7 +143,7 @@ static OF_NOISE: LazyLock<Vec<Solid>> = LazyLock::new(|| {
 fn averages_of_noise_are_better_than_a_point() {
     for solid in OF_NOISE.iter() {
         let mut numbers = Numbers(1993);
-        let (mut of_average, mut of_point) = (0.0, 0.0);
+        let (mut of_average, mut of_point) = (0.0_f64, 0.0_f64);
         for _ in 0..150 {
             let patch = numbers.patch([1.0, 30.0]);
             let truth = summed(solid, patch, 40);
@@ -151,7 +151,7 @@ fn averages_of_noise_are_better_than_a_point() {
             let point = solid.color(&DAffine3::IDENTITY, patch.0);
             of_point += (point - truth).length_squared();
         }
-        let ratio = (of_point / of_average as f64).sqrt();
+        let ratio = (of_point / of_average).sqrt();
         let least = if matches!(solid.pattern, Pattern::Granite(_)) { 4.0 } else { 5.0 };
         assert!(ratio > least, "{:?}: {ratio}", solid.pattern);
     }
@@ -177,7 +177,7 @@ fn averages_over_large_areas_are_the_mean() {
 fn averages_of_noise_change_slowly_with_the_size() {
     for solid in OF_NOISE.iter() {
         let mut numbers = Numbers(3);
-        let (mut squares, mut count) = (0.0, 0.0);
+        let (mut squares, mut count) = (0.0_f64, 0.0);
         for _ in 0..100 {
             let (point, steps) = numbers.patch([1.0, 1.0]);
             let of_size = |size: f64| average(solid, (point, steps.map(|step| size * step)));
@@ -192,7 +192,7 @@ fn averages_of_noise_change_slowly_with_the_size() {
                 count += 3.0;
             }
         }
-        let change = (squares / count as f64).sqrt();
+        let change = (squares / count).sqrt();
         // The edges of crystals are sharp, and each evaluated point that crosses one shows.
         let most = if matches!(solid.pattern, Pattern::Granite(_)) { 0.05 } else { 0.02 };
         assert!(change < most, "{:?}: {change}", solid.pattern);
