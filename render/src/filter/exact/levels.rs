@@ -169,22 +169,28 @@ impl<const C: usize> Levels<C> {
     #[must_use]
     pub fn average(&self, texture: &Texture, outline: &Outline) -> [f64; C] {
         let Axes { major, minor, .. } = outline.axes;
-        let thin = minor <= THIN;
-        let grown = outline.grown(if thin { 0.25 } else { 1.0 });
+        let (thin, short) = (minor <= THIN, major <= SHORT);
+        // Four places or two have the variance of three quarters of a texel's box, along both axes or
+        // across only. The outline grows by the rest.
+        let grown = match (thin, short) {
+            (false, _) => outline.grown(1.0, 1.0),
+            (true, false) => outline.grown(1.0, 0.25),
+            (true, true) => outline.grown(0.25, 0.25),
+        };
         let level = self.level(texture, &grown);
         if level + 1 == self.levels.len() || major > LARGEST {
             return self.mean();
         }
-        if !thin {
-            return self.over(texture, level, &[grown]);
-        }
-        // A box of a quarter of a texel's variance, and two or four places with the rest.
-        if major > SHORT {
-            let apart = 0.25 * outline.axes.across();
-            self.over(texture, level, &[grown.moved(apart), grown.moved(-apart)])
-        } else {
-            let places = [[-0.25, -0.25], [0.25, -0.25], [-0.25, 0.25], [0.25, 0.25]];
-            self.over(texture, level, &places.map(|by| grown.moved(by.into())))
+        match (thin, short) {
+            (false, _) => self.over(texture, level, &[grown]),
+            (true, false) => {
+                let apart = 0.25 * outline.axes.across();
+                self.over(texture, level, &[grown.moved(apart), grown.moved(-apart)])
+            }
+            (true, true) => {
+                let places = [[-0.25, -0.25], [0.25, -0.25], [-0.25, 0.25], [0.25, 0.25]];
+                self.over(texture, level, &places.map(|by| grown.moved(by.into())))
+            }
         }
     }
 
