@@ -92,8 +92,9 @@ pub struct Lines<T: Code, const C: usize> {
     /// Twice `F2` at every [`EVERY`]th texel, without the part that the value and the slope at the
     /// anchor before it determine.
     moments: Vec<[u32; C]>,
-    /// Twice `F2` at the anchors, every [`ANCHORED`]th texel of each line.
-    anchors: Vec<[u64; C]>,
+    /// Twice `F2` at the anchors, every [`ANCHORED`]th texel of each line. The numbers are whole and
+    /// below 2^49.
+    anchors: Vec<[f64; C]>,
     balances: Vec<Balance<C>>,
 }
 
@@ -128,7 +129,7 @@ impl<T: Code, const C: usize> Lines<T, C> {
             for k in 0..=length {
                 if k % ANCHORED == 0 {
                     anchor = (sum, moment);
-                    anchors.push(moment);
+                    anchors.push(moment.map(|moment| moment as f64));
                 }
                 if k % EVERY == 0 {
                     let beyond = 2 * (k % ANCHORED) as u64;
@@ -165,7 +166,7 @@ impl<T: Code, const C: usize> Lines<T, C> {
     pub fn bytes_for(length: usize, count: usize) -> u64 {
         let line = length * size_of::<[T; C]>()
             + 2 * stored(length, EVERY) * size_of::<[u32; C]>()
-            + stored(length, ANCHORED) * size_of::<[u64; C]>()
+            + stored(length, ANCHORED) * size_of::<[f64; C]>()
             + size_of::<Balance<C>>();
         (count * line + T::PALETTE_BYTES) as u64
     }
@@ -212,7 +213,7 @@ pub struct Line<'a, T: Code, const C: usize> {
     palette: &'a T::Palette,
     sums: &'a [[u32; C]],
     moments: &'a [[u32; C]],
-    anchors: &'a [[u64; C]],
+    anchors: &'a [[f64; C]],
     balance: &'a Balance<C>,
     wrap: Wrap,
 }
@@ -318,7 +319,8 @@ impl<T: Code, const C: usize> Line<'_, T, C> {
             }
         }
         let Balance { mean, constant } = self.balance;
-        from_fn(|c| f64::from(sum[c]) - mean[c] * i as f64 - constant[c])
+        let at = f64::from(i as u32);
+        from_fn(|c| f64::from(sum[c]) - mean[c] * at - constant[c])
     }
 
     /// Returns `q` at `x`, of either sign.
@@ -347,7 +349,9 @@ impl<T: Code, const C: usize> Line<'_, T, C> {
     /// Returns `q` at `x` between 0 and the length.
     #[inline(always)]
     fn double_integral_inside(&self, x: f64) -> [f64; C] {
-        let i = x as usize;
+        // Numbers of 32 bits become f64 faster than longer ones.
+        let whole = x as i32;
+        let i = whole as usize;
         let place = ((i + EVERY / 2) / EVERY).min(self.moments.len() - 1);
         let from = place * EVERY;
         let anchor = from / ANCHORED;
@@ -363,9 +367,10 @@ impl<T: Code, const C: usize> Line<'_, T, C> {
             }
         }
         let last = self.codes.get(i).copied();
-        let (start, f) = (self.sums[place], x - i as f64);
+        let (start, f) = (self.sums[place], x - f64::from(whole));
         let at_anchor = self.sums[anchor * (ANCHORED / EVERY)];
-        let (beyond, from_anchor) = (x - from as f64, (from - anchor * ANCHORED) as f64);
+        let beyond = x - f64::from(from as u32);
+        let from_anchor = f64::from((from - anchor * ANCHORED) as u32);
         let Balance { mean, constant } = self.balance;
         from_fn(|c| {
             // Texel k between i and `from` is seen from x: backward from its far side.
@@ -373,7 +378,7 @@ impl<T: Code, const C: usize> Line<'_, T, C> {
             let between =
                 if backward { first + (0.5 - f) * sum } else { (beyond - 0.5) * sum - first };
             let last = last.map_or(0.0, |texel| f64::from(texel[c].value(self.palette)));
-            let moment = self.anchors[anchor][c] as f64 + f64::from(self.moments[place][c]);
+            let moment = self.anchors[anchor][c] + f64::from(self.moments[place][c]);
             let double = 0.5 * moment
                 + from_anchor * f64::from(at_anchor[c])
                 + beyond * f64::from(start[c])
