@@ -4,6 +4,7 @@
 
 mod area;
 mod bench;
+mod bump_footprints;
 mod check;
 mod cli;
 mod complaints;

@@ -6,6 +6,6 @@ use render::filter::Filter;
 #[derive(Debug, Args)]
 pub struct TextureArguments {
     /// Filter that averages textures
-    #[arg(long, default_value = "tent")]
+    #[arg(long, default_value = "exact")]
     pub filter: Filter,
 }

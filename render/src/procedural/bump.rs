@@ -75,6 +75,16 @@ impl Bump {
         }
     }
 
+    /// Memory in bytes that [`Bump::averaged`] adds when it is first called: the moments of a
+    /// picture's slopes, 27 bytes per texel; 0 for other reliefs.
+    #[must_use]
+    pub fn moments_bytes(&self) -> u64 {
+        match &self.relief {
+            Relief::Picture(heights) => heights.moments_bytes(),
+            Relief::Noise(_) | Relief::Turbulence(_) | Relief::Wall(_) | Relief::Dnoise(_) => 0,
+        }
+    }
+
     /// Returns the perturbed unit normal at `place`, in scene space. The normal is unchanged where
     /// the sum vanishes.
     ///

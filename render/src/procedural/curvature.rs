@@ -33,17 +33,6 @@ impl Interpolation {
         };
         2.0 / 3.0 * along * across * across
     }
-
-    /// Returns the mean square of the noise, over all of space.
-    #[must_use]
-    pub fn variance(self) -> f64 {
-        let across: f64 = match self {
-            Self::Linear => 2.0 / 3.0,
-            Self::Smooth => 26.0 / 35.0,
-            Self::Smoother => 181.0 / 231.0,
-        };
-        across.powi(3) / 3.0
-    }
 }
 
 impl Noise {

@@ -6,7 +6,9 @@
 //! signal processing: part II" (1993). A depth picture of a swept surface is read by the same rule,
 //! so both reliefs agree.
 
-use glam::DVec2;
+use super::moments::{self, Moments, SurfaceSlope};
+use glam::{DMat2, DVec2};
+use std::sync::OnceLock;
 
 /// Pole of the cubic filter, `sqrt(3) - 2`.
 const POLE: f64 = -0.267_949_192_431_122_7;
@@ -16,7 +18,7 @@ const POLE: f64 = -0.267_949_192_431_122_7;
 const MARGIN: i64 = 40;
 
 /// A surface of heights over texture coordinates.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Heights {
     /// Coefficients of the splines, row by row from the top.
     coefficients: Vec<f64>,
@@ -24,6 +26,16 @@ pub struct Heights {
     height: usize,
     repeat: DVec2,
     mirror: bool,
+    /// Moments of the slopes, built when slopes are first averaged.
+    moments: OnceLock<Moments>,
+}
+
+impl PartialEq for Heights {
+    /// Compares the surfaces. Moments follow from them.
+    fn eq(&self, other: &Self) -> bool {
+        let all = |heights: &Self| (heights.width, heights.repeat, heights.mirror);
+        all(self) == all(other) && self.coefficients == other.coefficients
+    }
 }
 
 impl Heights {
@@ -48,7 +60,8 @@ impl Heights {
                 values[row * width + column] = value;
             }
         }
-        Some(Self { coefficients: values, width, height, repeat, mirror })
+        let moments = OnceLock::new();
+        Some(Self { coefficients: values, width, height, repeat, mirror, moments })
     }
 
     /// Returns the height at texture coordinates, in the units of the values.
@@ -63,29 +76,75 @@ impl Heights {
         self.at(uv).1
     }
 
+    /// Returns the slope over the parallelogram of texture coordinates with these two sides.
+    #[must_use]
+    pub fn slope(&self, uv: DVec2, sides: [DVec2; 2]) -> SurfaceSlope {
+        let rate = self.rate();
+        let moments = || self.moments.get_or_init(|| self.moments());
+        let at = DVec2::new(uv.x * rate.x, uv.y * rate.y);
+        moments::averaged(at, sides.map(|side| side * rate), |at| self.spline(at), moments)
+            .stretched(rate)
+    }
+
+    /// Memory of the moments, in bytes, which exist once slopes have been averaged.
+    #[must_use]
+    pub fn moments_bytes(&self) -> u64 {
+        Moments::bytes(self.width, self.height)
+    }
+
+    fn moments(&self) -> Moments {
+        let height = self.height as f64;
+        // Rows are counted from the top.
+        Moments::new(self.width, self.height, self.mirror, |x, y| {
+            self.spline(DVec2::new(x, height - y)).0
+        })
+    }
+
+    /// Number of texels per unit of texture coordinates.
+    fn rate(&self) -> DVec2 {
+        DVec2::new(self.width as f64, self.height as f64) * self.repeat
+    }
+
     fn at(&self, uv: DVec2) -> (f64, DVec2) {
-        let rate = DVec2::new(self.width as f64, self.height as f64) * self.repeat;
+        let rate = self.rate();
+        let (height, slopes, _) = self.in_texels(uv.x * rate.x, uv.y * rate.y);
+        (height, slopes * rate)
+    }
+
+    /// Returns slopes and second derivatives by texels, at a position in texels to the right and up.
+    fn spline(&self, at: DVec2) -> (DVec2, DMat2) {
+        let (_, slopes, curvature) = self.in_texels(at.x, at.y);
+        (slopes, curvature)
+    }
+
+    /// Returns the height and its derivatives by texels to the right and up.
+    fn in_texels(&self, right: f64, up: f64) -> (f64, DVec2, DMat2) {
+        let (columns, x) = taps(right - 0.5);
         // Rows are counted from the top, v from the bottom.
-        let (columns, x) = taps(uv.x * rate.x - 0.5);
-        let (rows, y) = taps(self.height as f64 - uv.y * rate.y - 0.5);
+        let (rows, y) = taps(self.height as f64 - up - 0.5);
         let columns = columns.map(|column| index(column, self.width, self.mirror));
         let (mut height, mut slopes) = (0.0, DVec2::ZERO);
-        for (row, [weight, slope]) in rows.into_iter().zip(y) {
+        let (mut across, mut mixed, mut down) = (0.0, 0.0, 0.0);
+        for (row, [weight, slope, bend]) in rows.into_iter().zip(y) {
             let row = index(row, self.height, self.mirror) * self.width;
-            let (mut value, mut along) = (0.0, 0.0);
-            for (column, [weight, slope]) in columns.into_iter().zip(x) {
+            let (mut value, mut along, mut curved) = (0.0, 0.0, 0.0);
+            for (column, [weight, slope, bend]) in columns.into_iter().zip(x) {
                 value += self.coefficients[row + column] * weight;
                 along += self.coefficients[row + column] * slope;
+                curved += self.coefficients[row + column] * bend;
             }
             height += value * weight;
             slopes += DVec2::new(along * weight, -value * slope);
+            across += curved * weight;
+            mixed -= along * slope;
+            down += value * bend;
         }
-        (height, slopes * rate)
+        (height, slopes, DMat2::from_cols_array(&[across, mixed, mixed, down]))
     }
 }
 
 /// Returns the index of the texel at `at`, which may lie beyond the edges.
-fn index(at: i64, count: usize, mirror: bool) -> usize {
+pub(super) fn index(at: i64, count: usize, mirror: bool) -> usize {
     let count = count as i64;
     let place = if mirror {
         let place = at.rem_euclid(2 * count);
@@ -96,16 +155,18 @@ fn index(at: i64, count: usize, mirror: bool) -> usize {
     place as usize
 }
 
-/// Returns the four texels around a position and, for each, its weight and the derivative of the
-/// weight.
-fn taps(place: f64) -> ([i64; 4], [[f64; 2]; 4]) {
+/// Returns the four texels around a position and, for each, its weight and the first and second
+/// derivative of the weight.
+fn taps(place: f64) -> ([i64; 4], [[f64; 3]; 4]) {
     let place = if place.is_finite() { place } else { 0.0 };
     let first = place.floor();
     let (f, g) = (place - first, 1.0 - (place - first));
     let first = first as i64;
-    let outer = |f: f64| [f * f * f / 6.0, 0.5 * f * f];
-    let inner = |f: f64| [(4.0 - 6.0 * f * f + 3.0 * f * f * f) / 6.0, 1.5 * f * f - 2.0 * f];
-    let turned = |[weight, slope]: [f64; 2]| [weight, -slope];
+    let outer = |f: f64| [f * f * f / 6.0, 0.5 * f * f, f];
+    let inner = |f: f64| {
+        [(4.0 - 6.0 * f * f + 3.0 * f * f * f) / 6.0, 1.5 * f * f - 2.0 * f, 3.0 * f - 2.0]
+    };
+    let turned = |[weight, slope, bend]: [f64; 3]| [weight, -slope, bend];
     let steps = [-1, 0, 1, 2].map(|step| first.saturating_add(step));
     (steps, [turned(outer(g)), inner(f), turned(inner(g)), outer(f)])
 }
@@ -169,6 +230,16 @@ mod tests {
                 // Third derivatives are at most a few times the cube of 15 texels to a unit.
                 let expected = DVec2::new(by(DVec2::X), by(DVec2::Y));
                 assert!(heights.slopes(at).abs_diff_eq(expected, 1e-4), "{at}");
+                // Over a point, slopes are exact, and their change is the second derivative.
+                let slope = |at| heights.slope(at, [DVec2::ZERO; 2]);
+                assert_eq!(slope(at).mean, heights.slopes(at));
+                assert_eq!(slope(at).covariance, DMat2::ZERO);
+                let by = |axis: DVec2| {
+                    (slope(at + step * axis).mean - slope(at - step * axis).mean) / (2.0 * step)
+                };
+                let expected = DMat2::from_cols(by(DVec2::X), by(DVec2::Y));
+                // Second derivatives have kinks of at most a few times the cube of 15.
+                assert!(slope(at).curvature.abs_diff_eq(expected, 0.2), "{at}");
             }
         }
     }

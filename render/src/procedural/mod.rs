@@ -10,6 +10,7 @@
 //! method knows the part of the surface that a ray stands for, solid textures are averaged over
 //! this part ([`Solid::average`]).
 
+mod averaged;
 pub mod blocks;
 mod blocks_average;
 mod blur;
@@ -23,11 +24,14 @@ pub mod granite;
 pub mod heights;
 pub mod lattice;
 pub mod marble;
+mod moments;
 pub mod noise;
 mod noise_average;
 mod patch;
 pub mod placement;
+mod probes;
 pub mod ramp;
+pub mod slopes;
 #[cfg(test)]
 mod tests;
 pub mod turbulence;
@@ -35,6 +39,7 @@ pub mod wall;
 mod wave;
 pub mod wood;
 
+pub use averaged::{AveragedNormal, PlaceChanges};
 pub use bump::{Bump, Place, Relief};
 pub use heights::Heights;
 pub use lattice::NoiseLattice;

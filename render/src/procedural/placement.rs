@@ -38,6 +38,12 @@ impl Placement {
         self.to_texture.transform_point3(own)
     }
 
+    /// Maps a step in the object's own space to texture space.
+    #[must_use]
+    pub fn step_to_texture(&self, own: DVec3) -> DVec3 {
+        self.to_texture.transform_vector3(own)
+    }
+
     /// Maps the gradient of a function in texture space to the gradient in own space.
     #[must_use]
     pub fn gradient(&self, texture: DVec3) -> DVec3 {

@@ -40,7 +40,7 @@ pub struct Octaves {
 impl Octaves {
     /// Lists the octaves, coarsest first: the position at which each evaluates its noise, its
     /// weight, and the linear part of the map to its space.
-    fn places(&self, point: DVec3) -> impl Iterator<Item = (DVec3, f64, DMat3)> {
+    pub(super) fn places(&self, point: DVec3) -> impl Iterator<Item = (DVec3, f64, DMat3)> {
         let first = (point, 1.0, DMat3::IDENTITY);
         let next = |&(point, weight, turn): &(DVec3, f64, DMat3)| {
             Some((FINER * point + MOVED, 0.5 * weight, FINER * turn))

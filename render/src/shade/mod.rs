@@ -5,11 +5,13 @@
 //! to their parents. The thesis's figure weights refraction with the reflectivity; this module
 //! weights it with the transparency.
 
+mod lobe;
 pub mod observer;
 mod shadow;
 
 use crate::accel::Accel;
 use crate::color::Color;
+use crate::differential::Spread;
 use crate::filter::FilteredTexture;
 use crate::footprint::Sight;
 use crate::optics;
@@ -19,6 +21,7 @@ use crate::trace::medium::Media;
 use crate::trace::tree::{Child, Node};
 use crate::trace::volume::Volumes;
 use glam::DVec3;
+use lobe::Lobe;
 use observer::{Local, Observer, Seen, Textured};
 pub use shadow::{Facing, Shadows};
 
@@ -124,7 +127,8 @@ impl Shader<'_> {
         let object = &self.scene.objects[node.piece.object as usize];
         let surface = object.parts[node.part as usize];
         let material = &self.scene.materials[surface.material];
-        let Lighting { diffuse, highlight } = self.lighting(node, material, work);
+        let variance = sight.spread().map_or(0.0, Spread::normal_variance);
+        let Lighting { diffuse, highlight } = self.lighting(node, variance, material, work);
         let counts = &mut work.counts;
         let mut color = highlight;
         let mut plain = highlight;
@@ -168,8 +172,15 @@ impl Shader<'_> {
         Local { textured, color, plain }
     }
 
-    /// Sums the light that the scene's lights send to a node.
-    fn lighting(&self, node: &Node, material: &Material, work: &mut ShadeWork) -> Lighting {
+    /// Sums the light that the scene's lights send to a node. `variance` is that of its normal along
+    /// each tangent.
+    fn lighting(
+        &self,
+        node: &Node,
+        variance: f64,
+        material: &Material,
+        work: &mut ShadeWork,
+    ) -> Lighting {
         let mut sum = Lighting { diffuse: Color::ZERO, highlight: Color::ZERO };
         if !material.sees_lights() {
             return sum;
@@ -186,6 +197,7 @@ impl Shader<'_> {
         }
         self.trace_shadows(shadows);
         let shiny = material.specular > 0.0;
+        let lobe = Lobe::over(material.shininess, variance, node.incident.dot(node.normal));
         let mirrored =
             if shiny { optics::reflect(node.incident, node.normal) } else { DVec3::ZERO };
         for (&Facing { light, toward, cosine }, reaching) in shadows.results() {
@@ -196,8 +208,8 @@ impl Shader<'_> {
             let light = reaching * light * material.tint(cosine);
             sum.diffuse += material.diffuse * cosine * light;
             if shiny {
-                let phong = mirrored.dot(toward).max(0.0).powf(material.shininess);
-                sum.highlight += material.specular * phong * light;
+                let phong = mirrored.dot(toward).max(0.0).powf(lobe.exponent);
+                sum.highlight += material.specular * lobe.strength * phong * light;
             }
         }
         sum

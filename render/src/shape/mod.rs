@@ -4,6 +4,7 @@ mod changes;
 pub mod charts;
 mod closed;
 pub mod cuboid;
+mod gradient_changes;
 pub mod mesh;
 pub mod placed;
 pub mod placement;

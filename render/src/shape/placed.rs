@@ -4,6 +4,7 @@
 //! transformed back. The map keeps the ratios of distances along a ray, so the nearest hit stays
 //! the nearest.
 
+use super::gradient_changes::Extension;
 use super::{Changes, Placement, Shape, Start, SurfacePoint};
 use crate::differential;
 use glam::DVec3;
@@ -99,6 +100,14 @@ impl Placed {
         let Changes { uv, normal: changes } = self.shape.changes(face, [0.0; 2], &own, own_steps);
         let turned = |normal: DVec3| self.placement.normal(normal);
         Changes { uv, normal: differential::normalized(turned(normal), changes.map(turned)) }
+    }
+
+    /// Returns the texture coordinates as functions of scene space.
+    pub(super) fn extensions(&self, position: DVec3, steps: [DVec3; 2]) -> Option<[Extension; 2]> {
+        let to_own = self.placement.to_own();
+        let own_steps = steps.map(|step| to_own.transform_vector3(step));
+        let own = self.shape.extensions(to_own.transform_point3(position), own_steps)?;
+        Some(own.map(|own| own.seen_from(|vector| to_own.matrix3.transpose() * vector)))
     }
 
     /// Lower and upper corner of the bounding box, in scene space.

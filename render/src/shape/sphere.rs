@@ -1,5 +1,6 @@
 //! The sphere as a shape.
 
+use super::gradient_changes::Extension;
 use super::{Changes, SurfacePoint};
 use glam::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
@@ -96,6 +97,13 @@ impl Sphere {
             [DVec2::ZERO; 2]
         };
         Changes { uv, normal: changes }
+    }
+
+    /// Returns the texture coordinates as functions of space.
+    pub(super) fn extensions(&self, position: DVec3, steps: [DVec3; 2]) -> [Extension; 2] {
+        let point = position - self.center;
+        let (distance, bends) = Extension::from_axis(point, steps);
+        [Extension::around(point, steps, TAU), Extension::up(point.y, distance, bends, steps, PI)]
     }
 
     /// Returns the period of the texture coordinates, which jump by 1 across the seam meridian.

@@ -8,19 +8,21 @@ pub mod medium;
 mod ranked;
 pub mod rows;
 mod split;
+mod spreads;
 pub mod tree;
 pub mod volume;
 
 use crate::accel::Accel;
 use crate::color::Color;
-use crate::differential::{RayDifferential, Spread};
-use crate::procedural::Place;
+use crate::differential::RayDifferential;
+use crate::procedural::{Bump, Place};
 use crate::ray::{Hit, Ray};
 use crate::scene::{Material, Scene};
-use crate::shape::{Changes, SurfacePoint};
+use crate::shape::SurfacePoint;
 use glam::DVec3;
 use medium::{Boundary, Media};
-use split::{Split, Turned, mirror};
+use split::{Split, mirror};
+use spreads::Spreads;
 use tree::{Branch, IntersectionTree, Node};
 use volume::Volumes;
 
@@ -63,22 +65,6 @@ enum End {
 
 /// A ray and, if footprints come from it alone, its differential.
 type Carried<'a> = (&'a Ray, Option<&'a RayDifferential>);
-
-/// The spreads of a hit, which differ in the normal.
-#[derive(Clone, Copy)]
-struct Spreads {
-    /// With the normal of the surface itself.
-    facet: Spread,
-    /// With the normal for shading.
-    shading: Spread,
-}
-
-impl Spreads {
-    /// Returns the spread and the normal that turned a ray, of the two normals given.
-    fn of(&self, turned: Turned, shading: DVec3, facet: DVec3) -> (Spread, DVec3) {
-        if turned.by_facet { (self.facet, facet) } else { (self.shading, shading) }
-    }
-}
 
 /// A visible surface that a ray reaches.
 struct Seen {
@@ -169,46 +155,19 @@ impl<'a> Tracer<'a> {
             return point.shading_normal;
         };
         let object = &self.scene.objects[hit.piece.object as usize];
+        bump.normal(&object.to_own_space, &self.place(bump, hit, point))
+    }
+
+    /// Returns a hit as the place of a bump.
+    fn place(&self, bump: &Bump, hit: &Hit, point: &SurfacePoint) -> Place {
+        let shape = &self.scene.objects[hit.piece.object as usize].shape;
         let uv_gradients = if bump.wants_uv() {
-            object.shape.uv_gradients(hit.piece.triangle, point.position)
+            shape.uv_gradients(hit.piece.triangle, point.position)
         } else {
             [DVec3::ZERO; 2]
         };
         let (position, normal) = (point.position, point.shading_normal);
-        let place = Place { point: position, normal, uv: point.uv, uv_gradients };
-        bump.normal(&object.to_own_space, &place)
-    }
-
-    /// Returns the spread of a hit on the surface without its bump. `side` is -1 if the ray comes
-    /// from inside and 1 otherwise.
-    fn spread(
-        &self,
-        ray: &Ray,
-        differential: &RayDifferential,
-        hit: &Hit,
-        point: &SurfacePoint,
-        side: f64,
-    ) -> Spread {
-        let shape = &self.scene.objects[hit.piece.object as usize].shape;
-        // The ray may have passed hidden boundaries, so the distance is not that of the hit.
-        let t = (point.position - ray.origin).dot(ray.direction);
-        let position = differential.transferred(ray.direction, t, point.geometric_normal);
-        let incident = differential.direction;
-        let Changes { uv, normal } =
-            shape.changes(hit.piece.triangle, hit.barycentric, point, position);
-        let normal = normal.map(|change| side * change);
-        Spread { position, uv, normal, incident, roughness: 0.0 }
-    }
-
-    /// Returns the spread of a hit with the bump of its material, from the spread without it.
-    fn bumped_spread(
-        &self,
-        _material: &Material,
-        _hit: &Hit,
-        _point: &SurfacePoint,
-        smooth: Spread,
-    ) -> Spread {
-        smooth
+        Place { point: position, normal, uv: point.uv, uv_gradients }
     }
 
     /// Adds a visible surface to the tree, and follows its mirrored and refracted rays.
@@ -230,23 +189,21 @@ impl<'a> Tracer<'a> {
         let inside = ray.direction.dot(point.geometric_normal) > 0.0;
         let side = if inside { -1.0 } else { 1.0 };
         let geometric_normal = side * point.geometric_normal;
-        let mut normal = side * self.bumped(material, &hit, &point);
+        let (outward, mut spreads) = match differential {
+            None => (self.bumped(material, &hit, &point), None),
+            Some(differential) => {
+                let (outward, spreads) = self.spread(ray, differential, material, seen);
+                (outward, Some(spreads.on_side(side)))
+            }
+        };
+        let mut normal = side * outward;
         // The ray may meet the back of the interpolated normal. The facet's normal replaces it.
-        let from_behind = ray.direction.dot(normal) >= 0.0;
-        if from_behind {
+        if ray.direction.dot(normal) >= 0.0 {
             normal = geometric_normal;
+            if let Some(spreads) = &mut spreads {
+                spreads.shading = spreads.facet;
+            }
         }
-        let spreads = differential.map(|differential| {
-            let smooth = self.spread(ray, differential, &hit, &point, side);
-            let flat = object.shape.mesh().is_some();
-            let facet = if flat { Spread { normal: [DVec3::ZERO; 2], ..smooth } } else { smooth };
-            let shading = if from_behind {
-                facet
-            } else {
-                self.bumped_spread(material, &hit, &point, smooth)
-            };
-            Spreads { facet, shading }
-        });
 
         let eta = boundary.eta(&self.scene.materials);
         let split = Split::at(material, ray.direction, normal, geometric_normal, eta);

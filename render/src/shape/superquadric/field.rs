@@ -61,6 +61,8 @@ pub struct Bend {
     pub axis_norm: f64,
     /// As [`Field::axis_gradient`].
     pub axis_gradient: DVec3,
+    /// Changes of the axis gradient for two steps, as below.
+    pub axis_changes: [DVec3; 2],
     /// As [`Field::gradient`].
     pub gradient: DVec3,
     /// Changes of the gradient for two steps, to first order. A part that is infinite, at a crease,
@@ -146,22 +148,23 @@ impl Field {
         let [tube, y] = [tube / value, point.y / value];
         let [(f_tube, curve_tube), (f_y, curve_y)] =
             [tube, y].map(|ratio| part(ratio, self.section));
-        let changes = steps.map(|step| {
-            let of_h = h_x * step.x + h_z * step.z;
+        let axis_gradient = DVec3::new(h_x, 0.0, h_z);
+        let axis_changes = steps.map(|step| {
+            let of_h = axis_gradient.dot(step);
             let around = |ratio: f64, curve: f64, step: f64| {
                 if h > 0.0 { times(curve, (step - ratio * of_h) / h) } else { 0.0 }
             };
-            let of_value = f_tube * of_h + f_y * step.y;
+            DVec3::new(around(x, curve_x, step.x), 0.0, around(z, curve_z, step.z))
+        });
+        let changes = [0, 1].map(|k| {
+            let of_h = axis_gradient.dot(steps[k]);
+            let of_value = f_tube * of_h + f_y * steps[k].y;
             let of_tube = times(curve_tube, (of_h - tube * of_value) / value);
-            let of_y = times(curve_y, (step.y - y * of_value) / value);
-            DVec3::new(
-                of_tube * h_x + f_tube * around(x, curve_x, step.x),
-                of_y,
-                of_tube * h_z + f_tube * around(z, curve_z, step.z),
-            )
+            let of_y = times(curve_y, (steps[k].y - y * of_value) / value);
+            of_tube * axis_gradient + f_tube * axis_changes[k] + of_y * DVec3::Y
         });
         let gradient = DVec3::new(f_tube * h_x, f_y, f_tube * h_z);
-        Bend { axis_norm: h, axis_gradient: DVec3::new(h_x, 0.0, h_z), gradient, changes }
+        Bend { axis_norm: h, axis_gradient, axis_changes, gradient, changes }
     }
 
     /// Returns the unit direction of the gradient, in a space whose coordinates are `radii` times

@@ -21,6 +21,7 @@
 mod field;
 mod root;
 
+use super::gradient_changes::Extension;
 use super::{Changes, SeamPeriod, Start, SurfacePoint};
 use crate::differential;
 use field::{Field, Line};
@@ -181,6 +182,23 @@ impl Superquadric {
             [DVec3::ZERO; 2]
         };
         Changes { uv, normal }
+    }
+
+    /// Returns the texture coordinates as functions of space.
+    pub(super) fn extensions(&self, position: DVec3, steps: [DVec3; 2]) -> [Extension; 2] {
+        let point = (position - self.center) / self.radii;
+        let steps = steps.map(|step| step / self.radii);
+        let (distance, bends, turn) = if self.is_ring() {
+            let bend = self.field.bend(point, steps);
+            let out = bend.axis_norm - self.field.ring;
+            ((out, bend.axis_gradient), bend.axis_changes, TAU)
+        } else {
+            let (distance, bends) = Extension::from_axis(point, steps);
+            (distance, bends, PI)
+        };
+        let around = Extension::around(point, steps, TAU);
+        let up = Extension::up(point.y, distance, bends, steps, turn);
+        [around, up].map(|own| own.seen_from(|vector| vector / self.radii))
     }
 
     /// Returns gradients as [`Shape::uv_gradients`](super::Shape::uv_gradients) does.
