@@ -55,7 +55,19 @@ const RENDER: Layers = &[
     ("stats", &["shade", "trace"]),
     (
         "film",
-        &["accel", "color", "filter", "footprint", "prepared", "scene", "shade", "stats", "trace"],
+        &[
+            "accel",
+            "color",
+            "filter",
+            "footprint",
+            "prepared",
+            "procedural",
+            "scene",
+            "shade",
+            "shape",
+            "stats",
+            "trace",
+        ],
     ),
     ("inspect", &["color", "film", "footprint", "prepared", "scene", "shade", "trace"]),
 ];

@@ -63,7 +63,7 @@ fn band(eye: impl Fn(DVec3) -> DVec3) -> Scene {
         "twist": {"total": 180}, "seam": "mirror", "mesh": {"rows": 180, "cols": 16},
         "areas": [{"rows": [0, 180], "cols": [0, 16], "texture": 1, "repeat": [2, 12]}],
     }));
-    shown(&grid, eye(grid.positions[8].as_dvec3()), &[(1, 64, checks())])
+    shown(&grid, eye(grid.positions[8]), &[(1, 64, checks())])
 }
 
 #[test]

@@ -1,8 +1,9 @@
 //! The memory that a picture takes, computed from sizes before any of it is allocated.
 
 use super::encode::Format;
-use super::{Crop, Layer, Settings};
+use super::{Crop, Layer, Sampling, Settings};
 use crate::filter::Filter;
+use crate::procedural::Bump;
 use crate::scene::Scene;
 use files::memory::{Budget, MemoryError, Reserved};
 
@@ -27,6 +28,10 @@ pub fn reserve<'b>(
     let mut reserved = budget.reserve(scene.texture_bytes(), || "the scene's textures".into())?;
     add_tables(&mut reserved, scene, settings.filter)?;
     reserved.grow(scene.procedural.lattice_bytes(), || "noise".into())?;
+    if matches!(settings.sampling, Sampling::Area { .. }) {
+        let moments = scene.procedural.bumps.iter().map(Bump::moments_bytes).sum();
+        reserved.grow(moments, || "the slopes of bumps".into())?;
+    }
     let triangles = scene.triangles();
     let meshes = || format!("the scene with its {triangles} triangles");
     reserved.grow(triangles.saturating_mul(OF_TRIANGLE), meshes)?;

@@ -134,3 +134,75 @@ impl Ewa {
         DVec2::new(square.x.sqrt(), square.y.sqrt())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::texture::Wrap;
+    use proptest::prelude::*;
+
+    fn texture(width: usize, height: usize) -> Texture {
+        let code = |k: usize| ((k as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40) as u16;
+        let texels = (0..width * height).map(|k| [code(k), code(k + 3), 0]).collect();
+        Texture { width, height, texels, white: u16::MAX, wrap: Wrap::Mirror, ..Texture::default() }
+    }
+
+    fn outline(center: DVec2, sides: [DVec2; 2]) -> Outline {
+        Outline { center, sides, bend: DVec2::ZERO, axes: Axes::of(sides) }
+    }
+
+    proptest! {
+        /// The Gaussian is evaluated at all texels around, from the inverse of the matrix of the
+        /// ellipse.
+        #[test]
+        fn a_small_ellipse_is_the_gaussian_of_its_texels(
+            x in 0.0..9.0f64, y in 0.0..9.0f64, a in -1.0..1.0f64, b in -0.9..0.9f64, c in -1.0..1.0f64,
+        ) {
+            let texture = texture(9, 9);
+            let sides = [DVec2::new(a, b), DVec2::new(-b, c)];
+            let (at, axes) = (DVec2::new(x, y), Axes::of(sides));
+            prop_assume!(axes.minor <= 1.0 && axes.minor > 0.0 && axes.major < 8.0 * axes.minor);
+            let found = Ewa::build(&texture, 64.0).average(&texture, &outline(at, sides));
+            let sides = glam::DMat2::from_cols(sides[0], sides[1]);
+            let inverse = (sides * sides.transpose() + glam::DMat2::IDENTITY).inverse();
+            let (mut sum, mut weights) = (DVec3::ZERO, 0.0);
+            for j in -5..15 {
+                for i in -5..15 {
+                    let from = DVec2::new(f64::from(i) + 0.5, f64::from(j) + 0.5) - at;
+                    let r2 = from.dot(inverse * from);
+                    if r2 < 1.0 {
+                        let weight = (-2.0 * r2).exp() - (-2.0f64).exp();
+                        let (i, j) = (i.into(), j.into());
+                        let place = texture.wrap.index(j, 9) * 9 + texture.wrap.index(i, 9);
+                        sum += weight * DVec3::from(texture.texels[place].map(f64::from));
+                        weights += weight;
+                    }
+                }
+            }
+            prop_assume!(weights > 0.1);
+            let truth = sum / weights / 65535.0;
+            // Each weight is too large by up to 1/64, of a sum of at least 0.1 with few texels.
+            prop_assert!((found - truth).abs().max_element() < 0.08, "{found} {truth}");
+        }
+
+        #[test]
+        fn a_constant_texture_stays_constant(
+            x in -9.0..9.0f64, y in -9.0..9.0f64, a in -99.0..99.0f64, b in -9.0..9.0f64, aspect in 1.0..64.0f64,
+        ) {
+            let flat = Texture { texels: vec![[300, 65535, 0]; 35], ..texture(7, 5) };
+            let sides = [DVec2::new(a, b), DVec2::new(0.3 * b, -0.1 * a)];
+            let found = Ewa::build(&flat, aspect).average(&flat, &outline(DVec2::new(x, y), sides));
+            prop_assert!(found.abs_diff_eq(DVec3::new(300.0 / 65535.0, 1.0, 0.0), 1e-12), "{found}");
+        }
+    }
+
+    #[test]
+    fn a_limit_above_the_aspect_changes_nothing_and_one_below_blurs() {
+        let texture = texture(64, 64);
+        let sides = [DVec2::new(20.0, 5.0), DVec2::new(-0.5, 2.0)];
+        let at = outline(DVec2::splat(31.3), sides);
+        let [wide, wider, narrow] =
+            [16.0, 64.0, 2.0].map(|aspect| Ewa::build(&texture, aspect).average(&texture, &at));
+        assert!(wide == wider && wide != narrow, "{wide} {wider} {narrow}");
+    }
+}

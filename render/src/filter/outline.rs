@@ -46,7 +46,8 @@ impl Axes {
             DVec2::new(xy, root - difference)
         };
         let major = square.sqrt();
-        let minor = if major > 0.0 { a.perp_dot(b).abs() / major } else { 0.0 };
+        // Rounding must not make the shorter axis the longer one.
+        let minor = if major > 0.0 { (a.perp_dot(b).abs() / major).min(major) } else { 0.0 };
         Self { along: along.try_normalize().unwrap_or(DVec2::X), major, minor }
     }
 
@@ -109,14 +110,15 @@ impl Outline {
         ]
     }
 
-    /// Returns the outline, grown so that the square of each axis is larger by `square` texels.
+    /// Returns the outline, grown so that the squares of the longer and of the shorter axis are larger
+    /// by these numbers, in square texels.
     ///
     /// The shape under a box of one texel has the covariance of the shape grown by 1.
     ///
     /// The formula holds for a shape without area too. A quadrilateral that is folded, or not convex,
     /// becomes the parallelogram of its mean sides.
     #[must_use]
-    pub fn grown(&self, square: f64) -> Self {
+    pub fn grown(&self, along_by: f64, across_by: f64) -> Self {
         let Axes { along, major, minor } = self.axes;
         let across = self.axes.across();
         let [a, b] = self.sides;
@@ -124,7 +126,8 @@ impl Outline {
         // perpendicular to it, and orientation is kept.
         let unit = DVec2::new(a.dot(along), b.dot(along)).try_normalize().unwrap_or(DVec2::X);
         let turn = if a.perp_dot(b) < 0.0 { -1.0 } else { 1.0 };
-        let [major, minor] = [major, minor].map(|axis| (axis * axis + square).sqrt());
+        let grow = |axis: f64, by: f64| (axis * axis + by).sqrt();
+        let (major, minor) = (grow(major, along_by), grow(minor, across_by));
         let side = |u: f64, v: f64| major * u * along + minor * v * turn * across;
         let sides = [side(unit.x, -unit.y), side(unit.y, unit.x)];
         let mut grown = Self { sides, axes: Axes { along, major, minor }, ..*self };
@@ -165,4 +168,71 @@ impl Outline {
 #[must_use]
 pub fn bounds([a, b, c, d]: &[DVec2; 4]) -> (DVec2, DVec2) {
     (a.min(*b).min(c.min(*d)), a.max(*b).max(c.max(*d)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DMat2;
+    use proptest::prelude::*;
+
+    fn vectors() -> impl Strategy<Value = DVec2> {
+        (-9.0..9.0f64, -9.0..9.0f64).prop_map(DVec2::from)
+    }
+
+    fn outline(center: DVec2, sides: [DVec2; 2], bend: DVec2) -> Outline {
+        Outline { center, sides, bend, axes: Axes::of(sides) }
+    }
+
+    /// Twelve times the covariance of a parallelogram.
+    fn square([a, b]: [DVec2; 2]) -> DMat2 {
+        let sides = DMat2::from_cols(a, b);
+        sides * sides.transpose()
+    }
+
+    proptest! {
+        #[test]
+        fn axes_have_the_covariance_of_the_sides(a in vectors(), b in vectors(), kind in 0..4u8) {
+            let b = match kind { 0 => b, 1 => a, 2 => a.perp(), _ => DVec2::ZERO };
+            let axes = Axes::of([a, b]);
+            let same = square([axes.major * axes.along, axes.minor * axes.across()]);
+            prop_assert!(same.abs_diff_eq(square([a, b]), 1e-10), "{same} {axes:?}");
+            prop_assert!(axes.major >= axes.minor);
+        }
+
+        /// The growth adds to the covariance, keeps the orientation, and needs no area.
+        #[test]
+        fn growth_adds_to_the_covariance(a in vectors(), b in vectors(), kind in 0..3u8) {
+            let b = match kind { 0 => b, 1 => -2.0 * a, _ => DVec2::ZERO };
+            let before = outline(DVec2::ZERO, [a, b], DVec2::ZERO);
+            let grown = before.grown(1.0, 1.0);
+            let found = square(grown.sides);
+            prop_assert!(found.abs_diff_eq(square([a, b]) + DMat2::IDENTITY, 1e-9), "{found}");
+            let (turn, turned) = (a.perp_dot(b), grown.sides[0].perp_dot(grown.sides[1]));
+            prop_assert!(turned.abs() >= 1.0 - 1e-9 && (turn.abs() < 1e-9 || turn * turned > 0.0));
+        }
+
+        #[test]
+        fn corners_are_those_of_the_quadrilateral(corners in prop::array::uniform4(vectors())) {
+            let texture =
+                Texture { width: 16, height: 16, texels: vec![[0; 3]; 256], ..Texture::default() };
+            let found = Outline::of(&Footprint::Quadrilateral(corners), &texture);
+            let found = found.map(|outline| outline.corners()).unwrap_or_default();
+            // Whole periods of 16 texels may differ, but the same for all corners.
+            let moved = found[0] - texture.in_texels(corners[0]);
+            prop_assert!((moved / 16.0 - (moved / 16.0).round()).length() < 1e-9, "{moved}");
+            for (found, corner) in found.into_iter().zip(corners) {
+                prop_assert!(found.abs_diff_eq(texture.in_texels(corner) + moved, 1e-9), "{found}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_folded_quadrilateral_becomes_a_parallelogram() {
+        let (a, b) = (DVec2::new(4.0, 0.0), DVec2::new(0.0, 3.0));
+        let kept = outline(DVec2::ZERO, [a, b], DVec2::new(0.5, 0.0)).grown(1.0, 1.0);
+        assert_eq!(kept.bend, DVec2::new(0.5, 0.0));
+        let folded = outline(DVec2::ZERO, [a, b], DVec2::new(9.0, 0.0)).grown(1.0, 1.0);
+        assert_eq!(folded.bend, DVec2::ZERO);
+    }
 }

@@ -57,3 +57,51 @@ pub fn reach(outline: &Outline) -> DVec2 {
     // Interpolation reaches half a texel of the coarser of two levels: at most the breadth.
     0.5 * (major - minor) * along.abs() + minor
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::texture::Wrap;
+
+    fn outline(center: DVec2, sides: [DVec2; 2]) -> Outline {
+        Outline { center, sides, bend: DVec2::ZERO, axes: Axes::of(sides) }
+    }
+
+    /// On a ramp every probe is the ramp at its middle, and the weights are symmetric.
+    #[test]
+    fn probes_on_a_ramp_give_its_middle() {
+        let texels = (0..256 * 4).map(|k| [(k % 256 * 200) as u16; 3]).collect();
+        let ramp = Texture {
+            width: 256,
+            height: 4,
+            texels,
+            white: u16::MAX,
+            wrap: Wrap::Clamp,
+            ..Texture::default()
+        };
+        let pyramid = Pyramid::build(&ramp);
+        for (length, breadth) in [(0.0, 0.0), (3.0, 1.0), (20.0, 1.5), (60.0, 0.5), (30.0, 9.0)] {
+            let sides = [DVec2::new(length, 0.2), DVec2::new(0.0, breadth)];
+            let found = average(&pyramid, &ramp, &outline(DVec2::new(128.0, 2.0), sides)).x;
+            // Codes of each level are rounded by half a code.
+            let truth = 127.5 * 200.0 / 65535.0;
+            assert!((found - truth).abs() < 4.0 / 65535.0, "{length} {breadth}: {found} {truth}");
+        }
+    }
+
+    #[test]
+    fn probes_stay_within_their_reach() {
+        // A black texture with one white column, which the probes must not see.
+        let texels =
+            (0..128 * 128).map(|k| [if k % 128 == 100 { u16::MAX } else { 0 }; 3]).collect();
+        let column =
+            Texture { width: 128, height: 128, texels, white: u16::MAX, ..Texture::default() };
+        let pyramid = Pyramid::build(&column);
+        let sides = [DVec2::new(24.0, 7.0), DVec2::new(-0.5, 2.5)];
+        let far = reach(&outline(DVec2::ZERO, sides));
+        let at = |x: f64| average(&pyramid, &column, &outline(DVec2::new(x, 60.0), sides)).x;
+        // The coarser level's texel holds the column and its neighbours.
+        assert_eq!(at(99.0 - far.x - 4.0), 0.0);
+        assert!(at(101.0) > 0.0);
+    }
+}

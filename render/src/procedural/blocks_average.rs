@@ -10,7 +10,7 @@ use super::lattice::{mixed_at, share};
 use super::patch::{Form, Patch};
 use super::wave::{Wave, average};
 use crate::color::Color;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 /// Limits of the work for checkers.
 const CHECKERS: Limits = Limits { parts: 96.0, cells: 196.0 };
@@ -29,8 +29,8 @@ const TONES: Limits = Limits { parts: 12.0, cells: 12.0 };
 /// number distant surfaces cost more time. With a larger number the edge of their region shows.
 const NEGLIGIBLE: f64 = 0.01;
 
-/// Largest coordinate of a step, in cells, before work is estimated. Squares of larger numbers
-/// could overflow, and a longer patch is cut anyway.
+/// Largest coordinate of a step, in cells. A longer patch is cut to it, as squares of large numbers
+/// overflow. The average over a longer patch is the mean.
 const LONGEST: f64 = 1e6;
 
 /// Limits of the work for one average.
@@ -53,6 +53,7 @@ struct Limits {
 /// cancel.
 #[derive(Debug, Clone, Copy)]
 struct Bounded {
+    whole: Patch,
     part: Patch,
     share: f64,
 }
@@ -61,24 +62,24 @@ impl Bounded {
     /// Cuts a patch, in units of cells, until it is within the limits. The two axes along which the
     /// fewest cells are crossed determine the number of polygons.
     fn new(patch: &Patch, Limits { parts, cells }: Limits) -> Self {
-        let (patch, first) = patch.cut(LONGEST);
-        let [a, b] = patch.steps;
+        let (whole, _) = patch.cut(LONGEST);
+        let [a, b] = whole.steps;
         let mut crossed = [0, 1, 2].map(|axis| (a[axis].abs() + b[axis].abs(), axis));
         crossed.sort_by(|x, y| x.0.total_cmp(&y.0));
         let [(_, i), (_, j), _] = crossed;
         let longer = a.abs().max_element().max(b.abs().max_element()).max(1.0);
         let area = (a[i] * b[j] - a[j] * b[i]).abs();
         let of_parts = (parts / (2.0 + area / longer)).max((1.0 + parts).sqrt() - 1.0);
-        let of_cells = (cells / patch.width().max(1e-9)).max(cells.sqrt());
-        let (part, second) = patch.cut(of_parts.min(of_cells));
-        Self { part, share: first * second }
+        let of_cells = (cells / whole.width().max(1e-9)).max(cells.sqrt());
+        let (part, share) = whole.cut(of_parts.min(of_cells));
+        Self { whole, part, share }
     }
 
     /// Returns the average over the whole patch of a product of waves. `factors` returns each wave
     /// with its argument on a patch.
-    fn average(&self, whole: &Patch, factors: impl Fn(&Patch) -> [(Form, Wave); 3]) -> f64 {
+    fn average(&self, factors: impl Fn(&Patch) -> [(Form, Wave); 3]) -> f64 {
         if self.share == 1.0 {
-            return average(factors(whole));
+            return average(factors(&self.whole));
         }
         let separate = |factors: [(Form, Wave); 3]| -> f64 {
             factors.iter().map(|(form, wave)| wave.alone(form)).product()
@@ -88,7 +89,7 @@ impl Bounded {
         } else {
             average(factors(&self.part)) - separate(factors(&self.part))
         };
-        separate(factors(whole)) + self.share * correlation
+        separate(factors(&self.whole)) + self.share * correlation
     }
 }
 
@@ -98,7 +99,7 @@ impl Checker {
     pub fn average(&self, patch: &Patch) -> Color {
         let wave = Wave { width: 0.5, values: [1.0, -1.0] };
         let bounded = Bounded::new(patch, CHECKERS);
-        let difference = bounded.average(patch, |patch| {
+        let difference = bounded.average(|patch| {
             [DVec3::X, DVec3::Y, DVec3::Z]
                 .map(|axis| (patch.form(axis, BELOW).scaled(0.0, 0.5), wave))
         });
@@ -119,7 +120,9 @@ impl Stripes {
     pub fn average(&self, patch: &Patch) -> Color {
         let form = patch.form(DVec3::X, BELOW);
         self.weighted(|start, thickness, period| {
-            let of_layer = form.scaled(start, 1.0 / period);
+            let mut of_layer = form.scaled(start, 1.0 / period);
+            let longest = DVec2::splat(LONGEST);
+            of_layer.slopes = of_layer.slopes.clamp(-longest, longest);
             average([(of_layer, Wave::pulse(thickness / period))]).clamp(0.0, 1.0)
         })
     }
@@ -186,7 +189,7 @@ impl Brick {
         let rows = Wave::pulse(0.5 * filled.y);
         let bounded = Bounded::new(cells, BRICKS);
         let in_rows = |odd: f64| {
-            bounded.average(cells, |cells| {
+            bounded.average(|cells| {
                 [
                     (cells.form(DVec3::X, -0.5 * odd), Wave::pulse(filled.x)),
                     (cells.form(DVec3::Y, -odd).scaled(0.0, 0.5), rows),

@@ -56,7 +56,7 @@ impl Marble {
         let lost = slow.scaled(1.1, 0.25).clamped(0.0, 1.0).scaled(0.85, 0.0);
         let ground = self.ground(patch);
         layer.blur().periods(|position| {
-            let layer = (PI * position).sin().abs();
+            let layer = (PI * (position - position.floor())).sin();
             let large = lost.scaled(1.0 - layer, layer);
             self.colors.average(large.times(ground))
         })

@@ -172,7 +172,7 @@ impl Solid {
 /// Lengths of a step, in units of the texture, from which a patch of noise is divided into this many
 /// parts. More parts are more exact and cost time in proportion. From the last length on the
 /// texture is nearly its mean.
-const OF_NOISE: &[(f64, u32)] = &[(0.0, 1), (0.35, 2), (12.0, 1)];
+const OF_NOISE: &[(f64, u32)] = &[(0.0, 1), (0.35, 2), (1.4, 3), (12.0, 1)];
 
 /// The same for crystals. Their edges are sharp and are seen in patches of any size.
 const OF_CRYSTALS: &[(f64, u32)] = &[(0.0, 1), (0.05, 2), (0.8, 3), (6.0, 2), (12.0, 1)];

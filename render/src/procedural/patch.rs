@@ -160,6 +160,34 @@ mod tests {
     }
 
     #[test]
+    fn parts_cover_the_patch() {
+        let finer = [(0.0, 1), (1.0, 2), (4.0, 3), (20.0, 1)];
+        let center = DVec3::new(1.0, -2.0, 0.5);
+        for (lengths, count) in [
+            ([0.5, 0.9], 1),
+            ([1.0, 1.5], 4),
+            ([5.0, 1.5], 6),
+            ([0.5, 5.0], 6),
+            ([1.0, 0.1], 4),
+            ([30.0, 30.0], 1),
+        ] {
+            let patch = Patch { center, steps: [lengths[0] * DVec3::X, lengths[1] * DVec3::Z] };
+            let parts: Vec<Patch> = patch.parts(&finer).collect();
+            assert_eq!(parts.len(), count, "{lengths:?}");
+            // The mean position and the mean square distance along a side are those of the patch:
+            // the squares of the parts' centers, plus the variance within a part.
+            let square = |part: &Patch| {
+                let along = (part.center - center).x;
+                along * along + part.steps[0].x * part.steps[0].x / 12.0
+            };
+            let mean: DVec3 = parts.iter().map(|part| part.center).sum::<DVec3>() / count as f64;
+            assert!(mean.abs_diff_eq(center, 1e-14));
+            let squares: f64 = parts.iter().map(square).sum::<f64>() / count as f64;
+            assert!((squares - lengths[0] * lengths[0] / 12.0).abs() < 1e-12, "{lengths:?}");
+        }
+    }
+
+    #[test]
     fn a_cut_shortens_only_long_steps() {
         let patch = Patch { center: DVec3::ONE, steps: [8.0 * DVec3::X, DVec3::Y + DVec3::Z] };
         let (part, share) = patch.cut(2.0);

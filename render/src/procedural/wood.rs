@@ -72,11 +72,13 @@ impl Wood {
     /// Returns the distances of a patch from the axis. Except near the axis they are nearly a
     /// linear function.
     fn across(patch: &Patch) -> Blur {
-        let [center, a, b] =
-            [patch.center, patch.steps[0], patch.steps[1]].map(|v| DVec2::new(v.x, v.z));
-        let outward = center.normalize_or_zero();
-        let slopes = DVec2::new(a.dot(outward), b.dot(outward));
-        Form { middle: center.length(), slopes }.blur()
+        let Patch { center, steps } = patch;
+        let radius = center.x.hypot(center.z);
+        let slopes = steps.map(|step| {
+            let outward = (center.x / radius) * step.x + (center.z / radius) * step.z;
+            if radius > 0.0 { outward } else { 0.0 }
+        });
+        Form { middle: radius, slopes: DVec2::from(slopes) }.blur()
     }
 
     /// Returns how late in the year the wood grew, 0 to 1. `part` is the position within a ring,

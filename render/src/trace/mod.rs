@@ -22,7 +22,6 @@ use crate::shape::SurfacePoint;
 use glam::DVec3;
 use medium::{Boundary, Media};
 use split::{Split, mirror};
-use spreads::Spreads;
 use tree::{Branch, IntersectionTree, Node};
 use volume::Volumes;
 
@@ -192,8 +191,9 @@ impl<'a> Tracer<'a> {
         let (outward, mut spreads) = match differential {
             None => (self.bumped(material, &hit, &point), None),
             Some(differential) => {
-                let (outward, spreads) = self.spread(ray, differential, material, seen);
-                (outward, Some(spreads.on_side(side)))
+                let (outward, mut spreads) = self.spread(ray, differential, material, seen);
+                spreads.turn(side);
+                (outward, Some(spreads))
             }
         };
         let mut normal = side * outward;
@@ -201,7 +201,7 @@ impl<'a> Tracer<'a> {
         if ray.direction.dot(normal) >= 0.0 {
             normal = geometric_normal;
             if let Some(spreads) = &mut spreads {
-                spreads.shading = spreads.facet;
+                spreads.flatten();
             }
         }
 
@@ -223,9 +223,10 @@ impl<'a> Tracer<'a> {
             reflect_weight,
             refract_weight,
         });
-        if let Some(Spreads { shading, .. }) = spreads {
-            tree.push_spread(shading);
+        if let Some(spreads) = &spreads {
+            tree.push_spread(spreads.shading);
         }
+        let normals = [normal, geometric_normal];
         if depth >= self.scene.max_depth {
             return Branch::Node(slot);
         }
@@ -239,10 +240,8 @@ impl<'a> Tracer<'a> {
             counts.reflected += 1;
             let turned = mirror(ray.direction, normal, geometric_normal);
             let mirrored = Ray::leaving(hit.piece, point.position, turned.direction);
-            let differential = spreads.map(|spreads| {
-                let (spread, normal) = spreads.of(turned, normal, geometric_normal);
-                spread.reflected(ray.direction, normal)
-            });
+            let differential =
+                spreads.as_ref().map(|spreads| spreads.reflected(turned, ray.direction, normals));
             let mirrored = (&mirrored, differential.as_ref());
             let share = weight * reflect_weight;
             let (branch, through) = self.follow(mirrored, media, depth + 1, share, tree, counts);
@@ -253,10 +252,9 @@ impl<'a> Tracer<'a> {
         if let Some(turned) = split.refracted.filter(|_| worth_it(refract_weight)) {
             counts.refracted += 1;
             let passed = Ray::leaving(hit.piece, point.position, turned.direction);
-            let differential = spreads.map(|spreads| {
-                let (spread, normal) = spreads.of(turned, normal, geometric_normal);
-                spread.refracted(ray.direction, normal, eta)
-            });
+            let differential = spreads
+                .as_ref()
+                .map(|spreads| spreads.refracted(turned, ray.direction, normals, eta));
             let passed = (&passed, differential.as_ref());
             let share = weight * refract_weight;
             if let Some(own) = self.volumes.medium(self.scene, hit.piece.object, point.part) {

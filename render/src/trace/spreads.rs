@@ -9,27 +9,62 @@ use crate::scene::Material;
 use crate::shape::Changes;
 use glam::DVec3;
 
-/// The spreads of a hit, which differ in the normal.
+/// The spreads of a hit, which differ in the changes of the normal.
 #[derive(Clone, Copy)]
 pub(super) struct Spreads {
-    /// With the normal of the surface itself.
-    pub facet: Spread,
-    /// With the normal for shading.
+    /// The spread with the normal for shading.
     pub shading: Spread,
+    /// Changes of the normal of the surface itself.
+    facet: [DVec3; 2],
 }
 
 impl Spreads {
-    /// Returns the spreads with normals on the outside, which have `side` 1, or on the inside, which
-    /// have -1.
-    pub fn on_side(self, side: f64) -> Self {
-        let turned =
-            |spread: Spread| Spread { normal: spread.normal.map(|change| side * change), ..spread };
-        Self { facet: turned(self.facet), shading: turned(self.shading) }
+    /// Turns normals to the outside, with a `side` of 1, or to the inside, with -1.
+    pub fn turn(&mut self, side: f64) {
+        for change in self.shading.normal.iter_mut().chain(&mut self.facet) {
+            *change *= side;
+        }
     }
 
-    /// Returns the spread and the normal that turned a ray, of the two normals given.
-    pub fn of(&self, turned: Turned, shading: DVec3, facet: DVec3) -> (Spread, DVec3) {
-        if turned.by_facet { (self.facet, facet) } else { (self.shading, shading) }
+    /// Replaces the normal for shading by that of the surface itself.
+    pub fn flatten(&mut self) {
+        self.shading = self.facet();
+    }
+
+    /// Returns the spread with the normal of the surface itself.
+    fn facet(&self) -> Spread {
+        Spread { normal: self.facet, roughness: 0.0, ..self.shading }
+    }
+
+    /// Returns the differential of a mirrored ray; `incident` is the unit direction of the ray that
+    /// hits. `normals` are the normal for shading and that of the surface itself.
+    pub fn reflected(
+        &self,
+        turned: Turned,
+        incident: DVec3,
+        normals: [DVec3; 2],
+    ) -> RayDifferential {
+        if turned.by_facet {
+            self.facet().reflected(incident, normals[1])
+        } else {
+            self.shading.reflected(incident, normals[0])
+        }
+    }
+
+    /// Returns the differential of a refracted ray, as [`Spreads::reflected`] does of a mirrored one.
+    /// `eta` is that of [`Spread::refracted`].
+    pub fn refracted(
+        &self,
+        turned: Turned,
+        incident: DVec3,
+        normals: [DVec3; 2],
+        eta: f64,
+    ) -> RayDifferential {
+        if turned.by_facet {
+            self.facet().refracted(incident, normals[1], eta)
+        } else {
+            self.shading.refracted(incident, normals[0], eta)
+        }
     }
 }
 
@@ -54,8 +89,7 @@ impl Tracer<'_> {
         let Changes { uv, normal } =
             shape.changes(hit.piece.triangle, hit.barycentric, point, position);
         let smooth = Spread { position, uv, normal, incident, roughness: 0.0 };
-        let flat = shape.mesh().is_some();
-        let facet = if flat { Spread { normal: [DVec3::ZERO; 2], ..smooth } } else { smooth };
+        let facet = if shape.mesh().is_some() { [DVec3::ZERO; 2] } else { normal };
         let Some(bump) = material.bump.map(|bump| &self.scene.procedural.bumps[bump]) else {
             return (point.shading_normal, Spreads { facet, shading: smooth });
         };

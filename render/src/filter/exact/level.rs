@@ -96,23 +96,14 @@ fn add_edge<T: Code, const C: usize>(
     if height <= 0.0 {
         return;
     }
-    let count = lines.count as f64;
-    let (mut at, mut j) = (low, floor(low.y));
+    let slope = (high.x - low.x) / height;
+    let mut walk = Walk::new(lines.wrap, lines.count, floor(low.y));
+    let mut at = low;
     loop {
-        // A clamped texture has equal lines beyond its edges: each side is one tall line.
-        let clamped = lines.wrap == Wrap::Clamp;
-        let end = match j {
-            _ if clamped && j < 0.0 => 0.0,
-            _ if clamped && j >= count - 1.0 => f64::INFINITY,
-            _ => j + 1.0,
-        };
-        let next = if end >= high.y {
-            high
-        } else {
-            DVec2::new(low.x + (end - low.y) / height * (high.x - low.x), end)
-        };
-        let line = lines.line(lines.wrap.index(j, lines.count));
-        let mean = line.mean_integral(at.x, next.x);
+        let (index, end) = walk.line();
+        let next =
+            if end >= high.y { high } else { DVec2::new(low.x + (end - low.y) * slope, end) };
+        let mean = lines.line(index).mean_integral(at.x, next.x);
         let weight = sign * (next.y - at.y);
         for (sum, mean) in sum.iter_mut().zip(mean) {
             *sum += weight * mean;
@@ -120,6 +111,60 @@ fn add_edge<T: Code, const C: usize>(
         if end >= high.y {
             return;
         }
-        (at, j) = (next, end);
+        at = next;
+        walk.advance(end);
+    }
+}
+
+/// A walk from line to line, upward, through a texture that continues beyond its edges.
+struct Walk {
+    wrap: Wrap,
+    count: usize,
+    /// Number of the current line.
+    number: f64,
+    /// Number of the current line within a period of the texture, from 0.
+    place: usize,
+}
+
+impl Walk {
+    /// Starts at the line with a whole `number`, of either sign.
+    #[inline(always)]
+    fn new(wrap: Wrap, count: usize, number: f64) -> Self {
+        let period = if wrap == Wrap::Mirror { 2 * count } else { count };
+        let place = match wrap {
+            Wrap::Clamp => 0,
+            Wrap::Repeat | Wrap::Mirror if number >= 0.0 && number < period as f64 => {
+                number as usize
+            }
+            Wrap::Repeat | Wrap::Mirror => (number as i64).rem_euclid(period as i64) as usize,
+        };
+        Self { wrap, count, number, place }
+    }
+
+    /// Returns the index of the current line, and the position of its upper end.
+    ///
+    /// A clamped texture has equal lines beyond its edges: each side is one tall line.
+    #[inline(always)]
+    fn line(&self) -> (usize, f64) {
+        let last = self.count - 1;
+        match self.wrap {
+            Wrap::Repeat => (self.place, self.number + 1.0),
+            Wrap::Mirror if self.place > last => (2 * last + 1 - self.place, self.number + 1.0),
+            Wrap::Mirror => (self.place, self.number + 1.0),
+            Wrap::Clamp if self.number < 0.0 => (0, 0.0),
+            Wrap::Clamp if self.number >= last as f64 => (last, f64::INFINITY),
+            Wrap::Clamp => (self.number as usize, self.number + 1.0),
+        }
+    }
+
+    /// Moves to the line that begins at `end`, the end of the current one.
+    #[inline(always)]
+    fn advance(&mut self, end: f64) {
+        self.number = end;
+        let period = if self.wrap == Wrap::Mirror { 2 * self.count } else { self.count };
+        self.place += 1;
+        if self.place == period {
+            self.place = 0;
+        }
     }
 }

@@ -18,7 +18,13 @@ const TEXELS_ACROSS: f64 = 2.0;
 /// Most lines of a level that a footprint crosses.
 ///
 /// Long footprints at 45 degrees cross many lines. Fewer lines bound their cost, but blur their ends.
-const MOST_LINES: f64 = 64.0;
+pub const MOST_LINES: f64 = 64.0;
+
+/// Most lines of a level in the average of a pixel.
+///
+/// With four times as many, pictures of the scenes that we measured change by less than 0.0001, and
+/// the averages take twice the time or more. A pixel where a blurred end matters splits.
+pub const FEW_LINES: f64 = 16.0;
 
 /// Longest footprint that is averaged over its area, in texels. The average of a longer one is the
 /// mean of the texture. Positions on such a footprint are exact to a thousandth of a texel.
@@ -165,34 +171,41 @@ impl<const C: usize> Levels<C> {
         self.average_on(last, |_| square)
     }
 
-    /// Returns the average over an outline in light. The outline is longer than a texel.
+    /// Returns the average over an outline in light. The outline is longer than a texel and crosses
+    /// about `most_lines` lines at most.
     #[must_use]
-    pub fn average(&self, texture: &Texture, outline: &Outline) -> [f64; C] {
+    pub fn average(&self, texture: &Texture, outline: &Outline, most_lines: f64) -> [f64; C] {
         let Axes { major, minor, .. } = outline.axes;
-        let thin = minor <= THIN;
-        let grown = outline.grown(if thin { 0.25 } else { 1.0 });
-        let level = self.level(texture, &grown);
+        let (thin, short) = (minor <= THIN, major <= SHORT);
+        // Four places or two have the variance of three quarters of a texel's box, along both axes or
+        // across only. The outline grows by the rest.
+        let grown = match (thin, short) {
+            (false, _) => outline.grown(1.0, 1.0),
+            (true, false) => outline.grown(1.0, 0.25),
+            (true, true) => outline.grown(0.25, 0.25),
+        };
+        let level = self.level(texture, &grown, most_lines);
         if level + 1 == self.levels.len() || major > LARGEST {
             return self.mean();
         }
-        if !thin {
-            return self.over(texture, level, &[grown]);
-        }
-        // A box of a quarter of a texel's variance, and two or four places with the rest.
-        if major > SHORT {
-            let apart = 0.25 * outline.axes.across();
-            self.over(texture, level, &[grown.moved(apart), grown.moved(-apart)])
-        } else {
-            let places = [[-0.25, -0.25], [0.25, -0.25], [-0.25, 0.25], [0.25, 0.25]];
-            self.over(texture, level, &places.map(|by| grown.moved(by.into())))
+        match (thin, short) {
+            (false, _) => self.over(texture, level, &[grown]),
+            (true, false) => {
+                let apart = 0.25 * outline.axes.across();
+                self.over(texture, level, &[grown.moved(apart), grown.moved(-apart)])
+            }
+            (true, true) => {
+                let places = [[-0.25, -0.25], [0.25, -0.25], [-0.25, 0.25], [0.25, 0.25]];
+                self.over(texture, level, &places.map(|by| grown.moved(by.into())))
+            }
         }
     }
 
     /// Returns the index of the level on which an outline is averaged.
-    fn level(&self, texture: &Texture, outline: &Outline) -> usize {
+    fn level(&self, texture: &Texture, outline: &Outline, most_lines: f64) -> usize {
         let (low, high) = outline.bounds();
         let lines = (high - low).min_element();
-        let texels = (outline.axes.minor / TEXELS_ACROSS).max(lines / MOST_LINES);
+        let texels = (outline.axes.minor / TEXELS_ACROSS).max(lines / most_lines);
         let level = self.stored_level(texels);
         let size = DVec2::new(texture.width as f64, texture.height as f64);
         let inside = low.min_element() >= 0.0 && (size - high).min_element() >= 0.0;

@@ -9,10 +9,11 @@
 //!   F2(i + f) = F2(i) + f F1(i) + f^2/2 T(i)      F2(i) = sum_{k<i} (F1(k) + T(k)/2)
 //! ```
 //!
-//! `F1` is stored at every 16th texel and `F2` at every 32nd, as exact integers. The texels between
-//! are added when they are needed, from the nearer of two stored values. This takes one byte for
-//! each texel and 5 bytes for each 10 texels, where tables of `F1` and `F2` would take 12 bytes for
-//! each texel.
+//! Both are stored at every 16th texel, as exact integers. The texels between are added when they
+//! are needed, from the nearer of two stored values. `F2` needs 64 bits. They are stored at every
+//! 256th texel, and the values between as differences from there, which fit 32 bits. This takes one
+//! byte for each texel and half a byte for the sums, where tables of `F1` and `F2` would take 12 bytes
+//! for each texel.
 //!
 //! A repeating line continues as the integrals of its deviation from the mean `m`,
 //!
@@ -29,14 +30,16 @@ use crate::texture::Wrap;
 use std::array::from_fn;
 use std::fmt::Debug;
 
-/// Texels between stored values of the first integral.
+/// Texels between stored values of the integrals.
 ///
-/// An average adds a quarter as many texels for each line that an edge crosses. Twice as many save
-/// a quarter of a byte for each texel and take up to twice the time.
-const SUM_EVERY: usize = 16;
+/// An average adds a quarter as many texels for each end of each line that an edge crosses. Twice as
+/// many save a quarter of a byte for each texel and take up to twice the time.
+const EVERY: usize = 16;
 
-/// Texels between stored values of the second integral, a multiple of [`SUM_EVERY`].
-const MOMENT_EVERY: usize = 32;
+/// Texels between stored values of the second integral of 64 bits, a multiple of [`EVERY`].
+///
+/// The differences from there are at most `65535 * ANCHORED^2`, which fits 32 bits.
+const ANCHORED: usize = 256;
 
 /// Most texels of a line. The sum of so many 16-bit codes still fits 32 bits.
 pub const LONGEST: usize = 1 << 16;
@@ -84,10 +87,13 @@ pub struct Lines<T: Code, const C: usize> {
     pub wrap: Wrap,
     codes: Vec<[T; C]>,
     palette: T::Palette,
-    /// `F1` at every [`SUM_EVERY`]th texel of each line.
+    /// `F1` at every [`EVERY`]th texel of each line.
     sums: Vec<[u32; C]>,
-    /// Twice `F2` at every [`MOMENT_EVERY`]th texel of each line.
-    moments: Vec<[u64; C]>,
+    /// Twice `F2` at every [`EVERY`]th texel, without the part that the value and the slope at the
+    /// anchor before it determine.
+    moments: Vec<[u32; C]>,
+    /// Twice `F2` at the anchors, every [`ANCHORED`]th texel of each line.
+    anchors: Vec<[u64; C]>,
     balances: Vec<Balance<C>>,
 }
 
@@ -111,17 +117,25 @@ impl<T: Code, const C: usize> Lines<T, C> {
     #[must_use]
     pub fn new(codes: Vec<[T; C]>, length: usize, wrap: Wrap, palette: T::Palette) -> Self {
         let count = codes.len() / length;
-        let mut sums = Vec::with_capacity(count * stored(length, SUM_EVERY));
-        let mut moments = Vec::with_capacity(count * stored(length, MOMENT_EVERY));
+        let mut sums = Vec::with_capacity(count * stored(length, EVERY));
+        let mut moments = Vec::with_capacity(count * stored(length, EVERY));
+        let mut anchors = Vec::with_capacity(count * stored(length, ANCHORED));
         let mut balances = Vec::with_capacity(count);
         for line in codes.chunks_exact(length) {
             let (mut sum, mut moment) = ([0u32; C], [0u64; C]);
+            // Sum and moment at the last anchor.
+            let mut anchor = (sum, moment);
             for k in 0..=length {
-                if k % SUM_EVERY == 0 {
-                    sums.push(sum);
+                if k % ANCHORED == 0 {
+                    anchor = (sum, moment);
+                    anchors.push(moment);
                 }
-                if k % MOMENT_EVERY == 0 {
-                    moments.push(moment);
+                if k % EVERY == 0 {
+                    let beyond = 2 * (k % ANCHORED) as u64;
+                    sums.push(sum);
+                    moments.push(from_fn(|c| {
+                        (moment[c] - anchor.1[c] - beyond * u64::from(anchor.0[c])) as u32
+                    }));
                 }
                 let Some(texel) = line.get(k) else { break };
                 for c in 0..C {
@@ -132,7 +146,7 @@ impl<T: Code, const C: usize> Lines<T, C> {
             }
             balances.push(Balance::of(sum, moment, length, wrap));
         }
-        Self { length, count, wrap, codes, palette, sums, moments, balances }
+        Self { length, count, wrap, codes, palette, sums, moments, anchors, balances }
     }
 
     /// Memory of the lines, in bytes.
@@ -141,6 +155,7 @@ impl<T: Code, const C: usize> Lines<T, C> {
         size_of_val(self.codes.as_slice())
             + size_of_val(self.sums.as_slice())
             + size_of_val(self.moments.as_slice())
+            + size_of_val(self.anchors.as_slice())
             + size_of_val(self.balances.as_slice())
             + T::PALETTE_BYTES
     }
@@ -149,8 +164,8 @@ impl<T: Code, const C: usize> Lines<T, C> {
     #[must_use]
     pub fn bytes_for(length: usize, count: usize) -> u64 {
         let line = length * size_of::<[T; C]>()
-            + stored(length, SUM_EVERY) * size_of::<[u32; C]>()
-            + stored(length, MOMENT_EVERY) * size_of::<[u64; C]>()
+            + 2 * stored(length, EVERY) * size_of::<[u32; C]>()
+            + stored(length, ANCHORED) * size_of::<[u64; C]>()
             + size_of::<Balance<C>>();
         (count * line + T::PALETTE_BYTES) as u64
     }
@@ -166,8 +181,9 @@ impl<T: Code, const C: usize> Lines<T, C> {
         Line {
             codes: &self.codes[j * self.length..][..self.length],
             palette: &self.palette,
-            sums: &self.sums[part(SUM_EVERY)],
-            moments: &self.moments[part(MOMENT_EVERY)],
+            sums: &self.sums[part(EVERY)],
+            moments: &self.moments[part(EVERY)],
+            anchors: &self.anchors[part(ANCHORED)],
             balance: &self.balances[j],
             wrap: self.wrap,
         }
@@ -195,7 +211,8 @@ pub struct Line<'a, T: Code, const C: usize> {
     codes: &'a [[T; C]],
     palette: &'a T::Palette,
     sums: &'a [[u32; C]],
-    moments: &'a [[u64; C]],
+    moments: &'a [[u32; C]],
+    anchors: &'a [[u64; C]],
     balance: &'a Balance<C>,
     wrap: Wrap,
 }
@@ -239,10 +256,20 @@ impl<T: Code, const C: usize> Line<'_, T, C> {
     /// Returns the deviation of texel `i`, of either sign, from the mean.
     #[inline(always)]
     fn texel(&self, i: i64) -> [f64; C] {
-        let length = self.codes.len();
-        let inside =
-            if (i as u64) < length as u64 { i as usize } else { self.wrap.index(i as f64, length) };
-        let texel = self.codes[inside];
+        let length = self.codes.len() as i64;
+        let inside = if (i as u64) < length as u64 {
+            i
+        } else {
+            match self.wrap {
+                Wrap::Repeat => i.rem_euclid(length),
+                Wrap::Clamp => i.clamp(0, length - 1),
+                Wrap::Mirror => {
+                    let turned = i.rem_euclid(2 * length);
+                    turned.min(2 * length - 1 - turned)
+                }
+            }
+        };
+        let texel = self.codes[inside as usize];
         from_fn(|c| f64::from(texel[c].value(self.palette)) - self.balance.mean[c])
     }
 
@@ -274,8 +301,8 @@ impl<T: Code, const C: usize> Line<'_, T, C> {
     /// Returns `p` at `i` between 0 and the length.
     #[inline(always)]
     fn integral_inside(&self, i: usize) -> [f64; C] {
-        let place = ((i + SUM_EVERY / 2) / SUM_EVERY).min(self.sums.len() - 1);
-        let from = place * SUM_EVERY;
+        let place = ((i + EVERY / 2) / EVERY).min(self.sums.len() - 1);
+        let from = place * EVERY;
         let mut sum = self.sums[place];
         if from <= i {
             for texel in &self.codes[from..i] {
@@ -302,9 +329,9 @@ impl<T: Code, const C: usize> Line<'_, T, C> {
             return self.double_integral_inside(x);
         }
         match self.wrap {
-            Wrap::Repeat => self.double_integral_inside(x.rem_euclid(length).min(length)),
+            Wrap::Repeat => self.double_integral_inside(reduced(x, length)),
             Wrap::Mirror => {
-                let x = x.rem_euclid(2.0 * length).min(2.0 * length);
+                let x = reduced(x, 2.0 * length);
                 self.double_integral_inside(x.min(2.0 * length - x))
             }
             Wrap::Clamp => {
@@ -321,34 +348,43 @@ impl<T: Code, const C: usize> Line<'_, T, C> {
     #[inline(always)]
     fn double_integral_inside(&self, x: f64) -> [f64; C] {
         let i = x as usize;
-        let place = ((i + MOMENT_EVERY / 2) / MOMENT_EVERY).min(self.moments.len() - 1);
-        let from = place * MOMENT_EVERY;
+        let place = ((i + EVERY / 2) / EVERY).min(self.moments.len() - 1);
+        let from = place * EVERY;
+        let anchor = from / ANCHORED;
         // The sum of the texels between the stored value and i, and the sum of k times texel k.
-        let (mut sum, mut moment) = ([0u32; C], [0u32; C]);
+        let (mut sum, mut first) = ([0u32; C], [0u32; C]);
         let backward = from > i;
         let between = if backward { &self.codes[i..from] } else { &self.codes[from..i] };
         for (k, texel) in between.iter().enumerate() {
             for c in 0..C {
                 let code = texel[c].value(self.palette);
                 sum[c] += code;
-                moment[c] += k as u32 * code;
+                first[c] += k as u32 * code;
             }
         }
         let last = self.codes.get(i).copied();
-        let (start, f) = (self.sums[place * (MOMENT_EVERY / SUM_EVERY)], x - i as f64);
-        let beyond = x - from as f64;
+        let (start, f) = (self.sums[place], x - i as f64);
+        let at_anchor = self.sums[anchor * (ANCHORED / EVERY)];
+        let (beyond, from_anchor) = (x - from as f64, (from - anchor * ANCHORED) as f64);
         let Balance { mean, constant } = self.balance;
         from_fn(|c| {
             // Texel k between i and `from` is seen from x: backward from its far side.
-            let (sum, moment) = (f64::from(sum[c]), f64::from(moment[c]));
+            let (sum, first) = (f64::from(sum[c]), f64::from(first[c]));
             let between =
-                if backward { moment + (0.5 - f) * sum } else { (beyond - 0.5) * sum - moment };
+                if backward { first + (0.5 - f) * sum } else { (beyond - 0.5) * sum - first };
             let last = last.map_or(0.0, |texel| f64::from(texel[c].value(self.palette)));
-            let double = 0.5 * self.moments[place][c] as f64
+            let moment = self.anchors[anchor][c] as f64 + f64::from(self.moments[place][c]);
+            let double = 0.5 * moment
+                + from_anchor * f64::from(at_anchor[c])
                 + beyond * f64::from(start[c])
                 + between
                 + 0.5 * f * f * last;
             double - x * (0.5 * mean[c] * x + constant[c])
         })
     }
+}
+/// Returns the position in `[0, period]` that equals `x` up to whole periods.
+#[inline(always)]
+fn reduced(x: f64, period: f64) -> f64 {
+    (x - period * floor(x / period)).clamp(0.0, period)
 }

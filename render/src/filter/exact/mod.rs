@@ -31,7 +31,7 @@ use crate::color::Color;
 use crate::footprint::Footprint;
 use crate::texture::Texture;
 use glam::{DVec2, DVec3};
-use levels::Levels;
+use levels::{FEW_LINES, Levels, MOST_LINES};
 
 /// Longest axis of a footprint that is sampled, in texels.
 ///
@@ -87,10 +87,11 @@ impl Exact {
     /// Returns the average over the footprint, linear RGB. `texture` is the one that was prepared.
     #[must_use]
     pub fn average(&self, texture: &Texture, footprint: &Footprint) -> Color {
-        self.average_and_contrast(texture, footprint).0
+        self.look(texture, footprint, MOST_LINES).0
     }
 
     /// Returns the average over the footprint, linear RGB, and the contrast of the texture near it.
+    /// Unlike [`Exact::average`], the average of a long slanted footprint may be blurred at the ends.
     ///
     /// The contrast is an estimate, in light, of the change of the average if the footprint moved. It
     /// is the smaller of two numbers: half the range of the texels near the footprint, and the standard
@@ -98,16 +99,23 @@ impl Exact {
     /// axis. Of three channels, the largest counts.
     #[must_use]
     pub fn average_and_contrast(&self, texture: &Texture, footprint: &Footprint) -> (Color, f64) {
+        self.look(texture, footprint, FEW_LINES)
+    }
+
+    /// Returns the average and the contrast, for at most `most_lines` lines.
+    fn look(&self, texture: &Texture, footprint: &Footprint, most_lines: f64) -> (Color, f64) {
         let Some(outline) = Outline::of(footprint, texture) else {
             return (texture.point(footprint.bounds().0), 0.0);
         };
         match &self.0 {
             Channels::Grey(levels) => {
-                let ([grey], contrast) = look(levels, texture, &outline, |color| [color.x]);
+                let ([grey], contrast) =
+                    look(levels, texture, &outline, most_lines, |color| [color.x]);
                 (DVec3::splat(grey), contrast)
             }
             Channels::Color(levels) => {
-                let (color, contrast) = look(levels, texture, &outline, |color| color.to_array());
+                let (color, contrast) =
+                    look(levels, texture, &outline, most_lines, |color| color.to_array());
                 (color.into(), contrast)
             }
         }
@@ -120,6 +128,7 @@ fn look<const C: usize>(
     levels: &Levels<C>,
     texture: &Texture,
     outline: &Outline,
+    most_lines: f64,
     channels: impl Fn(Color) -> [f64; C],
 ) -> ([f64; C], f64) {
     let range = levels.range(outline);
@@ -130,7 +139,7 @@ fn look<const C: usize>(
     if outline.axes.major <= SAMPLED {
         return (channels(sampled(texture, outline)), contrast);
     }
-    (levels.average(texture, outline), contrast)
+    (levels.average(texture, outline, most_lines), contrast)
 }
 
 /// Averages nine samples of a small footprint.

@@ -117,3 +117,52 @@ fn blocks(low: f64, high: f64, size: usize, block: usize, wrap: Wrap) -> [usize;
     // narrow.
     [ends[0], ends[1], 0, last]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn a_range_holds_the_texels_of_its_rectangle(
+            width in 1usize..70, height in 1usize..70, x in -150.0..150.0f64, y in -150.0..150.0f64,
+            across in 0.0..90.0f64, down in 0.0..90.0f64,
+            wrap in prop_oneof![Just(Wrap::Repeat), Just(Wrap::Clamp), Just(Wrap::Mirror)],
+        ) {
+            let code = |k: usize| ((k as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40) as u16;
+            let texels = (0..width * height).map(|k| [code(k), 0, 7]).collect();
+            let texture = Texture { width, height, wrap, texels, ..Texture::default() };
+            let ranges = Ranges::of(&texture, |texel| texel);
+            prop_assert_eq!(ranges.bytes() as u64, Ranges::<3>::bytes_for(&texture));
+            let (low, high) = (DVec2::new(x, y), DVec2::new(x + across, y + down));
+            let [[least, most], zeros, sevens] = ranges.around(low, high);
+            prop_assert_eq!((zeros, sevens), ([0, 0], [7, 7]));
+            let all = texture.texels.iter().map(|texel| texel[0]);
+            prop_assert!(all.clone().any(|code| code == least) && all.clone().any(|code| code == most));
+            for j in y.floor() as i64..=(y + down).floor() as i64 {
+                for i in x.floor() as i64..=(x + across).floor() as i64 {
+                    let column = wrap.index(i as f64, width);
+                    let texel = texture.texels[wrap.index(j as f64, height) * width + column][0];
+                    prop_assert!(texel >= least && texel <= most, "{texel}: {least} to {most}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_small_rectangle_sees_only_its_blocks() {
+        // White from column 24 on.
+        let texels = (0..64 * 64).map(|k| [u16::from(k % 64 >= 24); 3]).collect();
+        let texture = Texture { width: 64, height: 64, texels, ..Texture::default() };
+        let ranges = Ranges::of(&texture, |[grey, ..]| [grey]);
+        let around = |x: f64, side: f64| {
+            let low = DVec2::new(x, 20.0);
+            ranges.around(low, low + side)[0]
+        };
+        assert_eq!(
+            [around(17.0, 6.0), around(24.0, 8.0), around(20.0, 6.0)],
+            [[0, 0], [1, 1], [0, 1]]
+        );
+    }
+}

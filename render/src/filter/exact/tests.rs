@@ -224,3 +224,27 @@ fn eight_bits_take_five_bytes_for_each_texel_and_channel() {
         assert!(bytes(width, height, &|k| [mixed(k), mixed(k + 1), 0], 3) <= 8.0);
     }
 }
+
+/// The contrast is half the range of the texels near the footprint, or less, and 0 on a flat part.
+#[test]
+fn contrast_sees_the_texels_near_the_footprint() {
+    // Black on the left, and bright, coloured stripes on the right.
+    let code =
+        |k: usize| if k % 256 < 128 { [0, 900, 0] } else { [0, 900, (k % 2) as u16 * 30000] };
+    let texture = texture(256, 256, Wrap::Clamp, code);
+    let exact = Exact::build(&texture);
+    let look = |x: f64, side: f64| {
+        let [a, b] = [DVec2::new(side, 0.1 * side), DVec2::new(0.0, side)];
+        let footprint = Footprint::Parallelogram { center: DVec2::new(x, 0.5), sides: [a, b] };
+        let (average, contrast) = exact.average_and_contrast(&texture, &footprint);
+        assert_eq!(average, exact.average(&texture, &footprint));
+        contrast
+    };
+    assert_eq!(look(0.2, 0.1), 0.0);
+    // The deviation of the finest level: a quarter of all texels is bright.
+    let deviation = (3.0f64 / 16.0).sqrt() * 30000.0 / 65535.0;
+    assert!((look(0.7, 0.002) - deviation).abs() < 1e-9);
+    // Stripes vanish from the level on whose texels hold two of them; both halves stay.
+    let left = 0.5 * 15000.0 / 65535.0;
+    assert!((look(0.7, 0.02) - left).abs() < 1e-4);
+}
