@@ -79,6 +79,7 @@ pub fn of_figure(number: u8) -> Result<String, PipelineError> {
 mod tests {
     use super::*;
     use crate::job::Mode;
+    use render::Sampling;
 
     #[test]
     fn every_page_in_examples_is_built_in() {
@@ -103,6 +104,20 @@ mod tests {
     fn every_page_has_a_title() {
         for name in names() {
             assert!(!page(name).unwrap().title.is_empty(), "{name}");
+        }
+    }
+
+    #[test]
+    fn every_page_ends_with_the_exact_mode_beside_modes_of_the_thesis() {
+        for name in names() {
+            let modes = page(name).unwrap().modes;
+            let (exact, thesis): (Vec<Mode>, Vec<Mode>) =
+                modes.iter().cloned().partition(|mode| *mode == Mode::exact());
+            // Pages with meshes by tolerance repeat the scene of another page.
+            assert_eq!(exact.len(), usize::from(!name.ends_with("-adaptive")), "{name}");
+            assert!(exact.is_empty() || modes.last() == exact.first(), "{name}");
+            let by_areas = |mode: &Mode| matches!(mode.sampling, Sampling::Area { .. });
+            assert!(!thesis.is_empty() && !thesis.iter().any(by_areas), "{name}");
         }
     }
 

@@ -137,7 +137,8 @@ impl Front {
                     p {
                         "Numbers beside a detail are its error: root mean square in linear light, where white is 1, against a "
                         "truth of " (rays) " jittered rays in each pixel that average no "
-                        "textures. The noise of the truth itself is not included."
+                        "textures. The noise of the truth itself is not included; it hides errors below a bound, and "
+                        "the bound is then given."
                     }
                 }
                 }

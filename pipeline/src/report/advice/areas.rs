@@ -46,8 +46,8 @@ fn cost(pages: &[PageMeasured]) -> Option<Sentence> {
         Some(own.saturating_sub(one) as u64)
     });
     let text = format!(
-        "One exact average over each pixel's area takes {} times the time of one bilinear ray, and up to {} more \
-         memory.",
+        "One exact average over each pixel's area takes {} times the time of one bilinear ray, \
+         and up to {} more memory.",
         times(by_bilinear(pages, &exact(None))?),
         bytes(more.max()?)
     );
@@ -70,7 +70,8 @@ fn splits(pages: &[PageMeasured]) -> Option<Sentence> {
         part(&method, &format!("split at {}", threshold?))
     }));
     let text = format!(
-        "The error of exact averages over all pages is {}; in brackets is the time relative to one bilinear ray.",
+        "The error of exact averages over all pages is {}; in brackets is the time relative to one \
+         bilinear ray.",
         parts.join(", ")
     );
     (parts.len() > 1).then(|| Sentence::general(Question::Areas, text))
@@ -90,8 +91,8 @@ fn filters(pages: &[PageMeasured]) -> Option<Sentence> {
         .map(|(filter, own, ratio)| format!("{filter} {} ({})", error(*own), times(*ratio)))
         .collect();
     let text = format!(
-        "Region {FILTERED}, over the same whole pixels: {} has the smallest error of the filters. The errors are {}; \
-         in brackets is the time relative to one bilinear ray.",
+        "Region {FILTERED}, over the same whole pixels: {} has the smallest error of the \
+         filters. The errors are {}; in brackets is the time relative to one bilinear ray.",
         rated.first()?.0,
         parts.join(", ")
     );
@@ -105,8 +106,8 @@ fn region(pages: &[PageMeasured], name: &str) -> Option<Sentence> {
         of(&Method { filter: Filter::Tent, sampling: Sampling::Supersample(nine) })
     });
     let text = format!(
-        "Region {name}: the error of exact averages is {} with whole pixels and {} with pixels split at {THRESHOLD}; that \
-         of the tent is {} with one ray and {} supersampled.",
+        "Region {name}: the error of exact averages is {} with whole pixels and {} with pixels \
+         split at {THRESHOLD}; that of the tent is {} with one ray and {} supersampled.",
         of(&exact(None))?,
         of(&exact(Some(THRESHOLD)))?,
         of(&evenly(Filter::Tent, 1))?,
@@ -158,8 +159,8 @@ mod tests {
         let own = pages[0].trials.iter_mut().find(|own| own.method == exact(None)).unwrap();
         own.cost.peak_bytes += 3 << 20;
         // The price of exact is 1.5 in the fixture, and that of bilinear 1.
-        let text = "One exact average over each pixel's area takes 1.5 times the time of one bilinear ray, and up to 3.0 \
-                    MiB more memory.";
+        let text = "One exact average over each pixel's area takes 1.5 times the time of one \
+                    bilinear ray, and up to 3.0 MiB more memory.";
         assert_eq!(one(&pages, "One exact average"), text);
     }
 
@@ -168,9 +169,9 @@ mod tests {
         let pages = [with_areas("a", &floor, &[]), with_areas("b", &floor, &[])];
         // One area split at t stands for n = 1 + 0.02 / t rays along a side: 1.4, 2 and 5. The error is 0.006 / n^0.8,
         // and the time 1.5 n^2.
-        let text = "The error of exact averages over all pages is 0.0060 with whole pixels (1.5), 0.0046 split at 0.05 \
-                    (2.9), 0.0034 split at 0.02 (6.0), 0.0017 split at 0.005 (38); in brackets is the time relative \
-                    to one bilinear ray.";
+        let text = "The error of exact averages over all pages is 0.0060 with whole pixels \
+                    (1.5), 0.0046 split at 0.05 (2.9), 0.0034 split at 0.02 (6.0), 0.0017 split \
+                    at 0.005 (38); in brackets is the time relative to one bilinear ray.";
         assert_eq!(one(&pages, "split at 0.02"), text);
     }
 
@@ -196,8 +197,9 @@ mod tests {
     fn each_region_has_both_errors_beside_those_of_the_thesis() {
         // The error on edges is 0.212 / n.
         let pages = [with_areas("a", &floor, &[("silhouettes", &edges)])];
-        let text = "Region silhouettes: the error of exact averages is 0.21 with whole pixels and 0.15 with pixels split \
-                    at 0.05; that of the tent is 0.21 with one ray and 0.11 supersampled.";
+        let text = "Region silhouettes: the error of exact averages is 0.21 with whole pixels \
+                    and 0.15 with pixels split at 0.05; that of the tent is 0.21 with one ray \
+                    and 0.11 supersampled.";
         assert_eq!(one(&pages, "Region silhouettes"), text);
     }
 
@@ -212,12 +214,13 @@ mod tests {
             one(&[with_areas("a", &law, &[])], "On a exact averages")
         };
         // The tent leaves 0.04 at 2.0 times the time of one bilinear ray: 2.94 by 2.
-        let text = "On a exact averages split at 0.05 (0.040) take 1.5 times the time of tent, 1 ray (0.040), the \
-                    fastest measured method of the lattice with as small an error.";
+        let text = "On a exact averages split at 0.05 (0.040) take 1.5 times the time of tent, \
+                    1 ray (0.040), the fastest measured method of the lattice with as small an \
+                    error.";
         assert_eq!(said(0.04), text);
         // The smallest error of the lattice is that of the quadratic with 8 x 8 rays, 0.0396 / 8^0.8.
-        let text = "take 0.0077 times the time of quadratic, 8 x 8 rays (0.0075), the nearest measured method of the \
-                    lattice, whose error is larger.";
+        let text = "take 0.0077 times the time of quadratic, 8 x 8 rays (0.0075), the nearest \
+                    measured method of the lattice, whose error is larger.";
         assert!(said(0.001).ends_with(text), "{}", said(0.001));
     }
 
