@@ -114,7 +114,7 @@ impl Look {
             Mark::Star => {
                 let corner = |k: u32| {
                     let angle = f64::from(k) * std::f64::consts::PI / 5.0;
-                    let size = if k % 2 == 0 { 1.0 } else { 0.45 };
+                    let size = if k.is_multiple_of(2) { 1.0 } else { 0.45 };
                     (size * angle.sin(), -size * angle.cos())
                 };
                 outline(svg, 1.4 * radius, &(0..10).map(corner).collect::<Vec<_>>());
