@@ -7,6 +7,7 @@ mod check;
 mod cli;
 mod complaints;
 mod exact;
+mod exact_filter;
 mod examples;
 mod hard_cases;
 mod hard_mutations;
