@@ -10,6 +10,7 @@ mod cli;
 mod complaints;
 mod differentials;
 mod exact;
+mod exact_filter;
 mod examples;
 mod hard_cases;
 mod hard_mutations;

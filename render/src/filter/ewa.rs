@@ -35,7 +35,7 @@ pub struct Ewa {
     pyramid: Pyramid,
     /// Largest ratio of length to breadth.
     aspect: f64,
-    weights: [f64; WEIGHTS],
+    weights: Box<[f64; WEIGHTS]>,
 }
 
 impl Ewa {
@@ -43,7 +43,11 @@ impl Ewa {
     #[must_use]
     pub fn build(texture: &Texture, aspect: f64) -> Self {
         let weight = |k: usize| (-SHARPNESS * k as f64 / WEIGHTS as f64).exp() - (-SHARPNESS).exp();
-        Self { pyramid: Pyramid::build(texture), aspect, weights: std::array::from_fn(weight) }
+        Self {
+            pyramid: Pyramid::build(texture),
+            aspect,
+            weights: Box::new(std::array::from_fn(weight)),
+        }
     }
 
     /// Memory of the pyramid, in bytes.

@@ -124,7 +124,8 @@ impl Filter {
     pub fn wants_area(self) -> bool {
         match self {
             Self::Point | Self::Bilinear => false,
-            _ => true,
+            Self::Mip | Self::Box | Self::Tent | Self::Quadratic => true,
+            Self::Exact | Self::Ewa8 | Self::Ewa16 | Self::Ewa64 | Self::Probes => true,
         }
     }
 

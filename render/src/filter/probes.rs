@@ -1,7 +1,7 @@
 //! Averages several probes of a pyramid along the longer axis of a footprint.
 //!
-//! The method is that of OpenImageIO (`compute_ellipse_sampling` in `texturesys.cpp`). It is a form of
-//! McCormack et al., *Feline: Fast Elliptical Lines for Anisotropic Texture Mapping*, SIGGRAPH 1999.
+//! The method is that of the library `OpenImageIO` (`compute_ellipse_sampling` in `texturesys.cpp`), a
+//! form of *Feline: Fast Elliptical Lines for Anisotropic Texture Mapping*, SIGGRAPH 1999.
 //! A footprint of aspect `a` gets `2a - 1` probes, rounded down. The probes are as wide as its shorter
 //! axis and lie evenly between its ends. Their weights fall off as a Gaussian. A footprint longer than
 //! [`MOST_ASPECT`] times its breadth is widened, which blurs.
