@@ -136,13 +136,13 @@ fn any_structure_gives_the_same_file() {
 #[test]
 fn only_tables_that_a_surface_shows_are_built() {
     let without = Bench::with_scene(WALL);
-    assert_eq!(stats(&without, &["--filter", "tent"])["tables"], 0);
+    assert_eq!(stats(&without, &[])["tables"], 0);
     let bench = Bench::with_scene(TEXTURED_WALL);
     bench.write("checks.png", checks());
     let filters =
         [("point", 0), ("bilinear", 0), ("mip", 1), ("box", 1), ("tent", 1), ("quadratic", 1)];
     for (filter, tables) in filters {
-        let stats = stats(&bench, &["--filter", filter]);
+        let stats = stats(&bench, &["--sampling", "thesis", "--filter", filter]);
         assert_eq!(stats["tables"], tables, "{filter}");
         assert_eq!(stats["table_bytes"].as_u64() > Some(0), tables > 0, "{filter}");
         // Only a filter that averages over areas needs the ring of rays around the picture.
@@ -162,7 +162,7 @@ fn a_texture_that_nothing_shows_gets_no_table() {
         .replace(r#""diffuse": 0 }"#, r#""ambient": 0, "diffuse": 0, "reflectivity": 1 }"#);
     let bench = Bench::with_scene(&text);
     bench.write("checks.png", checks());
-    let stats = stats(&bench, &[]);
+    let stats = stats(&bench, &["--sampling", "thesis", "--filter", "tent"]);
     assert_eq!((&stats["tables"], &stats["texels"]), (&0.into(), &0.into()));
     assert_eq!(stats["primary_rays"], 64, "no ring of rays for tables that are not there");
 }
@@ -170,7 +170,7 @@ fn a_texture_that_nothing_shows_gets_no_table() {
 #[test]
 fn stats_say_what_the_picture_cost() {
     let bench = Bench::with_scene(WALL);
-    let stats = stats(&bench, &["--samples", "3"]);
+    let stats = stats(&bench, &["--samples", "3", "--split", "none"]);
     assert_eq!(stats["primary_rays"], 8 * 8 * 9);
     assert_eq!(stats["hits"], 8 * 8 * 9);
     for none in ["reflected_rays", "refracted_rays", "shadow_rays", "not_finite"] {

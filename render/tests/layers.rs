@@ -40,8 +40,17 @@ fn made(bench: &Bench, arguments: &[&str]) -> BTreeMap<String, Vec<f32>> {
 
 #[test]
 fn layers_hold_what_is_hit_first() {
+    // The thesis's footprint lies between the middles of the pixel's neighbours, or is a point.
+    layers_hold(&["--sampling", "thesis"], 0.25);
+    // The other footprint is the pixel.
+    layers_hold(&["--sampling", "area"], 0.125);
+}
+
+/// Checks all layers of a picture; `width` is that of a footprint on the wall.
+fn layers_hold(method: &[&str], width: f32) {
     let bench = bench();
-    let channels = made(&bench, &["--layers", "footprint,object,uv,depth,normal"]);
+    let layers = ["--layers", "footprint,object,uv,depth,normal"];
+    let channels = made(&bench, &[method, &layers].concat());
     let names: Vec<&str> = channels.keys().map(String::as_str).collect();
     let known = [
         "B",
@@ -73,11 +82,10 @@ fn layers_hold_what_is_hit_first() {
             assert!((of("depth.Z") - (1.0 + x * x + y * y).sqrt()).abs() < ROUNDINGS);
             assert!((of("uv.U") - (x + 0.5) / 2.5).abs() < ROUNDINGS);
             assert!((of("uv.V") - (y + 2.0) / 4.0).abs() < ROUNDINGS);
-            // The footprint is two pixels of an eighth, between the middles of the pixel's
-            // neighbours, or a point.
-            let near = (size[0] - 0.25 / 2.5).abs() < ROUNDINGS
-                && (size[1] - 0.25 / 4.0).abs() < ROUNDINGS;
-            assert!(near || size == [0.0; 2], "{size:?}");
+            let near = (size[0] - width / 2.5).abs() < ROUNDINGS
+                && (size[1] - width / 4.0).abs() < ROUNDINGS;
+            let point = method.contains(&"thesis") && size == [0.0; 2];
+            assert!(near || point, "{size:?}");
             seen[0] += usize::from(near);
         } else if id == 1.0 {
             let unit = normal.iter().map(|n| n * n).sum::<f32>();
@@ -108,7 +116,8 @@ fn layers_do_not_change_the_colour_and_are_not_averaged() {
     assert!(layered["object.id"].iter().all(|id| [-1.0, 0.0, 1.0].contains(id)));
     // The middle ray of three by three, and that of the nine, is the ray of a pixel with one ray.
     let single = made(&bench, &["--layers", "object,uv"]);
-    let nine = made(&bench, &["--supersample", "--layers", "object,uv"]);
+    let nine = ["--sampling", "thesis", "--supersample", "--layers", "object,uv"];
+    let nine = made(&bench, &nine);
     for name in ["object.id", "uv.U", "uv.V"] {
         assert_eq!(single[name], layered[name], "{name}");
         assert_eq!(single[name], nine[name], "{name}");
@@ -118,7 +127,7 @@ fn layers_do_not_change_the_colour_and_are_not_averaged() {
 #[test]
 fn a_crop_is_a_picture_of_its_own_size() {
     let bench = bench();
-    let flags = ["--supersample=rays", "--layers", "normal,footprint"];
+    let flags = ["--sampling", "thesis", "--supersample=rays", "--layers", "normal,footprint"];
     let whole = made(&bench, &flags);
     let part = made(&bench, &[&flags[..], &["--crop", "3,5,9x4"]].concat());
     for (name, values) in &part {
@@ -145,8 +154,21 @@ fn what_cannot_be_is_told_before_any_work() {
             text("--crop 0,0,5x1 reaches out of the picture of 4x4 pixels"),
         ),
         (vec!["--crop", "4,0,1x1"], text("--crop 4,0,1x1 reaches out of the picture")),
-        (vec!["--seed", "1"], text("--seed chooses a jitter: add --pattern jitter")),
-        (vec!["--pixel-filter", "tent"], text("--pixel-filter tent needs rays between")),
+        (
+            vec!["--sampling", "thesis", "--seed", "1"],
+            text("--seed chooses a jitter: add --pattern jitter"),
+        ),
+        (
+            vec!["--sampling", "thesis", "--pixel-filter", "tent"],
+            text("--pixel-filter tent needs rays between"),
+        ),
+        (vec!["--seed", "1"], text("--seed belongs to --sampling thesis")),
+        (vec!["--pattern", "jitter"], text("--pattern belongs to --sampling thesis")),
+        (vec!["--supersample"], text("--supersample belongs to --sampling thesis")),
+        (
+            vec!["--sampling", "thesis", "--split", "0.1"],
+            text("--split belongs to --sampling area"),
+        ),
     ] {
         bench.refuse(&[&["scene.json"], &arguments[..]].concat(), b"", 2, &[&part]);
     }
@@ -164,6 +186,9 @@ fn what_cannot_be_is_told_before_any_work() {
         vec!["--supersample", "--samples", "2", "-o", "out.png"],
         vec!["--supersample", "--pattern", "jitter", "-o", "out.png"],
         vec!["--all-samples", "-o", "out.png"],
+        vec!["--split", "0", "-o", "out.png"],
+        vec!["--split", "half", "-o", "out.png"],
+        vec!["--sampling", "random", "-o", "out.png"],
     ] {
         let (code, said) = ending(&bench.run(&[&["scene.json"], &flag[..]].concat(), b""));
         assert_eq!(code, Some(2), "{flag:?}: {said}");
@@ -188,8 +213,9 @@ fn stats_count_the_rays_of_every_sampling() {
         (vec!["--supersample=rays"], 17, 17),
     ] {
         for (filter, side) in [("point", point), ("tent", tent)] {
-            let fixed = ["scene.json", "--size", "8x8", "-o", "a.png", "--stats=json", "--filter"];
-            let arguments = [&fixed[..], &[filter], &flags[..]].concat();
+            let fixed = ["scene.json", "--size", "8x8", "-o", "a.png", "--stats=json"];
+            let method = ["--sampling", "thesis", "--filter", filter];
+            let arguments = [&fixed[..], &method, &flags[..]].concat();
             let (code, said) = ending(&bench.run(&arguments, b""));
             assert_eq!(code, Some(0), "{said}");
             let stats: serde_json::Value = serde_json::from_str(&said).unwrap();

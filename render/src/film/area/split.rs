@@ -92,7 +92,8 @@ impl<'s, 'a, 'b> Splitter<'s, 'a, 'b> {
             let rest = Shot { weight: of_whole * whole.weight, ..*whole };
             shots.extend((of_whole > 0.0 || depth == 1).then_some(rest));
         }
-        of_whole * own + (1.0 - of_whole) * mean
+        // Equal colours keep their value to the last bit.
+        own + (1.0 - of_whole) * (mean - own)
     }
 
     /// Returns the estimated errors of the four parts, root mean square of linear RGB. `ends` are

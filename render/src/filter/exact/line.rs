@@ -107,9 +107,10 @@ struct Balance<const C: usize> {
     constant: [f64; C],
 }
 
-/// Returns the stored values of a line: one at its start and one after each `every` texels.
-fn stored(length: usize, every: usize) -> usize {
-    length / every + 1
+/// Returns the number of stored values of a line: one at its start and one after each [`EVERY`]
+/// texels.
+fn stored(length: usize) -> usize {
+    length / EVERY + 1
 }
 
 impl<T: Code, const C: usize> Lines<T, C> {
@@ -118,21 +119,22 @@ impl<T: Code, const C: usize> Lines<T, C> {
     #[must_use]
     pub fn new(codes: Vec<[T; C]>, length: usize, wrap: Wrap, palette: T::Palette) -> Self {
         let count = codes.len() / length;
-        let mut sums = Vec::with_capacity(count * stored(length, EVERY));
-        let mut moments = Vec::with_capacity(count * stored(length, EVERY));
-        let mut anchors = Vec::with_capacity(count * stored(length, ANCHORED));
+        let mut sums = Vec::with_capacity(count * stored(length));
+        let mut moments = Vec::with_capacity(count * stored(length));
+        let mut anchors = Vec::with_capacity(count * length.div_ceil(ANCHORED));
         let mut balances = Vec::with_capacity(count);
         for line in codes.chunks_exact(length) {
             let (mut sum, mut moment) = ([0u32; C], [0u64; C]);
             // Sum and moment at the last anchor.
-            let mut anchor = (sum, moment);
+            let (mut anchor, mut anchored) = ((sum, moment), 0);
             for k in 0..=length {
-                if k % ANCHORED == 0 {
+                if k % ANCHORED == 0 && k < length {
                     anchor = (sum, moment);
+                    anchored = k;
                     anchors.push(moment.map(|moment| moment as f64));
                 }
                 if k % EVERY == 0 {
-                    let beyond = 2 * (k % ANCHORED) as u64;
+                    let beyond = 2 * (k - anchored) as u64;
                     sums.push(sum);
                     moments.push(from_fn(|c| {
                         (moment[c] - anchor.1[c] - beyond * u64::from(anchor.0[c])) as u32
@@ -165,8 +167,8 @@ impl<T: Code, const C: usize> Lines<T, C> {
     #[must_use]
     pub fn bytes_for(length: usize, count: usize) -> u64 {
         let line = length * size_of::<[T; C]>()
-            + 2 * stored(length, EVERY) * size_of::<[u32; C]>()
-            + stored(length, ANCHORED) * size_of::<[f64; C]>()
+            + 2 * stored(length) * size_of::<[u32; C]>()
+            + length.div_ceil(ANCHORED) * size_of::<[f64; C]>()
             + size_of::<Balance<C>>();
         (count * line + T::PALETTE_BYTES) as u64
     }
@@ -175,16 +177,14 @@ impl<T: Code, const C: usize> Lines<T, C> {
     #[must_use]
     #[inline]
     pub fn line(&self, j: usize) -> Line<'_, T, C> {
-        let part = |every| {
-            let count = stored(self.length, every);
-            j * count..(j + 1) * count
-        };
+        let part = |count: usize| j * count..(j + 1) * count;
+        let (count, anchors) = (stored(self.length), self.length.div_ceil(ANCHORED));
         Line {
             codes: &self.codes[j * self.length..][..self.length],
             palette: &self.palette,
-            sums: &self.sums[part(EVERY)],
-            moments: &self.moments[part(EVERY)],
-            anchors: &self.anchors[part(ANCHORED)],
+            sums: &self.sums[part(count)],
+            moments: &self.moments[part(count)],
+            anchors: &self.anchors[part(anchors)],
             balance: &self.balances[j],
             wrap: self.wrap,
         }
@@ -354,7 +354,7 @@ impl<T: Code, const C: usize> Line<'_, T, C> {
         let i = whole as usize;
         let place = ((i + EVERY / 2) / EVERY).min(self.moments.len() - 1);
         let from = place * EVERY;
-        let anchor = from / ANCHORED;
+        let anchor = (from / ANCHORED).min(self.anchors.len() - 1);
         // The sum of the texels between the stored value and i, and the sum of k times texel k.
         let (mut sum, mut first) = ([0u32; C], [0u32; C]);
         let backward = from > i;
