@@ -34,7 +34,7 @@
 //! | `sampling` | `area`, or `thesis` for the thesis's lattice of rays | `area` |
 //! | `samples` | rays along each side of a pixel, 1 to 256 | 1 |
 //! | `pixel_filter` | `box`, `tent` or `gaussian` | `box` |
-//! | `split` | of `area`: a threshold from 0.0001 to 1 above which pixels are split, or `none` | 0.05 |
+//! | `split` | of `area`: a threshold from 0.0001 to 1 above which pixels are split, or `none` | 0.1 |
 //! | `pattern`, `seed` | of `thesis`: `regular`, or `jitter` with a seed | `regular` |
 //! | `supersample` | of `thesis`, instead of the other keys: `image` or `rays` | |
 //! | `accel` | the acceleration structure: `bvh`, `grid` or `none` | `bvh` |

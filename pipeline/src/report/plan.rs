@@ -34,7 +34,7 @@ const OF_AREAS: [Filter; 4] = [Filter::Ewa8, Filter::Ewa16, Filter::Ewa64, Filte
 const SAMPLES: [u32; 6] = [1, 2, 3, 4, 8, 16];
 
 /// Thresholds of splitting in a full report, from few splits to many.
-const THRESHOLDS: [f64; 3] = [THRESHOLD, 0.02, 0.005];
+const THRESHOLDS: [f64; 3] = [THRESHOLD, 0.03, 0.01];
 
 impl Plan {
     /// Returns a plan of all methods, at 128 x 128 pixels.

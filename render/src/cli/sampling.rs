@@ -24,7 +24,7 @@ pub struct SamplingArguments {
     #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_SAMPLES)))]
     samples: u32,
     /// With --sampling area: split a pixel, or a part of one, while its estimated error times its
-    /// area is above this: a number from 0.0001 to 1, in linear light, or none [default: 0.05]
+    /// area is above this: a number from 0.0001 to 1, in linear light, or none [default: 0.1]
     #[arg(long, value_name = "E|none", value_parser = split)]
     split: Option<Split>,
     /// With --sampling thesis: position of each ray in its cell of the pixel [default: regular]

@@ -48,7 +48,7 @@ pub enum Sampling {
 ///
 /// A larger one leaves steps at edges of little contrast. A smaller one costs rays and gains
 /// little, since the error of unsplit cells remains.
-pub const THRESHOLD: f64 = 0.05;
+pub const THRESHOLD: f64 = 0.1;
 
 /// Thresholds that a user may choose. A smaller one would split every pixel into 256 parts.
 pub const SPLITS: RangeInclusive<f64> = 1e-4..=1.0;

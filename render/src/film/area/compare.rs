@@ -40,6 +40,8 @@ const JUMP: f32 = 1.0;
 pub struct Pair {
     /// Estimated errors of both samples' cells, root mean square of linear RGB.
     pub errors: [f32; 2],
+    /// The part of both errors that an edge between the samples causes.
+    pub edge: f32,
     /// Change of the light on all partners from the first sample to the second, linear RGB.
     pub light: [f32; 3],
 }
@@ -95,6 +97,7 @@ pub fn pair(a: &[Leaf], b: &[Leaf], across: DVec2, charts: &[Charts]) -> Pair {
     if shown {
         let edge = OF_EDGE * size(apart).max(LEAST_EDGE * largest);
         found.errors = found.errors.map(|error| error.max(edge));
+        found.edge = edge;
     }
     found
 }

@@ -27,7 +27,7 @@ use super::{Crop, Pattern};
 use crate::color::Color;
 use glam::DVec2;
 use sampler::{Sampler, Shot};
-use samples::Samples;
+use samples::{Estimate, Samples};
 use split::Splitter;
 use std::ops::Range;
 
@@ -45,7 +45,7 @@ struct Cell {
 ///
 /// With a larger part, dark outlines and the edges of faint shadows show steps. With a smaller one,
 /// pixels are split for differences that nobody sees.
-const VISIBLE: f64 = 0.25;
+const VISIBLE: f64 = 0.2;
 
 /// Steepest slope of the codes of an sRGB picture, at black.
 const STEEPEST: f64 = 12.92;
@@ -109,14 +109,13 @@ impl Method for Area {
         for (down, y) in rows.enumerate() {
             for (color, x) in colors.iter_mut().zip(columns.clone()) {
                 let (cell, index) = (self.cell(x, y), samples.index(x, y));
-                let error = errors.as_ref().map_or(0.0, |errors| errors[index]);
+                let estimate = errors.as_ref().map_or(Estimate::default(), |errors| errors[index]);
                 let own = samples.color(index);
                 let mut shots = W::LISTENS.then(Vec::new);
-                let splits = self.splits(cell, error, own);
+                let splits = self.splits(cell, estimate.error, own);
                 *color = match self.threshold.filter(|_| splits) {
-                    Some(threshold) => {
-                        Splitter::new(threshold, &mut sampler, shots.as_mut()).split(cell, own)
-                    }
+                    Some(threshold) => Splitter::new(threshold, &mut sampler, shots.as_mut())
+                        .split(cell, own, estimate.edge),
                     None => {
                         let offset = DVec2::ZERO;
                         shots.iter_mut().for_each(|s| s.push(Shot { cell, offset, weight: 1.0 }));

@@ -13,7 +13,22 @@ use std::ops::Range;
 /// an eighth of a cell, where it cuts up to a half between cells that share a side.
 ///
 /// Without it, an edge that cuts a corner is not seen.
-const DIAGONAL: f32 = 0.5;
+const DIAGONAL: f32 = 0.35;
+
+/// Estimated errors of a cell, root mean square of linear RGB.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Estimate {
+    /// The error.
+    pub error: f32,
+    /// The part of the error that an edge between the cell's middle and that of a neighbour causes.
+    pub edge: f32,
+}
+
+impl Estimate {
+    fn raise(&mut self, error: f32, edge: f32) {
+        *self = Self { error: self.error.max(error), edge: self.edge.max(edge) };
+    }
+}
 
 /// Samples of a rectangle of cells, row by row.
 pub struct Samples {
@@ -64,10 +79,10 @@ impl Samples {
         self.colors[index]
     }
 
-    /// Returns the estimated error of each cell from its neighbours, as the root mean square of
-    /// linear RGB. The outermost cells miss a neighbour, and their estimates mean nothing.
-    pub fn errors(&self, charts: &[Charts]) -> Vec<f32> {
-        let mut errors = vec![0.0_f32; self.colors.len()];
+    /// Returns the estimated error of each cell from its neighbours. The outermost cells miss a
+    /// neighbour, and their estimates mean nothing.
+    pub fn errors(&self, charts: &[Charts]) -> Vec<Estimate> {
+        let mut errors = vec![Estimate::default(); self.colors.len()];
         let across = (self.columns.end - self.columns.start) as usize;
         // Changes of light from the cells above, column by column, and from the cell to the left.
         let mut from_above = vec![[0.0; 3]; across];
@@ -75,26 +90,28 @@ impl Samples {
             let mut from_left = [0.0; 3];
             for column in 0..across {
                 let own = row * across + column;
-                if column + 1 < across {
-                    let found = pair(self.of(own), self.of(own + 1), DVec2::X, charts);
-                    errors[own] =
-                        errors[own].max(found.errors[0]).max(step(from_left, found.light));
-                    errors[own + 1] = errors[own + 1].max(found.errors[1]);
-                    from_left = found.light;
-                }
-                if own + across < self.colors.len() {
-                    let found = pair(self.of(own), self.of(own + across), DVec2::Y, charts);
-                    let bend = step(from_above[column], found.light);
-                    errors[own] = errors[own].max(found.errors[0]).max(bend);
-                    errors[own + across] = errors[own + across].max(found.errors[1]);
-                    from_above[column] = found.light;
-                    for (step, there) in [(-1.0, column.checked_sub(1)), (1.0, Some(column + 1))] {
-                        let Some(there) = there.filter(|&there| there < across) else { continue };
-                        let other = own + across - column + there;
-                        let found =
-                            pair(self.of(own), self.of(other), DVec2::new(step, 1.0), charts);
-                        errors[own] = errors[own].max(DIAGONAL * found.errors[0]);
-                        errors[other] = errors[other].max(DIAGONAL * found.errors[1]);
+                let mut compare = |other: usize, direction: DVec2, part: f32| {
+                    let found = pair(self.of(own), self.of(other), direction, charts);
+                    errors[own].raise(part * found.errors[0], part * found.edge);
+                    errors[other].raise(part * found.errors[1], part * found.edge);
+                    found.light
+                };
+                let right = (column + 1 < across).then(|| compare(own + 1, DVec2::X, 1.0));
+                let below = own + across;
+                let down = (below < self.colors.len()).then(|| {
+                    if column > 0 {
+                        compare(below - 1, DVec2::new(-1.0, 1.0), DIAGONAL);
+                    }
+                    if column + 1 < across {
+                        compare(below + 1, DVec2::ONE, DIAGONAL);
+                    }
+                    compare(below, DVec2::Y, 1.0)
+                });
+                for (before, after) in [(&mut from_left, right), (&mut from_above[column], down)] {
+                    if let Some(after) = after {
+                        let bend = step(*before, after);
+                        errors[own].raise(bend, bend);
+                        *before = after;
                     }
                 }
             }

@@ -16,6 +16,10 @@ const DEEPEST: u32 = 4;
 /// are nearly upright or level get five shades and not three.
 const TURNED: f64 = 0.25;
 
+/// Part of the error of an edge that is left if all four parts of a cell agree: the edge then cuts at
+/// most an eighth of the cell, or passes beside it.
+const OF_HIDDEN: f64 = 0.5;
+
 /// Weight of a cell's own sample beside those of its four parts, where no part is split again. It
 /// is a fifth sample.
 const OF_WHOLE: f64 = 0.2;
@@ -55,15 +59,17 @@ impl<'s, 'a, 'b> Splitter<'s, 'a, 'b> {
     }
 
     /// Returns the colour of a first cell from its parts, linear RGB. `own` is the colour of the
-    /// cell's own sample.
-    pub fn split(mut self, cell: Cell, own: Color) -> Color {
+    /// cell's own sample. `edge` is the error that an edge beside the cell's middle causes, root mean
+    /// square of linear RGB.
+    pub fn split(mut self, cell: Cell, own: Color, edge: f32) -> Color {
         let first = Shot { cell, offset: DVec2::ZERO, weight: 1.0 };
-        self.divided(&first, own, 1)
+        self.divided(&first, own, 1, f64::from(edge) * cell.side * cell.side)
     }
 
     /// Returns the colour of a cell from its four parts. `whole` is the cell's own sample with the
-    /// weight of the cell, and `depth` is the depth of its parts.
-    fn divided(&mut self, whole: &Shot, own: Color, depth: u32) -> Color {
+    /// weight of the cell, and `depth` is the depth of its parts. `edge` is the error times area of
+    /// an edge that is known to cut the cell or to pass beside it.
+    fn divided(&mut self, whole: &Shot, own: Color, depth: u32, edge: f64) -> Color {
         let side = 0.5 * whole.cell.side;
         self.leaves.clear();
         let mut colors = [own; 4];
@@ -79,8 +85,12 @@ impl<'s, 'a, 'b> Splitter<'s, 'a, 'b> {
         let errors = self.errors(&ends);
         let splits =
             errors.map(|error| depth < DEEPEST && f64::from(error) * side * side > self.threshold);
+        // All parts agree, though the cell's neighbours see an edge. It may cut a corner or a side of
+        // the cell.
+        let hidden = OF_HIDDEN * edge > self.threshold && !splits.contains(&true);
+        let splits = if hidden { [true; 4] } else { splits };
         for ((part, color), _) in parts.iter().zip(&mut colors).zip(splits).filter(|(_, s)| *s) {
-            *color = self.divided(part, *color, depth + 1);
+            *color = self.divided(part, *color, depth + 1, 0.0);
         }
         let mean = 0.25 * (colors[0] + colors[1] + colors[2] + colors[3]);
         let of_whole = if splits.contains(&true) { 0.0 } else { OF_WHOLE };
