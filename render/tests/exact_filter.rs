@@ -16,7 +16,7 @@ use render::filter::{Filter, FilteredTexture};
 use render::footprint::Footprint;
 
 /// Few pixels, with the truth of the full set.
-const FEW: Set = Set { anisotropies: 16, places: 1, samples: 96 };
+const FEW: Set = Set { anisotropies: 16, places: 2, samples: 96, tent: false };
 
 /// Parts of the pixel along each side for the finer average.
 const PARTS: u32 = 4;

@@ -222,7 +222,9 @@ mod tests {
             size: (20, 20),
             filters: vec![Filter::Point, Filter::Tent],
             lattices: [1, 2, 4, 16].map(Sampling::regular).into(),
-            areas: [None, Some(THRESHOLD)].map(|split| Method::area(Filter::Exact, 1, split)).into(),
+            areas: [None, Some(render::film::THRESHOLD)]
+                .map(|split| Method::area(Filter::Exact, 1, split))
+                .into(),
             truth_samples: 32,
             most_truth_samples: 64,
             patience: std::time::Duration::ZERO,

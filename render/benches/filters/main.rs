@@ -2,7 +2,7 @@
 //!
 //! `cargo bench -p render --bench filters -- docs/measured` writes `filters.csv` and `filters.svg`
 //! to that folder. Without a folder it only prints. docs/filters.md describes the measurement. With
-//! `--full` it prints the errors over 110 592 footprints instead of 9216, without times. With
+//! `--full` it prints the errors against the box over 110 592 footprints instead of 9216, without times. With
 //! `--only=exact` only methods whose names begin so are measured, beside bilinear interpolation.
 
 #![expect(clippy::print_stdout, reason = "a bench is read on the terminal")]

@@ -4,6 +4,13 @@ use crate::footprint::Footprint;
 use crate::texture::{Texture, Wrap};
 use glam::DVec2;
 
+/// Largest ratio between the perspective weights of two corners of an outline that is averaged as one.
+///
+/// The area of texture seen by equal parts of the film differs by up to the cube of this ratio. A smaller
+/// ratio divides more outlines, at twice the cost. With a larger one the far part of a pixel counts too
+/// much.
+const UNEVEN: f64 = 1.06;
+
 /// A quadrilateral on a texture, in texels, `y` downward.
 ///
 /// A corner lies at `center + u * first + v * second + bend` for `u` and `v` of -1/2 or 1/2. The bend
@@ -74,11 +81,7 @@ impl Outline {
                 (center, [2.0 * half.x * DVec2::X, 2.0 * half.y * DVec2::Y], DVec2::ZERO)
             }
             Footprint::Parallelogram { center, sides } => (center, sides, DVec2::ZERO),
-            Footprint::Quadrilateral([a, b, c, d]) => {
-                let center = 0.25 * (a + b + c + d);
-                let sides = [0.5 * (b - a + c - d), 0.5 * (d - a + c - b)];
-                (center, sides, 0.25 * (a - b + c - d))
-            }
+            Footprint::Quadrilateral(corners) => split(corners),
         };
         let (sides, bend) = (sides.map(|side| side * scale), bend * scale);
         let center = texture.in_texels(center);
@@ -137,6 +140,44 @@ impl Outline {
         grown
     }
 
+    /// Returns the two halves of the outline if they belong to equal parts of the film but to areas of
+    /// the texture that differ; otherwise `None`.
+    ///
+    /// A pixel sees a plane in perspective. Four corners determine the perspective map of a square: the
+    /// weight of a corner is the area of the triangle of the other three. The two sides that are longer
+    /// are divided where the middle of the square is seen.
+    #[must_use]
+    pub fn halves(&self) -> Option<[Self; 2]> {
+        if self.bend == DVec2::ZERO || !self.is_convex() {
+            return None;
+        }
+        let corners = self.corners();
+        let weights = [0, 1, 2, 3].map(|k| {
+            let [a, b, c] = [k + 1, k + 2, k + 3].map(|k| corners[k % 4]);
+            (b - a).perp_dot(c - a).abs()
+        });
+        let (least, most) = weights.iter().fold((f64::INFINITY, 0.0), |(least, most), &weight| {
+            (f64::min(least, weight), f64::max(most, weight))
+        });
+        if most <= UNEVEN * least {
+            return None;
+        }
+        let [first, second] = self.sides.map(|side| side.length_squared());
+        // The longer sides are those from corner 0 to 1, or those from 1 to 2.
+        let k = usize::from(second > first);
+        let [a, b, c, d] = [0, 1, 2, 3].map(|n| (k + n) % 4);
+        let middle = |from: usize, to: usize| {
+            let sum = weights[from] + weights[to];
+            (weights[from] * corners[from] + weights[to] * corners[to]) / sum
+        };
+        let (near, far) = (middle(a, b), middle(d, c));
+        let half = |corners: [DVec2; 4]| {
+            let (center, sides, bend) = split(corners);
+            Self { center, sides, bend, axes: Axes::of(sides) }
+        };
+        Some([half([corners[a], near, far, corners[d]]), half([near, corners[b], corners[c], far])])
+    }
+
     /// Returns whether the outline turns in one direction at all corners.
     fn is_convex(&self) -> bool {
         if self.bend == DVec2::ZERO {
@@ -162,6 +203,12 @@ impl Outline {
     pub fn moved(&self, by: DVec2) -> Self {
         Self { center: self.center + by, ..*self }
     }
+}
+
+/// Returns the mean of four corners, the mean sides between them, and the bend.
+fn split([a, b, c, d]: [DVec2; 4]) -> (DVec2, [DVec2; 2], DVec2) {
+    let sides = [0.5 * (b - a + c - d), 0.5 * (d - a + c - b)];
+    (0.25 * (a + b + c + d), sides, 0.25 * (a - b + c - d))
 }
 
 /// Returns the lowest and the highest coordinates of four corners.
@@ -225,6 +272,29 @@ mod tests {
                 prop_assert!(found.abs_diff_eq(texture.in_texels(corner) + moved, 1e-9), "{found}");
             }
         }
+    }
+
+    /// The halves of a square seen in perspective are its halves on the film.
+    #[test]
+    fn halves_are_those_of_the_film() {
+        let seen =
+            |x: f64, y: f64| DVec2::new(3.0 + 40.0 * x, 5.0 + 9.0 * y) / (1.0 + 0.2 * x + 0.1 * y);
+        let rectangle = |low: f64, high: f64| {
+            [seen(low, 0.0), seen(high, 0.0), seen(high, 1.0), seen(low, 1.0)]
+        };
+        for turn in 0..4 {
+            let mut corners = rectangle(0.0, 1.0);
+            corners.rotate_left(turn);
+            let (center, sides, bend) = split(corners);
+            let halves = outline(center, sides, bend).halves().unwrap();
+            let mut found: Vec<DVec2> = halves.iter().map(|half| half.center).collect();
+            found.sort_by(|a, b| a.x.total_cmp(&b.x));
+            let truth = [rectangle(0.0, 0.5), rectangle(0.5, 1.0)].map(|half| split(half).0);
+            assert!(found[0].abs_diff_eq(truth[0], 1e-12), "{found:?} {truth:?}");
+            assert!(found[1].abs_diff_eq(truth[1], 1e-12), "{found:?} {truth:?}");
+        }
+        let even = outline(DVec2::ZERO, [DVec2::X, DVec2::Y], DVec2::new(0.001, 0.0));
+        assert_eq!(even.halves(), None);
     }
 
     #[test]

@@ -167,12 +167,12 @@ mod tests {
     #[test]
     fn splitting_is_rated_at_each_threshold() {
         let pages = [with_areas("a", &floor, &[]), with_areas("b", &floor, &[])];
-        // One area split at t stands for n = 1 + 0.02 / t rays along a side: 1.4, 2 and 5. The error is 0.006 / n^0.8,
+        // One area split at t stands for n = 1 + 0.02 / t rays along a side: 1.2, 1.7 and 3. The error is 0.006 / n^0.8,
         // and the time 1.5 n^2.
         let text = "The error of exact averages over all pages is 0.0060 with whole pixels \
-                    (1.5), 0.0046 split at 0.05 (2.9), 0.0034 split at 0.02 (6.0), 0.0017 split \
-                    at 0.005 (38); in brackets is the time relative to one bilinear ray.";
-        assert_eq!(one(&pages, "split at 0.02"), text);
+                    (1.5), 0.0052 split at 0.1 (2.2), 0.0040 split at 0.03 (4.2), 0.0025 split \
+                    at 0.01 (14); in brackets is the time relative to one bilinear ray.";
+        assert_eq!(one(&pages, "split at 0.03"), text);
     }
 
     #[test]
@@ -198,14 +198,14 @@ mod tests {
         // The error on edges is 0.212 / n.
         let pages = [with_areas("a", &floor, &[("silhouettes", &edges)])];
         let text = "Region silhouettes: the error of exact averages is 0.21 with whole pixels \
-                    and 0.15 with pixels split at 0.05; that of the tent is 0.21 with one ray \
+                    and 0.18 with pixels split at 0.1; that of the tent is 0.21 with one ray \
                     and 0.11 supersampled.";
         assert_eq!(one(&pages, "Region silhouettes"), text);
     }
 
     #[test]
     fn split_areas_are_worth_the_fastest_method_that_is_as_near() {
-        // Split at 0.05, exact stands for 1.4 rays along a side, with a time of 0.02 * 1.5 * 1.96 s.
+        // Split at 0.1, exact stands for 1.2 rays along a side, with a time of 0.02 * 1.5 * 1.44 s.
         let said = |left: f64| {
             let law = move |filter, n: f64| match filter {
                 Filter::Exact => (left, floor(filter, n).1),
@@ -213,13 +213,13 @@ mod tests {
             };
             one(&[with_areas("a", &law, &[])], "On a exact averages")
         };
-        // The tent leaves 0.04 at 2.0 times the time of one bilinear ray: 2.94 by 2.
-        let text = "On a exact averages split at 0.05 (0.040) take 1.5 times the time of tent, \
+        // The tent leaves 0.04 at 2.0 times the time of one bilinear ray: 2.16 by 2.
+        let text = "On a exact averages split at 0.1 (0.040) take 1.1 times the time of tent, \
                     1 ray (0.040), the fastest measured method of the lattice with as small an \
                     error.";
         assert_eq!(said(0.04), text);
         // The smallest error of the lattice is that of the quadratic with 8 x 8 rays, 0.0396 / 8^0.8.
-        let text = "take 0.0077 times the time of quadratic, 8 x 8 rays (0.0075), the nearest \
+        let text = "take 0.0057 times the time of quadratic, 8 x 8 rays (0.0075), the nearest \
                     measured method of the lattice, whose error is larger.";
         assert!(said(0.001).ends_with(text), "{}", said(0.001));
     }

@@ -13,7 +13,7 @@ use glam::DVec2;
 ///
 /// Texels of a coarser level are averages already, and a footprint takes them whole or in part. With
 /// fewer texels its edges blur. More texels mean more lines, and time.
-const TEXELS_ACROSS: f64 = 2.0;
+const TEXELS_ACROSS: f64 = 2.5;
 
 /// Most lines of a level that a footprint crosses.
 ///
@@ -37,8 +37,9 @@ const LARGEST: f64 = (1u64 << 40) as f64;
 const THIN: f64 = 2.5;
 
 /// Longer axis in texels up to which these quadrilaterals are moved along both axes of the texture.
-/// Longer ones are moved across only.
-const SHORT: f64 = 4.0;
+/// Longer ones are moved across only, and their ends blur less than a texel's box. Moving all of them
+/// along both axes costs up to twice as much.
+const SHORT: f64 = 8.0;
 
 /// The levels of a texture of `C` channels, from the finest.
 #[derive(Debug)]

@@ -10,6 +10,9 @@
 //! For thin footprints the edges of the box matter. Several quadrilaterals, less grown and moved
 //! apart, stand for it. A footprint smaller than a texel is sampled.
 //!
+//! A quadrilateral that is seen in strong perspective is the mean of two halves, each of which is seen by
+//! half of the pixel ([`Outline::halves`]).
+//!
 //! Where all texels near a footprint are equal, their code is the average ([`range`]).
 //!
 //! | footprint | average |
@@ -139,7 +142,14 @@ fn look<const C: usize>(
     if outline.axes.major <= SAMPLED {
         return (channels(sampled(texture, outline)), contrast);
     }
-    (levels.average(texture, outline, most_lines), contrast)
+    let average = match outline.halves() {
+        Some([near, far]) => {
+            let [near, far] = [near, far].map(|half| levels.average(texture, &half, most_lines));
+            std::array::from_fn(|c| 0.5 * (near[c] + far[c]))
+        }
+        None => levels.average(texture, outline, most_lines),
+    };
+    (average, contrast)
 }
 
 /// Averages nine samples of a small footprint.
