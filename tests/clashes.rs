@@ -196,12 +196,12 @@ fn pipeline_refuses_to_write_over_what_it_reads() {
         fs::copy(folder.path().join("checks.png"), folder.path().join(checks)).unwrap();
     };
     named("checks.json", "tented.json", "spec.json");
-    staged("tented.json", "checks-tent.png");
+    staged("tented.json", "checks-exact.png");
     named("kept.json", "stage.json", "kept-rod.grid");
     fs::write(folder.path().join("kept-rod.grid"), SPEC).unwrap();
     // The second job reads the output of the first.
     named("second.json", "later.json", "spec.json");
-    staged("later.json", "job-tent.png");
+    staged("later.json", "job-exact.png");
     named("table.json", "stage.json", "report.csv");
     fs::write(folder.path().join("report.csv"), SPEC).unwrap();
     named("told.json", "stage.json", "book.html");

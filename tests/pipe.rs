@@ -117,7 +117,7 @@ fn an_object_with_two_pictures_is_the_same_through_pipes_and_in_memory() {
     assert!(ran.status.success(), "{}", said(&ran));
     let read = |name: &str| fs::read(folder.path().join(name)).unwrap();
     assert_eq!(read("a.obj"), read("out/job-vase.obj"));
-    assert_eq!(read("piped.png"), read("out/job-tent.png"));
+    assert_eq!(read("piped.png"), read("out/job-exact.png"));
     assert!(String::from_utf8(read("a.obj")).unwrap().contains("\nusemtl tex3_surf1\n"));
     // The second picture is visible.
     let plain = "sweep examples/curves/vase.json | triangulate --texture 2 | \

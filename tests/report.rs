@@ -24,7 +24,7 @@ fn a_page_is_measured_by_every_method_of_a_hasty_report() {
     let by_areas = whole.iter().filter(|row| row[column("sampling")] == "area");
     let by_areas: Vec<_> =
         by_areas.map(|row| (row[column("filter")], row[column("split")])).collect();
-    let expected = [("ewa16", "none"), ("probes", "none"), ("exact", "none"), ("exact", "0.05")];
+    let expected = [("ewa16", "none"), ("probes", "none"), ("exact", "none"), ("exact", "0.1")];
     assert_eq!(by_areas, expected);
     let number = |row: &[&str], name: &str| row[column(name)].parse::<f64>().unwrap();
     for row in &rows[1..] {

@@ -79,9 +79,9 @@ fn the_outline_of_a_ball_shows_how_much_of_each_pixel_it_covers() {
     assert!(worst <= THRESHOLD, "{worst}");
     let rms = (squares / f64::from(cut)).sqrt();
     assert!(rms <= 0.03, "{rms}");
-    // The outline crosses about 4 * 2 * 27 of the 4096 pixels. The samples around the four tiles
-    // are counted as well.
-    assert!(stats.primary_rays < 4096 * 2, "{}", stats.primary_rays);
+    // The outline crosses about 4 * 2 * 27 of the 4096 pixels. These pixels and those beside them
+    // have 4 to 20 rays more, and the samples around the tile count as well.
+    assert!(stats.primary_rays < 4096 * 3, "{}", stats.primary_rays);
 }
 
 #[test]

@@ -189,7 +189,7 @@ mod tests {
             let record = &records[records.len() - k];
             [3, 4, 5, 6].map(|column| record[column].to_string())
         });
-        assert_eq!(ends[0], ["exact", "area", "1", "0.005"]);
+        assert_eq!(ends[0], ["exact", "area", "1", "0.01"]);
         assert_eq!(ends[1], ["exact", "area", "2", "none"]);
         assert_eq!(ends[2], ["exact", "area", "2", "0.05"]);
     }

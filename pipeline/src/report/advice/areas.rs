@@ -219,7 +219,7 @@ mod tests {
                     error.";
         assert_eq!(said(0.04), text);
         // The smallest error of the lattice is that of the quadratic with 8 x 8 rays, 0.0396 / 8^0.8.
-        let text = "take 0.0057 times the time of quadratic, 8 x 8 rays (0.0075), the nearest \
+        let text = "take 0.0056 times the time of quadratic, 8 x 8 rays (0.0075), the nearest \
                     measured method of the lattice, whose error is larger.";
         assert!(said(0.001).ends_with(text), "{}", said(0.001));
     }

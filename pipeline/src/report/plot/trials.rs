@@ -179,7 +179,7 @@ mod tests {
         assert_eq!(names, ["exact", ""]);
         let notes = of(Filter::Exact).flat_map(|own| &own.points).map(|own| own.note.as_deref());
         // In the fixture no other filter is as near in as little time.
-        let expected = ["1", "0.05", "0.02", "0.005", "2", "0.05"].map(Some);
+        let expected = ["1", "0.1", "0.03", "0.01", "2", "0.1"].map(Some);
         let notes: Vec<Option<&str>> = notes.collect();
         assert!(notes.iter().zip(expected).all(|(found, own)| found.is_none() || *found == own));
         assert!(notes[..4].iter().all(Option::is_some), "{notes:?}");

@@ -11,8 +11,9 @@
 //! also keeps its columns as lines.
 
 use super::floor;
-use super::line::{Code, Lines};
+use super::line::Lines;
 use super::outline::bounds;
+use super::palette::Code;
 use crate::texture::Wrap;
 use glam::DVec2;
 

@@ -26,6 +26,7 @@
 //! `c` are 0.
 
 use super::floor;
+use super::palette::Code;
 use crate::texture::Wrap;
 use std::array::from_fn;
 use std::fmt::Debug;
@@ -43,38 +44,6 @@ const ANCHORED: usize = 256;
 
 /// Most texels of a line. The sum of so many 16-bit codes still fits 32 bits.
 pub const LONGEST: usize = 1 << 16;
-
-/// A stored texel: a 16-bit code, or the 8-bit index of a code in a palette.
-pub trait Code: Copy + Send + Sync + Debug {
-    /// The codes for each index.
-    type Palette: Clone + Send + Sync + Debug;
-
-    /// Returns the code.
-    fn value(self, palette: &Self::Palette) -> u32;
-
-    /// Memory of a palette, in bytes.
-    const PALETTE_BYTES: usize;
-}
-
-impl Code for u8 {
-    type Palette = Box<[u16; 256]>;
-    const PALETTE_BYTES: usize = size_of::<[u16; 256]>();
-
-    #[inline(always)]
-    fn value(self, palette: &Self::Palette) -> u32 {
-        u32::from(palette[usize::from(self)])
-    }
-}
-
-impl Code for u16 {
-    type Palette = ();
-    const PALETTE_BYTES: usize = 0;
-
-    #[inline(always)]
-    fn value(self, (): &()) -> u32 {
-        u32::from(self)
-    }
-}
 
 /// All lines of a level in one direction, with `C` channels.
 #[derive(Debug)]
@@ -121,14 +90,14 @@ impl<T: Code, const C: usize> Lines<T, C> {
         let count = codes.len() / length;
         let mut sums = Vec::with_capacity(count * stored(length));
         let mut moments = Vec::with_capacity(count * stored(length));
-        let mut anchors = Vec::with_capacity(count * length.div_ceil(ANCHORED));
+        let mut anchors = Vec::with_capacity(count * anchors(length));
         let mut balances = Vec::with_capacity(count);
         for line in codes.chunks_exact(length) {
             let (mut sum, mut moment) = ([0u32; C], [0u64; C]);
             // Sum and moment at the last anchor.
             let (mut anchor, mut anchored) = ((sum, moment), 0);
             for k in 0..=length {
-                if k % ANCHORED == 0 && k < length {
+                if k % ANCHORED == 0 && k > 0 && k < length {
                     anchor = (sum, moment);
                     anchored = k;
                     anchors.push(moment.map(|moment| moment as f64));
@@ -168,7 +137,7 @@ impl<T: Code, const C: usize> Lines<T, C> {
     pub fn bytes_for(length: usize, count: usize) -> u64 {
         let line = length * size_of::<[T; C]>()
             + 2 * stored(length) * size_of::<[u32; C]>()
-            + length.div_ceil(ANCHORED) * size_of::<[f64; C]>()
+            + anchors(length) * size_of::<[f64; C]>()
             + size_of::<Balance<C>>();
         (count * line + T::PALETTE_BYTES) as u64
     }
@@ -178,7 +147,7 @@ impl<T: Code, const C: usize> Lines<T, C> {
     #[inline]
     pub fn line(&self, j: usize) -> Line<'_, T, C> {
         let part = |count: usize| j * count..(j + 1) * count;
-        let (count, anchors) = (stored(self.length), self.length.div_ceil(ANCHORED));
+        let (count, anchors) = (stored(self.length), anchors(self.length));
         Line {
             codes: &self.codes[j * self.length..][..self.length],
             palette: &self.palette,
@@ -204,6 +173,11 @@ impl<const C: usize> Balance<C> {
         };
         Self { mean, constant }
     }
+}
+
+/// Returns the number of anchors of a line beside its start.
+fn anchors(length: usize) -> usize {
+    length.div_ceil(ANCHORED) - 1
 }
 
 /// One line of a level. Positions are in texels from its start, and values are codes.
@@ -354,7 +328,8 @@ impl<T: Code, const C: usize> Line<'_, T, C> {
         let i = whole as usize;
         let place = ((i + EVERY / 2) / EVERY).min(self.moments.len() - 1);
         let from = place * EVERY;
-        let anchor = (from / ANCHORED).min(self.anchors.len() - 1);
+        // The first anchor is the start, where both integrals are 0.
+        let anchor = (from / ANCHORED).min(self.anchors.len());
         // The sum of the texels between the stored value and i, and the sum of k times texel k.
         let (mut sum, mut first) = ([0u32; C], [0u32; C]);
         let backward = from > i;
@@ -369,6 +344,7 @@ impl<T: Code, const C: usize> Line<'_, T, C> {
         let last = self.codes.get(i).copied();
         let (start, f) = (self.sums[place], x - f64::from(whole));
         let at_anchor = self.sums[anchor * (ANCHORED / EVERY)];
+        let at_start = if anchor == 0 { [0.0; C] } else { self.anchors[anchor - 1] };
         let beyond = x - f64::from(from as u32);
         let from_anchor = f64::from((from - anchor * ANCHORED) as u32);
         let Balance { mean, constant } = self.balance;
@@ -378,7 +354,7 @@ impl<T: Code, const C: usize> Line<'_, T, C> {
             let between =
                 if backward { first + (0.5 - f) * sum } else { (beyond - 0.5) * sum - first };
             let last = last.map_or(0.0, |texel| f64::from(texel[c].value(self.palette)));
-            let moment = self.anchors[anchor][c] + f64::from(self.moments[place][c]);
+            let moment = at_start[c] + f64::from(self.moments[place][c]);
             let double = 0.5 * moment
                 + from_anchor * f64::from(at_anchor[c])
                 + beyond * f64::from(start[c])

@@ -1,6 +1,39 @@
 //! The kind of texels with which a texture is stored: grey or coloured, short or wide.
 
 use crate::texture::Texture;
+use std::fmt::Debug;
+
+/// A stored texel: a 16-bit code, or the 8-bit index of a code in a palette.
+pub trait Code: Copy + Send + Sync + Debug {
+    /// The codes for each index.
+    type Palette: Clone + Send + Sync + Debug;
+
+    /// Returns the code.
+    fn value(self, palette: &Self::Palette) -> u32;
+
+    /// Memory of a palette, in bytes.
+    const PALETTE_BYTES: usize;
+}
+
+impl Code for u8 {
+    type Palette = Box<[u16; 256]>;
+    const PALETTE_BYTES: usize = size_of::<[u16; 256]>();
+
+    #[inline(always)]
+    fn value(self, palette: &Self::Palette) -> u32 {
+        u32::from(palette[usize::from(self)])
+    }
+}
+
+impl Code for u16 {
+    type Palette = ();
+    const PALETTE_BYTES: usize = 0;
+
+    #[inline(always)]
+    fn value(self, (): &()) -> u32 {
+        u32::from(self)
+    }
+}
 
 /// The codes of a texture with few of them, ascending. Unused entries at the end hold 65535.
 pub type Palette = Box<[u16; 256]>;
