@@ -88,7 +88,7 @@ impl Samples {
         let mut from_above = vec![[0.0; 3]; across];
         for row in 0..self.colors.len() / across {
             let mut from_left = [0.0; 3];
-            for column in 0..across {
+            for (column, from_above) in from_above.iter_mut().enumerate() {
                 let own = row * across + column;
                 let mut compare = |other: usize, direction: DVec2, part: f32| {
                     let found = pair(self.of(own), self.of(other), direction, charts);
@@ -107,7 +107,7 @@ impl Samples {
                     }
                     compare(below, DVec2::Y, 1.0)
                 });
-                for (before, after) in [(&mut from_left, right), (&mut from_above[column], down)] {
+                for (before, after) in [(&mut from_left, right), (from_above, down)] {
                     if let Some(after) = after {
                         let bend = step(*before, after);
                         errors[own].raise(bend, bend);
