@@ -48,7 +48,7 @@ const CASES: [Case; 4] = [
             "job-rod.obj",
             "job-point.png",
             "job-box.png",
-            "job-exact.png",
+            "job-tent.png",
             "job.png",
         ],
         marker: "job.incomplete",

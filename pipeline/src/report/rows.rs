@@ -191,7 +191,7 @@ mod tests {
         });
         assert_eq!(ends[0], ["exact", "area", "1", "0.01"]);
         assert_eq!(ends[1], ["exact", "area", "2", "none"]);
-        assert_eq!(ends[2], ["exact", "area", "2", "0.05"]);
+        assert_eq!(ends[2], ["exact", "area", "2", "0.1"]);
     }
 
     #[test]
