@@ -7,14 +7,14 @@ use crate::verdict::{Tried, broken, hold, refused};
 use files::json::Document;
 use files::{Budget, Source};
 use render::color::Encoding;
-use render::film::{Layer, memory};
+use render::film::{Layer, PixelFilter, THRESHOLD, memory};
 use render::filter::Filter;
 use render::scene::file::{MeshFile, ObjectFile};
 use render::scene::read::{self, Draft};
 use render::scene::{MeshSource, check};
 use render::shape::Mesh;
 use render::shape::mesh::{NONE, Triangle};
-use render::{Prepared, Scene, Settings, inspect};
+use render::{Prepared, Sampling, Scene, Settings, inspect};
 use std::collections::BTreeMap;
 
 /// The path of the tried part.
@@ -93,14 +93,26 @@ pub fn picture(mut scene: Scene, filter: Filter) -> Tried {
     }
     scene.max_depth = scene.max_depth.min(DEEPEST);
     let layers = if filter == Filter::Box { Layer::ALL.to_vec() } else { Vec::new() };
-    let settings = Settings { layers, ..Settings::new(SIZE.0, SIZE.1, filter) };
+    let sampling = match filter {
+        Filter::Exact | Filter::Ewa8 | Filter::Ewa16 | Filter::Ewa64 | Filter::Probes => {
+            let (samples, pixel_filter) = (1, PixelFilter::Box);
+            Sampling::Area { samples, pixel_filter, threshold: Some(THRESHOLD) }
+        }
+        Filter::Point
+        | Filter::Bilinear
+        | Filter::Mip
+        | Filter::Box
+        | Filter::Tent
+        | Filter::Quadratic => Sampling::regular(1),
+    };
+    let settings = Settings { layers, sampling, ..Settings::new(SIZE.0, SIZE.1, filter) };
     let budget = Budget::new(MEMORY);
     let _memory = memory::reserve(&scene, &settings, None, &budget).map_err(refused)?;
     let prepared = Prepared::new(&scene);
     let (picture, _) = render::render(&prepared, &settings, &|_, _| {});
     let light = |pixel: &[f32; 3]| pixel.iter().all(|x| x.is_finite() && *x >= 0.0);
     hold(picture.pixels.iter().all(light), "a pixel is not finite, or is negative")?;
-    if filter == Filter::Tent {
+    if matches!(filter, Filter::Tent | Filter::Exact) {
         let text = inspect::pixel(&prepared, &settings, (3, 2), Encoding::Srgb, true);
         text.lines()
             .filter(|line| !line.trim().is_empty())
