@@ -162,7 +162,7 @@ impl Outline {
         if most <= UNEVEN * least {
             return None;
         }
-        let [first, second] = self.sides.map(|side| side.length_squared());
+        let [first, second] = self.sides.map(DVec2::length_squared);
         // The longer sides are those from corner 0 to 1, or those from 1 to 2.
         let k = usize::from(second > first);
         let [a, b, c, d] = [0, 1, 2, 3].map(|n| (k + n) % 4);
