@@ -120,6 +120,12 @@ fn main() -> Result<(), Box<dyn Error>> {
             line(method, own, &times[bilinear.unwrap_or(0)], &textures, &pixels, &truths)
         })
         .collect();
+    if !timed.is_empty() {
+        println!(
+            "exact: three channels take {:.2} times as long as one",
+            channels(&textures, timed)
+        );
+    }
     println!("{} footprints, noise of the truth {noise:.1e}", pixels.len());
     print!("{}", report::csv(&lines));
     if let Some(folder) = folder {
@@ -129,6 +135,20 @@ fn main() -> Result<(), Box<dyn Error>> {
         std::fs::write(folder.join("filters.svg"), report::svg(&lines)?)?;
     }
     Ok(())
+}
+
+/// Returns the time of the exact filter on coloured textures, by that on the same ones in grey.
+fn channels(textures: &[(&str, Texture)], pixels: &[Pixel]) -> f64 {
+    let colored = textures.iter().map(|(name, texture)| {
+        let texels = texture.texels.iter().map(|&[grey, ..]| [grey, u16::MAX - grey, grey / 2]);
+        (*name, Texture { texels: texels.collect(), ..texture.clone() })
+    });
+    let colored: Vec<(&str, Texture)> = colored.collect();
+    let time = |textures: &[(&str, Texture)]| {
+        let methods = [Method::Filter(Filter::Exact)];
+        times(&methods, textures, pixels)[0].iter().flatten().sum::<f64>()
+    };
+    time(&colored) / time(textures)
 }
 
 fn prepared(method: Method, texture: &Texture) -> FilteredTexture<'_> {

@@ -12,7 +12,7 @@
 //! | `ewa8`      | the average under an elliptical Gaussian, at most 8 times as long as broad   |
 //! | `ewa16`     | the same, at most 16 times                                                   |
 //! | `ewa64`     | the same, at most 64 times                                                   |
-//! | `probes`    | up to 31 averages of `mip` along its longer axis                             |
+//! | `probes`    | up to 16 averages of `mip` along its longer axis                             |
 //!
 //! The last five see a slanted footprint as it is, and the others see the box around it. All but
 //! `point` and `bilinear` use pyramids or tables, which are built only for textures that a scene shows.
@@ -93,7 +93,7 @@ pub enum Filter {
     #[value(help = "The same, at most 64 times as long as broad")]
     Ewa64,
     /// Averages of a pyramid along the longer axis of the footprint.
-    #[value(help = "Up to 31 averages of a pyramid along the longer axis of the footprint")]
+    #[value(help = "Up to 16 averages of a pyramid along the longer axis of the footprint")]
     Probes,
 }
 
@@ -310,7 +310,7 @@ impl<'a> FilteredTexture<'a> {
             Filter::Ewa8 | Filter::Ewa16 | Filter::Ewa64 => {
                 8 * u64::from(self.filter.ewa_aspect().unwrap_or(1))
             }
-            Filter::Probes => 31 * 8,
+            Filter::Probes => 16 * 8,
         }
     }
 

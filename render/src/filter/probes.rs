@@ -1,10 +1,12 @@
 //! Averages several probes of a pyramid along the longer axis of a footprint.
 //!
-//! The method is that of the library `OpenImageIO` (`compute_ellipse_sampling` in `texturesys.cpp`), a
-//! form of *Feline: Fast Elliptical Lines for Anisotropic Texture Mapping*, SIGGRAPH 1999.
-//! A footprint of aspect `a` gets `2a - 1` probes, rounded down. The probes are as wide as its shorter
-//! axis and lie evenly between its ends. Their weights fall off as a Gaussian. A footprint longer than
-//! [`MOST_ASPECT`] times its breadth is widened, which blurs.
+//! The method is a form of *Feline: Fast Elliptical Lines for Anisotropic Texture Mapping*, SIGGRAPH
+//! 1999, as many renderers and graphics processors use it. A footprint gets as many probes as its
+//! aspect, rounded up. The probes are as wide as its shorter axis, lie evenly along the longer one and
+//! count equally. A footprint longer than [`MOST_ASPECT`] times its breadth is widened, which blurs.
+//!
+//! The library `OpenImageIO` spreads `2a - 1` probes for an aspect `a` over two pixels, with the weights
+//! of a Gaussian. Here they fill one pixel, which is nearer to the average over the pixel.
 
 use super::outline::{Axes, Outline};
 use super::pyramid::Pyramid;
@@ -28,25 +30,15 @@ pub fn widened(axes: Axes, aspect: f64, least: f64) -> Axes {
 pub fn average(pyramid: &Pyramid, texture: &Texture, outline: &Outline) -> Color {
     let Axes { along, major, minor } = widened(outline.axes, MOST_ASPECT, 1.0);
     let level = minor.log2();
-    let count = ((2.0 * major / minor - 1.0) as u32).max(1);
+    // Rounding must not add a probe to a square.
+    let count = ((major / minor - 1e-9).ceil() as u32).max(1);
     let size = DVec2::new(texture.width as f64, texture.height as f64);
     let probe = |offset: f64| {
         let at = (outline.center + offset * along) / size;
         pyramid.trilinear(texture, DVec2::new(at.x, 1.0 - at.y), level)
     };
-    if count == 1 {
-        return probe(0.0);
-    }
-    let length = major - minor;
-    let (mut sum, mut weights) = (Color::ZERO, 0.0);
-    for k in 0..count {
-        let place = (f64::from(k) + 0.5) / f64::from(count) - 0.5;
-        let x = place * major / length;
-        let weight = (-2.0 * x * x).exp();
-        sum += weight * probe(place * length);
-        weights += weight;
-    }
-    sum / weights
+    let place = |k: u32| (f64::from(k) + 0.5) / f64::from(count) - 0.5;
+    (0..count).map(|k| probe(place(k) * major)).sum::<Color>() / f64::from(count)
 }
 
 /// Returns the largest distance in texels, across and down, from the centre of an outline to a place
@@ -55,7 +47,7 @@ pub fn average(pyramid: &Pyramid, texture: &Texture, outline: &Outline) -> Color
 pub fn reach(outline: &Outline) -> DVec2 {
     let Axes { along, major, minor } = widened(outline.axes, MOST_ASPECT, 1.0);
     // Interpolation reaches half a texel of the coarser of two levels: at most the breadth.
-    0.5 * (major - minor) * along.abs() + minor
+    0.5 * major * along.abs() + minor
 }
 
 #[cfg(test)]

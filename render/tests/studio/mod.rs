@@ -14,8 +14,16 @@ use render::{Picture, Prepared, Scene, Settings};
 use std::io::{Cursor, ErrorKind};
 use std::path::Path;
 
-/// All filters.
-pub const FILTERS: [Filter; 6] = Filter::THESIS;
+/// All filters but the ellipses and probes, which see more than their footprint.
+pub const FILTERS: [Filter; 7] = [
+    Filter::Point,
+    Filter::Bilinear,
+    Filter::Mip,
+    Filter::Box,
+    Filter::Tent,
+    Filter::Quadratic,
+    Filter::Exact,
+];
 
 /// Contents of the files that a scene names, by path.
 #[derive(Debug)]
