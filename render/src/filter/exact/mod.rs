@@ -114,15 +114,20 @@ impl Exact {
             Channels::Grey(levels) => {
                 let ([grey], contrast) =
                     look(levels, texture, &outline, most_lines, |color| [color.x]);
-                (DVec3::splat(grey), contrast)
+                (within(DVec3::splat(grey)), contrast)
             }
             Channels::Color(levels) => {
                 let (color, contrast) =
                     look(levels, texture, &outline, most_lines, |color| color.to_array());
-                (color.into(), contrast)
+                (within(color.into()), contrast)
             }
         }
     }
+}
+
+/// Limits an average to the light that texels can have, which rounding exceeds by about 1e-16.
+fn within(color: Color) -> Color {
+    color.clamp(Color::ZERO, Color::ONE)
 }
 
 /// Returns the average and the contrast of an outline, in light. `channels` picks the channels of a

@@ -249,3 +249,17 @@ fn contrast_sees_the_texels_near_the_footprint() {
     let left = 0.5 * 15000.0 / 65535.0;
     assert!((look(0.7, 0.02) - left).abs() < 1e-4);
 }
+
+/// Rounding leaves no negative light, which a picture would show as a broken pixel.
+#[test]
+fn black_beside_white_is_never_below_black() {
+    let texture = texture(9, 7, Wrap::Repeat, |k| [if k % 5 < 3 { 0 } else { u16::MAX }; 3]);
+    let exact = Exact::build(&texture);
+    for k in 0..5000 {
+        let at = DVec2::new(0.0137 * f64::from(k), 0.0271 * f64::from(k));
+        let [a, b] = [0.31, 0.17].map(|size| size * (1.0 + f64::from(k % 13)) / 9.0);
+        let sides = [DVec2::new(a, 0.3 * b), DVec2::new(-0.2 * a, b)];
+        let found = exact.average(&texture, &Footprint::Parallelogram { center: at, sides });
+        assert!(found.min_element() >= 0.0 && found.max_element() <= 1.0, "{found}");
+    }
+}
