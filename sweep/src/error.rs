@@ -21,6 +21,9 @@ pub enum SweepError {
     /// The resolution that replaces that of the spec is refused.
     #[error("{0}")]
     Resolution(String),
+    /// A point of the surface is not finite.
+    #[error("{0}: a point of the surface is not finite: its sizes differ too much for each other")]
+    NotFinite(String),
     /// The grid needs more memory than is allowed.
     #[error(transparent)]
     Memory(#[from] MemoryError),
@@ -32,6 +35,7 @@ impl Failure for SweepError {
             Self::Malformed(_) => Exit::Malformed,
             Self::Geometry(_) => Exit::Geometry,
             Self::Resolution(_) => Exit::Use,
+            Self::NotFinite(_) => Exit::Geometry,
             Self::Named(_, exit) => *exit,
             Self::Memory(_) | Self::TooLarge(_) => Exit::Resource,
         }

@@ -278,3 +278,24 @@ fn a_cap_of_any_height_stays_within_the_allowed_cells() {
         assert!(cells <= 400, "1e{power}: {cells}");
     }
 }
+
+/// Lengths that differ by 1e29 leave no finite point of a relief. The message says so, and no grid
+/// is made.
+#[test]
+fn a_surface_without_finite_points_is_refused() {
+    let spec = json!({
+        "format": "tb-sweep", "version": 1, "name": "test", "contour": {"circle": 1e29},
+        "trajectory": {"line": [[0, 0, 0], [0, 2, 0]]}, "caps": {"start": "flat"},
+        "scale": {"bezier": [[[0, 0.5], [0.1, 0.5], [0.3, 1.6], [0.55, 1.1]],
+            [[0.55, 1.1], [0.75, 1.1], [0.85, 0.45], [1, 0.6]]]},
+        "depth": {"mode": "factor", "image": {"file": "scales.png", "amp": 0.06,
+            "repeat": [18, 10], "zero": 0}},
+        "mesh": {"rows": 24, "cols": 24},
+    });
+    let text = spec.to_string();
+    let document = Document::new("test", text.as_bytes()).unwrap();
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples/textures");
+    let object = Object::read(&document, folder.as_ref(), &files::Disk, &Resolution::default());
+    let error = object.unwrap().grids().unwrap_err().to_string();
+    assert!(error.contains("a point of the surface is not finite"), "{error}");
+}

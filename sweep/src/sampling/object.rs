@@ -61,9 +61,16 @@ impl Object {
     /// Returns the grids of the parts, in their order.
     ///
     /// # Errors
-    /// When there is not enough memory for the grids.
+    /// When there is not enough memory for the grids, or when a point is not finite.
     pub fn grids(&self) -> Result<Vec<GridMesh>, SweepError> {
-        self.parts.iter().map(Sweep::try_grid).collect()
+        let grid = |part: &Sweep| {
+            let grid = part.try_grid()?;
+            if grid.positions.iter().all(|point| point.is_finite()) {
+                return Ok(grid);
+            }
+            Err(SweepError::NotFinite(files::words::shown(&grid.name).to_string()))
+        };
+        self.parts.iter().map(grid).collect()
     }
 
     /// Writes the grids of the parts, with only a few rows of each in memory.
