@@ -196,7 +196,7 @@ fn far_highlights_of_bumps_are_those_of_many_rays() {
         assert!((found / truth - 1.0).abs() < tolerance, "{relief}: {found} {truth}");
         let (calm, noisy) = (sparkle(&averaged), sparkle(&first));
         assert!(calm < 0.05 * noisy, "{relief}: {calm} {noisy}");
-        // What is left contains the deviation of 64 rays, an eighth of that of one.
+        // The mean of 64 rays deviates from the true mean by an eighth of one ray's deviation.
         let (off, single) = (error(&averaged, &means), error(&first, &means));
         assert!(off < 0.3 * single, "{relief}: {off} {single}");
     }

@@ -299,8 +299,8 @@ fn spreads_of_a_smooth_mesh_agree_with_differences() {
     compare_placed(&mesh("glass"), 200, &[("m.obj", smooth_ball())]);
 }
 
-/// Water in glass in water: boundaries between two media and hidden boundaries, of which a ray passes
-/// some without a bend.
+/// Water in glass in water. The ray bends at boundaries between two media and passes hidden
+/// boundaries without a bend.
 #[test]
 fn spreads_through_nested_glass_agree_with_differences() {
     let objects = [

@@ -174,7 +174,7 @@ impl Solid {
 /// texture is nearly its mean.
 const OF_NOISE: &[(f64, u32)] = &[(0.0, 1), (0.35, 2), (1.4, 3), (12.0, 1)];
 
-/// The same for crystals. Their edges are sharp and are seen in patches of any size.
+/// Lengths as in [`OF_NOISE`] for crystals, whose edges are sharp in patches of any size.
 const OF_CRYSTALS: &[(f64, u32)] = &[(0.0, 1), (0.05, 2), (0.8, 3), (6.0, 2), (12.0, 1)];
 
 /// Returns the mean of the averages over the parts of a patch. A step that is not finite is

@@ -236,7 +236,7 @@ pub fn averaged<'a>(
 }
 
 impl SurfaceSlope {
-    /// Returns the slope by coordinates of which a unit contains `rate` of those before.
+    /// Returns the slope by other coordinates, whose unit is `rate` units of the current ones.
     #[must_use]
     pub fn stretched(self, rate: DVec2) -> Self {
         let both = DMat2::from_cols_array(&[
