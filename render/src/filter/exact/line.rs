@@ -54,8 +54,10 @@ pub struct Lines<T: Code, const C: usize> {
     pub count: usize,
     /// Continuation of a line beyond its ends.
     pub wrap: Wrap,
-    codes: Vec<[T; C]>,
-    palette: T::Palette,
+    /// The texels, line by line.
+    pub codes: Vec<[T; C]>,
+    /// Palette of the texels.
+    pub palette: T::Palette,
     /// `F1` at every [`EVERY`]th texel of each line.
     sums: Vec<[u32; C]>,
     /// Twice `F2` at every [`EVERY`]th texel, without the part that the value and the slope at the

@@ -23,11 +23,13 @@
 //! | as large as many repetitions of the texture, or longer than 2^40 texels | the mean |
 //! | beyond the edge of a clamped texture | with the edge texels of the level, at least 64 to a side |
 
+mod coverage;
 mod level;
 mod levels;
 mod line;
 mod palette;
 mod range;
+mod steps;
 
 use super::outline::{self, Outline};
 use crate::color::Color;
