@@ -2,7 +2,7 @@
 
 use super::Sweep;
 use super::survey::{RowSurvey, Survey};
-use crate::curve::cut::Stop;
+use crate::curve::cut::{Side, Stop};
 use crate::error::SweepError;
 use crate::grid::file::{Encoding, Header, Patch, Writer};
 use crate::grid::{self, By, GridMesh, Row, Seam};
@@ -30,6 +30,8 @@ pub struct Rows<'a> {
     sweep: &'a Sweep,
     /// Stops of the rows of the sheet; a wall runs along the sheet twice.
     stops: Vec<Stop>,
+    /// Positions with two rows, one for each side.
+    breaks: Vec<f64>,
     columns: Vec<Column>,
     /// `u` of each column of the grid.
     u: Vec<f64>,
@@ -84,6 +86,7 @@ impl<'a> Rows<'a> {
                 None => v,
             },
             stops: rows,
+            breaks: shape.row_breaks(),
             columns: shape.columns(&cols),
             seam,
             wall: sweep.wall.as_ref().map(sides),
@@ -224,11 +227,19 @@ impl<'a> Rows<'a> {
     fn row_of_sheet(&self, stop: Stop, points: &mut [DVec3], normals: &mut [Vec3]) -> RowSurvey {
         let shape = &self.sweep.shape;
         let section = shape.section(stop);
+        // Both rows of a break have the points of the first one. Evaluated from the other side, the points of a
+        // mitre would differ in their last bits, and the two rows would not be one.
+        let first = (stop.side == Side::After && self.breaks.contains(&stop.at))
+            .then(|| shape.section(Stop::before(stop.at)));
         let mut survey = RowSurvey::new(shape, stop);
         for ((column, point), normal) in self.columns.iter().zip(points).zip(&mut *normals) {
             let found = shape.evaluate(&section, column);
             survey.add(column.u, &found);
-            (*point, *normal) = (found.point, found.normal.as_vec3());
+            *point = match &first {
+                Some(first) => shape.evaluate(first, column).point,
+                None => found.point,
+            };
+            *normal = found.normal.as_vec3();
         }
         if shape.closing.is_some() && stop == Stop::before(0.0) {
             // The end has the points of the start, with normals of its own.
