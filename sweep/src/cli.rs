@@ -14,9 +14,9 @@ use resolution::ResolutionArguments;
 use std::io::{self, IsTerminal, Write};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 use sweep::grid::file::Encoding;
-use sweep::{Object, Spent, check, preview, schema};
+use sweep::{Object, Spent, Sweep, check, preview, schema};
 use thiserror::Error;
 
 const EXAMPLES: &str = "\
@@ -162,7 +162,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
     let name = input::name_of(&arguments.spec);
     let folder = arguments.spec.parent().unwrap_or(Path::new(""));
     let document = Document::new(&name, &bytes)?;
-    let object = Object::read(&document, folder, &ledger, &arguments.resolution.overrides())?;
+    let fitting = Progress::new("cells", arguments.quiet);
+    let tell = |done, most| fitting.tell(done, most);
+    let overrides = arguments.resolution.overrides();
+    let object = Object::read_telling(&document, folder, &ledger, &overrides, &tell)?;
+    drop(fitting);
     let read = Instant::now();
     let mut spent = Spent::default();
     let mut outputs = Vec::new();
@@ -193,7 +197,13 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
     }
     if arguments.stats {
         object.parts().iter().for_each(report::stats);
-        let stages = [("read", read - start), ("sweep", spent.sweeping), ("write", spent.writing)];
+        let search: Duration = object.parts().iter().map(Sweep::time_of_search).sum();
+        let stages = [
+            ("read", (read - start).saturating_sub(search)),
+            ("cells", search),
+            ("sweep", spent.sweeping),
+            ("write", spent.writing),
+        ];
         for (stage, time) in stages {
             say(format_args!("{stage:<11} {:.2} ms", 1e3 * time.as_secs_f64()));
         }

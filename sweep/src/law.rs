@@ -24,6 +24,7 @@
 
 mod ease;
 mod graph;
+mod snap;
 
 pub use ease::Ease;
 pub(crate) use graph::{is_graph, parameter};

@@ -180,6 +180,9 @@ impl Outputs {
         }
         if let (Some(mut output), Some(mesh)) = (self.report, written.mesh) {
             let report = MeshReport::of(&mesh, &written.counts);
+            if !arguments.quiet {
+                note::merged(&mesh.name, &report);
+            }
             report.write(&mut output).map_err(|source| output.failed(source))?;
             outputs.push(output);
         }

@@ -7,6 +7,11 @@
 //! with the smaller distance is taken, since it is nearer to the true surface in the middle of the
 //! cell. No further point of the surface is needed.
 //!
+//! Where one diagonal lies outside the surface, the other inside, and both about equally far, the surface is a
+//! saddle. On a thin body each saddle has a counterpart on the other side, whose columns run the other direction.
+//! Both sides must take the same line in space, or the triangles of one side cut through those of the other. So
+//! the diagonal is taken whose direction agrees best with a line that is fixed in space.
+//!
 //! On flat or symmetrical cells both distances are equal. Then the shorter diagonal is taken, which
 //! gives the better shaped triangles. If the lengths are equal too, the diagonal from the cell's first
 //! corner is taken. The answer depends on the cell alone, so it is the same in every run.
@@ -63,17 +68,30 @@ const NEARER: f64 = 1e-6;
 /// 1e5.
 const SHORTER: f64 = 1e-5;
 
+/// Distances of the two diagonals of a saddle that differ by less than this fraction are alike. On a thin body the
+/// two sides of it differ by about its thickness over the width of a cell. With a larger number, the triangles of a
+/// saddle would be further from the surface.
+const ALIKE: f64 = 0.25;
+/// The line in space that decides between the diagonals of a saddle. Its direction is along no axis and no plane of
+/// axes, since bodies are.
+const FIXED: [f64; 3] = [0.48, 0.61, 0.63];
+
 /// Returns the diagonal that is nearer to the surface with the unit vectors `normals` at `corners`.
 #[must_use]
 pub fn choose(corners: &Corners, normals: &Corners) -> Diagonal {
     let chord = |from: usize, to: usize| {
         let chord = minus(corners[to], corners[from]);
-        (dot(chord, minus(normals[to], normals[from])).abs(), dot(chord, chord))
+        (dot(chord, minus(normals[to], normals[from])), dot(chord, chord))
     };
-    let (off_ac, length_sq_ac) = chord(0, 2);
-    let (off_bd, length_sq_bd) = chord(1, 3);
+    let (bulge_ac, length_sq_ac) = chord(0, 2);
+    let (bulge_bd, length_sq_bd) = chord(1, 3);
+    let (off_ac, off_bd) = (bulge_ac.abs(), bulge_bd.abs());
     let slack = NEARER * length_sq_ac.max(length_sq_bd).sqrt();
-    let second = if (off_ac - off_bd).abs() > slack {
+    let saddle = bulge_ac * bulge_bd < 0.0 && off_ac.min(off_bd) > slack;
+    let second = if saddle && (off_ac - off_bd).abs() <= ALIKE * off_ac.max(off_bd) {
+        let along = |from: usize, to: usize| dot(minus(corners[to], corners[from]), FIXED).abs();
+        along(1, 3) > along(0, 2)
+    } else if (off_ac - off_bd).abs() > slack {
         off_bd < off_ac
     } else {
         length_sq_bd < length_sq_ac * (1.0 - SHORTER)

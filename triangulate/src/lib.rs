@@ -42,6 +42,7 @@
 //! | [`tri_mesh`]     | the mesh in memory, and its [`TriMesh::validate`]            |
 //! | [`obj`]          | the mesh as OBJ                                              |
 //! | [`topology`]     | Euler number, boundary loops, orientability of a mesh        |
+//! | [`merged`]       | the mesh after vertices in one place are merged              |
 //! | [`report`]       | topology and measures of a mesh, as JSON                     |
 //! | [`area_file`]    | a file of texture areas for a grid                           |
 //! | [`mtl`]          | the material file beside an OBJ                              |
@@ -58,6 +59,7 @@ mod error;
 mod forest;
 pub mod format;
 mod material;
+pub mod merged;
 pub mod mtl;
 pub mod obj;
 pub mod patches;
@@ -75,6 +77,7 @@ mod validate;
 pub use error::TriangulateError;
 pub use format::Format;
 pub use material::{Material, Options};
+pub use merged::Merged;
 pub use obj::ObjWriter;
 pub use patches::Patches;
 pub use ply::write_ply;

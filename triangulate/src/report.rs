@@ -17,6 +17,7 @@
 //!   "oriented": true,
 //!   "manifold": true,
 //!   "closed": false,
+//!   "merged": { "vertices": 24, "manifold": true, "closed": false },
 //!   "edge_length": { "min": 0.5, "max": 0.875 },
 //!   "triangle_area": { "min": 0.125, "max": 0.25 },
 //!   "edge_ratio": 1.75,
@@ -37,7 +38,8 @@
 //! }
 //! ```
 //!
-//! The values from `vertices` to `closed` are those of [`Topology`]. `unused_vertices` is the number of
+//! The values from `vertices` to `closed` are those of [`Topology`]. `merged` are the same values after vertices in
+//! one place are merged, as readers of STL do ([`Merged`]). `unused_vertices` is the number of
 //! positions that are written but used by no triangle. `quads` is the number of grid cells that became
 //! two triangles. `edge_ratio` is the longest edge over the shortest. The aspect of a triangle is its
 //! longest edge over the height on that edge, 1.155 for an equilateral triangle; `worst_aspect` is the
@@ -48,6 +50,7 @@
 //! nothing to measure. All values but `patches` describe the whole mesh, which has the name of its
 //! first patch. Patches that touch are not joined in the topology.
 
+use crate::merged::Merged;
 use crate::topology::{Topology, edges_of, sides};
 use crate::{Counts, Material, TriMesh};
 use glam::DVec3;
@@ -88,6 +91,8 @@ pub struct MeshReport {
     pub manifold: bool,
     /// True if the mesh has triangles and no boundary.
     pub closed: bool,
+    /// The mesh after vertices in one place are merged.
+    pub merged: Merged,
     /// Shortest and longest edge, in the grid's unit.
     pub edge_length: Option<Extremes>,
     /// Smallest and largest area of a triangle, in the grid's unit squared.
@@ -214,6 +219,7 @@ impl MeshReport {
             oriented: found.oriented,
             manifold: found.manifold,
             closed: found.closed,
+            merged: Merged::of(mesh),
             edge_length,
             triangle_area: Extremes::of(mesh.triangles.iter().map(|t| area(t.position))),
             edge_ratio: edge_length.map(|Extremes { min, max }| max / min),

@@ -212,3 +212,30 @@ fn a_line_instead_of_a_surface_gives_no_triangles() {
     let counts = write_obj(&line, &Options::default(), &mut obj).unwrap();
     assert_eq!((counts.triangles, counts.slivers + counts.collapsed), (0, 8));
 }
+
+/// The two sides of a thin twisted plate are cut along the same lines, so that the plate keeps its volume.
+#[test]
+fn a_thin_twisted_plate_keeps_its_volume() {
+    for (rows, cols) in [(60, 4), (30, 12), (100, 4)] {
+        let text = format!(
+            r#"{{"format": "tb-sweep", "version": 1, "name": "plate",
+            "contour": {{"polyline": {{"closed": true, "points": [[5,-0.1],[5,0.1],[-5,0.1],[-5,-0.1]]}}}},
+            "trajectory": {{"line": [[0, 0, 0], [0, 0, 50]]}}, "twist": {{"total": 360}},
+            "caps": {{"start": "flat", "end": "flat"}}, "mesh": {{"rows": {rows}, "cols": {cols}}}}}"#
+        );
+        let document = files::json::Document::new("plate.json", text.as_bytes()).unwrap();
+        let mesh = mesh(&sweep::Sweep::read(&document).unwrap().grid(), &Options::default());
+        let mesh = mesh.unwrap();
+        let volume: f64 = mesh
+            .triangles
+            .iter()
+            .map(|triangle| {
+                let corner = |i: usize| {
+                    DVec3::from(mesh.positions[triangle.position[i] as usize].map(f64::from))
+                };
+                corner(0).dot(corner(1).cross(corner(2))) / 6.0
+            })
+            .sum();
+        assert!((volume - 100.0).abs() < 1.0, "{rows} x {cols}: {volume}");
+    }
+}

@@ -3,6 +3,7 @@
 //! | module         | checks                                                             |
 //! |----------------|--------------------------------------------------------------------|
 //! | [`fold`]       | where the surface folds back on itself                             |
+//! | [`merging`]    | closed meshes that other programs break by merging vertices         |
 //! | [`neighbors`]  | rows that cross the next row                                       |
 //! | [`patches`]    | a tree over the triangles of a surface, for [`strands`]            |
 //! | [`resolution`] | numbers of cells that were raised, and cells that are too coarse   |
@@ -17,6 +18,7 @@
 pub mod chain;
 pub mod drawing;
 pub mod fold;
+pub mod merging;
 pub mod neighbors;
 pub mod patches;
 pub mod resolution;
@@ -28,6 +30,7 @@ use crate::curve::cut::Stop;
 use crate::grid::{GridMesh, Seam};
 use crate::sampling::Object;
 use crate::sampling::Sweep;
+use crate::sampling::resolution::{Resolution, Tolerance};
 use glam::DVec3;
 
 pub(crate) use files::check::short;
@@ -73,6 +76,8 @@ pub fn of_sweep(sweep: &Sweep, grid: &GridMesh) -> Vec<Finding> {
     found.extend(wall::findings(sweep, grid));
     found.extend(resolution::findings(sweep));
     found.extend(rounding::findings(grid));
+    found.extend(merging::findings(grid));
+    found.extend(edges(sweep));
     found.extend(over_the_seam(sweep));
     found
 }
@@ -100,6 +105,21 @@ pub fn summary(sweep: &Sweep, grid: &GridMesh) -> String {
         (rows, _) => format!("folds in {rows} rows"),
     };
     format!("{}: {made_rows} x {made_cols} cells (rows x cols), {around}, {folds}", sweep.name())
+}
+
+/// Returns a hint for each deformation whose edge runs across the cells, where no cells are fine enough.
+fn edges(sweep: &Sweep) -> Vec<Finding> {
+    let angle =
+        matches!(sweep.resolution(), Resolution::Tolerance(Tolerance { angle: Some(_), .. }));
+    let hint = |&(index, height): &(usize, f64)| {
+        let message = format!(
+            "the surface has an edge at the height {} of the axis, which runs across the cells, and no cells there \
+             keep an angle; a law with `\"ease\": \"smooth\"` has no edge",
+            short(height)
+        );
+        Finding::new(Severity::Hint, format!("deform[{index}]"), message)
+    };
+    sweep.shape.edges.across.iter().filter(|_| angle).map(hint).collect()
 }
 
 /// Returns how many of the first and the last row are contracted to a point.

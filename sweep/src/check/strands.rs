@@ -23,6 +23,9 @@ const TELL_AFTER: usize = 1 << 12;
 /// Receives the progress of the search: the number of leaves done, and of all leaves.
 pub type Tell<'a> = &'a (dyn Fn(usize, usize) + Sync);
 
+/// Rounding of a point, as a fraction of its largest coordinate: each point is the sum of about a dozen products.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
 /// A triangle of a cell.
 #[derive(Debug)]
 pub struct Triangle {
@@ -186,15 +189,31 @@ fn crosses(a: &[DVec3; 3], b: &[DVec3; 3]) -> bool {
     through(a, b) || through(b, a)
 }
 
-/// Returns whether a segment passes through a triangle. A segment in the plane of the triangle does not.
+/// Returns whether a segment passes through a triangle. A segment in the plane of the triangle does not, and neither
+/// does one that only touches the triangle or one of its sides. Distances within the rounding of the points are 0.
 fn pierces(from: DVec3, to: DVec3, [a, b, c]: &[DVec3; 3]) -> bool {
-    let normal = (*b - *a).cross(*c - *a);
-    let (before, after) = (normal.dot(from - *a), normal.dot(to - *a));
-    if before == 0.0 || after == 0.0 || (before > 0.0) == (after > 0.0) {
+    let (p, q) = (*b - *a, *c - *a);
+    let normal = p.cross(q);
+    let rounding = ROUNDING
+        * [*a, *b, *c, from, to].iter().fold(0.0, |most: f64, x| most.max(x.abs().max_element()));
+    // Moving each point by its rounding moves the volume of a parallelepiped by the areas of its faces.
+    let (width, area) = (p.length() + q.length(), normal.length());
+    let sign = |point: DVec3| {
+        let off = point - *a;
+        let volume = normal.dot(off);
+        let slack = rounding * (area + width * off.length());
+        if volume.abs() <= slack { 0.0 } else { volume.signum() }
+    };
+    if sign(from) * sign(to) >= 0.0 {
         return false;
     }
     let along = to - from;
-    let side = |p: DVec3, q: DVec3| along.dot((p - from).cross(q - from));
+    let side = |p: DVec3, q: DVec3| {
+        let (p, q) = (p - from, q - from);
+        let volume = along.dot(p.cross(q));
+        let slack = rounding * (along.length() * (p.length() + q.length()) + p.cross(q).length());
+        if volume.abs() <= slack { 0.0 } else { volume.signum() }
+    };
     let sides = [side(*a, *b), side(*b, *c), side(*c, *a)];
     sides.iter().all(|&side| side > 0.0) || sides.iter().all(|&side| side < 0.0)
 }

@@ -20,6 +20,10 @@ const STEPS: usize = 8;
 /// bends.
 const MOST_NODES: usize = 1 << 20;
 
+/// Approximate largest number of steps before any is halved. A curve of more knots has short pieces, and the error of
+/// a step decides alone.
+const FEW_NODES: usize = 1 << 17;
+
 /// A step that turns the tangent by more than this, in radians, is halved.
 ///
 /// Below this turn the error of a step falls with the fifth power of its length, so the error can be
@@ -92,7 +96,7 @@ fn closing(angle: f64) -> f64 {
 /// Returns the nodes of a curve by arc length, each with its frame.
 fn nodes_of(curve: &impl Curve3, first: Frame) -> Vec<(f64, Frame)> {
     let knots = curve.knots();
-    let steps = (MOST_NODES / knots.len().max(1)).clamp(4, STEPS);
+    let steps = (FEW_NODES / knots.len().max(1)).clamp(1, STEPS);
     let mut nodes = vec![(0.0, first)];
     for ends in knots.windows(2) {
         if let Some(&(s, last)) = nodes.last()

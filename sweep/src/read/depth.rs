@@ -99,6 +99,7 @@ impl Reader<'_> {
         let along_path = format!("{path}.along");
         let along = self.law(&along_path, &term.along)?;
         self.ends_meet(&along_path, &along, trajectory)?;
+        let along = along.snapped(trajectory.breaks());
         Ok(Term { amp: term.amp, u: term.u, v: term.v, phase: term.phase_deg / 360.0, along })
     }
 }

@@ -22,13 +22,16 @@ mod wall;
 use crate::error::SweepError;
 use crate::limits::{LARGEST, REPEATS, SMALLEST};
 use crate::sampling::Sweep;
+use crate::sampling::resolution::Tell;
 use crate::spec::{Resolution, Spec};
 use crate::surface::Shape;
+use crate::surface::edges::Edges;
 use crate::surface::modulation::Modulation;
 use files::Source;
 use files::json::Document;
 use glam::DVec3;
 use std::sync::OnceLock;
+use std::time::Duration;
 
 /// The reader of a spec, with the document for error positions and the source of its files.
 struct Reader<'a> {
@@ -37,6 +40,8 @@ struct Reader<'a> {
     source: &'a dyn Source,
     /// Keys that replace those of the resolution of every sweep.
     overrides: &'a Resolution,
+    /// Receives the progress of the search for the cells of a tolerance.
+    tell: Tell<'a>,
     /// Prefix of all JSON paths.
     prefix: String,
 }
@@ -63,12 +68,14 @@ impl Reader<'_> {
             caps,
             closing: None,
             deforms: self.deforms(&spec.deform)?,
+            edges: Edges::default(),
             position: DVec3::from_array(spec.position),
         };
         let shape = match spec.seam {
             Some(kind) => self.closed(shape, kind)?,
             None => shape,
         };
+        let shape = Shape { edges: Edges::of(&shape), ..shape };
         let wall = self.wall(spec, &shape)?;
         let sweep = Sweep {
             name: spec.name.clone(),
@@ -76,6 +83,7 @@ impl Reader<'_> {
             wall,
             resolution: self.resolution(&spec.resolution)?,
             fitted: None,
+            spent: Duration::ZERO,
             survey: OnceLock::new(),
             uv: spec.uv,
             areas: spec.areas.clone(),
@@ -85,7 +93,7 @@ impl Reader<'_> {
         if let Some(fault) = sweep.resolution_fault() {
             return Err(self.resolution_fault(fault));
         }
-        let sweep = sweep.fitted()?;
+        let sweep = sweep.fitted(self.tell)?;
         self.areas(&sweep.areas, &sweep).map(|()| sweep)
     }
 

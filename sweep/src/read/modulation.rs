@@ -30,7 +30,7 @@ impl Reader<'_> {
             Some(laws) => {
                 let signs = Signs::of(&laws);
                 self.outside_out(&signs)?;
-                let [x, y] = laws;
+                let [x, y] = laws.map(|law| law.snapped(trajectory.breaks()));
                 let first = signs.first();
                 let laws = if first.x * first.y < 0.0 {
                     mirror = Some(first);
@@ -47,7 +47,8 @@ impl Reader<'_> {
             .twist
             .as_ref()
             .map(|twist| self.twist(twist, trajectory, spec.seam))
-            .transpose()?;
+            .transpose()?
+            .map(|twist| twist.snapped(trajectory.breaks()));
         let depth = spec
             .depth
             .as_ref()

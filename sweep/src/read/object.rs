@@ -5,6 +5,7 @@ use crate::error::SweepError;
 use crate::sampling::Object;
 use crate::sampling::Specs;
 use crate::sampling::Sweep;
+use crate::sampling::resolution::Tell;
 use crate::spec::{FORMAT, Parts, Resolution, Spec, VERSION};
 use files::json::Document;
 use files::{Disk, Source};
@@ -27,7 +28,22 @@ impl Object {
         source: &dyn Source,
         overrides: &Resolution,
     ) -> Result<Self, SweepError> {
-        let reader = Reader { document, folder, source, overrides, prefix: String::new() };
+        Self::read_telling(document, folder, source, overrides, &|_, _| {})
+    }
+
+    /// Reads and checks a spec, as [`Object::read`] does. `tell` receives the progress of the search for cells: the
+    /// number of cuts of a surface that were measured, and the largest number that may be.
+    ///
+    /// # Errors
+    /// As [`Object::read`].
+    pub fn read_telling(
+        document: &Document<'_>,
+        folder: &Path,
+        source: &dyn Source,
+        overrides: &Resolution,
+        tell: Tell<'_>,
+    ) -> Result<Self, SweepError> {
+        let reader = Reader { document, folder, source, overrides, tell, prefix: String::new() };
         let specs = specs(document)?;
         match &specs {
             Specs::One(spec) => {

@@ -65,7 +65,8 @@ impl Object {
     pub fn grids(&self) -> Result<Vec<GridMesh>, SweepError> {
         let grid = |part: &Sweep| {
             let grid = part.try_grid()?;
-            if grid.positions.iter().all(|point| point.is_finite()) {
+            let finite = grid.positions.iter().all(|point| point.is_finite());
+            if finite && grid.normals.iter().all(|normal| normal.is_finite()) {
                 return Ok(grid);
             }
             Err(SweepError::NotFinite(files::words::shown(&grid.name).to_string()))

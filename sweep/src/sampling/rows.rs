@@ -224,12 +224,17 @@ impl<'a> Rows<'a> {
         survey
     }
 
+    /// Returns whether a position has two rows.
+    fn is_break(&self, at: f64) -> bool {
+        self.breaks.binary_search_by(|other| other.total_cmp(&at)).is_ok()
+    }
+
     fn row_of_sheet(&self, stop: Stop, points: &mut [DVec3], normals: &mut [Vec3]) -> RowSurvey {
         let shape = &self.sweep.shape;
         let section = shape.section(stop);
         // Both rows of a break have the points of the first one. Evaluated from the other side, the points of a
         // mitre would differ in their last bits, and the two rows would not be one.
-        let first = (stop.side == Side::After && self.breaks.contains(&stop.at))
+        let first = (stop.side == Side::After && self.is_break(stop.at))
             .then(|| shape.section(Stop::before(stop.at)));
         let mut survey = RowSurvey::new(shape, stop);
         for ((column, point), normal) in self.columns.iter().zip(points).zip(&mut *normals) {

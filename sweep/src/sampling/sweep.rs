@@ -2,7 +2,7 @@
 
 use super::Survey;
 use super::resolution::stops::Direction;
-use super::resolution::{Cells, Distance, Reached, Resolution, Search, Tolerance};
+use super::resolution::{Cells, Distance, Reached, Resolution, Search, Tell, Tolerance};
 use super::rows::Rows;
 use crate::curve::cut::{self, Stop};
 use crate::error::SweepError;
@@ -18,6 +18,7 @@ use files::{memory, words};
 use glam::DVec3;
 use rayon::prelude::*;
 use std::sync::OnceLock;
+use std::time::{Duration, Instant};
 
 /// Bytes for each cell that the search for a tolerance takes: an estimate, not measured.
 const OF_SEARCH: u64 = 128;
@@ -32,6 +33,8 @@ pub struct Sweep {
     pub(crate) resolution: Resolution,
     /// The rows and columns that keep the tolerance, if one is requested.
     pub(crate) fitted: Option<Cells>,
+    /// Time that the search for these rows and columns took.
+    pub(crate) spent: Duration,
     /// The survey of the grid of this resolution, once the grid or the survey was made.
     pub(crate) survey: OnceLock<Survey>,
     pub(crate) uv: UvLayout,
@@ -101,6 +104,12 @@ impl Sweep {
         self.fitted.as_ref().map(|cells| cells.reached)
     }
 
+    /// Returns the time that the search for the cells of a tolerance took; 0 without a tolerance.
+    #[must_use]
+    pub fn time_of_search(&self) -> Duration {
+        self.spent
+    }
+
     /// Returns a sentence that says by how much a tolerance is missed; `None` if it is kept or none was requested.
     #[must_use]
     pub fn missed(&self) -> Option<String> {
@@ -145,7 +154,7 @@ impl Sweep {
         if let Some((key, message)) = sweep.resolution_fault() {
             return Err(SweepError::Resolution(format!("{key}: {message}")));
         }
-        let sweep = sweep.fitted()?;
+        let sweep = sweep.fitted(&|_, _| {})?;
         let cells = [sweep.rows(), sweep.cols()];
         match sweep.areas.iter().find_map(|area| area.fault(cells)) {
             Some((key, message)) => Err(SweepError::Resolution(format!("areas, {key}: {message}"))),
@@ -153,19 +162,21 @@ impl Sweep {
         }
     }
 
-    /// Returns this sweep with the cells that its tolerance needs.
+    /// Returns this sweep with the cells that its tolerance needs. `tell` receives the progress of the search.
     ///
     /// # Errors
     /// When there is no memory for the search among as many cells as are allowed.
-    pub(crate) fn fitted(self) -> Result<Self, SweepError> {
+    pub(crate) fn fitted(self, tell: Tell<'_>) -> Result<Self, SweepError> {
         let Resolution::Tolerance(tolerance) = &self.resolution else { return Ok(self) };
         let most = tolerance.max_quads;
         let _reserved = memory::of_process()
             .reserve(OF_SEARCH.saturating_mul(most as u64), || {
                 format!("{}: a search for at most {most} cells", words::shown(&self.name))
             })?;
-        let cells = self.search(tolerance).run();
-        Ok(Self { fitted: Some(cells), survey: OnceLock::new(), ..self })
+        let started = Instant::now();
+        let cells = self.search(tolerance).run(tell);
+        let spent = started.elapsed();
+        Ok(Self { fitted: Some(cells), spent, survey: OnceLock::new(), ..self })
     }
 
     /// Returns the distance of the triangles of [`Sweep::grid`] from the surface, in the units of `tolerance`.
@@ -190,7 +201,7 @@ impl Sweep {
                 },
                 Direction {
                     breaks: contour.breaks().to_vec(),
-                    kinks: Vec::new(),
+                    kinks: shape.edges.cols.clone(),
                     closed: contour.closed(),
                     meets: true,
                     fewest: contour.fewest_cells(),

@@ -8,8 +8,12 @@
 //! Each map acts between two heights on its axis. Outside, a taper and a twist keep their end values, and a
 //! bend goes straight on.
 
+use crate::curve::cut::Stop;
 use crate::law::Law;
 use glam::{DMat3, DVec3};
+
+/// A height this close to an end of the span, as a fraction of the span, is at the end.
+const AT_END: f64 = 1e-12;
 
 /// A deformation of space along an axis.
 #[derive(Debug, Clone)]
@@ -73,12 +77,41 @@ impl Deform {
         Moved { point: self.axes * p + self.origin, normal: self.axes * n, folds }
     }
 
-    /// Returns the value of a law at a height, and its derivative by height.
+    /// Returns the height of a point on the axis.
+    pub(crate) fn height(&self, point: DVec3) -> f64 {
+        self.axes.z_axis.dot(point - self.origin)
+    }
+
+    /// Returns the heights at which the derivative may jump, each with the length of the span.
+    pub(crate) fn edges(&self) -> impl Iterator<Item = (f64, f64)> {
+        let [from, to] = self.span;
+        let parts = match &self.kind {
+            Kind::Taper(law) | Kind::Twist(law) => {
+                let slopes = [law.on(Stop::after(0.0)).1, law.on(Stop::before(1.0)).1];
+                let ends = [0.0, 1.0].into_iter().zip(slopes).filter(|(_, slope)| *slope != 0.0);
+                ends.map(|(end, _)| end).chain(law.kinks()).collect()
+            }
+            Kind::Bend(_) => vec![0.0, 1.0],
+        };
+        parts.into_iter().map(move |part| (from + (to - from) * part, to - from))
+    }
+
+    /// Returns whether a height lies in the span. The ends of the span belong to it, up to rounding.
+    fn within(&self, height: f64) -> bool {
+        let [from, to] = self.span;
+        let slack = AT_END * (to - from);
+        height > from - slack && height < to + slack
+    }
+
+    /// Returns the value of a law at a height, and its derivative by height. At a kink the derivative is that of
+    /// the side above, at the ends of the span that of the inside.
     fn law(&self, law: &Law, height: f64) -> (f64, f64) {
         let [from, to] = self.span;
-        let (value, slope) = law.at(((height - from) / (to - from)).clamp(0.0, 1.0));
-        let within = (from..=to).contains(&height);
-        (value, if within { slope / (to - from) } else { 0.0 })
+        let at = (height - from) / (to - from);
+        let (value, _) = law.at(at.clamp(0.0, 1.0));
+        // All points of a row at a kink take one side, although their heights differ by rounding.
+        let slope = || law.at(law.at_kink(at).clamp(0.0, 1.0)).1 / (to - from);
+        (value, if self.within(height) { slope() } else { 0.0 })
     }
 
     /// Bends the axis into an arc toward x. `k` is the arc's curvature, and `1 - k x` the factor of lengths
@@ -96,8 +129,7 @@ impl Deform {
             p.y,
             from + sin / k - p.x * sin + rest * cos,
         );
-        let within = (from..=to).contains(&p.z);
-        let left = if within { 1.0 - k * p.x } else { 1.0 };
+        let left = if self.within(p.z) { 1.0 - k * p.x } else { 1.0 };
         let normal =
             DVec3::new(left * n.x * cos + n.z * sin, left * n.y, n.z * cos - left * n.x * sin);
         (moved, normal, left < 0.0)

@@ -10,6 +10,7 @@
 //! | [`cap`]        | surfaces that close the ends                                       |
 //! | [`closing`]    | how the end of the surface meets its start                         |
 //! | [`deform`]     | taper, twist and bend of the finished surface                      |
+//! | [`edges`]      | rows and columns where a deformation makes an edge                 |
 //! | [`shape`]      | all of these together: a point and a normal for each (u, v)        |
 //! | [`wall`]       | a one-sided surface given a thickness                              |
 
@@ -18,6 +19,7 @@ pub mod closing;
 pub mod contour;
 pub mod deform;
 pub mod depth;
+pub mod edges;
 pub mod height;
 pub mod modulation;
 pub mod profile;
@@ -30,13 +32,24 @@ use crate::curve::cut::Stop;
 use glam::DVec3;
 use profile::Column;
 
+/// A point of a surface with its unit normal.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Corner {
+    /// The point, in the unit of length.
+    pub point: DVec3,
+    /// The unit normal.
+    pub normal: DVec3,
+    /// True if the surface runs backward here, so that its normal is turned over.
+    pub folds: bool,
+}
+
 /// A surface that can be cut into cells and measured.
 pub trait Surface: Sync {
     /// Returns the columns at stops of the contour.
     fn columns(&self, stops: &[Stop]) -> Vec<Column>;
 
-    /// Returns points and unit normals at one stop of the trajectory, one pair for each column.
-    fn station(&self, stop: Stop, columns: &[Column]) -> Vec<(DVec3, DVec3)>;
+    /// Returns points and unit normals at one stop of the trajectory, one for each column.
+    fn station(&self, stop: Stop, columns: &[Column]) -> Vec<Corner>;
 
     /// Returns the points at one stop of the trajectory, one for each column.
     fn points(&self, stop: Stop, columns: &[Column]) -> Vec<DVec3>;

@@ -2,12 +2,13 @@
 
 use crate::curve::cut::{self, Stop};
 use crate::grid::Seam;
-use crate::surface::Surface;
 use crate::surface::cap::Cap;
 use crate::surface::closing::Closing;
 use crate::surface::deform::{Deform, Moved};
+use crate::surface::edges::Edges;
 use crate::surface::modulation::{Modulation, Section, SectionPoint};
 use crate::surface::profile::{Column, Profile};
+use crate::surface::{Corner, Surface};
 use crate::trajectory::Trajectory;
 use glam::DVec3;
 
@@ -27,6 +28,8 @@ pub struct Shape {
     pub(crate) closing: Option<Closing>,
     /// Deformations of the finished surface, applied one after another.
     pub(crate) deforms: Vec<Deform>,
+    /// Rows and columns where a deformation makes an edge.
+    pub(crate) edges: Edges,
     /// Translation applied after the deformations.
     pub(crate) position: DVec3,
 }
@@ -132,7 +135,14 @@ impl Shape {
 
     /// Returns the `v` of possible edges that run along the contour and have one normal.
     pub(crate) fn kinks(&self) -> Vec<f64> {
-        self.modulation.kinks().into_iter().map(|at| self.row_of(at)).collect()
+        let laws = self.modulation.kinks().into_iter().map(|at| self.row_of(at));
+        laws.chain(self.edges.rows.iter().copied()).collect()
+    }
+
+    /// Returns the point of a section before the deformation with this index.
+    pub(crate) fn before_deform(&self, section: &Section, column: &Column, index: usize) -> DVec3 {
+        let SectionPoint { point, normal, .. } = section.evaluate(column);
+        self.deforms[..index].iter().fold(point, |point, deform| deform.apply(point, normal).point)
     }
 
     /// Returns the fewest cells along the trajectory and its caps: one for each piece, and at least three if
@@ -250,13 +260,13 @@ impl Surface for Shape {
         columns
     }
 
-    fn station(&self, stop: Stop, columns: &[Column]) -> Vec<(DVec3, DVec3)> {
+    fn station(&self, stop: Stop, columns: &[Column]) -> Vec<Corner> {
         let section = self.section(stop);
-        let pair = |column| {
-            let point = self.evaluate(&section, column);
-            (point.point, point.normal)
+        let corner = |column| {
+            let found = self.evaluate(&section, column);
+            Corner { point: found.point, normal: found.normal, folds: found.folds() }
         };
-        columns.iter().map(pair).collect()
+        columns.iter().map(corner).collect()
     }
 
     fn points(&self, stop: Stop, columns: &[Column]) -> Vec<DVec3> {

@@ -73,7 +73,8 @@ impl Mitres {
     /// Returns the exact arc length of a stop at a corner; the whole length for the side before the start.
     /// `None` for a stop at no corner.
     pub fn arc_length(&self, stop: Stop) -> Option<f64> {
-        let (_, s) = *self.corners.iter().find(|corner| corner.0 == stop.at)?;
+        let found = self.breaks.binary_search_by(|corner| corner.total_cmp(&stop.at)).ok()?;
+        let (_, s) = self.corners[found];
         Some(if s == 0.0 && stop.side == Side::Before { self.length } else { s })
     }
 

@@ -2,7 +2,8 @@
 
 use super::Arguments;
 use files::exit::say;
-use triangulate::Counts;
+use files::words;
+use triangulate::{Counts, MeshReport};
 
 /// Rounding that moves points by more than this fraction of the object's size is reported. The
 /// fraction is a tenth of a pixel where the object fills a picture of a thousand pixels. A larger
@@ -48,6 +49,20 @@ pub fn print(arguments: &Arguments, grid: &str, counts: &Counts) {
             "triangulate: note: {grid}: the seven digits of {} moved points by up to {moved:.0e} \
              of the object's size; the object would keep its shape nearer to the origin",
             format.with_article()
+        ));
+    }
+}
+
+/// Prints a note if merging the vertices of a mesh, as readers of STL do, would open or break it.
+pub fn merged(object: &str, report: &MeshReport) {
+    let broken = report.manifold && !report.merged.manifold;
+    let opened = report.closed && !report.merged.closed;
+    if broken || opened {
+        say(format_args!(
+            "triangulate: note: {}: programs that merge vertices, such as readers of STL, would {} the mesh, since \
+             points in one place are not neighbours",
+            words::shown(object),
+            if opened { "open" } else { "break" }
         ));
     }
 }

@@ -33,6 +33,16 @@ const LEAST_LOAD: f64 = 1e-4;
 /// number that is not finite cannot be made smaller by a factor until it fits the allowed cells.
 const MOST_CELLS: f64 = 1e12;
 
+/// Numbers of whole cells up to this multiple of the numbers that are not whole need no other proportion of rows to
+/// columns.
+const WHOLE: f64 = 1.25;
+
+/// Proportions of rows to columns that are tried on both sides, each the square root of 2 from the next.
+const TILTS: i32 = 24;
+
+/// Fraction of the cells that another proportion must save.
+const WORTH: f64 = 0.02;
+
 /// Costs that differ by less than this fraction are equal, and the earlier counts. So rounding, and with it
 /// the unit of length, cannot decide.
 pub const ALIKE: f64 = 1e-9;
@@ -83,7 +93,10 @@ struct Sizes {
 
 /// Returns the densities `[along the trajectory, along the contour]` that need the fewest cells. If `even`,
 /// only densities with columns of equal width are considered.
-pub fn fewest(field: &Field, even: bool) -> [Density; 2] {
+///
+/// `count` returns the number of cells of two densities, with at least one for each piece. Where rows and columns
+/// can be exchanged for each other at no cost, as on a warped plate, this number decides.
+pub fn fewest(field: &Field, even: bool, count: impl Fn(&[Density; 2]) -> usize) -> [Density; 2] {
     let (cols, rows) = (field.u.len(), field.v.len());
     let (mut by_u, mut by_v) = (1, 1);
     while cols.div_ceil(by_u) * rows.div_ceil(by_v) > MOST_BLOCKS {
@@ -101,9 +114,7 @@ pub fn fewest(field: &Field, even: bool) -> [Density; 2] {
     }
     let extents = |spans: &[[f64; 2]]| spans.iter().map(|[from, to]| to - from).collect();
     let problem = Problem { needs, widths: extents(&u), heights: extents(&v) };
-    let sizes = problem.solve(even);
-    let scale = sizes.worst.sqrt();
-    let density = |spans: &[[f64; 2]], sizes: &[f64]| Density {
+    let density = |spans: &[[f64; 2]], sizes: &[f64], scale: f64| Density {
         positions: spans.iter().map(|span| span[0]).chain([1.0]).collect(),
         cells: spans
             .iter()
@@ -112,7 +123,33 @@ pub fn fewest(field: &Field, even: bool) -> [Density; 2] {
             .map(|([from, to], size)| ((to - from) * scale / size.sqrt()).min(MOST_CELLS))
             .collect(),
     };
-    [density(&v, &sizes.y), density(&u, &sizes.x)]
+    let densities = |sizes: &Sizes| {
+        let scale = sizes.worst.sqrt();
+        [density(&v, &sizes.y, scale), density(&u, &sizes.x, scale)]
+    };
+    let sizes = problem.solve(even);
+    let mut best = densities(&sizes);
+    let mut least = count(&best) as f64;
+    if least <= WHOLE * best[0].total() * best[1].total() {
+        return best;
+    }
+    // No column or row may grow beyond the size at which its own neediest cell has the largest load.
+    let [most_x, most_y] = problem.needed().map(|sizes_for_1| {
+        sizes_for_1.into_iter().map(|size| size * sizes.worst).collect::<Vec<_>>()
+    });
+    for tilt in -TILTS..=TILTS {
+        let by = (0.5 * f64::from(tilt)).exp2();
+        let x = sizes.x.iter().zip(&most_x).map(|(size, most)| (size * by).min(*most)).collect();
+        let y = sizes.y.iter().zip(&most_y).map(|(size, most)| (size / by).min(*most)).collect();
+        let mut tilted = Sizes { x, y, worst: 0.0 };
+        tilted.worst = problem.worst(&tilted);
+        let other = densities(&tilted);
+        let cells = count(&other) as f64;
+        if cells < least * (1.0 - WORTH) {
+            (least, best) = (cells, other);
+        }
+    }
+    best
 }
 
 /// Merges neighbouring spans, `by` at a time.
@@ -176,20 +213,26 @@ impl Problem {
         best
     }
 
-    /// Returns the better of two guesses: even sizes, and sizes as the neediest cell of each column and row
-    /// requires. Each guess is tried with several proportions of rows to columns.
-    fn start(&self, even: bool) -> Sizes {
+    /// Returns the squared width of each column and height of each row at which the sides of its neediest cell have
+    /// a load of 1.
+    fn needed(&self) -> [Vec<f64>; 2] {
         let cols = self.widths.len();
         let mut x = vec![0.0_f64; cols];
         let mut y = Vec::with_capacity(self.heights.len());
         for needs in self.needs.chunks(cols) {
             needs.iter().zip(&mut x).for_each(|(need, x)| *x = x.max(need.a));
-            y.push(needs.iter().map(|need| need.b).fold(0.0, f64::max));
+            y.push(1.0 / needs.iter().map(|need| need.b).fold(0.0, f64::max));
         }
-        let most = |all: &[f64]| all.iter().fold(0.0_f64, |most, &one| most.max(one));
-        let evenly = (vec![1.0 / most(&x); cols], vec![1.0 / most(&y); y.len()]);
-        let inverse = |all: &[f64]| all.iter().map(|one| 1.0 / one).collect::<Vec<_>>();
-        let needed = (if even { evenly.0.clone() } else { inverse(&x) }, inverse(&y));
+        [x.into_iter().map(|need| 1.0 / need).collect(), y]
+    }
+
+    /// Returns the better of two guesses: even sizes, and sizes as the neediest cell of each column and row
+    /// requires. Each guess is tried with several proportions of rows to columns.
+    fn start(&self, even: bool) -> Sizes {
+        let [x, y] = self.needed();
+        let least = |all: &[f64]| all.iter().fold(f64::INFINITY, |least, &one| least.min(one));
+        let evenly = (vec![least(&x); x.len()], vec![least(&y); y.len()]);
+        let needed = (if even { evenly.0.clone() } else { x.clone() }, y.clone());
         let guesses = [evenly, needed].into_iter().flat_map(|(x, y)| {
             (-8..=8).map(move |tilt| {
                 let tilt = f64::from(tilt) * 0.25;

@@ -87,18 +87,19 @@ struct Columns {
     within: [Vec<Column>; 3],
     /// Index of the stop before each cell.
     cells: Vec<usize>,
+    /// Columns just inside the left and the right side of each cell, if a column is a kink.
+    beside: Option<[Vec<Column>; 2]>,
 }
 
 /// Measures the surface cut at `rows` and `cols`.
 ///
-/// `kinks` are positions of the trajectory with two normals, at which a station has the normal of the side
-/// after. `meets` says whether the end of the trajectory meets its start column by column.
+/// `kinks` are positions of the trajectory and of the contour with two normals. `meets` says whether the end of the trajectory meets its start column by column.
 pub fn measure(
     surface: &dyn Surface,
     tolerance: &Tolerance,
     [rows, cols]: [&[Stop]; 2],
     [closed_v, closed_u]: [bool; 2],
-    kinks: &[f64],
+    [kinks_v, kinks_u]: [&[f64]; 2],
     meets: bool,
 ) -> Field {
     let (rows, cols) = (opened(rows, closed_v), opened(cols, closed_u));
@@ -111,10 +112,12 @@ pub fn measure(
         stops: surface.columns(&cols),
         within: [1.0 / 3.0, 0.5, 2.0 / 3.0].map(|part| surface.columns(&inside(part))),
         cells,
+        beside: (!kinks_u.is_empty())
+            .then(|| [BESIDE, 1.0 - BESIDE].map(|part| surface.columns(&inside(part)))),
     };
     let strips: Vec<Strip> = v
         .par_iter()
-        .map(|span| strip(surface, tolerance, &columns, *span, kinks, closed_u))
+        .map(|span| strip(surface, tolerance, &columns, *span, kinks_v, closed_u))
         .collect();
     joined(u, v, strips, closed_v && meets)
 }
@@ -149,12 +152,21 @@ fn strip(
     let within = |part: f64| Stop::after(from + (to - from) * part);
     let [third, middle, two_thirds] = &columns.within;
     let (below, above) = (Stop::after(from), Stop::before(to));
-    let (lower, mut upper) = (row(below), row(above));
-    if kinks.contains(&to) {
-        // The point is that of the row itself; the normal is that of this side.
-        let near = row(Stop::before(to - BESIDE * (to - from)));
-        upper.iter_mut().zip(near).for_each(|(here, near)| here.1 = near.1);
+    let (mut lower, mut upper) = (row(below), row(above));
+    // Beside a kink, the point is that of the row itself, and the normal is that of this side.
+    let within_by = BESIDE * (to - from);
+    for (kink, inside, corners) in
+        [(from, from + within_by, &mut lower), (to, to - within_by, &mut upper)]
+    {
+        if kinks.contains(&kink) {
+            let near = row(Stop::after(inside));
+            corners.iter_mut().zip(near).for_each(|(here, near)| here.normal = near.normal);
+        }
     }
+    let beside = columns.beside.as_ref().map(|sides| {
+        let at = |stop: Stop| sides.each_ref().map(|columns| surface.station(stop, columns));
+        [at(Stop::after(from + within_by)), at(Stop::after(to - within_by))]
+    });
     let (lower_middle, upper_middle) = (points(below, middle), points(above, middle));
     let (left, centre) = (points(within(0.5), &columns.stops), points(within(0.5), middle));
     let low = [third, two_thirds].map(|columns| points(within(1.0 / 3.0), columns));
@@ -165,7 +177,13 @@ fn strip(
     let mut cells: Vec<([Off; 4], Off, f64, [f64; 2])> = Vec::with_capacity(count);
     for (cell, &at) in columns.cells.iter().enumerate() {
         let corners = [lower[at], lower[at + 1], upper[at + 1], upper[at]];
-        let (places, normals) = (corners.map(|c| c.0), corners.map(|c| c.1));
+        let places = corners.map(|corner| corner.point);
+        let normals = match &beside {
+            Some([[a, b], [d, c]]) => [a, b, c, d].map(|side| side[cell].normal),
+            None => corners.map(|corner| corner.normal),
+        };
+        // No angle can be kept where normals are turned over.
+        let folds = corners.iter().any(|corner| corner.folds);
         let pair = Pair::choose(&places, &normals);
         let facets = pair.corners.map(|corners| Facet::new(corners.map(|corner| places[corner])));
         // The tolerance in the cell is that at its centre.
@@ -179,13 +197,14 @@ fn strip(
             if pair.ac { [low[1][cell], high[0][cell]] } else { [low[0][cell], high[1][cell]] };
         let inner = centroids.into_iter().fold(off(centre[cell]), |most, p| most.most(off(p)));
         let turn_sq = facets.iter().zip(pair.corners).filter_map(|(facet, corners)| {
-            let normal = facet.normal?;
+            let normal = facet.normal.filter(|_| !folds)?;
             Some(corners.map(|corner| (normals[corner] - normal).length_squared()))
         });
         let turn_sq = turn_sq.flatten().fold(0.0, f64::max);
         // At each end of a side, a facet along it is off by half the turn of the side.
         let turn = |a: usize, b: usize| 0.25 * (normals[a] - normals[b]).length_squared();
         let turns = [turn(0, 1).max(turn(3, 2)), turn(0, 3).max(turn(1, 2))];
+        let turns = if folds { [0.0; 2] } else { turns };
         cells.push((sides, inner, turn_sq, turns));
     }
 

@@ -10,6 +10,8 @@
 //!    logarithms. `stops` puts the stops accordingly.
 //! 3. The result is measured again, and the steps are repeated until the tolerance is kept. Then columns and
 //!    rows are removed until one less would break it.
+//! 4. `stall` ends the search where finer cells do not come nearer to an angle. Then the coarsest cells that come as
+//!    near are made.
 //!
 //! So no second derivatives of the surface's laws, twist and relief are needed, and the reported errors are
 //! measured on the triangles themselves. All errors are relative to the tolerance, so the unit of length does
@@ -18,11 +20,12 @@
 mod demand;
 mod measure;
 mod search;
+mod stall;
 pub(crate) mod stops;
 mod triangle;
 mod view;
 
-pub use search::{Cells, Search};
+pub use search::{Cells, Search, Tell};
 pub use view::View;
 
 use glam::DVec3;

@@ -2,6 +2,7 @@
 
 use super::demand::{self, Density};
 use super::measure::{Field, measure};
+use super::stall::Stall;
 use super::stops::Direction;
 use super::{Distance, Reached, Tolerance};
 use crate::curve::cut::Stop;
@@ -21,6 +22,9 @@ const SKETCHES: usize = 6;
 
 /// A density that is better by less than this fraction counts as equally good.
 const BETTER: f64 = 0.01;
+
+/// Number of cuts of a long search, for its progress. Most searches take 10 to 30.
+const MOST_ROUNDS: usize = 40;
 
 /// Largest number of cuts tried for one that keeps the tolerance.
 const TRIALS: usize = 20;
@@ -42,6 +46,15 @@ const TRIMMED: usize = 150_000;
 
 /// Multiple of the number of cells that thinning may measure.
 const TRIMMED_TIMES: usize = 2;
+
+/// Factor by which the largest angle that was measured may be exceeded by coarser cells.
+const EASED: f64 = 1.02;
+
+/// Largest angle of a tolerance, in radians.
+const MOST_ANGLE: f64 = 3.1;
+
+/// Receives the progress of a search: the number of cuts that were measured, and the largest number that may be.
+pub type Tell<'a> = &'a (dyn Fn(usize, usize) + Sync);
 
 /// A surface to be cut, with the bounds of the cut.
 #[expect(missing_debug_implementations, reason = "a surface has none")]
@@ -76,22 +89,47 @@ struct Plan {
     factors: [f64; 2],
 }
 
+/// The number of cuts that were measured, and the receiver of the progress.
+struct Rounds<'a> {
+    count: usize,
+    tell: Tell<'a>,
+}
+
 /// A plan that has been cut and measured.
 struct Tried {
     plan: Plan,
     stops: [Vec<Stop>; 2],
     field: Field,
     worst: f64,
+    /// True if finer cells were not nearer to the tolerance.
+    stalled: bool,
 }
 
 impl Search<'_> {
     /// Cuts the surface. If the tolerance cannot be kept, the result is the best cut found within the allowed
     /// number of cells.
     #[must_use]
-    pub fn run(&self) -> Cells {
-        let mut rounds = 1;
+    pub fn run(&self, tell: Tell<'_>) -> Cells {
+        self.found(tell, true)
+    }
+
+    /// Cuts the surface, if `eased` with a larger angle where the requested one is out of reach.
+    fn found(&self, tell: Tell<'_>, eased: bool) -> Cells {
+        let mut rounds = Rounds { count: 1, tell };
         let sketch = self.sketch(&mut rounds);
         let mut best = self.kept(sketch, &mut rounds);
+        if let Some(reached) = self.angle_out_of_reach(&best).filter(|_| eased) {
+            // Finer cells do not come nearer to the angle, so the coarsest cells that reach the same are made.
+            let tolerance = Tolerance { angle: Some(reached), ..self.tolerance.clone() };
+            let coarser =
+                Search { tolerance: &tolerance, directions: self.directions.clone(), ..*self };
+            let cells = coarser.found(tell, false);
+            let reached = self.reached(
+                &self.measure([&cells.rows, &cells.cols]),
+                rounds.count + cells.reached.rounds,
+            );
+            return Cells { reached, ..cells };
+        }
         if best.worst <= 1.0 {
             // At full size the surface may need slightly less than in a sketch.
             let densities = self.fewest(&best.field);
@@ -103,7 +141,7 @@ impl Search<'_> {
             best = self.thinned(best, &mut rounds);
         }
         let Tried { stops: [rows, cols], field, .. } = best;
-        let reached = self.reached(&field, rounds);
+        let reached = self.reached(&field, rounds.count);
         Cells { rows, cols, reached }
     }
 
@@ -129,7 +167,7 @@ impl Search<'_> {
     }
 
     /// Returns densities for the surface, found from cuts of moderate size.
-    fn sketch(&self, rounds: &mut usize) -> Plan {
+    fn sketch(&self, rounds: &mut Rounds<'_>) -> Plan {
         let [mut rows, mut cols] = self.detail;
         while rows.saturating_mul(cols) > MOST_AT_FIRST {
             *(if rows > cols { &mut rows } else { &mut cols }) /= 2;
@@ -160,13 +198,22 @@ impl Search<'_> {
         best.map_or(plan, |(_, plan)| plan)
     }
 
+    /// Returns the angle that cells can reach at all, in radians, if a cut keeps the distance but not the angle.
+    fn angle_out_of_reach(&self, best: &Tried) -> Option<f64> {
+        let angle = self.tolerance.angle?;
+        let missed = best.worst > 1.0 && best.field.part <= 1.0 && best.stalled;
+        (missed && best.field.angle > angle).then(|| (best.field.angle * EASED).min(MOST_ANGLE))
+    }
+
     /// Returns the coarsest cut found by scaling the plan that keeps the tolerance; otherwise the best cut
     /// tried.
-    fn kept(&self, mut plan: Plan, rounds: &mut usize) -> Tried {
+    fn kept(&self, mut plan: Plan, rounds: &mut Rounds<'_>) -> Tried {
         let mut best: Option<Tried> = None;
+        let mut stall = Stall::default();
         for trial in 0..TRIALS {
             let fits = self.fit(&mut plan, self.tolerance.max_quads);
             let tried = self.tried(plan.clone(), rounds);
+            let stalled = stall.found(tried.field.quads(), tried.worst);
             let (worst, kept) = (tried.worst, tried.worst <= 1.0);
             // Where only some cells fail, as at the vertical end of a cap, only these are refined.
             let uneven =
@@ -179,6 +226,10 @@ impl Search<'_> {
             let before = best.as_ref().is_some_and(|best| best.worst <= 1.0);
             if better {
                 best = Some(tried);
+            }
+            if stalled && let Some(best) = &mut best {
+                best.stalled = true;
+                break;
             }
             let enough = if kept { worst > 0.97 || !better } else { !fits || before };
             if enough {
@@ -215,7 +266,7 @@ impl Search<'_> {
     }
 
     /// Removes columns and rows from a cut as long as the tolerance is kept.
-    fn thinned(&self, mut best: Tried, rounds: &mut usize) -> Tried {
+    fn thinned(&self, mut best: Tried, rounds: &mut Rounds<'_>) -> Tried {
         let mut left = TRIMMED + TRIMMED_TIMES * best.field.quads();
         let mut steps = [0.06; 2];
         let mut stuck = [false; 2];
@@ -283,21 +334,33 @@ impl Search<'_> {
     }
 
     fn fewest(&self, field: &Field) -> [Density; 2] {
-        demand::fewest(field, self.directions[1].even.is_some())
+        let count = |densities: &[Density; 2]| {
+            let [rows, cols] = [0, 1].map(|at| self.directions[at].count(&densities[at], 1.0));
+            rows.saturating_mul(cols)
+        };
+        demand::fewest(field, self.directions[1].even.is_some(), count)
     }
 
-    fn tried(&self, plan: Plan, rounds: &mut usize) -> Tried {
-        *rounds += 1;
+    fn tried(&self, plan: Plan, rounds: &mut Rounds<'_>) -> Tried {
+        rounds.count += 1;
+        (rounds.tell)(rounds.count.min(MOST_ROUNDS - 1), MOST_ROUNDS);
         let stops =
             [0, 1].map(|at| self.directions[at].stops(&plan.densities[at], plan.factors[at]));
         let field = self.measure([&stops[0], &stops[1]]);
         let worst = field.worst();
-        Tried { plan, stops, field, worst }
+        Tried { plan, stops, field, worst, stalled: false }
     }
 
     fn measure(&self, stops: [&[Stop]; 2]) -> Field {
         let [along, around] = &self.directions;
         let closed = [along.closed, around.closed];
-        measure(self.surface, self.tolerance, stops, closed, &along.kinks, along.meets)
+        measure(
+            self.surface,
+            self.tolerance,
+            stops,
+            closed,
+            [&along.kinks, &around.kinks],
+            along.meets,
+        )
     }
 }

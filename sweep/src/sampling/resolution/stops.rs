@@ -1,7 +1,7 @@
 //! Positions of stops for a given density.
 
 use super::demand::Density;
-use crate::curve::cut::{self, Stop};
+use crate::curve::cut::{self, SAME_POSITION, Stop};
 
 /// A density that varies by at most this factor within a piece is even.
 const EVEN: f64 = 1.02;
@@ -30,13 +30,28 @@ pub struct Direction {
 impl Direction {
     /// Returns the ends of the pieces, rising; the last is 1.
     fn ends(&self) -> Vec<f64> {
-        let inner =
-            self.breaks.iter().chain(if self.even.is_some() { &[] } else { &self.kinks[..] });
-        let mut ends: Vec<f64> = inner.copied().filter(|&at| at > 0.0 && at < 1.0).collect();
+        let kinks = if self.even.is_some() { &[] } else { &self.kinks[..] };
+        let inside = |at: &f64| *at > 0.0 && *at < 1.0;
+        let mut ends: Vec<f64> = self.breaks.iter().copied().filter(inside).collect();
         ends.push(1.0);
         ends.sort_by(f64::total_cmp);
         ends.dedup();
+        // A kink within rounding of a break, or of another kink, is no end of its own.
+        let mut kinks: Vec<f64> = kinks.iter().copied().filter(|&at| at > SAME_POSITION).collect();
+        kinks.sort_by(f64::total_cmp);
+        kinks.dedup_by(|later, earlier| *later - *earlier < SAME_POSITION);
+        kinks.retain(|at| {
+            let next = ends.partition_point(|end| end < at);
+            let around = &ends[next.saturating_sub(1)..(next + 1).min(ends.len())];
+            around.iter().all(|end| (end - at).abs() >= SAME_POSITION)
+        });
+        ends.extend(kinks);
+        ends.sort_by(f64::total_cmp);
         ends
+    }
+
+    fn is_break(&self, at: f64) -> bool {
+        self.breaks.binary_search_by(|other| other.total_cmp(&at)).is_ok()
     }
 
     /// Returns the stops of an even cut with about `cells` cells.
@@ -73,11 +88,11 @@ impl Direction {
         for (to, count) in self.ends().into_iter().zip(counts) {
             if let Some(positions) = inner.last_mut() {
                 positions.extend(between(density, [from, to], count));
-                if to < 1.0 && !self.breaks.contains(&to) {
+                if to < 1.0 && !self.is_break(to) {
                     positions.push(to);
                 }
             }
-            if self.breaks.contains(&to) {
+            if self.is_break(to) {
                 inner.push(Vec::new());
             }
             from = to;

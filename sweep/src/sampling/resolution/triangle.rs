@@ -8,6 +8,11 @@ const NEARER: f64 = 1e-6;
 /// Fraction of the squared length by which the second diagonal must be shorter to be chosen.
 const SHORTER: f64 = 1e-5;
 
+/// Distances of the two diagonals of a saddle that differ by less than this fraction are alike.
+const ALIKE: f64 = 0.25;
+/// The line in space that decides between the diagonals of a saddle.
+const FIXED: DVec3 = DVec3::new(0.48, 0.61, 0.63);
+
 /// A triangle whose doubled area is below this fraction of its squared longest side has no direction: rounding of its
 /// corners decides it.
 const NO_AREA: f64 = 1e-12;
@@ -23,19 +28,25 @@ pub struct Pair {
 
 impl Pair {
     /// Cuts a cell by the rule of `triangulate`: along the diagonal that is nearer to the surface, judged by
-    /// the normals at its ends. Of equally near diagonals the shorter is taken.
+    /// the normals at its ends. Of equally near diagonals the shorter is taken, on a saddle the one along a fixed
+    /// line.
     ///
     /// `triangulate` sees coordinates of f32. Where both diagonals are equally near it may decide otherwise;
     /// then both are equally good.
     pub fn choose(points: &[DVec3; 4], normals: &[DVec3; 4]) -> Self {
         let chord = |from: usize, to: usize| {
             let chord = points[to] - points[from];
-            (chord.dot(normals[to] - normals[from]).abs(), chord.length_squared())
+            (chord.dot(normals[to] - normals[from]), chord.length_squared())
         };
-        let (off_ac, length_sq_ac) = chord(0, 2);
-        let (off_bd, length_sq_bd) = chord(1, 3);
+        let (bulge_ac, length_sq_ac) = chord(0, 2);
+        let (bulge_bd, length_sq_bd) = chord(1, 3);
+        let (off_ac, off_bd) = (bulge_ac.abs(), bulge_bd.abs());
         let slack = NEARER * length_sq_ac.max(length_sq_bd).sqrt();
-        let ac = if (off_ac - off_bd).abs() > slack {
+        let saddle = bulge_ac * bulge_bd < 0.0 && off_ac.min(off_bd) > slack;
+        let ac = if saddle && (off_ac - off_bd).abs() <= ALIKE * off_ac.max(off_bd) {
+            let along = |from: usize, to: usize| (points[to] - points[from]).dot(FIXED).abs();
+            along(0, 2) >= along(1, 3)
+        } else if (off_ac - off_bd).abs() > slack {
             off_bd >= off_ac
         } else {
             length_sq_bd >= length_sq_ac * (1.0 - SHORTER)

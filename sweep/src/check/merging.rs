@@ -1,0 +1,133 @@
+//! Meshes that other programs break by merging vertices.
+//!
+//! Readers of STL files join vertices that lie in one place. Where parts of a surface touch, edges then have more than
+//! two triangles. Where an edge is shorter than the readers' tolerance, its triangles vanish and leave a hole.
+
+use super::{Finding, Severity, short};
+use crate::grid::GridMesh;
+use glam::DVec3;
+use std::collections::HashMap;
+
+/// Points nearer than this fraction of the object's size are merged: the rounding of coordinates to f32.
+const NEAR: f64 = 1e-7;
+
+/// Returns a finding if merging the vertices of a closed surface would open or break its mesh.
+#[must_use]
+pub fn findings(grid: &GridMesh) -> Option<Finding> {
+    let (low, high) = grid
+        .positions
+        .iter()
+        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(*p), high.max(*p)));
+    let near = NEAR * (high - low).length();
+    let own = joined(grid, None);
+    let merged = joined(grid, Some(near));
+    let broken = odd_edges(grid, &merged);
+    if odd_edges(grid, &own).count > 0 || broken.count == 0 {
+        return None;
+    }
+    let at = grid.positions[broken.first?];
+    let message = format!(
+        "programs that merge vertices, such as readers of STL, would break the mesh: {} edges would not have two \
+         triangles, the first near ({}, {}, {}), where points of the surface are less than {} apart",
+        broken.count,
+        short(at.x),
+        short(at.y),
+        short(at.z),
+        short(near)
+    );
+    Some(Finding::new(Severity::Hint, "mesh", message))
+}
+
+/// Returns a number for each point: equal for neighbours in the grid with equal positions, and if `near` is given for
+/// all points that are at most this far apart.
+fn joined(grid: &GridMesh, near: Option<f64>) -> Vec<usize> {
+    let (rows, cols) = (grid.rows(), grid.cols());
+    let mut ids: Vec<usize> = (0..grid.positions.len()).collect();
+    if let Some(near) = near.filter(|near| *near > 0.0) {
+        let mut known: HashMap<[i64; 3], Vec<usize>> = HashMap::new();
+        for (index, &point) in grid.positions.iter().enumerate() {
+            let cell = (point / near).floor().to_array().map(|x| x as i64);
+            let around = (0..27).map(|k| [k % 3, k / 3 % 3, k / 9].map(|step| step - 1));
+            let found = around
+                .filter_map(|step| {
+                    known.get(&std::array::from_fn(|i| cell[i].wrapping_add(step[i])))
+                })
+                .flatten()
+                .find(|&&other| grid.positions[other].distance(point) <= near);
+            match found {
+                Some(&other) => ids[index] = ids[other],
+                None => known.entry(cell).or_default().push(index),
+            }
+        }
+        return ids;
+    }
+    for row in 0..rows {
+        for col in 0..cols {
+            let here = row * cols + col;
+            let left = (col > 0).then(|| here - 1);
+            let below = (row > 0).then(|| here - cols);
+            let first = (grid.seam_u.joins() && col + 1 == cols && col > 0).then(|| row * cols);
+            let same = |other: &usize| grid.positions[*other] == grid.positions[here];
+            if let Some(other) = [left, below, first].into_iter().flatten().find(same) {
+                ids[here] = ids[other];
+            }
+        }
+    }
+    ids
+}
+
+/// Edges with another number of triangles than two.
+struct Odd {
+    count: usize,
+    /// A point of the first of them.
+    first: Option<usize>,
+}
+
+fn odd_edges(grid: &GridMesh, ids: &[usize]) -> Odd {
+    let (rows, cols) = (grid.rows(), grid.cols());
+    let mut sides: Vec<[usize; 2]> = Vec::with_capacity(6 * rows * cols);
+    for row in 0..if grid.seam_v.joins() { rows } else { rows - 1 } {
+        for col in 0..if grid.seam_u.joins() { cols } else { cols - 1 } {
+            let next = (col + 1) % cols;
+            let above = |col: usize| match row + 1 == rows {
+                true => grid.seam_v.leads_to(col, grid.shift, cols),
+                false => (row + 1) * cols + col,
+            };
+            let corners = [row * cols + col, row * cols + next, above(next), above(col)];
+            let [a, b, c, d] = corners.map(|corner| ids[corner]);
+            for [a, b, c] in [[a, b, c], [a, c, d]] {
+                if a != b && b != c && c != a {
+                    sides.extend([[a, b], [b, c], [c, a]].map(|[a, b]| [a.min(b), a.max(b)]));
+                }
+            }
+        }
+    }
+    sides.sort_unstable();
+    let odd = sides.chunk_by(|a, b| a == b).filter(|edge| edge.len() != 2);
+    let firsts: Vec<usize> = odd.map(|edge| edge[0][0]).collect();
+    Odd { count: firsts.len(), first: firsts.first().copied() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Sweep;
+    use files::json::Document;
+
+    fn finding(contour: &str, trajectory: &str) -> Option<Finding> {
+        let text = format!(
+            r#"{{"format": "tb-sweep", "version": 1, "name": "a", "contour": {contour},
+               "trajectory": {trajectory}, "mesh": {{"rows": 12, "cols": 16}}}}"#
+        );
+        let sweep = Sweep::read(&Document::new("a.json", text.as_bytes()).unwrap()).unwrap();
+        findings(&sweep.grid())
+    }
+
+    #[test]
+    fn a_torus_without_a_hole_is_broken_by_merging_and_one_with_a_hole_is_not() {
+        let ring = r#"{"circle": {"radius": 1}}"#;
+        assert!(finding(r#"{"circle": 0.5}"#, ring).is_none());
+        let found = finding(r#"{"circle": 1}"#, ring).unwrap();
+        assert!(found.message.contains("would break the mesh"), "{found}");
+    }
+}
