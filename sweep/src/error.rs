@@ -24,6 +24,12 @@ pub enum SweepError {
     /// A point of the surface is not finite.
     #[error("{0}: a point of the surface is not finite: its sizes differ too much for each other")]
     NotFinite(String),
+    /// The outlines of an end cross each other with the columns that the grid has.
+    #[error(
+        "{0}: the outlines of an end cross each other, with the number of columns that they have; more cols, or a smaller \
+         tol, keep them apart"
+    )]
+    Lids(String),
     /// The grid needs more memory than is allowed.
     #[error(transparent)]
     Memory(#[from] MemoryError),
@@ -35,7 +41,7 @@ impl Failure for SweepError {
             Self::Malformed(_) => Exit::Malformed,
             Self::Geometry(_) => Exit::Geometry,
             Self::Resolution(_) => Exit::Use,
-            Self::NotFinite(_) => Exit::Geometry,
+            Self::NotFinite(_) | Self::Lids(_) => Exit::Geometry,
             Self::Named(_, exit) => *exit,
             Self::Memory(_) | Self::TooLarge(_) => Exit::Resource,
         }

@@ -24,10 +24,12 @@
 
 mod ease;
 mod graph;
+mod heights;
 mod snap;
 
 pub use ease::Ease;
 pub(crate) use graph::{is_graph, parameter};
+pub(crate) use heights::Heights;
 
 use crate::curve::Cubic;
 use crate::curve::cut::{Side, Stop};
@@ -37,6 +39,9 @@ use kurbo::{CubicBez, Point, Shape};
 /// Largest absolute value of a derivative. A surface this steep is level to all 16 digits, and far
 /// larger derivatives would overflow when squared.
 pub const STEEPEST: f64 = 1e30;
+
+/// Two pieces of a graph that meet with a smaller sine of their angle have one derivative there.
+const SMOOTH: f64 = 1e-9;
 
 /// A checked function of the fraction of the trajectory's length.
 #[derive(Debug, Clone)]
@@ -172,6 +177,23 @@ impl Law {
         })
     }
 
+    /// Returns half the law.
+    pub(crate) fn halved(self) -> Self {
+        Self(match self.0 {
+            Form::Constant(value) => Form::Constant(0.5 * value),
+            Form::Keys { mut keys, ease } => {
+                keys.iter_mut().for_each(|key| key[1] *= 0.5);
+                Form::Keys { keys, ease }
+            }
+            Form::Bezier(segments) => Form::Bezier(
+                segments
+                    .iter()
+                    .map(|one| Cubic(one.0.map(|p| DVec2::new(p.x, 0.5 * p.y))))
+                    .collect(),
+            ),
+        })
+    }
+
     /// Returns the zeros of the law, rising: single zeros, and both ends of an interval of zeros.
     pub(crate) fn zeros(&self) -> Vec<f64> {
         let mut found: Vec<f64> = match &self.0 {
@@ -205,8 +227,17 @@ impl Law {
             Form::Keys { ease, .. } if !ease.has_kinks() => Vec::new(),
             Form::Keys { keys, .. } => keys.iter().map(|key| key[0]).filter(inside).collect(),
             Form::Bezier(segments) => {
-                let joints = segments.iter().flat_map(|segment| [segment.0[0].x, segment.0[3].x]);
-                let mut joints: Vec<f64> = joints.filter(inside).collect();
+                let ends = [segments[0].0[0].x, segments[segments.len() - 1].0[3].x];
+                let bends = segments.windows(2).filter(|pair| {
+                    let [before, after] = [pair[0].tangent(1.0), pair[1].tangent(0.0)];
+                    before.perp_dot(after).abs() > SMOOTH
+                });
+                let mut joints: Vec<f64> = ends
+                    .into_iter()
+                    .chain(bends.map(|pair| pair[0].0[3].x))
+                    .filter(inside)
+                    .collect();
+                joints.sort_by(f64::total_cmp);
                 joints.dedup();
                 joints
             }

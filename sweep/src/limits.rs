@@ -34,6 +34,14 @@ pub(crate) fn positive(schema: &mut Schema) {
     range(SMALLEST..=LARGEST)(schema);
 }
 
+/// Allows lists of numbers from [`SMALLEST`] to [`LARGEST`].
+pub(crate) fn positive_items(schema: &mut Schema) {
+    if let Some(items) = schema.ensure_object().get_mut("items") {
+        items["minimum"] = json!(SMALLEST);
+        items["maximum"] = json!(LARGEST);
+    }
+}
+
 /// Allows whole numbers that are ids of a texture or a surface.
 pub(crate) fn id(schema: &mut Schema) {
     range(0..=u32::MAX)(schema);

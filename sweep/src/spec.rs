@@ -19,10 +19,11 @@
 //! |-------------------------------------------------|----------------------------------------------|
 //! | `{"circle": r}`                                 | a circle of radius r about the origin        |
 //! | `{"bezier": {"closed": c, "segments": [S, ...]}}` | cubics; `S` is four points `[x, y]`        |
-//! | `{"svg": "M0 0 C..."}`                          | one subpath, closed by `Z` or by its end; y is negated, because y points down in SVG |
+//! | `{"svg": "M0 0 C..."}`                          | a path, closed by `Z` or by its end; y is negated, because y points down in SVG. Several closed subpaths are outlines and holes |
 //! | `{"free": {"closed": c, "points": [P, ...]}}`   | a C2 spline through points `[x, y]`, or a curve fitted to them; see [`contour`] |
 //! | `{"polyline": {"closed": c, "points": [P, ...]}}` | straight lines from point to point; see [`contour`] |
 //! | `{"sections": [{"at": v, "contour": C}, ...], ...}` | contours that blend into each other      |
+//! | `{"loops": [C, ...]}`                           | outlines and holes; see [`contour`]          |
 //!
 //! and a **trajectory** is one of
 //!
@@ -35,6 +36,7 @@
 //! | `{"free": {"closed": c, "points": [P, ...]}}`   | a C2 spline through points `[x, y, z]`       |
 //! | `{"polyline": {"closed": c, "points": [P, ...], "corners": K}}` | straight lines through points `[x, y, z]` |
 //! | `{"flat": {"curve": C, "z": LAW}}`             | a plane curve drawn like a contour, with z given by a law; see [`Flat`] |
+//! | `{"formula": {"x": F, "y": F, "z": F, "t": [a, b]}}` | formulas of the coordinates; points may have radii, scales and twists of their own: see [`Measured`] |
 //! | `{"rotation": {"angle_deg": d, ...}}`             | contour x is the distance from an axis, contour y the height along it |
 //!
 //! `mesh` counts cells, which become quads: `rows` along the trajectory and `cols` along the contour. A
@@ -65,9 +67,8 @@
 //!
 //! On a circle and a rotation `w1` points away from the axis and `w2` along it. The sweep starts where `w1`
 //! is nearest to the coordinate axis least aligned with the axis of the circle or rotation (x before y before
-//! z). If the axis is y, the sweep starts on the side of +x and runs toward +z. A helix starts in the same
-//! direction. It is therefore left-handed if it rises, and right-handed if its `turns` are below 0. The frame
-//! of a helix is rotation-minimizing.
+//! z). If the axis is y, the sweep starts on the side of +x and runs toward +z. A helix starts on the same side and turns
+//! right-handed about its axis, toward -z, if its `turns` are above 0. The frame of a helix is rotation-minimizing.
 //!
 //! Any other trajectory starts with `w1` as near as possible to the coordinate axis least aligned with its
 //! direction. From there the frame turns about the trajectory as little as possible. Along a closed
@@ -139,8 +140,8 @@
 //!
 //! # Seam, caps, deformations, parts
 //!
-//! [`SeamKind`] closes one-sided surfaces, and `wall` gives such a surface a thickness. [`Caps`] close the
-//! ends. [`Deform`] bends, twists and tapers the finished surface. [`Parts`] are several sweeps in one
+//! [`SeamKind`] closes one-sided surfaces, and [`Wall`] makes a sweep hollow, or gives a one-sided surface a
+//! thickness. [`Caps`] close the ends. [`Deform`] bends, twists and tapers the finished surface. [`Parts`] are several sweeps in one
 //! object.
 //!
 //! # Corners
@@ -160,30 +161,34 @@ mod flat;
 mod frame;
 mod helix;
 mod law;
+mod measured;
 mod parts;
 pub mod resolution;
 pub mod schema;
 mod seam;
 mod trajectory;
 mod turn;
+mod wall;
 
 pub use crate::law::Ease;
 pub use areas::Area;
 pub use caps::{Cap, Caps};
 pub use contour::{Contour, FreeContour};
-pub use corners::{Bezier3, Corners, Polyline3};
+pub use corners::{Bezier3, Corners};
 pub use deform::{AxisTwist, Bend, Deform, Taper};
 pub use depth::{Depth, DepthImage, DepthMode, DepthTerm};
 pub use flat::Flat;
 pub use frame::{Frame, Frenet};
 pub use helix::Helix;
 pub use law::{Law, Scale};
+pub use measured::{FormulaCurve, Measured};
 
 pub use parts::Parts;
 pub use resolution::{Camera, Resolution};
 pub use seam::SeamKind;
 pub use trajectory::Trajectory;
 pub use turn::{Circle, Rotation};
+pub use wall::{Wall, WallKeys, WallSide};
 
 use crate::grid::UvLayout;
 use crate::limits;
@@ -233,11 +238,9 @@ pub struct Spec {
     /// How the end of the surface meets its start, if columns do not meet themselves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub seam: Option<SeamKind>,
-    /// Thickness of a wall around the surface, in the unit of length, above 0. Needs `"seam": "mirror"` and a
-    /// closed contour.
+    /// Wall of a hollow sweep with a closed contour; with `"seam": "mirror"` the thickness of a wall around the sheet.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(transform = limits::positive)]
-    pub wall: Option<f64>,
+    pub wall: Option<Wall>,
     /// The closures of the two ends.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub caps: Option<Caps>,
@@ -318,17 +321,20 @@ mod tests {
     use std::path::Path;
 
     /// Pages that show specs, with the number of specs on each.
-    const PAGES: [(&str, usize); 10] = [
+    const PAGES: [(&str, usize); 13] = [
         (include_str!("spec.rs"), 4),
         (include_str!("spec/caps.rs"), 1),
-        (include_str!("spec/contour.rs"), 3),
+        (include_str!("spec/contour.rs"), 4),
         (include_str!("spec/corners.rs"), 2),
         (include_str!("spec/deform.rs"), 1),
         (include_str!("spec/flat.rs"), 1),
         (include_str!("spec/frame.rs"), 3),
         (include_str!("spec/resolution.rs"), 1),
+        (include_str!("spec/helix.rs"), 1),
+        (include_str!("spec/measured.rs"), 2),
         (include_str!("spec/parts.rs"), 1),
         (include_str!("spec/seam.rs"), 2),
+        (include_str!("spec/wall.rs"), 1),
     ];
 
     #[test]

@@ -17,6 +17,8 @@ pub struct CellWriter<S> {
     pub picture: Picture,
     /// The material passed to the sink last.
     pub material: Material,
+    /// The material of the patch.
+    own: Material,
     /// Triangles of the current band, each with the number of its area.
     triangles: Vec<(u32, Triangle)>,
 }
@@ -70,12 +72,20 @@ impl Picture {
 impl<S: Sink> CellWriter<S> {
     /// Makes a writer for a patch. `material` is the material passed to the sink for this patch.
     pub fn new(sink: S, counts: Counts, picture: Picture, material: Material) -> Self {
-        Self { sink, counts, picture, material, triangles: Vec::new() }
+        Self { sink, counts, picture, material, own: material, triangles: Vec::new() }
     }
 
     pub fn position(&mut self, position: [f32; 3]) -> u32 {
         self.sink.position(position);
         counted(&mut self.counts.positions)
+    }
+
+    /// Sets the material of the patch for the triangles that follow.
+    pub fn patch_material(&mut self) {
+        if self.material != self.own {
+            self.material = self.own;
+            self.sink.material(self.own);
+        }
     }
 
     /// Passes the triangles of the band to the sink, grouped by material.
@@ -200,12 +210,12 @@ impl<S: Sink> CellWriter<S> {
         (uv, normal)
     }
 
-    fn write_uv(&mut self, uv: [f32; 2]) -> u32 {
+    pub fn write_uv(&mut self, uv: [f32; 2]) -> u32 {
         self.sink.uv(uv);
         counted(&mut self.counts.uvs)
     }
 
-    fn write_normal(&mut self, normal: [f32; 3]) -> u32 {
+    pub fn write_normal(&mut self, normal: [f32; 3]) -> u32 {
         self.sink.normal(normal);
         counted(&mut self.counts.normals)
     }

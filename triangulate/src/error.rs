@@ -70,6 +70,14 @@ pub enum TriangulateError {
         /// The key of the area, the found and the expected value.
         fault: String,
     },
+    /// A lid whose corners are not the columns of its patches.
+    #[error("{}: {fault}", shown(object))]
+    Lid {
+        /// The object's name.
+        object: String,
+        /// The found and the expected numbers.
+        fault: String,
+    },
     /// A number that does not fit in f32, the number type of a mesh.
     #[error(
         "{}: row {row}, column {col}: found the {what} ({:?}, {:?}, {:?}), expected numbers within 3.4e38, \
@@ -145,6 +153,7 @@ impl Failure for TriangulateError {
             Self::TooFew { .. }
             | Self::Seam { .. }
             | Self::Area { .. }
+            | Self::Lid { .. }
             | Self::Number { .. }
             | Self::Repeat { .. }
             | Self::Arrays { .. }

@@ -58,6 +58,7 @@ pub mod diagonal;
 mod error;
 mod forest;
 pub mod format;
+mod lids;
 mod material;
 pub mod merged;
 pub mod mtl;

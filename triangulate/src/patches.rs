@@ -1,5 +1,6 @@
 //! The patches of an object: the grids of its sweeps, in a file or in memory.
 
+use crate::lids::Rims;
 use crate::{Counts, Options, Sink, TriangulateError, Triangulator};
 use std::io::BufRead;
 use sweep::GridMesh;
@@ -19,13 +20,14 @@ pub trait Patches {
 impl<R: BufRead> Patches for &mut GridReader<R> {
     fn run<S: Sink>(self, options: &Options, mut sink: S) -> Result<(S, Counts), TriangulateError> {
         let mut counts = Counts::default();
+        let mut rims = Rims::new();
         loop {
             let header = self.header().clone();
             let mut triangulator = Triangulator::following(counts, header, options, sink)?;
             while let Some(row) = self.next_row()? {
                 triangulator.row(row)?;
             }
-            (sink, counts) = triangulator.finish()?;
+            (sink, counts) = triangulator.close(&mut rims)?;
             if !self.next_patch()? {
                 return Ok((sink, counts));
             }
@@ -37,6 +39,7 @@ impl<R: BufRead> Patches for &mut GridReader<R> {
 impl Patches for &[GridMesh] {
     fn run<S: Sink>(self, options: &Options, mut sink: S) -> Result<(S, Counts), TriangulateError> {
         let mut counts = Counts::default();
+        let mut rims = Rims::new();
         for grid in self {
             let points = grid.rows().saturating_mul(grid.cols());
             if grid.positions.len() != points || grid.normals.len() != points {
@@ -54,7 +57,7 @@ impl Patches for &[GridMesh] {
             for row in grid.row_views() {
                 triangulator.row(row)?;
             }
-            (sink, counts) = triangulator.finish()?;
+            (sink, counts) = triangulator.close(&mut rims)?;
         }
         Ok((sink, counts))
     }

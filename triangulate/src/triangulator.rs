@@ -1,6 +1,7 @@
 //! Turns rows into vertices and triangles.
 
 use crate::cell::{Cell, CellWriter, Picture};
+use crate::lids::{self, Rim, Rims};
 use crate::station::Station;
 use crate::{Material, Options, Triangle, TriangulateError};
 use glam::DVec3;
@@ -161,6 +162,8 @@ pub struct Triangulator<S> {
     rounding: Rounding,
     /// Number of rows taken so far.
     rows: usize,
+    /// The first and the last row, which lids join.
+    rim: Rim,
 }
 
 impl<S: Sink> Triangulator<S> {
@@ -214,6 +217,7 @@ impl<S: Sink> Triangulator<S> {
             spare: Station::default(),
             rounding: Rounding::none(),
             rows: 0,
+            rim: Rim::default(),
         })
     }
 
@@ -233,6 +237,10 @@ impl<S: Sink> Triangulator<S> {
         station.take(&row, &self.header.name, self.rows, self.writer.picture.cols())?;
         self.rounding.add(row.positions, &station.points);
         self.number_positions(&mut station);
+        if self.rows == 1 || self.rows == self.header.rows {
+            let of_row = station.position.iter().copied().zip(station.points.iter().copied());
+            self.rim.rows[usize::from(self.rows > 1)] = of_row.collect();
+        }
         if let Some(mut before) = self.before.take() {
             self.band(&mut before, &mut station);
             if self.rows == 2 && self.header.seam_v.joins() {
@@ -249,12 +257,26 @@ impl<S: Sink> Triangulator<S> {
     ///
     /// # Errors
     /// When rows are missing, or the sink fails.
-    pub fn finish(mut self) -> Result<(S, Counts), TriangulateError> {
+    pub fn finish(self) -> Result<(S, Counts), TriangulateError> {
+        self.close(&mut Rims::new())
+    }
+
+    /// Closes the seam as [`Triangulator::finish`] does, and adds the lids of the patch. `rims` are those of the
+    /// patches before; that of this patch is added.
+    pub(crate) fn close(mut self, rims: &mut Rims) -> Result<(S, Counts), TriangulateError> {
         if self.rows < self.header.rows {
             return Err(self.misfit(0));
         }
         if let (Some(mut first), Some(mut last)) = (self.first.take(), self.before.take()) {
             self.band(&mut last, &mut first);
+            self.writer.sink.row_done().map_err(TriangulateError::Write)?;
+        }
+        rims.push(std::mem::take(&mut self.rim));
+        if !self.header.lids.is_empty() {
+            self.writer.patch_material();
+            for lid in &self.header.lids {
+                lids::write(lid, &self.header.name, rims, &mut self.writer)?;
+            }
             self.writer.sink.row_done().map_err(TriangulateError::Write)?;
         }
         let before = self.writer.counts;

@@ -6,6 +6,7 @@ mod areas;
 mod binary;
 mod cli;
 mod interrupted;
+mod lids;
 mod made;
 mod patches;
 mod properties;

@@ -39,7 +39,11 @@ pub fn findings(spec: &Spec, sweep: &Sweep) -> Vec<Finding> {
             Contour::Polyline(line) => {
                 doubled::<_, DVec2>(&format!("{path}.polyline"), line, &mut found);
             }
-            Contour::Circle(_) | Contour::Svg(_) | Contour::Sections(_) => {}
+            Contour::Circle(_)
+            | Contour::Svg(_)
+            | Contour::Sections(_)
+            | Contour::Loops(_)
+            | Contour::Moved(_) => {}
         }
         if let Some((cubics, closed)) = cubics(contour) {
             shape(&path, &cubics, closed, &mut found);
@@ -54,11 +58,15 @@ pub fn findings(spec: &Spec, sweep: &Sweep) -> Vec<Finding> {
             let points = Free { closed: line.closed, points: line.points.clone() };
             doubled::<_, DVec3>("trajectory.polyline", &points, &mut found);
         }
-        Trajectory::Free(free) => doubled::<_, DVec3>("trajectory.free", free, &mut found),
+        Trajectory::Free(free) => {
+            let points = Free { closed: free.closed, points: free.points.clone() };
+            doubled::<_, DVec3>("trajectory.free", &points, &mut found);
+        }
         Trajectory::Line(_)
         | Trajectory::Circle(_)
         | Trajectory::Helix(_)
         | Trajectory::Flat(_)
+        | Trajectory::Formula(_)
         | Trajectory::Rotation(_) => {}
     }
     found.extend(nearly_closed(sweep));
@@ -71,6 +79,14 @@ fn contours(contour: &Contour) -> Vec<(String, &Contour)> {
         Contour::Sections(sections) => {
             let path = |i: usize| format!("contour.sections[{i}].contour");
             sections.sections.iter().enumerate().map(|(i, s)| (path(i), &s.contour)).collect()
+        }
+        Contour::Moved(moved) => contours(&moved.contour),
+        Contour::Loops(loops) if !loops.named => {
+            loops.loops.iter().map(|one| ("contour".into(), one)).collect()
+        }
+        Contour::Loops(loops) => {
+            let path = |i: usize| format!("contour.loops[{i}]");
+            loops.loops.iter().enumerate().map(|(i, one)| (path(i), one)).collect()
         }
         Contour::Circle(_)
         | Contour::Bezier(_)
@@ -104,7 +120,7 @@ fn cubics(contour: &Contour) -> Option<(Vec<Cubic<DVec2>>, bool)> {
             let sides = points.iter().zip(next).map(|(&a, &b)| Cubic::line(a, b));
             Some((sides.collect(), line.closed))
         }
-        Contour::Circle(_) | Contour::Sections(_) => None,
+        Contour::Circle(_) | Contour::Sections(_) | Contour::Loops(_) | Contour::Moved(_) => None,
     }
 }
 

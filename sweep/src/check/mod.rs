@@ -46,22 +46,26 @@ pub fn check(
     grids: &[GridMesh],
     strands: Option<strands::Tell<'_>>,
 ) -> Vec<Finding> {
-    let several = object.parts().len() > 1;
-    let mut all = Vec::new();
-    for (i, ((sweep, grid), spec)) in
-        object.parts().iter().zip(grids).zip(object.specs()).enumerate()
-    {
-        let mut found = drawing::findings(spec, sweep);
+    let mut all: Vec<Finding> = Vec::new();
+    let mut before = None;
+    for (i, (sweep, grid)) in object.parts().iter().zip(grids).enumerate() {
+        let (spec, owner) = object.spec_of(i);
+        // An outline and its holes are drawn in one spec.
+        let mut found =
+            if before == Some(owner) { Vec::new() } else { drawing::findings(spec, sweep) };
+        before = Some(owner);
         found.extend(of_sweep(sweep, grid));
         if let Some(tell) = strands {
             found.extend(strands::findings(grid, tell));
         }
         found.sort_by_key(|finding| std::cmp::Reverse(finding.severity));
-        if several {
+        if let Some(owner) = owner {
             found
                 .iter_mut()
-                .for_each(|finding| finding.path = format!("parts[{i}].{}", finding.path));
+                .for_each(|finding| finding.path = format!("parts[{owner}].{}", finding.path));
         }
+        // What holds for an outline and for its holes is said once.
+        found.retain(|finding| !all.contains(finding));
         all.extend(found);
     }
     all
@@ -86,8 +90,9 @@ pub fn of_sweep(sweep: &Sweep, grid: &GridMesh) -> Vec<Finding> {
 #[must_use]
 pub fn summary(sweep: &Sweep, grid: &GridMesh) -> String {
     let around = match (grid.seam_u.joins(), grid.seam_v) {
+        (false, Seam::Open) if sweep.lids == [true; 2] => "closed at both ends",
         (false, Seam::Open) => "open",
-        (true, Seam::Open) => match poles(grid) {
+        (true, Seam::Open) => match poles(grid) + sweep.lids.iter().filter(|&&lid| lid).count() {
             0 => "a tube with two ends",
             1 => "a tube with one end",
             _ => "closed at both ends",

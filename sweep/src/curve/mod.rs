@@ -6,6 +6,8 @@
 //! | [`path`]       | segments joined, located by arc length; corners                   |
 //! | [`arc_length`] | the length of a segment and its inverse                           |
 //! | [`fit`]        | a few cubics near many points                                     |
+//! | [`formula`]    | formulas of one variable, with exact derivatives                  |
+//! | [`hermite`]    | cubics along a curve that is given by a function                  |
 //! | [`cut`]        | division of a curve into cells                                    |
 //! | [`spline`]     | a C2 curve through free points                                    |
 //! | [`svg`]        | the path of an SVG file                                           |
@@ -17,6 +19,8 @@ pub mod arc_length;
 pub mod cubic;
 pub mod cut;
 pub mod fit;
+pub mod formula;
+pub mod hermite;
 pub mod path;
 mod quadrature;
 pub mod spline;

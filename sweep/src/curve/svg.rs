@@ -1,7 +1,7 @@
 //! The outline of an SVG path (its `d` attribute) as cubic segments.
 //!
-//! All path commands of SVG 1.1 are read, relative and absolute, and exactly one subpath is accepted. SVG's y
-//! axis points down. y is negated here, so that a shape upright in an SVG editor is upright as a contour. A
+//! All path commands of SVG 1.1 are read, relative and absolute. [`outlines`] reads all subpaths, [`outline`] accepts
+//! one only. SVG's y axis points down. y is negated here, so that a shape upright in an SVG editor is upright as a contour. A
 //! path is closed by `Z`, or by ending where it began.
 //!
 //! kurbo's own path reader is not used, because it turns arcs into cubics with an absolute
@@ -9,10 +9,13 @@
 //! never finishes for a circle of radius 1e300. Here kurbo converts only single arcs, to a
 //! billionth of their radius.
 
+mod lexer;
+
 use super::cubic::Cubic;
 use super::vector::{Vector, extent};
 use glam::DVec2;
 use kurbo::{Arc, PathEl, Point, SvgArc, Vec2};
+use lexer::Lexer;
 
 /// Error of an arc's cubics, as a fraction of its larger radius: about 32 cubics for a full turn.
 const ARC_TOLERANCE: f64 = 1e-9;
@@ -38,33 +41,40 @@ pub struct Outline {
     pub segments: Vec<Cubic<DVec2>>,
     /// True if the last segment ends at the start of the first.
     pub closed: bool,
+    /// True if the subpath ends with `Z`.
+    pub drawn_closed: bool,
 }
 
-/// Reads an SVG path.
+/// Reads an SVG path of one subpath.
 ///
 /// # Errors
 /// The message says what was found, at which character, and what was expected.
 pub fn outline(text: &str) -> Result<Outline, String> {
-    let mut reader =
-        Reader { lexer: Lexer { text, at: 0 }, pen: DVec2::ZERO, segments: Vec::new() };
-    let (start, closed) = reader.read()?;
-    let mut segments = reader.segments;
-    let gap = (reader.pen - start).length();
-    let widest = if closed { ROUNDING } else { MEETS };
-    let meets = gap <= widest * extent(segments.iter().flat_map(|segment| segment.0));
-    if closed && !meets {
-        segments.push(Cubic::line(reader.pen, start));
+    let mut reader = Reader::new(text);
+    let outline = reader.outline(None)?;
+    if reader.lexer.finished() {
+        return Ok(outline.0);
     }
-    if let Some(last) = segments.last_mut()
-        && meets
-    {
-        last.0[3] = start;
+    Err(reader.lexer.expected("the end of the path: one subpath only"))
+}
+
+/// Reads an SVG path of one or more subpaths, which do not move between them.
+///
+/// # Errors
+/// The message says what was found, at which character, and what was expected.
+pub fn outlines(text: &str) -> Result<Vec<Outline>, String> {
+    let mut reader = Reader::new(text);
+    let mut outlines = Vec::new();
+    let mut start = None;
+    while start.is_none() || !reader.lexer.finished() {
+        let (outline, from) = reader.outline(start)?;
+        // A move that nothing follows draws nothing.
+        if !outline.segments.is_empty() || start.is_none() {
+            outlines.push(outline);
+        }
+        start = Some(from);
     }
-    for segment in &mut segments {
-        // Negating with -y would turn 0 into -0.
-        segment.0 = segment.0.map(|p| DVec2::new(p.x, 0.0 - p.y));
-    }
-    Ok(Outline { segments, closed: closed || meets })
+    Ok(outlines)
 }
 
 struct Reader<'a> {
@@ -73,17 +83,60 @@ struct Reader<'a> {
     segments: Vec<Cubic<DVec2>>,
 }
 
-impl Reader<'_> {
-    /// Reads all commands. Returns the start, and whether the path ends with `Z`.
-    fn read(&mut self) -> Result<(DVec2, bool), String> {
-        let mut command = match self.lexer.command() {
+impl<'a> Reader<'a> {
+    fn new(text: &'a str) -> Self {
+        Self { lexer: Lexer { text, at: 0 }, pen: DVec2::ZERO, segments: Vec::new() }
+    }
+
+    /// Reads a subpath; `before` is the start of the subpath before it. Returns the subpath and its start.
+    fn outline(&mut self, before: Option<DVec2>) -> Result<(Outline, DVec2), String> {
+        self.segments.clear();
+        let (start, closed) = self.read(before)?;
+        let mut segments = std::mem::take(&mut self.segments);
+        let gap = (self.pen - start).length();
+        let widest = if closed { ROUNDING } else { MEETS };
+        let meets = gap <= widest * extent(segments.iter().flat_map(|segment| segment.0));
+        if closed && !meets {
+            segments.push(Cubic::line(self.pen, start));
+        }
+        if let Some(last) = segments.last_mut()
+            && meets
+        {
+            last.0[3] = start;
+        }
+        if closed {
+            self.pen = start;
+        }
+        for segment in &mut segments {
+            // Negating with -y would turn 0 into -0.
+            segment.0 = segment.0.map(|p| DVec2::new(p.x, 0.0 - p.y));
+        }
+        Ok((Outline { segments, closed: closed || meets, drawn_closed: closed }, start))
+    }
+
+    /// Reads the commands of a subpath. Returns the start, and whether the subpath ends with `Z`.
+    fn read(&mut self, before: Option<DVec2>) -> Result<(DVec2, bool), String> {
+        let first = self.lexer.at;
+        let command = match self.lexer.command() {
             Some(letter @ ('M' | 'm')) => letter,
+            // After a `Z` the next subpath may start where the last one did.
+            Some(letter) if before.is_some() => {
+                self.lexer.at = first;
+                self.pen = before.unwrap_or(self.pen);
+                return self.rest(self.pen, letter);
+            }
             _ => return Err(self.lexer.expected("`M` and a point to start from")),
         };
-        let start = self.lexer.point()?;
+        let origin = if command == 'm' { self.pen } else { DVec2::ZERO };
+        let start = origin + self.lexer.point()?;
         self.pen = start;
         // Further points after a move are lines.
-        command = if command == 'M' { 'L' } else { 'l' };
+        let command = if command == 'M' { 'L' } else { 'l' };
+        self.rest(start, command)
+    }
+
+    /// Reads the commands of a subpath after its start; `command` is that of numbers without a letter.
+    fn rest(&mut self, start: DVec2, mut command: char) -> Result<(DVec2, bool), String> {
         // The last handles of a cubic and of a quadratic, for the commands that mirror them.
         let mut handles = [None; 2];
         loop {
@@ -121,15 +174,10 @@ impl Reader<'_> {
                 }
                 'T' => handles[1] = Some(self.quadratic(mirrored[1], origin)?),
                 'A' => self.arc(origin)?,
-                'Z' => {
-                    if !self.lexer.finished() {
-                        return Err(self.lexer.expected("the end of the path: one subpath only"));
-                    }
-                    return Ok((start, true));
-                }
+                'Z' => return Ok((start, true)),
                 'M' => {
                     self.lexer.at -= 1;
-                    return Err(self.lexer.expected("the end of the path: one subpath only"));
+                    return Ok((start, false));
                 }
                 _ => {
                     self.lexer.at -= 1;
@@ -205,82 +253,6 @@ impl Reader<'_> {
         }
         self.pen = to;
         Ok(())
-    }
-}
-
-/// Reads commands, numbers and flags, separated by commas and white space.
-struct Lexer<'a> {
-    text: &'a str,
-    at: usize,
-}
-
-impl Lexer<'_> {
-    fn skip(&mut self) {
-        let rest = &self.text[self.at..];
-        let trimmed = rest.trim_start_matches(|c: char| c == ',' || c.is_ascii_whitespace());
-        self.at += rest.len() - trimmed.len();
-    }
-
-    fn finished(&mut self) -> bool {
-        self.skip();
-        self.at == self.text.len()
-    }
-
-    /// Reads the next character if it is a letter.
-    fn command(&mut self) -> Option<char> {
-        self.skip();
-        let letter = self.text[self.at..].chars().next().filter(char::is_ascii_alphabetic)?;
-        self.at += 1;
-        Some(letter)
-    }
-
-    fn point(&mut self) -> Result<DVec2, String> {
-        Ok(DVec2::new(self.number()?, self.number()?))
-    }
-
-    /// Reads the longest number that follows; `1.5.5` is two numbers.
-    fn number(&mut self) -> Result<f64, String> {
-        self.skip();
-        let bytes = self.text.as_bytes();
-        let digits = |mut at: usize| {
-            while bytes.get(at).is_some_and(u8::is_ascii_digit) {
-                at += 1;
-            }
-            at
-        };
-        let sign = |at: usize| at + usize::from(matches!(bytes.get(at), Some(b'+' | b'-')));
-        let mut end = digits(sign(self.at));
-        if bytes.get(end) == Some(&b'.') {
-            end = digits(end + 1);
-        }
-        if matches!(bytes.get(end), Some(b'e' | b'E')) {
-            let exponent = sign(end + 1);
-            if digits(exponent) > exponent {
-                end = digits(exponent);
-            }
-        }
-        let number = self.text[self.at..end].parse().map_err(|_| self.expected("a number"))?;
-        self.at = end;
-        Ok(number)
-    }
-
-    fn flag(&mut self) -> Result<bool, String> {
-        self.skip();
-        let flag = match self.text.as_bytes().get(self.at) {
-            Some(b'0') => false,
-            Some(b'1') => true,
-            _ => return Err(self.expected("an arc's flag, 0 or 1")),
-        };
-        self.at += 1;
-        Ok(flag)
-    }
-
-    fn expected(&self, what: &str) -> String {
-        let position = 1 + self.text[..self.at].chars().count();
-        match self.text[self.at..].chars().next() {
-            Some(found) => format!("found `{found}` at character {position}, expected {what}"),
-            None => format!("found the end at character {position}, expected {what}"),
-        }
     }
 }
 

@@ -22,6 +22,7 @@
 //! | `areas`     | `[]`     | `{"area": A, "v": [from, to]}` each: an [`Area`](crate::grid::Area), and `v` at its ends |
 //! | `fold`      | none     | `{"worst": x, "rows": n, "fits": f}`: a [`Fold`](crate::grid::Fold) |
 //! | `tolerance` | none     | `{"asked": x, "reached": x, ...}`: a [`Tolerance`](crate::grid::Tolerance) |
+//! | `lids`      | `[]`     | flat ends: a [`Lid`](crate::grid::Lid) each, of this patch and of patches before it |
 //! | `shift`     | 0        | shift of the seam in columns; see [`Seam`](crate::grid::Seam) |
 //!
 //! A row is `[v, flags, positions, normals]`; each number is written with the fewest digits that read back to

@@ -2,11 +2,13 @@
 
 pub mod area;
 pub mod file;
+mod lid;
 mod quality;
 mod row;
 mod seam;
 
 pub use area::{Area, PlacedArea};
+pub use lid::{End, Lid};
 pub use quality::{Fold, Tolerance};
 pub use row::Row;
 pub use seam::Seam;
@@ -52,6 +54,8 @@ pub struct GridMesh {
     pub surface: Option<u32>,
     /// Areas with textures of their own; later areas cover earlier ones.
     pub areas: Vec<Area>,
+    /// Flat ends, if the patch is the last of those that they close.
+    pub lids: Vec<Lid>,
     /// Where the surface folds back on itself, if that was measured.
     pub fold: Option<Fold>,
     /// The requested and the measured distance from the surface, if requested.

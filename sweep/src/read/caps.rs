@@ -5,8 +5,10 @@ use crate::curve::cut::{self, Stop};
 use crate::error::SweepError;
 use crate::spec::{Cap as Written, Caps};
 use crate::surface::cap::{Cap, Form, center_of};
+use crate::surface::lid::filled;
 use crate::surface::modulation::Modulation;
 use crate::surface::profile::Profile;
+use crate::surface::shape::ON_AXIS;
 use crate::trajectory::Trajectory;
 use glam::DVec2;
 
@@ -17,19 +19,23 @@ const LOOKED_AT: usize = 720;
 const NO_AREA: f64 = 1e-9;
 
 impl Reader<'_> {
+    /// Reads the caps of a sweep: those that shrink a section to a point, and for each end whether a lid closes it. `alone`
+    /// is false for an outline with holes, whose ends only lids close.
     pub(super) fn caps(
         &self,
         caps: Option<Caps>,
+        alone: bool,
         contour: &Profile,
         trajectory: &Trajectory,
         modulation: &Modulation,
-    ) -> Result<[Option<Cap>; 2], SweepError> {
+    ) -> Result<([Option<Cap>; 2], [bool; 2]), SweepError> {
         let Some(Caps { start, end }) = caps else {
-            return Ok([None, None]);
+            return Ok(([None, None], [false; 2]));
         };
-        if !contour.closed() || trajectory.closed() || trajectory.is_rotation() {
-            let found = if trajectory.is_rotation() {
-                "a rotation, whose ends close where the contour meets the axis"
+        let on_axis = trajectory.is_rotation() && Self::ends_on_axis(contour);
+        if !(contour.closed() || on_axis) || trajectory.closed() {
+            let found = if trajectory.is_rotation() && trajectory.closed() {
+                "a rotation of a full turn, which has no ends"
             } else if trajectory.closed() {
                 "a closed trajectory"
             } else {
@@ -39,15 +45,42 @@ impl Reader<'_> {
                 format!("found {found}, expected an open trajectory and a closed contour");
             return Err(self.geometry("caps", message));
         }
-        let stops = cut::evenly(contour.breaks(), true, LOOKED_AT);
+        let stops = cut::evenly(contour.breaks(), contour.closed(), LOOKED_AT);
         let columns = contour.columns(&stops);
         let cap = |key: &str, cap: Option<Written>, stop: Stop| {
+            let Some(cap) = cap else { return Ok((None, false)) };
+            let path = format!("caps.{key}");
+            if !alone || trajectory.is_rotation() {
+                if cap == Written::Flat {
+                    return Ok((None, true));
+                }
+                let what = if alone { "a rotation" } else { "a section with holes" };
+                let message = format!("found a cap on {what} that is not flat, expected `flat`");
+                return Err(self.geometry(&path, message));
+            }
             let section = modulation.section(trajectory, stop);
             let polygon: Vec<DVec2> =
                 columns.iter().map(|column| section.local_point(column)).collect();
-            cap.map(|cap| self.cap(&format!("caps.{key}"), cap, &polygon)).transpose()
+            let found = self.cap(&path, cap, &polygon);
+            match found {
+                Err(_)
+                    if cap == Written::Flat && filled(std::slice::from_ref(&polygon)).is_some() =>
+                {
+                    Ok((None, true))
+                }
+                found => found.map(|cap| (Some(cap), false)),
+            }
         };
-        Ok([cap("start", start, Stop::after(0.0))?, cap("end", end, Stop::before(1.0))?])
+        let (start, start_lid) = cap("start", start, Stop::after(0.0))?;
+        let (end, end_lid) = cap("end", end, Stop::before(1.0))?;
+        Ok(([start, end], [start_lid, end_lid]))
+    }
+
+    /// Returns whether an open contour starts and ends on the axis of a rotation.
+    fn ends_on_axis(contour: &Profile) -> bool {
+        let on_axis = ON_AXIS * contour.x_range().1;
+        let ends = contour.columns(&[Stop::after(0.0), Stop::before(1.0)]);
+        !contour.closed() && ends.iter().all(|end| end.first.point.x <= on_axis)
     }
 
     fn cap(&self, path: &str, cap: Written, polygon: &[DVec2]) -> Result<Cap, SweepError> {
@@ -60,7 +93,7 @@ impl Reader<'_> {
         let (center, _) = center_of(polygon)
             .filter(|(_, area)| area.abs() > NO_AREA * size * size)
             .ok_or_else(|| {
-                let message = "found a cap on a section that is not star-shaped, expected a \
+                let message = "found a cap on a section that is not star-shaped, expected `flat`, or a \
                                section whose outline is visible from one point inside";
                 self.geometry(path, message)
             })?;

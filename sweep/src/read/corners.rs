@@ -6,8 +6,7 @@ use crate::curve::path::Joint;
 use crate::curve::vector::angle_between;
 use crate::curve::{Cubic, Curve3, Path};
 use crate::error::SweepError;
-use crate::spec;
-use crate::spec::{Bezier, Bezier3, Corners, Polyline3};
+use crate::spec::{Bezier, Bezier3, Corners, Measured};
 use crate::trajectory::Course;
 use glam::DVec3;
 
@@ -26,12 +25,15 @@ impl Reader<'_> {
         let curve = Bezier { closed: bezier.closed, segments: bezier.segments.clone() };
         let curve = self.bezier(path, &curve)?;
         let path_of = |segment| format!("{path}.segments[{segment}]");
-        self.cornered(path, curve, bezier.corners, path_of)
+        Ok(self.cornered(path, curve, bezier.corners, path_of)?.0)
     }
 
-    pub(super) fn polyline3(&self, path: &str, line: &Polyline3) -> Result<Course, SweepError> {
-        let free = spec::Free { closed: line.closed, points: line.points.clone() };
-        let curve = self.polyline(path, &free)?;
+    pub(super) fn polyline3(
+        &self,
+        path: &str,
+        line: &Measured,
+    ) -> Result<(Course, Vec<[f64; 2]>), SweepError> {
+        let curve = self.polyline(path, &Self::plain(line))?;
         let path_of = |segment| format!("{path}.points[{segment}]");
         self.cornered(path, curve, line.corners, path_of)
     }
@@ -42,7 +44,7 @@ impl Reader<'_> {
         curve: Path<DVec3>,
         corners: Option<Corners>,
         path_of: impl Fn(usize) -> String,
-    ) -> Result<Course, SweepError> {
+    ) -> Result<(Course, Vec<[f64; 2]>), SweepError> {
         let path = format!("{path}.corners");
         let found: Vec<Joint> = corners_of(&curve).collect();
         match corners {
@@ -58,10 +60,10 @@ impl Reader<'_> {
                 for joint in &found {
                     self.mitre(&curve, joint, limit, &path_of)?;
                 }
-                Ok(Course::Path(curve))
+                Ok((Course::Path(curve), Vec::new()))
             }
             None => match found.first() {
-                None => Ok(Course::Path(curve)),
+                None => Ok((Course::Path(curve), Vec::new())),
                 Some(joint) => {
                     let message = format!(
                         "found {}, expected a trajectory that bends smoothly, or `corners`: \
@@ -101,15 +103,16 @@ impl Reader<'_> {
         Err(self.geometry(&path_of(joint.sources[1]), message))
     }
 
-    /// Returns the curve with its corners cut off and bridged by cubics.
+    /// Returns the curve with its corners cut off and bridged by cubics, and pairs of arc lengths before and after that. A
+    /// corner between short legs is cut by half of the shorter one.
     fn rounded(
         &self,
         path: &str,
         curve: Path<DVec3>,
         corners: &[Joint],
-        cut: f64,
+        asked: f64,
         path_of: impl Fn(usize) -> String,
-    ) -> Result<Course, SweepError> {
+    ) -> Result<(Course, Vec<[f64; 2]>), SweepError> {
         let length = curve.length();
         let rounding = ROUNDING * length;
         let mut ends: Vec<f64> = corners.iter().map(|joint| joint.s).collect();
@@ -117,30 +120,41 @@ impl Reader<'_> {
             ends.insert(0, 0.0);
         }
         ends.push(length);
-        let is_corner = |s: f64| {
+        let corner_at = |s: f64| {
             let s = if s == length && curve.closed() { 0.0 } else { s };
-            corners.iter().any(|joint| joint.s == s)
+            corners.binary_search_by(|joint| joint.s.total_cmp(&s)).ok()
         };
+        let cuts: Vec<f64> = corners
+            .iter()
+            .map(|joint| {
+                let next = ends.partition_point(|&end| end <= joint.s);
+                let after = ends[next] - joint.s;
+                let before = if joint.s > 0.0 {
+                    joint.s - ends[next - 2]
+                } else {
+                    length - ends[ends.len() - 2]
+                };
+                asked.min(0.5 * before).min(0.5 * after)
+            })
+            .collect();
+        let cut_at = |s: f64| corner_at(s).map_or(0.0, |corner| cuts[corner]);
         let mut cubics = Vec::new();
+        // Arc lengths of the given curve at the ends of the cubics, and in the middle of those that round a corner.
+        let mut given: Vec<(f64, Option<f64>)> = Vec::new();
         for leg in ends.windows(2) {
             let (from, to) = (leg[0], leg[1]);
-            if (is_corner(from) || is_corner(to)) && cut > 0.5 * (to - from) + rounding {
-                let message = format!(
-                    "found {cut:?}, expected at most {:?}, half the length between the corners or \
-                     ends at {from:?} and {to:?} of the length {length:?}",
-                    0.5 * (to - from)
-                );
-                return Err(self.geometry(&format!("{path}.round"), message));
-            }
-            let first = if is_corner(from) { from + cut } else { from };
-            let last = if is_corner(to) { to - cut } else { to };
+            let (first, last) = (from + cut_at(from), to - cut_at(to));
             // Two cuts may leave no length between them.
             if last - first > rounding {
-                cubics.extend(curve.part(first, last));
+                let part = curve.part(first, last);
+                let count = part.len();
+                given.extend(
+                    (1..=count).map(|i| (first + (last - first) * i as f64 / count as f64, None)),
+                );
+                cubics.extend(part);
             }
-            if let Some(joint) =
-                corners.iter().find(|joint| is_corner(to) && joint.s == to % length)
-            {
+            if let Some(corner) = corner_at(to) {
+                let (joint, cut) = (&corners[corner], cuts[corner]);
                 let (a, b) = (curve.at(last), curve.at(to % length + cut));
                 let chord = (b.position - a.position).length();
                 if chord <= ON_EACH_OTHER * cut {
@@ -156,12 +170,18 @@ impl Reader<'_> {
                 let handle = chord / (3.0 * (0.25 * turn).cos().powi(2));
                 let (p, q) = (a.position, b.position);
                 cubics.push(Cubic([p, p + a.tangent * handle, q - b.tangent * handle, q]));
+                given.push((to + cut, Some(to)));
             }
         }
         let curve = self.path(path, &cubics, curve.closed())?;
         let left = corners_of(&curve).next();
+        let mut marks = vec![[cut_at(0.0), 0.0]];
+        for (ends, (to, middle)) in curve.knots().windows(2).zip(given) {
+            marks.extend(middle.map(|middle| [middle, 0.5 * (ends[0] + ends[1])]));
+            marks.push([to, ends[1]]);
+        }
         match left {
-            None => Ok(Course::Path(curve)),
+            None => Ok((Course::Path(curve), marks)),
             Some(joint) => {
                 let message = format!(
                     "found {:.1} degrees left at a rounded corner, expected a shorter or a longer \

@@ -20,7 +20,10 @@ impl Reader<'_> {
             spec::Contour::Free(free) => self.near(&format!("{curve}.free"), free)?.0,
             spec::Contour::Svg(text) => self.outline(&format!("{curve}.svg"), text)?,
             spec::Contour::Polyline(line) => self.polyline(&format!("{curve}.polyline"), line)?,
-            spec::Contour::Circle(_) | spec::Contour::Sections(_) => {
+            spec::Contour::Circle(_)
+            | spec::Contour::Sections(_)
+            | spec::Contour::Loops(_)
+            | spec::Contour::Moved(_) => {
                 let message = "found no path, expected one of bezier, svg, free, polyline; an arc of \
                                an SVG path draws a circle";
                 return Err(self.fault(&curve, message));

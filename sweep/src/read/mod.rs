@@ -2,7 +2,6 @@
 
 mod areas;
 mod caps;
-mod contour;
 mod corners;
 mod curve;
 mod deform;
@@ -11,6 +10,8 @@ mod flat;
 mod height;
 mod joints;
 mod law;
+mod loops;
+mod measured;
 mod modulation;
 mod object;
 mod profile;
@@ -21,15 +22,18 @@ mod wall;
 
 use crate::error::SweepError;
 use crate::limits::{LARGEST, REPEATS, SMALLEST};
-use crate::sampling::Sweep;
 use crate::sampling::resolution::Tell;
+use crate::sampling::{Sweep, lids};
 use crate::spec::{Resolution, Spec};
 use crate::surface::Shape;
 use crate::surface::edges::Edges;
 use crate::surface::modulation::Modulation;
+use crate::trajectory::Trajectory;
 use files::Source;
 use files::json::Document;
 use glam::DVec3;
+use measured::PointLaws;
+use profile::Loop;
 use std::sync::OnceLock;
 use std::time::Duration;
 
@@ -50,17 +54,63 @@ struct Reader<'a> {
 const LONGEST_NAME: usize = 1000;
 
 impl Reader<'_> {
-    fn sweep(&self, spec: &Spec) -> Result<Sweep, SweepError> {
+    /// Reads the sweeps of a spec: most often one, or one for each loop of its contour.
+    fn sweeps(&self, spec: &Spec) -> Result<Vec<Sweep>, SweepError> {
         self.header(spec)?;
-        let trajectory = self.trajectory(&spec.trajectory, spec.frame.as_ref())?;
-        let (contour, blend) = self.profile(&spec.contour, &trajectory)?;
-        let (modulation, mirror) = self.modulation(spec, &contour, &trajectory)?;
-        let modulation = Modulation { blend, ..modulation };
+        let (trajectory, laws) = self.trajectory(spec)?;
+        let loops = self.profiles(spec, &trajectory)?;
+        let count = loops.len();
+        if count > 1 {
+            self.alone(spec)?;
+        }
+        let mut sweeps = Vec::with_capacity(count);
+        for (number, one) in (1..).zip(loops) {
+            let sweep = self.sweep(spec, trajectory.clone(), &laws, one, count)?;
+            let name =
+                if number > 1 { format!("{}-{number}", spec.name) } else { spec.name.clone() };
+            let group = if number == count { count } else { 0 };
+            sweeps.push(Sweep { name, group, ..sweep });
+        }
+        if lids::of(&sweeps).is_none() {
+            let message = "found outlines of an end that cross themselves or each other, expected outlines that do \
+                           not; more cols, a smaller tol or a thinner wall keep them apart";
+            return Err(self.geometry(if spec.wall.is_some() { "wall" } else { "caps" }, message));
+        }
+        Ok(sweeps)
+    }
+
+    /// Refuses keys that do not apply to several loops.
+    fn alone(&self, spec: &Spec) -> Result<(), SweepError> {
+        for (key, given) in [("areas", !spec.areas.is_empty()), ("seam", spec.seam.is_some())] {
+            if given {
+                let message =
+                    format!("found `{key}` of a contour of several loops, expected one loop");
+                return Err(self.geometry(key, message));
+            }
+        }
+        Ok(())
+    }
+
+    fn sweep(
+        &self,
+        spec: &Spec,
+        trajectory: Trajectory,
+        laws: &PointLaws,
+        Loop { profile: contour, blend, offset }: Loop,
+        loops: usize,
+    ) -> Result<Sweep, SweepError> {
+        let hollow = offset.is_some();
+        let (modulation, mirror) = self.modulation(spec, laws, &contour, &trajectory)?;
+        let modulation = Modulation { blend, offset, ..modulation };
         let contour = match mirror {
             Some(factors) => contour.mirrored(factors),
             None => contour,
         };
-        let caps = self.caps(spec.caps, &contour, &trajectory, &modulation)?;
+        let (caps, lids) = if hollow {
+            ([None, None], [!trajectory.closed(); 2])
+        } else {
+            self.caps(spec.caps, loops == 1, &contour, &trajectory, &modulation)?
+        };
         let shape = Shape {
             contour,
             trajectory,
@@ -81,6 +131,8 @@ impl Reader<'_> {
             name: spec.name.clone(),
             shape,
             wall,
+            lids,
+            group: 1,
             resolution: self.resolution(&spec.resolution)?,
             fitted: None,
             spent: Duration::ZERO,

@@ -1,6 +1,7 @@
 //! Reads the changes of a spec's contour along the trajectory, and checks them against both curves.
 
 use super::Reader;
+use super::measured::PointLaws;
 use crate::error::SweepError;
 use crate::law::Law;
 use crate::spec::{self, Scale, SeamKind, Spec};
@@ -17,13 +18,16 @@ impl Reader<'_> {
     pub(super) fn modulation(
         &self,
         spec: &Spec,
+        laws: &PointLaws,
         contour: &Profile,
         trajectory: &Trajectory,
     ) -> Result<(Modulation, Option<DVec2>), SweepError> {
+        let (scales, twists) = (laws.scale.clone(), laws.twist.clone());
         if trajectory.is_rotation() && spec.scale.is_some() {
             self.off_axis("scale", contour)?;
         }
-        let scale = spec.scale.as_ref().map(|scale| self.scale(scale, trajectory)).transpose()?;
+        let scale =
+            spec.scale.as_ref().map(|scale| self.scale(scale, trajectory)).transpose()?.or(scales);
         let mut poles = Vec::new();
         let mut mirror = None;
         let scale = match scale {
@@ -48,13 +52,17 @@ impl Reader<'_> {
             .as_ref()
             .map(|twist| self.twist(twist, trajectory, spec.seam))
             .transpose()?
+            .or(twists)
             .map(|twist| twist.snapped(trajectory.breaks()));
         let depth = spec
             .depth
             .as_ref()
             .map(|depth| self.depth(depth, spec.uv.across, contour, trajectory))
             .transpose()?;
-        Ok((Modulation { blend: None, scale, poles, twist, depth, turn: 0.0 }, mirror))
+        Ok((
+            Modulation { blend: None, scale, poles, twist, depth, offset: None, turn: 0.0 },
+            mirror,
+        ))
     }
 
     /// Refuses a contour that touches the axis of a rotation, where the change named by `path` would move the

@@ -54,10 +54,13 @@ impl Object {
                         return Err(reader.fault("", format!("missing key `{key}`")));
                     }
                 }
-                Ok(Object { name: spec.name.clone(), parts: vec![reader.sweep(spec)?], specs })
+                let parts = reader.sweeps(spec)?;
+                let owners = vec![0; parts.len()];
+                Ok(Object { name: spec.name.clone(), parts, specs, owners })
             }
             Specs::Several(object) => {
-                Ok(Object { name: object.name.clone(), parts: reader.parts(object)?, specs })
+                let (parts, owners) = reader.parts(object)?;
+                Ok(Object { name: object.name.clone(), parts, specs, owners })
             }
         }
     }
@@ -129,21 +132,25 @@ struct Probe {
 }
 
 impl Reader<'_> {
-    fn parts(&self, object: &Parts) -> Result<Vec<Sweep>, SweepError> {
+    /// Returns the sweeps of all parts, and for each the index of its part.
+    fn parts(&self, object: &Parts) -> Result<(Vec<Sweep>, Vec<usize>), SweepError> {
         self.name(&object.name)?;
         if object.parts.is_empty() {
             return Err(self.fault("parts", "found no parts, expected at least one"));
         }
         let mut parts: Vec<Sweep> = Vec::with_capacity(object.parts.len());
+        let mut owners = Vec::with_capacity(object.parts.len());
         for (i, spec) in object.parts.iter().enumerate() {
             let reader = Reader { prefix: format!("parts[{i}]."), ..*self };
             if parts.iter().any(|part| part.name == spec.name) {
                 let message = format!("found {:?} twice, expected a name for each part", spec.name);
                 return Err(reader.fault("name", message));
             }
-            parts.push(reader.sweep(spec)?);
+            let sweeps = reader.sweeps(spec)?;
+            owners.extend(sweeps.iter().map(|_| i));
+            parts.extend(sweeps);
         }
-        Ok(parts)
+        Ok((parts, owners))
     }
 }
 

@@ -2,8 +2,9 @@
 
 use super::Reader;
 use crate::error::SweepError;
-use crate::spec;
+use crate::law::Law;
 use crate::spec::contour::Sections;
+use crate::spec::{self, Spec};
 use crate::surface::contour::Contour;
 use crate::surface::profile::{Blend, Profile};
 use crate::surface::shape::ON_AXIS;
@@ -12,28 +13,50 @@ use crate::trajectory::Trajectory;
 /// Largest number of sections. Each column of the grid stores a point on every section.
 const MOST_SECTIONS: usize = 1000;
 
+/// A profile of a sweep: its only one, or one of its loops.
+pub(super) struct Loop {
+    pub profile: Profile,
+    /// Positions of several contours on the trajectory.
+    pub blend: Option<Blend>,
+    /// Distance of the surface from the contour, for a side of a wall.
+    pub offset: Option<Law>,
+}
+
 impl Reader<'_> {
-    /// Returns the profile, and the positions of its contours on the trajectory if there are several.
-    pub(super) fn profile(
+    /// Returns the profiles, one for each loop, and the positions of the contours of a single profile on the trajectory if
+    /// there are several.
+    pub(super) fn profiles(
         &self,
-        contour: &spec::Contour,
+        spec: &Spec,
         trajectory: &Trajectory,
-    ) -> Result<(Profile, Option<Blend>), SweepError> {
+    ) -> Result<Vec<Loop>, SweepError> {
+        let contour = &spec.contour;
         if let spec::Contour::Sections(sections) = contour {
             let (profile, blend) = self.sections(sections, trajectory)?;
             if trajectory.is_rotation() {
                 self.right_of_axis(&profile)?;
                 self.off_axis("contour.sections", &profile)?;
             }
-            return Ok((profile, Some(blend)));
+            let hollow = self.hollow(spec, &[], trajectory)?;
+            debug_assert!(hollow.is_none(), "sections have no wall");
+            return Ok(vec![Loop { profile, blend: Some(blend), offset: None }]);
         }
-        let contour = self.contour("contour", contour)?;
-        let mut profile = Profile::single(contour.clone());
-        if trajectory.is_rotation() {
-            let high = self.right_of_axis(&profile)?;
-            profile = Profile::single(contour.rotated(ON_AXIS * high));
+        let mut contours = self.loops("contour", contour)?;
+        let mut offsets = vec![None; contours.len()];
+        if let Some([outer, inner]) = self.hollow(spec, &contours, trajectory)? {
+            let contour = contours.remove(0);
+            contours.extend([contour.clone(), contour.backward()]);
+            offsets = vec![Some(outer), Some(inner)];
         }
-        Ok((profile, None))
+        let of_loop = |(contour, offset): (Contour, Option<Law>)| {
+            let mut profile = Profile::single(contour.clone());
+            if trajectory.is_rotation() {
+                let high = self.right_of_axis(&profile)?;
+                profile = Profile::single(contour.rotated(ON_AXIS * high));
+            }
+            Ok(Loop { profile, blend: None, offset })
+        };
+        contours.into_iter().zip(offsets).map(of_loop).collect()
     }
 
     /// Returns the largest distance from the axis of a rotation; refuses a profile that crosses the axis.

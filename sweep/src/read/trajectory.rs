@@ -2,14 +2,17 @@
 
 use super::Reader;
 use super::joints::described;
-use crate::curve::{Curve3, Local3, Path};
+use super::measured::PointLaws;
+use crate::curve::{Curve3, Local3, Path, turn};
 use crate::error::SweepError;
 use crate::frame::{Directed, Frame, Lack};
+use crate::law::Heights;
 use crate::limits::SMALLEST;
-use crate::spec;
+use crate::spec::{self, Spec};
 use crate::trajectory::Helix;
 use crate::trajectory::{CORNER_DEG, Course, Trajectory};
 use glam::DVec3;
+use std::f64::consts::TAU;
 
 /// A frame that a mitre reflects with an error above this angle, in radians, would tear the surface.
 const MIRRORED: f64 = 1e-9;
@@ -17,17 +20,18 @@ const MIRRORED: f64 = 1e-9;
 /// Largest number of turns of a helix, which leaves enough digits for the position within a turn.
 const MOST_TURNS: f64 = 1e6;
 
+/// Most pieces of a helix whose laws change.
+const MOST_PIECES: f64 = 4096.0;
+
 /// Smallest turn of an arc in degrees. A smaller one is lost in the arithmetic of its length.
 const LEAST_TURN: f64 = SMALLEST;
 
 impl Reader<'_> {
-    pub(super) fn trajectory(
-        &self,
-        trajectory: &spec::Trajectory,
-        frame: Option<&spec::Frame>,
-    ) -> Result<Trajectory, SweepError> {
+    /// Returns the trajectory of a spec, and the laws that the numbers at its points give.
+    pub(super) fn trajectory(&self, spec: &Spec) -> Result<(Trajectory, PointLaws), SweepError> {
+        let (trajectory, frame) = (&spec.trajectory, spec.frame.as_ref());
         if let spec::Trajectory::Rotation(rotation) = trajectory {
-            return self.rotation(rotation, frame);
+            return Ok((self.rotation(rotation, frame)?, PointLaws::default()));
         }
         let start = match frame {
             Some(spec::Frame::Start(start)) => {
@@ -38,14 +42,25 @@ impl Reader<'_> {
                 None
             }
         };
-        let course = self.course("trajectory", trajectory, start)?;
-        match frame {
+        let (course, marks) = self.course_with_marks("trajectory", trajectory, start)?;
+        let laws = self.point_laws(spec, &course, &marks)?;
+        let trajectory = match frame {
             None | Some(spec::Frame::Start(_)) => {
-                let first = self.first_frame(&course.at(0.0), start)?;
-                Ok(Trajectory::minimizing(course, first))
+                let outward = match trajectory {
+                    // A helix starts with w1 away from its axis.
+                    spec::Trajectory::Helix(helix) if start.is_none() => {
+                        let axis = DVec3::from_array(helix.axis).normalize_or_zero();
+                        let spoke = course.at(0.0).position - DVec3::from_array(helix.center);
+                        Some((spoke - axis * spoke.dot(axis)).to_array())
+                    }
+                    _ => start.copied(),
+                };
+                let first = self.first_frame(&course.at(0.0), outward.as_ref())?;
+                Trajectory::minimizing(course, first)
             }
-            Some(frame) => self.directed(course, frame),
-        }
+            Some(frame) => self.directed(course, frame)?,
+        };
+        Ok((trajectory, laws))
     }
 
     fn rotation(
@@ -73,14 +88,24 @@ impl Reader<'_> {
         Ok(Trajectory::rotation(frame, fraction))
     }
 
-    /// Reads a curve in space: the trajectory, or the guide of its frame.
+    /// Reads a curve in space: the guide of a frame.
     fn course(
         &self,
         path: &str,
         trajectory: &spec::Trajectory,
         start: Option<&[f64; 3]>,
     ) -> Result<Course, SweepError> {
-        match trajectory {
+        Ok(self.course_with_marks(path, trajectory, start)?.0)
+    }
+
+    /// Reads a curve in space, and for rounded corners pairs of arc lengths: before and after they were rounded.
+    fn course_with_marks(
+        &self,
+        path: &str,
+        trajectory: &spec::Trajectory,
+        start: Option<&[f64; 3]>,
+    ) -> Result<(Course, Vec<[f64; 2]>), SweepError> {
+        let course = match trajectory {
             spec::Trajectory::Line(ends) => self.line(&format!("{path}.line"), ends, start),
             spec::Trajectory::Circle(circle) => {
                 let path = format!("{path}.circle");
@@ -94,19 +119,18 @@ impl Reader<'_> {
             spec::Trajectory::Helix(helix) => self.helix(&format!("{path}.helix"), helix, start),
             spec::Trajectory::Rotation(_) => {
                 let message = "found a rotation, which is no curve, expected one of line, circle, \
-                               helix, bezier, polyline, free, flat";
+                               helix, bezier, polyline, free, flat, formula";
                 Err(self.geometry(path, message))
             }
             spec::Trajectory::Bezier(bezier) => self.bezier3(&format!("{path}.bezier"), bezier),
-            spec::Trajectory::Polyline(line) => self.polyline3(&format!("{path}.polyline"), line),
-            spec::Trajectory::Free(free) => {
-                let path = format!("{path}.free");
-                let curve = self.free(&path, free)?;
-                self.smooth(&curve, &path)?;
-                Ok(Course::Path(curve))
+            spec::Trajectory::Polyline(line) => {
+                return self.polyline3(&format!("{path}.polyline"), line);
             }
+            spec::Trajectory::Free(free) => self.free3(&format!("{path}.free"), free),
             spec::Trajectory::Flat(flat) => self.flat(&format!("{path}.flat"), flat),
-        }
+            spec::Trajectory::Formula(curve) => self.formula(&format!("{path}.formula"), curve),
+        };
+        Ok((course?, Vec::new()))
     }
 
     fn line(
@@ -131,8 +155,10 @@ impl Reader<'_> {
         helix: &spec::Helix,
         start: Option<&[f64; 3]>,
     ) -> Result<Course, SweepError> {
-        self.positive(&format!("{path}.radius"), helix.radius)?;
-        self.number(&format!("{path}.rise"), helix.rise)?;
+        let radius = self.law(&format!("{path}.radius"), &helix.radius)?;
+        let rise = self.law(&format!("{path}.rise"), &helix.rise)?;
+        self.positive(&format!("{path}.radius"), radius.range().0)?;
+        self.number(&format!("{path}.start_deg"), helix.start_deg)?;
         if helix.turns == 0.0 || helix.turns.abs() > MOST_TURNS {
             let message = format!(
                 "found {:?}, expected turns other than 0 and at most {MOST_TURNS:?}",
@@ -143,8 +169,33 @@ impl Reader<'_> {
         self.point(&format!("{path}.center"), &helix.center)?;
         let center = DVec3::from_array(helix.center);
         let start = self.upright(path, center, helix.axis, start)?;
-        let spec::Helix { radius, rise, turns, .. } = *helix;
-        Ok(Course::Helix(Helix { start, radius, rise, turns }))
+        // The frame's own direction about the axis, from w1 toward T, is left-handed.
+        let turned = turn(-helix.start_deg / 360.0);
+        let start = Frame {
+            normal: start.normal * turned.x + start.tangent * turned.y,
+            tangent: start.tangent * turned.x - start.normal * turned.y,
+            ..start
+        };
+        let turns = -helix.turns;
+        if let (spec::Law::Number(radius), spec::Law::Number(rise)) = (&helix.radius, &helix.rise) {
+            return Ok(Course::Helix(Helix { start, radius: *radius, rise: *rise, turns }));
+        }
+        let heights = Heights::new(&rise, turns.abs());
+        let at = |v: f64| {
+            let angle = turn(turns * v);
+            let outward = start.normal * angle.x + start.tangent * angle.y;
+            let around = (start.tangent * angle.x - start.normal * angle.y) * (TAU * turns);
+            let (r, slope) = radius.at(v);
+            let (height, climb) = heights.at(v);
+            let point = center + outward * r + start.binormal * height;
+            [point, outward * slope + around * r + start.binormal * climb]
+        };
+        let pieces = (8.0 * turns.abs()).ceil().min(MOST_PIECES) as usize;
+        let evenly = (0..=pieces).map(|i| i as f64 / pieces as f64);
+        let mut ends: Vec<f64> = evenly.chain(radius.kinks()).chain(rise.kinks()).collect();
+        ends.sort_by(f64::total_cmp);
+        ends.dedup();
+        self.computed(path, at, &ends, false, "a fraction of the turns")
     }
 
     /// Returns a trajectory whose frames are fixed by a direction.
@@ -250,7 +301,7 @@ impl Reader<'_> {
     }
 
     /// Refuses corners and cusps.
-    fn smooth(&self, curve: &Path<DVec3>, path: &str) -> Result<(), SweepError> {
+    pub(super) fn smooth(&self, curve: &Path<DVec3>, path: &str) -> Result<(), SweepError> {
         let Some(joint) = curve.joints().find(|joint| joint.angle.to_degrees() > CORNER_DEG) else {
             return Ok(());
         };

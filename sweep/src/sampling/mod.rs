@@ -7,6 +7,7 @@
 //! | [`Object`]     | the object of a spec: one sweep or several                         |
 //! | [`Survey`]     | where the rows of a grid fold back on themselves                   |
 
+pub(crate) mod lids;
 mod object;
 pub mod resolution;
 mod rows;

@@ -14,6 +14,8 @@ pub struct Object {
     pub(crate) name: String,
     pub(crate) parts: Vec<Sweep>,
     pub(crate) specs: Specs,
+    /// For each part the index of its spec: an outline and its holes have one spec.
+    pub(crate) owners: Vec<usize>,
 }
 
 /// The text of an object, parsed.
@@ -38,13 +40,26 @@ impl Object {
         &self.parts
     }
 
-    /// Returns the specs of the sweeps, in the order of [`Object::parts`].
+    /// Returns the spec of a part, and the index of that spec among the parts as they are written; `None` for a spec of
+    /// one sweep.
+    ///
+    /// # Panics
+    /// When there is no such part.
     #[must_use]
-    pub fn specs(&self) -> &[Spec] {
+    pub fn spec_of(&self, part: usize) -> (&Spec, Option<usize>) {
         match &self.specs {
-            Specs::One(spec) => std::slice::from_ref(spec),
-            Specs::Several(object) => &object.parts,
+            Specs::One(spec) => (spec, None),
+            Specs::Several(object) => {
+                let owner = self.owners[part];
+                (&object.parts[owner], Some(owner))
+            }
         }
+    }
+
+    /// Returns the rows of a part.
+    fn rows(&self, index: usize) -> Rows<'_> {
+        let group = self.parts[index].group.max(1);
+        Rows::last_of(&self.parts[index + 1 - group..=index])
     }
 
     /// Returns a sentence that says by how much the parts miss their tolerances; `None` if all are kept.
@@ -63,15 +78,15 @@ impl Object {
     /// # Errors
     /// When there is not enough memory for the grids, or when a point is not finite.
     pub fn grids(&self) -> Result<Vec<GridMesh>, SweepError> {
-        let grid = |part: &Sweep| {
-            let grid = part.try_grid()?;
+        let grid = |part: usize| {
+            let grid = self.rows(part).grid()?;
             let finite = grid.positions.iter().all(|point| point.is_finite());
             if finite && grid.normals.iter().all(|normal| normal.is_finite()) {
                 return Ok(grid);
             }
             Err(SweepError::NotFinite(files::words::shown(&grid.name).to_string()))
         };
-        self.parts.iter().map(grid).collect()
+        (0..self.parts.len()).map(grid).collect()
     }
 
     /// Writes the grids of the parts, with only a few rows of each in memory.
@@ -80,9 +95,9 @@ impl Object {
     /// When writing to `out` fails.
     pub fn write(&self, encoding: Encoding, out: &mut impl Write) -> io::Result<Spent> {
         let mut spent = Spent::default();
-        for (index, part) in self.parts.iter().enumerate() {
+        for index in 0..self.parts.len() {
             let patch = Patch { number: index + 1, of: self.parts.len() };
-            let Spent { sweeping, writing } = Rows::of(part).write(patch, encoding, out)?;
+            let Spent { sweeping, writing } = self.rows(index).write(patch, encoding, out)?;
             spent.sweeping += sweeping;
             spent.writing += writing;
         }

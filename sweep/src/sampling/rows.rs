@@ -1,11 +1,11 @@
 //! The rows of a sweep, evaluated all at once as a grid, or block by block into a file.
 
-use super::Sweep;
 use super::survey::{RowSurvey, Survey};
+use super::{Sweep, lids};
 use crate::curve::cut::{Side, Stop};
 use crate::error::SweepError;
 use crate::grid::file::{Encoding, Header, Patch, Writer};
-use crate::grid::{self, By, GridMesh, Row, Seam};
+use crate::grid::{self, By, GridMesh, Lid, Row, Seam};
 use crate::surface::Surface;
 use crate::surface::profile::Column;
 use crate::surface::wall::Wall;
@@ -40,6 +40,8 @@ pub struct Rows<'a> {
     /// The seam between the last row of the sheet and the first, and its shift in columns.
     seam: (Seam, usize),
     wall: Option<Sides<'a>>,
+    /// The lids of the group, if the sweep is its last; `None` if they cannot be made.
+    lids: Option<Vec<Lid>>,
 }
 
 /// A wall, and the columns on which it returns on the other side.
@@ -90,7 +92,18 @@ impl<'a> Rows<'a> {
             columns: shape.columns(&cols),
             seam,
             wall: sweep.wall.as_ref().map(sides),
+            lids: if sweep.group == 1 {
+                lids::of(std::slice::from_ref(sweep))
+            } else {
+                Some(Vec::new())
+            },
         }
+    }
+
+    /// Returns the rows and columns of a sweep that is the last of a group.
+    pub fn last_of(group: &'a [Sweep]) -> Self {
+        let rows = Self::of(&group[group.len() - 1]);
+        if group.len() == 1 { rows } else { Self { lids: lids::of(group), ..rows } }
     }
 
     /// Returns the whole grid. If the sweep has no survey yet, it is made from the same evaluation.
@@ -99,6 +112,9 @@ impl<'a> Rows<'a> {
     /// When there is not enough memory for the grid.
     pub fn grid(&self) -> Result<GridMesh, SweepError> {
         let mut grid = self.blank();
+        if self.lids.is_none() {
+            return Err(SweepError::Lids(words::shown(&self.sweep.name).to_string()));
+        }
         let (rows, cols) = (self.v.len(), self.columns.len());
         let count = rows * cols;
         let _reserved = memory::of_process().reserve(grid::bytes(rows, cols), || {
@@ -126,6 +142,10 @@ impl<'a> Rows<'a> {
         encoding: Encoding,
         out: &mut impl Write,
     ) -> io::Result<Spent> {
+        if self.lids.is_none() {
+            let error = SweepError::Lids(words::shown(&self.sweep.name).to_string());
+            return Err(io::Error::new(io::ErrorKind::InvalidInput, error));
+        }
         let small = self.v.len() * self.columns.len() <= KEPT;
         let mut clock = Clock::start();
         // Without memory for the whole grid, blocks may still fit.
@@ -190,6 +210,7 @@ impl<'a> Rows<'a> {
             surface: sweep.surface,
             uv: sweep.uv,
             areas: sweep.areas.clone(),
+            lids: self.lids.clone().unwrap_or_default(),
             tolerance: sweep.tolerance(),
             u: self.u.clone(),
             v: self.v.clone(),

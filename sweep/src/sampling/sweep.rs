@@ -30,6 +30,10 @@ pub struct Sweep {
     pub(crate) shape: Shape,
     /// The wall around the surface, if it is given a thickness.
     pub(crate) wall: Option<Wall>,
+    /// True for an end that a lid closes, with the other sweeps of the group.
+    pub(crate) lids: [bool; 2],
+    /// Number of sweeps of the group, an outline and its holes, if the sweep is the last of the group; otherwise 0.
+    pub(crate) group: usize,
     pub(crate) resolution: Resolution,
     /// The rows and columns that keep the tolerance, if one is requested.
     pub(crate) fitted: Option<Cells>,

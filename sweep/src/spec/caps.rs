@@ -1,6 +1,6 @@
 //! Caps as they are written: the closures of the two ends of a sweep.
 //!
-//! `caps` close the ends of an open trajectory whose contour is closed. `"flat"` closes an end in its own
+//! `caps` close the ends of an open trajectory. `"flat"` closes an end in its own
 //! plane. `"round"` closes it by a dome (half a sphere on a circle), and `{"dome": h}` by a dome of height h.
 //! `{"pole": h}` closes it by a cone of height h. `v` runs over the caps too, by length. The laws run over
 //! the trajectory alone.
@@ -15,8 +15,10 @@
 //! }
 //! ```
 //!
-//! A cap shrinks its section toward a point that sees the whole outline of the section. A section without
-//! such a point (a figure of eight, a U) is refused.
+//! A cap shrinks its section toward a point that sees the whole outline of the section. Where there is no such point (a
+//! U, an outline with holes) and at the ends of a partial rotation, only flat caps are possible: they are triangles
+//! between the points of the outlines. An outline that crosses itself is refused. So is an open contour, except one of a
+//! rotation that starts and ends on the axis.
 
 use crate::limits;
 use schemars::JsonSchema;

@@ -32,6 +32,23 @@
 //! }
 //! ```
 //!
+//! # Outlines and holes
+//!
+//! Several closed subpaths of an `svg`, or a list of `loops`, are outlines and holes of one section. Each loop becomes a
+//! patch of the object, and flat caps close all of them together. By the rule `even_odd` (the default) a point inside an
+//! odd number of loops is inside; by `nonzero` the directions of the loops count, as in SVG. Loops must not cross or
+//! touch. `"offset": [x, y]` moves any contour, and `"center": true` moves the middle of its box to the origin first:
+//!
+//! ```json
+//! {
+//!   "format": "tb-sweep", "version": 1, "name": "flange",
+//!   "contour": { "loops": [{ "circle": 5 }, { "circle": 2 }, { "circle": 0.5, "offset": [3.5, 0] }, { "circle": 0.5, "offset": [-3.5, 0] }] },
+//!   "trajectory": { "line": [[0, 0, 0], [0, 1, 0]] },
+//!   "caps": { "start": "flat", "end": "flat" },
+//!   "mesh": { "rows": 1, "cols": 64 }
+//! }
+//! ```
+//!
 //! # Several contours
 //!
 //! **Sections** are contours at positions `at` on the trajectory, as fractions of its length. Each section
@@ -82,6 +99,42 @@ pub enum Contour {
     Polyline(Free<[f64; 2]>),
     /// Contours that blend into each other along the trajectory.
     Sections(Sections),
+    /// Several loops: outlines and holes.
+    Loops(Loops),
+    /// A contour that is moved.
+    Moved(Box<Moved>),
+}
+
+/// Loops inside and beside each other.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Loops {
+    /// The loops, each a contour.
+    pub loops: Vec<Contour>,
+    /// True for the list under `loops`; false for an SVG path with a rule.
+    pub named: bool,
+    /// The rule that says which points are inside.
+    pub rule: Option<Rule>,
+}
+
+/// The rule that says which points are inside several loops.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Rule {
+    /// Points about which the loops wind a number of times that is not 0.
+    Nonzero,
+    /// Points about which the loops wind an odd number of times.
+    EvenOdd,
+}
+
+/// A contour and a translation of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Moved {
+    /// The contour before it is moved.
+    pub contour: Contour,
+    /// True if the middle of its box is moved to the origin first.
+    pub center: bool,
+    /// The translation `[x, y]`.
+    pub offset: [f64; 2],
 }
 
 /// Points in the plane that a C2 spline passes through, or that few cubics are fitted to.
@@ -130,9 +183,9 @@ pub struct Section {
 #[derive(Default, Serialize, Deserialize, JsonSchema)]
 #[serde(
     deny_unknown_fields,
-    expecting = "an object with one of the keys circle, bezier, svg, free, polyline, sections"
+    expecting = "an object with one of the keys circle, bezier, svg, free, polyline, sections, loops"
 )]
-#[schemars(extend("dependentRequired" = {"blend": ["sections"], "align": ["sections"]}), transform = limits::one_of)]
+#[schemars(extend("dependentRequired" = {"blend": ["sections"], "align": ["sections"], "rule": [], "center": [], "offset": []}), transform = limits::one_of)]
 struct ContourKeys {
     /// A circle about the origin, given by its radius, above 0.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -141,7 +194,7 @@ struct ContourKeys {
     /// Cubic Bezier segments.
     #[serde(skip_serializing_if = "Option::is_none")]
     bezier: Option<Bezier<[f64; 2]>>,
-    /// The `d` attribute of an SVG path with one subpath; its y points down.
+    /// The `d` attribute of an SVG path; its y points down. Several closed subpaths are outlines and holes.
     #[serde(skip_serializing_if = "Option::is_none")]
     svg: Option<String>,
     /// Points `[x, y]` that a spline passes through, or that a curve is fitted to.
@@ -160,6 +213,19 @@ struct ContourKeys {
     /// True if the starts of closed sections are moved to match; true if left out.
     #[serde(skip_serializing_if = "Option::is_none")]
     align: Option<bool>,
+    /// Contours inside and beside each other: outlines and holes, at least one. None of them has `sections`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = limits::at_least(1))]
+    loops: Option<Vec<Contour>>,
+    /// The rule that says which points are inside `svg` or `loops`; `even_odd` if left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rule: Option<Rule>,
+    /// True if the middle of the contour's box is moved to the origin; not of `sections`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    center: Option<bool>,
+    /// Translation of the contour, `[x, y]`, after `center`; not of `sections`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    offset: Option<[f64; 2]>,
 }
 
 impl TryFrom<ContourKeys> for Contour {
@@ -171,19 +237,37 @@ impl TryFrom<ContourKeys> for Contour {
                 return Err(format!("found `{key}` without `sections`, which it belongs to"));
             }
         }
+        if keys.rule.is_some() && keys.svg.is_none() && keys.loops.is_none() {
+            return Err("found `rule` without `svg` or `loops`, which it belongs to".into());
+        }
+        let moved = keys.center.is_some() || keys.offset.is_some();
+        if moved && keys.sections.is_some() {
+            return Err(
+                "found `center` or `offset` beside `sections`, expected them in each section"
+                    .into(),
+            );
+        }
+        let (center, offset) = (keys.center.unwrap_or(false), keys.offset.unwrap_or_default());
+        let ruled = |text: String| match keys.rule {
+            None => Self::Svg(text),
+            rule => Self::Loops(Loops { loops: vec![Self::Svg(text)], named: false, rule }),
+        };
+        let loops = |loops| Self::Loops(Loops { loops, named: true, rule: keys.rule });
         let (blend, align) = (keys.blend.unwrap_or_default(), keys.align.unwrap_or(true));
         let sections = |sections| Self::Sections(Sections { sections, blend, align });
-        only(
+        let contour = only(
             "curve",
             [
                 ("circle", keys.circle.map(Self::Circle)),
                 ("bezier", keys.bezier.map(Self::Bezier)),
-                ("svg", keys.svg.map(Self::Svg)),
+                ("svg", keys.svg.map(ruled)),
                 ("free", keys.free.map(Self::Free)),
                 ("polyline", keys.polyline.map(Self::Polyline)),
                 ("sections", keys.sections.map(sections)),
+                ("loops", keys.loops.map(loops)),
             ],
-        )
+        )?;
+        Ok(if moved { Self::Moved(Box::new(Moved { contour, center, offset })) } else { contour })
     }
 }
 
@@ -198,6 +282,17 @@ impl From<Contour> for ContourKeys {
             Contour::Polyline(line) => Self { polyline: Some(line), ..none },
             Contour::Sections(Sections { sections, blend, align }) => {
                 Self { sections: Some(sections), blend: Some(blend), align: Some(align), ..none }
+            }
+            Contour::Loops(Loops { loops, named: true, rule }) => {
+                Self { loops: Some(loops), rule, ..none }
+            }
+            Contour::Loops(Loops { loops, named: false, rule }) => {
+                let first = loops.into_iter().next().map(Self::from).unwrap_or_default();
+                Self { rule, ..first }
+            }
+            Contour::Moved(moved) => {
+                let Moved { contour, center, offset } = *moved;
+                Self { center: Some(center), offset: Some(offset), ..contour.into() }
             }
         }
     }

@@ -7,8 +7,8 @@
 //! | `{"round": d}`     | the curve is cut at the arc length d before and after each corner, and a cubic with the tangents of both cuts joins them; between straight legs the cubic is close to a circular arc |
 //! | `{"mitre": limit}` | the section is sheared into the plane that halves the corner; both legs must be straight |
 //!
-//! A corner turns by more than a degree. A cut is at most half of the length between two corners, or between
-//! a corner and an end. Cusps and hairpins can be rounded too, unless both legs lie on one line. The length
+//! A corner turns by more than a degree. Where d is more than half of the length between two corners, or between a
+//! corner and an end, the cut of that corner is this half. Cusps and hairpins can be rounded too, unless both legs lie on one line. The length
 //! of a mitre over the width of the section is 1 over the sine of half the angle between the legs. A corner
 //! whose ratio is above the limit is refused, and so is a mitre next to a bent segment.
 //!
@@ -48,25 +48,6 @@ pub struct Bezier3 {
     /// Four control points `[x, y, z]` for each segment, at least one segment.
     #[schemars(transform = limits::at_least(1))]
     pub segments: Vec<[[f64; 3]; 4]>,
-    /// Treatment of corners; if left out, corners are errors.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub corners: Option<Corners>,
-}
-
-/// Points in space joined by straight lines.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(
-    deny_unknown_fields,
-    expecting = "an object with the key points, closed if it is, and corners if it has any"
-)]
-#[schemars(transform = limits::loop_of_three)]
-pub struct Polyline3 {
-    /// True if the curve returns from the last point to the first, which is not repeated.
-    #[serde(default)]
-    pub closed: bool,
-    /// The points `[x, y, z]`: at least two, or three if closed.
-    #[schemars(transform = limits::at_least(2))]
-    pub points: Vec<[f64; 3]>,
     /// Treatment of corners; if left out, corners are errors.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub corners: Option<Corners>,

@@ -25,9 +25,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object with the keys curve and z")]
 pub struct Flat {
-    /// The curve that gives x and y: any contour except `circle` and `sections`. An SVG path can draw a
-    /// circle.
-    #[schemars(transform = limits::without(&["circle", "sections"]))]
+    /// The curve that gives x and y: any contour except `circle`, `sections` and `loops`, which is not moved. An
+    /// SVG path can draw a circle. A path that does not end with `Z` is open.
+    #[schemars(transform = limits::without(&["circle", "sections", "loops", "rule", "center", "offset"]))]
     pub curve: Contour,
     /// The law that gives z, by the fraction of the curve's length.
     pub z: Law,

@@ -1,6 +1,6 @@
 //! Trajectories as they are written: the curves that a contour is swept along.
 
-use super::{Bezier3, Circle, Flat, Free, Helix, Polyline3, Rotation, only};
+use super::{Bezier3, Circle, Flat, FormulaCurve, Helix, Measured, Rotation, only};
 use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -18,11 +18,13 @@ pub enum Trajectory {
     /// Cubic Bezier segments that meet end to end.
     Bezier(Bezier3),
     /// Points joined by straight lines.
-    Polyline(Polyline3),
+    Polyline(Measured),
     /// Points that a C2 spline passes through.
-    Free(Free<[f64; 3]>),
+    Free(Measured),
     /// A plane curve with a height.
     Flat(Flat),
+    /// Formulas of the coordinates.
+    Formula(FormulaCurve),
     /// A rotation of the contour about an axis in its plane.
     Rotation(Rotation),
 }
@@ -32,7 +34,7 @@ pub enum Trajectory {
 #[derive(Deserialize, JsonSchema)]
 #[serde(
     deny_unknown_fields,
-    expecting = "an object with one of the keys line, circle, helix, bezier, polyline, free, flat, rotation"
+    expecting = "an object with one of the keys line, circle, helix, bezier, polyline, free, flat, formula, rotation"
 )]
 #[schemars(transform = limits::one_of)]
 struct TrajectoryKeys {
@@ -45,11 +47,13 @@ struct TrajectoryKeys {
     /// Cubic Bezier segments of points `[x, y, z]` that meet end to end.
     bezier: Option<Bezier3>,
     /// Points `[x, y, z]` joined by straight lines.
-    polyline: Option<Polyline3>,
+    polyline: Option<Measured>,
     /// Points `[x, y, z]` that a C2 spline passes through.
-    free: Option<Free<[f64; 3]>>,
+    free: Option<Measured>,
     /// A plane curve with a height.
     flat: Option<Flat>,
+    /// Formulas of x, y and z.
+    formula: Option<FormulaCurve>,
     /// A rotation of the contour about an axis in its plane.
     rotation: Option<Rotation>,
 }
@@ -68,6 +72,7 @@ impl TryFrom<TrajectoryKeys> for Trajectory {
                 ("polyline", keys.polyline.map(Self::Polyline)),
                 ("free", keys.free.map(Self::Free)),
                 ("flat", keys.flat.map(Self::Flat)),
+                ("formula", keys.formula.map(Self::Formula)),
                 ("rotation", keys.rotation.map(Self::Rotation)),
             ],
         )

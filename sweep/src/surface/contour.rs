@@ -21,6 +21,9 @@ use std::f64::consts::TAU;
 /// crease of less than a degree looks like a smooth joint.
 const CREASE_DEG: f64 = 1.0;
 
+/// A side is straight if its control points are at most this fraction of its length off its chord.
+const STRAIGHT: f64 = 1e-9;
+
 /// An area below this fraction of the squared length has no reliable sign (a figure of eight).
 const NO_AREA: f64 = 1e-9;
 
@@ -44,30 +47,38 @@ pub struct Contour(Form);
 #[derive(Debug, Clone)]
 enum Form {
     Circle {
+        center: DVec2,
         radius: f64,
+        /// 1 for a counter-clockwise circle, -1 for a clockwise one.
+        turn: f64,
     },
     /// `reached` is the largest distance of a fitted point from the path.
-    Path {
-        path: Path<DVec2>,
-        creases: Vec<Joint>,
-        reached: Option<f64>,
-    },
+    Path { path: Path<DVec2>, creases: Vec<Joint>, reached: Option<f64> },
 }
 
 impl Contour {
-    /// Returns a circle about the origin, counter-clockwise from its point on the positive x axis.
-    pub(crate) fn circle(radius: f64) -> Self {
-        Self(Form::Circle { radius })
+    /// Returns a circle, counter-clockwise from its point in the direction of x.
+    pub(crate) fn circle(center: DVec2, radius: f64) -> Self {
+        Self(Form::Circle { center, radius, turn: 1.0 })
     }
 
-    /// Returns a contour along a path. A closed path that runs clockwise is reversed, from the same start.
-    ///
-    /// A closed path that encloses equal areas to its left and right keeps its direction.
-    pub(crate) fn path(path: Path<DVec2>) -> Self {
-        Self::fitted(path, None)
+    /// Returns a closed contour in the other direction, from the same start. A clockwise contour bounds a hole.
+    pub(crate) fn backward(self) -> Self {
+        match self.0 {
+            Form::Circle { center, radius, turn } => {
+                Self(Form::Circle { center, radius, turn: -turn })
+            }
+            Form::Path { path, reached, .. } => {
+                let mut reversed: Vec<_> = path.cubics().map(Cubic::reversed).collect();
+                reversed.reverse();
+                Self::of(Path::new(&reversed, path.closed()).unwrap_or(path), reached)
+            }
+        }
     }
 
-    /// Returns a contour along a path fitted to points, whose largest distance from it is `reached`.
+    /// Returns a contour along a path. A closed path that runs clockwise is reversed, from the same start. A closed path
+    /// that encloses equal areas to its left and right keeps its direction. `reached` is the largest distance of points
+    /// from a path that was fitted to them.
     pub(crate) fn fitted(path: Path<DVec2>, reached: Option<f64>) -> Self {
         let path = if path.closed() { counter_clockwise(path) } else { path };
         Self::of(path, reached)
@@ -114,7 +125,7 @@ impl Contour {
     #[must_use]
     pub fn length(&self) -> f64 {
         match &self.0 {
-            Form::Circle { radius } => TAU * radius,
+            Form::Circle { radius, .. } => TAU * radius,
             Form::Path { path, .. } => path.length(),
         }
     }
@@ -140,10 +151,20 @@ impl Contour {
         }
     }
 
+    /// Returns whether the contour has no corners, or only straight sides between them.
+    pub(crate) fn has_straight_sides(&self) -> bool {
+        match &self.0 {
+            Form::Circle { .. } => true,
+            Form::Path { path, creases, .. } => {
+                creases.is_empty() || path.cubics().all(|cubic| cubic.is_straight(STRAIGHT))
+            }
+        }
+    }
+
     /// Returns the smallest and the largest `x`.
     pub(crate) fn x_range(&self) -> (f64, f64) {
         match &self.0 {
-            Form::Circle { radius } => (-radius, *radius),
+            Form::Circle { center, radius, .. } => (center.x - radius, center.x + radius),
             Form::Path { path, .. } => path
                 .cubics()
                 .map(|cubic| kurbo_cubic(cubic.0).bounding_box())
@@ -188,12 +209,12 @@ impl Contour {
     #[must_use]
     pub fn at(&self, stop: Stop) -> Local2 {
         match &self.0 {
-            Form::Circle { radius } => {
-                let point = turn(stop.at);
+            Form::Circle { center, radius, turn: direction } => {
+                let point = turn(direction * stop.at);
                 Local2 {
-                    point: point * *radius,
-                    tangent: point.perp(),
-                    curvature: 1.0 / radius,
+                    point: point * *radius + *center,
+                    tangent: point.perp() * *direction,
+                    curvature: direction / radius,
                     pace: 1.0 / self.length(),
                 }
             }
@@ -251,7 +272,7 @@ mod tests {
 
     fn contour(text: &str) -> Contour {
         let outline = svg::outline(text).unwrap();
-        Contour::path(Path::new(&outline.segments, outline.closed).unwrap())
+        Contour::fitted(Path::new(&outline.segments, outline.closed).unwrap(), None)
     }
 
     /// Returns the contour at the ends of its cells, each with its `u` rounded to six decimals.
@@ -266,7 +287,7 @@ mod tests {
 
     #[test]
     fn a_circle_is_cut_evenly() {
-        let circle = Contour::circle(2.0);
+        let circle = Contour::circle(DVec2::ZERO, 2.0);
         assert_eq!(circle.length(), 4.0 * PI);
         let columns = cut(&circle, 4);
         let (point, tangent) = (DVec2::Y * 2.0, DVec2::NEG_X);
@@ -336,7 +357,7 @@ mod tests {
     fn the_range_of_x_is_that_of_the_curve() {
         let p = DVec2::new;
         let bulge = Cubic([p(0.0, 0.0), p(4.0, 1.0), p(4.0, 2.0), p(0.0, 3.0)]);
-        let (low, high) = Contour::path(Path::new(&[bulge], false).unwrap()).x_range();
+        let (low, high) = Contour::fitted(Path::new(&[bulge], false).unwrap(), None).x_range();
         assert_eq!((low, high), (0.0, 3.0));
     }
 }

@@ -62,10 +62,7 @@ impl Edges {
                 };
                 let found: Vec<Vec<f64>> =
                     columns.iter().map(|column| crossings(&vs, wide, |v| off(v, column))).collect();
-                if found.iter().all(Vec::is_empty) {
-                    continue;
-                }
-                if alike(&found) {
+                if alike(&found) && !found[0].is_empty() {
                     edges.rows.extend(&found[0]);
                     continue;
                 }

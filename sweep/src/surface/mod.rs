@@ -6,6 +6,8 @@
 //! | [`profile`]    | one contour, or several that blend into each other; columns        |
 //! | [`depth`]      | relief on the contour, in waves                                    |
 //! | [`height`]     | heights from a picture                                             |
+//! | [`lid`]        | triangles that fill an outline with holes                          |
+//! | [`nest`]       | loops inside each other: outlines and holes                        |
 //! | [`modulation`] | the contour scaled and twisted along the trajectory                |
 //! | [`cap`]        | surfaces that close the ends                                       |
 //! | [`closing`]    | how the end of the surface meets its start                         |
@@ -21,7 +23,9 @@ pub mod deform;
 pub mod depth;
 pub mod edges;
 pub mod height;
+pub mod lid;
 pub mod modulation;
+pub mod nest;
 pub mod profile;
 pub mod shape;
 pub mod wall;

@@ -139,6 +139,22 @@ impl Shape {
         laws.chain(self.edges.rows.iter().copied()).collect()
     }
 
+    /// Returns the columns at stops of the contour.
+    pub(crate) fn columns_at(&self, stops: &[Stop]) -> Vec<Column> {
+        self.columns(stops)
+    }
+
+    /// Returns the unit normal that a direction across a section becomes by the deformations, at a column.
+    pub(crate) fn deformed(&self, section: &Section, column: &Column, normal: DVec3) -> DVec3 {
+        let point = section.point(column);
+        let start = Moved { point, normal, folds: false };
+        let moved = self.deforms.iter().fold(start, |moved, deform| {
+            let next = deform.apply(moved.point, moved.normal);
+            Moved { normal: next.normal.try_normalize().unwrap_or(moved.normal), ..next }
+        });
+        moved.normal
+    }
+
     /// Returns the point of a section before the deformation with this index.
     pub(crate) fn before_deform(&self, section: &Section, column: &Column, index: usize) -> DVec3 {
         let SectionPoint { point, normal, .. } = section.evaluate(column);
@@ -255,7 +271,10 @@ fn row_between([start, end]: [f64; 2], at: f64) -> f64 {
 
 impl Surface for Shape {
     fn columns(&self, stops: &[Stop]) -> Vec<Column> {
-        let mut columns = self.contour.columns(stops);
+        let mut columns = match &self.modulation.offset {
+            Some(_) => self.contour.columns_with_sides(stops),
+            None => self.contour.columns(stops),
+        };
         self.snap_to_axis(&mut columns);
         columns
     }

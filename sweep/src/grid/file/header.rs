@@ -3,7 +3,7 @@
 use super::{Encoding, GridError, stranger};
 use crate::grid::GridMesh;
 use crate::grid::row::{self, Fault, check_parameter};
-use crate::grid::{Fold, PlacedArea, Seam, Tolerance, UvLayout, area, seam};
+use crate::grid::{Fold, Lid, PlacedArea, Seam, Tolerance, UvLayout, area, seam};
 use files::json::{BYTES_OF_A_BYTE, Document};
 use files::{JsonError, memory};
 use serde::{Deserialize, Serialize};
@@ -55,6 +55,8 @@ pub struct Header {
     pub surface: Option<u32>,
     /// Areas with textures of their own; later areas cover earlier ones.
     pub areas: Vec<PlacedArea>,
+    /// Flat ends of this patch and of patches before it.
+    pub lids: Vec<Lid>,
     /// Where the surface folds back on itself, if that was measured.
     pub fold: Option<Fold>,
     /// The requested and the measured distance from the surface, if requested.
@@ -88,6 +90,8 @@ struct Line {
     surface: Option<u32>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     areas: Vec<PlacedArea>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    lids: Vec<Lid>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     fold: Option<Fold>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -165,6 +169,7 @@ impl Header {
             texture: grid.texture,
             surface: grid.surface,
             areas: grid.placed_areas(),
+            lids: grid.lids.clone(),
             fold: grid.fold,
             tolerance: grid.tolerance,
             uv: grid.uv,
@@ -202,6 +207,7 @@ impl Header {
             texture: self.texture,
             surface: self.surface,
             areas: self.areas.clone(),
+            lids: self.lids.clone(),
             fold: self.fold,
             tolerance: self.tolerance,
             uv: self.uv,
@@ -246,6 +252,12 @@ impl Header {
                 let message = format!("found {}, expected a positive number", row::number(*found));
                 return Err(Fault { subject: format!("uv.repeat[{i}]"), message });
             }
+        }
+        for (i, lid) in self.lids.iter().enumerate() {
+            lid.check(number).map_err(|Fault { subject, message }| Fault {
+                subject: format!("lids[{i}].{subject}"),
+                message,
+            })?;
         }
         let mut before = None;
         for (i, &found) in self.u.iter().enumerate() {
@@ -346,6 +358,7 @@ pub(super) fn read(
         texture,
         surface,
         areas,
+        lids,
         fold,
         tolerance,
         uv,
@@ -365,6 +378,7 @@ pub(super) fn read(
         texture,
         surface,
         areas,
+        lids,
         fold,
         tolerance,
         uv,

@@ -77,6 +77,7 @@ fn rest_of(reader: &mut GridReader<impl BufRead>) -> Result<GridMesh, GridError>
         texture: header.texture,
         surface: header.surface,
         areas: header.areas.into_iter().map(|placed| placed.area).collect(),
+        lids: header.lids,
         fold: header.fold,
         tolerance: header.tolerance,
         uv: header.uv,

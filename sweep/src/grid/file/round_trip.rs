@@ -108,6 +108,7 @@ fn grids() -> impl Strategy<Value = GridMesh> {
                     normals,
                 )| {
                     GridMesh {
+                        lids: Vec::new(),
                         name,
                         seam_u,
                         seam_v,

@@ -47,9 +47,6 @@ const TRIMMED: usize = 150_000;
 /// Multiple of the number of cells that thinning may measure.
 const TRIMMED_TIMES: usize = 2;
 
-/// Factor by which the largest angle that was measured may be exceeded by coarser cells.
-const EASED: f64 = 1.02;
-
 /// Largest angle of a tolerance, in radians.
 const MOST_ANGLE: f64 = 3.1;
 
@@ -198,11 +195,12 @@ impl Search<'_> {
         best.map_or(plan, |(_, plan)| plan)
     }
 
-    /// Returns the angle that cells can reach at all, in radians, if a cut keeps the distance but not the angle.
+    /// Returns an angle that cells can reach, in radians, if a cut keeps the distance but not the angle: that of an edge
+    /// inside a cell, and the requested one for the surface beside the edge.
     fn angle_out_of_reach(&self, best: &Tried) -> Option<f64> {
         let angle = self.tolerance.angle?;
         let missed = best.worst > 1.0 && best.field.part <= 1.0 && best.stalled;
-        (missed && best.field.angle > angle).then(|| (best.field.angle * EASED).min(MOST_ANGLE))
+        (missed && best.field.angle > angle).then(|| (best.field.angle + angle).min(MOST_ANGLE))
     }
 
     /// Returns the coarsest cut found by scaling the plan that keeps the tolerance; otherwise the best cut

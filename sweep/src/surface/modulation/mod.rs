@@ -45,6 +45,8 @@ pub struct Modulation {
     pub(crate) twist: Option<Law>,
     /// Relief on the contour, before the scale.
     pub(crate) depth: Option<Depth>,
+    /// Distance along the outer normal of the finished section, in the unit of length: a side of a wall.
+    pub(crate) offset: Option<Law>,
     /// Total turn that closes the surface, as a fraction of a full turn, added evenly on top of the twist.
     pub(crate) turn: f64,
 }
@@ -60,6 +62,8 @@ pub struct Section {
     /// At a pole, the signs of the scale's factors on the side of the stop; (1, 1) elsewhere.
     signs: DVec2,
     relief: Option<Relief>,
+    /// The offset, and its derivative by length of the trajectory.
+    offset: Option<[f64; 2]>,
     /// Length of the trajectory, or angle of a rotation in radians. A derivative by `v` divided by this
     /// number is the derivative by length or angle.
     extent: f64,
@@ -134,8 +138,24 @@ impl Modulation {
         };
         let relief = self.depth.as_ref().map(|depth| depth.at(v));
         let mix = self.blend.as_ref().map(|blend| blend.at(v));
-        let plain = self.scale.is_none() && relief.is_none() && mix.is_none();
-        Section { station, mix, scale, scale_s, signs, relief, extent, gathered: None, plain }
+        let offset = self.offset.as_ref().map(|law| {
+            let (offset, slope) = law.on(stop);
+            [offset, slope * pace]
+        });
+        let changed = relief.is_some() || mix.is_some() || offset.is_some();
+        let plain = self.scale.is_none() && !changed;
+        Section {
+            station,
+            mix,
+            scale,
+            scale_s,
+            signs,
+            relief,
+            offset,
+            extent,
+            gathered: None,
+            plain,
+        }
     }
 }
 
@@ -246,7 +266,11 @@ impl Section {
         let size = axes.abs().max_element();
         let axes = if size == 0.0 { self.signs } else { axes / size };
         let q_s = self.scale_s * point + self.scale * (across / self.extent);
-        let local = Local { q: self.scale * point, q_u: axes * along, q_s, folds };
+        let q_u = axes * along;
+        let mut local = Local { q: self.scale * point, q_u, q_s, folds };
+        if let Some(offset) = self.offset {
+            self.move_out(&mut local, offset, column, moving.local.curvature);
+        }
         match self.gathered {
             None => local,
             Some(Gathered { center, part, part_t, .. }) => {
@@ -255,6 +279,39 @@ impl Section {
                 Local { q, q_s: (local.q - center) * part_t, ..local }
             }
         }
+    }
+
+    /// Moves a point of the section along its outer normal by an offset. Between two corners the point slides along its
+    /// side, so that the offset side ends where the offset sides meet.
+    fn move_out(
+        &self,
+        local: &mut Local,
+        [offset, slope]: [f64; 2],
+        column: &Column,
+        curvature: f64,
+    ) {
+        let Some(tangent) = local.q_u.try_normalize() else { return };
+        let normal = -tangent.perp();
+        let Some(side) = column.side else {
+            // The scale turns the tangent as it changes, and stretches the curve.
+            let own = column.first.tangent;
+            let turned = tangent.perp_dot(self.scale_s * own) / (self.scale * own).length();
+            let bend =
+                curvature * self.scale.x * self.scale.y / (self.scale * own).length().powi(3);
+            local.q += normal * offset;
+            local.q_s += normal * slope + tangent * (offset * turned);
+            local.folds |= 1.0 + offset * bend < 0.0;
+            return;
+        };
+        let mitre = |other: DVec2| {
+            let other =
+                (self.scale * other).try_normalize().map_or(normal, |tangent| -tangent.perp());
+            (other + normal) / (1.0 + other.dot(normal))
+        };
+        let [start, end] = side.around.map(mitre);
+        let out = start * (1.0 - side.part) + end * side.part;
+        local.q += out * offset;
+        local.q_s += out * slope;
     }
 
     /// Returns the speed of the point along the tangent, by length of the trajectory: see

@@ -206,16 +206,16 @@ mod tests {
         let points = ring(count, turned);
         let next = points.iter().cycle().skip(1);
         let sides: Vec<_> = points.iter().zip(next).map(|(&a, &b)| Cubic::line(a, b)).collect();
-        Contour::path(Path::new(&sides, true).unwrap())
+        Contour::fitted(Path::new(&sides, true).unwrap(), None)
     }
 
     fn free(points: &[DVec2]) -> Contour {
-        Contour::path(Path::new(&spline::through(points, true), true).unwrap())
+        Contour::fitted(Path::new(&spline::through(points, true), true).unwrap(), None)
     }
 
     #[test]
     fn a_contour_matches_itself_as_drawn() {
-        for contour in [Contour::circle(2.0), polygon(5, 0.1), free(&ring(7, 0.3))] {
+        for contour in [Contour::circle(DVec2::ZERO, 2.0), polygon(5, 0.1), free(&ring(7, 0.3))] {
             assert_eq!(start(&contour, 0.0, &contour), 0.0);
             assert!((start(&contour, 0.3, &contour) - 0.3).abs() < 1e-14);
         }
@@ -223,7 +223,7 @@ mod tests {
 
     #[test]
     fn circles_drawn_from_another_side_are_turned_back() {
-        let circle = Contour::circle(1.0);
+        let circle = Contour::circle(DVec2::ZERO, 1.0);
         for turned in [0.5, 0.123_456, 0.9] {
             let smooth = free(&ring(60, turned));
             let found = start(&circle, 0.0, &smooth);

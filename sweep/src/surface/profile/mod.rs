@@ -53,6 +53,17 @@ pub struct Column {
     pub first: Local2,
     /// The points on the other contours; most often there are none.
     pub others: Box<[Local2]>,
+    /// The straight side that the point lies on, if the contour has corners and its columns are asked for their sides.
+    pub side: Option<Side2>,
+}
+
+/// A straight side of a contour, between two corners.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Side2 {
+    /// Position on the side, from 0 at its start to 1.
+    pub part: f64,
+    /// Unit tangents of the side before and of the side after; the side's own at an end that is no corner.
+    pub around: [DVec2; 2],
 }
 
 impl Profile {
@@ -226,7 +237,36 @@ impl Profile {
             u: stop.at,
             first: first.at(stop, self.mirror),
             others: others.iter().map(|one| one.at(stop, self.mirror)).collect(),
+            side: None,
         }
+    }
+
+    /// Returns the side of a polygon that a stop lies on.
+    fn side(&self, stop: Stop) -> Option<Side2> {
+        let breaks = &self.breaks;
+        let count = breaks.len();
+        if count == 0 {
+            return None;
+        }
+        // Index of the break at which the side starts; the side over the start of the contour starts at the last one.
+        let next = match stop.side {
+            Side::After => breaks.partition_point(|&at| at <= stop.at),
+            Side::Before => breaks.partition_point(|&at| at < stop.at),
+        };
+        let from = (next + count - 1) % count;
+        let (start, end) = (breaks[from], breaks[next % count]);
+        let length = (end - start).rem_euclid(1.0);
+        let length = if length == 0.0 { 1.0 } else { length };
+        let done = (stop.at - start).rem_euclid(1.0);
+        let at_end = stop.side == Side::Before && stop.at == end;
+        let part = if at_end { 1.0 } else { (done / length).min(1.0) };
+        let tangent = |stop: Stop| self.column(stop).first.tangent;
+        Some(Side2 { part, around: [tangent(Stop::before(start)), tangent(Stop::after(end))] })
+    }
+
+    /// Returns the columns at stops of a contour with straight sides, each with its side.
+    pub(crate) fn columns_with_sides(&self, stops: &[Stop]) -> Vec<Column> {
+        stops.iter().map(|&stop| Column { side: self.side(stop), ..self.column(stop) }).collect()
     }
 }
 
@@ -260,14 +300,15 @@ mod tests {
         let points: Vec<DVec2> = points.iter().copied().map(DVec2::from_array).collect();
         let next = points.iter().cycle().skip(1);
         let sides: Vec<_> = points.iter().zip(next).map(|(&a, &b)| Cubic::line(a, b)).collect();
-        Contour::path(Path::new(&sides, true).unwrap())
+        Contour::fitted(Path::new(&sides, true).unwrap(), None)
     }
 
     #[test]
     fn creases_of_each_contour_are_breaks_of_all() {
         let square = polygon(&[[1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.0, 0.0]]);
         let triangle = polygon(&[[1.0, 0.0], [1.0, 3.0], [-3.0, 0.0]]);
-        let profile = Profile::blended(vec![square, triangle, Contour::circle(1.0)], false);
+        let profile =
+            Profile::blended(vec![square, triangle, Contour::circle(DVec2::ZERO, 1.0)], false);
         assert_eq!(profile.breaks(), [0.0, 0.25, 0.5, 2.0 / 3.0, 0.75]);
         assert_eq!((profile.fewest_cells(), profile.creases()), (5, 5));
         let stops = cut::evenly(profile.breaks(), true, 5);
@@ -300,7 +341,8 @@ mod tests {
     #[test]
     fn the_only_contour_keeps_its_places() {
         let points = [[1.0, 0.0], [0.3, 1.0], [-1.0, 0.4], [0.0, -1.0]].map(DVec2::from_array);
-        let contour = Contour::path(Path::new(&spline::through(&points, true), true).unwrap());
+        let contour =
+            Contour::fitted(Path::new(&spline::through(&points, true), true).unwrap(), None);
         let profile = Profile::single(contour.clone());
         for u in [0.0, 0.1, 0.77, 1.0] {
             let column = profile.at(u);
