@@ -79,8 +79,14 @@ struct Patch {
 
 #[derive(Debug, Deserialize)]
 struct Report {
+    euler: i64,
+    closed: bool,
+    manifold: bool,
     patches: Vec<Patch>,
 }
+
+/// Examples whose patches are joined by lids, or that have several parts: the Euler number of the whole mesh.
+const JOINED: [(&str, i64); 4] = [("duct", -2), ("letter", 0), ("tapered-screw", 4), ("vessel", 0)];
 
 #[test]
 fn every_surface_in_examples_is_what_the_gallery_says() {
@@ -96,7 +102,7 @@ fn every_surface_in_examples_is_what_the_gallery_says() {
         let expected = match name {
             "fluted-vase" | "relief-vase" | "horn" => DISC,
             "eight" | "figure-eight" | "trefoil" | "torus-knot" | "threefold-torus"
-            | "picture-frame" | "smooth-ring" | "scaly-ring" | "klein-glass" => TORUS,
+            | "picture-frame" | "smooth-ring" | "scaly-ring" | "klein-glass" | "knot-3-7" => TORUS,
             "klein-bottle" | "six" | "figure-eight-klein" | "figure-eight-immersion" => {
                 KLEIN_BOTTLE
             }
@@ -110,6 +116,10 @@ fn every_surface_in_examples_is_what_the_gallery_says() {
         assert!(split.status.success(), "{name}: {}", said(&split));
         let report = fs::read(folder.path().join("a.json")).unwrap();
         let report: Report = Document::new("a.json", &report).unwrap().parse().unwrap();
+        if let Some((_, euler)) = JOINED.iter().find(|joined| joined.0 == name) {
+            assert_eq!((report.euler, report.closed, report.manifold), (*euler, true, true), "{name}");
+            continue;
+        }
         assert_eq!(report.patches.len(), if name.ends_with("cup") { 2 } else { 1 }, "{name}");
         for Patch { euler, boundary_loops, orientable, manifold } in report.patches {
             assert_eq!((euler, boundary_loops, orientable), expected, "{name}");

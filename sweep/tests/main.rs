@@ -15,6 +15,7 @@ mod hard_cusps;
 mod hard_mutations;
 mod hard_trajectories;
 mod hard_units;
+mod hints;
 mod normals;
 mod preview;
 mod properties;

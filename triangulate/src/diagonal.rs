@@ -71,7 +71,7 @@ const SHORTER: f64 = 1e-5;
 /// Distances of the two diagonals of a saddle that differ by less than this fraction are alike. On a thin body the
 /// two sides of it differ by about its thickness over the width of a cell. With a larger number, the triangles of a
 /// saddle would be further from the surface.
-const ALIKE: f64 = 0.1;
+const ALIKE: f64 = 0.03;
 /// The line in space that decides between the diagonals of a saddle. Its direction is along no axis and no plane of
 /// axes, since bodies are.
 const FIXED: [f64; 3] = [0.48, 0.61, 0.63];

@@ -67,6 +67,7 @@ pub mod patches;
 mod picture;
 pub mod ply;
 pub mod report;
+mod rounding;
 pub mod split;
 mod station;
 pub mod stl;

@@ -2,9 +2,10 @@
 
 use crate::cell::{Cell, CellWriter, Picture};
 use crate::lids::{self, Rim, Rims};
+use crate::rounding::Rounding;
 use crate::station::Station;
 use crate::{Material, Options, Triangle, TriangulateError};
-use glam::DVec3;
+use std::collections::HashMap;
 use std::io;
 use sweep::grid::file::Header;
 use sweep::grid::{Row, Seam};
@@ -102,38 +103,6 @@ pub struct Counts {
     /// surface that the grid's tolerance allows. Above 1, rounding exceeds the tolerance. 0 for a
     /// grid without a tolerance.
     pub tolerance_used: f64,
-}
-
-/// The box of an object and the rounding errors in it.
-#[derive(Debug)]
-struct Rounding {
-    low: DVec3,
-    high: DVec3,
-    /// The largest distance by which a coordinate was moved, in the grid's unit.
-    moved: f64,
-    /// The square of the largest distance by which a point was moved.
-    displacement_sq: f64,
-}
-
-impl Rounding {
-    fn none() -> Self {
-        Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY, moved: 0.0, displacement_sq: 0.0 }
-    }
-
-    fn add(&mut self, points: &[DVec3], rounded: &[[f32; 3]]) {
-        for (&point, &rounded) in points.iter().zip(rounded) {
-            self.low = self.low.min(point);
-            self.high = self.high.max(point);
-            let off = point - DVec3::from(rounded.map(f64::from));
-            self.moved = self.moved.max(off.abs().max_element());
-            self.displacement_sq = self.displacement_sq.max(off.length_squared());
-        }
-    }
-
-    /// Returns the largest move of a coordinate as a fraction of the object's size.
-    fn fraction(&self) -> f64 {
-        if self.moved == 0.0 { 0.0 } else { self.moved / (self.high - self.low).length() }
-    }
 }
 
 /// The largest number of vertices of each kind.
@@ -298,8 +267,12 @@ impl<S: Sink> Triangulator<S> {
         let cols = station.points.len();
         let over_seam = self.first.as_ref().filter(|_| self.rows == self.header.rows);
         let closed = self.header.seam_u == Seam::Closed;
+        let ends = [self.rows == 1, self.rows == self.header.rows];
+        let pressed = (0..2).any(|end| ends[end] && self.header.pressed[end]);
+        let mut places: HashMap<[u32; 3], u32> = HashMap::new();
         for col in 0..cols {
             let point = station.points[col];
+            let place = point.map(f32::to_bits);
             let in_column = |other: Option<&Station>| {
                 other.filter(|other| other.points[col] == point).map(|other| other.position[col])
             };
@@ -310,9 +283,13 @@ impl<S: Sink> Triangulator<S> {
                 .and_then(in_row)
                 .or_else(|| in_column(self.before.as_ref()))
                 .or_else(|| in_column(over_seam))
-                .or_else(|| (closed && col > 0 && col + 1 == cols).then(|| in_row(0)).flatten());
+                .or_else(|| (closed && col > 0 && col + 1 == cols).then(|| in_row(0)).flatten())
+                .or_else(|| places.get(&place).copied());
             let number = known.unwrap_or_else(|| self.writer.position(point));
             station.position.push(number);
+            if pressed {
+                places.insert(place, number);
+            }
         }
     }
 
@@ -344,7 +321,7 @@ impl<S: Sink> Triangulator<S> {
 mod tests {
     use super::*;
     use crate::TriMesh;
-    use glam::Vec3;
+    use glam::{DVec3, Vec3};
     use sweep::grid::UvLayout;
 
     fn header(rows: usize, cols: usize) -> Header {

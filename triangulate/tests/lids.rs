@@ -144,6 +144,111 @@ fn lids_pass_through_a_file() {
     }
 }
 
+/// A chisel is a wedge of five faces: half the prism.
+#[test]
+fn a_scale_of_0_on_one_axis_makes_a_closed_edge() {
+    for (contour, area) in [
+        (
+            json!({ "polyline": { "closed": true, "points": [[5, -3], [5, 3], [-5, 3], [-5, -3]] } }),
+            60.0,
+        ),
+        (json!({ "circle": 2 }), 4.0 * PI),
+    ] {
+        for mesh in [json!({ "rows": 4, "cols": 200 }), json!({ "tol": 0.001, "angle_deg": 8 })] {
+            let (volume, euler) = solid(&json!({
+                "contour": contour, "trajectory": { "line": [[0, 0, 0], [0, 0, 5]] },
+                "scale": [1, { "keys": [[0, 1], [1, 0]] }], "caps": { "start": "flat" }, "mesh": mesh,
+            }));
+            assert!((volume / (2.5 * area) - 1.0).abs() < 1e-3 && euler == 2, "{volume} {euler}");
+        }
+    }
+}
+
+/// A spring with closed ends, a conical spring, and a helix of the other hand.
+#[test]
+fn helices_with_laws_are_tubes_of_their_length() {
+    let length = |helix: Value| {
+        let grids = grids(&json!({
+            "contour": { "circle": 0.1 }, "trajectory": { "helix": helix }, "caps": flat(),
+            "mesh": { "rows": 600, "cols": 48 },
+        }));
+        let mesh = mesh(grids.as_slice(), &Options::default()).unwrap();
+        let topology = Topology::of(&mesh);
+        assert!(topology.closed && topology.manifold);
+        volume(&mesh) / (PI * 0.01)
+    };
+    // The length of a conical helix by a sum of a million steps.
+    let cone = |t: f64| {
+        DVec3::new((TAU * 3.0 * t).cos() * (2.0 - t), (TAU * 3.0 * t).sin() * (2.0 - t), 6.0 * t)
+    };
+    let steps = 1_000_000;
+    let sum: f64 = (0..steps)
+        .map(|i| {
+            cone(f64::from(i) / f64::from(steps))
+                .distance(cone(f64::from(i + 1) / f64::from(steps)))
+        })
+        .sum();
+    let found = length(json!({ "radius": { "keys": [[0, 2], [1, 1]] }, "rise": 2, "turns": 3 }));
+    assert!((found / sum - 1.0).abs() < 5e-3, "{found} {sum}");
+    let plain = [3.0, -3.0]
+        .map(|turns| length(json!({ "radius": 2, "rise": 1, "turns": turns, "start_deg": 30 })));
+    let expected = 3.0 * (4.0 * PI).hypot(1.0);
+    assert!(
+        plain.iter().all(|found| (found / expected - 1.0).abs() < 5e-3),
+        "{plain:?} {expected}"
+    );
+}
+
+/// Positive turns are right-handed: seen from the tip of the axis the helix runs counter-clockwise as it rises.
+#[test]
+fn positive_turns_are_right_handed() {
+    for (turns, hand) in [(0.25, 1.0), (-0.25, -1.0)] {
+        let grids = grids(&json!({
+            "contour": { "circle": 0.1 },
+            "trajectory": { "helix": { "radius": 1, "rise": 1, "turns": turns, "axis": [0, 0, 1] } },
+            "mesh": { "rows": 8, "cols": 8 },
+        }));
+        let cols = grids[0].cols();
+        let middle = |row: &[DVec3]| row.iter().sum::<DVec3>() / cols as f64;
+        let rows: Vec<DVec3> = grids[0].positions.chunks(cols).map(middle).collect();
+        let turn = rows[0].cross(rows[rows.len() - 1]).z;
+        assert!(turn * hand > 0.9, "{turns}: {turn}");
+    }
+}
+
+/// A knot by formulas has the length of its curve.
+#[test]
+fn a_knot_by_formulas_is_closed() {
+    let (volume, euler) = solid(&json!({
+        "contour": { "circle": 0.1 },
+        "trajectory": { "formula": { "x": "(2 + cos(3*t)) * cos(2*t)", "y": "(2 + cos(3*t)) * sin(2*t)", "z": "sin(3*t)",
+            "t": [0, TAU], "closed": true } },
+        "mesh": { "rows": 800, "cols": 64 },
+    }));
+    let point = |t: f64| {
+        let r = 2.0 + (3.0 * t).cos();
+        DVec3::new(r * (2.0 * t).cos(), r * (2.0 * t).sin(), (3.0 * t).sin())
+    };
+    let steps = 100_000;
+    let at = |i: i32| point(TAU * f64::from(i) / f64::from(steps));
+    let length: f64 = (0..steps).map(|i| at(i).distance(at(i + 1))).sum();
+    assert!((volume / (PI * 0.01 * length) - 1.0).abs() < 5e-3 && euler == 0, "{volume} {euler}");
+}
+
+/// Radii at the points of a polyline make cones between them.
+#[test]
+fn radii_at_points_are_those_of_the_sections() {
+    let points = [[0.0, 0.0, 0.0], [0.0, 0.0, 2.0], [0.0, 0.0, 2.5], [0.0, 0.0, 5.0]];
+    let radii = [0.5, 0.25, 0.5, 0.125];
+    let (volume, euler) = solid(&json!({
+        "contour": { "circle": 1 }, "trajectory": { "polyline": { "points": points, "radii": radii } },
+        "caps": flat(), "mesh": { "tol": 1e-4 },
+    }));
+    let cone = |a: f64, b: f64, h: f64| PI * h / 3.0 * (a * a + a * b + b * b);
+    let expected = cone(0.5, 0.25, 2.0) + cone(0.25, 0.5, 0.5) + cone(0.5, 0.125, 2.5);
+    assert!((volume / expected - 1.0).abs() < 1e-3 && euler == 2, "{volume} {expected}");
+}
+
 /// Returns a closed polygon with a random radius for each of its points.
 fn ring(radii: &[f64], size: f64) -> Vec<[f64; 2]> {
     let count = radii.len() as f64;
@@ -187,6 +292,7 @@ proptest! {
         let (volume, euler) = solid(&keys);
         let expected = (area(&outer) - area(&inner)) * length;
         prop_assert_eq!(euler, 0);
-        prop_assert!((volume / expected - 1.0).abs() < 1e-5, "{} {}", volume, expected);
+        // A corner of less than a degree is no column, and a cell cuts it off.
+        prop_assert!((volume / expected - 1.0).abs() < 1e-3, "{} {}", volume, expected);
     }
 }

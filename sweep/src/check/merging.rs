@@ -124,10 +124,16 @@ mod tests {
     }
 
     #[test]
-    fn a_torus_without_a_hole_is_broken_by_merging_and_one_with_a_hole_is_not() {
-        let ring = r#"{"circle": {"radius": 1}}"#;
-        assert!(finding(r#"{"circle": 0.5}"#, ring).is_none());
-        let found = finding(r#"{"circle": 1}"#, ring).unwrap();
-        assert!(found.message.contains("would break the mesh"), "{found}");
+    fn a_contour_that_touches_itself_is_broken_by_merging_and_another_one_is_not() {
+        let ring = r#"{"circle": {"radius": 5}}"#;
+        let bow = |apart: f64| {
+            let points = format!("[[-1,-1],[0,-{apart}],[1,-1],[1,1],[0,{apart}],[-1,1]]");
+            format!(r#"{{"polyline": {{"closed": true, "points": {points}}}}}"#)
+        };
+        assert!(finding(&bow(0.5), ring).is_none());
+        for apart in [0.0, 1e-8] {
+            let found = finding(&bow(apart), ring).unwrap();
+            assert!(found.message.contains("would break the mesh"), "{found}");
+        }
     }
 }

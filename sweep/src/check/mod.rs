@@ -6,6 +6,7 @@
 //! | [`merging`]    | closed meshes that other programs break by merging vertices         |
 //! | [`neighbors`]  | rows that cross the next row                                       |
 //! | [`patches`]    | a tree over the triangles of a surface, for [`strands`]            |
+//! | [`placing`]    | contours far from their origin, profiles drawn downward, frames that spin |
 //! | [`resolution`] | numbers of cells that were raised, and cells that are too coarse   |
 //! | [`chain`]      | crossings of a chain of straight pieces, for [`drawing`]           |
 //! | [`drawing`]    | curves as they were drawn: doubled points, crossings, near misses  |
@@ -21,6 +22,7 @@ pub mod fold;
 pub mod merging;
 pub mod neighbors;
 pub mod patches;
+pub mod placing;
 pub mod resolution;
 pub mod rounding;
 pub mod strands;
@@ -54,6 +56,7 @@ pub fn check(
         let mut found =
             if before == Some(owner) { Vec::new() } else { drawing::findings(spec, sweep) };
         before = Some(owner);
+        found.extend(placing::findings(spec, sweep));
         found.extend(of_sweep(sweep, grid));
         if let Some(tell) = strands {
             found.extend(strands::findings(grid, tell));
@@ -92,11 +95,13 @@ pub fn summary(sweep: &Sweep, grid: &GridMesh) -> String {
     let around = match (grid.seam_u.joins(), grid.seam_v) {
         (false, Seam::Open) if sweep.lids == [true; 2] => "closed at both ends",
         (false, Seam::Open) => "open",
-        (true, Seam::Open) => match poles(grid) + sweep.lids.iter().filter(|&&lid| lid).count() {
-            0 => "a tube with two ends",
-            1 => "a tube with one end",
-            _ => "closed at both ends",
-        },
+        (true, Seam::Open) => {
+            match poles(grid) + sweep.lids.iter().chain(&grid.pressed).filter(|&&lid| lid).count() {
+                0 => "a tube with two ends",
+                1 => "a tube with one end",
+                _ => "closed at both ends",
+            }
+        }
         (false, Seam::Closed) => "closed along the trajectory",
         (true, Seam::Closed) => "closed in both directions",
         (_, Seam::Mirror) => "closed with inside and outside exchanged",

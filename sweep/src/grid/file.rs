@@ -23,6 +23,7 @@
 //! | `fold`      | none     | `{"worst": x, "rows": n, "fits": f}`: a [`Fold`](crate::grid::Fold) |
 //! | `tolerance` | none     | `{"asked": x, "reached": x, ...}`: a [`Tolerance`](crate::grid::Tolerance) |
 //! | `lids`      | `[]`     | flat ends: a [`Lid`](crate::grid::Lid) each, of this patch and of patches before it |
+//! | `pressed`   | `[false, false]` | whether the first and the last row are pressed to a line, where opposite columns meet |
 //! | `shift`     | 0        | shift of the seam in columns; see [`Seam`](crate::grid::Seam) |
 //!
 //! A row is `[v, flags, positions, normals]`; each number is written with the fewest digits that read back to

@@ -56,6 +56,8 @@ pub struct GridMesh {
     pub areas: Vec<Area>,
     /// Flat ends, if the patch is the last of those that they close.
     pub lids: Vec<Lid>,
+    /// True if the first, and if the last row is pressed to a line, where points in one place are one point.
+    pub pressed: [bool; 2],
     /// Where the surface folds back on itself, if that was measured.
     pub fold: Option<Fold>,
     /// The requested and the measured distance from the surface, if requested.

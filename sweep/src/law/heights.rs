@@ -11,7 +11,7 @@ const CELLS: usize = 2048;
 pub(crate) struct Heights<'a> {
     law: &'a Law,
     factor: f64,
-    /// Positions, rising from 0 to 1, with all kinks of the law.
+    /// Positions, rising from 0 to 1, with all keys and joints of the law.
     at: Vec<f64>,
     /// The integral up to each position.
     sums: Vec<f64>,
@@ -21,7 +21,7 @@ impl<'a> Heights<'a> {
     /// Integrates a law.
     pub(crate) fn new(law: &'a Law, factor: f64) -> Self {
         let evenly = (0..=CELLS).map(|i| i as f64 / CELLS as f64);
-        let mut at: Vec<f64> = evenly.chain(law.kinks()).collect();
+        let mut at: Vec<f64> = evenly.chain(law.joints()).collect();
         at.sort_by(f64::total_cmp);
         at.dedup();
         let mut sums = vec![0.0];

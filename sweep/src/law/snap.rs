@@ -52,6 +52,17 @@ impl Law {
         self
     }
 
+    /// Returns the positions of all keys or joints, rising.
+    pub(crate) fn joints(&self) -> Vec<f64> {
+        match &self.0 {
+            Form::Constant(_) => Vec::new(),
+            Form::Keys { keys, .. } => keys.iter().map(|key| key[0]).collect(),
+            Form::Bezier(segments) => {
+                segments.iter().flat_map(|segment| [segment.0[0].x, segment.0[3].x]).collect()
+            }
+        }
+    }
+
     /// Returns the kink at a position that equals the kink up to rounding; otherwise the position itself.
     pub(crate) fn at_kink(&self, at: f64) -> f64 {
         let same = |end: f64| (end - at).abs() < AT_KINK;

@@ -21,6 +21,7 @@ mod trajectory;
 mod wall;
 
 use crate::error::SweepError;
+use crate::law::Law;
 use crate::limits::{LARGEST, REPEATS, SMALLEST};
 use crate::sampling::resolution::Tell;
 use crate::sampling::{Sweep, lids};
@@ -28,10 +29,12 @@ use crate::spec::{Resolution, Spec};
 use crate::surface::Shape;
 use crate::surface::edges::Edges;
 use crate::surface::modulation::Modulation;
+use crate::surface::press::Press;
+use crate::surface::profile::Profile;
 use crate::trajectory::Trajectory;
 use files::Source;
 use files::json::Document;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use measured::PointLaws;
 use profile::Loop;
 use std::sync::OnceLock;
@@ -111,12 +114,14 @@ impl Reader<'_> {
         } else {
             self.caps(spec.caps, loops == 1, &contour, &trajectory, &modulation)?
         };
+        let press = pressed(&contour, &trajectory, &modulation).filter(|_| loops == 1);
         let shape = Shape {
             contour,
             trajectory,
             modulation,
             caps,
             closing: None,
+            press,
             deforms: self.deforms(&spec.deform)?,
             edges: Edges::default(),
             position: DVec3::from_array(spec.position),
@@ -219,6 +224,30 @@ impl Reader<'_> {
             .iter()
             .enumerate()
             .try_for_each(|(i, point)| self.point(&format!("{path}[{i}]"), point.as_ref()))
+    }
+}
+
+/// Returns the ends of a surface that a scale of 0 on one axis presses to a line, if the contour is symmetric about that
+/// axis.
+fn pressed(contour: &Profile, trajectory: &Trajectory, modulation: &Modulation) -> Option<Press> {
+    let [x, y] = modulation.scale.as_ref()?;
+    if !contour.closed()
+        || trajectory.closed()
+        || contour.contours() > 1
+        || modulation.depth.is_some()
+    {
+        return None;
+    }
+    let ends = |law: &Law, other: &Law| {
+        let zero = |at: usize| law.ends()[at] == 0.0 && other.ends()[at] != 0.0;
+        [zero(0), zero(1)]
+    };
+    match (ends(x, y), ends(y, x)) {
+        ([false, false], [false, false]) => None,
+        (ends, [false, false]) => Press::of(contour, DVec2::new(-1.0, 1.0), ends),
+        ([false, false], ends) => Press::of(contour, DVec2::new(1.0, -1.0), ends),
+        // Both ends are pressed, along different axes.
+        _ => None,
     }
 }
 

@@ -33,6 +33,8 @@ pub struct Rows<'a> {
     /// Positions with two rows, one for each side.
     breaks: Vec<f64>,
     columns: Vec<Column>,
+    /// Stops of the columns.
+    cols: Vec<Stop>,
     /// `u` of each column of the grid.
     u: Vec<f64>,
     /// `v` of each row of the grid.
@@ -90,6 +92,7 @@ impl<'a> Rows<'a> {
             stops: rows,
             breaks: shape.row_breaks(),
             columns: shape.columns(&cols),
+            cols: cols.clone(),
             seam,
             wall: sweep.wall.as_ref().map(sides),
             lids: if sweep.group == 1 {
@@ -211,6 +214,7 @@ impl<'a> Rows<'a> {
             uv: sweep.uv,
             areas: sweep.areas.clone(),
             lids: self.lids.clone().unwrap_or_default(),
+            pressed: sweep.shape.press.map_or([false; 2], |press| press.ends),
             tolerance: sweep.tolerance(),
             u: self.u.clone(),
             v: self.v.clone(),
@@ -258,7 +262,7 @@ impl<'a> Rows<'a> {
         let first = (stop.side == Side::After && self.is_break(stop.at))
             .then(|| shape.section(Stop::before(stop.at)));
         let mut survey = RowSurvey::new(shape, stop);
-        for ((column, point), normal) in self.columns.iter().zip(points).zip(&mut *normals) {
+        for ((column, point), normal) in self.columns.iter().zip(&mut *points).zip(&mut *normals) {
             let found = shape.evaluate(&section, column);
             survey.add(column.u, &found);
             *point = match &first {
@@ -276,6 +280,9 @@ impl<'a> Rows<'a> {
                 let led = seam.leads_to(col, shift, self.columns.len());
                 normals[led] = (shape.evaluate(&end, column).normal * side).as_vec3();
             }
+        }
+        if let Some(press) = shape.press.filter(|press| press.at(stop)) {
+            press.join(&self.cols, shape.contour.breaks(), points);
         }
         survey
     }

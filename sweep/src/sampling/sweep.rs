@@ -209,7 +209,7 @@ impl Sweep {
                     closed: contour.closed(),
                     meets: true,
                     fewest: contour.fewest_cells(),
-                    even: shape.closing.is_some().then(|| shape.anchors()),
+                    even: shape.anchors(),
                 },
             ],
             detail: shape.detail(),

@@ -124,7 +124,9 @@ impl Closing {
         let mut anchors: Vec<f64> = Vec::new();
         for at in breaks.iter().copied().chain([0.0]) {
             let mut stop = Stop::after(at);
-            for _ in 0..self.offset.1.max(2) {
+            // A mirror image of a mirror image is the first one.
+            let steps = if self.mirrored { 2 } else { self.offset.1.max(2) };
+            for _ in 0..steps {
                 if !anchors.iter().any(|&other| same_position(other, stop.at, closed)) {
                     anchors.push(stop.at);
                 }

@@ -159,7 +159,7 @@ mod tests {
             let hole = square(1.0, cells, true);
             let one = filled(std::slice::from_ref(&outline)).unwrap();
             assert_eq!(one.len(), 4 * cells as usize - 2);
-            assert!((area(&[outline.clone()], &one) - 36.0).abs() < 1e-12);
+            assert!((area(std::slice::from_ref(&outline), &one) - 36.0).abs() < 1e-12);
             let loops = [outline, hole];
             let ring = filled(&loops).unwrap();
             assert_eq!(ring.len(), 8 * cells as usize);

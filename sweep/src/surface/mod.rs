@@ -3,6 +3,7 @@
 //! | module         | what                                                               |
 //! |----------------|--------------------------------------------------------------------|
 //! | [`contour`]    | the curve that is swept; creases                                   |
+//! | [`press`]      | an end that is pressed to a line                                    |
 //! | [`profile`]    | one contour, or several that blend into each other; columns        |
 //! | [`depth`]      | relief on the contour, in waves                                    |
 //! | [`height`]     | heights from a picture                                             |
@@ -26,6 +27,7 @@ pub mod height;
 pub mod lid;
 pub mod modulation;
 pub mod nest;
+pub mod press;
 pub mod profile;
 pub mod shape;
 pub mod wall;

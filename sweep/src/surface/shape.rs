@@ -7,6 +7,7 @@ use crate::surface::closing::Closing;
 use crate::surface::deform::{Deform, Moved};
 use crate::surface::edges::Edges;
 use crate::surface::modulation::{Modulation, Section, SectionPoint};
+use crate::surface::press::Press;
 use crate::surface::profile::{Column, Profile};
 use crate::surface::{Corner, Surface};
 use crate::trajectory::Trajectory;
@@ -26,6 +27,8 @@ pub struct Shape {
     pub(crate) caps: [Option<Cap>; 2],
     /// How the end meets the start, if columns do not meet themselves.
     pub(crate) closing: Option<Closing>,
+    /// The ends that are pressed to a line.
+    pub(crate) press: Option<Press>,
     /// Deformations of the finished surface, applied one after another.
     pub(crate) deforms: Vec<Deform>,
     /// Rows and columns where a deformation makes an edge.
@@ -171,17 +174,17 @@ impl Shape {
     /// Returns the stops of about `cells` columns, of equal width on each smooth piece.
     pub(crate) fn even_columns(&self, cells: usize) -> Vec<Stop> {
         let (breaks, closed) = (self.contour.breaks(), self.contour.closed());
-        match self.closing {
-            Some(_) => cut::between(breaks, closed, cells, &self.anchors()),
+        match self.anchors() {
+            Some(anchors) => cut::between(breaks, closed, cells, &anchors),
             None => cut::evenly(breaks, closed, cells),
         }
     }
 
-    /// Returns the positions where columns must lie so that they meet columns where the surface closes.
-    pub(crate) fn anchors(&self) -> Vec<f64> {
-        let anchors =
-            |closing: &Closing| closing.anchors(self.contour.breaks(), self.contour.closed());
-        self.closing.as_ref().map(anchors).unwrap_or_default()
+    /// Returns the positions where columns must lie so that they meet columns: where the surface closes, or at an end that
+    /// is pressed to a line. `None` if columns may lie anywhere.
+    pub(crate) fn anchors(&self) -> Option<Vec<f64>> {
+        let symmetry = self.closing.or(self.press.map(|press| press.symmetry))?;
+        Some(symmetry.anchors(self.contour.breaks(), self.contour.closed()))
     }
 
     /// Returns the seam of the rows and its shift in columns, for columns at these stops. `None` if the

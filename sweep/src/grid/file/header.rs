@@ -16,8 +16,7 @@ const FORMAT: &str = "tb-grid";
 const START: &[u8] = br#"{"format":"tb-grid","#;
 /// The `version` of the header line.
 const VERSION: u64 = 1;
-/// Largest number of columns. The bound limits the memory that a reader spends on a file it cannot
-/// trust yet. A row of this length is 36 MiB; the finest pictures need a thousandth of it.
+/// Largest number of columns, which limits the memory for a file that is not trusted yet. A row of this length is 36 MiB.
 pub(crate) const MAX_COLS: usize = 1 << 20;
 /// Largest number of rows: rows are counted with 32 bits, as in the OBJ made from them.
 const MAX_ROWS: usize = u32::MAX as usize;
@@ -57,6 +56,8 @@ pub struct Header {
     pub areas: Vec<PlacedArea>,
     /// Flat ends of this patch and of patches before it.
     pub lids: Vec<Lid>,
+    /// True if the first, and if the last row is pressed to a line.
+    pub pressed: [bool; 2],
     /// Where the surface folds back on itself, if that was measured.
     pub fold: Option<Fold>,
     /// The requested and the measured distance from the surface, if requested.
@@ -92,6 +93,8 @@ struct Line {
     areas: Vec<PlacedArea>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     lids: Vec<Lid>,
+    #[serde(default, skip_serializing_if = "is_none_of")]
+    pressed: [bool; 2],
     #[serde(default, skip_serializing_if = "Option::is_none")]
     fold: Option<Fold>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -170,6 +173,7 @@ impl Header {
             surface: grid.surface,
             areas: grid.placed_areas(),
             lids: grid.lids.clone(),
+            pressed: grid.pressed,
             fold: grid.fold,
             tolerance: grid.tolerance,
             uv: grid.uv,
@@ -208,6 +212,7 @@ impl Header {
             surface: self.surface,
             areas: self.areas.clone(),
             lids: self.lids.clone(),
+            pressed: self.pressed,
             fold: self.fold,
             tolerance: self.tolerance,
             uv: self.uv,
@@ -285,6 +290,10 @@ impl Header {
     }
 }
 
+fn is_none_of(ends: &[bool; 2]) -> bool {
+    *ends == [false; 2]
+}
+
 fn is_zero(number: &usize) -> bool {
     *number == 0
 }
@@ -359,6 +368,7 @@ pub(super) fn read(
         surface,
         areas,
         lids,
+        pressed,
         fold,
         tolerance,
         uv,
@@ -379,6 +389,7 @@ pub(super) fn read(
         surface,
         areas,
         lids,
+        pressed,
         fold,
         tolerance,
         uv,

@@ -78,6 +78,7 @@ fn rest_of(reader: &mut GridReader<impl BufRead>) -> Result<GridMesh, GridError>
         surface: header.surface,
         areas: header.areas.into_iter().map(|placed| placed.area).collect(),
         lids: header.lids,
+        pressed: header.pressed,
         fold: header.fold,
         tolerance: header.tolerance,
         uv: header.uv,

@@ -109,6 +109,7 @@ fn grids() -> impl Strategy<Value = GridMesh> {
                 )| {
                     GridMesh {
                         lids: Vec::new(),
+                        pressed: [false; 2],
                         name,
                         seam_u,
                         seam_v,

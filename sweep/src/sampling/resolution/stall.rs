@@ -23,6 +23,11 @@ pub struct Stall {
 }
 
 impl Stall {
+    /// Returns whether the last finer trial was not nearer.
+    pub fn has_met_one(&self) -> bool {
+        self.since > 0
+    }
+
     /// Takes a trial of this number of cells and this largest load into account. Returns whether finer cells are of no use.
     pub fn found(&mut self, quads: usize, worst: f64) -> bool {
         match self.best {

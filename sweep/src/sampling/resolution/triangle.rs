@@ -9,7 +9,7 @@ const NEARER: f64 = 1e-6;
 const SHORTER: f64 = 1e-5;
 
 /// Distances of the two diagonals of a saddle that differ by less than this fraction are alike.
-const ALIKE: f64 = 0.1;
+const ALIKE: f64 = 0.03;
 /// The line in space that decides between the diagonals of a saddle.
 const FIXED: DVec3 = DVec3::new(0.48, 0.61, 0.63);
 

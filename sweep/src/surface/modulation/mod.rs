@@ -32,6 +32,9 @@ use crate::trajectory::{Station, Trajectory};
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 
+/// A side whose direction is shortened to less than this fraction lies along an axis that is pressed flat.
+const PRESSED: f64 = 1e-9;
+
 /// The laws by which a contour changes. A law that is `None` leaves the contour unchanged.
 #[derive(Debug, Clone, Default)]
 pub struct Modulation {
@@ -266,7 +269,11 @@ impl Section {
         let size = axes.abs().max_element();
         let axes = if size == 0.0 { self.signs } else { axes / size };
         let q_s = self.scale_s * point + self.scale * (across / self.extent);
-        let q_u = axes * along;
+        let mut q_u = axes * along;
+        if q_u.length_squared() <= (PRESSED * along.length()).powi(2) {
+            // A side along an axis that is pressed flat keeps its direction.
+            q_u = self.signs * along;
+        }
         let mut local = Local { q: self.scale * point, q_u, q_s, folds };
         if let Some(offset) = self.offset {
             self.move_out(&mut local, offset, column, moving.local.curvature);
