@@ -89,11 +89,26 @@ impl<'a> Probe<'a> {
         if leaf.triangle == WHOLE {
             return self.meet_shape(accel, leaf.object, t_max);
         }
+        let piece = Piece { object: leaf.object, triangle: leaf.triangle };
+        self.meet_triangle(accel, piece, &leaf.corners, t_max)
+    }
+
+    /// Returns the hit of the ray with a triangle, as [`Probe::meet`] does.
+    #[inline]
+    pub fn meet_triangle(
+        &self,
+        accel: &Accel<'_>,
+        piece: Piece,
+        corners: &[[f32; 3]; 3],
+        t_max: f64,
+    ) -> Option<Hit> {
+        if self.ray.leaving == Some(piece) {
+            return None;
+        }
         // The box of a triangle whose corners all lie beyond this distance is entered beyond `t_max`.
         let limit = t_max + self.slack;
-        let (t, barycentric) = self.sheared.intersect(&leaf.corners, limit)?;
-        let piece = Piece { object: leaf.object, triangle: leaf.triangle };
-        self.settle(accel, Hit { t, piece, barycentric }, &leaf.corners, t_max)
+        let (t, barycentric) = self.sheared.intersect(corners, limit)?;
+        self.settle(accel, Hit { t, piece, barycentric }, corners, t_max)
     }
 
     /// Completes the hit of a triangle with its box and its start tests.
@@ -104,9 +119,6 @@ impl<'a> Probe<'a> {
         corners: &[[f32; 3]; 3],
         t_max: f64,
     ) -> Option<Hit> {
-        if self.ray.leaving == Some(hit.piece) {
-            return None;
-        }
         let [enter, leave] = self.slabs.crosses(triangle::bounds(corners))?;
         let t = hit.t.clamp(enter, leave);
         if !(t > 0.0 && t <= t_max)
@@ -117,8 +129,8 @@ impl<'a> Probe<'a> {
         Some(Hit { t, ..hit })
     }
 
-    /// Returns the hit with a shape that is one piece.
-    fn meet_shape(&self, accel: &Accel<'_>, object: u32, t_max: f64) -> Option<Hit> {
+    /// Returns the hit of the ray with a shape that is one piece, as [`Probe::meet`] does.
+    pub fn meet_shape(&self, accel: &Accel<'_>, object: u32, t_max: f64) -> Option<Hit> {
         let shape = accel.shapes[object as usize];
         let left = self.ray.leaving.filter(|from| from.object == object);
         if left.is_some() && matches!(shape, Shape::Quad(_)) {

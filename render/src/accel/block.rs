@@ -1,0 +1,45 @@
+//! Triangles of a leaf, as rays read them.
+
+/// Number of triangles of a block.
+pub const LANES: usize = 4;
+
+/// Stands for the number of an absent triangle.
+pub const ABSENT: u32 = u32::MAX;
+
+/// Up to four triangles in the frame of their tree.
+#[derive(Debug, Clone, Copy)]
+#[repr(C, align(32))]
+pub struct Block {
+    /// Coordinates of the corners: first, second, third; along each axis; of each triangle. An absent
+    /// triangle has the corners of the first.
+    pub corners: [[[f32; LANES]; 3]; 3],
+    /// Numbers of the triangles in their mesh, or [`ABSENT`].
+    pub numbers: [u32; LANES],
+}
+
+impl Block {
+    /// A block of one to four triangles, each with its corners in the frame.
+    #[must_use]
+    pub fn new(triangles: &[(u32, [[f32; 3]; 3])]) -> Self {
+        let mut block = Self { corners: [[[0.0; LANES]; 3]; 3], numbers: [ABSENT; LANES] };
+        for lane in 0..LANES {
+            let (number, corners) = triangles[if lane < triangles.len() { lane } else { 0 }];
+            if lane < triangles.len() {
+                block.numbers[lane] = number;
+            }
+            for (corner, place) in corners.iter().enumerate() {
+                for axis in 0..3 {
+                    block.corners[corner][axis][lane] = place[axis];
+                }
+            }
+        }
+        block
+    }
+
+    /// Returns the corners of a triangle in the frame.
+    #[must_use]
+    #[inline]
+    pub fn corners(&self, lane: usize) -> [[f32; 3]; 3] {
+        [0, 1, 2].map(|corner| [0, 1, 2].map(|axis| self.corners[corner][axis][lane & (LANES - 1)]))
+    }
+}

@@ -1,0 +1,182 @@
+//! The coordinates of a tree, and rays prepared for one tree.
+//!
+//! Coordinates of a tree are `f32`, counted from a point near the tree in units of a power of two, so
+//! that all lie in [-1, 1]. A ray is first moved to where it enters the tree, so that all of its
+//! numbers are as small as the tree.
+//!
+//! **Nothing missed.** [`SlabRay::crosses`] and `Probe::settle` decide in `f64` about boxes and
+//! triangles. The tests in `f32` only reject, and accept all of those. Boxes are rounded outwards
+//! and widened by more than the roundings of the test. In units of `2^-24` these are 1 for the start,
+//! 1 for its move by the widening, 1 for its product with the inverse, 2 for the inverse, 1 for the
+//! product of the side, and 2 for the difference. Their sum is 8. The bound is 16. For the sheared
+//! coordinates of a triangle they are 1 for the start, 1 for the corner, 2 for their difference, the
+//! same 4 for the part that shearing adds, 2 for the shear, 1 for its product and 2 for the sum: 13.
+//! Roundings in `f64` are added as parts of the ray's scale.
+
+use super::slabs::SlabRay;
+use glam::DVec3;
+
+/// Bound on the roundings of one coordinate, in units of a tree.
+const ROUNDING: f64 = 16.0 / (1u32 << 24) as f64;
+
+/// The coordinates of a tree.
+#[derive(Debug, Clone, Copy)]
+pub struct Frame {
+    /// Origin of the coordinates, in scene space.
+    pub middle: DVec3,
+    /// Unit of the coordinates in scene units, a power of two.
+    pub unit: f64,
+}
+
+impl Frame {
+    /// The frame of boxes within `bounds`.
+    #[must_use]
+    pub fn around(bounds: [DVec3; 2]) -> Self {
+        Self::at(0.5 * bounds[0] + 0.5 * bounds[1], bounds)
+    }
+
+    /// The frame of corners with coordinates in `f32` within `bounds`. Their coordinates in the frame
+    /// are exact in `f32`, unless they are smaller than 2^-126 units.
+    ///
+    /// The difference of two numbers of which neither is more than twice the other is exact
+    /// (Sterbenz). Where this does not hold for an axis, the origin is 0.
+    #[must_use]
+    pub fn exact(bounds: [DVec3; 2]) -> Self {
+        let [low, high] = bounds.map(|corner| corner.to_array());
+        let middle = [0, 1, 2].map(|axis| {
+            let middle = f64::from((0.5 * (low[axis] + high[axis])) as f32);
+            let (near, far) =
+                if middle < 0.0 { (-high[axis], -low[axis]) } else { (low[axis], high[axis]) };
+            let close = 2.0 * near >= middle.abs() && far <= 2.0 * middle.abs();
+            if close { middle } else { 0.0 }
+        });
+        Self::at(DVec3::from(middle), bounds)
+    }
+
+    fn at(middle: DVec3, [low, high]: [DVec3; 2]) -> Self {
+        let reach = (low - middle).abs().max((high - middle).abs()).max_element();
+        Self { middle, unit: power_of_two(reach) }
+    }
+
+    /// Returns the smallest box of `f32` in the frame around a box in scene space.
+    #[must_use]
+    pub fn box_around(&self, [low, high]: [DVec3; 2]) -> [[f32; 3]; 2] {
+        let down =
+            |x: f64| if f64::from(x as f32) <= x { x as f32 } else { (x as f32).next_down() };
+        let up = |x: f64| if f64::from(x as f32) >= x { x as f32 } else { (x as f32).next_up() };
+        let low = (low - self.middle) * self.unit.recip();
+        let high = (high - self.middle) * self.unit.recip();
+        [low.to_array().map(down), high.to_array().map(up)]
+    }
+
+    /// Returns the coordinates of a corner in the frame.
+    #[must_use]
+    pub fn corner(&self, corner: [f32; 3]) -> [f32; 3] {
+        let own = (DVec3::from(corner.map(f64::from)) - self.middle) * self.unit.recip();
+        own.as_vec3().to_array()
+    }
+
+    /// Returns the corner in scene space that has these coordinates.
+    #[must_use]
+    #[inline]
+    pub fn scene(&self, own: [f32; 3]) -> [f32; 3] {
+        let middle = self.middle.to_array();
+        [0, 1, 2].map(|axis| {
+            let place = f64::from(own[axis]) * self.unit;
+            // The sum with 0 would lose the sign of -0.
+            (if middle[axis] == 0.0 { place } else { place + middle[axis] }) as f32
+        })
+    }
+}
+
+/// Returns the smallest power of two that is not less than `reach`, within the range in which the
+/// inverse is finite; 1 for 0.
+fn power_of_two(reach: f64) -> f64 {
+    if reach == 0.0 {
+        return 1.0;
+    }
+    let reach = reach.max(f64::MIN_POSITIVE);
+    // Without its fraction, a number is the largest power of two that is not greater.
+    let power = f64::from_bits(reach.to_bits() & (0x7ff << 52));
+    let largest = 2f64.powi(1023);
+    if power < reach && power < largest { 2.0 * power } else { power }
+}
+
+/// A ray prepared for the tests of one tree, in the tree's frame.
+#[derive(Debug, Clone, Copy)]
+pub struct TreeRay {
+    /// Distance at which the ray enters the tree, in scene units; distances in the tree count from
+    /// it.
+    start: f64,
+    /// Units of the tree per scene unit.
+    per_unit: f64,
+    /// Start of the ray in the tree.
+    pub origin: [f32; 3],
+    /// One over the direction; where a component is zero, a huge number of its sign.
+    pub inverse: [f32; 3],
+    /// The side of a box that the ray meets first, along each axis: 0 the lower, 1 the upper.
+    pub near: [usize; 3],
+    /// Start of the ray times the inverse, moved for the near sides so that they come nearer.
+    pub near_start: [f32; 3],
+    /// Start of the ray times the inverse, moved for the far sides so that they lie farther.
+    pub far_start: [f32; 3],
+    /// The axes of the sheared space: the last is that of the direction's largest component.
+    pub axes: [usize; 3],
+    /// Components of the direction along the first two axes, and 1, over that of the last.
+    pub shear: [f32; 3],
+    /// Bound on the error of sheared coordinates.
+    pub rounding: f32,
+}
+
+impl TreeRay {
+    /// Prepares a ray that enters the tree at the distance `start`.
+    #[must_use]
+    #[inline]
+    pub fn new(frame: &Frame, ray: &SlabRay, start: f64) -> Self {
+        let per_unit = frame.unit.recip();
+        let error = ROUNDING + 64.0 * f64::EPSILON * ray.scale * per_unit;
+        // Beyond 8 every box is crossed. A start that is off by less lies in [-1, 1].
+        let widening = error.min(8.0) as f32;
+        let place = (ray.origin - frame.middle + start * ray.direction) * per_unit;
+        let origin = place.clamp(DVec3::splat(-2.0), DVec3::splat(2.0)).as_vec3().to_array();
+        // Where the clamp applies, the ray stays on one side of all planes in the tree.
+        let inverse = ray.inverse.clamp(DVec3::splat(-1e30), DVec3::splat(1e30));
+        let inverse = inverse.as_vec3().to_array();
+        let moved =
+            |axis: usize, by: f32| (origin[axis] + by * inverse[axis].signum()) * inverse[axis];
+        let size = ray.direction.abs();
+        let last = if size.x > size.y && size.x > size.z {
+            0
+        } else if size.y > size.z {
+            1
+        } else {
+            2
+        };
+        let axes = [[1, 2, 0], [2, 0, 1], [0, 1, 2]][last];
+        let over = ray.inverse[last];
+        let shear = [
+            (ray.direction[axes[0]] * over) as f32,
+            (ray.direction[axes[1]] * over) as f32,
+            over as f32,
+        ];
+        Self {
+            start,
+            per_unit,
+            origin,
+            inverse,
+            near: inverse.map(|inverse| usize::from(inverse < 0.0)),
+            near_start: [0, 1, 2].map(|axis| moved(axis, widening)),
+            far_start: [0, 1, 2].map(|axis| moved(axis, -widening)),
+            axes,
+            shear,
+            rounding: error as f32,
+        }
+    }
+
+    /// Converts a distance along the ray into one in the tree, rounded up.
+    #[must_use]
+    #[inline]
+    pub fn distance(&self, t: f64) -> f32 {
+        (((t - self.start) * self.per_unit) as f32).next_up()
+    }
+}

@@ -1,0 +1,144 @@
+//! The triangles of a mesh in a tree.
+
+use super::Accel;
+use super::block::{ABSENT, Block, LANES};
+use super::build::Numbered;
+use super::frame::{Frame, TreeRay};
+use super::kernel::Kernel;
+use super::leaf::Probe;
+use super::node::Child;
+use super::tree::{Leaves, Tree};
+use crate::ray::{Hit, Piece};
+use crate::shape::{Mesh, triangle};
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// Largest number of triangles of a tree; a larger mesh has several trees.
+pub const MOST: u32 = Numbered::MOST;
+
+/// A tree over triangles of a mesh.
+#[derive(Debug)]
+pub struct MeshTree {
+    tree: Tree,
+    blocks: Vec<Block>,
+    /// Whether the blocks hold the exact corners. They do, except for meshes with coordinates that
+    /// are smaller than the mesh by a factor beyond 2^100.
+    exact: bool,
+}
+
+impl MeshTree {
+    /// Builds a tree over a range of at most [`MOST`] triangles, or returns `None` if no ray meets any
+    /// of them.
+    #[must_use]
+    pub fn build(mesh: &Mesh, triangles: Range<u32>) -> Option<Self> {
+        let first = triangles.start;
+        let kept = triangles.into_par_iter().filter(|&n| !triangle::is_segment(&mesh.corners(n)));
+        let bounds = kept
+            .clone()
+            .map(|number| mesh.bounds(number))
+            .reduce_with(|a, b| [a[0].min(b[0]), a[1].max(b[1])])?;
+        let frame = Frame::exact(bounds);
+        let numbered = |number: u32| {
+            let [low, high] = frame.box_around(mesh.bounds(number));
+            Numbered::new(number - first, low, high)
+        };
+        let mut boxes: Vec<Numbered> = kept.map(numbered).collect();
+        let (tree, leaves) = Tree::build(bounds, frame, &mut boxes, LANES);
+        let block = |leaf: &Range<usize>| {
+            let triangle = |one: &Numbered| {
+                let number = first + one.number();
+                (number, mesh.corners(number).map(|corner| frame.corner(corner)))
+            };
+            let mut triangles = [(0, [[0.0; 3]; 3]); LANES];
+            for (triangle_of, one) in triangles.iter_mut().zip(&boxes[leaf.clone()]) {
+                *triangle_of = triangle(one);
+            }
+            Block::new(&triangles[..leaf.len()])
+        };
+        let blocks: Vec<Block> = leaves.par_iter().map(block).collect();
+        let is_exact = |block: &Block| {
+            (0..LANES).filter(|&lane| block.numbers[lane] != ABSENT).all(|lane| {
+                let scene = block.corners(lane).map(|corner| frame.scene(corner));
+                scene == mesh.corners(block.numbers[lane])
+            })
+        };
+        let exact = blocks.par_iter().all(is_exact);
+        Some(Self { tree, blocks, exact })
+    }
+
+    /// The tree.
+    #[must_use]
+    pub fn tree(&self) -> &Tree {
+        &self.tree
+    }
+
+    /// Memory in bytes of the tree and of its copies of triangles.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.tree.bytes() + size_of_val(&*self.blocks)
+    }
+
+    /// Calls `see` with the hits up to the distance that it last returned, initially `t_max`. Returns
+    /// the last distance.
+    #[inline(always)]
+    pub fn walk<K: Kernel>(
+        &self,
+        kernel: K,
+        probe: &Probe<'_>,
+        (accel, object): (&Accel<'_>, u32),
+        t_max: f64,
+        see: &mut impl FnMut(Hit) -> f64,
+    ) -> f64 {
+        let mut blocks = Blocks { mesh: self, accel, object, probe, see };
+        self.tree.walk(kernel, &probe.slabs, t_max, &mut blocks)
+    }
+
+    /// Returns the corners of a triangle in scene space.
+    #[inline]
+    fn corners(&self, accel: &Accel<'_>, object: u32, block: &Block, lane: usize) -> [[f32; 3]; 3] {
+        if self.exact {
+            block.corners(lane).map(|corner| self.tree.frame.scene(corner))
+        } else {
+            accel.mesh_corners(Piece { object, triangle: block.numbers[lane] })
+        }
+    }
+}
+
+/// The leaves of a mesh's tree, visited by a ray.
+struct Blocks<'a, 'b, 'c, F> {
+    mesh: &'a MeshTree,
+    accel: &'a Accel<'b>,
+    object: u32,
+    probe: &'a Probe<'c>,
+    see: F,
+}
+
+impl<F: FnMut(Hit) -> f64> Leaves for Blocks<'_, '_, '_, F> {
+    #[inline(always)]
+    fn visit<K: Kernel>(
+        &mut self,
+        kernel: K,
+        leaf: Child,
+        ray: &TreeRay,
+        limit: f32,
+        mut t_max: f64,
+    ) -> f64 {
+        let Self { mesh, accel, object, probe, see } = self;
+        let block = &mesh.blocks[leaf.first as usize];
+        let mut mask = kernel.triangles(block, ray, leaf.longest, limit);
+        while mask != 0 {
+            let lane = mask.trailing_zeros() as usize;
+            mask &= mask - 1;
+            let triangle = block.numbers[lane];
+            if triangle == ABSENT {
+                continue;
+            }
+            let piece = Piece { object: *object, triangle };
+            let corners = mesh.corners(accel, *object, block, lane);
+            if let Some(hit) = probe.meet_triangle(accel, piece, &corners, t_max) {
+                t_max = see(hit);
+            }
+        }
+        t_max
+    }
+}

@@ -1,0 +1,133 @@
+//! Tests of the structures without a hit function.
+
+use super::build::Numbered;
+use super::frame::{Frame, TreeRay};
+use super::kernel::Portable;
+use super::node::Child;
+use super::tree::{Leaves, Tree};
+use super::*;
+use crate::accel::slabs::SlabRay;
+use crate::shape::Sphere;
+use proptest::prelude::*;
+use std::ops::Range;
+
+#[test]
+fn an_empty_scene_has_no_hits() {
+    let ray = Ray::from_eye(DVec3::ZERO, DVec3::X);
+    for structure in [Structure::Bvh, Structure::Grid, Structure::None] {
+        assert!(Accel::build(vec![], structure).closest(&ray, f64::INFINITY).is_none());
+    }
+}
+
+/// Counts how often a ray gets each box.
+struct Count<'a> {
+    order: &'a [Numbered],
+    leaves: &'a [Range<usize>],
+    given: &'a mut [i32],
+}
+
+impl Leaves for Count<'_> {
+    #[inline(always)]
+    fn visit<K: Kernel>(&mut self, _: K, leaf: Child, _: &TreeRay, _: f32, t_max: f64) -> f64 {
+        for one in &self.order[self.leaves[leaf.first as usize].clone()] {
+            self.given[one.number() as usize] += 1;
+        }
+        t_max
+    }
+}
+
+/// The walk of one ray through a tree.
+struct Tested<'a> {
+    tree: &'a Tree,
+    ray: &'a SlabRay,
+    t_max: f64,
+    count: Count<'a>,
+}
+
+impl Task for Tested<'_> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run<K: Kernel>(mut self, kernel: K) {
+        self.tree.walk(kernel, self.ray, self.t_max, &mut self.count);
+    }
+}
+
+fn place() -> impl Strategy<Value = DVec3> {
+    prop::array::uniform3(-4i8..=4).prop_map(|p| DVec3::from(p.map(|k| f64::from(k) * 0.25)))
+}
+
+proptest! {
+    /// Rays that are traced together find the hits that each finds alone.
+    #[test]
+    fn a_slice_of_rays_is_traced_as_one_by_one(
+        centers in prop::collection::vec(place(), 1..20),
+        rays in prop::collection::vec((place(), place(), any::<bool>()), 0..20),
+    ) {
+        let ball = |center| Shape::Sphere(Sphere { center, radius: 0.2 });
+        let balls: Vec<Shape> = centers.into_iter().map(ball).collect();
+        let accel = Accel::build(balls.iter().collect(), Structure::Bvh);
+        let rays: Vec<(Ray, f64)> = rays.into_iter().map(|(eye, toward, near)| {
+            let direction = (toward - eye).normalize_or(DVec3::X);
+            (Ray::from_eye(eye, direction), if near { 0.75 } else { f64::INFINITY })
+        }).collect();
+        let bits = |hit: Hit| (hit.t.to_bits(), hit.piece);
+        let mut hits = vec![None; rays.len()];
+        accel.closest_of(&rays, &mut hits);
+        let mut met = vec![false; rays.len()];
+        let odd = |hit: &Hit| hit.piece.object % 2 == 1;
+        accel.any_of(&rays, |_, hit| odd(&hit), &mut met);
+        for (k, (ray, t_max)) in rays.iter().enumerate() {
+            prop_assert_eq!(hits[k].map(bits), accel.closest(ray, *t_max).map(bits));
+            prop_assert_eq!(met[k], accel.any(ray, *t_max, |hit| odd(&hit)));
+        }
+    }
+
+    /// Every structure visits the boxes that a ray crosses before `t_max`, and no box twice.
+    /// The test calls no hit function.
+    #[test]
+    fn every_box_that_a_ray_crosses_is_given_once(
+        boxes in prop::collection::vec((place(), place()), 1..200),
+        origin in place(), toward in place(), near in any::<bool>(),
+        nudge in prop::sample::select(vec![0.0, 1e-16, -1e-16, 1e-9]),
+        in_leaf in 1usize..=4, portable in any::<bool>(),
+    ) {
+        let boxes: Vec<_> = boxes.into_iter().map(|(a, b)| {
+            // Many small boxes, some of them flat.
+            let b = a + 0.25 * (b - a);
+            [a.min(b), a.max(b)]
+        }).collect();
+        let t_max = if near { 0.75 } else { f64::INFINITY };
+        let direction = (toward - origin + nudge).normalize_or(DVec3::NEG_X);
+        let ray = SlabRay::new(origin, direction, 2.0);
+        let crossed = |piece: &[DVec3; 2]| ray.crosses(*piece).is_some_and(|at| at[0] <= t_max);
+        let half = boxes.len() as u32 / 2;
+        let ranges = [0..half, half..boxes.len() as u32];
+        let [mut by_tree, mut by_grids] = [vec![0; boxes.len()], vec![0; boxes.len()]];
+        let whole = boxes.iter().copied().reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]).unwrap();
+        let frame = Frame::around(whole);
+        let numbered = |(k, &bounds): (usize, &[DVec3; 2])| {
+            let [low, high] = frame.box_around(bounds);
+            Numbered::new(k as u32, low, high)
+        };
+        let mut order: Vec<Numbered> = boxes.iter().enumerate().map(numbered).collect();
+        let (tree, leaves) = Tree::build(whole, frame, &mut order, in_leaf);
+        let mut count = Count { order: &order, leaves: &leaves, given: &mut by_tree };
+        if portable {
+            tree.walk(Portable, &ray, t_max, &mut count);
+        } else {
+            Instructions::detect().run(Tested { tree: &tree, ray: &ray, t_max, count });
+        }
+        let objects: Vec<_> = ranges.into_iter().filter(|range| !range.is_empty()).collect();
+        Grids::build(&boxes, &objects).walk(&ray, t_max, |piece, t_max| {
+            by_grids[piece as usize] += 1;
+            t_max
+        });
+        for (k, piece) in boxes.iter().enumerate() {
+            for given in [&by_tree, &by_grids] {
+                prop_assert!(given[k] <= 1, "box {} was given {} times", k, given[k]);
+                prop_assert!(given[k] == 1 || !crossed(piece), "box {} was missed", k);
+            }
+        }
+    }
+}
