@@ -24,6 +24,8 @@ const ROUNDING: f64 = 16.0 / (1u32 << 24) as f64;
 pub struct Frame {
     /// Origin of the coordinates, in scene space.
     pub middle: DVec3,
+    /// The same point with -0 for 0. Unlike the sum with 0, the sum with -0 keeps the sign of -0.
+    back: DVec3,
     /// Unit of the coordinates in scene units, a power of two.
     pub unit: f64,
 }
@@ -55,7 +57,8 @@ impl Frame {
 
     fn at(middle: DVec3, [low, high]: [DVec3; 2]) -> Self {
         let reach = (low - middle).abs().max((high - middle).abs()).max_element();
-        Self { middle, unit: power_of_two(reach) }
+        let back = DVec3::select(middle.cmpeq(DVec3::ZERO), DVec3::splat(-0.0), middle);
+        Self { middle, back, unit: power_of_two(reach) }
     }
 
     /// Returns the smallest box of `f32` in the frame around a box in scene space.
@@ -79,13 +82,9 @@ impl Frame {
     /// Returns the corner in scene space that has these coordinates.
     #[must_use]
     #[inline]
-    pub fn scene(&self, own: [f32; 3]) -> [f32; 3] {
-        let middle = self.middle.to_array();
-        [0, 1, 2].map(|axis| {
-            let place = f64::from(own[axis]) * self.unit;
-            // The sum with 0 would lose the sign of -0.
-            (if middle[axis] == 0.0 { place } else { place + middle[axis] }) as f32
-        })
+    pub fn scene(&self, own: [f32; 3]) -> DVec3 {
+        // Both operations are exact where the coordinates in the frame are.
+        DVec3::from(own.map(f64::from)) * self.unit + self.back
     }
 }
 
@@ -131,7 +130,7 @@ pub struct TreeRay {
 impl TreeRay {
     /// Prepares a ray that enters the tree at the distance `start`.
     #[must_use]
-    #[inline]
+    #[inline(always)]
     pub fn new(frame: &Frame, ray: &SlabRay, start: f64) -> Self {
         let per_unit = frame.unit.recip();
         let error = ROUNDING + 64.0 * f64::EPSILON * ray.scale * per_unit;

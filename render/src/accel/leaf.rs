@@ -90,7 +90,7 @@ impl<'a> Probe<'a> {
             return self.meet_shape(accel, leaf.object, t_max);
         }
         let piece = Piece { object: leaf.object, triangle: leaf.triangle };
-        self.meet_triangle(accel, piece, &leaf.corners, t_max)
+        self.meet_triangle(accel, piece, &triangle::in_f64(&leaf.corners), t_max)
     }
 
     /// Returns the hit of the ray with a triangle, as [`Probe::meet`] does.
@@ -99,7 +99,7 @@ impl<'a> Probe<'a> {
         &self,
         accel: &Accel<'_>,
         piece: Piece,
-        corners: &[[f32; 3]; 3],
+        corners: &[DVec3; 3],
         t_max: f64,
     ) -> Option<Hit> {
         if self.ray.leaving == Some(piece) {
@@ -116,10 +116,10 @@ impl<'a> Probe<'a> {
         &self,
         accel: &Accel<'_>,
         hit: Hit,
-        corners: &[[f32; 3]; 3],
+        corners: &[DVec3; 3],
         t_max: f64,
     ) -> Option<Hit> {
-        let [enter, leave] = self.slabs.crosses(triangle::bounds(corners))?;
+        let [enter, leave] = self.slabs.crosses(triangle::bounds_in_f64(corners))?;
         let t = hit.t.clamp(enter, leave);
         if !(t > 0.0 && t <= t_max)
             || self.sheared.starts_on(corners, self.skin(accel, hit.piece.object))

@@ -10,6 +10,7 @@ use super::node::Child;
 use super::tree::{Leaves, Tree};
 use crate::ray::{Hit, Piece};
 use crate::shape::{Mesh, triangle};
+use glam::DVec3;
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -59,7 +60,7 @@ impl MeshTree {
         let is_exact = |block: &Block| {
             (0..LANES).filter(|&lane| block.numbers[lane] != ABSENT).all(|lane| {
                 let scene = block.corners(lane).map(|corner| frame.scene(corner));
-                scene == mesh.corners(block.numbers[lane])
+                scene == triangle::in_f64(&mesh.corners(block.numbers[lane]))
             })
         };
         let exact = blocks.par_iter().all(is_exact);
@@ -95,11 +96,12 @@ impl MeshTree {
 
     /// Returns the corners of a triangle in scene space.
     #[inline]
-    fn corners(&self, accel: &Accel<'_>, object: u32, block: &Block, lane: usize) -> [[f32; 3]; 3] {
+    fn corners(&self, accel: &Accel<'_>, object: u32, block: &Block, lane: usize) -> [DVec3; 3] {
         if self.exact {
             block.corners(lane).map(|corner| self.tree.frame.scene(corner))
         } else {
-            accel.mesh_corners(Piece { object, triangle: block.numbers[lane] })
+            let piece = Piece { object, triangle: block.numbers[lane] };
+            triangle::in_f64(&accel.mesh_corners(piece))
         }
     }
 }

@@ -54,7 +54,12 @@ mod avx2 {
     use super::super::kernel::{Kernel, Tolerance};
     use super::super::node::{Node, WIDTH};
     use super::Task;
-    use std::arch::x86_64::*;
+    use std::arch::x86_64::{
+        __m128, __m256, _CMP_LE_OQ, _mm_and_ps, _mm_cmpgt_ps, _mm_cmplt_ps, _mm_fmsub_ps,
+        _mm_fnmadd_ps, _mm_loadu_ps, _mm_max_ps, _mm_min_ps, _mm_movemask_ps, _mm_mul_ps, _mm_or_ps,
+        _mm_set1_ps, _mm_sub_ps, _mm256_cmp_ps, _mm256_fmsub_ps, _mm256_loadu_ps, _mm256_max_ps,
+        _mm256_min_ps, _mm256_movemask_ps, _mm256_set1_ps, _mm256_setzero_ps, _mm256_storeu_ps,
+    };
 
     /// Proof that the processor has AVX2 and FMA: only [`Avx2::detect`] makes a value.
     #[derive(Debug, Clone, Copy)]
@@ -80,46 +85,63 @@ mod avx2 {
         }
     }
 
+    // The functions below are inlined into `inner` before the instructions are chosen. Closures would
+    // be compiled on their own, without the instructions.
+
     #[inline(always)]
     fn load8(from: &[f32; 8]) -> __m256 {
-        // SAFETY: the array holds eight numbers; the load needs no alignment. The processor has AVX
-        // where an `Avx2` exists, and only its methods call this function.
+        // SAFETY: the array holds eight numbers, and the load needs no alignment. Callers have AVX.
         unsafe { _mm256_loadu_ps(from.as_ptr()) }
     }
 
+    /// The distances of the sides of eight boxes along one axis.
     #[inline(always)]
-    fn load4(from: &[f32; 4]) -> __m128 {
-        // SAFETY: the array holds four numbers; the load needs no alignment. Every x86-64 processor
-        // has SSE.
-        unsafe { _mm_loadu_ps(from.as_ptr()) }
+    fn distances(sides: &[f32; 8], inverse: f32, start: f32) -> __m256 {
+        // SAFETY: callers have AVX and FMA.
+        unsafe { _mm256_fmsub_ps(load8(sides), _mm256_set1_ps(inverse), _mm256_set1_ps(start)) }
+    }
+
+    #[inline(always)]
+    fn from(corners: &[f32; 4], origin: f32) -> __m128 {
+        // SAFETY: the array holds four numbers, and the load needs no alignment.
+        unsafe { _mm_sub_ps(_mm_loadu_ps(corners.as_ptr()), _mm_set1_ps(origin)) }
+    }
+
+    /// Removes from coordinates the part that the shear adds.
+    #[inline(always)]
+    fn sheared(place: __m128, shear: f32, depth: __m128) -> __m128 {
+        // SAFETY: callers have FMA.
+        unsafe { _mm_fnmadd_ps(_mm_set1_ps(shear), depth, place) }
+    }
+
+    /// The edge function of two corners.
+    #[inline(always)]
+    fn edge(ax: __m128, by: __m128, ay: __m128, bx: __m128) -> __m128 {
+        // SAFETY: callers have FMA.
+        unsafe { _mm_fmsub_ps(ax, by, _mm_mul_ps(ay, bx)) }
     }
 
     impl Kernel for Avx2 {
         #[inline(always)]
         fn boxes(self, node: &Node, ray: &TreeRay, limit: f32) -> ([f32; WIDTH], u32) {
-            // SAFETY: a value of this type exists only if the processor has AVX2 and FMA. The store
-            // writes an array of eight numbers.
+            let ([x, y, z], [nx, ny, nz]) = (&node.sides, ray.near.map(|near| near & 1));
+            let ([ix, iy, iz], [sx, sy, sz]) = (ray.inverse, ray.near_start);
+            let [fx, fy, fz] = ray.far_start;
+            let near_x = distances(&x[nx], ix, sx);
+            let near_y = distances(&y[ny], iy, sy);
+            let near_z = distances(&z[nz], iz, sz);
+            let far_x = distances(&x[nx ^ 1], ix, fx);
+            let far_y = distances(&y[ny ^ 1], iy, fy);
+            let far_z = distances(&z[nz ^ 1], iz, fz);
+            let mut distances = [0.0; WIDTH];
+            // SAFETY: a value of this type exists only if the processor has AVX2 and FMA. The array
+            // holds eight numbers, and the store needs no alignment.
             unsafe {
-                let side =
-                    |axis: usize, far: usize| load8(&node.sides[axis][(ray.near[axis] ^ far) & 1]);
-                let near = |axis: usize| {
-                    let inverse = _mm256_set1_ps(ray.inverse[axis]);
-                    _mm256_fmsub_ps(side(axis, 0), inverse, _mm256_set1_ps(ray.near_start[axis]))
-                };
-                let far = |axis: usize| {
-                    let inverse = _mm256_set1_ps(ray.inverse[axis]);
-                    _mm256_fmsub_ps(side(axis, 1), inverse, _mm256_set1_ps(ray.far_start[axis]))
-                };
-                let enter = _mm256_max_ps(
-                    _mm256_max_ps(near(0), near(1)),
-                    _mm256_max_ps(near(2), _mm256_setzero_ps()),
-                );
-                let leave = _mm256_min_ps(
-                    _mm256_min_ps(far(0), far(1)),
-                    _mm256_min_ps(far(2), _mm256_set1_ps(limit)),
-                );
+                let near_z = _mm256_max_ps(near_z, _mm256_setzero_ps());
+                let enter = _mm256_max_ps(_mm256_max_ps(near_x, near_y), near_z);
+                let far_z = _mm256_min_ps(far_z, _mm256_set1_ps(limit));
+                let leave = _mm256_min_ps(_mm256_min_ps(far_x, far_y), far_z);
                 let mask = _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(enter, leave));
-                let mut distances = [0.0; WIDTH];
                 _mm256_storeu_ps(distances.as_mut_ptr(), enter);
                 (distances, mask as u32)
             }
@@ -127,35 +149,33 @@ mod avx2 {
 
         #[inline(always)]
         fn triangles(self, block: &Block, ray: &TreeRay, longest: f32, limit: f32) -> u32 {
-            let Tolerance { edge, depth } = Tolerance::of(ray, longest);
-            let [x, y, z] = ray.axes.map(|axis| axis.min(2));
-            // SAFETY: a value of this type exists only if the processor has AVX2 and FMA.
+            let tolerance = Tolerance::of(ray, longest);
+            let [x, y, z] = [ray.axes[0].min(2), ray.axes[1].min(2), ray.axes[2].min(2)];
+            let ([ox, oy, oz], [sx, sy, sz]) =
+                ([ray.origin[x], ray.origin[y], ray.origin[z]], ray.shear);
+            let [first, second, third] = &block.corners;
+            let (da, db, dc) = (from(&first[z], oz), from(&second[z], oz), from(&third[z], oz));
+            let ax = sheared(from(&first[x], ox), sx, da);
+            let ay = sheared(from(&first[y], oy), sy, da);
+            let bx = sheared(from(&second[x], ox), sx, db);
+            let by = sheared(from(&second[y], oy), sy, db);
+            let cx = sheared(from(&third[x], ox), sx, dc);
+            let cy = sheared(from(&third[y], oy), sy, dc);
+            let (a, b, c) = (edge(cx, by, cy, bx), edge(ax, cy, ay, cx), edge(bx, ay, by, ax));
+            // SAFETY: every x86-64 processor has these instructions.
             unsafe {
-                let from = |corner: usize, axis: usize| {
-                    _mm_sub_ps(load4(&block.corners[corner][axis]), _mm_set1_ps(ray.origin[axis]))
-                };
-                let [sx, sy, sz] = ray.shear.map(|shear| _mm_set1_ps(shear));
-                let [da, db, dc] = [from(0, z), from(1, z), from(2, z)];
-                let (ax, ay) =
-                    (_mm_fnmadd_ps(sx, da, from(0, x)), _mm_fnmadd_ps(sy, da, from(0, y)));
-                let (bx, by) =
-                    (_mm_fnmadd_ps(sx, db, from(1, x)), _mm_fnmadd_ps(sy, db, from(1, y)));
-                let (cx, cy) =
-                    (_mm_fnmadd_ps(sx, dc, from(2, x)), _mm_fnmadd_ps(sy, dc, from(2, y)));
-                let a = _mm_fmsub_ps(cx, by, _mm_mul_ps(cy, bx));
-                let b = _mm_fmsub_ps(ax, cy, _mm_mul_ps(ay, cx));
-                let c = _mm_fmsub_ps(bx, ay, _mm_mul_ps(by, ax));
-                let least = |a, b, c| _mm_min_ps(_mm_min_ps(a, b), c);
-                let most = |a, b, c| _mm_max_ps(_mm_max_ps(a, b), c);
-                let mixed = _mm_and_ps(
-                    _mm_cmplt_ps(least(a, b, c), _mm_set1_ps(-edge)),
-                    _mm_cmpgt_ps(most(a, b, c), _mm_set1_ps(edge)),
-                );
+                let least = _mm_min_ps(_mm_min_ps(a, b), c);
+                let most = _mm_max_ps(_mm_max_ps(a, b), c);
+                let negative = _mm_cmplt_ps(least, _mm_set1_ps(-tolerance.edge));
+                let positive = _mm_cmpgt_ps(most, _mm_set1_ps(tolerance.edge));
+                let sz = _mm_set1_ps(sz);
                 let (az, bz, cz) = (_mm_mul_ps(sz, da), _mm_mul_ps(sz, db), _mm_mul_ps(sz, dc));
-                let far = _mm_cmpgt_ps(least(az, bz, cz), _mm_set1_ps(limit + depth));
-                let behind = _mm_cmplt_ps(most(az, bz, cz), _mm_set1_ps(-depth));
-                let miss = _mm_or_ps(mixed, _mm_or_ps(far, behind));
-                !_mm_movemask_ps(miss) as u32 & 0xf
+                let nearest = _mm_min_ps(_mm_min_ps(az, bz), cz);
+                let farthest = _mm_max_ps(_mm_max_ps(az, bz), cz);
+                let far = _mm_cmpgt_ps(nearest, _mm_set1_ps(limit + tolerance.depth));
+                let behind = _mm_cmplt_ps(farthest, _mm_set1_ps(-tolerance.depth));
+                let mixed = _mm_and_ps(negative, positive);
+                !_mm_movemask_ps(_mm_or_ps(mixed, _mm_or_ps(far, behind))) as u32 & 0xf
             }
         }
     }

@@ -102,7 +102,11 @@ impl Trees {
     ) {
         let Some(tree) = &self.tree else { return };
         let mut objects = Objects { items: &self.items, accel, probe, see };
-        tree.walk(kernel, &probe.slabs, t_max, &mut objects);
+        if let [item] = &*self.items {
+            objects.visit_item(kernel, item, t_max);
+        } else {
+            tree.walk(kernel, &probe.slabs, t_max, &mut objects);
+        }
     }
 }
 
@@ -114,16 +118,24 @@ struct Objects<'a, 'b, 'c, F> {
     see: F,
 }
 
-impl<F: FnMut(Hit) -> f64> Leaves for Objects<'_, '_, '_, F> {
+impl<F: FnMut(Hit) -> f64> Objects<'_, '_, '_, F> {
     #[inline(always)]
-    fn visit<K: Kernel>(&mut self, kernel: K, leaf: Child, _: &TreeRay, _: f32, t_max: f64) -> f64 {
-        let Self { items, accel, probe, see } = self;
-        match &items[leaf.first as usize] {
+    fn visit_item<K: Kernel>(&mut self, kernel: K, item: &Item, t_max: f64) -> f64 {
+        let Self { accel, probe, see, .. } = self;
+        match item {
             Item::Whole(object) => {
                 let hit = probe.meet_shape(accel, *object, t_max);
                 hit.map_or(t_max, see)
             }
             Item::Mesh(object, mesh) => mesh.walk(kernel, probe, (accel, *object), t_max, see),
         }
+    }
+}
+
+impl<F: FnMut(Hit) -> f64> Leaves for Objects<'_, '_, '_, F> {
+    #[inline(always)]
+    fn visit<K: Kernel>(&mut self, kernel: K, leaf: Child, _: &TreeRay, _: f32, t_max: f64) -> f64 {
+        let items = self.items;
+        self.visit_item(kernel, &items[leaf.first as usize], t_max)
     }
 }

@@ -120,8 +120,11 @@ impl Tree {
         let mut current = start;
         'nodes: loop {
             if current.is_leaf() {
-                t_max = leaves.visit(kernel, current, ray, limit, t_max);
-                limit = ray.distance(t_max);
+                let next = leaves.visit(kernel, current, ray, limit, t_max);
+                if next != t_max {
+                    t_max = next;
+                    limit = ray.distance(t_max);
+                }
             } else if count + WIDTH > STACK {
                 // The tree is deeper than the stack.
                 t_max = self.walk_deeper(kernel, current, ray, t_max, leaves);
