@@ -40,6 +40,12 @@ impl Block {
     #[must_use]
     #[inline]
     pub fn corners(&self, lane: usize) -> [[f32; 3]; 3] {
-        [0, 1, 2].map(|corner| [0, 1, 2].map(|axis| self.corners[corner][axis][lane & (LANES - 1)]))
+        let lane = lane & (LANES - 1);
+        let [[ax, ay, az], [bx, by, bz], [cx, cy, cz]] = &self.corners;
+        [
+            [ax[lane], ay[lane], az[lane]],
+            [bx[lane], by[lane], bz[lane]],
+            [cx[lane], cy[lane], cz[lane]],
+        ]
     }
 }

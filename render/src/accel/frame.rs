@@ -14,7 +14,8 @@
 //! Roundings in `f64` are added as parts of the ray's scale.
 
 use super::slabs::SlabRay;
-use glam::DVec3;
+use crate::shape::triangle::ShearedRay;
+use glam::{DVec3, Vec3, Vec3A};
 
 /// Bound on the roundings of one coordinate, in units of a tree.
 const ROUNDING: f64 = 16.0 / (1u32 << 24) as f64;
@@ -28,6 +29,8 @@ pub struct Frame {
     back: DVec3,
     /// Unit of the coordinates in scene units, a power of two.
     pub unit: f64,
+    /// Units of the tree per scene unit.
+    per_unit: f64,
 }
 
 impl Frame {
@@ -58,7 +61,8 @@ impl Frame {
     fn at(middle: DVec3, [low, high]: [DVec3; 2]) -> Self {
         let reach = (low - middle).abs().max((high - middle).abs()).max_element();
         let back = DVec3::select(middle.cmpeq(DVec3::ZERO), DVec3::splat(-0.0), middle);
-        Self { middle, back, unit: power_of_two(reach) }
+        let unit = power_of_two(reach);
+        Self { middle, back, unit, per_unit: unit.recip() }
     }
 
     /// Returns the smallest box of `f32` in the frame around a box in scene space.
@@ -67,15 +71,15 @@ impl Frame {
         let down =
             |x: f64| if f64::from(x as f32) <= x { x as f32 } else { (x as f32).next_down() };
         let up = |x: f64| if f64::from(x as f32) >= x { x as f32 } else { (x as f32).next_up() };
-        let low = (low - self.middle) * self.unit.recip();
-        let high = (high - self.middle) * self.unit.recip();
+        let low = (low - self.middle) * self.per_unit;
+        let high = (high - self.middle) * self.per_unit;
         [low.to_array().map(down), high.to_array().map(up)]
     }
 
     /// Returns the coordinates of a corner in the frame.
     #[must_use]
     pub fn corner(&self, corner: [f32; 3]) -> [f32; 3] {
-        let own = (DVec3::from(corner.map(f64::from)) - self.middle) * self.unit.recip();
+        let own = (DVec3::from(corner.map(f64::from)) - self.middle) * self.per_unit;
         own.as_vec3().to_array()
     }
 
@@ -84,7 +88,7 @@ impl Frame {
     #[inline]
     pub fn scene(&self, own: [f32; 3]) -> DVec3 {
         // Both operations are exact where the coordinates in the frame are.
-        DVec3::from(own.map(f64::from)) * self.unit + self.back
+        Vec3::from(own).as_dvec3() * self.unit + self.back
     }
 }
 
@@ -131,51 +135,38 @@ impl TreeRay {
     /// Prepares a ray that enters the tree at the distance `start`.
     #[must_use]
     #[inline(always)]
-    pub fn new(frame: &Frame, ray: &SlabRay, start: f64) -> Self {
-        let per_unit = frame.unit.recip();
-        let error = ROUNDING + 64.0 * f64::EPSILON * ray.scale * per_unit;
+    pub fn new(frame: &Frame, ray: &SlabRay, sheared: &ShearedRay, start: f64) -> Self {
+        let per_unit = frame.per_unit;
+        let rounding = (ROUNDING + 64.0 * f64::EPSILON * ray.scale * per_unit) as f32;
         // Beyond 8 every box is crossed. A start that is off by less lies in [-1, 1].
-        let widening = error.min(8.0) as f32;
+        let widening = rounding.min(8.0);
         let place = (ray.origin - frame.middle + start * ray.direction) * per_unit;
-        let origin = place.clamp(DVec3::splat(-2.0), DVec3::splat(2.0)).as_vec3().to_array();
+        let origin = place.as_vec3a().clamp(Vec3A::splat(-2.0), Vec3A::splat(2.0));
         // Where the clamp applies, the ray stays on one side of all planes in the tree.
-        let inverse = ray.inverse.clamp(DVec3::splat(-1e30), DVec3::splat(1e30));
-        let inverse = inverse.as_vec3().to_array();
-        let moved =
-            |axis: usize, by: f32| (origin[axis] + by * inverse[axis].signum()) * inverse[axis];
-        let size = ray.direction.abs();
-        let last = if size.x > size.y && size.x > size.z {
-            0
-        } else if size.y > size.z {
-            1
-        } else {
-            2
-        };
-        let axes = [[1, 2, 0], [2, 0, 1], [0, 1, 2]][last];
-        let over = ray.inverse[last];
-        let shear = [
-            (ray.direction[axes[0]] * over) as f32,
-            (ray.direction[axes[1]] * over) as f32,
-            over as f32,
-        ];
+        let inverse = ray.inverse.as_vec3a().clamp(Vec3A::splat(-1e30), Vec3A::splat(1e30));
+        let (start_times, moved) = (origin * inverse, widening * inverse.abs());
+        let upper = |component: f32| (component.to_bits() >> 31) as usize;
+        let [x, y, z] = sheared.shear();
         Self {
             start,
             per_unit,
-            origin,
-            inverse,
-            near: inverse.map(|inverse| usize::from(inverse < 0.0)),
-            near_start: [0, 1, 2].map(|axis| moved(axis, widening)),
-            far_start: [0, 1, 2].map(|axis| moved(axis, -widening)),
-            axes,
-            shear,
-            rounding: error as f32,
+            origin: origin.to_array(),
+            inverse: inverse.to_array(),
+            near: [upper(inverse.x), upper(inverse.y), upper(inverse.z)],
+            near_start: (start_times + moved).to_array(),
+            far_start: (start_times - moved).to_array(),
+            axes: sheared.axes(),
+            shear: [x as f32, y as f32, z as f32],
+            rounding,
         }
     }
 
     /// Converts a distance along the ray into one in the tree, rounded up.
     #[must_use]
-    #[inline]
+    #[inline(always)]
     pub fn distance(&self, t: f64) -> f32 {
-        (((t - self.start) * self.per_unit) as f32).next_up()
+        // A part of 2^-22 exceeds the roundings of the conversion.
+        let distance = ((t - self.start) * self.per_unit) as f32;
+        distance + distance.abs() * (2.0 * f32::EPSILON)
     }
 }

@@ -50,8 +50,7 @@ impl Leaf {
 pub struct Probe<'a> {
     ray: &'a Ray,
     sheared: ShearedRay,
-    /// The ray, prepared for tests against boxes.
-    pub slabs: SlabRay,
+    slabs: SlabRay,
     /// Rounding of the start as a point of the surface on which the ray starts, in scene units; 0
     /// for a ray from the eye.
     skin: f64,
@@ -60,11 +59,10 @@ pub struct Probe<'a> {
 }
 
 impl<'a> Probe<'a> {
-    /// Prepares a ray.
+    /// Prepares a ray, given also as prepared for boxes and for triangles.
     #[must_use]
-    pub fn new(accel: &Accel<'_>, ray: &'a Ray) -> Self {
-        let sheared = ShearedRay::new(ray.origin, ray.direction);
-        let slabs = SlabRay::new(ray.origin, ray.direction, accel.extent);
+    #[inline(always)]
+    pub fn new(accel: &Accel<'_>, ray: &'a Ray, slabs: SlabRay, sheared: ShearedRay) -> Self {
         let skin = ray.leaving.map_or(0.0, |from| accel.rounding(from.object, ray.origin));
         Self { ray, sheared, slabs, skin, slack: slabs.slack() }
     }
@@ -112,13 +110,7 @@ impl<'a> Probe<'a> {
     }
 
     /// Completes the hit of a triangle with its box and its start tests.
-    fn settle(
-        &self,
-        accel: &Accel<'_>,
-        hit: Hit,
-        corners: &[DVec3; 3],
-        t_max: f64,
-    ) -> Option<Hit> {
+    fn settle(&self, accel: &Accel<'_>, hit: Hit, corners: &[DVec3; 3], t_max: f64) -> Option<Hit> {
         let [enter, leave] = self.slabs.crosses(triangle::bounds_in_f64(corners))?;
         let t = hit.t.clamp(enter, leave);
         if !(t > 0.0 && t <= t_max)

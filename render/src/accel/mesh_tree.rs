@@ -7,9 +7,11 @@ use super::frame::{Frame, TreeRay};
 use super::kernel::Kernel;
 use super::leaf::Probe;
 use super::node::Child;
+use super::slabs::SlabRay;
 use super::tree::{Leaves, Tree};
 use crate::ray::{Hit, Piece};
-use crate::shape::{Mesh, triangle};
+use crate::shape::Mesh;
+use crate::shape::triangle::{self, ShearedRay};
 use glam::DVec3;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -85,20 +87,23 @@ impl MeshTree {
     pub fn walk<K: Kernel>(
         &self,
         kernel: K,
+        rays: (&SlabRay, &ShearedRay),
         probe: &Probe<'_>,
         (accel, object): (&Accel<'_>, u32),
         t_max: f64,
         see: &mut impl FnMut(Hit) -> f64,
     ) -> f64 {
         let mut blocks = Blocks { mesh: self, accel, object, probe, see };
-        self.tree.walk(kernel, &probe.slabs, t_max, &mut blocks)
+        self.tree.walk(kernel, rays, t_max, &mut blocks)
     }
 
     /// Returns the corners of a triangle in scene space.
     #[inline]
     fn corners(&self, accel: &Accel<'_>, object: u32, block: &Block, lane: usize) -> [DVec3; 3] {
         if self.exact {
-            block.corners(lane).map(|corner| self.tree.frame.scene(corner))
+            let [a, b, c] = block.corners(lane);
+            let frame = &self.tree.frame;
+            [frame.scene(a), frame.scene(b), frame.scene(c)]
         } else {
             let piece = Piece { object, triangle: block.numbers[lane] };
             triangle::in_f64(&accel.mesh_corners(piece))
@@ -126,8 +131,8 @@ impl<F: FnMut(Hit) -> f64> Leaves for Blocks<'_, '_, '_, F> {
         mut t_max: f64,
     ) -> f64 {
         let Self { mesh, accel, object, probe, see } = self;
-        let block = &mesh.blocks[leaf.first as usize];
-        let mut mask = kernel.triangles(block, ray, leaf.longest, limit);
+        let block = &mesh.blocks[leaf.number()];
+        let mut mask = kernel.triangles(block, ray, leaf.longest(), limit);
         while mask != 0 {
             let lane = mask.trailing_zeros() as usize;
             mask &= mask - 1;

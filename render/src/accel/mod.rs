@@ -35,7 +35,8 @@ mod top;
 mod tree;
 
 use crate::ray::{Hit, Piece, Ray};
-use crate::shape::{Shape, SurfacePoint, triangle};
+use crate::shape::triangle::{self, ShearedRay};
+use crate::shape::{Shape, SurfacePoint};
 use brute::Brute;
 use clap::ValueEnum;
 use glam::DVec3;
@@ -44,6 +45,7 @@ use kernel::Kernel;
 use leaf::{Leaf, Probe};
 use serde::Deserialize;
 use simd::{Instructions, Task};
+use slabs::SlabRay;
 use top::Trees;
 
 /// A shape is outsized when its box is longer than this fraction of the box around everything.
@@ -310,7 +312,7 @@ impl<'a> Accel<'a> {
     /// Calls `see` with hits up to the distance that it last returned, initially `t_max`.
     #[inline]
     fn walk(&self, ray: &Ray, t_max: f64, see: impl FnMut(Hit) -> f64) {
-        self.instructions.run(Walk { accel: self, ray, t_max, see });
+        self.instructions.run(&mut Walk { accel: self, ray, t_max, see });
     }
 }
 
@@ -326,25 +328,28 @@ impl<F: FnMut(Hit) -> f64> Task for Walk<'_, '_, F> {
     type Out = ();
 
     #[inline(always)]
-    fn run<K: Kernel>(self, kernel: K) {
-        let Self { accel, ray, mut t_max, mut see } = self;
-        let probe = Probe::new(accel, ray);
+    fn run<K: Kernel>(&mut self, kernel: K) {
+        let Self { accel, ray, t_max, see } = self;
+        let mut t_max = *t_max;
+        let slabs = SlabRay::new(ray.origin, ray.direction, accel.extent);
+        let sheared = ShearedRay::new(ray.origin, ray.direction);
+        let probe = Probe::new(accel, ray, slabs, sheared);
         for leaf in &accel.apart {
             if let Some(hit) = probe.meet(accel, leaf, t_max) {
                 t_max = see(hit);
             }
         }
         if let Index::Trees(trees) = &accel.index {
-            trees.walk(kernel, &probe, accel, t_max, &mut see);
+            trees.walk(kernel, (&slabs, &sheared), &probe, accel, t_max, see);
             return;
         }
         let visit = |leaf: u32, t_max: f64| {
             let hit = probe.meet(accel, &accel.leaves[leaf as usize], t_max);
-            hit.map_or(t_max, &mut see)
+            hit.map_or(t_max, &mut *see)
         };
         match &accel.index {
             Index::Trees(_) => {}
-            Index::Grids(grids) => grids.walk(&probe.slabs, t_max, visit),
+            Index::Grids(grids) => grids.walk(&slabs, t_max, visit),
             Index::All(brute) => brute.walk(t_max, visit),
         }
     }

@@ -3,37 +3,50 @@
 /// Number of boxes of a node.
 pub const WIDTH: usize = 8;
 
-/// A node or a leaf without its box.
+/// A node or a leaf without its box, in one word: the number of the node or leaf, and in the upper
+/// half the bits of the longest side of a leaf's boxes, in units of the tree, or of -1 for a node.
 #[derive(Debug, Clone, Copy)]
-#[repr(C)]
-pub struct Child {
-    /// Number of the node or of the leaf.
-    pub first: u32,
-    /// The longest side of the boxes in a leaf, in units of the tree; -1 for a node.
-    pub longest: f32,
-}
+pub struct Child(u64);
 
 impl Child {
     /// A child that no ray meets.
-    pub const NONE: Self = Self { first: 0, longest: -1.0 };
+    pub const NONE: Self = Self::new(0, -1.0);
+
+    const fn new(number: u32, longest: f32) -> Self {
+        Self(number as u64 | (longest.to_bits() as u64) << 32)
+    }
 
     /// A node.
     #[must_use]
     pub fn node(number: usize) -> Self {
-        Self { first: number as u32, longest: -1.0 }
+        Self::new(number as u32, -1.0)
     }
 
-    /// A leaf with the longest side of its boxes.
+    /// A leaf with the longest side of its boxes, at least 0.
     #[must_use]
     pub fn leaf(number: usize, longest: f32) -> Self {
-        Self { first: number as u32, longest }
+        Self::new(number as u32, longest)
     }
 
-    /// Whether the child is a leaf.
+    /// The number of the node or of the leaf.
     #[must_use]
-    #[inline]
-    pub fn is_leaf(&self) -> bool {
-        self.longest >= 0.0
+    #[inline(always)]
+    pub fn number(self) -> usize {
+        self.0 as u32 as usize
+    }
+
+    /// The longest side of the boxes in a leaf, in units of the tree.
+    #[must_use]
+    #[inline(always)]
+    pub fn longest(self) -> f32 {
+        f32::from_bits((self.0 >> 32) as u32)
+    }
+
+    /// Whether the child is a leaf: the sign of the longest side is the first bit.
+    #[must_use]
+    #[inline(always)]
+    pub fn is_leaf(self) -> bool {
+        self.0 >> 63 == 0
     }
 }
 

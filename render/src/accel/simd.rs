@@ -10,7 +10,7 @@ pub trait Task {
     /// The result.
     type Out;
     /// Does the work.
-    fn run<K: Kernel>(self, kernel: K) -> Self::Out;
+    fn run<K: Kernel>(&mut self, kernel: K) -> Self::Out;
 }
 
 /// The instructions that rays use.
@@ -36,7 +36,7 @@ impl Instructions {
 
     /// Runs a task with these instructions.
     #[inline]
-    pub fn run<T: Task>(self, task: T) -> T::Out {
+    pub fn run<T: Task>(self, task: &mut T) -> T::Out {
         match self {
             Self::Portable => task.run(Portable),
             #[cfg(target_arch = "x86_64")]
@@ -56,9 +56,10 @@ mod avx2 {
     use super::Task;
     use std::arch::x86_64::{
         __m128, __m256, _CMP_LE_OQ, _mm_and_ps, _mm_cmpgt_ps, _mm_cmplt_ps, _mm_fmsub_ps,
-        _mm_fnmadd_ps, _mm_loadu_ps, _mm_max_ps, _mm_min_ps, _mm_movemask_ps, _mm_mul_ps, _mm_or_ps,
-        _mm_set1_ps, _mm_sub_ps, _mm256_cmp_ps, _mm256_fmsub_ps, _mm256_loadu_ps, _mm256_max_ps,
-        _mm256_min_ps, _mm256_movemask_ps, _mm256_set1_ps, _mm256_setzero_ps, _mm256_storeu_ps,
+        _mm_fnmadd_ps, _mm_loadu_ps, _mm_max_ps, _mm_min_ps, _mm_movemask_ps, _mm_mul_ps,
+        _mm_or_ps, _mm_set1_ps, _mm_sub_ps, _mm256_cmp_ps, _mm256_fmsub_ps, _mm256_loadu_ps,
+        _mm256_max_ps, _mm256_min_ps, _mm256_movemask_ps, _mm256_set1_ps, _mm256_setzero_ps,
+        _mm256_storeu_ps,
     };
 
     /// Proof that the processor has AVX2 and FMA: only [`Avx2::detect`] makes a value.
@@ -75,9 +76,9 @@ mod avx2 {
 
         /// Runs a task compiled with the instructions.
         #[inline]
-        pub fn dispatch<T: Task>(self, task: T) -> T::Out {
+        pub fn dispatch<T: Task>(self, task: &mut T) -> T::Out {
             #[target_feature(enable = "avx2,fma")]
-            fn inner<T: Task>(kernel: Avx2, task: T) -> T::Out {
+            fn inner<T: Task>(kernel: Avx2, task: &mut T) -> T::Out {
                 task.run(kernel)
             }
             // SAFETY: a value of this type exists only if the processor has AVX2 and FMA.

@@ -8,6 +8,7 @@ use super::tree::{Leaves, Tree};
 use super::*;
 use crate::accel::slabs::SlabRay;
 use crate::shape::Sphere;
+use crate::shape::triangle::ShearedRay;
 use proptest::prelude::*;
 use std::ops::Range;
 
@@ -29,7 +30,7 @@ struct Count<'a> {
 impl Leaves for Count<'_> {
     #[inline(always)]
     fn visit<K: Kernel>(&mut self, _: K, leaf: Child, _: &TreeRay, _: f32, t_max: f64) -> f64 {
-        for one in &self.order[self.leaves[leaf.first as usize].clone()] {
+        for one in &self.order[self.leaves[leaf.number()].clone()] {
             self.given[one.number() as usize] += 1;
         }
         t_max
@@ -48,8 +49,9 @@ impl Task for Tested<'_> {
     type Out = ();
 
     #[inline(always)]
-    fn run<K: Kernel>(mut self, kernel: K) {
-        self.tree.walk(kernel, self.ray, self.t_max, &mut self.count);
+    fn run<K: Kernel>(&mut self, kernel: K) {
+        let sheared = ShearedRay::new(self.ray.origin, self.ray.direction);
+        self.tree.walk(kernel, (self.ray, &sheared), self.t_max, &mut self.count);
     }
 }
 
@@ -112,11 +114,11 @@ proptest! {
         };
         let mut order: Vec<Numbered> = boxes.iter().enumerate().map(numbered).collect();
         let (tree, leaves) = Tree::build(whole, frame, &mut order, in_leaf);
-        let mut count = Count { order: &order, leaves: &leaves, given: &mut by_tree };
+        let count = Count { order: &order, leaves: &leaves, given: &mut by_tree };
         if portable {
-            tree.walk(Portable, &ray, t_max, &mut count);
+            Tested { tree: &tree, ray: &ray, t_max, count }.run(Portable);
         } else {
-            Instructions::detect().run(Tested { tree: &tree, ray: &ray, t_max, count });
+            Instructions::detect().run(&mut Tested { tree: &tree, ray: &ray, t_max, count });
         }
         let objects: Vec<_> = ranges.into_iter().filter(|range| !range.is_empty()).collect();
         Grids::build(&boxes, &objects).walk(&ray, t_max, |piece, t_max| {
@@ -129,5 +131,115 @@ proptest! {
                 prop_assert!(given[k] == 1 || !crossed(piece), "box {} was missed", k);
             }
         }
+    }
+}
+
+#[derive(Default)]
+struct Tally {
+    nodes: std::cell::Cell<u64>,
+    met: std::cell::Cell<u64>,
+    blocks: std::cell::Cell<u64>,
+    passed: std::cell::Cell<u64>,
+}
+impl Kernel for &Tally {
+    fn boxes(self, node: &super::node::Node, ray: &TreeRay, limit: f32) -> ([f32; 8], u32) {
+        let r = Portable.boxes(node, ray, limit);
+        self.nodes.set(self.nodes.get() + 1);
+        self.met.set(self.met.get() + u64::from(r.1.count_ones()));
+        r
+    }
+    fn triangles(
+        self,
+        block: &super::block::Block,
+        ray: &TreeRay,
+        longest: f32,
+        limit: f32,
+    ) -> u32 {
+        let r = Portable.triangles(block, ray, longest, limit);
+        self.blocks.set(self.blocks.get() + 1);
+        self.passed.set(self.passed.get() + u64::from(r.count_ones()));
+        r
+    }
+}
+#[test]
+fn zz_tally() {
+    use crate::shape::mesh::{Mesh, NONE, Triangle};
+    use std::f64::consts::TAU;
+    for (rows, cols) in [(125u32, 40u32), (400, 125)] {
+        let at = |r: u32, c: u32| (r % rows) * cols + c % cols;
+        let mut positions = vec![];
+        let mut triangles = vec![];
+        for r in 0..rows {
+            for c in 0..cols {
+                let (v, u) =
+                    (TAU * f64::from(r) / f64::from(rows), TAU * f64::from(c) / f64::from(cols));
+                let t =
+                    DVec3::new(3.0 * v.cos(), 3.0 * (2.0 * v).cos(), -0.6 * v.sin()).normalize();
+                let side = t.cross(DVec3::Z).normalize();
+                let up = side.cross(t);
+                let p = DVec3::new(3.0 * v.sin(), 3.0 * v.sin() * v.cos(), 0.6 * v.cos())
+                    + 0.4 * (u.cos() * side + u.sin() * up);
+                positions.push(p.as_vec3().to_array());
+                let [a, b, c2, d] = [at(r, c), at(r + 1, c), at(r + 1, c + 1), at(r, c + 1)];
+                for position in [[a, b, c2], [a, c2, d]] {
+                    triangles.push(Triangle {
+                        position,
+                        uv: [NONE; 3],
+                        normal: [NONE; 3],
+                        surface: 0,
+                    });
+                }
+            }
+        }
+        let f = positions.len() as u32;
+        positions.extend([
+            [-30., -30., -1.05],
+            [30., -30., -1.05],
+            [30., 30., -1.05],
+            [-30., 30., -1.05f32],
+        ]);
+        for position in [[f, f + 1, f + 2], [f, f + 2, f + 3]] {
+            triangles.push(Triangle { position, uv: [NONE; 3], normal: [NONE; 3], surface: 0 });
+        }
+        let mesh = Mesh { positions, triangles, surfaces: vec![String::new()], ..Mesh::default() };
+        let shape = Shape::Mesh(mesh);
+        let accel = Accel::build(vec![&shape], Structure::Bvh);
+        let tally = Tally::default();
+        let eye = DVec3::new(0.6, -8.0, 4.6);
+        let fwd = (DVec3::new(0.0, 0.0, -0.35) - eye).normalize();
+        let right = fwd.cross(DVec3::Z).normalize();
+        let up = right.cross(fwd);
+        let n = 256;
+        let mut hits = 0;
+        for k in 0..n * n {
+            let (x, y) = (
+                2.0 * (f64::from(k % n) + 0.5) / f64::from(n) - 1.0,
+                2.0 * (f64::from(k / n) + 0.5) / f64::from(n) - 1.0,
+            );
+            let ray = Ray::from_eye(eye, (fwd + 0.3 * (x * right + y * up)).normalize());
+            let mut best = None::<Hit>;
+            Walk {
+                accel: &accel,
+                ray: &ray,
+                t_max: f64::INFINITY,
+                see: |hit: Hit| {
+                    if best.is_none_or(|best| hit.before(&best)) {
+                        best = Some(hit);
+                    }
+                    best.map_or(f64::INFINITY, |best| best.t)
+                },
+            }
+            .run(&tally);
+            hits += u32::from(best.is_some());
+        }
+        let per = |c: &std::cell::Cell<u64>| c.get() as f64 / f64::from(n * n);
+        println!(
+            "{rows}x{cols} hits {hits} nodes {:.2} met {:.2} blocks {:.2} passed {:.3} bytes {}",
+            per(&tally.nodes),
+            per(&tally.met),
+            per(&tally.blocks),
+            per(&tally.passed),
+            accel.bytes()
+        );
     }
 }

@@ -7,9 +7,11 @@ use super::kernel::Kernel;
 use super::leaf::Probe;
 use super::mesh_tree::{self, MeshTree};
 use super::node::Child;
+use super::slabs::SlabRay;
 use super::tree::{Leaves, Tree};
 use crate::ray::Hit;
 use crate::shape::Shape;
+use crate::shape::triangle::ShearedRay;
 use glam::DVec3;
 
 /// An object of the upper tree.
@@ -95,17 +97,18 @@ impl Trees {
     pub fn walk<K: Kernel>(
         &self,
         kernel: K,
+        rays: (&SlabRay, &ShearedRay),
         probe: &Probe<'_>,
         accel: &Accel<'_>,
         t_max: f64,
         see: &mut impl FnMut(Hit) -> f64,
     ) {
         let Some(tree) = &self.tree else { return };
-        let mut objects = Objects { items: &self.items, accel, probe, see };
+        let mut objects = Objects { items: &self.items, accel, rays, probe, see };
         if let [item] = &*self.items {
             objects.visit_item(kernel, item, t_max);
         } else {
-            tree.walk(kernel, &probe.slabs, t_max, &mut objects);
+            tree.walk(kernel, rays, t_max, &mut objects);
         }
     }
 }
@@ -114,6 +117,8 @@ impl Trees {
 struct Objects<'a, 'b, 'c, F> {
     items: &'a [Item],
     accel: &'a Accel<'b>,
+    /// The ray, prepared for boxes and for triangles.
+    rays: (&'a SlabRay, &'a ShearedRay),
     probe: &'a Probe<'c>,
     see: F,
 }
@@ -121,13 +126,15 @@ struct Objects<'a, 'b, 'c, F> {
 impl<F: FnMut(Hit) -> f64> Objects<'_, '_, '_, F> {
     #[inline(always)]
     fn visit_item<K: Kernel>(&mut self, kernel: K, item: &Item, t_max: f64) -> f64 {
-        let Self { accel, probe, see, .. } = self;
+        let Self { accel, rays, probe, see, .. } = self;
         match item {
             Item::Whole(object) => {
                 let hit = probe.meet_shape(accel, *object, t_max);
                 hit.map_or(t_max, see)
             }
-            Item::Mesh(object, mesh) => mesh.walk(kernel, probe, (accel, *object), t_max, see),
+            Item::Mesh(object, mesh) => {
+                mesh.walk(kernel, *rays, probe, (accel, *object), t_max, see)
+            }
         }
     }
 }
@@ -136,6 +143,6 @@ impl<F: FnMut(Hit) -> f64> Leaves for Objects<'_, '_, '_, F> {
     #[inline(always)]
     fn visit<K: Kernel>(&mut self, kernel: K, leaf: Child, _: &TreeRay, _: f32, t_max: f64) -> f64 {
         let items = self.items;
-        self.visit_item(kernel, &items[leaf.first as usize], t_max)
+        self.visit_item(kernel, &items[leaf.number()], t_max)
     }
 }

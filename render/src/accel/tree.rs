@@ -10,6 +10,7 @@ use super::frame::{Frame, TreeRay};
 use super::kernel::Kernel;
 use super::node::{Child, Node, WIDTH};
 use super::slabs::SlabRay;
+use crate::shape::triangle::ShearedRay;
 use glam::DVec3;
 use std::ops::Range;
 
@@ -79,13 +80,13 @@ impl Tree {
     pub fn walk<K: Kernel>(
         &self,
         kernel: K,
-        ray: &SlabRay,
+        (ray, sheared): (&SlabRay, &ShearedRay),
         t_max: f64,
         leaves: &mut impl Leaves,
     ) -> f64 {
         match ray.crosses(self.bounds) {
             Some([enter, _]) if enter <= t_max => {
-                let ray = TreeRay::new(&self.frame, ray, enter);
+                let ray = TreeRay::new(&self.frame, ray, sheared, enter);
                 self.walk_from(kernel, self.root, &ray, t_max, leaves)
             }
             _ => t_max,
@@ -94,6 +95,7 @@ impl Tree {
 
     /// Walks a deep part of the tree with a new stack.
     #[cold]
+    #[inline(never)]
     fn walk_deeper<K: Kernel>(
         &self,
         kernel: K,
@@ -115,7 +117,7 @@ impl Tree {
         leaves: &mut impl Leaves,
     ) -> f64 {
         let mut limit = ray.distance(t_max);
-        let mut waiting = [(Child::NONE, 0.0f32); STACK];
+        let (mut waiting, mut enters) = ([Child::NONE; STACK], [0.0f32; STACK]);
         let mut count = 0;
         let mut current = start;
         'nodes: loop {
@@ -127,41 +129,46 @@ impl Tree {
                 }
             } else if count + WIDTH > STACK {
                 // The tree is deeper than the stack.
-                t_max = self.walk_deeper(kernel, current, ray, t_max, leaves);
+                // A copy keeps the ray itself in registers.
+                let copy = *ray;
+                t_max = self.walk_deeper(kernel, current, &copy, t_max, leaves);
                 limit = ray.distance(t_max);
             } else {
-                let node = &self.nodes[current.first as usize];
+                let node = &self.nodes[current.number()];
                 let (enter, mut met) = kernel.boxes(node, ray, limit);
                 if met != 0 {
-                    let child = |k: usize| (node.children[k & (WIDTH - 1)], enter[k & (WIDTH - 1)]);
-                    let mut nearest = child(met.trailing_zeros() as usize);
+                    let mut nearest = met.trailing_zeros() as usize & (WIDTH - 1);
                     met &= met - 1;
-                    let first = count;
-                    while met != 0 {
-                        let mut other = child(met.trailing_zeros() as usize);
-                        met &= met - 1;
-                        if other.1 < nearest.1 {
-                            std::mem::swap(&mut nearest, &mut other);
+                    if met != 0 {
+                        let first = count;
+                        let mut near = enter[nearest];
+                        while met != 0 {
+                            let mut other = met.trailing_zeros() as usize & (WIDTH - 1);
+                            let mut far = enter[other];
+                            met &= met - 1;
+                            if far < near {
+                                std::mem::swap(&mut nearest, &mut other);
+                                std::mem::swap(&mut near, &mut far);
+                            }
+                            // The nearer nodes leave the stack first.
+                            let mut at = count;
+                            while at > first && enters[at - 1] < far {
+                                (waiting[at], enters[at]) = (waiting[at - 1], enters[at - 1]);
+                                at -= 1;
+                            }
+                            (waiting[at], enters[at]) = (node.children[other], far);
+                            count += 1;
                         }
-                        // The nearer nodes leave the stack first.
-                        let mut at = count;
-                        while at > first && waiting[at - 1].1 < other.1 {
-                            waiting[at] = waiting[at - 1];
-                            at -= 1;
-                        }
-                        waiting[at] = other;
-                        count += 1;
                     }
-                    current = nearest.0;
+                    current = node.children[nearest];
                     continue;
                 }
             }
             // Takes the nearest node that begins within `t_max`.
             while count > 0 {
                 count -= 1;
-                let (node, enter) = waiting[count];
-                if enter <= limit {
-                    current = node;
+                if enters[count] <= limit {
+                    current = waiting[count];
                     continue 'nodes;
                 }
             }

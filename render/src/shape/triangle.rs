@@ -31,6 +31,7 @@ enum Order {
 }
 
 impl Order {
+    #[inline(always)]
     fn of(direction: DVec3) -> Self {
         let size = direction.abs();
         if size.x > size.y && size.x > size.z {
@@ -44,15 +45,12 @@ impl Order {
         }
     }
 
+    #[inline]
     fn axes(self) -> [usize; 3] {
-        match self {
-            Self::Xyz => [0, 1, 2],
-            Self::Yxz => [1, 0, 2],
-            Self::Yzx => [1, 2, 0],
-            Self::Zyx => [2, 1, 0],
-            Self::Zxy => [2, 0, 1],
-            Self::Xzy => [0, 2, 1],
-        }
+        // In the order of the variants.
+        const AXES: [[usize; 3]; 6] =
+            [[0, 1, 2], [1, 0, 2], [1, 2, 0], [2, 1, 0], [2, 0, 1], [0, 2, 1]];
+        AXES[self as usize]
     }
 }
 
@@ -62,10 +60,26 @@ pub type TriangleHit = (f64, [f64; 2]);
 impl ShearedRay {
     /// Prepares the ray that starts at `origin`; `direction` is unit.
     #[must_use]
+    #[inline(always)]
     pub fn new(origin: DVec3, direction: DVec3) -> Self {
         let order = Order::of(direction);
-        let [x, y, z] = order.axes().map(|axis| direction[axis]);
+        let [x, y, z] = order.axes();
+        let (x, y, z) = (direction[x], direction[y], direction[z]);
         Self { origin, order, shear: [x / z, y / z, 1.0 / z] }
+    }
+
+    /// The axes of the sheared space; the ray runs along the last.
+    #[must_use]
+    #[inline]
+    pub fn axes(&self) -> [usize; 3] {
+        self.order.axes()
+    }
+
+    /// Components of the direction along the first two axes, and 1, over that of the last.
+    #[must_use]
+    #[inline]
+    pub fn shear(&self) -> [f64; 3] {
+        self.shear
     }
 
     /// Returns the hit with a distance above 0, from either side. The test misses triangles of zero
@@ -91,15 +105,18 @@ impl ShearedRay {
         corners: &[DVec3; 3],
         limit: f64,
     ) -> Option<TriangleHit> {
-        let from = |corner: DVec3, axis: usize| corner[axis] - self.origin[axis];
+        let from = |corner: usize, axis: usize| corners[corner][axis] - self.origin[axis];
         // Distances of the corners along the axis of depth, before shearing.
-        let depths = corners.map(|corner| from(corner, Z));
-        let [az, bz, cz] = depths.map(|depth| self.shear[2] * depth);
+        let depths = [from(0, Z), from(1, Z), from(2, Z)];
+        let depth = |corner: usize| self.shear[2] * depths[corner];
+        let (az, bz, cz) = (depth(0), depth(1), depth(2));
         if (az > limit) & (bz > limit) & (cz > limit) {
             return None;
         }
-        let [ax, bx, cx] = [0, 1, 2].map(|k| from(corners[k], X) - self.shear[0] * depths[k]);
-        let [ay, by, cy] = [0, 1, 2].map(|k| from(corners[k], Y) - self.shear[1] * depths[k]);
+        let x = |corner: usize| from(corner, X) - self.shear[0] * depths[corner];
+        let y = |corner: usize| from(corner, Y) - self.shear[1] * depths[corner];
+        let (ax, bx, cx) = (x(0), x(1), x(2));
+        let (ay, by, cy) = (y(0), y(1), y(2));
         let edges = [cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax];
         let [a, b, c] = edges;
         if ((a < 0.0) | (b < 0.0) | (c < 0.0)) & ((a > 0.0) | (b > 0.0) | (c > 0.0)) {
@@ -109,7 +126,7 @@ impl ShearedRay {
         if area == 0.0 {
             return None;
         }
-        let weights = edges.map(|edge| edge / area);
+        let weights = [a / area, b / area, c / area];
         let t = weights[0] * az + weights[1] * bz + weights[2] * cz;
         (t > 0.0).then_some((t, [weights[1], weights[2]]))
     }
