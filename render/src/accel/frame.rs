@@ -1,24 +1,30 @@
 //! The coordinates of a tree, and rays prepared for one tree.
 //!
 //! Coordinates of a tree are `f32`, counted from a point near the tree in units of a power of two, so
-//! that all lie in [-1, 1]. A ray is first moved to where it enters the tree, so that all of its
-//! numbers are as small as the tree.
+//! that all lie in [-1, 1]. A ray that starts far away is first moved to where it enters the tree, so
+//! that its numbers are about as small as the tree.
 //!
 //! **Nothing missed.** [`SlabRay::crosses`] and `Probe::settle` decide in `f64` about boxes and
 //! triangles. The tests in `f32` only reject, and accept all of those. Boxes are rounded outwards
-//! and widened by more than the roundings of the test. In units of `2^-24` these are 1 for the start,
-//! 1 for its move by the widening, 1 for its product with the inverse, 2 for the inverse, 1 for the
-//! product of the side, and 2 for the difference. Their sum is 8. The bound is 16. For the sheared
-//! coordinates of a triangle they are 1 for the start, 1 for the corner, 2 for their difference, the
-//! same 4 for the part that shearing adds, 2 for the shear, 1 for its product and 2 for the sum: 13.
-//! Roundings in `f64` are added as parts of the ray's scale.
+//! and widened by more than the roundings of the test. Let the ray start within `r` units, `r` at least
+//! 1. In units of `2^-24 r` the roundings are 1 for the start, 1 for its product with the inverse, 1
+//! for its move by the widening, 4 for the inverse (2 for each of start and side), 1 for the product of
+//! the side, and 2 for the difference. Their sum is 10. For the sheared coordinates of
+//! a triangle they are 1 for the start, 1 for the corner, 2 for their difference, the same 4 for the
+//! part that shearing adds, 6 for the shear, 2 for its product and 2 for the sum: 18. The bound is 24. Roundings in `f64` are added as parts of the ray's scale.
 
 use super::slabs::SlabRay;
-use crate::shape::triangle::ShearedRay;
+use crate::ray::Ray;
 use glam::{DVec3, Vec3, Vec3A};
 
 /// Bound on the roundings of one coordinate, in units of a tree.
-const ROUNDING: f64 = 16.0 / (1u32 << 24) as f64;
+const ROUNDING: f64 = 24.0 / (1u32 << 24) as f64;
+
+/// A ray that starts within this distance along each axis, in units of a tree, is not moved.
+///
+/// If larger, the tests reject less, since their roundings grow with the distance. If smaller, more
+/// rays compute where they enter the tree.
+const NEAR: f64 = 8.0;
 
 /// The coordinates of a tree.
 #[derive(Debug, Clone, Copy)]
@@ -108,57 +114,75 @@ fn power_of_two(reach: f64) -> f64 {
 /// A ray prepared for the tests of one tree, in the tree's frame.
 #[derive(Debug, Clone, Copy)]
 pub struct TreeRay {
-    /// Distance at which the ray enters the tree, in scene units; distances in the tree count from
-    /// it.
+    /// Distance from which distances in the tree count, in scene units.
     start: f64,
     /// Units of the tree per scene unit.
     per_unit: f64,
-    /// Start of the ray in the tree.
-    pub origin: [f32; 3],
     /// One over the direction; where a component is zero, a huge number of its sign.
-    pub inverse: [f32; 3],
+    pub inverse: Vec3A,
+    /// Start of the ray times the inverse, moved for the near sides so that they come nearer.
+    pub near_start: Vec3A,
+    /// Start of the ray times the inverse, moved for the far sides so that they lie farther.
+    pub far_start: Vec3A,
     /// The side of a box that the ray meets first, along each axis: 0 the lower, 1 the upper.
     pub near: [usize; 3],
-    /// Start of the ray times the inverse, moved for the near sides so that they come nearer.
-    pub near_start: [f32; 3],
-    /// Start of the ray times the inverse, moved for the far sides so that they lie farther.
-    pub far_start: [f32; 3],
     /// The axes of the sheared space: the last is that of the direction's largest component.
     pub axes: [usize; 3],
+    /// Start of the ray along these axes.
+    pub origin: Vec3A,
     /// Components of the direction along the first two axes, and 1, over that of the last.
-    pub shear: [f32; 3],
+    pub shear: Vec3A,
     /// Bound on the error of sheared coordinates.
     pub rounding: f32,
 }
 
 impl TreeRay {
-    /// Prepares a ray that enters the tree at the distance `start`.
+    /// Prepares a ray for a tree with these bounds, or returns `None` if it misses the tree. `extent`
+    /// is that of [`SlabRay::new`].
     #[must_use]
     #[inline(always)]
-    pub fn new(frame: &Frame, ray: &SlabRay, sheared: &ShearedRay, start: f64) -> Self {
-        let per_unit = frame.per_unit;
-        let rounding = (ROUNDING + 64.0 * f64::EPSILON * ray.scale * per_unit) as f32;
-        // Beyond 8 every box is crossed. A start that is off by less lies in [-1, 1].
-        let widening = rounding.min(8.0);
-        let place = (ray.origin - frame.middle + start * ray.direction) * per_unit;
-        let origin = place.as_vec3a().clamp(Vec3A::splat(-2.0), Vec3A::splat(2.0));
-        // Where the clamp applies, the ray stays on one side of all planes in the tree.
-        let inverse = ray.inverse.as_vec3a().clamp(Vec3A::splat(-1e30), Vec3A::splat(1e30));
-        let (start_times, moved) = (origin * inverse, widening * inverse.abs());
-        let upper = |component: f32| (component.to_bits() >> 31) as usize;
-        let [x, y, z] = sheared.shear();
-        Self {
-            start,
-            per_unit,
-            origin: origin.to_array(),
-            inverse: inverse.to_array(),
-            near: [upper(inverse.x), upper(inverse.y), upper(inverse.z)],
-            near_start: (start_times + moved).to_array(),
-            far_start: (start_times - moved).to_array(),
-            axes: sheared.axes(),
-            shear: [x as f32, y as f32, z as f32],
-            rounding,
+    pub fn new(frame: &Frame, bounds: [DVec3; 2], ray: &Ray, extent: f64) -> Option<Self> {
+        let mut start = 0.0;
+        let mut place = (ray.origin - frame.middle) * frame.per_unit;
+        let mut reach = place.abs().max_element();
+        if reach > NEAR {
+            start = SlabRay::new(ray.origin, ray.direction, extent).crosses(bounds)?[0];
+            place += start * frame.per_unit * ray.direction;
+            reach = 1.0;
         }
+        let scale = ray.origin.abs().max_element() + extent;
+        let rounding = ROUNDING * reach.max(1.0) + 64.0 * f64::EPSILON * scale * frame.per_unit;
+        let rounding = rounding as f32;
+        // Beyond 8 units every box is crossed. A start that is off by less lies within 2 NEAR.
+        let widening = rounding.min(8.0);
+        let most = Vec3A::splat(2.0 * NEAR as f32);
+        let origin = place.as_vec3a().clamp(-most, most);
+        let direction = ray.direction.as_vec3a();
+        // Where the clamp applies, the ray stays on one side of all planes in the tree.
+        let inverse = direction.recip().clamp(Vec3A::splat(-1e30), Vec3A::splat(1e30));
+        let (start_times, moved) = (origin * inverse, widening * inverse.abs());
+        let size = direction.abs();
+        let [x, y, z] = if size.x > size.y && size.x > size.z {
+            [1, 2, 0]
+        } else if size.y > size.z {
+            [2, 0, 1]
+        } else {
+            [0, 1, 2]
+        };
+        let upper = |component: f32| (component.to_bits() >> 31) as usize;
+        let over = direction[z];
+        Some(Self {
+            start,
+            per_unit: frame.per_unit,
+            inverse,
+            near_start: start_times + moved,
+            far_start: start_times - moved,
+            near: [upper(inverse.x), upper(inverse.y), upper(inverse.z)],
+            axes: [x, y, z],
+            origin: Vec3A::new(origin[x], origin[y], origin[z]),
+            shear: Vec3A::new(direction[x], direction[y], 1.0) / over,
+            rounding,
+        })
     }
 
     /// Converts a distance along the ray into one in the tree, rounded up.

@@ -73,14 +73,14 @@ impl Kernel for Portable {
     #[inline]
     fn triangles(self, block: &Block, ray: &TreeRay, longest: f32, limit: f32) -> u32 {
         let Tolerance { edge, depth } = Tolerance::of(ray, longest);
-        let [x, y, z] = ray.axes;
         let mut mask = 0;
         for lane in 0..LANES {
-            let from =
-                |corner: usize, axis: usize| block.corners[corner][axis][lane] - ray.origin[axis];
-            let depths = [0, 1, 2].map(|corner| from(corner, z));
-            let [ax, bx, cx] = [0, 1, 2].map(|k| from(k, x) - ray.shear[0] * depths[k]);
-            let [ay, by, cy] = [0, 1, 2].map(|k| from(k, y) - ray.shear[1] * depths[k]);
+            let from = |corner: usize, axis: usize| {
+                block.corners[corner][ray.axes[axis]][lane] - ray.origin[axis]
+            };
+            let depths = [0, 1, 2].map(|corner| from(corner, 2));
+            let [ax, bx, cx] = [0, 1, 2].map(|k| from(k, 0) - ray.shear[0] * depths[k]);
+            let [ay, by, cy] = [0, 1, 2].map(|k| from(k, 1) - ray.shear[1] * depths[k]);
             let [az, bz, cz] = depths.map(|depth| ray.shear[2] * depth);
             let [a, b, c] = [cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax];
             // Each condition is false for NaN, which is a product of infinities.

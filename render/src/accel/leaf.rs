@@ -50,7 +50,8 @@ impl Leaf {
 pub struct Probe<'a> {
     ray: &'a Ray,
     sheared: ShearedRay,
-    slabs: SlabRay,
+    /// The ray, prepared for tests against boxes.
+    pub slabs: SlabRay,
     /// Rounding of the start as a point of the surface on which the ray starts, in scene units; 0
     /// for a ray from the eye.
     skin: f64,
@@ -59,10 +60,11 @@ pub struct Probe<'a> {
 }
 
 impl<'a> Probe<'a> {
-    /// Prepares a ray, given also as prepared for boxes and for triangles.
+    /// Prepares a ray.
     #[must_use]
-    #[inline(always)]
-    pub fn new(accel: &Accel<'_>, ray: &'a Ray, slabs: SlabRay, sheared: ShearedRay) -> Self {
+    pub fn new(accel: &Accel<'_>, ray: &'a Ray) -> Self {
+        let sheared = ShearedRay::new(ray.origin, ray.direction);
+        let slabs = SlabRay::new(ray.origin, ray.direction, accel.extent);
         let skin = ray.leaving.map_or(0.0, |from| accel.rounding(from.object, ray.origin));
         Self { ray, sheared, slabs, skin, slack: slabs.slack() }
     }

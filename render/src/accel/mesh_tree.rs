@@ -7,11 +7,9 @@ use super::frame::{Frame, TreeRay};
 use super::kernel::Kernel;
 use super::leaf::Probe;
 use super::node::Child;
-use super::slabs::SlabRay;
 use super::tree::{Leaves, Tree};
-use crate::ray::{Hit, Piece};
-use crate::shape::Mesh;
-use crate::shape::triangle::{self, ShearedRay};
+use crate::ray::{Hit, Piece, Ray};
+use crate::shape::{Mesh, triangle};
 use glam::DVec3;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -87,14 +85,13 @@ impl MeshTree {
     pub fn walk<K: Kernel>(
         &self,
         kernel: K,
-        rays: (&SlabRay, &ShearedRay),
-        probe: &Probe<'_>,
+        ray: &Ray,
         (accel, object): (&Accel<'_>, u32),
         t_max: f64,
         see: &mut impl FnMut(Hit) -> f64,
     ) -> f64 {
-        let mut blocks = Blocks { mesh: self, accel, object, probe, see };
-        self.tree.walk(kernel, rays, t_max, &mut blocks)
+        let mut blocks = Blocks { mesh: self, accel, object, ray, see };
+        self.tree.walk(kernel, (ray, accel.extent), t_max, &mut blocks)
     }
 
     /// Returns the corners of a triangle in scene space.
@@ -111,28 +108,44 @@ impl MeshTree {
     }
 }
 
+/// Returns the hit of the ray with a triangle. Few triangles of a tree come here, so that the ray is
+/// prepared anew for each.
+#[inline(never)]
+fn meet_alone(
+    accel: &Accel<'_>,
+    ray: &Ray,
+    piece: Piece,
+    corners: &[DVec3; 3],
+    t_max: f64,
+) -> Option<Hit> {
+    if ray.leaving == Some(piece) {
+        return None;
+    }
+    Probe::new(accel, ray).meet_triangle(accel, piece, corners, t_max)
+}
+
 /// The leaves of a mesh's tree, visited by a ray.
-struct Blocks<'a, 'b, 'c, F> {
+struct Blocks<'a, 'b, F> {
     mesh: &'a MeshTree,
     accel: &'a Accel<'b>,
     object: u32,
-    probe: &'a Probe<'c>,
+    ray: &'a Ray,
     see: F,
 }
 
-impl<F: FnMut(Hit) -> f64> Leaves for Blocks<'_, '_, '_, F> {
+impl<F: FnMut(Hit) -> f64> Leaves for Blocks<'_, '_, F> {
     #[inline(always)]
     fn visit<K: Kernel>(
         &mut self,
         kernel: K,
         leaf: Child,
-        ray: &TreeRay,
+        tree_ray: &TreeRay,
         limit: f32,
         mut t_max: f64,
     ) -> f64 {
-        let Self { mesh, accel, object, probe, see } = self;
+        let Self { mesh, accel, object, ray, see } = self;
         let block = &mesh.blocks[leaf.number()];
-        let mut mask = kernel.triangles(block, ray, leaf.longest(), limit);
+        let mut mask = kernel.triangles(block, tree_ray, leaf.longest(), limit);
         while mask != 0 {
             let lane = mask.trailing_zeros() as usize;
             mask &= mask - 1;
@@ -142,7 +155,7 @@ impl<F: FnMut(Hit) -> f64> Leaves for Blocks<'_, '_, '_, F> {
             }
             let piece = Piece { object: *object, triangle };
             let corners = mesh.corners(accel, *object, block, lane);
-            if let Some(hit) = probe.meet_triangle(accel, piece, &corners, t_max) {
+            if let Some(hit) = meet_alone(accel, ray, piece, &corners, t_max) {
                 t_max = see(hit);
             }
         }

@@ -35,8 +35,7 @@ mod top;
 mod tree;
 
 use crate::ray::{Hit, Piece, Ray};
-use crate::shape::triangle::{self, ShearedRay};
-use crate::shape::{Shape, SurfacePoint};
+use crate::shape::{Shape, SurfacePoint, triangle};
 use brute::Brute;
 use clap::ValueEnum;
 use glam::DVec3;
@@ -45,7 +44,6 @@ use kernel::Kernel;
 use leaf::{Leaf, Probe};
 use serde::Deserialize;
 use simd::{Instructions, Task};
-use slabs::SlabRay;
 use top::Trees;
 
 /// A shape is outsized when its box is longer than this fraction of the box around everything.
@@ -331,17 +329,20 @@ impl<F: FnMut(Hit) -> f64> Task for Walk<'_, '_, F> {
     fn run<K: Kernel>(&mut self, kernel: K) {
         let Self { accel, ray, t_max, see } = self;
         let mut t_max = *t_max;
-        let slabs = SlabRay::new(ray.origin, ray.direction, accel.extent);
-        let sheared = ShearedRay::new(ray.origin, ray.direction);
-        let probe = Probe::new(accel, ray, slabs, sheared);
+        if let Index::Trees(trees) = &accel.index {
+            for leaf in &accel.apart {
+                if let Some(hit) = Probe::new(accel, ray).meet(accel, leaf, t_max) {
+                    t_max = see(hit);
+                }
+            }
+            trees.walk(kernel, ray, accel, t_max, see);
+            return;
+        }
+        let probe = Probe::new(accel, ray);
         for leaf in &accel.apart {
             if let Some(hit) = probe.meet(accel, leaf, t_max) {
                 t_max = see(hit);
             }
-        }
-        if let Index::Trees(trees) = &accel.index {
-            trees.walk(kernel, (&slabs, &sheared), &probe, accel, t_max, see);
-            return;
         }
         let visit = |leaf: u32, t_max: f64| {
             let hit = probe.meet(accel, &accel.leaves[leaf as usize], t_max);
@@ -349,7 +350,7 @@ impl<F: FnMut(Hit) -> f64> Task for Walk<'_, '_, F> {
         };
         match &accel.index {
             Index::Trees(_) => {}
-            Index::Grids(grids) => grids.walk(&slabs, t_max, visit),
+            Index::Grids(grids) => grids.walk(&probe.slabs, t_max, visit),
             Index::All(brute) => brute.walk(t_max, visit),
         }
     }

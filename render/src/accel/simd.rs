@@ -125,15 +125,15 @@ mod avx2 {
     impl Kernel for Avx2 {
         #[inline(always)]
         fn boxes(self, node: &Node, ray: &TreeRay, limit: f32) -> ([f32; WIDTH], u32) {
-            let ([x, y, z], [nx, ny, nz]) = (&node.sides, ray.near.map(|near| near & 1));
-            let ([ix, iy, iz], [sx, sy, sz]) = (ray.inverse, ray.near_start);
-            let [fx, fy, fz] = ray.far_start;
-            let near_x = distances(&x[nx], ix, sx);
-            let near_y = distances(&y[ny], iy, sy);
-            let near_z = distances(&z[nz], iz, sz);
-            let far_x = distances(&x[nx ^ 1], ix, fx);
-            let far_y = distances(&y[ny ^ 1], iy, fy);
-            let far_z = distances(&z[nz ^ 1], iz, fz);
+            let ([x, y, z], [nx, ny, nz]) = (&node.sides, ray.near);
+            let (nx, ny, nz) = (nx & 1, ny & 1, nz & 1);
+            let (inverse, near, far) = (ray.inverse, ray.near_start, ray.far_start);
+            let near_x = distances(&x[nx], inverse.x, near.x);
+            let near_y = distances(&y[ny], inverse.y, near.y);
+            let near_z = distances(&z[nz], inverse.z, near.z);
+            let far_x = distances(&x[nx ^ 1], inverse.x, far.x);
+            let far_y = distances(&y[ny ^ 1], inverse.y, far.y);
+            let far_z = distances(&z[nz ^ 1], inverse.z, far.z);
             let mut distances = [0.0; WIDTH];
             // SAFETY: a value of this type exists only if the processor has AVX2 and FMA. The array
             // holds eight numbers, and the store needs no alignment.
@@ -152,8 +152,8 @@ mod avx2 {
         fn triangles(self, block: &Block, ray: &TreeRay, longest: f32, limit: f32) -> u32 {
             let tolerance = Tolerance::of(ray, longest);
             let [x, y, z] = [ray.axes[0].min(2), ray.axes[1].min(2), ray.axes[2].min(2)];
-            let ([ox, oy, oz], [sx, sy, sz]) =
-                ([ray.origin[x], ray.origin[y], ray.origin[z]], ray.shear);
+            let (ox, oy, oz) = (ray.origin.x, ray.origin.y, ray.origin.z);
+            let (sx, sy, sz) = (ray.shear.x, ray.shear.y, ray.shear.z);
             let [first, second, third] = &block.corners;
             let (da, db, dc) = (from(&first[z], oz), from(&second[z], oz), from(&third[z], oz));
             let ax = sheared(from(&first[x], ox), sx, da);

@@ -33,7 +33,7 @@ impl SlabRay {
 
     /// Prepares the ray for boxes whose absolute coordinates are at most `extent`.
     #[must_use]
-    #[inline(always)]
+    #[inline]
     pub fn new(origin: DVec3, direction: DVec3, extent: f64) -> Self {
         // A zero component gets a huge finite inverse: no product is NaN, even on a box's face.
         let invert =

@@ -8,7 +8,6 @@ use super::tree::{Leaves, Tree};
 use super::*;
 use crate::accel::slabs::SlabRay;
 use crate::shape::Sphere;
-use crate::shape::triangle::ShearedRay;
 use proptest::prelude::*;
 use std::ops::Range;
 
@@ -40,7 +39,7 @@ impl Leaves for Count<'_> {
 /// The walk of one ray through a tree.
 struct Tested<'a> {
     tree: &'a Tree,
-    ray: &'a SlabRay,
+    ray: &'a Ray,
     t_max: f64,
     count: Count<'a>,
 }
@@ -50,8 +49,7 @@ impl Task for Tested<'_> {
 
     #[inline(always)]
     fn run<K: Kernel>(&mut self, kernel: K) {
-        let sheared = ShearedRay::new(self.ray.origin, self.ray.direction);
-        self.tree.walk(kernel, (self.ray, &sheared), self.t_max, &mut self.count);
+        self.tree.walk(kernel, (self.ray, 2.0), self.t_max, &mut self.count);
     }
 }
 
@@ -116,9 +114,9 @@ proptest! {
         let (tree, leaves) = Tree::build(whole, frame, &mut order, in_leaf);
         let count = Count { order: &order, leaves: &leaves, given: &mut by_tree };
         if portable {
-            Tested { tree: &tree, ray: &ray, t_max, count }.run(Portable);
+            Tested { tree: &tree, ray: &Ray::from_eye(origin, direction), t_max, count }.run(Portable);
         } else {
-            Instructions::detect().run(&mut Tested { tree: &tree, ray: &ray, t_max, count });
+            Instructions::detect().run(&mut Tested { tree: &tree, ray: &Ray::from_eye(origin, direction), t_max, count });
         }
         let objects: Vec<_> = ranges.into_iter().filter(|range| !range.is_empty()).collect();
         Grids::build(&boxes, &objects).walk(&ray, t_max, |piece, t_max| {

@@ -7,11 +7,10 @@ use super::kernel::Kernel;
 use super::leaf::Probe;
 use super::mesh_tree::{self, MeshTree};
 use super::node::Child;
-use super::slabs::SlabRay;
 use super::tree::{Leaves, Tree};
-use crate::ray::Hit;
+use crate::ray::{Hit, Ray};
 use crate::shape::Shape;
-use crate::shape::triangle::ShearedRay;
+
 use glam::DVec3;
 
 /// An object of the upper tree.
@@ -97,49 +96,44 @@ impl Trees {
     pub fn walk<K: Kernel>(
         &self,
         kernel: K,
-        rays: (&SlabRay, &ShearedRay),
-        probe: &Probe<'_>,
+        ray: &Ray,
         accel: &Accel<'_>,
         t_max: f64,
         see: &mut impl FnMut(Hit) -> f64,
     ) {
         let Some(tree) = &self.tree else { return };
-        let mut objects = Objects { items: &self.items, accel, rays, probe, see };
+        let mut objects = Objects { items: &self.items, accel, ray, see };
         if let [item] = &*self.items {
             objects.visit_item(kernel, item, t_max);
         } else {
-            tree.walk(kernel, rays, t_max, &mut objects);
+            tree.walk(kernel, (ray, accel.extent), t_max, &mut objects);
         }
     }
 }
 
 /// The leaves of the upper tree, visited by a ray.
-struct Objects<'a, 'b, 'c, F> {
+struct Objects<'a, 'b, F> {
     items: &'a [Item],
     accel: &'a Accel<'b>,
-    /// The ray, prepared for boxes and for triangles.
-    rays: (&'a SlabRay, &'a ShearedRay),
-    probe: &'a Probe<'c>,
+    ray: &'a Ray,
     see: F,
 }
 
-impl<F: FnMut(Hit) -> f64> Objects<'_, '_, '_, F> {
+impl<F: FnMut(Hit) -> f64> Objects<'_, '_, F> {
     #[inline(always)]
     fn visit_item<K: Kernel>(&mut self, kernel: K, item: &Item, t_max: f64) -> f64 {
-        let Self { accel, rays, probe, see, .. } = self;
+        let Self { accel, ray, see, .. } = self;
         match item {
             Item::Whole(object) => {
-                let hit = probe.meet_shape(accel, *object, t_max);
+                let hit = Probe::new(accel, ray).meet_shape(accel, *object, t_max);
                 hit.map_or(t_max, see)
             }
-            Item::Mesh(object, mesh) => {
-                mesh.walk(kernel, *rays, probe, (accel, *object), t_max, see)
-            }
+            Item::Mesh(object, mesh) => mesh.walk(kernel, ray, (accel, *object), t_max, see),
         }
     }
 }
 
-impl<F: FnMut(Hit) -> f64> Leaves for Objects<'_, '_, '_, F> {
+impl<F: FnMut(Hit) -> f64> Leaves for Objects<'_, '_, F> {
     #[inline(always)]
     fn visit<K: Kernel>(&mut self, kernel: K, leaf: Child, _: &TreeRay, _: f32, t_max: f64) -> f64 {
         let items = self.items;

@@ -9,8 +9,7 @@ use super::collapse::{self, Wide};
 use super::frame::{Frame, TreeRay};
 use super::kernel::Kernel;
 use super::node::{Child, Node, WIDTH};
-use super::slabs::SlabRay;
-use crate::shape::triangle::ShearedRay;
+use crate::ray::Ray;
 use glam::DVec3;
 use std::ops::Range;
 
@@ -75,21 +74,19 @@ impl Tree {
     }
 
     /// Visits every leaf with a box that the ray may meet within `t_max`, nearer ones first as far as
-    /// the tree can tell. Returns the last `t_max` of the leaves.
+    /// the tree can tell. Returns the last `t_max` of the leaves. `extent` is that of
+    /// [`super::slabs::SlabRay::new`].
     #[inline(always)]
     pub fn walk<K: Kernel>(
         &self,
         kernel: K,
-        (ray, sheared): (&SlabRay, &ShearedRay),
+        (ray, extent): (&Ray, f64),
         t_max: f64,
         leaves: &mut impl Leaves,
     ) -> f64 {
-        match ray.crosses(self.bounds) {
-            Some([enter, _]) if enter <= t_max => {
-                let ray = TreeRay::new(&self.frame, ray, sheared, enter);
-                self.walk_from(kernel, self.root, &ray, t_max, leaves)
-            }
-            _ => t_max,
+        match TreeRay::new(&self.frame, self.bounds, ray, extent) {
+            Some(ray) => self.walk_from(kernel, self.root, &ray, t_max, leaves),
+            None => t_max,
         }
     }
 

@@ -31,7 +31,7 @@ enum Order {
 }
 
 impl Order {
-    #[inline(always)]
+    #[inline]
     fn of(direction: DVec3) -> Self {
         let size = direction.abs();
         if size.x > size.y && size.x > size.z {
@@ -60,26 +60,12 @@ pub type TriangleHit = (f64, [f64; 2]);
 impl ShearedRay {
     /// Prepares the ray that starts at `origin`; `direction` is unit.
     #[must_use]
-    #[inline(always)]
+    #[inline]
     pub fn new(origin: DVec3, direction: DVec3) -> Self {
         let order = Order::of(direction);
         let [x, y, z] = order.axes();
         let (x, y, z) = (direction[x], direction[y], direction[z]);
         Self { origin, order, shear: [x / z, y / z, 1.0 / z] }
-    }
-
-    /// The axes of the sheared space; the ray runs along the last.
-    #[must_use]
-    #[inline]
-    pub fn axes(&self) -> [usize; 3] {
-        self.order.axes()
-    }
-
-    /// Components of the direction along the first two axes, and 1, over that of the last.
-    #[must_use]
-    #[inline]
-    pub fn shear(&self) -> [f64; 3] {
-        self.shear
     }
 
     /// Returns the hit with a distance above 0, from either side. The test misses triangles of zero
