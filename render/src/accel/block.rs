@@ -10,8 +10,8 @@ pub const ABSENT: u32 = u32::MAX;
 #[derive(Debug, Clone, Copy)]
 #[repr(C, align(32))]
 pub struct Block {
-    /// Coordinates of the corners: first, second, third; along each axis; of each triangle. An absent
-    /// triangle has the corners of the first.
+    /// Coordinates of the corners: first, second, third; along each axis; of each triangle. The
+    /// corners of an absent triangle are NaN.
     pub corners: [[[f32; LANES]; 3]; 3],
     /// Numbers of the triangles in their mesh, or [`ABSENT`].
     pub numbers: [u32; LANES],
@@ -21,12 +21,9 @@ impl Block {
     /// A block of one to four triangles, each with its corners in the frame.
     #[must_use]
     pub fn new(triangles: &[(u32, [[f32; 3]; 3])]) -> Self {
-        let mut block = Self { corners: [[[0.0; LANES]; 3]; 3], numbers: [ABSENT; LANES] };
-        for lane in 0..LANES {
-            let (number, corners) = triangles[if lane < triangles.len() { lane } else { 0 }];
-            if lane < triangles.len() {
-                block.numbers[lane] = number;
-            }
+        let mut block = Self { corners: [[[f32::NAN; LANES]; 3]; 3], numbers: [ABSENT; LANES] };
+        for (lane, (number, corners)) in triangles.iter().enumerate() {
+            block.numbers[lane] = *number;
             for (corner, place) in corners.iter().enumerate() {
                 for axis in 0..3 {
                     block.corners[corner][axis][lane] = place[axis];

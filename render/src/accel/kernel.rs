@@ -83,13 +83,13 @@ impl Kernel for Portable {
             let [ay, by, cy] = [0, 1, 2].map(|k| from(k, 1) - ray.shear[1] * depths[k]);
             let [az, bz, cz] = depths.map(|depth| ray.shear[2] * depth);
             let [a, b, c] = [cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax];
-            // Each condition is false for NaN, which is a product of infinities.
-            let negative = (a < -edge) | (b < -edge) | (c < -edge);
-            let positive = (a > edge) | (b > edge) | (c > edge);
+            // Each condition is false for the NaN of an absent triangle.
+            let front = (a >= -edge) & (b >= -edge) & (c >= -edge);
+            let back = (a <= edge) & (b <= edge) & (c <= edge);
             let beyond = limit + depth;
-            let far = (az > beyond) & (bz > beyond) & (cz > beyond);
-            let behind = (az < -depth) & (bz < -depth) & (cz < -depth);
-            mask |= u32::from(!((negative & positive) | far | behind)) << lane;
+            let near = (az <= beyond) | (bz <= beyond) | (cz <= beyond);
+            let ahead = (az >= -depth) | (bz >= -depth) | (cz >= -depth);
+            mask |= u32::from((front | back) & near & ahead) << lane;
         }
         mask
     }

@@ -150,9 +150,6 @@ impl<F: FnMut(Hit) -> f64> Leaves for Blocks<'_, '_, F> {
             let lane = mask.trailing_zeros() as usize;
             mask &= mask - 1;
             let triangle = block.numbers[lane];
-            if triangle == ABSENT {
-                continue;
-            }
             let piece = Piece { object: *object, triangle };
             let corners = mesh.corners(accel, *object, block, lane);
             if let Some(hit) = meet_alone(accel, ray, piece, &corners, t_max) {

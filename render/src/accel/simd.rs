@@ -55,7 +55,7 @@ mod avx2 {
     use super::super::node::{Node, WIDTH};
     use super::Task;
     use std::arch::x86_64::{
-        __m128, __m256, _CMP_LE_OQ, _mm_and_ps, _mm_cmpgt_ps, _mm_cmplt_ps, _mm_fmsub_ps,
+        __m128, __m256, _CMP_LE_OQ, _mm_and_ps, _mm_cmpge_ps, _mm_cmple_ps, _mm_fmsub_ps,
         _mm_fnmadd_ps, _mm_loadu_ps, _mm_max_ps, _mm_min_ps, _mm_movemask_ps, _mm_mul_ps,
         _mm_or_ps, _mm_set1_ps, _mm_sub_ps, _mm256_cmp_ps, _mm256_fmsub_ps, _mm256_loadu_ps,
         _mm256_max_ps, _mm256_min_ps, _mm256_movemask_ps, _mm256_set1_ps, _mm256_setzero_ps,
@@ -167,16 +167,17 @@ mod avx2 {
             unsafe {
                 let least = _mm_min_ps(_mm_min_ps(a, b), c);
                 let most = _mm_max_ps(_mm_max_ps(a, b), c);
-                let negative = _mm_cmplt_ps(least, _mm_set1_ps(-tolerance.edge));
-                let positive = _mm_cmpgt_ps(most, _mm_set1_ps(tolerance.edge));
+                // Each condition is false for the NaN of an absent triangle.
+                let front = _mm_cmpge_ps(least, _mm_set1_ps(-tolerance.edge));
+                let back = _mm_cmple_ps(most, _mm_set1_ps(tolerance.edge));
                 let sz = _mm_set1_ps(sz);
                 let (az, bz, cz) = (_mm_mul_ps(sz, da), _mm_mul_ps(sz, db), _mm_mul_ps(sz, dc));
                 let nearest = _mm_min_ps(_mm_min_ps(az, bz), cz);
                 let farthest = _mm_max_ps(_mm_max_ps(az, bz), cz);
-                let far = _mm_cmpgt_ps(nearest, _mm_set1_ps(limit + tolerance.depth));
-                let behind = _mm_cmplt_ps(farthest, _mm_set1_ps(-tolerance.depth));
-                let mixed = _mm_and_ps(negative, positive);
-                !_mm_movemask_ps(_mm_or_ps(mixed, _mm_or_ps(far, behind))) as u32 & 0xf
+                let near = _mm_cmple_ps(nearest, _mm_set1_ps(limit + tolerance.depth));
+                let ahead = _mm_cmpge_ps(farthest, _mm_set1_ps(-tolerance.depth));
+                let hit = _mm_and_ps(_mm_or_ps(front, back), _mm_and_ps(near, ahead));
+                _mm_movemask_ps(hit) as u32
             }
         }
     }
