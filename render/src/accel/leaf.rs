@@ -62,6 +62,7 @@ pub struct Probe<'a> {
 impl<'a> Probe<'a> {
     /// Prepares a ray.
     #[must_use]
+    #[inline(always)]
     pub fn new(accel: &Accel<'_>, ray: &'a Ray) -> Self {
         let sheared = ShearedRay::new(ray.origin, ray.direction);
         let slabs = SlabRay::new(ray.origin, ray.direction, accel.extent);
@@ -94,7 +95,7 @@ impl<'a> Probe<'a> {
     }
 
     /// Returns the hit of the ray with a triangle, as [`Probe::meet`] does.
-    #[inline]
+    #[inline(always)]
     pub fn meet_triangle(
         &self,
         accel: &Accel<'_>,
@@ -112,6 +113,7 @@ impl<'a> Probe<'a> {
     }
 
     /// Completes the hit of a triangle with its box and its start tests.
+    #[inline(always)]
     fn settle(&self, accel: &Accel<'_>, hit: Hit, corners: &[DVec3; 3], t_max: f64) -> Option<Hit> {
         let [enter, leave] = self.slabs.crosses(triangle::bounds_in_f64(corners))?;
         let t = hit.t.clamp(enter, leave);

@@ -33,7 +33,7 @@ impl SlabRay {
 
     /// Prepares the ray for boxes whose absolute coordinates are at most `extent`.
     #[must_use]
-    #[inline]
+    #[inline(always)]
     pub fn new(origin: DVec3, direction: DVec3, extent: f64) -> Self {
         // A zero component gets a huge finite inverse: no product is NaN, even on a box's face.
         let invert =
@@ -57,7 +57,7 @@ impl SlabRay {
     /// Returns the distances at which the ray enters and leaves the box, from its start on, or
     /// `None` if the ray does not meet it.
     #[must_use]
-    #[inline]
+    #[inline(always)]
     pub fn crosses(&self, [low, high]: [DVec3; 2]) -> Option<[f64; 2]> {
         let low = (low - self.above) * self.inverse;
         let high = (high - self.below) * self.inverse;

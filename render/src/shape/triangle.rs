@@ -31,7 +31,7 @@ enum Order {
 }
 
 impl Order {
-    #[inline]
+    #[inline(always)]
     fn of(direction: DVec3) -> Self {
         let size = direction.abs();
         if size.x > size.y && size.x > size.z {
@@ -60,7 +60,7 @@ pub type TriangleHit = (f64, [f64; 2]);
 impl ShearedRay {
     /// Prepares the ray that starts at `origin`; `direction` is unit.
     #[must_use]
-    #[inline]
+    #[inline(always)]
     pub fn new(origin: DVec3, direction: DVec3) -> Self {
         let order = Order::of(direction);
         let [x, y, z] = order.axes();
@@ -72,7 +72,7 @@ impl ShearedRay {
     /// area as seen along the ray, and triangles whose corners all lie farther along the ray than
     /// `limit`.
     #[must_use]
-    #[inline]
+    #[inline(always)]
     pub fn intersect(&self, corners: &[DVec3; 3], limit: f64) -> Option<TriangleHit> {
         // Constant axes save a third of the time.
         match self.order {
@@ -85,7 +85,7 @@ impl ShearedRay {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn intersect_in<const X: usize, const Y: usize, const Z: usize>(
         &self,
         corners: &[DVec3; 3],
@@ -119,6 +119,7 @@ impl ShearedRay {
 
     /// Returns whether the ray starts within `skin` of the triangle's plane, in scene units.
     #[must_use]
+    #[inline(always)]
     pub fn starts_on(&self, corners: &[DVec3; 3], skin: f64) -> bool {
         let [a, b, c] = corners.map(|corner| corner - self.origin);
         let across = (b - a).cross(c - a);
