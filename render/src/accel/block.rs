@@ -1,5 +1,7 @@
 //! Triangles of a leaf, as rays read them.
 
+use glam::Vec4;
+
 /// Number of triangles of a block.
 pub const LANES: usize = 4;
 
@@ -33,16 +35,17 @@ impl Block {
         block
     }
 
-    /// Returns the corners of a triangle in the frame.
+    /// Returns the corners of a triangle in the frame, along each axis: first, second, third, and the
+    /// first again.
     #[must_use]
-    #[inline]
-    pub fn corners(&self, lane: usize) -> [[f32; 3]; 3] {
+    #[inline(always)]
+    pub fn corners(&self, lane: usize) -> [Vec4; 3] {
         let lane = lane & (LANES - 1);
         let [[ax, ay, az], [bx, by, bz], [cx, cy, cz]] = &self.corners;
         [
-            [ax[lane], ay[lane], az[lane]],
-            [bx[lane], by[lane], bz[lane]],
-            [cx[lane], cy[lane], cz[lane]],
+            Vec4::new(ax[lane], bx[lane], cx[lane], ax[lane]),
+            Vec4::new(ay[lane], by[lane], cy[lane], ay[lane]),
+            Vec4::new(az[lane], bz[lane], cz[lane], az[lane]),
         ]
     }
 }

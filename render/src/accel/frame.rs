@@ -15,7 +15,8 @@
 
 use super::slabs::SlabRay;
 use crate::ray::Ray;
-use glam::{DVec3, Vec3, Vec3A};
+use crate::shape::triangle::Corners;
+use glam::{DVec3, Vec3A, Vec4};
 
 /// Bound on the roundings of one coordinate, in units of a tree.
 const ROUNDING: f64 = 24.0 / (1u32 << 24) as f64;
@@ -89,12 +90,13 @@ impl Frame {
         own.as_vec3().to_array()
     }
 
-    /// Returns the corner in scene space that has these coordinates.
+    /// Returns the corners in scene space that have these coordinates.
     #[must_use]
-    #[inline]
-    pub fn scene(&self, own: [f32; 3]) -> DVec3 {
+    #[inline(always)]
+    pub fn scene(&self, [x, y, z]: [Vec4; 3]) -> Corners {
         // Both operations are exact where the coordinates in the frame are.
-        Vec3::from(own).as_dvec3() * self.unit + self.back
+        let scene = |own: Vec4, back: f64| own.as_dvec4() * self.unit + back;
+        [scene(x, self.back.x), scene(y, self.back.y), scene(z, self.back.z)]
     }
 }
 

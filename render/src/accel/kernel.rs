@@ -14,6 +14,7 @@
 use super::block::{Block, LANES};
 use super::frame::TreeRay;
 use super::node::{Node, WIDTH};
+use super::simd::Task;
 
 /// An implementation of both tests.
 pub trait Kernel: Copy {
@@ -24,6 +25,9 @@ pub trait Kernel: Copy {
     /// Returns a mask of the triangles that the ray may hit within `limit`. `longest` is the longest
     /// side of their boxes.
     fn triangles(self, block: &Block, ray: &TreeRay, longest: f32, limit: f32) -> u32;
+
+    /// Runs a task with the kernel's instructions, in a function of its own.
+    fn apart<T: Task>(self, task: &mut T) -> T::Out;
 }
 
 /// Bounds of the test of four triangles.
@@ -51,6 +55,11 @@ impl Tolerance {
 pub struct Portable;
 
 impl Kernel for Portable {
+    #[inline(never)]
+    fn apart<T: Task>(self, task: &mut T) -> T::Out {
+        task.run(self)
+    }
+
     #[inline]
     fn boxes(self, node: &Node, ray: &TreeRay, limit: f32) -> ([f32; WIDTH], u32) {
         let mut enter = [0.0f32; WIDTH];

@@ -7,9 +7,9 @@
 use super::Accel;
 use super::slabs::SlabRay;
 use crate::ray::{Hit, Piece, Ray};
-use crate::shape::triangle::{self, ShearedRay};
+use crate::shape::triangle::{self, Corners, ShearedRay};
 use crate::shape::{Shape, Start};
-use glam::DVec3;
+use glam::{DVec3, DVec4};
 
 /// A triangle, or a shape that is one piece.
 #[derive(Debug, Clone, Copy)]
@@ -91,7 +91,7 @@ impl<'a> Probe<'a> {
             return self.meet_shape(accel, leaf.object, t_max);
         }
         let piece = Piece { object: leaf.object, triangle: leaf.triangle };
-        self.meet_triangle(accel, piece, &triangle::in_f64(&leaf.corners), t_max)
+        self.meet_triangle(accel, piece, &triangle::by_axis(&leaf.corners), t_max)
     }
 
     /// Returns the hit of the ray with a triangle, as [`Probe::meet`] does.
@@ -100,7 +100,7 @@ impl<'a> Probe<'a> {
         &self,
         accel: &Accel<'_>,
         piece: Piece,
-        corners: &[DVec3; 3],
+        corners: &Corners,
         t_max: f64,
     ) -> Option<Hit> {
         if self.ray.leaving == Some(piece) {
@@ -108,21 +108,21 @@ impl<'a> Probe<'a> {
         }
         // The box of a triangle whose corners all lie beyond this distance is entered beyond `t_max`.
         let limit = t_max + self.slack;
-        let (t, barycentric) = self.sheared.intersect(corners, limit)?;
-        self.settle(accel, Hit { t, piece, barycentric }, corners, t_max)
-    }
-
-    /// Completes the hit of a triangle with its box and its start tests.
-    #[inline(always)]
-    fn settle(&self, accel: &Accel<'_>, hit: Hit, corners: &[DVec3; 3], t_max: f64) -> Option<Hit> {
-        let [enter, leave] = self.slabs.crosses(triangle::bounds_in_f64(corners))?;
-        let t = hit.t.clamp(enter, leave);
-        if !(t > 0.0 && t <= t_max)
-            || self.sheared.starts_on(corners, self.skin(accel, hit.piece.object))
-        {
+        let ((t, barycentric), area) = self.sheared.intersect(corners, limit)?;
+        let [x, y, z] = corners;
+        let low = DVec4::new(x.min_element(), y.min_element(), z.min_element(), 0.0);
+        let high = DVec4::new(x.max_element(), y.max_element(), z.max_element(), f64::INFINITY);
+        let [enter, leave] = self.slabs.crosses_padded([low, high])?;
+        let clamped = t.clamp(enter, leave);
+        if !(clamped > 0.0 && clamped <= t_max) {
             return None;
         }
-        Some(Hit { t, ..hit })
+        let skin = self.skin(accel, piece.object);
+        let size = (high - low).truncate().extend(0.0);
+        if !self.sheared.starts_off(t, area, size, skin) && self.sheared.starts_on(corners, skin) {
+            return None;
+        }
+        Some(Hit { t: clamped, piece, barycentric })
     }
 
     /// Returns the hit of the ray with a shape that is one piece, as [`Probe::meet`] does.

@@ -7,10 +7,11 @@ use super::frame::{Frame, TreeRay};
 use super::kernel::Kernel;
 use super::leaf::Probe;
 use super::node::Child;
+use super::simd::Task;
 use super::tree::{Leaves, Tree};
 use crate::ray::{Hit, Piece, Ray};
-use crate::shape::{Mesh, triangle};
-use glam::DVec3;
+use crate::shape::Mesh;
+use crate::shape::triangle::{self, Corners};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -59,8 +60,8 @@ impl MeshTree {
         let blocks: Vec<Block> = leaves.par_iter().map(block).collect();
         let is_exact = |block: &Block| {
             (0..LANES).filter(|&lane| block.numbers[lane] != ABSENT).all(|lane| {
-                let scene = block.corners(lane).map(|corner| frame.scene(corner));
-                scene == triangle::in_f64(&mesh.corners(block.numbers[lane]))
+                let scene = frame.scene(block.corners(lane));
+                scene == triangle::by_axis(&mesh.corners(block.numbers[lane]))
             })
         };
         let exact = blocks.par_iter().all(is_exact);
@@ -95,33 +96,42 @@ impl MeshTree {
     }
 
     /// Returns the corners of a triangle in scene space.
-    #[inline]
-    fn corners(&self, accel: &Accel<'_>, object: u32, block: &Block, lane: usize) -> [DVec3; 3] {
+    #[inline(always)]
+    fn corners(&self, accel: &Accel<'_>, object: u32, block: &Block, lane: usize) -> Corners {
         if self.exact {
-            let [a, b, c] = block.corners(lane);
-            let frame = &self.tree.frame;
-            [frame.scene(a), frame.scene(b), frame.scene(c)]
+            self.tree.frame.scene(block.corners(lane))
         } else {
             let piece = Piece { object, triangle: block.numbers[lane] };
-            triangle::in_f64(&accel.mesh_corners(piece))
+            triangle::by_axis(&accel.mesh_corners(piece))
         }
     }
 }
 
-/// Returns the hit of the ray with a triangle. Few triangles of a tree come here, so that the ray is
-/// prepared anew for each.
-#[inline(never)]
-fn meet_alone(
-    accel: &Accel<'_>,
-    ray: &Ray,
-    piece: Piece,
-    corners: &[DVec3; 3],
+/// The test of a ray against one triangle of a block. Few triangles of a tree come here, so that the
+/// ray is prepared anew for each.
+struct Test<'a, 'b> {
+    mesh: &'a MeshTree,
+    accel: &'a Accel<'b>,
+    object: u32,
+    ray: &'a Ray,
+    block: &'a Block,
+    lane: usize,
     t_max: f64,
-) -> Option<Hit> {
-    if ray.leaving == Some(piece) {
-        return None;
+}
+
+impl Task for Test<'_, '_> {
+    type Out = Option<Hit>;
+
+    #[inline(always)]
+    fn run<K: Kernel>(&mut self, _: K) -> Option<Hit> {
+        let Self { mesh, accel, object, ray, block, lane, t_max } = *self;
+        let piece = Piece { object, triangle: block.numbers[lane & (LANES - 1)] };
+        if ray.leaving == Some(piece) {
+            return None;
+        }
+        let corners = mesh.corners(accel, object, block, lane);
+        Probe::new(accel, ray).meet_triangle(accel, piece, &corners, t_max)
     }
-    Probe::new(accel, ray).meet_triangle(accel, piece, corners, t_max)
 }
 
 /// The leaves of a mesh's tree, visited by a ray.
@@ -149,10 +159,9 @@ impl<F: FnMut(Hit) -> f64> Leaves for Blocks<'_, '_, F> {
         while mask != 0 {
             let lane = mask.trailing_zeros() as usize;
             mask &= mask - 1;
-            let triangle = block.numbers[lane];
-            let piece = Piece { object: *object, triangle };
-            let corners = mesh.corners(accel, *object, block, lane);
-            if let Some(hit) = meet_alone(accel, ray, piece, &corners, t_max) {
+            let (object, ray) = (*object, *ray);
+            let mut test = Test { mesh, accel, object, ray, block, lane, t_max };
+            if let Some(hit) = kernel.apart(&mut test) {
                 t_max = see(hit);
             }
         }

@@ -124,6 +124,17 @@ mod avx2 {
 
     impl Kernel for Avx2 {
         #[inline(always)]
+        fn apart<T: Task>(self, task: &mut T) -> T::Out {
+            #[target_feature(enable = "avx2,fma")]
+            #[inline(never)]
+            fn inner<T: Task>(kernel: Avx2, task: &mut T) -> T::Out {
+                task.run(kernel)
+            }
+            // SAFETY: a value of this type exists only if the processor has AVX2 and FMA.
+            unsafe { inner(self, task) }
+        }
+
+        #[inline(always)]
         fn boxes(self, node: &Node, ray: &TreeRay, limit: f32) -> ([f32; WIDTH], u32) {
             let ([x, y, z], [nx, ny, nz]) = (&node.sides, ray.near);
             let (nx, ny, nz) = (nx & 1, ny & 1, nz & 1);

@@ -7,7 +7,7 @@
 //! slips between the triangles. This holds only if products are rounded one by one (no fused
 //! multiply-add). An edge function of exactly zero counts as inside on both sides.
 
-use glam::DVec3;
+use glam::{DVec3, DVec4, Vec4Swizzles};
 
 /// A ray prepared for tests against many triangles.
 #[derive(Debug, Clone, Copy)]
@@ -68,43 +68,24 @@ impl ShearedRay {
         Self { origin, order, shear: [x / z, y / z, 1.0 / z] }
     }
 
-    /// Returns the hit with a distance above 0, from either side. The test misses triangles of zero
-    /// area as seen along the ray, and triangles whose corners all lie farther along the ray than
-    /// `limit`.
+    /// Returns the hit with a distance above 0, from either side, and the sum of the edge functions.
+    /// The test misses triangles of zero area as seen along the ray, and triangles whose corners all
+    /// lie farther along the ray than `limit`.
     #[must_use]
     #[inline(always)]
-    pub fn intersect(&self, corners: &[DVec3; 3], limit: f64) -> Option<TriangleHit> {
-        // Constant axes save a third of the time.
-        match self.order {
-            Order::Xyz => self.intersect_in::<0, 1, 2>(corners, limit),
-            Order::Yxz => self.intersect_in::<1, 0, 2>(corners, limit),
-            Order::Yzx => self.intersect_in::<1, 2, 0>(corners, limit),
-            Order::Zyx => self.intersect_in::<2, 1, 0>(corners, limit),
-            Order::Zxy => self.intersect_in::<2, 0, 1>(corners, limit),
-            Order::Xzy => self.intersect_in::<0, 2, 1>(corners, limit),
-        }
-    }
-
-    #[inline(always)]
-    fn intersect_in<const X: usize, const Y: usize, const Z: usize>(
-        &self,
-        corners: &[DVec3; 3],
-        limit: f64,
-    ) -> Option<TriangleHit> {
-        let from = |corner: usize, axis: usize| corners[corner][axis] - self.origin[axis];
+    pub fn intersect(&self, corners: &Corners, limit: f64) -> Option<(TriangleHit, f64)> {
+        let [x, y, z] = self.order.axes();
+        let from = |axis: usize| corners[axis] - DVec4::splat(self.origin[axis]);
         // Distances of the corners along the axis of depth, before shearing.
-        let depths = [from(0, Z), from(1, Z), from(2, Z)];
-        let depth = |corner: usize| self.shear[2] * depths[corner];
-        let (az, bz, cz) = (depth(0), depth(1), depth(2));
-        if (az > limit) & (bz > limit) & (cz > limit) {
+        let depths = from(z);
+        let along = self.shear[2] * depths;
+        if (along.x > limit) & (along.y > limit) & (along.z > limit) {
             return None;
         }
-        let x = |corner: usize| from(corner, X) - self.shear[0] * depths[corner];
-        let y = |corner: usize| from(corner, Y) - self.shear[1] * depths[corner];
-        let (ax, bx, cx) = (x(0), x(1), x(2));
-        let (ay, by, cy) = (y(0), y(1), y(2));
-        let edges = [cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax];
-        let [a, b, c] = edges;
+        let x = from(x) - self.shear[0] * depths;
+        let y = from(y) - self.shear[1] * depths;
+        let edges = x.zxyx() * y.yzxy() - y.zxyx() * x.yzxy();
+        let (a, b, c) = (edges.x, edges.y, edges.z);
         if ((a < 0.0) | (b < 0.0) | (c < 0.0)) & ((a > 0.0) | (b > 0.0) | (c > 0.0)) {
             return None;
         }
@@ -112,19 +93,50 @@ impl ShearedRay {
         if area == 0.0 {
             return None;
         }
-        let weights = [a / area, b / area, c / area];
-        let t = weights[0] * az + weights[1] * bz + weights[2] * cz;
-        (t > 0.0).then_some((t, [weights[1], weights[2]]))
+        let weights = edges / area;
+        let parts = weights * along;
+        let t = parts.x + parts.y + parts.z;
+        (t > 0.0).then_some(((t, [weights.y, weights.z]), area))
     }
 
     /// Returns whether the ray starts within `skin` of the triangle's plane, in scene units.
     #[must_use]
-    #[inline(always)]
-    pub fn starts_on(&self, corners: &[DVec3; 3], skin: f64) -> bool {
-        let [a, b, c] = corners.map(|corner| corner - self.origin);
+    pub fn starts_on(&self, [x, y, z]: &Corners, skin: f64) -> bool {
+        let a = DVec3::new(x.x, y.x, z.x) - self.origin;
+        let b = DVec3::new(x.y, y.y, z.y) - self.origin;
+        let c = DVec3::new(x.z, y.z, z.z) - self.origin;
         let across = (b - a).cross(c - a);
         a.dot(across).abs() <= skin * across.length()
     }
+
+    /// Returns whether [`ShearedRay::starts_on`] is certainly false for a triangle that the ray meets
+    /// at the distance `t`. `area` is the sum of the edge functions, and `size` the diagonal of the
+    /// triangle's box.
+    ///
+    /// The start has a distance from the plane of `t` times the cosine between ray and normal. The sum
+    /// of the edge functions is that cosine times twice the triangle's area, over the direction's
+    /// largest component; and twice the area is below the square of the diagonal.
+    #[must_use]
+    #[inline(always)]
+    pub fn starts_off(&self, t: f64, area: f64, size: DVec4, skin: f64) -> bool {
+        // The factor of 32 exceeds all roundings, since a skin is above four roundings of the largest
+        // coordinate.
+        t * area.abs() > 32.0 * skin * size.length_squared() * self.shear[2].abs()
+    }
+}
+
+/// Corners of a triangle, along each axis: first, second, third, and the first again.
+pub type Corners = [DVec4; 3];
+
+/// Returns corners that are given one by one.
+#[must_use]
+#[inline]
+pub fn by_axis([a, b, c]: &[[f32; 3]; 3]) -> Corners {
+    let along = |axis: usize| {
+        let (a, b, c) = (f64::from(a[axis]), f64::from(b[axis]), f64::from(c[axis]));
+        DVec4::new(a, b, c, a)
+    };
+    [along(0), along(1), along(2)]
 }
 
 /// Returns whether two of a triangle's corners are equal.
@@ -140,20 +152,7 @@ pub fn is_segment([a, b, c]: &[[f32; 3]; 3]) -> bool {
 /// Lower and upper corner of a triangle's bounding box.
 #[must_use]
 pub fn bounds(corners: &[[f32; 3]; 3]) -> [DVec3; 2] {
-    bounds_in_f64(&in_f64(corners))
-}
-
-/// Returns the same corners in `f64`.
-#[must_use]
-#[inline]
-pub fn in_f64(corners: &[[f32; 3]; 3]) -> [DVec3; 3] {
-    corners.map(|corner| DVec3::from(corner.map(f64::from)))
-}
-
-/// Lower and upper corner of a triangle's bounding box.
-#[must_use]
-#[inline]
-pub fn bounds_in_f64(&[a, b, c]: &[DVec3; 3]) -> [DVec3; 2] {
+    let [a, b, c] = corners.map(|corner| DVec3::from(corner.map(f64::from)));
     [a.min(b).min(c), a.max(b).max(c)]
 }
 
@@ -167,9 +166,9 @@ mod tests {
         let corners = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]];
         for (z, direction) in [(2.0, DVec3::NEG_Z), (-2.0, DVec3::Z)] {
             let ray = ShearedRay::new(DVec3::new(1.0, 2.0, z), direction);
-            let (t, weights) = ray.intersect(&in_f64(&corners), f64::INFINITY).unwrap();
+            let ((t, weights), _) = ray.intersect(&by_axis(&corners), f64::INFINITY).unwrap();
             assert_eq!((t, weights), (2.0, [0.25, 0.5]));
-            assert!(ray.intersect(&in_f64(&corners), 1.9).is_none());
+            assert!(ray.intersect(&by_axis(&corners), 1.9).is_none());
         }
     }
 
@@ -189,7 +188,7 @@ mod tests {
             let aimed = DVec3::from(b.map(f64::from)) - eye;
             let direction = if at_corner { aimed } else { DVec3::from(toward) };
             let ray = ShearedRay::new(eye, direction.normalize_or(DVec3::X));
-            prop_assert_eq!(ray.intersect(&in_f64(&corners), f64::INFINITY), None);
+            prop_assert_eq!(ray.intersect(&by_axis(&corners), f64::INFINITY), None);
         }
 
         /// A ray aimed at a corner or an edge of a closed fan never slips through.
@@ -212,7 +211,7 @@ mod tests {
             let ray = ShearedRay::new(eye, direction);
             let hits = (0..5)
                 .filter(|&k| {
-                    ray.intersect(&in_f64(&[hub, rim(k), rim(k + 1)]), f64::INFINITY).is_some()
+                    ray.intersect(&by_axis(&[hub, rim(k), rim(k + 1)]), f64::INFINITY).is_some()
                 })
                 .count();
             prop_assert!(hits >= 1);
