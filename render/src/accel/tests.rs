@@ -7,7 +7,9 @@ use super::node::Child;
 use super::tree::{Leaves, Tree};
 use super::*;
 use crate::accel::slabs::SlabRay;
+use crate::shape::Mesh;
 use crate::shape::Sphere;
+use crate::shape::mesh::{NONE, Triangle};
 use proptest::prelude::*;
 use std::ops::Range;
 
@@ -127,6 +129,82 @@ proptest! {
             for given in [&by_tree, &by_grids] {
                 prop_assert!(given[k] <= 1, "box {} was given {} times", k, given[k]);
                 prop_assert!(given[k] == 1 || !crossed(piece), "box {} was missed", k);
+            }
+        }
+    }
+}
+
+/// A soup of triangles: small ones, needles, flat ones, and those that share corners.
+fn soup() -> impl Strategy<Value = Vec<[[f32; 3]; 3]>> {
+    let corner = prop::array::uniform3(prop_oneof![
+        (-8i8..=8).prop_map(|k| f32::from(k) * 0.125),
+        -1.0..1.0f32,
+        Just(1e-30f32),
+    ]);
+    let near =
+        (corner.clone(), prop::array::uniform3(-0.1..0.1f32), 0usize..3).prop_map(|(a, d, k)| {
+            let mut c = a;
+            c[k] += 0.125;
+            [a, [a[0] + d[0], a[1] + d[1], a[2] + d[2]], c]
+        });
+    prop::collection::vec(prop_oneof![prop::array::uniform3(corner), near], 1..60)
+}
+
+fn mesh(triangles: &[[[f32; 3]; 3]], size: f32, shift: [f32; 3]) -> Mesh {
+    let moved = |p: &[f32; 3]| [0, 1, 2].map(|axis| size * p[axis] + shift[axis]);
+    let triangle = |k: u32| Triangle {
+        position: [3 * k, 3 * k + 1, 3 * k + 2],
+        uv: [NONE; 3],
+        normal: [NONE; 3],
+        surface: 0,
+    };
+    Mesh {
+        positions: triangles.iter().flatten().map(moved).collect(),
+        triangles: (0..triangles.len() as u32).map(triangle).collect(),
+        surfaces: vec![String::new()],
+        ..Mesh::default()
+    }
+}
+
+proptest! {
+    /// The vector instructions, the portable ones and brute force find the same hits, to the last
+    /// bit, for meshes of any size, near and far from the origin.
+    #[test]
+    fn every_kernel_finds_the_hits_of_brute_force(
+        triangles in soup(),
+        size in prop::sample::select(vec![1.0f32, 1e-20, 1e-38, 1e20, 3.0]),
+        shift in prop::sample::select(vec![[0.0f32; 3], [300.0, -200.0, 0.0], [0.0, 0.0, 1e6]]),
+        rays in prop::collection::vec((place(), 0usize..60, 0usize..3, any::<bool>(), -1.0..1.0f64), 1..20),
+    ) {
+        let shift = shift.map(|x| if size == 3.0 || size == 1.0 { x } else { 0.0 });
+        let mesh = mesh(&triangles, size, shift);
+        let corners: Vec<[[f32; 3]; 3]> =
+            (0..triangles.len() as u32).map(|k| mesh.corners(k)).collect();
+        let shape = Shape::Mesh(mesh);
+        let mut tree = Accel::build(vec![&shape], Structure::Bvh);
+        let brute = Accel::build(vec![&shape], Structure::None);
+        for (eye, triangle, corner, leaving, part) in rays {
+            let [a, b, c] = corners[triangle % corners.len()].map(|p| DVec3::from(p.map(f64::from)));
+            let target = [a, a + part.abs() * (b - a), (a + b + c) / 3.0][corner];
+            let far = f64::from(size) * eye + DVec3::from(shift.map(f64::from));
+            let start = if leaving { (a + b + c) / 3.0 } else { far };
+            let toward = if leaving { far - start } else { target - start };
+            let direction = toward.normalize_or(DVec3::X);
+            let piece = Piece { object: 0, triangle: (triangle % corners.len()) as u32 };
+            let ray = if leaving { Ray::leaving(piece, start, direction) } else { Ray::from_eye(start, direction) };
+            let bits = |hit: Hit| (hit.t.to_bits(), hit.piece, hit.barycentric.map(f64::to_bits));
+            let expected = brute.closest(&ray, f64::INFINITY).map(bits);
+            let all = |accel: &Accel<'_>, t_max: f64| {
+                let mut hits = Vec::new();
+                accel.any(&ray, t_max, |hit| { hits.push(bits(hit)); false });
+                hits.sort_unstable();
+                hits
+            };
+            let middle = 0.75 * toward.length();
+            for instructions in [Instructions::Portable, Instructions::detect()] {
+                tree.instructions = instructions;
+                prop_assert_eq!(tree.closest(&ray, f64::INFINITY).map(bits), expected);
+                prop_assert_eq!(all(&tree, middle), all(&brute, middle));
             }
         }
     }

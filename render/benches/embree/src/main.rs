@@ -12,12 +12,13 @@
 //! Our rays are in `f64` and their hits are complete in `f64`. Embree's are in `f32`.
 
 mod embree;
+#[path = "../../../tests/leaks/mod.rs"]
 mod leaks;
 mod sets;
-mod surfaces;
 
 use cpu_time::ThreadTime;
 use embree::{Embree, EmbreeScene};
+use leaks::surfaces;
 use render::accel::{Accel, Structure};
 use render::ray::Ray;
 use render::shape::Shape;

@@ -1,6 +1,7 @@
 //! The rays, for both libraries from the same numbers in `f32`.
 
 use crate::embree::RtcRay;
+use crate::leaks::hash;
 use glam::DVec3;
 use render::accel::Accel;
 use render::ray::Ray;
@@ -38,14 +39,6 @@ fn camera(x: f64, y: f64) -> DVec3 {
     let right = forward.cross(DVec3::Z).normalize();
     let up = right.cross(forward);
     (forward + 0.3 * (x * right + y * up)).normalize()
-}
-
-/// A number in [0, 1) that depends on `k` only.
-pub fn hash(k: u64) -> f64 {
-    let mut x = k.wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    ((x ^ (x >> 31)) >> 11) as f64 / (1u64 << 53) as f64
 }
 
 /// Returns camera rays through a picture of `side` x `side` pixels in row order, and from their hits
