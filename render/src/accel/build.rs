@@ -14,18 +14,9 @@
 //! is at most `3 log2 n` + 8 levels deep, each level looks at each box a fixed number of times, and
 //! building takes O(n log n) whatever the boxes are.
 
+use super::bins::{Bins, MOST_BINS};
 use super::collapse::{Binary, Costs};
 use glam::Vec4;
-
-/// Bins along each axis for parts of more than [`FEW`] boxes. More bins take longer and hardly find
-/// better cuts.
-const MOST_BINS: usize = 32;
-
-/// Bins along each axis for smaller parts. If larger, most of the time is spent on empty bins.
-const FEW_BINS: usize = 16;
-
-/// Parts of more boxes get [`MOST_BINS`].
-const FEW: usize = 1024;
 
 /// Parts of at most this many boxes are sorted instead of binned. If larger, building takes longer.
 /// If smaller, the lower levels, which hold most of the nodes, are cut less well.
@@ -101,20 +92,14 @@ impl Bounds {
         side.x * side.y + side.y * side.z + side.z * side.x
     }
 
-    fn of(part: &[Numbered]) -> Self {
-        let mut all = Self::NONE;
+    /// Returns the box around boxes and the box around their middles.
+    fn of(part: &[Numbered]) -> [Self; 2] {
+        let [mut all, mut middles] = [Self::NONE; 2];
         for one in part {
             all.add(one.low, one.high);
+            middles.add(one.middle(), one.middle());
         }
-        all
-    }
-
-    fn of_middles(part: &[Numbered]) -> Self {
-        let mut all = Self::NONE;
-        for one in part {
-            all.add(one.middle(), one.middle());
-        }
-        all
+        [all, middles]
     }
 }
 
@@ -154,7 +139,7 @@ pub struct Grove {
 pub fn grow(boxes: &mut [Numbered], in_leaf: usize) -> Grove {
     let levels = usize::BITS - boxes.len().leading_zeros();
     let builder = Builder { in_leaf, deepest: 2 * levels as usize + 8 };
-    let (bounds, middles) = (Bounds::of(boxes), Bounds::of_middles(boxes));
+    let [bounds, middles] = Bounds::of(boxes);
     let mut looks = boxes.len() as u64;
     let part = Part { boxes, first: 0, bounds, middles, depth: 0 };
     let grown = builder.grow(part, &mut looks);
@@ -269,10 +254,14 @@ impl Builder {
         let at = if cut.cost.is_infinite() {
             0
         } else if binned {
-            let bins = Bins::new(&middles, count);
-            partition(boxes, |one| bins.of(one.middle())[cut.axis] < cut.at)
+            let bins = Bins::new([middles.low, middles.high], count);
+            partition(boxes, |one| bins.of_axis(one.middle(), cut.axis) < cut.at)
         } else {
-            sort(boxes, cut.axis);
+            let order = sorted(boxes, cut.axis);
+            let unsorted = copied(boxes);
+            for (one, from) in boxes.iter_mut().zip(order) {
+                *one = unsorted[usize::from(from)];
+            }
             cut.at
         };
         let at = if (1..count).contains(&at) {
@@ -283,7 +272,7 @@ impl Builder {
         };
         let (a, b) = boxes.split_at_mut(at);
         let part = |boxes: &'a mut [Numbered], first| {
-            let (bounds, middles) = (Bounds::of(boxes), Bounds::of_middles(boxes));
+            let [bounds, middles] = Bounds::of(boxes);
             Part { boxes, first, bounds, middles, depth: depth + 1 }
         };
         [part(a, first), part(b, first + at)]
@@ -296,7 +285,7 @@ impl Builder {
 
     /// Returns the best cut between bins.
     fn best_binned(self, part: &Part<'_>) -> Cut {
-        let bins = Bins::new(&part.middles, part.boxes.len());
+        let bins = Bins::new([part.middles.low, part.middles.high], part.boxes.len());
         let mut filled = [[(Bounds::NONE, 0usize); MOST_BINS]; 3];
         for one in part.boxes.iter() {
             let at = bins.of(one.middle());
@@ -332,19 +321,20 @@ impl Builder {
     }
 
     /// Returns the best of all cuts of a small part.
-    fn best_sorted(self, part: &mut [Numbered]) -> Cut {
+    fn best_sorted(self, part: &[Numbered]) -> Cut {
         let mut best = Cut::NONE;
         let mut areas = [0.0; SORTED];
         for axis in 0..3 {
-            sort(part, axis);
+            let order = sorted(part, axis);
+            let boxed = |at: usize| &part[usize::from(order[at])];
             let mut all = Bounds::NONE;
             for at in (1..part.len()).rev() {
-                all.add(part[at].low, part[at].high);
+                all.add(boxed(at).low, boxed(at).high);
                 areas[at] = all.half_area();
             }
             let mut all = Bounds::NONE;
             for at in 1..part.len() {
-                all.add(part[at - 1].low, part[at - 1].high);
+                all.add(boxed(at - 1).low, boxed(at - 1).high);
                 let others = self.leaves(part.len() - at) * areas[at];
                 let cost = self.leaves(at) * all.half_area() + others;
                 if cost < best.cost {
@@ -356,18 +346,28 @@ impl Builder {
     }
 }
 
-/// Sorts a small part along an axis, by insertion.
-fn sort(part: &mut [Numbered], axis: usize) {
-    let key = |one: &Numbered| (one.middle()[axis], one.number());
-    for k in 1..part.len() {
-        let (one, own) = (part[k], key(&part[k]));
+/// Returns the order of a small part along an axis, by insertion. Equal middles are in the order of the
+/// numbers.
+fn sorted(part: &[Numbered], axis: usize) -> [u8; SORTED] {
+    let mut order = [0; SORTED];
+    let mut keys = [(0.0, 0); SORTED];
+    for (k, one) in part.iter().enumerate().take(SORTED) {
+        let key = (one.middle()[axis], one.number());
         let mut at = k;
-        while at > 0 && own < key(&part[at - 1]) {
-            part[at] = part[at - 1];
+        while at > 0 && key < keys[at - 1] {
+            (keys[at], order[at]) = (keys[at - 1], order[at - 1]);
             at -= 1;
         }
-        part[at] = one;
+        (keys[at], order[at]) = (key, k as u8);
     }
+    order
+}
+
+/// Returns a copy of a small part.
+fn copied(part: &[Numbered]) -> [Numbered; SORTED] {
+    let mut copy = [Numbered { low: Vec4::ZERO, high: Vec4::ZERO }; SORTED];
+    copy[..part.len()].copy_from_slice(part);
+    copy
 }
 
 /// Moves the lower half of a part to its front, along the axis on which its middles spread the most.
@@ -380,36 +380,6 @@ fn halve(part: &mut [Numbered], middles: &Bounds) -> usize {
         key(a).total_cmp(&key(b)).then(a.number().cmp(&b.number()))
     });
     half
-}
-
-/// Equal bins along each axis.
-#[derive(Debug, Clone, Copy)]
-struct Bins {
-    count: usize,
-    low: Vec4,
-    /// Bins per unit of length, along each axis; 0 where all middles coincide.
-    scale: Vec4,
-}
-
-impl Bins {
-    /// The bins for a part of `boxes` boxes.
-    fn new(middles: &Bounds, boxes: usize) -> Self {
-        let count = if boxes > FEW { MOST_BINS } else { FEW_BINS };
-        let scale = (middles.high - middles.low).to_array().map(|size| {
-            let scale = (count as f32 - 1.0) * (1.0 - 4.0 * f32::EPSILON) / size;
-            if size > 0.0 && scale.is_finite() { scale } else { 0.0 }
-        });
-        Self { count, low: middles.low, scale: Vec4::from_array(scale) }
-    }
-
-    /// Returns the bin along each axis. Bins round to the nearest number: in the sum with 2^23 the
-    /// last bits are those of the rounded number.
-    #[inline]
-    fn of(&self, middle: Vec4) -> [usize; 3] {
-        let place = (middle - self.low) * self.scale + 8_388_608.0;
-        let [x, y, z, _] = place.to_array();
-        [x, y, z].map(|x| x.to_bits() as usize & (MOST_BINS - 1))
-    }
 }
 
 /// Moves the boxes for which `is_first` holds to the front and returns their number.

@@ -19,6 +19,7 @@
 //! length, so a scene may have any size. The same rule lets an eye on a surface see past that
 //! surface.
 
+mod bins;
 mod block;
 mod brute;
 mod build;
