@@ -196,3 +196,47 @@ impl TreeRay {
         distance + distance.abs() * (2.0 * f32::EPSILON)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn the_unit_is_the_next_power_of_two() {
+        let units = [0.0, 1.0, 1.5, 0.3, 1e-320, 1.5e308].map(power_of_two);
+        assert_eq!(units, [1.0, 1.0, 2.0, 0.5, f64::MIN_POSITIVE, 2f64.powi(1023)]);
+    }
+
+    proptest! {
+        /// Corners come back from the frame to the last bit, the sign of zeros included, wherever the
+        /// mesh lies. Their coordinates in the frame are at most 1.
+        #[test]
+        fn corners_are_exact_in_the_frame(
+            corners in prop::collection::vec(prop::array::uniform3(prop_oneof![
+                -1.0..1.0f32, Just(0.0f32), Just(-0.0f32), (-8i8..8).prop_map(f32::from),
+            ]), 1..20),
+            size in prop::sample::select(vec![1.0f32, 1e-30, 1e30, 0.001]),
+            shift in prop::sample::select(vec![[0.0f32; 3], [300.0, -200.0, 1e7], [1.0, -1.5, 0.5]]),
+        ) {
+            let moved = |p: [f32; 3]| [0, 1, 2].map(|axis| {
+                if shift[axis] == 0.0 { size * p[axis] } else { size * p[axis] + shift[axis] }
+            });
+            let corners: Vec<[f32; 3]> = corners.into_iter().map(moved).collect();
+            let places = corners.iter().map(|p| DVec3::from(p.map(f64::from)));
+            let bounds = places.fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |all, p| {
+                [all[0].min(p), all[1].max(p)]
+            });
+            let frame = Frame::exact(bounds);
+            for corner in corners {
+                let own = frame.corner(corner);
+                prop_assert!(own.iter().all(|x| x.abs() <= 1.0), "{:?}", own);
+                let small = |x: f32| x != 0.0 && x.abs() < f32::MIN_POSITIVE;
+                prop_assume!(!own.into_iter().any(small));
+                let back = frame.scene(own.map(Vec4::splat));
+                let back = back.map(|axis| (axis.x as f32).to_bits());
+                prop_assert_eq!(back, corner.map(f32::to_bits));
+            }
+        }
+    }
+}

@@ -1,10 +1,14 @@
 //! Finds the hits of rays with surfaces.
 //!
-//! A few shapes stand apart, and every ray tries each of them. These are planes, which have no box,
-//! and shapes so large beside the rest (a floor under a vase) that they would spoil any structure.
-//! All others are leaves of a [`Structure`]: one tree of boxes, the thesis's grids, or none. One
-//! function, `Probe::meet`, decides about hits for all of them, and one rule, [`Hit::before`],
-//! selects the visible hit.
+//! [`Accel::build`] prepares the shapes of a scene. [`Accel::closest`] returns the visible hit of a ray,
+//! and [`Accel::any`] whether a test accepts a hit before a distance. [`Accel::closest_of`] and
+//! [`Accel::any_of`] do the same for several rays. No ray allocates memory or takes a lock.
+//!
+//! A few shapes stand apart, and every ray tries each of them: planes, which have no box, and with
+//! grids also shapes so large beside the rest (a floor under a vase) that they would spoil a grid. All
+//! others are leaves of a [`Structure`]: trees of boxes, the thesis's grids, or none. One function,
+//! `Probe::meet`, decides about hits for all of them, and one rule, [`Hit::before`], selects the
+//! visible hit.
 //!
 //! All structures find the same hits to the last bit. For this, a hit must lie where the ray
 //! crosses the box of its piece, widened by the roundings of the hit function (`Probe::meet`). A
@@ -50,7 +54,7 @@ use top::Trees;
 /// A shape is outsized when its box is longer than this fraction of the box around everything.
 ///
 /// If smaller, the parts of ordinary objects stand apart and cost a test on every ray. If larger, a
-/// floor twice as wide as its scene is in the tree, where it does little harm.
+/// floor twice as wide as its scene is in a grid, where it does little harm.
 const OUTSIZED: f64 = 0.5;
 
 /// Outsized shapes stand apart only while fewer than this many shapes do, since every ray tries each
@@ -75,7 +79,7 @@ const EYE_ROUNDINGS: f64 = 4.0;
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, ValueEnum)]
 #[serde(rename_all = "lowercase")]
 pub enum Structure {
-    /// One tree of boxes, a bounding volume hierarchy.
+    /// Trees of boxes, bounding volume hierarchies: one over the objects, and one for each mesh.
     #[default]
     #[value(help = "A tree of boxes, the fastest")]
     Bvh,
@@ -212,6 +216,16 @@ impl<'a> Accel<'a> {
             Index::All(_) => 0,
         };
         index + size_of_val(&*self.leaves)
+    }
+
+    /// Returns the number of voxels of all grids, the number of those that list a piece, and the number
+    /// of entries of all lists; `None` for other structures.
+    #[must_use]
+    pub fn cells(&self) -> Option<[u64; 3]> {
+        match &self.index {
+            Index::Grids(grids) => Some(grids.cells()),
+            Index::Trees(_) | Index::All(_) => None,
+        }
     }
 
     /// Number of boxes examined to build the structure; a box counts each time it is examined.

@@ -209,3 +209,24 @@ proptest! {
         }
     }
 }
+
+/// A tree of more boxes than one thread divides alone does not depend on the number of threads.
+#[test]
+fn the_tree_is_the_same_for_any_number_of_threads() {
+    let corner = |k: usize, step: f64| {
+        let part = |golden: f64| ((k as f64 + step) * golden).fract() as f32;
+        [part(0.618_034), part(0.754_877), part(0.569_84)]
+    };
+    let triangles: Vec<_> =
+        (0..40_000).map(|k| [corner(k, 0.0), corner(k, 0.01), corner(k, 0.02)]).collect();
+    let shape = Shape::Mesh(mesh(&triangles, 1.0, [0.0; 3]));
+    let built = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let accel = Accel::build(vec![&shape], Structure::Bvh);
+            format!("{:?}", accel.index)
+        })
+    };
+    let one = built(1);
+    assert!([2, 3].into_iter().all(|threads| built(threads) == one));
+}
