@@ -237,6 +237,7 @@ mod tests {
             max_depth: 8,
             min_weight: 0.0,
             names: Names::default(),
+            remarks: Vec::new(),
         }
     }
 
