@@ -1,4 +1,4 @@
-//! Whether a JPEG file is whole.
+//! Tells a whole JPEG file from one that is cut off.
 
 /// Marks the start of a segment.
 const MARK: u8 = 0xff;

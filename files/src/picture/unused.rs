@@ -1,4 +1,4 @@
-//! What a picture file holds beside its pixels that our programs do not apply.
+//! The contents of a picture file beside its pixels that our programs do not apply.
 
 use image::metadata::Orientation;
 use image::{ImageDecoder, ImageReader};
@@ -33,7 +33,7 @@ pub fn unused(bytes: &[u8]) -> Vec<&'static str> {
     sentences
 }
 
-/// Returns whether a profile names sRGB, in one of the two ways of writing text there.
+/// Returns whether a profile names sRGB, as text of one or of two bytes for each letter.
 fn names_srgb(profile: &[u8]) -> bool {
     let holds = |name: &[u8]| profile.windows(name.len()).any(|part| part == name);
     holds(b"sRGB") || holds(b"s\0R\0G\0B")

@@ -59,8 +59,8 @@ pub struct Scene {
     pub min_weight: f64,
     /// Names of the scene file, for messages and reports.
     pub names: Names,
-    /// What the readers of the scene's files did not use, or used in another way than it says: at most
-    /// a few for each file.
+    /// One remark for each of the scene's files of which something is not used, or is used with another
+    /// meaning than it states.
     pub remarks: Vec<Finding>,
 }
 

@@ -48,7 +48,7 @@ pub struct Library {
     pub entries: Vec<Entry>,
     /// Numbers of the entries by their names, with and without the comment behind a name.
     numbers: HashMap<String, usize>,
-    /// Sentences about what was read and is not used, or is used in another way than it says.
+    /// Sentences about statements that are not used, or are used with another meaning than they state.
     pub remarks: Vec<String>,
 }
 

@@ -107,7 +107,7 @@ pub struct ObjFile {
     pub groups: Vec<u32>,
     /// The texts behind `mtllib`: the path of a file, or of several.
     pub libraries: Vec<String>,
-    /// What was read and is not used, and how often it occurs.
+    /// Keywords and values that are not used, each with its count.
     pub unused: Vec<(String, usize)>,
 }
 

@@ -11,7 +11,7 @@ pub struct Map {
     pub path: String,
     /// Factors of the texture coordinates, from `-s`.
     pub scale: DVec2,
-    /// What is added to them afterwards, from `-o`.
+    /// Offset that is added to them afterwards, from `-o`.
     pub offset: DVec2,
     /// Continuation of the picture: `Repeat`, or `Clamp` by `-clamp on`.
     pub wrap: Wrap,

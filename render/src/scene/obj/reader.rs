@@ -36,7 +36,7 @@ pub(super) struct Reader<'a> {
     /// Texture coordinates with a number that is not finite.
     bad_uvs: HashSet<u32>,
     libraries: Vec<&'a str>,
-    /// What is read and not used: how often each occurs.
+    /// Keywords and values that are not used, each with its count.
     unused: BTreeMap<&'a str, usize>,
 }
 
