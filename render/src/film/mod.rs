@@ -7,6 +7,7 @@
 //! not depend on the tiles or on the threads. `exposure.rs` is the interface for other methods.
 
 mod area;
+mod bytes;
 pub mod crop;
 pub mod encode;
 mod exposure;
@@ -177,9 +178,9 @@ fn with_exposure<T>(
         lattice_bytes: scene.procedural.lattice_bytes(),
         ..Stats::default()
     };
-    let exposure =
-        Exposure { tracer: Tracer::new(scene, shader.accel, shader.volumes), shader, settings };
-    work(&exposure, stats)
+    let mut tracer = Tracer::new(scene, shader.accel, shader.volumes);
+    tracer.min_weight = tracer.min_weight.max(settings.sampling.least_weight());
+    work(&Exposure { tracer, shader, settings }, stats)
 }
 
 #[cfg(test)]
@@ -236,6 +237,7 @@ mod tests {
             max_depth: 8,
             min_weight: 0.0,
             names: Names::default(),
+            remarks: Vec::new(),
         }
     }
 
