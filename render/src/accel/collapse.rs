@@ -1,7 +1,7 @@
 //! Collapses a binary tree of boxes into one whose nodes have up to eight children.
 //!
-//! A ray tests the eight boxes of a node at once. Of all ways to merge binary nodes, the one with
-//! the least expected work is chosen, by dynamic programming: Ylitie, Karras, Laine, *Efficient
+//! A ray tests the eight boxes of a node at once. Dynamic programming finds the wide tree with the least
+//! expected work among all that merge nodes of the binary tree: Ylitie, Karras, Laine, *Efficient
 //! Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs*, High Performance Graphics 2017,
 //! section 3.1. The leaves stay as they are.
 

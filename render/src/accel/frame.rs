@@ -7,11 +7,19 @@
 //! **Nothing missed.** [`SlabRay::crosses`] and `Probe::settle` decide in `f64` about boxes and
 //! triangles. The tests in `f32` only reject, and accept all of those. Boxes are rounded outwards
 //! and widened by more than the roundings of the test. Let the ray start within `r` units, `r` at least
-//! 1. In units of `2^-24 r` the roundings are 1 for the start, 1 for its product with the inverse, 1
-//! for its move by the widening, 4 for the inverse (2 for each of start and side), 1 for the product of
-//! the side, and 2 for the difference. Their sum is 10. For the sheared coordinates of
-//! a triangle they are 1 for the start, 1 for the corner, 2 for their difference, the same 4 for the
-//! part that shearing adds, 6 for the shear, 2 for its product and 2 for the sum: 18. The bound is 24. Roundings in `f64` are added as parts of the ray's scale.
+//! 1. The roundings of a box in units of `2^-24 r` are:
+//!
+//! - 1 for the start, 1 for its product with the inverse, and 1 for its move by the widening;
+//! - 4 for the inverse (2 for each of start and side), 1 for the product of the side, and 2 for the
+//!   difference: 10 in all.
+//!
+//! Those of the sheared coordinates of a triangle are:
+//!
+//! - 1 for the start, 1 for the corner, 2 for their difference, and the same 4 for the part that
+//!   shearing adds;
+//! - 6 for the shear, 2 for its product and 2 for the sum: 18 in all.
+//!
+//! The bound is 24. Roundings in `f64` are added as parts of the ray's scale.
 
 use super::slabs::SlabRay;
 use crate::ray::Ray;

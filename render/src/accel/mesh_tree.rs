@@ -23,8 +23,8 @@ pub const MOST: u32 = Numbered::MOST;
 pub struct MeshTree {
     tree: Tree,
     blocks: Vec<Block>,
-    /// Whether the blocks hold the exact corners. They do, except for meshes with coordinates that
-    /// are smaller than the mesh by a factor beyond 2^100.
+    /// True if the blocks hold the exact corners. Only meshes with coordinates that are smaller than the
+    /// mesh by a factor beyond 2^100 have inexact blocks.
     exact: bool,
 }
 

@@ -3,8 +3,10 @@
 /// Number of boxes of a node.
 pub const WIDTH: usize = 8;
 
-/// A node or a leaf without its box, in one word: the number of the node or leaf, and in the upper
-/// half the bits of the longest side of a leaf's boxes, in units of the tree, or of -1 for a node.
+/// A node or a leaf without its box, in one word.
+///
+/// The lower half is the number of the node or leaf. The upper half holds the bits of the longest side
+/// of a leaf's boxes, in units of the tree, or of -1 for a node.
 #[derive(Debug, Clone, Copy)]
 pub struct Child(u64);
 
@@ -42,7 +44,7 @@ impl Child {
         f32::from_bits((self.0 >> 32) as u32)
     }
 
-    /// Whether the child is a leaf: the sign of the longest side is the first bit.
+    /// Returns whether the child is a leaf: the sign of the longest side is the first bit.
     #[must_use]
     #[inline(always)]
     pub fn is_leaf(self) -> bool {

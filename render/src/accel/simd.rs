@@ -49,11 +49,11 @@ impl Instructions {
 #[cfg(target_arch = "x86_64")]
 #[allow(unsafe_code, reason = "the only module with vector instructions")]
 mod avx2 {
-    use super::super::block::Block;
-    use super::super::frame::TreeRay;
-    use super::super::kernel::{Kernel, Tolerance};
-    use super::super::node::{Node, WIDTH};
     use super::Task;
+    use crate::accel::block::Block;
+    use crate::accel::frame::TreeRay;
+    use crate::accel::kernel::{Kernel, Tolerance};
+    use crate::accel::node::{Node, WIDTH};
     use std::arch::x86_64::{
         __m128, __m256, _CMP_LE_OQ, _mm_and_ps, _mm_cmpge_ps, _mm_cmple_ps, _mm_fmsub_ps,
         _mm_fnmadd_ps, _mm_loadu_ps, _mm_max_ps, _mm_min_ps, _mm_movemask_ps, _mm_mul_ps,
