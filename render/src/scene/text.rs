@@ -16,8 +16,10 @@ pub struct NotText(pub usize);
 /// If the file contains a byte 0.
 pub fn of(bytes: &[u8]) -> Result<Cow<'_, str>, NotText> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    if let Some(at) = bytes.iter().position(|&byte| byte == 0) {
-        return Err(NotText(1 + bytes[..at].iter().filter(|&&byte| byte == b'\n').count()));
+    // Searches for one byte are fast, and most files have none of the bytes searched for here.
+    if bytes.contains(&0) {
+        let lines = bytes.split(|&byte| byte == 0).next().unwrap_or_default();
+        return Err(NotText(1 + lines.iter().filter(|&&byte| byte == b'\n').count()));
     }
     let text = match std::str::from_utf8(bytes) {
         Ok(text) => Cow::Borrowed(text),
@@ -28,7 +30,8 @@ pub fn of(bytes: &[u8]) -> Result<Cow<'_, str>, NotText> {
     } else {
         text
     };
-    Ok(if text.contains("\\\n") || text.contains("\\\r\n") { joined(&text).into() } else { text })
+    let continues = text.contains('\\') && text.lines().any(|line| line.ends_with('\\'));
+    Ok(if continues { joined(&text).into() } else { text })
 }
 
 fn has_lone_returns(text: &str) -> bool {

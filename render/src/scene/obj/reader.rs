@@ -230,6 +230,7 @@ impl<'a> Reader<'a> {
         let mut ends: [Corner; 2] = [[NONE; NUMBERED]; 2];
         let mut count = 0;
         let mut most = [0; NUMBERED];
+        let mut is_mixed = false;
         let surface = self.surface();
         for word in words(text) {
             let mut corner = [NONE; NUMBERED];
@@ -253,6 +254,8 @@ impl<'a> Reader<'a> {
                 let (position, uv, normal) = (part(0), part(1), part(2));
                 self.mesh.triangles.push(Triangle { position, uv, normal, surface });
             }
+            is_mixed |= (corner[1] == NONE) != (ends[0][1] == NONE) && count > 0;
+            is_mixed |= (corner[2] == NONE) != (ends[0][2] == NONE) && count > 0;
             // The first corner, and the last.
             ends[count.min(1)] = corner;
             count += 1;
@@ -260,7 +263,9 @@ impl<'a> Reader<'a> {
         if count < 3 {
             return Err(FORM);
         }
-        self.complete(first);
+        if is_mixed {
+            self.complete(first);
+        }
         if count > 3 {
             self.fans.push([first, self.mesh.triangles.len()]);
         }
