@@ -2,7 +2,7 @@
 
 use super::polygon;
 use super::{ObjError, ObjFile, shortened};
-use crate::scene::text::words;
+use crate::scene::text::{keyword, words};
 use crate::shape::Mesh;
 use crate::shape::mesh::{NONE, Triangle};
 use glam::DVec3;
@@ -71,7 +71,6 @@ impl<'a> Reader<'a> {
     pub(super) fn read(&mut self) -> Result<(), ObjError> {
         let text = self.text;
         for (number, line) in text.lines().enumerate() {
-            let line = line.trim();
             self.line(number, line).map_err(|expected| self.wrong(number, line, expected))?;
         }
         let counts = self.counts();
@@ -168,7 +167,7 @@ impl<'a> Reader<'a> {
     }
 
     fn line(&mut self, number: usize, line: &'a str) -> Result<(), Expected> {
-        let (keyword, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
+        let (keyword, rest) = keyword(line);
         match keyword {
             "v" => {
                 let (position, count) = numbers::<3>(rest).ok_or("`v` and three numbers")?;
@@ -198,7 +197,7 @@ impl<'a> Reader<'a> {
                 self.mesh.uvs.push(uv);
             }
             "usemtl" => {
-                self.name = rest.trim();
+                self.name = rest;
                 self.surface = self.surfaces.get(self.name).copied();
             }
             "f" => self.face(number, rest)?,
@@ -209,7 +208,7 @@ impl<'a> Reader<'a> {
                     Some(group) => group.parse().unwrap_or(1),
                 };
             }
-            "mtllib" => self.libraries.push(rest.trim()),
+            "mtllib" => self.libraries.push(rest),
             "" | "o" | "g" => {}
             _ if keyword.starts_with('#') => {}
             _ => self.pass_over(keyword),
