@@ -67,7 +67,7 @@ impl Frame {
             let middle = f64::from((0.5 * (low[axis] + high[axis])) as f32);
             let (near, far) =
                 if middle < 0.0 { (-high[axis], -low[axis]) } else { (low[axis], high[axis]) };
-            let close = 2.0 * near >= middle.abs() && far <= 2.0 * middle.abs();
+            let close = middle != 0.0 && 2.0 * near >= middle.abs() && far <= 2.0 * middle.abs();
             if close { middle } else { 0.0 }
         });
         Self::at(DVec3::from(middle), bounds)

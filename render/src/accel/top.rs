@@ -80,7 +80,7 @@ impl Trees {
     /// Memory in bytes of all trees and of their copies of triangles.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        let own = self.tree.as_ref().map_or(0, Tree::bytes) + size_of_val(&*self.items);
+        let own = self.tree.as_ref().map_or(0, Tree::bytes);
         own + self.meshes().map(MeshTree::bytes).sum::<usize>()
     }
 
