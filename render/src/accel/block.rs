@@ -27,8 +27,8 @@ impl Block {
         for (lane, (number, corners)) in triangles.iter().enumerate() {
             block.numbers[lane] = *number;
             for (corner, place) in corners.iter().enumerate() {
-                for axis in 0..3 {
-                    block.corners[corner][axis][lane] = place[axis];
+                for (lanes, x) in block.corners[corner].iter_mut().zip(place) {
+                    lanes[lane] = *x;
                 }
             }
         }

@@ -333,9 +333,9 @@ impl Builder {
                 areas[at] = all.half_area();
             }
             let mut all = Bounds::NONE;
-            for at in 1..part.len() {
+            for (at, area) in areas.iter().enumerate().take(part.len()).skip(1) {
                 all.add(boxed(at - 1).low, boxed(at - 1).high);
-                let others = self.leaves(part.len() - at) * areas[at];
+                let others = self.leaves(part.len() - at) * area;
                 let cost = self.leaves(at) * all.half_area() + others;
                 if cost < best.cost {
                     best = Cut { cost, axis, at };

@@ -67,12 +67,12 @@ fn aimed(set: &Set, around: &[Vec<u32>], k: u64) -> Ray {
     let vertex = vertex.unwrap_or(any);
     let neighbours = &around[vertex as usize];
     let other = neighbours[(hash(8 * k + 7) * neighbours.len() as f64) as usize];
-    let part = if k % 2 == 0 { 0.0 } else { hash(k.wrapping_mul(31) + 5) };
+    let part = if k.is_multiple_of(2) { 0.0 } else { hash(k.wrapping_mul(31) + 5) };
     let target = corner(vertex) + part * (corner(other) - corner(vertex));
     let mut direction = target - start;
     if set.name == "lattice cube" && k % 4 >= 2 {
         let axis = (k / 4 % 3) as usize;
-        let along = if k / 12 % 2 == 0 { 1.0 } else { -1.0 };
+        let along = if (k / 12).is_multiple_of(2) { 1.0 } else { -1.0 };
         direction = DVec3::AXES[axis] * along;
     }
     Ray::from_eye(start, direction.normalize())

@@ -1,4 +1,4 @@
-//! The meshes: a tube along a lifted figure eight, a Klein bottle, a cube on a lattice, and needles.
+//! The meshes: a tube along a lifted figure eight, a cube on a lattice, and needles.
 
 use glam::DVec3;
 use render::shape::mesh::{Mesh, NONE, Triangle};
@@ -21,7 +21,8 @@ pub fn middle_line(v: f64) -> DVec3 {
     DVec3::new(3.0 * v.sin(), 3.0 * v.sin() * v.cos(), 0.6 * v.cos())
 }
 
-fn mesh(positions: Vec<DVec3>, triangles: impl Iterator<Item = [u32; 3]>) -> Mesh {
+/// A mesh without texture coordinates and normals.
+pub fn mesh(positions: Vec<DVec3>, triangles: impl Iterator<Item = [u32; 3]>) -> Mesh {
     let triangle = |position| Triangle { position, uv: [NONE; 3], normal: [NONE; 3], surface: 0 };
     Mesh {
         positions: positions.into_iter().map(|p| p.as_vec3().to_array()).collect(),
@@ -33,7 +34,7 @@ fn mesh(positions: Vec<DVec3>, triangles: impl Iterator<Item = [u32; 3]>) -> Mes
 
 /// Two triangles for each cell; the last row of corners is followed by the first, whose columns run
 /// backwards if `mirrored`.
-fn cells(rows: u32, cols: u32, mirrored: bool) -> impl Iterator<Item = [u32; 3]> {
+pub fn cells(rows: u32, cols: u32, mirrored: bool) -> impl Iterator<Item = [u32; 3]> {
     let at = move |row: u32, col: u32| {
         let col = if row == rows && mirrored { (cols - col % cols) % cols } else { col % cols };
         (row % rows) * cols + col
@@ -45,7 +46,8 @@ fn cells(rows: u32, cols: u32, mirrored: bool) -> impl Iterator<Item = [u32; 3]>
     })
 }
 
-fn angles(rows: u32, cols: u32) -> impl Iterator<Item = (f64, f64)> {
+/// The angles of all corners, along the rows and the columns.
+pub fn angles(rows: u32, cols: u32) -> impl Iterator<Item = (f64, f64)> {
     let angle = |k: u32, of: u32| TAU * f64::from(k) / f64::from(of);
     (0..rows).flat_map(move |r| (0..cols).map(move |c| (angle(r, rows), angle(c, cols))))
 }
@@ -60,29 +62,6 @@ pub fn tube(rows: u32, cols: u32, shift: DVec3) -> Surface {
     };
     let positions = angles(rows, cols).map(place).collect();
     Surface { mesh: mesh(positions, cells(rows, cols, false)), rows, cols }
-}
-
-/// The Klein bottle whose contour is a figure eight that makes half a turn.
-pub fn klein(rows: u32, cols: u32) -> Surface {
-    let place = |(v, u): (f64, f64)| {
-        let (sin, cos) = (0.5 * v).sin_cos();
-        let out = 2.2 + cos * u.sin() - sin * (2.0 * u).sin();
-        DVec3::new(out * v.cos(), out * v.sin(), sin * u.sin() + cos * (2.0 * u).sin())
-    };
-    let positions = angles(rows, cols).map(place).collect();
-    Surface { mesh: mesh(positions, cells(rows, cols, true)), rows, cols }
-}
-
-/// Adds a floor of two triangles, 60 x 60, just below the mesh.
-pub fn with_floor(mut mesh: Mesh) -> Mesh {
-    let low = mesh.positions.iter().fold(f32::INFINITY, |low, p| low.min(p[2])) - 0.05;
-    let first = mesh.positions.len() as u32;
-    mesh.positions.extend([[-30., -30., low], [30., -30., low], [30., 30., low], [-30., 30., low]]);
-    for position in [[0, 1, 2], [0, 2, 3]] {
-        let position = position.map(|k| first + k);
-        mesh.triangles.push(Triangle { position, ..mesh.triangles[0] });
-    }
-    mesh
 }
 
 /// The surface of a cube of `2 half` squares along each edge, with whole coordinates.

@@ -14,6 +14,7 @@
 mod embree;
 #[path = "../../../tests/leaks/mod.rs"]
 mod leaks;
+mod meshes;
 mod sets;
 
 use cpu_time::ThreadTime;
@@ -101,7 +102,7 @@ fn compare(
     side: u32,
     ratios: &mut Ratios,
 ) -> Result<(), Box<dyn Error>> {
-    let mesh = surfaces::with_floor(mesh);
+    let mesh = meshes::with_floor(mesh);
     let corners: Vec<[u32; 3]> = mesh.triangles.iter().map(|t| t.position).collect();
     let count = corners.len();
     let positions = mesh.positions.clone();
@@ -185,7 +186,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     for (rows, cols) in [(125, 40), (400, 125), (1250, 400)] {
         let meshes = [
             ("tube", surfaces::tube(rows, cols, glam::DVec3::ZERO).mesh),
-            ("klein", surfaces::klein(rows, cols).mesh),
+            ("klein", meshes::klein(rows, cols).mesh),
         ];
         for (name, mesh) in meshes {
             let name = format!("{name} {}", 2 * rows * cols);
