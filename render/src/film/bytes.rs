@@ -41,7 +41,7 @@ impl Bytes {
     #[must_use]
     pub fn at(&self, linear: f32) -> u8 {
         // NaN becomes 0, as in a cast to a whole number.
-        let linear = linear.max(0.0).min(1.0);
+        let linear = if linear > 0.0 { linear.min(1.0) } else { 0.0 };
         let mut code = self.first[(linear.to_bits() >> WITHIN) as usize];
         while linear >= self.least[usize::from(code) + 1] {
             code += 1;

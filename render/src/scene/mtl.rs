@@ -10,7 +10,7 @@
 //! | `Ni` | `index_of_refraction`; 1 if left out, so that a `d` alone bends nothing |
 //! | `Ka`, `illum`, `Ke` and `Tf` without effect | nothing |
 //!
-//! A `Tr 1` without `d` is taken as opaque: MeshLab and other programs wrote it for opaque materials, and
+//! A `Tr 1` without `d` is taken as opaque: some programs wrote it for opaque materials, and
 //! none means an invisible object. Tools differ in how they write mirrors, so mirrors are ignored. A
 //! scene binds a material that should mirror.
 //!

@@ -7,8 +7,8 @@ use super::{Mesh, Shape};
 /// Distance within which the corners of an almost closed mesh are joined, in units in the last place of
 /// its largest coordinate.
 ///
-/// Programs compute the same corner in different ways, such as sin(2 pi) for sin(0). A larger distance
-/// would close gaps that are meant.
+/// Some programs compute the same corner twice by different formulas, such as sin(2 pi) for sin(0). A
+/// larger distance would close gaps that are meant.
 const JOINED: f64 = 16.0;
 
 impl Shape {

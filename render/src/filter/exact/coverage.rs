@@ -84,10 +84,13 @@ impl Window {
         polygons: &[[DVec2; 4]; N],
     ) -> [f64; C] {
         // Clearing more cells than are needed takes time.
-        let sum = match self.width + 3 {
-            0..=FEW_CELLS => self.sum::<FEW_CELLS, N, T, C>(rows, polygons),
-            0..=SOME_CELLS => self.sum::<SOME_CELLS, N, T, C>(rows, polygons),
-            _ => self.sum::<MOST_CELLS, N, T, C>(rows, polygons),
+        let cells = self.width + 3;
+        let sum = if cells <= FEW_CELLS {
+            self.sum::<FEW_CELLS, N, T, C>(rows, polygons)
+        } else if cells <= SOME_CELLS {
+            self.sum::<SOME_CELLS, N, T, C>(rows, polygons)
+        } else {
+            self.sum::<MOST_CELLS, N, T, C>(rows, polygons)
         };
         let scale = -2.0 / polygons.iter().map(double_area).sum::<f64>();
         sum.map(|sum| scale * sum)

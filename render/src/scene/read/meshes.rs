@@ -167,7 +167,7 @@ impl Reader<'_> {
                 match unread {
                     None => own.paths.push(path),
                     Some(error) => {
-                        scene.remarks.push(remark(&read.file, &[format!("mtllib: {error}")]))
+                        scene.remarks.push(remark(&read.file, &[format!("mtllib: {error}")]));
                     }
                 }
             }
