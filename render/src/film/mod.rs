@@ -7,6 +7,7 @@
 //! not depend on the tiles or on the threads. `exposure.rs` is the interface for other methods.
 
 mod area;
+mod base;
 pub mod crop;
 pub mod encode;
 mod exposure;
@@ -15,13 +16,16 @@ pub mod layer;
 pub mod memory;
 pub mod pattern;
 pub mod picture;
+mod points;
 pub mod sampling;
 
+pub use base::{BasePicture, Pixel, aperture};
 pub use crop::Crop;
 pub use exposure::{Sample, Witness};
 pub use layer::Layer;
 pub use pattern::{Pattern, PatternName};
 pub use picture::Picture;
+pub use points::{PointWork, Points};
 pub use sampling::{
     MOST_SAMPLES, PixelFilter, SPLITS, Sampling, SamplingMethod, Supersample, THRESHOLD,
 };
@@ -196,7 +200,7 @@ mod tests {
     use glam::{DAffine3, DVec2, DVec3};
 
     /// A glass sphere on a textured floor.
-    fn scene() -> Scene {
+    pub(super) fn scene() -> Scene {
         let texels = (0..64u16).map(|k| [k * 1000, 60000 - k * 900, (k % 8) * 8000]).collect();
         let texture =
             Texture { width: 8, height: 8, texels, white: u16::MAX, ..Texture::default() };
