@@ -6,10 +6,13 @@
 //! [`reach`] tries samplings ([`ladder`]) on such a sample until the bound is below a requested
 //! error ([`search`]).
 //!
+//! [`census`] finds the true colours of all pixels, by which audits are checked.
+//!
 //! A crop is audited as a picture of its own: its error is that of its pixels, and a request holds
 //! for the crop alone.
 
 pub mod bound;
+pub mod census;
 pub mod chances;
 pub mod ladder;
 pub mod sample;

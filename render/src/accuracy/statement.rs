@@ -48,7 +48,8 @@ fn upward(number: f64) -> String {
     let digits = decimals(number);
     let unit = 10.0_f64.powi(-(digits as i32));
     // A number with two figures stays itself, though its quotient may be rounded upward.
-    format!("{:.*}", digits, (number / unit - 1e-9).ceil() * unit)
+    // Adding 0 makes a negative zero positive.
+    format!("{:.*}", digits, (number / unit - 1e-9).ceil() * unit + 0.0)
 }
 
 /// Returns the number of decimals that show two significant figures, at most 6.

@@ -48,6 +48,14 @@ impl Truth {
         };
         (0..3).map(product).sum::<f64>() / 3.0
     }
+
+    /// Returns half of the squared difference of the two sets, the mean of the channels: an estimate of
+    /// the variance of either.
+    #[must_use]
+    pub fn noise(&self) -> f64 {
+        let [a, b] = self.sets;
+        (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>() / 6.0
+    }
 }
 
 /// Finds true colours of pixels.
