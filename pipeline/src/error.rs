@@ -41,7 +41,9 @@ pub enum PipelineError {
         source: image::ImageError,
     },
     /// Pictures were written whose requested error was not reached.
-    #[error("number of pictures that miss the requested error: {0}; their lines state what was reached")]
+    #[error(
+        "number of pictures that miss the requested error: {0}; their lines state what was reached"
+    )]
     ErrorMissed(usize),
     /// Two jobs would write the same file.
     #[error("{first} and {second} would both write {file}: run them into two folders")]

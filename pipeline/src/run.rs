@@ -317,8 +317,7 @@ impl Run<'_> {
                         progress(done, total);
                     }
                 };
-                let reached =
-                    accuracy::reach(prepared, &settings, pixel_filter, error, &progress);
+                let reached = accuracy::reach(prepared, &settings, pixel_filter, error, &progress);
                 (reached.picture, reached.stats, Some(reached.statement))
             }
             _ => {
@@ -332,7 +331,12 @@ impl Run<'_> {
         stats.write_time = started.elapsed();
         self.took(Stages::of_mode(&stats));
         let statement = statement.as_ref();
-        (self.tell)(Event::Picture { mode: &mode.name, picture: &picture, stats: &stats, statement });
+        (self.tell)(Event::Picture {
+            mode: &mode.name,
+            picture: &picture,
+            stats: &stats,
+            statement,
+        });
         Ok(picture)
     }
 

@@ -81,6 +81,8 @@ enum UseError {
     WideFilterOfOne(String),
     #[error("{0} belongs to --sampling {1}: add --sampling {1}, or leave {0} out")]
     OfOtherSampling(&'static str, &'static str),
+    #[error("--error {text}: {expected}", text = files::words::shown(.0), expected = .1)]
+    Request(String, String),
     #[error("{0} chooses the rays, and {1} chooses them too: leave one of the two out")]
     Accuracies(&'static str, String),
     #[error("{0} is about a whole picture: leave --pixel out")]
@@ -109,6 +111,7 @@ impl Failure for UseError {
             | Self::SeedOfNothing
             | Self::WideFilterOfOne(_)
             | Self::OfOtherSampling(..)
+            | Self::Request(..)
             | Self::Accuracies(..)
             | Self::AccuracyOfPixel(_)
             | Self::ErrorOfThesis => Exit::Use,

@@ -84,9 +84,8 @@ fn row(request: Option<f64>, summary: &Summary) -> Markup {
 /// Returns a plot of true errors over stated bounds, both on logarithmic axes.
 fn plot(scenes: &[SceneCases]) -> Markup {
     let [width, height] = PLOT;
-    let along = |error: f64| {
-        (error.clamp(SPAN[0], SPAN[1]) / SPAN[0]).ln() / (SPAN[1] / SPAN[0]).ln()
-    };
+    let along =
+        |error: f64| (error.clamp(SPAN[0], SPAN[1]) / SPAN[0]).ln() / (SPAN[1] / SPAN[0]).ln();
     let x = |error: f64| 40.0 + (width - 50.0) * along(error);
     let y = |error: f64| height - 30.0 - (height - 40.0) * along(error);
     let at = |number: f64| format!("{number:.1}");

@@ -17,8 +17,15 @@ use sweep::spec::Resolution;
 
 /// Pictures of the pages, by their files.
 const PICTURES: [&str; 9] = [
-    "checkerboard", "floor-tiles", "granite", "lettering", "hatching", "world-chart", "scales",
-    "sea", "graticule",
+    "checkerboard",
+    "floor-tiles",
+    "granite",
+    "lettering",
+    "hatching",
+    "world-chart",
+    "scales",
+    "sea",
+    "graticule",
 ];
 
 /// Curves of the pages whose surfaces are meshes here.
@@ -215,9 +222,8 @@ fn object(
         _ => {
             let curve = *random.one_of(&CURVES);
             let mesh = swept(curve)?;
-            let lows = mesh.positions.iter().flatten().fold(0.0_f32, |most: f32, x| {
-                most.max(x.abs())
-            });
+            let lows =
+                mesh.positions.iter().flatten().fold(0.0_f32, |most: f32, x| most.max(x.abs()));
             let scale = 1.3 * size / f64::from(lows.max(1e-6));
             let name = format!("mesh-{number}");
             meshes.insert(name.clone(), mesh);

@@ -33,7 +33,8 @@ impl Summary {
         };
         let mut of_bound: Vec<f64> = cases.iter().map(|case| case.truth / case.bound).collect();
         of_bound.sort_by(f64::total_cmp);
-        let mean = |k: usize| cases.iter().map(|case| case.rays[k]).sum::<f64>() / cases.len() as f64;
+        let mean =
+            |k: usize| cases.iter().map(|case| case.rays[k]).sum::<f64>() / cases.len() as f64;
         Some(Self {
             cases: cases.len(),
             covered: count(&|case| !case.above),

@@ -4,8 +4,8 @@ use super::bar::Bar;
 use super::common::CommonArguments;
 use super::named::{self, NamedJob};
 use super::{OTHER_FOLDER, make_folder};
-use crate::calibrate::{self, Summary, by_request, interval, measure, scenes};
 use crate::PipelineError;
+use crate::calibrate::{self, Summary, by_request, interval, measure, scenes};
 use crate::run::{self, Options};
 use files::Report;
 use files::exit::say;
@@ -83,6 +83,11 @@ fn line(request: Option<f64>, summary: Option<Summary>) -> String {
         "{name}: {covered} of {cases} below the bound ({:.1} to {:.1} %), {certainly_above} surely above, \
          {missed} missed; true error {:.2} bounds in the middle, {:.2} at most; {:.2} rays per pixel, \
          audit {:.2}, {seconds:.1} s",
-        100.0 * low, 100.0 * high, of_bound[0], of_bound[1], rays[0], rays[1]
+        100.0 * low,
+        100.0 * high,
+        of_bound[0],
+        of_bound[1],
+        rays[0],
+        rays[1]
     )
 }

@@ -6,7 +6,7 @@ use crate::film::{PixelFilter, Sampling};
 ///
 /// Below a threshold of 0.03, pixels split for bends of footprints that filters average well. Four
 /// cells in each pixel then cost less for the same error.
-const RUNGS: [(u32, f64); 19] = [
+const RUNGS: [(u32, f64); 17] = [
     (1, 0.0),
     (1, 0.8),
     (1, 0.4),
@@ -24,8 +24,6 @@ const RUNGS: [(u32, f64); 19] = [
     (16, 0.005),
     (24, 0.005),
     (32, 0.005),
-    (48, 0.005),
-    (64, 0.005),
 ];
 
 /// The rung at which the search starts, for errors from this one up.
@@ -46,4 +44,22 @@ pub fn rungs(pixel_filter: PixelFilter) -> Vec<Sampling> {
 #[must_use]
 pub fn start(error: f64) -> usize {
     STARTS.iter().find(|(from, _)| error >= *from).map_or(RUNGS.len() - 1, |(_, rung)| *rung)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn smaller_errors_start_at_finer_rungs() {
+        let starts = [0.5, 0.05, 0.03, 0.01, 0.007, 0.003, 0.001, 1e-5].map(start);
+        assert!(starts.is_sorted(), "{starts:?}");
+        let all = rungs(PixelFilter::Tent);
+        assert!(starts.iter().all(|&rung| rung < all.len()));
+        let cells = |sampling: &Sampling| match *sampling {
+            Sampling::Area { samples, pixel_filter: PixelFilter::Tent, .. } => samples,
+            _ => 0,
+        };
+        assert!(all.iter().map(cells).is_sorted() && cells(&all[0]) == 1);
+    }
 }

@@ -30,6 +30,9 @@ const RISKS: [f64; 5] = [0.035, 0.008, 0.004, 0.002, 0.001];
 /// Pixels of each round, in those of the first.
 const SIZES: [usize; 5] = [1, 2, 4, 8, 16];
 
+/// Rungs that a round looks ahead for the start of the next.
+const AHEAD: usize = 4;
+
 /// A rung should suffice if its estimated error is below this part of the requested one.
 const PROMISING: f64 = 0.7;
 
@@ -179,15 +182,15 @@ impl<'p, 's> Search<'p, 's> {
     }
 
     /// Returns the first rung, from `first` on, whose estimated error is at most `wanted`, or the
-    /// last. `tried` is the trial of `first`.
+    /// last one that it looks at. `tried` is the trial of `first`.
     fn promising(&mut self, rungs: &[Sampling], first: usize, tried: &Trial, wanted: f64) -> usize {
         let suffices = |values: &[f64]| mean(values) <= wanted * wanted;
         if suffices(&tried.values) {
             return first;
         }
-        let rest = first + 1..rungs.len();
-        let last = rungs.len() - 1;
-        rest.into_iter().find(|&rung| suffices(&self.try_out(rungs[rung]).values)).unwrap_or(last)
+        let last = (first + AHEAD).min(rungs.len() - 1);
+        let mut ahead = first + 1..last;
+        ahead.find(|&rung| suffices(&self.try_out(rungs[rung]).values)).unwrap_or(last)
     }
 
     /// Finishes the drawn pixels with a sampling.

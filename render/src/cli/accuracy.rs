@@ -17,8 +17,8 @@ pub struct AccuracyArguments {
     /// Make the picture with the fewest rays whose error is below this, and print the error that was
     /// reached: a number between 0 and 1, root mean square in linear light, or 8bit for half a code of
     /// an 8-bit picture. The rays are chosen for you
-    #[arg(long, value_name = "E|8bit", value_parser = accuracy::error)]
-    error: Option<f64>,
+    #[arg(long, value_name = "E|8bit", allow_hyphen_values = true)]
+    error: Option<String>,
     /// Make the best picture in about this many seconds, and print its error. The picture is not the
     /// same each time
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
@@ -42,7 +42,8 @@ impl Failure for Missed {
 impl AccuracyArguments {
     /// Checks that the flags agree with each other and with those of the rays.
     pub fn check(&self, sampling: &SamplingArguments) -> Result<(), UseError> {
-        let flag = match (self.error, self.time) {
+        self.requested()?;
+        let flag = match (&self.error, self.time) {
             (Some(_), Some(_)) => {
                 return Err(UseError::Accuracies("--error", "--time".into()));
             }
@@ -62,12 +63,21 @@ impl AccuracyArguments {
         }
     }
 
+    /// Returns the requested error, if there is one.
+    fn requested(&self) -> Result<Option<f64>, UseError> {
+        let error = self.error.as_ref().map(|text| {
+            accuracy::error(text).map_err(|expected| UseError::Request(text.clone(), expected))
+        });
+        error.transpose()
+    }
+
     /// Returns whether the flags choose the rays of the picture.
     pub fn chooses(&self) -> bool {
         self.error.is_some() || self.time.is_some()
     }
 
-    /// Renders the picture that the flags request, and audits it if they request that.
+    /// Renders the picture that the flags request, and audits it if they request that. The flags must
+    /// have been checked.
     pub fn render(
         &self,
         prepared: &Prepared<'_>,
@@ -80,7 +90,7 @@ impl AccuracyArguments {
                 progress.tell(done, total);
             }
         };
-        let reached = match (self.error, self.time) {
+        let reached = match (self.requested().ok().flatten(), self.time) {
             (Some(error), _) => accuracy::reach(prepared, settings, pixel_filter, error, &tell),
             (None, Some(seconds)) => {
                 accuracy::within(prepared, settings, pixel_filter, seconds, &tell)
