@@ -205,7 +205,7 @@ impl Run<'_> {
             .map_err(|error| self.of_meshes(error))?;
         let mut meshes = MeshSource::new();
         for mesh in &self.job.meshes {
-            meshes.insert(mesh.name.clone(), self.mesh(mesh, &file.camera)?);
+            meshes.insert(mesh.name.clone(), self.mesh(mesh, &file.camera)?.into());
         }
         let scene = draft.resolve(self.source, meshes).map_err(|error| self.of_meshes(error))?;
         // Reserves memory for each picture together with the tables that earlier modes keep.

@@ -163,6 +163,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
 
     let started = Instant::now();
     let scene = input.read_scene(&ledger, |_, scene| Ok(scene))?;
+    work.print_remarks(&scene);
     // A pixel alone is a complete picture.
     let of_pixel =
         |(x, y)| Settings { crop: Some(Crop { x, y, width: 1, height: 1 }), ..settings.clone() };

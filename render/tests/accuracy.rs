@@ -94,9 +94,8 @@ fn a_requested_error_is_reached() {
         let error = squared_error(&reached.picture, &truths).max(0.0).sqrt();
         assert!(error < wanted, "{}, true {error}", reached.statement);
         assert_eq!(reached.statement.missed, None);
-        // The chosen sampling makes the same picture without a search.
-        let settings = Settings { sampling: reached.sampling, ..settings };
-        assert!(render::render(&prepared, &settings, &|_, _| {}).0 == reached.picture);
+        // The chosen settings make the same picture without a search.
+        assert!(render::render(&prepared, &reached.settings, &|_, _| {}).0 == reached.picture);
         assert!(reached.stats.primary_rays >= rays, "a smaller error takes at least as many rays");
         rays = reached.stats.primary_rays;
     }
@@ -112,8 +111,7 @@ fn pictures_and_statements_do_not_depend_on_threads() {
         pool.install(|| {
             let reached = reach(&prepared, &settings, PixelFilter::Box, 0.01, &|_, _, _| {});
             let mut stats = Stats::default();
-            let settings = Settings { sampling: reached.sampling, ..settings };
-            let audited = audit(&prepared, &settings, &reached.picture, &mut stats);
+            let audited = audit(&prepared, &reached.settings, &reached.picture, &mut stats);
             (reached.picture, reached.statement, audited)
         })
     };

@@ -13,6 +13,7 @@ mod differentials;
 mod exact;
 mod exact_filter;
 mod examples;
+mod foreign;
 mod hard_cases;
 mod hard_mutations;
 mod hard_optics;

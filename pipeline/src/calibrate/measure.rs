@@ -70,7 +70,7 @@ pub fn scene(name: &str, scene: &Scene, side: u32) -> SceneCases {
         let started = ProcessTime::now();
         let reached = reach(&prepared, &base, PixelFilter::Box, requested, &|_, _, _| {});
         let seconds = started.elapsed().as_secs_f64();
-        let method = in_words(reached.sampling);
+        let method = in_words(reached.settings.sampling);
         let statement = &reached.statement;
         cases.push(case(&census, Some(requested), method, statement, &reached.picture, seconds));
     }

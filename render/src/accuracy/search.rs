@@ -33,6 +33,10 @@ const SIZES: [usize; 5] = [1, 2, 4, 8, 16];
 /// Rungs that a round looks ahead for the start of the next.
 const AHEAD: usize = 4;
 
+/// Part of the requested error that a ray must weigh in its cell to be followed. True colours follow
+/// all rays, so the audit counts what is lost.
+const FOLLOWED: f64 = 0.1;
+
 /// A rung should suffice if its estimated error is below this part of the requested one.
 const PROMISING: f64 = 0.7;
 
@@ -43,8 +47,8 @@ pub struct Reached {
     pub picture: Picture,
     /// Counts and times, with those of the audit.
     pub stats: Stats,
-    /// The sampling that was chosen. `render` makes the same picture with it.
-    pub sampling: Sampling,
+    /// The settings that were chosen. `render` makes the same picture with them.
+    pub settings: Settings,
     /// What the audit found.
     pub statement: Statement,
 }
@@ -161,7 +165,8 @@ impl<'p, 's> Search<'p, 's> {
         progress: &Progress<'_>,
     ) -> Self {
         let tell = |done, total| progress("first rays", done, total);
-        let base = BasePicture::new(prepared, settings, pixel_filter, &tell);
+        let settings = Settings { least_weight: Some(FOLLOWED * error), ..settings.clone() };
+        let base = BasePicture::new(prepared, &settings, pixel_filter, &tell);
         let chances = Chances::new(&base.picture, &base.errors);
         let sample = Sample::default();
         let mut search =
@@ -219,7 +224,7 @@ impl<'p, 's> Search<'p, 's> {
         stats.audit_rays = audit_rays;
         stats.audit_time = audit_time.max(Duration::ZERO);
         let statement = stated(values, bound, missed, &stats, picture.pixels.len());
-        Reached { picture, stats, sampling, statement }
+        Reached { picture, stats, settings: self.base.with(sampling), statement }
     }
 }
 

@@ -48,7 +48,8 @@ impl<'p, 's> BasePicture<'p, 's> {
     }
 
     /// Traces and shades one ray for each cell: one in each pixel, or four under a pixel filter that
-    /// reaches beyond the pixel. The sampling of `settings` is not used. Calls `progress` after each
+    /// reaches beyond the pixel. The sampling of `settings` is not used, and without a least weight
+    /// all rays are followed. Calls `progress` after each
     /// tile with the number of finished tiles and the number of all tiles.
     pub fn new(
         prepared: &'p Prepared<'s>,
@@ -57,7 +58,8 @@ impl<'p, 's> BasePicture<'p, 's> {
         progress: &(dyn Fn(usize, usize) + Sync),
     ) -> Self {
         let sampling = Sampling::Area { samples: 1, pixel_filter, threshold: None };
-        let settings = Settings { sampling, ..settings.clone() };
+        let least_weight = Some(settings.least_weight.unwrap_or(0.0));
+        let settings = Settings { sampling, least_weight, ..settings.clone() };
         let area = Area::new(1, pixel_filter, None);
         let (tiles, picture, errors, stats) =
             with_exposure(prepared, &settings, |shared, stats| {
@@ -102,7 +104,8 @@ impl<'p, 's> BasePicture<'p, 's> {
     }
 
     /// Returns the settings with another sampling.
-    fn with(&self, sampling: Sampling) -> Settings {
+    #[must_use]
+    pub fn with(&self, sampling: Sampling) -> Settings {
         Settings { sampling, ..self.settings.clone() }
     }
 
@@ -154,8 +157,8 @@ impl<'p, 's> BasePicture<'p, 's> {
         exposed
     }
 
-    /// Makes the whole picture with a sampling. It equals the picture that [`render`] makes, to the
-    /// last bit. The counts are those of all work on both pictures.
+    /// Makes the whole picture with a sampling. It equals the picture that [`render`] makes with
+    /// [`BasePicture::with`], to the last bit. The counts are those of all work on both pictures.
     #[must_use]
     pub fn finish(
         &self,

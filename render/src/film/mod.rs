@@ -8,6 +8,7 @@
 
 mod area;
 mod base;
+mod bytes;
 pub mod crop;
 pub mod encode;
 mod exposure;
@@ -64,6 +65,9 @@ pub struct Settings {
     pub layers: Vec<Layer>,
     /// Structure that finds the hits.
     pub accel: Structure,
+    /// Least weight of a ray in its cell that is worth following, [0, 1]; `None` leaves the choice to
+    /// the sampling. The scene's own least weight holds in any case.
+    pub least_weight: Option<f64>,
 }
 
 impl Settings {
@@ -73,7 +77,8 @@ impl Settings {
     pub fn new(width: u32, height: u32, filter: Filter) -> Self {
         let sampling = Sampling::regular(1);
         let accel = Structure::default();
-        Self { width, height, sampling, filter, crop: None, layers: Vec::new(), accel }
+        let (crop, layers, least_weight) = (None, Vec::new(), None);
+        Self { width, height, sampling, filter, crop, layers, accel, least_weight }
     }
 
     /// Returns these settings with `samples * samples` rays in each pixel, evenly spread and of
@@ -181,9 +186,10 @@ fn with_exposure<T>(
         lattice_bytes: scene.procedural.lattice_bytes(),
         ..Stats::default()
     };
-    let exposure =
-        Exposure { tracer: Tracer::new(scene, shader.accel, shader.volumes), shader, settings };
-    work(&exposure, stats)
+    let mut tracer = Tracer::new(scene, shader.accel, shader.volumes);
+    let least = settings.least_weight.unwrap_or(settings.sampling.least_weight());
+    tracer.min_weight = tracer.min_weight.max(least);
+    work(&Exposure { tracer, shader, settings }, stats)
 }
 
 #[cfg(test)]
@@ -240,6 +246,7 @@ mod tests {
             max_depth: 8,
             min_weight: 0.0,
             names: Names::default(),
+            remarks: Vec::new(),
         }
     }
 

@@ -40,6 +40,8 @@ pub struct Tracer<'a> {
     pub volumes: &'a Volumes,
     /// The volumes that contain the camera.
     pub around_eye: Media,
+    /// Least weight in its pixel, in some channel, of a ray that is followed, [0, 1].
+    pub min_weight: f64,
 }
 
 /// Number of rays by kind, and number of rays that hit a surface.
@@ -77,11 +79,11 @@ struct Seen {
 }
 
 impl<'a> Tracer<'a> {
-    /// Creates a tracer for the scene's camera.
+    /// Creates a tracer for the scene's camera and the least weight that the scene states.
     #[must_use]
     pub fn new(scene: &'a Scene, accel: &'a Accel<'a>, volumes: &'a Volumes) -> Self {
         let around_eye = volumes.around(scene, accel, scene.camera.eye());
-        Self { scene, accel, volumes, around_eye }
+        Self { scene, accel, volumes, around_eye, min_weight: scene.min_weight }
     }
 
     /// Traces a ray from the eye and fills its intersection tree.
@@ -234,7 +236,7 @@ impl<'a> Tracer<'a> {
         // A ray is followed if its weight in the pixel is large enough in some channel.
         let worth_it = |share: Color| {
             let most = (weight * share).max_element();
-            most > 0.0 && most >= self.scene.min_weight
+            most > 0.0 && most >= self.min_weight
         };
         if worth_it(reflect_weight) {
             counts.reflected += 1;

@@ -10,6 +10,7 @@
 //! that is wide and low therefore costs little. One that is narrow and high is turned: the level
 //! also keeps its columns as lines.
 
+use super::coverage::Window;
 use super::floor;
 use super::line::Lines;
 use super::outline::bounds;
@@ -59,10 +60,26 @@ impl<T: Code, const C: usize> Level<T, C> {
         Lines::<T, C>::bytes_for(width, height) + Lines::<T, C>::bytes_for(height, width)
     }
 
-    /// Returns the average code over a quadrilateral with these corners, in texels of this level, `y`
-    /// downward. The corners are in order around it, in either direction, and its area is not 0.
+    /// Returns the mean of the average codes over quadrilaterals with these corners, in texels of this
+    /// level, `y` downward. The corners are in order around each, all in the same direction, and no
+    /// area is 0.
     #[must_use]
-    pub fn average(&self, corners: &[DVec2; 4]) -> [f64; C] {
+    pub fn average<const N: usize>(&self, outlines: &[[DVec2; 4]; N]) -> [f64; C] {
+        if let Some(window) = Window::around(outlines) {
+            return window.average(&self.rows, outlines);
+        }
+        let mut sum = [0.0; C];
+        for outline in outlines {
+            for (sum, average) in sum.iter_mut().zip(self.by_sums(outline)) {
+                *sum += average;
+            }
+        }
+        sum.map(|sum| sum / N as f64)
+    }
+
+    /// Returns the average code over a quadrilateral of any size from the sums of lines.
+    #[must_use]
+    pub fn by_sums(&self, corners: &[DVec2; 4]) -> [f64; C] {
         let (low, high) = bounds(corners);
         let extent = high - low;
         if extent.y <= extent.x {

@@ -2,6 +2,7 @@
 
 use super::level::Level;
 use super::line::LONGEST;
+use super::octave;
 use super::outline::{Axes, Outline};
 use super::palette::{self, Palette, palette};
 use super::range::{Range, Ranges};
@@ -169,7 +170,7 @@ impl<const C: usize> Levels<C> {
     pub fn mean(&self) -> [f64; C] {
         let last = self.levels.len() - 1;
         let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(DVec2::from);
-        self.average_on(last, |_| square)
+        self.average_on(last, |_| [square])
     }
 
     /// Returns the average over an outline in light. The outline is longer than a texel and crosses
@@ -217,26 +218,30 @@ impl<const C: usize> Levels<C> {
     /// Returns the index of the coarsest level whose texels have at most this side, in texels of the
     /// texture.
     fn stored_level(&self, side: f64) -> usize {
-        let level = side.max(1.0).log2() as usize;
-        level.saturating_sub(self.skipped).min(self.levels.len() - 1)
+        octave(side).saturating_sub(self.skipped).min(self.levels.len() - 1)
     }
 
-    /// Returns the mean of the averages over outlines on a level.
-    fn over(&self, texture: &Texture, level: usize, outlines: &[Outline]) -> [f64; C] {
+    /// Returns the mean of the averages over outlines of equal area and orientation on a level.
+    fn over<const N: usize>(
+        &self,
+        texture: &Texture,
+        level: usize,
+        outlines: &[Outline; N],
+    ) -> [f64; C] {
         let size = DVec2::new(texture.width as f64, texture.height as f64);
-        let mut sum = [0.0; C];
-        for outline in outlines {
-            let corners = |level: DVec2| outline.corners().map(|corner| level / size * corner);
-            for (sum, average) in sum.iter_mut().zip(self.average_on(level, corners)) {
-                *sum += average;
-            }
-        }
-        sum.map(|sum| sum / outlines.len() as f64)
+        self.average_on(level, |level| {
+            let scale = level / size;
+            outlines.map(|outline| outline.corners().map(|corner| scale * corner))
+        })
     }
 
-    /// Returns the average over a quadrilateral on a level, in light. Its corners are in texels of the
-    /// level and depend on the level's size.
-    fn average_on(&self, level: usize, corners: impl Fn(DVec2) -> [DVec2; 4]) -> [f64; C] {
+    /// Returns the mean of the averages over quadrilaterals on a level, in light. Their corners are in
+    /// texels of the level and depend on the level's size.
+    fn average_on<const N: usize>(
+        &self,
+        level: usize,
+        corners: impl Fn(DVec2) -> [[DVec2; 4]; N],
+    ) -> [f64; C] {
         let unit = self.scales[level].unit;
         let average = match &self.levels[level] {
             Stored::Short(level) => level.average(&corners(level.size())),

@@ -27,7 +27,7 @@
 
 use super::floor;
 use super::palette::Code;
-use crate::texture::Wrap;
+use crate::texture::{Wrap, reduced};
 use std::array::from_fn;
 use std::fmt::Debug;
 
@@ -54,8 +54,10 @@ pub struct Lines<T: Code, const C: usize> {
     pub count: usize,
     /// Continuation of a line beyond its ends.
     pub wrap: Wrap,
-    codes: Vec<[T; C]>,
-    palette: T::Palette,
+    /// The texels, line by line.
+    pub codes: Vec<[T; C]>,
+    /// Palette of the texels.
+    pub palette: T::Palette,
     /// `F1` at every [`EVERY`]th texel of each line.
     sums: Vec<[u32; C]>,
     /// Twice `F2` at every [`EVERY`]th texel, without the part that the value and the slope at the
@@ -363,9 +365,4 @@ impl<T: Code, const C: usize> Line<'_, T, C> {
             double - x * (0.5 * mean[c] * x + constant[c])
         })
     }
-}
-/// Returns the position in `[0, period]` that equals `x` up to whole periods.
-#[inline(always)]
-fn reduced(x: f64, period: f64) -> f64 {
-    (x - period * floor(x / period)).clamp(0.0, period)
 }

@@ -23,11 +23,13 @@
 //! | as large as many repetitions of the texture, or longer than 2^40 texels | the mean |
 //! | beyond the edge of a clamped texture | with the edge texels of the level, at least 64 to a side |
 
+mod coverage;
 mod level;
 mod levels;
 mod line;
 mod palette;
 mod range;
+mod steps;
 
 use super::outline::{self, Outline};
 use crate::color::Color;
@@ -187,6 +189,14 @@ pub fn reach(outline: &Outline) -> DVec2 {
 fn floor(at: f64) -> f64 {
     let toward_zero = at as i64 as f64;
     toward_zero - f64::from(u8::from(toward_zero > at))
+}
+
+/// Returns the binary logarithm of a number, rounded down: its exponent. 0 for numbers below 2 and for
+/// NaN.
+#[inline(always)]
+fn octave(number: f64) -> usize {
+    let exponent = number.max(1.0).to_bits() >> (f64::MANTISSA_DIGITS - 1);
+    exponent as usize + 1 - f64::MAX_EXP as usize
 }
 
 #[cfg(test)]

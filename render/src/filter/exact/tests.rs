@@ -1,3 +1,4 @@
+use super::coverage::Window;
 use super::level::Level;
 use super::*;
 use crate::texture::Wrap;
@@ -84,10 +85,12 @@ proptest! {
         prop_assume!(a.perp_dot(b).abs() > 1e-3);
         let texture = texture(width, height, wrap, |k| [mixed(k); 3]);
         let corners = [center - a - b, center + a - b, center + a + b, center - a + b];
-        let [found] = level_of(&texture).average(&corners);
+        let level = level_of(&texture);
         let truth = by_clipping(&texture, &corners);
         // Codes go up to 65535, positions to 100, areas down to 4e-3: 1e-16 of 65535 * 1e4 / 4e-3.
-        prop_assert!((found - truth).abs() < 1e-4, "{found} {truth}");
+        for [found] in [level.by_sums(&corners), level.average(&[corners])] {
+            prop_assert!((found - truth).abs() < 1e-4, "{found} {truth}");
+        }
     }
 
     #[test]
@@ -161,6 +164,26 @@ proptest! {
     }
 }
 
+/// Several quadrilaterals, whose windows are narrow, of middle width, wide, and too wide for coverage.
+#[test]
+fn the_average_over_several_is_the_mean_of_their_averages() {
+    let texture = texture(61, 47, Wrap::Mirror, |k| [mixed(k); 3]);
+    let level = level_of(&texture);
+    for (length, widths) in [(3.0, 1..30), (20.0, 30..94), (90.0, 94..255), (200.0, 255..500)] {
+        let (a, b) = (DVec2::new(length, 0.02 * length), DVec2::new(-1.5, 2.0));
+        let outlines = [[0.0, 0.0], [0.5, -0.25], [-3.0, 1.75]].map(|by| {
+            let center = DVec2::new(30.3, 21.6) + DVec2::from(by);
+            [center - a - b, center + a - b, center + a + b, center - a + b]
+        });
+        let width = Window::around(&outlines).map_or(255, |window| window.width);
+        assert!(widths.contains(&width), "{length}: {width} texels");
+        let [found] = level.average(&outlines);
+        let mean = outlines.iter().map(|outline| by_clipping(&texture, outline)).sum::<f64>() / 3.0;
+        // As above, with areas from 12.
+        assert!((found - mean).abs() < 1e-6, "{length}: {found} {mean}");
+    }
+}
+
 /// The parts of a quadrilateral have together the integral of the whole, at any size of texture.
 #[test]
 fn a_quadrilateral_is_the_sum_of_its_parts() {
@@ -188,8 +211,8 @@ fn a_quadrilateral_is_the_sum_of_its_parts() {
                 [middle, bc, c, cd],
                 [da, middle, cd, d],
             ];
-            let [whole] = level.average(&[a, b, c, d]);
-            let sum: f64 = parts.iter().map(|part| area(part) * level.average(part)[0]).sum();
+            let [whole] = level.by_sums(&[a, b, c, d]);
+            let sum: f64 = parts.iter().map(|part| area(part) * level.by_sums(part)[0]).sum();
             let difference = (whole - sum / area(&[a, b, c, d])).abs();
             // 1e-9 of full scale: sums of 1e9 in 53 bits, over areas from 1.
             assert!(difference / 65535.0 < 1e-9, "size {size}: {difference}");
