@@ -25,13 +25,13 @@ pub struct Case {
     pub stated: f64,
     /// The stated bound.
     pub bound: f64,
-    /// Whether the request was reported as not reached.
+    /// True if the request was reported as not reached.
     pub missed: bool,
     /// The true error, by brute force on all pixels.
     pub truth: f64,
-    /// Whether the true error is above the bound, by the estimate.
+    /// True if the true error is above the bound, by the estimate.
     pub above: bool,
-    /// Whether it is above the bound by more than the noise of the truth.
+    /// True if the true error is above the bound by more than the noise of the truth.
     pub certainly_above: bool,
     /// Rays from the eye per pixel, for the picture and for the audit.
     pub rays: [f64; 2],

@@ -1,4 +1,4 @@
-//! What all cases of one kind have in common, in numbers.
+//! Numbers of all cases of one kind together.
 
 use super::measure::{Case, REQUESTS, SceneCases};
 

@@ -7,8 +7,8 @@
 //! Many samplings are tried and one is chosen, which must not make the statement wrong. In a round,
 //! the order of the trials is fixed before any pixel is seen. A round starts at a rung of the ladder
 //! that should suffice. It goes to cheaper rungs while their bounds are below the request, and the
-//! first that fails ends it. A wrong choice needs a wrong bound at the first insufficient rung on
-//! this way, so the risk of one bound is the risk of the round (fixed sequence testing; A.
+//! first that fails ends it. A wrong choice needs a wrong bound at the first insufficient rung of
+//! the round, so the risk of one bound is the risk of the round (fixed sequence testing; A.
 //! Angelopoulos et al., "Learn then Test", 2021, section 4). If the first rung of a round fails,
 //! another round follows with new pixels, more of them, and a part of the rest of the risk. The
 //! pixels of the round before show at which rung it should start.
@@ -49,7 +49,7 @@ pub struct Reached {
     pub stats: Stats,
     /// The settings that were chosen. `render` makes the same picture with them.
     pub settings: Settings,
-    /// What the audit found.
+    /// The result of the audit.
     pub statement: Statement,
 }
 

@@ -14,8 +14,8 @@ use thiserror::Error;
 
 #[derive(Debug, Args)]
 pub struct AccuracyArguments {
-    /// Make the picture with the fewest rays whose error is below this, and print the error that was
-    /// reached: a number between 0 and 1, root mean square in linear light, or 8bit for half a code of
+    /// Make the picture with the fewest rays whose error is below this, and print what was reached. A
+    /// request is a number between 0 and 1, root mean square in linear light, or 8bit for half a code of
     /// an 8-bit picture. The rays are chosen for you
     #[arg(long, value_name = "E|8bit", allow_hyphen_values = true)]
     error: Option<String>,
