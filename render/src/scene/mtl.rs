@@ -75,9 +75,7 @@ pub fn read(file: &str, bytes: &[u8]) -> Result<Library, ObjError> {
     let mut odd = Vec::new();
     let mut unused: BTreeMap<&str, usize> = BTreeMap::new();
     for (number, line) in text.lines().enumerate() {
-        let line = line.trim();
-        let (keyword, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
-        let rest = rest.trim();
+        let (keyword, rest) = text::keyword(line);
         if keyword.is_empty() || keyword.starts_with('#') {
             continue;
         }
@@ -102,7 +100,7 @@ pub fn read(file: &str, bytes: &[u8]) -> Result<Library, ObjError> {
             odd.push(format!(
                 "line {} is ignored: found `{}`, expected {expected}",
                 number + 1,
-                shortened(line)
+                shortened(line.trim())
             ));
         }
     }

@@ -16,19 +16,26 @@ pub struct NotText(pub usize);
 /// If the file contains a byte 0.
 pub fn of(bytes: &[u8]) -> Result<Cow<'_, str>, NotText> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    if let Some(at) = bytes.iter().position(|&byte| byte == 0) {
-        return Err(NotText(1 + bytes[..at].iter().filter(|&&byte| byte == b'\n').count()));
+    // One fast pass: most files have none of these bytes.
+    let seen = bytes.iter().fold(0, |seen, &byte| {
+        seen | u8::from(byte == 0) | u8::from(byte == b'\r') << 1 | u8::from(byte == b'\\') << 2
+    });
+    let [zero, returns, backslash] = [1, 2, 4].map(|bit| seen & bit != 0);
+    if zero {
+        let lines = bytes.split(|&byte| byte == 0).next().unwrap_or_default();
+        return Err(NotText(1 + lines.iter().filter(|&&byte| byte == b'\n').count()));
     }
     let text = match std::str::from_utf8(bytes) {
         Ok(text) => Cow::Borrowed(text),
         Err(_) => Cow::Owned(bytes.iter().copied().map(char::from).collect()),
     };
-    let text = if has_lone_returns(&text) {
+    let text = if returns && has_lone_returns(&text) {
         Cow::Owned(text.replace("\r\n", "\n").replace('\r', "\n"))
     } else {
         text
     };
-    Ok(if text.contains("\\\n") || text.contains("\\\r\n") { joined(&text).into() } else { text })
+    let continues = backslash && text.lines().any(|line| line.ends_with('\\'));
+    Ok(if continues { joined(&text).into() } else { text })
 }
 
 fn has_lone_returns(text: &str) -> bool {
@@ -53,9 +60,19 @@ fn joined(text: &str) -> String {
     all
 }
 
+/// Splits the keyword of a line from the rest.
+#[must_use]
+pub fn keyword(line: &str) -> (&str, &str) {
+    let line = line.trim_ascii();
+    match line.bytes().position(|byte| byte.is_ascii_whitespace()) {
+        Some(end) => (&line[..end], line[end..].trim_ascii_start()),
+        None => (line, ""),
+    }
+}
+
 /// Returns the words of a statement up to a comment.
 pub fn words(text: &str) -> impl Iterator<Item = &str> {
-    text.split_whitespace().take_while(|word| !word.starts_with('#'))
+    text.split_ascii_whitespace().take_while(|word| !word.starts_with('#'))
 }
 
 /// Returns a name without the comment that may follow it; `None` without such a comment.
@@ -89,6 +106,12 @@ mod tests {
             assert_eq!(lines, ["v 1   2 3", "", "", "f 1"], "{end:?}");
         }
         assert_eq!(of(b"a \\").unwrap().lines().collect::<Vec<_>>(), ["a \\"]);
+    }
+
+    #[test]
+    fn a_line_is_a_keyword_and_the_rest() {
+        assert_eq!(keyword(" \tv  1 2 \r"), ("v", "1 2"));
+        assert_eq!((keyword("f"), keyword("")), (("f", ""), ("", "")));
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::polygon;
 use super::{ObjError, ObjFile, shortened};
-use crate::scene::text::words;
+use crate::scene::text::{keyword, words};
 use crate::shape::Mesh;
 use crate::shape::mesh::{NONE, Triangle};
 use glam::DVec3;
@@ -71,7 +71,6 @@ impl<'a> Reader<'a> {
     pub(super) fn read(&mut self) -> Result<(), ObjError> {
         let text = self.text;
         for (number, line) in text.lines().enumerate() {
-            let line = line.trim();
             self.line(number, line).map_err(|expected| self.wrong(number, line, expected))?;
         }
         let counts = self.counts();
@@ -168,7 +167,7 @@ impl<'a> Reader<'a> {
     }
 
     fn line(&mut self, number: usize, line: &'a str) -> Result<(), Expected> {
-        let (keyword, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
+        let (keyword, rest) = keyword(line);
         match keyword {
             "v" => {
                 let (position, count) = numbers::<3>(rest).ok_or("`v` and three numbers")?;
@@ -198,7 +197,7 @@ impl<'a> Reader<'a> {
                 self.mesh.uvs.push(uv);
             }
             "usemtl" => {
-                self.name = rest.trim();
+                self.name = rest;
                 self.surface = self.surfaces.get(self.name).copied();
             }
             "f" => self.face(number, rest)?,
@@ -209,7 +208,7 @@ impl<'a> Reader<'a> {
                     Some(group) => group.parse().unwrap_or(1),
                 };
             }
-            "mtllib" => self.libraries.push(rest.trim()),
+            "mtllib" => self.libraries.push(rest),
             "" | "o" | "g" => {}
             _ if keyword.starts_with('#') => {}
             _ => self.pass_over(keyword),
@@ -230,6 +229,7 @@ impl<'a> Reader<'a> {
         let mut ends: [Corner; 2] = [[NONE; NUMBERED]; 2];
         let mut count = 0;
         let mut most = [0; NUMBERED];
+        let mut is_mixed = false;
         let surface = self.surface();
         for word in words(text) {
             let mut corner = [NONE; NUMBERED];
@@ -253,6 +253,8 @@ impl<'a> Reader<'a> {
                 let (position, uv, normal) = (part(0), part(1), part(2));
                 self.mesh.triangles.push(Triangle { position, uv, normal, surface });
             }
+            is_mixed |= (corner[1] == NONE) != (ends[0][1] == NONE) && count > 0;
+            is_mixed |= (corner[2] == NONE) != (ends[0][2] == NONE) && count > 0;
             // The first corner, and the last.
             ends[count.min(1)] = corner;
             count += 1;
@@ -260,7 +262,9 @@ impl<'a> Reader<'a> {
         if count < 3 {
             return Err(FORM);
         }
-        self.complete(first);
+        if is_mixed {
+            self.complete(first);
+        }
         if count > 3 {
             self.fans.push([first, self.mesh.triangles.len()]);
         }

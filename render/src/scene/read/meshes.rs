@@ -80,6 +80,15 @@ impl Reader<'_> {
             show_map(&mut mesh, &mut parts, number, &map);
         }
         self.check_texture_coordinates(&at, file, &mesh, &parts)?;
+        if parts.iter().any(|part| scene.materials[part.material].transparency > 0.0) {
+            let joined = mesh.close_rounded();
+            if joined > 0 {
+                let sentence = format!(
+                    "{joined} corners that differ by rounding were joined, which closes the mesh"
+                );
+                scene.remarks.push(remark(&file.name, &[sentence]));
+            }
+        }
         self.placed(&at, Shape::Mesh(mesh), parts, &placement)
     }
 
