@@ -65,7 +65,7 @@ impl Random {
 /// # Errors
 /// None, as long as all that is made here can be read, which a test checks.
 pub fn scene(number: u64) -> Result<Scene, PipelineError> {
-    let mut random = Random(mixed(number ^ 0x5ce7_e5));
+    let mut random = Random(mixed(number ^ 0x005c_e7e5));
     let mut meshes = MeshSource::new();
     let mut objects = vec![floor(&mut random)];
     let count = random.within(2.0, 6.0) as usize;
@@ -226,7 +226,7 @@ fn object(
                 mesh.positions.iter().flatten().fold(0.0_f32, |most: f32, x| most.max(x.abs()));
             let scale = 1.3 * size / f64::from(lows.max(1e-6));
             let name = format!("mesh-{number}");
-            meshes.insert(name.clone(), mesh);
+            meshes.insert(name.clone(), mesh.into());
             body["name"] = json!(name);
             body["place"] = json!([{ "scale": [scale, scale, scale] }, turn, moved]);
             // An open mesh of glass has no inside.
