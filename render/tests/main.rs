@@ -25,6 +25,7 @@ mod hostile;
 mod include;
 mod interrupted;
 mod layers;
+mod leaks;
 mod light;
 mod literal;
 mod mapping;
