@@ -69,6 +69,7 @@ const RENDER: Layers = &[
             "trace",
         ],
     ),
+    ("accuracy", &["film", "prepared", "stats"]),
     ("inspect", &["color", "film", "footprint", "prepared", "scene", "shade", "trace"]),
 ];
 

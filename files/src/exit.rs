@@ -23,6 +23,8 @@ pub enum Exit {
     ReadWrite = 5,
     /// A limit on memory, threads or numbering was met.
     Resource = 6,
+    /// A picture was written, and its requested error was not reached.
+    Inaccurate = 7,
     /// A bug of ours.
     Bug = 70,
     /// The reader of our standard output closed it. No message is printed.

@@ -30,6 +30,13 @@ pub trait Source: Debug + Sync {
     fn read_json(&self, path: &Path) -> Result<Vec<u8>, FileError> {
         room_for_values(self.read(path)?, || shown(path))
     }
+
+    /// Returns the only file whose path differs from `path` in the case of its name alone. Returns `None`
+    /// if there are several or none, or if this collection does not list its files.
+    fn same_but_case(&self, path: &Path) -> Option<PathBuf> {
+        let _ = path;
+        None
+    }
 }
 
 /// The file system. Relative paths are resolved from the working folder.
@@ -40,6 +47,20 @@ impl Source for Disk {
     fn read(&self, path: &Path) -> Result<Vec<u8>, FileError> {
         let (file, length) = regular(path)?;
         whole(file, length, memory::of_process(), || shown(path))
+    }
+
+    fn same_but_case(&self, path: &Path) -> Option<PathBuf> {
+        let wanted = path.file_name()?.to_str()?.to_lowercase();
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+        let names = std::fs::read_dir(folder.unwrap_or(Path::new("."))).ok()?;
+        let names = names.filter_map(|entry| Some(entry.ok()?.file_name()));
+        let same = |name: &std::ffi::OsString| {
+            Some(name.as_os_str()) != path.file_name()
+                && name.to_str().is_some_and(|name| name.to_lowercase() == wanted)
+        };
+        let mut found = names.filter(same);
+        let (first, second) = (found.next()?, found.next());
+        second.is_none().then(|| path.with_file_name(first))
     }
 }
 

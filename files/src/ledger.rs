@@ -9,7 +9,7 @@ use crate::identity::{Identity, Number, folder_of, folds_case};
 use crate::{Disk, Exit, Failure, FileError, Output, Source, input};
 use std::collections::HashMap;
 use std::io::BufRead;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use thiserror::Error;
 
@@ -204,6 +204,10 @@ impl Source for Ledger {
     fn read(&self, path: &Path) -> Result<Vec<u8>, FileError> {
         self.refuse(path, "")?;
         Disk.read(path)
+    }
+
+    fn same_but_case(&self, path: &Path) -> Option<PathBuf> {
+        Disk.same_but_case(path)
     }
 }
 

@@ -7,6 +7,7 @@
 //!   unpacks. Its display window, which the decoder returns, does not count.
 //! - The data of a PNG beside its pixels (colour profiles, texts) may take `MOST_BESIDE` bytes
 //!   after unpacking. The decoder skips a larger profile; our programs do not read profiles.
+//! - A JPEG that is cut off is refused, as other formats are: its decoder would fill the rest with grey.
 //! - A panic of a decoder becomes [`PictureError::Broken`]. Release 0.18.1 of the crate `png`
 //!   panics on palettes whose length is not a multiple of three. The fix exists upstream but is not
 //!   published; a test fails once the panic is gone. The guard stays useful after that: other
@@ -14,6 +15,10 @@
 
 mod exr;
 mod guard;
+mod jpeg;
+mod unused;
+
+pub use unused::unused;
 
 use crate::memory::{Budget, MemoryError, Reserved};
 use image::{ColorType, DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
@@ -21,6 +26,19 @@ use std::io::Cursor;
 use thiserror::Error;
 
 pub use image::ImageFormat as Format;
+
+/// The formats of pictures that cover surfaces. An EXR holds floating point values, which those who take
+/// whole numbers refuse after decoding.
+pub const SURFACES: [Format; 8] = [
+    Format::Png,
+    Format::Jpeg,
+    Format::Tga,
+    Format::Bmp,
+    Format::Tiff,
+    Format::WebP,
+    Format::Gif,
+    Format::OpenExr,
+];
 
 /// Number of bytes that profiles and texts of a PNG may take after unpacking, beyond their bytes in
 /// the file.
@@ -62,17 +80,24 @@ pub fn decode<'b>(
     budget: &'b Budget,
     name: impl Fn() -> String,
 ) -> Result<(DynamicImage, Reserved<'b>), PictureError> {
-    let format = format_of(bytes, formats)?;
+    let format = format_of(bytes, formats, &name)?;
     let work = || decode_unguarded(bytes, format, &each, budget, &name);
     guard::guarded(work).unwrap_or_else(|| Err(damaged()))
 }
 
-/// Returns the format of a file by its first bytes, if that is one of `formats`.
-fn format_of(bytes: &[u8], formats: &[ImageFormat]) -> Result<ImageFormat, PictureError> {
+/// Returns the format of a file by its first bytes, if that is one of `formats`. A TGA file has no
+/// signature; the name tells.
+fn format_of(
+    bytes: &[u8],
+    formats: &[ImageFormat],
+    name: &impl Fn() -> String,
+) -> Result<ImageFormat, PictureError> {
+    let is_tga = || name().to_ascii_lowercase().ends_with(".tga");
     let found = match image::guess_format(bytes) {
         Ok(format) if formats.contains(&format) => return Ok(format),
         Ok(format) => format!("a file of type {}", format.to_mime_type()),
         Err(_) if bytes.is_empty() => "an empty file".into(),
+        Err(_) if formats.contains(&ImageFormat::Tga) && is_tga() => return Ok(ImageFormat::Tga),
         Err(_) => "its first bytes are of no known format".into(),
     };
     Err(PictureError::Format(found))
@@ -93,6 +118,9 @@ fn decode_unguarded<'b>(
         unpacking.grow(data.bytes, || {
             format!("{} with {} channels", size_of(data.width, data.height), data.channels)
         })?;
+    }
+    if format == ImageFormat::Jpeg && !jpeg::is_whole(bytes) {
+        return Err(PictureError::Broken("the file ends before its picture does".into()));
     }
     if format == ImageFormat::Png {
         let row = || format!("{}: a row of {} pixels", name(), png_width(bytes));
@@ -118,7 +146,11 @@ fn opened(
     let mut limits = Limits::no_limits();
     // The budget does not count these few bytes, so they are at most what a small budget has left.
     let row = png_width(bytes).saturating_mul(ROW);
-    limits.max_alloc = Some((MOST_BESIDE + bytes.len() as u64).min(left).saturating_add(row));
+    limits.max_alloc = Some(match format {
+        // These decoders count their pictures too.
+        ImageFormat::Tiff | ImageFormat::WebP | ImageFormat::Gif => left,
+        _ => (MOST_BESIDE + bytes.len() as u64).min(left).saturating_add(row),
+    });
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     reader.limits(limits);
     reader.into_decoder().map_err(broken)
@@ -129,7 +161,7 @@ fn opened(
 /// # Errors
 /// When there is no header of these formats. A decoder's panic becomes an error.
 pub fn size(bytes: &[u8], formats: &[ImageFormat]) -> Result<(u32, u32), PictureError> {
-    let format = format_of(bytes, formats)?;
+    let format = format_of(bytes, formats, &String::new)?;
     let work = || Ok(opened(bytes, format, MOST_BESIDE)?.dimensions());
     guard::guarded(work).unwrap_or_else(|| Err(damaged()))
 }

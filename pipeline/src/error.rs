@@ -40,6 +40,11 @@ pub enum PipelineError {
         /// The error of the encoder.
         source: image::ImageError,
     },
+    /// Pictures were written whose requested error was not reached.
+    #[error(
+        "number of pictures that miss the requested error: {0}; their lines state what was reached"
+    )]
+    ErrorMissed(usize),
     /// Two jobs would write the same file.
     #[error("{first} and {second} would both write {file}: run them into two folders")]
     SameFile {
@@ -128,6 +133,7 @@ impl Failure for PipelineError {
             Self::Scene(error) => error.exit(),
             Self::Compare(error) => error.exit(),
             Self::Memory(_) | Self::Encode { .. } => Exit::Resource,
+            Self::ErrorMissed(_) => Exit::Inaccurate,
             Self::SameFile { .. }
             | Self::UnknownMesh { .. }
             | Self::MissingMesh { .. }

@@ -7,6 +7,7 @@
 //! each method of rendering a page costs, and how far its picture is from the truth.
 
 pub mod book;
+pub mod calibrate;
 pub mod cli;
 pub mod contact_sheet;
 pub mod error;

@@ -7,15 +7,16 @@ use files::json::Document;
 use files::memory::{Reserved, of_process};
 use files::words::shown;
 use files::{Batch, MemoryError, Output, Source, input};
+use render::accuracy::{self, Statement};
 use render::color::Encoding;
 use render::film::encode::{self, Format};
-use render::film::memory;
+use render::film::{BasePicture, PixelFilter, memory};
 use render::filter::Filter;
 use render::scene::file::CameraFile;
 use render::scene::read::{self, Draft};
 use render::scene::{MeshSource, SceneError};
 use render::stats::Stats;
-use render::{Picture, Prepared, Scene, Settings};
+use render::{Picture, Prepared, Sampling, Scene, Settings};
 use std::cell::Cell;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -74,6 +75,8 @@ pub enum Event<'a> {
         picture: &'a Picture,
         /// The counts and times of the picture.
         stats: &'a Stats,
+        /// The error that was reached, if the mode requests one.
+        statement: Option<&'a Statement>,
     },
     /// A file is written.
     Written(&'a Path),
@@ -174,7 +177,9 @@ impl Run<'_> {
         let (width, height) = self.options.size;
         let count = self.job.modes.len() as u64;
         let strip = memory::of_pixel(0, Some(Format::Png));
-        let pixel = count * (memory::of_pixel(0, None) + strip);
+        let searches = self.job.modes.iter().any(|mode| mode.error.is_some());
+        let first = if searches { BasePicture::of_pixel(PixelFilter::Gaussian) } else { 0 };
+        let pixel = count * (memory::of_pixel(0, None) + strip) + first;
         let bytes = (u64::from(width) * u64::from(height)).saturating_mul(pixel);
         let what = || format!("{count} pictures of {width}x{height} pixels side by side");
         of_process().reserve(bytes, what)
@@ -200,7 +205,7 @@ impl Run<'_> {
             .map_err(|error| self.of_meshes(error))?;
         let mut meshes = MeshSource::new();
         for mesh in &self.job.meshes {
-            meshes.insert(mesh.name.clone(), self.mesh(mesh, &file.camera)?);
+            meshes.insert(mesh.name.clone(), self.mesh(mesh, &file.camera)?.into());
         }
         let scene = draft.resolve(self.source, meshes).map_err(|error| self.of_meshes(error))?;
         // Reserves memory for each picture together with the tables that earlier modes keep.
@@ -305,13 +310,33 @@ impl Run<'_> {
     ) -> Result<Picture, PipelineError> {
         let settings = settings(mode, self.options.size);
         let progress = |done, total| (self.tell)(Event::Progress { mode: &mode.name, done, total });
-        let (picture, mut stats) = render::render(prepared, &settings, &progress);
+        let (picture, mut stats, statement) = match (mode.error, mode.sampling) {
+            (Some(error), Sampling::Area { pixel_filter, .. }) => {
+                let progress = |step: &str, done, total| {
+                    if step == "picture" {
+                        progress(done, total);
+                    }
+                };
+                let reached = accuracy::reach(prepared, &settings, pixel_filter, error, &progress);
+                (reached.picture, reached.stats, Some(reached.statement))
+            }
+            _ => {
+                let (picture, stats) = render::render(prepared, &settings, &progress);
+                (picture, stats, None)
+            }
+        };
         let started = Instant::now();
         self.write_picture(&self.job.picture_file(mode), &picture)?;
         stats.read_time = read_time;
         stats.write_time = started.elapsed();
         self.took(Stages::of_mode(&stats));
-        (self.tell)(Event::Picture { mode: &mode.name, picture: &picture, stats: &stats });
+        let statement = statement.as_ref();
+        (self.tell)(Event::Picture {
+            mode: &mode.name,
+            picture: &picture,
+            stats: &stats,
+            statement,
+        });
         Ok(picture)
     }
 

@@ -171,6 +171,10 @@ fn main() -> Result<(), Box<dyn Error>> {
             }
             writeln!(out, "|")?;
         }
+        if let Some([cells, filled, listed]) = accels[1].cells() {
+            let [part, mean] = [filled as f64 / cells as f64, listed as f64 / filled as f64];
+            writeln!(out, "{cells} voxels, {part:.3} of them list {mean:.2} triangles on average")?;
+        }
         let count = 300_000;
         let [tree, grid] = [0, 1].map(|k| leaks(&accels[k], &mesh, rows, count));
         writeln!(

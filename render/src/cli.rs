@@ -1,5 +1,6 @@
 //! The arguments of the program `render`, and its run. Each group of flags has its own file.
 
+mod accuracy;
 mod input;
 mod output;
 mod sampling;
@@ -10,9 +11,9 @@ use clap::Parser;
 use files::memory::of_process;
 use files::progress::Progress;
 use files::{Exit, Failure, Report};
-use render::film::{Crop, memory};
+use render::film::{BasePicture, Crop, Layer, memory};
 use render::scene::{self, schema};
-use render::{Prepared, Settings, inspect};
+use render::{Prepared, Sampling, Settings, inspect};
 use std::time::Instant;
 use thiserror::Error;
 
@@ -21,6 +22,8 @@ Examples:
   render examples/scenes/glass-sphere.json -o glass.png
   render scene.json --mesh vase=vase.obj --size 1024x768 --samples 3 -o vase.png
   sweep vase.json | triangulate --texture 2 | render scene.json --mesh vase=- -o vase.png
+  render scene.json --error 0.01 -o scene.png
+  render scene.json --sampling thesis --filter tent --audit -o scene.png
   render scene.json --filter point --stats -o - --format exr > picture.exr
   render scene.json --pixel 256,300
   render --check scene.json --mesh vase=vase.obj
@@ -30,7 +33,7 @@ Examples:
 The picture never replaces an input (the scene, its parts, meshes, materials, pictures).
 
 Exit codes: 2 bad use, 3 malformed input, 4 --check found something wrong, 5 cannot read or write,
-6 too large, 70 a bug, 130 interrupted, 141 closed pipe.";
+6 too large, 7 --error was not reached, 70 a bug, 130 interrupted, 141 closed pipe.";
 
 /// Renders a JSON scene with area sampled textures.
 #[derive(Debug, Parser)]
@@ -42,6 +45,8 @@ pub struct Arguments {
     output: output::OutputArguments,
     #[command(flatten)]
     sampling: sampling::SamplingArguments,
+    #[command(flatten)]
+    accuracy: accuracy::AccuracyArguments,
     #[command(flatten)]
     textures: textures::TextureArguments,
     #[command(flatten)]
@@ -76,6 +81,14 @@ enum UseError {
     WideFilterOfOne(String),
     #[error("{0} belongs to --sampling {1}: add --sampling {1}, or leave {0} out")]
     OfOtherSampling(&'static str, &'static str),
+    #[error("--error {text}: {expected}", text = files::words::shown(.0), expected = .1)]
+    Request(String, String),
+    #[error("{0} chooses the rays, and {1} chooses them too: leave one of the two out")]
+    Accuracies(&'static str, String),
+    #[error("{0} is about a whole picture: leave --pixel out")]
+    AccuracyOfPixel(&'static str),
+    #[error("--layers error shows an estimate that --sampling thesis does not make: leave it out")]
+    ErrorOfThesis,
     #[error("{0}: number of findings marked `wrong`: {1}")]
     Wrong(String, usize),
     #[error("cannot start {0} threads: {1}")]
@@ -97,7 +110,11 @@ impl Failure for UseError {
             | Self::PixelOutside(..)
             | Self::SeedOfNothing
             | Self::WideFilterOfOne(_)
-            | Self::OfOtherSampling(..) => Exit::Use,
+            | Self::OfOtherSampling(..)
+            | Self::Request(..)
+            | Self::Accuracies(..)
+            | Self::AccuracyOfPixel(_)
+            | Self::ErrorOfThesis => Exit::Use,
         }
     }
 }
@@ -115,7 +132,7 @@ impl Failure for EncodeError {
 
 /// Renders or checks the scene, or prints the text that the arguments request.
 pub fn run(arguments: &Arguments) -> Result<(), Report> {
-    let Arguments { input, output, sampling, textures, work } = arguments;
+    let Arguments { input, output, sampling, accuracy, textures, work } = arguments;
     if input.emit_schema {
         return Ok(output::print(&format!("{:#}\n", schema::of_scene()))?);
     }
@@ -125,6 +142,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
         return check(arguments);
     }
     sampling.check()?;
+    accuracy.check(sampling)?;
     let ledger = output.ledger();
     let target = output.target(sampling.pixel.is_some(), &ledger)?;
     input.expect(&ledger)?;
@@ -137,8 +155,15 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
         ..Settings::new(width, height, textures.filter)
     };
 
+    if settings.layers.contains(&Layer::Error)
+        && !matches!(settings.sampling, Sampling::Area { .. })
+    {
+        return Err(UseError::ErrorOfThesis.into());
+    }
+
     let started = Instant::now();
     let scene = input.read_scene(&ledger, |_, scene| Ok(scene))?;
+    work.print_remarks(&scene);
     // A pixel alone is a complete picture.
     let of_pixel =
         |(x, y)| Settings { crop: Some(Crop { x, y, width: 1, height: 1 }), ..settings.clone() };
@@ -149,21 +174,25 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
             memory::reserve(&scene, &settings, format, of_process())?
         }
     };
+    let pixels = u64::from(width) * u64::from(height);
+    let first = pixels.saturating_mul(BasePicture::of_pixel(sampling.pixel_filter));
+    let first = if accuracy.chooses() { first } else { 0 };
+    let _first = of_process().reserve(first, || "the first rays of all pixels".into())?;
     let read_time = started.elapsed();
 
     let pool = work.pool()?;
     let prepared = Prepared::new(&scene);
     if let Some(target) = target {
         let progress = Progress::new("render", work.quiet);
-        let (picture, mut stats) = pool.install(|| {
-            render::render(&prepared, &settings, &|done, total| progress.tell(done, total))
-        });
+        let (picture, mut stats, statement) = pool
+            .install(|| accuracy.render(&prepared, &settings, sampling.pixel_filter, &progress));
         drop(progress);
         let started = Instant::now();
         output.write(&target, &picture, &ledger)?;
         stats.read_time = read_time;
         stats.write_time = started.elapsed();
         work.print_stats(&stats);
+        accuracy.state(statement, work.quiet)?;
     }
     if let Some(pixel) = sampling.pixel {
         let (encoding, all) = (output.gamma, sampling.all_samples);

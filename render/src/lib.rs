@@ -11,10 +11,12 @@
 //! compares a node of the tree with its neighbours and determines the part of the texture that the
 //! pixel sees. [`filter`] averages the texture over that part. [`procedural`] computes solid
 //! textures and bumps. [`shade`] turns trees into colours. [`prepared`] keeps the data that all
-//! pictures of a scene share. [`film`] makes pictures. [`film::render`] runs all stages, and
+//! pictures of a scene share. [`film`] makes pictures. [`film::render`] runs all stages,
+//! [`accuracy`] measures the error of a picture and makes pictures of a requested error, and
 //! [`inspect`] prints one pixel in detail.
 
 pub mod accel;
+pub mod accuracy;
 pub mod color;
 pub mod differential;
 pub mod film;

@@ -41,6 +41,8 @@ pub struct Stats {
     pub lattice_bytes: u64,
     /// Pixels that were NaN or infinite and were made black. There should be none.
     pub not_finite: u64,
+    /// Rays from the eye of the audit, and of pixels that were tried alone for an accuracy.
+    pub audit_rays: u64,
     /// Time to read the scene, its meshes and its textures.
     #[serde(rename = "read_seconds", serialize_with = "seconds")]
     pub read_time: Duration,
@@ -53,6 +55,9 @@ pub struct Stats {
     /// Time to trace and shade.
     #[serde(rename = "picture_seconds", serialize_with = "seconds")]
     pub picture_time: Duration,
+    /// Time of the audit, and of pixels that were tried alone for an accuracy.
+    #[serde(rename = "audit_seconds", serialize_with = "seconds")]
+    pub audit_time: Duration,
     /// Time to encode and write the file.
     #[serde(rename = "write_seconds", serialize_with = "seconds")]
     pub write_time: Duration,
@@ -74,6 +79,27 @@ impl Stats {
         self.texture_points += shading.points;
         self.texels += shading.texels;
         self.solid_points += shading.solids;
+    }
+
+    /// Adds the counts and times of the first rays of the same picture.
+    pub fn include(&mut self, first: &Self) {
+        self.primary_rays += first.primary_rays;
+        self.reflected_rays += first.reflected_rays;
+        self.refracted_rays += first.refracted_rays;
+        self.shadow_rays += first.shadow_rays;
+        self.hits += first.hits;
+        self.texture_areas += first.texture_areas;
+        self.texture_points += first.texture_points;
+        self.texels += first.texels;
+        self.solid_points += first.solid_points;
+        self.accel_bytes = first.accel_bytes;
+        self.structures += first.structures;
+        self.tables += first.tables;
+        self.table_bytes = first.table_bytes;
+        self.lattice_bytes = first.lattice_bytes;
+        self.accel_time += first.accel_time;
+        self.table_time += first.table_time;
+        self.picture_time += first.picture_time;
     }
 }
 
@@ -98,6 +124,9 @@ impl fmt::Display for Stats {
         for (name, count) in counts {
             writeln!(f, "{name:<16}{count:>14}")?;
         }
+        if self.audit_rays > 0 {
+            writeln!(f, "{:<16}{:>14}", "audit rays", self.audit_rays)?;
+        }
         if self.not_finite > 0 {
             writeln!(f, "{:<16}{:>14}", "not finite", self.not_finite)?;
         }
@@ -108,7 +137,8 @@ impl fmt::Display for Stats {
             ("trace and shade", self.picture_time),
             ("write", self.write_time),
         ];
-        for (name, time) in times {
+        let audit = (self.audit_time > Duration::ZERO).then_some(("audit", self.audit_time));
+        for (name, time) in times.into_iter().chain(audit) {
             writeln!(f, "{name:<16}{:>12.3} s", time.as_secs_f64())?;
         }
         Ok(())

@@ -161,6 +161,16 @@ fn floor(at: f64) -> f64 {
     at.floor()
 }
 
+/// Returns the position in `[0, period]` that equals `at` up to whole periods and rounding.
+#[must_use]
+pub fn reduced(at: f64, period: f64) -> f64 {
+    if at.abs() < FAR {
+        (at - period * floor(at / period)).clamp(0.0, period)
+    } else {
+        at.rem_euclid(period)
+    }
+}
+
 impl Wrap {
     /// Returns an equivalent position in texels that is not too far from the origin.
     #[must_use]

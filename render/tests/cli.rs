@@ -176,7 +176,7 @@ fn stats_say_what_the_picture_cost() {
     for none in ["reflected_rays", "refracted_rays", "shadow_rays", "not_finite"] {
         assert_eq!(stats[none], 0, "{none}");
     }
-    // The wall stands apart, and no other object needs a structure.
+    // The wall is the only object, so that there is nothing to search.
     assert_eq!(stats["accel_bytes"], 0);
     for stage in ["read", "accel", "table", "picture", "write"] {
         assert!(stats[format!("{stage}_seconds")].is_f64(), "{stage}");

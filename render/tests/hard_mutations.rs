@@ -71,7 +71,7 @@ fn judged(text: &[u8]) -> bool {
             render::scene::file::ObjectFile::Mesh(mesh) => Some(mesh.name.clone()),
             _ => None,
         });
-        let given: MeshSource = names.map(|name| (name, tetrahedron())).collect();
+        let given: MeshSource = names.map(|name| (name, tetrahedron().into())).collect();
         let scene = draft.resolve(&Meshless, given)?;
         let report = check::check(&draft, &scene, 1.0, &|_| 0)?;
         for line in report.to_string().lines() {

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+mod accuracy;
 mod area;
 mod bench;
 mod bump_footprints;
@@ -12,6 +13,7 @@ mod differentials;
 mod exact;
 mod exact_filter;
 mod examples;
+mod foreign;
 mod hard_cases;
 mod hard_mutations;
 mod hard_optics;
@@ -23,6 +25,7 @@ mod hostile;
 mod include;
 mod interrupted;
 mod layers;
+mod leaks;
 mod light;
 mod literal;
 mod mapping;

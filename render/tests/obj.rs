@@ -5,6 +5,7 @@
 use crate::bench;
 
 use bench::{Bench, checks};
+use glam::DVec3;
 use proptest::prelude::*;
 use render::scene::obj;
 use render::shape::mesh::NONE;
@@ -87,7 +88,15 @@ proptest! {
             text.push_str(&format!("# a run\nusemtl {}\n", NAMES[name]));
             for (quad, corners, back) in faces {
                 text.push('f');
-                for (j, corner) in corners.into_iter().take(if quad { 4 } else { 3 }).enumerate() {
+                let place = |j: usize| {
+                    let point = points[(corners[j] + 7 * j) % points.len()];
+                    DVec3::from(point.map(f64::from))
+                };
+                // tobj divides along the first diagonal, and ours along one inside.
+                let [a, b, c, d] = [0, 1, 2, 3].map(place);
+                let is_inside = (b - a).cross(c - a).dot((c - a).cross(d - a)) >= 0.0;
+                let count = if quad && is_inside { 4 } else { 3 };
+                for (j, corner) in corners.into_iter().take(count).enumerate() {
                     let index = |count: usize, turn: usize| {
                         let index = (corner + turn) % count;
                         if back { index as i64 - count as i64 } else { index as i64 + 1 }
@@ -149,7 +158,8 @@ fn a_library_is_what_it_says_in_the_scenes_own_words() {
     let bound = r#""materials": { "net": "net", "brass": "brass" }, "textures": { "net": "t" }"#;
     bench.write("own.json", halves(bound, own));
     bench.make(&["scene.json", "-o", "library.png", "--size", "24x16"], b"");
-    bench.make(&["own.json", "-o", "own.png", "--size", "24x16"], b"");
+    // The remark that the library of the OBJ is not used is left out.
+    bench.make(&["own.json", "-q", "-o", "own.png", "--size", "24x16"], b"");
     assert_eq!(bench.read("library.png"), bench.read("own.png"));
     // The scene's own bindings take precedence over the library, and the library over `material`.
     let mixed = r#""mtl": "lib/halves.mtl", "materials": { "brass": "brass" }, "material": "gold""#;

@@ -69,7 +69,7 @@ pub fn read_with(bytes: &[u8], source: &dyn Source, given: &[(&str, Mesh)]) -> T
             {
                 let found = given.iter().find(|(name, _)| *name == mesh.name);
                 let shape = found.map_or_else(|| tetrahedron(mesh), |(_, mesh)| mesh.clone());
-                meshes.insert(mesh.name.clone(), shape);
+                meshes.insert(mesh.name.clone(), shape.into());
             }
         }
     }

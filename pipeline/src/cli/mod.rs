@@ -2,6 +2,7 @@
 
 mod bar;
 mod book;
+mod calibrate;
 mod common;
 mod compare;
 mod list;
@@ -22,8 +23,10 @@ Examples:
   pipeline run A.11 -o out
   pipeline run all -o out --size 1024x1024 --keep
   pipeline run my-job.json -o out --stats
+  pipeline run vase --error 0.005 -o out
   pipeline run frontispiece --mode exact --size 4096x4096 -o poster
   pipeline report glass-sphere -o report --quick
+  pipeline report --calibrate --scenes 50 -o report
   pipeline book -o book
   pipeline compare a.png b.png --map difference.png --rmse 0.01
 
@@ -34,7 +37,7 @@ files. NAME.incomplete remains if the program stops between two of the files, un
 complete run.
 
 Exit codes: 1 pictures that differ by more than is allowed, 2 bad use, 3 malformed input,
-4 impossible geometry, 5 cannot read or write, 6 too large, 70 a bug, 130 interrupted, 141 closed pipe.";
+4 impossible geometry, 5 cannot read or write, 6 too large, 7 a requested error was not reached, 70 a bug, 130 interrupted, 141 closed pipe.";
 
 /// From curves to pictures: sweep, triangulate and render in one process.
 #[derive(Debug, Parser)]
@@ -72,6 +75,7 @@ fn run(command: &Command, memory: Option<&dyn Memory>) -> Result<(), Report> {
     match command {
         Command::List => list::list(),
         Command::Run(arguments) => run::run(arguments),
+        Command::Report(arguments) if arguments.calibrate => report::calibrate(arguments),
         Command::Report(arguments) => match memory {
             Some(memory) => report::report(arguments, memory),
             None => Ok(report::hand_over()?),

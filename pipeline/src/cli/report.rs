@@ -2,6 +2,7 @@
 //! picture.
 
 use super::bar::Bar;
+use super::calibrate;
 use super::common::CommonArguments;
 use super::named::{self, NamedJob};
 use super::{OTHER_FOLDER, make_folder};
@@ -50,8 +51,22 @@ pub struct ReportArguments {
     /// [default: 256, with --quick 64]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(32..=MOST_SAMPLES.into()))]
     truth: Option<u32>,
+    /// Instead of the report, compare requested and stated errors with true ones, on the pages [default:
+    /// all] and on random scenes, and write calibration.html
+    #[arg(long, conflicts_with_all = ["quick", "truth"])]
+    pub calibrate: bool,
+    /// With --calibrate: number of random scenes [default: 200]
+    #[arg(long, value_name = "N", requires = "calibrate")]
+    scenes: Option<usize>,
     #[command(flatten)]
     common: CommonArguments,
+}
+
+/// Compares requested and stated errors with true ones.
+pub fn calibrate(arguments: &ReportArguments) -> Result<(), Report> {
+    let ReportArguments { pages, output, size, scenes, common, .. } = arguments;
+    common.limit_memory();
+    calibrate::calibrate(pages, scenes.unwrap_or(calibrate::SCENES), *size, output, common)
 }
 
 /// The program that counts memory cannot be started.

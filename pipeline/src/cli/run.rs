@@ -13,6 +13,7 @@ use clap::Args;
 use files::exit::say;
 use files::{Batch, Ledger, Report, input};
 use render::Picture;
+use render::accuracy;
 use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::PathBuf;
@@ -34,6 +35,10 @@ pub struct RunArguments {
     /// Make only the pictures of this mode, which all jobs must have; may be given several times
     #[arg(long = "mode", value_name = "NAME")]
     modes: Vec<String>,
+    /// Instead of the modes, make one picture whose error is below this: a number between 0 and 1, root
+    /// mean square in linear light, or 8bit for half a code of an 8-bit picture
+    #[arg(long, value_name = "E|8bit", value_parser = accuracy::error, conflicts_with = "modes")]
+    error: Option<f64>,
     /// Also write the grids and OBJ files, as the three programs would pipe them
     #[arg(long)]
     keep: bool,
@@ -75,6 +80,7 @@ pub fn run(arguments: &RunArguments) -> Result<(), Report> {
     let mut rows: Vec<(String, Stages)> = Vec::new();
     let mut all = Stages::default();
     let mut sheet = ContactSheet::default();
+    let mut missed = 0;
     for NamedJob { job, source, .. } in &jobs {
         let listener = Listener::new(job, arguments);
         let batch = of_job::batch(job, &options)?;
@@ -88,7 +94,8 @@ pub fn run(arguments: &RunArguments) -> Result<(), Report> {
         })?;
         batch.finish()?;
         rows.push((job.name.clone(), stages));
-        let (modes, last) = listener.finish();
+        let (modes, last, misses) = listener.finish();
+        missed += misses;
         rows.extend(modes);
         if let Some(picture) = &last {
             sheet.add(picture);
@@ -107,7 +114,10 @@ pub fn run(arguments: &RunArguments) -> Result<(), Report> {
     if !arguments.common.quiet {
         say(Stages::table(&rows).trim_end());
     }
-    Ok(())
+    match missed {
+        0 => Ok(()),
+        count => Err(PipelineError::ErrorMissed(count).into()),
+    }
 }
 
 impl RunArguments {
@@ -150,6 +160,10 @@ fn jobs<'a>(
     {
         let job = if figures.is_empty() { job } else { job.only(&figures) };
         let job = job.with_modes(&arguments.modes)?;
+        let job = match arguments.error {
+            Some(error) => job.with_error(error),
+            None => job,
+        };
         for file in job.files(arguments.keep) {
             if let Some(first) = written.get(&file) {
                 return Err(PipelineError::SameFile {
@@ -175,9 +189,9 @@ struct Listener<'a> {
     heard: Mutex<Heard>,
 }
 
-/// The times of each mode, if `--stats` is given, and the last picture, if a contact sheet shows
-/// it.
-type Heard = (Vec<(String, Stages)>, Option<Picture>);
+/// The times of each mode, if `--stats` is given, the last picture, if a contact sheet shows it, and
+/// the number of pictures that miss their requested error.
+type Heard = (Vec<(String, Stages)>, Option<Picture>, usize);
 
 impl<'a> Listener<'a> {
     fn new(job: &'a Job, arguments: &'a RunArguments) -> Self {
@@ -201,9 +215,13 @@ impl<'a> Listener<'a> {
                     self.say(&format!("{}: note: {name}: {missed}", self.job));
                 }
             }
-            Event::Picture { mode, picture, stats } => {
+            Event::Picture { mode, picture, stats, statement } => {
                 self.bar.clear();
                 let mut heard = self.heard.lock().unwrap_or_else(PoisonError::into_inner);
+                if let Some(statement) = statement {
+                    self.say(&format!("{} {mode}: {statement}", self.job));
+                    heard.2 += usize::from(statement.missed.is_some());
+                }
                 if self.arguments.sheet {
                     heard.1 = Some((*picture).clone());
                 }

@@ -11,6 +11,7 @@
 //!   "scene": "../scenes/vase.json",
 //!   "modes": [
 //!     { "name": "exact" },
+//!     { "name": "accurate", "error": 0.005 },
 //!     { "name": "fine", "samples": 2, "split": 0.01, "pixel_filter": "gaussian" },
 //!     { "name": "point", "filter": "point", "sampling": "thesis" },
 //!     { "name": "jittered", "filter": "tent", "sampling": "thesis", "samples": 4,
@@ -32,6 +33,7 @@
 //! |---|---|---|
 //! | `filter` | a texture filter, such as `exact` or `tent` | `exact` |
 //! | `sampling` | `area`, or `thesis` for the thesis's lattice of rays | `area` |
+//! | `error` | of `area`, instead of `samples` and `split`: a number or `"8bit"`, the error below which the picture must be | |
 //! | `samples` | rays along each side of a pixel, 1 to 256 | 1 |
 //! | `pixel_filter` | `box`, `tent` or `gaussian` | `box` |
 //! | `split` | of `area`: a threshold from 0.0001 to 1 above which pixels are split, or `none` | 0.1 |
@@ -59,6 +61,7 @@ use triangulate::Options;
 
 pub mod figure;
 pub mod mode;
+mod requested;
 mod sampling;
 
 pub use mode::Mode;
@@ -195,6 +198,13 @@ impl Job {
         self.modes.retain(|mode| names.is_empty() || names.contains(&mode.name));
         self.whole &= self.modes.len() == all;
         Ok(self)
+    }
+
+    /// Returns the job with one mode `error` in place of its own, which reaches this error.
+    #[must_use]
+    pub fn with_error(mut self, error: f64) -> Self {
+        self.modes = vec![Mode::of_error("error", error)];
+        self
     }
 
     /// Returns the numbers of the thesis's figures that the job shows, ascending.

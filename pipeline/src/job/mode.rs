@@ -1,5 +1,6 @@
 //! The modes in which a scene is rendered, and the thesis's figures that they reproduce.
 
+use super::requested::Requested;
 use super::sampling::{SamplingKeys, Split};
 use super::{check_word, figure};
 use files::JsonError;
@@ -20,6 +21,9 @@ pub struct Mode {
     pub filter: Filter,
     /// The rays of a pixel, and the areas that they stand for.
     pub sampling: Sampling,
+    /// The error below which the picture must be, in linear light; `None` if the mode requests none.
+    /// With it, the rays are chosen anew, and of `sampling` only the pixel filter is used.
+    pub error: Option<f64>,
     /// The structure that finds the hits. All structures give the same picture.
     pub accel: Structure,
     /// The figure of the thesis that the mode reproduces, such as `A.5`.
@@ -33,7 +37,13 @@ impl Mode {
     #[must_use]
     pub fn new(name: &str, filter: Filter, sampling: Sampling) -> Self {
         let (accel, figure, thesis_minutes) = (Structure::default(), None, None);
-        Self { name: name.into(), filter, sampling, accel, figure, thesis_minutes }
+        Self { name: name.into(), filter, sampling, error: None, accel, figure, thesis_minutes }
+    }
+
+    /// Returns a mode of this name, whose rays are chosen for a requested error.
+    #[must_use]
+    pub fn of_error(name: &str, error: f64) -> Self {
+        Self { name: name.into(), error: Some(error), ..Self::exact() }
     }
 
     /// Returns the mode `exact`: exact averages over areas, with pixels split at edges.
@@ -68,6 +78,8 @@ pub(super) struct ModeFile {
     #[serde(default)]
     sampling: Option<SamplingMethod>,
     #[serde(default)]
+    error: Option<Requested>,
+    #[serde(default)]
     samples: Option<u32>,
     #[serde(default)]
     split: Option<Split>,
@@ -89,7 +101,8 @@ impl ModeFile {
     /// Returns the keys that choose the rays of a pixel.
     pub(super) fn sampling_keys(&self) -> SamplingKeys {
         let Self { sampling, samples, split, pattern, seed, pixel_filter, supersample, .. } = *self;
-        SamplingKeys { sampling, samples, split, pattern, seed, pixel_filter, supersample }
+        let error = self.error;
+        SamplingKeys { sampling, error, samples, split, pattern, seed, pixel_filter, supersample }
     }
 }
 
@@ -117,9 +130,10 @@ pub(super) fn modes(
         if let Some(figure) = &mode.figure {
             check_figure(document, &format!("modes[{k}].figure"), figure)?;
         }
-        let ModeFile { name, filter, accel, figure, thesis_minutes, .. } = mode;
+        let ModeFile { name, filter, error, accel, figure, thesis_minutes, .. } = mode;
         let filter = filter.unwrap_or(Filter::Exact);
-        checked.push(Mode { name, filter, sampling, accel, figure, thesis_minutes });
+        let error = error.map(Requested::number);
+        checked.push(Mode { name, filter, sampling, error, accel, figure, thesis_minutes });
     }
     Ok(checked)
 }

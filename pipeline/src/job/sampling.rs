@@ -1,8 +1,10 @@
 //! The keys of a mode that choose the rays of a pixel, and the areas that they stand for.
 
+use super::requested::Requested;
 use files::JsonError;
 use files::json::Document;
 use render::Sampling;
+use render::accuracy;
 use render::film::{
     MOST_SAMPLES, PatternName, PixelFilter, SPLITS, SamplingMethod, Supersample, THRESHOLD,
 };
@@ -13,6 +15,7 @@ use std::fmt;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SamplingKeys {
     pub sampling: Option<SamplingMethod>,
+    pub error: Option<Requested>,
     pub samples: Option<u32>,
     pub split: Option<Split>,
     pub pattern: Option<PatternName>,
@@ -29,6 +32,15 @@ impl SamplingKeys {
     pub fn check(&self, document: &Document<'_>, path: &str) -> Result<Sampling, JsonError> {
         let fault =
             |(key, message): (&str, String)| document.fault(&format!("{path}.{key}"), message);
+        if let Some(error) = self.error {
+            accuracy::check(error.number()).map_err(|expected| {
+                fault(("error", format!("found {}, {expected}", error.number())))
+            })?;
+            if let Some(other) = self.beside_error() {
+                let message = format!("found error beside {other}, expected one of them");
+                return Err(fault(("error", message)));
+            }
+        }
         let samples = self.samples.unwrap_or(1);
         if !(1..=MOST_SAMPLES).contains(&samples) {
             let message = format!("found {samples}, expected 1 to {MOST_SAMPLES}");
@@ -39,6 +51,19 @@ impl SamplingKeys {
             SamplingMethod::Thesis => self.thesis(samples),
         };
         sampling.map_err(fault)
+    }
+
+    /// Returns a key that chooses the rays as well as `error` does, if there is one.
+    fn beside_error(&self) -> Option<&'static str> {
+        let others = [
+            ("samples", self.samples.is_some()),
+            ("split", self.split.is_some()),
+            ("sampling", self.sampling == Some(SamplingMethod::Thesis)),
+            ("pattern", self.pattern.is_some()),
+            ("seed", self.seed.is_some()),
+            ("supersample", self.supersample.is_some()),
+        ];
+        others.into_iter().find(|(_, there)| *there).map(|(key, _)| key)
     }
 
     /// Returns area sampling, or the wrong key and a complaint about it.
@@ -169,6 +194,24 @@ mod tests {
             (r#""split": 1"#, 1, PixelFilter::Box, Some(1.0)),
         ] {
             assert_eq!(sampling(keys), Ok(area(samples, pixel_filter, threshold)), "{keys}");
+        }
+    }
+
+    #[test]
+    fn an_error_stands_alone() {
+        for keys in [r#""error": 0.01"#, r#""error": "8bit", "pixel_filter": "box""#] {
+            assert_eq!(sampling(keys), Ok(area(1, PixelFilter::Box, Some(THRESHOLD))), "{keys}");
+        }
+        for (keys, expected) in [
+            (r#""error": 0"#, "mode.error: found 0, expected a number above 0 and below 1"),
+            (r#""error": 1e-9"#, "texels of 16 bits represent nothing finer"),
+            (r#""error": "9bit""#, "expected a number, or \"8bit\""),
+            (r#""error": 0.1, "samples": 2"#, "mode.error: found error beside samples"),
+            (r#""error": 0.1, "split": 0.1"#, "mode.error: found error beside split"),
+            (r#""error": 0.1, "sampling": "thesis""#, "mode.error: found error beside sampling"),
+        ] {
+            let complaint = sampling(keys).unwrap_err();
+            assert!(complaint.contains(expected), "{keys}: {complaint}");
         }
     }
 

@@ -1,197 +1,319 @@
 //! Divides boxes from the top down into a binary tree.
 //!
-//! Each part is cut across one axis where the surface area heuristic expects the least work: after
-//! Wald, *On fast Construction of SAH-based Bounding Volume Hierarchies*, IEEE Symposium on
-//! Interactive Ray Tracing 2007. Large parts are sorted into bins by the middles of their boxes, small
-//! ones are sorted and tried at every cut.
+//! Each part is cut across one axis where the surface area heuristic expects the least work. Parts
+//! are sorted into bins by the middles of their boxes: Wald, *On fast Construction of SAH-based
+//! Bounding Volume Hierarchies*, IEEE Symposium on Interactive Ray Tracing 2007. Small parts are
+//! sorted and tried at every cut. A ray tests all boxes of a leaf at once, so that the expected work
+//! counts leaves and not boxes.
+//!
+//! Large parts are divided by two threads at once. The tree does not depend on the threads, because
+//! each part is divided by one thread and the order of its boxes is fixed.
 //!
 //! **The work is bounded.** Where no plane separates the middles (coincident boxes), and below
 //! `Builder::deepest` (boxes whose sizes shrink without end), a part is halved by count. So the tree
 //! is at most `3 log2 n` + 8 levels deep, each level looks at each box a fixed number of times, and
 //! building takes O(n log n) whatever the boxes are.
 
-use glam::{DVec3, Vec3A};
-
-/// Largest number of boxes in a leaf.
-///
-/// If larger, rays try pieces that a further cut would have kept from them. If smaller, the tree
-/// takes more memory for no fewer tests.
-const MOST_IN_LEAF: usize = 4;
-
-/// Cost of a test of two sibling boxes, in tests of a piece.
-///
-/// If larger, leaves grow. If smaller, rays pass more nodes than there are pieces to try.
-const STEP_COST: f64 = 1.0;
-
-/// Bins along each axis. More bins take longer and hardly find better cuts.
-const BINS: usize = 32;
+use super::bins::{Bins, MOST_BINS};
+use super::collapse::{Binary, Costs};
+use glam::Vec4;
 
 /// Parts of at most this many boxes are sorted instead of binned. If larger, building takes longer.
 /// If smaller, the lower levels, which hold most of the nodes, are cut less well.
-const SORTED: usize = 64;
+const SORTED: usize = 12;
 
-/// A box along the axes in `f32`.
+/// Parts of more boxes than this are divided in parallel. If smaller, threads are started for less
+/// work than they cost. If larger, one thread waits for the other.
+const PARALLEL: usize = 8192;
+
+/// A box along the axes, with the number of what it surrounds.
+///
+/// The fourth component of `low` holds the number as bits, at most 2^30, so that the bits are those
+/// of a finite number. The fourth component of other boxes has no meaning.
 #[derive(Debug, Clone, Copy)]
-pub struct Bounds {
-    /// Lower corner.
-    pub low: Vec3A,
-    /// Upper corner.
-    pub high: Vec3A,
+pub struct Numbered {
+    low: Vec4,
+    high: Vec4,
 }
 
-impl Bounds {
-    /// The empty box. Its union with another box is that other box.
-    const NONE: Self = Self { low: Vec3A::INFINITY, high: Vec3A::NEG_INFINITY };
+impl Numbered {
+    /// The largest number.
+    pub const MOST: u32 = 1 << 30;
 
-    /// The smallest box of `f32` around a box of `f64`.
+    /// A box with a number up to [`Numbered::MOST`]; its corners lie in [-1, 1].
     #[must_use]
-    pub fn around([low, high]: [DVec3; 2]) -> Self {
-        let down =
-            |x: f64| if f64::from(x as f32) <= x { x as f32 } else { (x as f32).next_down() };
-        let up = |x: f64| if f64::from(x as f32) >= x { x as f32 } else { (x as f32).next_up() };
-        Self {
-            low: Vec3A::new(down(low.x), down(low.y), down(low.z)),
-            high: Vec3A::new(up(high.x), up(high.y), up(high.z)),
-        }
+    pub fn new(number: u32, low: [f32; 3], high: [f32; 3]) -> Self {
+        let [x, y, z] = low;
+        let low = Vec4::new(x, y, z, f32::from_bits(number));
+        let [x, y, z] = high;
+        Self { low, high: Vec4::new(x, y, z, 0.0) }
     }
 
-    fn join(self, other: Self) -> Self {
-        Self { low: self.low.min(other.low), high: self.high.max(other.high) }
+    /// The number.
+    #[must_use]
+    pub fn number(&self) -> u32 {
+        self.low.w.to_bits()
     }
 
-    /// Half the surface area, in `f64`, where no side of an `f32` box overflows; 0 for the empty
-    /// box.
+    /// The longest side of the box.
     #[must_use]
-    pub fn half_area(&self) -> f64 {
-        let [x, y, z] = (self.high - self.low).to_array().map(|side| f64::from(side.max(0.0)));
-        x * y + y * z + z * x
+    pub fn longest(&self) -> f32 {
+        (self.high - self.low).truncate().max_element()
     }
 
     /// Twice the middle of the box.
-    fn middle(&self) -> Vec3A {
+    fn middle(&self) -> Vec4 {
         self.low + self.high
     }
 }
 
-/// The decision about a part of the boxes.
+/// A box without a number.
 #[derive(Debug, Clone, Copy)]
-pub enum Part {
-    /// The part becomes a leaf.
-    Leaf,
-    /// The part is cut in two: the boxes before this position and those from it on, with their
-    /// bounds.
-    Cut(usize, [Bounds; 2]),
+pub struct Bounds {
+    /// Lower corner.
+    pub low: Vec4,
+    /// Upper corner.
+    pub high: Vec4,
 }
 
-/// Divides one set of boxes into parts.
+impl Bounds {
+    /// The empty box. Its union with another box is that other box.
+    pub const NONE: Self = Self { low: Vec4::INFINITY, high: Vec4::NEG_INFINITY };
+
+    fn add(&mut self, low: Vec4, high: Vec4) {
+        self.low = self.low.min(low);
+        self.high = self.high.max(high);
+    }
+
+    /// Half the surface area. The box is not empty.
+    #[must_use]
+    pub fn half_area(&self) -> f32 {
+        let side = self.high - self.low;
+        side.x * side.y + side.y * side.z + side.z * side.x
+    }
+
+    /// Returns the box around boxes and the box around their middles.
+    fn of(part: &[Numbered]) -> [Self; 2] {
+        let [mut all, mut middles] = [Self::NONE; 2];
+        for one in part {
+            all.add(one.low, one.high);
+            middles.add(one.middle(), one.middle());
+        }
+        [all, middles]
+    }
+}
+
+/// A part of the boxes that is to be divided.
 #[derive(Debug)]
-pub struct Builder<'a> {
-    boxes: &'a [Bounds],
+struct Part<'a> {
+    boxes: &'a mut [Numbered],
+    /// Position of the first box among all boxes.
+    first: usize,
+    bounds: Bounds,
+    /// The box around the middles of the boxes.
+    middles: Bounds,
+    /// Number of cuts that led to the part.
+    depth: usize,
+}
+
+/// The nodes below a part.
+enum Grown {
+    /// All nodes, each before its children.
+    Nodes(Vec<Binary>),
+    /// A node whose children were grown by two threads.
+    Pair(Bounds, Box<[Grown; 2]>),
+}
+
+/// A binary tree over boxes.
+#[derive(Debug)]
+pub struct Grove {
+    /// Nodes, each before its children, the root first.
+    pub nodes: Vec<Binary>,
+    /// Number of boxes examined to build the tree; a box counts each time it is examined.
+    pub looks: u64,
+}
+
+/// Builds a tree over boxes and reorders them, so that each leaf is a range. A leaf holds up to
+/// `in_leaf` boxes. There is at least one box.
+#[must_use]
+pub fn grow(boxes: &mut [Numbered], in_leaf: usize) -> Grove {
+    let levels = usize::BITS - boxes.len().leading_zeros();
+    let builder = Builder { in_leaf, deepest: 2 * levels as usize + 8 };
+    let [bounds, middles] = Bounds::of(boxes);
+    let mut looks = boxes.len() as u64;
+    let part = Part { boxes, first: 0, bounds, middles, depth: 0 };
+    let grown = builder.grow(part, &mut looks);
+    let nodes = match grown {
+        Grown::Nodes(nodes) => nodes,
+        pair @ Grown::Pair(..) => {
+            let mut nodes = Vec::with_capacity(pair.count());
+            pair.append_to(&mut nodes);
+            nodes
+        }
+    };
+    Grove { nodes, looks }
+}
+
+impl Grown {
+    /// Number of nodes.
+    fn count(&self) -> usize {
+        match self {
+            Self::Nodes(nodes) => nodes.len(),
+            Self::Pair(_, children) => 1 + children.iter().map(Self::count).sum::<usize>(),
+        }
+    }
+
+    /// Appends the nodes and returns the costs of the first.
+    fn append_to(self, nodes: &mut Vec<Binary>) -> Costs {
+        match self {
+            Self::Nodes(own) => {
+                let costs = own[0].costs;
+                nodes.extend(own);
+                costs
+            }
+            Self::Pair(bounds, children) => {
+                let at = nodes.len();
+                nodes.push(Binary::leaf(bounds, 0, 0));
+                let [a, b] = *children;
+                let a = a.append_to(nodes);
+                let second = nodes.len() - at;
+                let b = b.append_to(nodes);
+                nodes[at] = Binary::pair(bounds, second as u32, [&a, &b]);
+                nodes[at].costs
+            }
+        }
+    }
+}
+
+/// Limits of a tree.
+#[derive(Debug, Clone, Copy)]
+struct Builder {
+    in_leaf: usize,
     /// Parts at this depth or deeper are halved by count.
     deepest: usize,
-    /// Number of boxes examined so far; a box counts each time it is examined.
-    pub looks: u64,
 }
 
 /// A cut across an axis.
 #[derive(Debug, Clone, Copy)]
 struct Cut {
-    cost: f64,
+    cost: f32,
     axis: usize,
     /// The first bin, or the first box in sorted order, of the second part.
     at: usize,
 }
 
-impl<'a> Builder<'a> {
-    /// Creates a builder over `boxes`.
-    #[must_use]
-    pub fn new(boxes: &'a [Bounds]) -> Self {
-        let levels = usize::BITS - boxes.len().leading_zeros();
-        Self { boxes, deepest: 2 * levels as usize + 8, looks: 0 }
+impl Cut {
+    /// The worst cut.
+    const NONE: Self = Self { cost: f32::INFINITY, axis: 0, at: 0 };
+}
+
+impl Builder {
+    fn grow(self, part: Part<'_>, looks: &mut u64) -> Grown {
+        if part.boxes.len() <= PARALLEL {
+            let mut nodes = Vec::with_capacity(part.boxes.len());
+            self.grow_here(part, &mut nodes, looks);
+            return Grown::Nodes(nodes);
+        }
+        let bounds = part.bounds;
+        let [a, b] = self.cut(part, looks);
+        let mut others = 0;
+        let (a, b) = rayon::join(|| self.grow(a, looks), || self.grow(b, &mut others));
+        *looks += others;
+        Grown::Pair(bounds, Box::new([a, b]))
     }
 
-    /// Divides the boxes whose numbers are in `part`, and reorders `part`. `bounds` surrounds these
-    /// boxes, and `depth` is the number of cuts that led to them.
-    pub fn divide(&mut self, part: &mut [u32], bounds: &Bounds, depth: usize) -> Part {
-        let count = part.len();
-        if count == 1 {
-            return Part::Leaf;
+    /// Appends the nodes below a part.
+    fn grow_here(self, part: Part<'_>, nodes: &mut Vec<Binary>, looks: &mut u64) {
+        let (at, bounds) = (nodes.len(), part.bounds);
+        nodes.push(Binary::leaf(bounds, part.first as u32, part.boxes.len() as u32));
+        if part.boxes.len() <= self.in_leaf {
+            return;
         }
-        self.looks += count as u64;
-        let spread = part.iter().fold(Bounds::NONE, |spread, &k| {
-            let middle = self.boxes[k as usize].middle();
-            spread.join(Bounds { low: middle, high: middle })
-        });
-        let cut = if depth >= self.deepest {
-            None
-        } else if count <= SORTED {
-            self.best_sorted(part)
+        let [a, b] = self.cut(part, looks);
+        self.grow_here(a, nodes, looks);
+        let second = nodes.len() - at;
+        self.grow_here(b, nodes, looks);
+        let costs = [&nodes[at + 1].costs, &nodes[at + second].costs];
+        nodes[at] = Binary::pair(bounds, second as u32, costs);
+    }
+
+    /// Cuts a part of at least two boxes in two.
+    fn cut<'a>(self, part: Part<'a>, looks: &mut u64) -> [Part<'a>; 2] {
+        let count = part.boxes.len();
+        let binned = count > SORTED;
+        let cut = if part.depth >= self.deepest {
+            Cut::NONE
+        } else if binned {
+            *looks += 2 * count as u64;
+            self.best_binned(&part)
         } else {
-            self.best_binned(part, &spread)
+            *looks += 4 * count as u64;
+            self.best_sorted(part.boxes)
         };
-        let cut = cut.filter(|cut| cut.cost.is_finite());
-        // The saving of a cut is measured against trying all boxes.
-        let area = bounds.half_area();
-        let worth_it = |cut: &Cut| STEP_COST * area + cut.cost < count as f64 * area;
-        if count <= MOST_IN_LEAF && !cut.as_ref().is_some_and(worth_it) {
-            return Part::Leaf;
-        }
-        let at = match cut {
-            Some(cut) if count <= SORTED => {
-                self.sort(part, cut.axis);
-                cut.at
+        let Part { boxes, first, middles, depth, .. } = part;
+        let at = if cut.cost.is_infinite() {
+            0
+        } else if binned {
+            let bins = Bins::new([middles.low, middles.high], count);
+            partition(boxes, |one| bins.of_axis(one.middle(), cut.axis) < cut.at)
+        } else {
+            let order = sorted(boxes, cut.axis);
+            let unsorted = copied(boxes);
+            for (one, from) in boxes.iter_mut().zip(order) {
+                *one = unsorted[usize::from(from)];
             }
-            Some(cut) => {
-                let bins = Bins::new(&spread, cut.axis);
-                let in_first = |&k: &u32| bins.of(&self.boxes[k as usize]) < cut.at;
-                partition(part, in_first)
-            }
-            None => 0,
+            cut.at
         };
-        let at = if (1..count).contains(&at) { at } else { self.halve(part, &spread) };
-        self.looks += count as u64;
-        let around = |part: &[u32]| {
-            part.iter().fold(Bounds::NONE, |all, &k| all.join(self.boxes[k as usize]))
+        let at = if (1..count).contains(&at) {
+            at
+        } else {
+            *looks += count as u64;
+            halve(boxes, &middles)
         };
-        Part::Cut(at, [around(&part[..at]), around(&part[at..])])
+        let (a, b) = boxes.split_at_mut(at);
+        let part = |boxes: &'a mut [Numbered], first| {
+            let [bounds, middles] = Bounds::of(boxes);
+            Part { boxes, first, bounds, middles, depth: depth + 1 }
+        };
+        [part(a, first), part(b, first + at)]
     }
 
-    /// Returns the best cut between bins, or `None` if all middles coincide.
-    fn best_binned(&mut self, part: &[u32], spread: &Bounds) -> Option<Cut> {
-        self.looks += part.len() as u64;
-        let axes = [0, 1, 2].map(|axis| Bins::new(spread, axis));
-        let mut filled = [[(Bounds::NONE, 0u32); BINS]; 3];
-        for &k in part {
-            let bounds = self.boxes[k as usize];
-            for (bins, filled) in axes.iter().zip(&mut filled) {
-                let (all, count) = &mut filled[bins.of(&bounds)];
-                *all = all.join(bounds);
+    /// Number of leaves for `count` boxes.
+    fn leaves(self, count: usize) -> f32 {
+        count.div_ceil(self.in_leaf) as f32
+    }
+
+    /// Returns the best cut between bins.
+    fn best_binned(self, part: &Part<'_>) -> Cut {
+        let bins = Bins::new([part.middles.low, part.middles.high], part.boxes.len());
+        let mut filled = [[(Bounds::NONE, 0usize); MOST_BINS]; 3];
+        for one in part.boxes.iter() {
+            let at = bins.of(one.middle());
+            for (filled, at) in filled.iter_mut().zip(at) {
+                let (all, count) = &mut filled[at];
+                all.add(one.low, one.high);
                 *count += 1;
             }
         }
-        let mut best: Option<Cut> = None;
+        let mut best = Cut::NONE;
         for (axis, filled) in filled.iter().enumerate() {
-            if axes[axis].scale == 0.0 {
-                continue;
-            }
-            let mut second = [(0.0, 0u32); BINS];
+            let mut second = [(0.0, 0usize); MOST_BINS];
             let (mut all, mut count) = (Bounds::NONE, 0);
-            for bin in (1..BINS).rev() {
-                all = all.join(filled[bin].0);
+            for bin in (1..bins.count).rev() {
+                all.add(filled[bin].0.low, filled[bin].0.high);
                 count += filled[bin].1;
                 second[bin] = (all.half_area(), count);
             }
             let (mut all, mut count) = (Bounds::NONE, 0);
-            for at in 1..BINS {
-                all = all.join(filled[at - 1].0);
+            for at in 1..bins.count {
+                all.add(filled[at - 1].0.low, filled[at - 1].0.high);
                 count += filled[at - 1].1;
                 let (area, others) = second[at];
-                if count == 0 || others == 0 {
-                    continue;
-                }
-                let cost = f64::from(count) * all.half_area() + f64::from(others) * area;
-                if best.is_none_or(|best| cost < best.cost) {
-                    best = Some(Cut { cost, axis, at });
+                if count > 0 && others > 0 {
+                    let cost = self.leaves(count) * all.half_area() + self.leaves(others) * area;
+                    if cost < best.cost {
+                        best = Cut { cost, axis, at };
+                    }
                 }
             }
         }
@@ -199,75 +321,69 @@ impl<'a> Builder<'a> {
     }
 
     /// Returns the best of all cuts of a small part.
-    fn best_sorted(&mut self, part: &mut [u32]) -> Option<Cut> {
-        let mut best: Option<Cut> = None;
+    fn best_sorted(self, part: &[Numbered]) -> Cut {
+        let mut best = Cut::NONE;
         let mut areas = [0.0; SORTED];
         for axis in 0..3 {
-            self.sort(part, axis);
+            let order = sorted(part, axis);
+            let boxed = |at: usize| &part[usize::from(order[at])];
             let mut all = Bounds::NONE;
             for at in (1..part.len()).rev() {
-                all = all.join(self.boxes[part[at] as usize]);
+                all.add(boxed(at).low, boxed(at).high);
                 areas[at] = all.half_area();
             }
             let mut all = Bounds::NONE;
-            for at in 1..part.len() {
-                all = all.join(self.boxes[part[at - 1] as usize]);
-                let cost = at as f64 * all.half_area() + (part.len() - at) as f64 * areas[at];
-                if best.is_none_or(|best| cost < best.cost) {
-                    best = Some(Cut { cost, axis, at });
+            for (at, area) in areas.iter().enumerate().take(part.len()).skip(1) {
+                all.add(boxed(at - 1).low, boxed(at - 1).high);
+                let others = self.leaves(part.len() - at) * area;
+                let cost = self.leaves(at) * all.half_area() + others;
+                if cost < best.cost {
+                    best = Cut { cost, axis, at };
                 }
             }
         }
         best
     }
-
-    /// Sorts a small part along an axis.
-    fn sort(&mut self, part: &mut [u32], axis: usize) {
-        self.looks += part.len() as u64;
-        let key = |k: &u32| self.boxes[*k as usize].middle()[axis];
-        part.sort_unstable_by(|a, b| key(a).total_cmp(&key(b)).then(a.cmp(b)));
-    }
-
-    /// Moves the lower half of a part to its front, along the axis on which its middles spread the
-    /// most.
-    fn halve(&mut self, part: &mut [u32], spread: &Bounds) -> usize {
-        self.looks += part.len() as u64;
-        let size = (spread.high - spread.low).to_array();
-        let axis = (0..3).max_by(|&a, &b| size[a].total_cmp(&size[b])).unwrap_or(0);
-        let key = |k: &u32| self.boxes[*k as usize].middle()[axis];
-        let half = part.len() / 2;
-        part.select_nth_unstable_by(half, |a, b| key(a).total_cmp(&key(b)).then(a.cmp(b)));
-        half
-    }
 }
 
-/// Equal bins along one axis.
-#[derive(Debug, Clone, Copy)]
-struct Bins {
-    axis: usize,
-    low: f32,
-    /// Bins per unit of length; 0 if all middles coincide.
-    scale: f32,
+/// Returns the order of a small part along an axis, by insertion. Equal middles are in the order of the
+/// numbers.
+fn sorted(part: &[Numbered], axis: usize) -> [u8; SORTED] {
+    let mut order = [0; SORTED];
+    let mut keys = [(0.0, 0); SORTED];
+    for (k, one) in part.iter().enumerate().take(SORTED) {
+        let key = (one.middle()[axis], one.number());
+        let mut at = k;
+        while at > 0 && key < keys[at - 1] {
+            (keys[at], order[at]) = (keys[at - 1], order[at - 1]);
+            at -= 1;
+        }
+        (keys[at], order[at]) = (key, k as u8);
+    }
+    order
 }
 
-impl Bins {
-    fn new(spread: &Bounds, axis: usize) -> Self {
-        let size = spread.high[axis] - spread.low[axis];
-        let scale = BINS as f32 / size;
-        let scale = if size > 0.0 && scale.is_finite() { scale } else { 0.0 };
-        Self { axis, low: spread.low[axis], scale }
-    }
-
-    /// Returns the bin of a box. The conversion turns negative values and NaN into 0.
-    fn of(&self, bounds: &Bounds) -> usize {
-        let place = (bounds.middle()[self.axis] - self.low) * self.scale;
-        (place as usize).min(BINS - 1)
-    }
+/// Returns a copy of a small part.
+fn copied(part: &[Numbered]) -> [Numbered; SORTED] {
+    let mut copy = [Numbered { low: Vec4::ZERO, high: Vec4::ZERO }; SORTED];
+    copy[..part.len()].copy_from_slice(part);
+    copy
 }
 
-/// Moves the elements for which `is_first` holds to the front, in any order, and returns their
-/// number.
-fn partition(part: &mut [u32], is_first: impl Fn(&u32) -> bool) -> usize {
+/// Moves the lower half of a part to its front, along the axis on which its middles spread the most.
+fn halve(part: &mut [Numbered], middles: &Bounds) -> usize {
+    let size = (middles.high - middles.low).to_array();
+    let axis = (0..3).max_by(|&a, &b| size[a].total_cmp(&size[b])).unwrap_or(0);
+    let key = |one: &Numbered| one.middle()[axis];
+    let half = part.len() / 2;
+    part.select_nth_unstable_by(half, |a, b| {
+        key(a).total_cmp(&key(b)).then(a.number().cmp(&b.number()))
+    });
+    half
+}
+
+/// Moves the boxes for which `is_first` holds to the front and returns their number.
+fn partition(part: &mut [Numbered], is_first: impl Fn(&Numbered) -> bool) -> usize {
     let mut at = 0;
     for k in 0..part.len() {
         if is_first(&part[k]) {

@@ -105,6 +105,21 @@ impl Grids {
         size_of_val(&*self.grids) + self.grids.iter().map(lists).sum::<usize>()
     }
 
+    /// Returns the number of voxels, the number of those that list a box, and the number of entries of
+    /// all lists.
+    #[must_use]
+    pub fn cells(&self) -> [u64; 3] {
+        self.grids.iter().fold([0; 3], |all, grid| {
+            let lists = grid.starts.windows(2);
+            let filled = lists.filter(|ends| ends[0] < ends[1]).count();
+            [
+                all[0] + grid.cut.all() as u64,
+                all[1] + filled as u64,
+                all[2] + grid.listed.len() as u64,
+            ]
+        })
+    }
+
     /// Number of boxes examined to build the grids; a box counts each time it is examined.
     #[must_use]
     pub fn looks(&self) -> u64 {

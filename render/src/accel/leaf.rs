@@ -7,9 +7,9 @@
 use super::Accel;
 use super::slabs::SlabRay;
 use crate::ray::{Hit, Piece, Ray};
-use crate::shape::triangle::{self, ShearedRay};
+use crate::shape::triangle::{self, Corners, ShearedRay};
 use crate::shape::{Shape, Start};
-use glam::DVec3;
+use glam::{DVec3, DVec4};
 
 /// A triangle, or a shape that is one piece.
 #[derive(Debug, Clone, Copy)]
@@ -62,6 +62,7 @@ pub struct Probe<'a> {
 impl<'a> Probe<'a> {
     /// Prepares a ray.
     #[must_use]
+    #[inline(always)]
     pub fn new(accel: &Accel<'_>, ray: &'a Ray) -> Self {
         let sheared = ShearedRay::new(ray.origin, ray.direction);
         let slabs = SlabRay::new(ray.origin, ray.direction, accel.extent);
@@ -89,36 +90,43 @@ impl<'a> Probe<'a> {
         if leaf.triangle == WHOLE {
             return self.meet_shape(accel, leaf.object, t_max);
         }
-        // The box of a triangle whose corners all lie beyond this distance is entered beyond `t_max`.
-        let limit = t_max + self.slack;
-        let (t, barycentric) = self.sheared.intersect(&leaf.corners, limit)?;
         let piece = Piece { object: leaf.object, triangle: leaf.triangle };
-        self.settle(accel, Hit { t, piece, barycentric }, &leaf.corners, t_max)
+        self.meet_triangle(accel, piece, &triangle::by_axis(&leaf.corners), t_max)
     }
 
-    /// Completes the hit of a triangle with its box and its start tests.
-    fn settle(
+    /// Returns the hit of the ray with a triangle, as [`Probe::meet`] does.
+    #[inline(always)]
+    pub fn meet_triangle(
         &self,
         accel: &Accel<'_>,
-        hit: Hit,
-        corners: &[[f32; 3]; 3],
+        piece: Piece,
+        corners: &Corners,
         t_max: f64,
     ) -> Option<Hit> {
-        if self.ray.leaving == Some(hit.piece) {
+        if self.ray.leaving == Some(piece) {
             return None;
         }
-        let [enter, leave] = self.slabs.crosses(triangle::bounds(corners))?;
-        let t = hit.t.clamp(enter, leave);
-        if !(t > 0.0 && t <= t_max)
-            || self.sheared.starts_on(corners, self.skin(accel, hit.piece.object))
-        {
+        // The box of a triangle whose corners all lie beyond this distance is entered beyond `t_max`.
+        let limit = t_max + self.slack;
+        let ((t, barycentric), area) = self.sheared.intersect(corners, limit)?;
+        let [x, y, z] = corners;
+        let low = DVec4::new(x.min_element(), y.min_element(), z.min_element(), 0.0);
+        let high = DVec4::new(x.max_element(), y.max_element(), z.max_element(), f64::INFINITY);
+        let [enter, leave] = self.slabs.crosses_padded([low, high])?;
+        let clamped = t.clamp(enter, leave);
+        if !(clamped > 0.0 && clamped <= t_max) {
             return None;
         }
-        Some(Hit { t, ..hit })
+        let skin = self.skin(accel, piece.object);
+        let size = (high - low).truncate().extend(0.0);
+        if !self.sheared.starts_off(t, area, size, skin) && self.sheared.starts_on(corners, skin) {
+            return None;
+        }
+        Some(Hit { t: clamped, piece, barycentric })
     }
 
-    /// Returns the hit with a shape that is one piece.
-    fn meet_shape(&self, accel: &Accel<'_>, object: u32, t_max: f64) -> Option<Hit> {
+    /// Returns the hit of the ray with a shape that is one piece, as [`Probe::meet`] does.
+    pub fn meet_shape(&self, accel: &Accel<'_>, object: u32, t_max: f64) -> Option<Hit> {
         let shape = accel.shapes[object as usize];
         let left = self.ray.leaving.filter(|from| from.object == object);
         if left.is_some() && matches!(shape, Shape::Quad(_)) {

@@ -1,10 +1,14 @@
 //! Finds the hits of rays with surfaces.
 //!
-//! A few shapes stand apart, and every ray tries each of them. These are planes, which have no box,
-//! and shapes so large beside the rest (a floor under a vase) that they would spoil any structure.
-//! All others are leaves of a [`Structure`]: one tree of boxes, the thesis's grids, or none. One
-//! function, `Probe::meet`, decides about hits for all of them, and one rule, [`Hit::before`],
-//! selects the visible hit.
+//! [`Accel::build`] prepares the shapes of a scene. [`Accel::closest`] returns the visible hit of a ray,
+//! and [`Accel::any`] whether a test accepts a hit before a distance. [`Accel::closest_of`] and
+//! [`Accel::any_of`] do the same for several rays. No ray allocates memory or takes a lock.
+//!
+//! A few shapes stand apart, and every ray tries each of them: planes, which have no box, and with
+//! grids also shapes so large beside the rest (a floor under a vase) that they would spoil a grid. All
+//! others are leaves of a [`Structure`]: trees of boxes, the thesis's grids, or none. One function,
+//! `Probe::meet`, decides about hits for all of them, and one rule, [`Hit::before`], selects the
+//! visible hit.
 //!
 //! All structures find the same hits to the last bit. For this, a hit must lie where the ray
 //! crosses the box of its piece, widened by the roundings of the hit function (`Probe::meet`). A
@@ -19,28 +23,38 @@
 //! length, so a scene may have any size. The same rule lets an eye on a surface see past that
 //! surface.
 
+mod bins;
+mod block;
 mod brute;
 mod build;
-mod bvh;
+mod collapse;
+mod frame;
 mod grid;
+mod kernel;
 mod leaf;
+mod mesh_tree;
+mod node;
+mod simd;
 mod slabs;
-mod wide;
+mod top;
+mod tree;
 
 use crate::ray::{Hit, Piece, Ray};
 use crate::shape::{Shape, SurfacePoint, triangle};
 use brute::Brute;
-use bvh::Bvh;
 use clap::ValueEnum;
 use glam::DVec3;
 use grid::Grids;
+use kernel::Kernel;
 use leaf::{Leaf, Probe};
 use serde::Deserialize;
+use simd::{Instructions, Task};
+use top::Trees;
 
 /// A shape is outsized when its box is longer than this fraction of the box around everything.
 ///
 /// If smaller, the parts of ordinary objects stand apart and cost a test on every ray. If larger, a
-/// floor twice as wide as its scene is in the tree, where it does little harm.
+/// floor twice as wide as its scene is in a grid, where it does little harm.
 const OUTSIZED: f64 = 0.5;
 
 /// Outsized shapes stand apart only while fewer than this many shapes do, since every ray tries each
@@ -65,7 +79,7 @@ const EYE_ROUNDINGS: f64 = 4.0;
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, ValueEnum)]
 #[serde(rename_all = "lowercase")]
 pub enum Structure {
-    /// One tree of boxes, a bounding volume hierarchy.
+    /// Trees of boxes, bounding volume hierarchies: one over the objects, and one for each mesh.
     #[default]
     #[value(help = "A tree of boxes, the fastest")]
     Bvh,
@@ -95,12 +109,13 @@ pub struct Accel<'a> {
     extents: Vec<f64>,
     /// The largest of the extents.
     extent: f64,
+    instructions: Instructions,
 }
 
 /// A structure over the leaves.
 #[derive(Debug)]
 enum Index {
-    Tree(Option<Bvh>),
+    Trees(Trees),
     Grids(Grids),
     All(Brute),
 }
@@ -109,33 +124,60 @@ impl<'a> Accel<'a> {
     /// Prepares the shapes; the index of a shape becomes [`Piece::object`].
     #[must_use]
     pub fn build(shapes: Vec<&'a Shape>, structure: Structure) -> Self {
-        let mut apart = Vec::new();
+        let bounds = |shape: &&Shape| match shape {
+            Shape::Mesh(_) => None,
+            shape => shape.bounds(),
+        };
+        let bounds = shapes.iter().map(bounds).collect();
+        let extents: Vec<f64> = shapes.iter().map(|shape| shape.extent()).collect();
+        let extent = extents.iter().copied().fold(0.0, f64::max);
+        let mut accel = Self {
+            shapes,
+            apart: vec![],
+            index: Index::All(Brute { pieces: 0 }),
+            leaves: vec![],
+            bounds,
+            extents,
+            extent,
+            instructions: Instructions::detect(),
+        };
+        match structure {
+            Structure::Bvh => {
+                accel.apart = accel.unbounded();
+                accel.index = Index::Trees(Trees::build(&accel.shapes, &accel.bounds));
+            }
+            Structure::Grid | Structure::None => accel.build_flat(structure),
+        }
+        accel
+    }
+
+    /// Returns the shapes without a box.
+    fn unbounded(&self) -> Vec<Leaf> {
+        let objects = self.shapes.iter().enumerate();
+        objects
+            .filter(|(object, shape)| {
+                !matches!(shape, Shape::Mesh(_)) && self.bounds[*object].is_none()
+            })
+            .map(|(object, _)| Leaf::whole(object as u32))
+            .collect()
+    }
+
+    /// Builds a structure over all pieces, with the outsized ones apart.
+    fn build_flat(&mut self, structure: Structure) {
+        let mut apart = self.unbounded();
         let mut bounded: Vec<(Leaf, [DVec3; 2])> = Vec::new();
-        let mut bounds = vec![None; shapes.len()];
-        for (object, shape) in shapes.iter().enumerate() {
+        for (object, shape) in self.shapes.iter().enumerate() {
             let piece = Piece { object: object as u32, triangle: 0 };
-            let leaf = Leaf::whole(piece.object);
-            match shape {
-                Shape::Mesh(mesh) => {
-                    let triangles = (0..mesh.triangles.len() as u32)
-                        .map(|n| (Piece { triangle: n, ..piece }, mesh.corners(n)))
-                        .filter(|(_, corners)| !triangle::is_segment(corners))
-                        .map(|(piece, corners)| {
-                            (Leaf::of_triangle(piece, corners), triangle::bounds(&corners))
-                        });
-                    bounded.extend(triangles);
-                }
-                Shape::Sphere(_)
-                | Shape::Quad(_)
-                | Shape::Cuboid(_)
-                | Shape::Superquadric(_)
-                | Shape::Placed(_) => {
-                    bounds[object] = shape.bounds();
-                    match bounds[object] {
-                        Some(bounds) => bounded.push((leaf, bounds)),
-                        None => apart.push(leaf),
-                    }
-                }
+            if let Shape::Mesh(mesh) = shape {
+                let triangles = (0..mesh.triangles.len() as u32)
+                    .map(|n| (Piece { triangle: n, ..piece }, mesh.corners(n)))
+                    .filter(|(_, corners)| !triangle::is_segment(corners))
+                    .map(|(piece, corners)| {
+                        (Leaf::of_triangle(piece, corners), triangle::bounds(&corners))
+                    });
+                bounded.extend(triangles);
+            } else if let Some(bounds) = self.bounds[object] {
+                bounded.push((Leaf::whole(piece.object), bounds));
             }
         }
         let whole = bounded.iter().fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |all, (_, b)| {
@@ -151,43 +193,46 @@ impl<'a> Accel<'a> {
             }
             !outsized
         });
-        let (mut leaves, boxes): (Vec<Leaf>, Vec<[DVec3; 2]>) = bounded.into_iter().unzip();
-        let index = match structure {
-            Structure::Bvh => Index::Tree(Bvh::build(&boxes).map(|(tree, order)| {
-                leaves = order.into_iter().map(|leaf| leaves[leaf as usize]).collect();
-                tree
-            })),
-            Structure::Grid => {
-                let object = |a: &Leaf, b: &Leaf| a.object() == b.object();
-                let ranges = leaves.chunk_by(object).scan(0, |end, leaves| {
-                    let start = std::mem::replace(end, *end + leaves.len() as u32);
-                    Some(start..*end)
-                });
-                Index::Grids(Grids::build(&boxes, &ranges.collect::<Vec<_>>()))
-            }
-            Structure::None => Index::All(Brute { pieces: leaves.len() as u32 }),
+        let (leaves, boxes): (Vec<Leaf>, Vec<[DVec3; 2]>) = bounded.into_iter().unzip();
+        self.index = if structure == Structure::Grid {
+            let object = |a: &Leaf, b: &Leaf| a.object() == b.object();
+            let ranges = leaves.chunk_by(object).scan(0, |end, leaves| {
+                let start = std::mem::replace(end, *end + leaves.len() as u32);
+                Some(start..*end)
+            });
+            Index::Grids(Grids::build(&boxes, &ranges.collect::<Vec<_>>()))
+        } else {
+            Index::All(Brute { pieces: leaves.len() as u32 })
         };
-        let extents: Vec<f64> = shapes.iter().map(|shape| shape.extent()).collect();
-        let extent = extents.iter().copied().fold(0.0, f64::max);
-        Self { shapes, apart, index, leaves, bounds, extents, extent }
+        (self.apart, self.leaves) = (apart, leaves);
     }
 
     /// Memory in bytes of the structure and of its copies of triangles.
     #[must_use]
     pub fn bytes(&self) -> usize {
         let index = match &self.index {
-            Index::Tree(tree) => tree.as_ref().map_or(0, Bvh::bytes),
+            Index::Trees(trees) => trees.bytes(),
             Index::Grids(grids) => grids.bytes(),
             Index::All(_) => 0,
         };
         index + size_of_val(&*self.leaves)
     }
 
+    /// Returns the number of voxels of all grids, the number of those that list a piece, and the number
+    /// of entries of all lists; `None` for other structures.
+    #[must_use]
+    pub fn cells(&self) -> Option<[u64; 3]> {
+        match &self.index {
+            Index::Grids(grids) => Some(grids.cells()),
+            Index::Trees(_) | Index::All(_) => None,
+        }
+    }
+
     /// Number of boxes examined to build the structure; a box counts each time it is examined.
     #[must_use]
     pub fn looks(&self) -> u64 {
         match &self.index {
-            Index::Tree(tree) => tree.as_ref().map_or(0, Bvh::looks),
+            Index::Trees(trees) => trees.looks(),
             Index::Grids(grids) => grids.looks(),
             Index::All(_) => 0,
         }
@@ -269,22 +314,57 @@ impl<'a> Accel<'a> {
         self.shapes[hit.piece.object as usize].part(hit.piece.triangle)
     }
 
+    /// Returns the corners of a triangle.
+    fn mesh_corners(&self, piece: Piece) -> [[f32; 3]; 3] {
+        match self.shapes[piece.object as usize] {
+            Shape::Mesh(mesh) => mesh.corners(piece.triangle),
+            _ => [[0.0; 3]; 3],
+        }
+    }
+
     /// Calls `see` with hits up to the distance that it last returned, initially `t_max`.
     #[inline]
-    fn walk(&self, ray: &Ray, mut t_max: f64, mut see: impl FnMut(Hit) -> f64) {
-        let probe = Probe::new(self, ray);
-        for leaf in &self.apart {
-            if let Some(hit) = probe.meet(self, leaf, t_max) {
+    fn walk(&self, ray: &Ray, t_max: f64, see: impl FnMut(Hit) -> f64) {
+        self.instructions.run(&mut Walk { accel: self, ray, t_max, see });
+    }
+}
+
+/// The walk of one ray.
+struct Walk<'a, 'b, F> {
+    accel: &'a Accel<'b>,
+    ray: &'a Ray,
+    t_max: f64,
+    see: F,
+}
+
+impl<F: FnMut(Hit) -> f64> Task for Walk<'_, '_, F> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run<K: Kernel>(&mut self, kernel: K) {
+        let Self { accel, ray, t_max, see } = self;
+        let mut t_max = *t_max;
+        if let Index::Trees(trees) = &accel.index {
+            for leaf in &accel.apart {
+                if let Some(hit) = Probe::new(accel, ray).meet(accel, leaf, t_max) {
+                    t_max = see(hit);
+                }
+            }
+            trees.walk(kernel, ray, accel, t_max, see);
+            return;
+        }
+        let probe = Probe::new(accel, ray);
+        for leaf in &accel.apart {
+            if let Some(hit) = probe.meet(accel, leaf, t_max) {
                 t_max = see(hit);
             }
         }
         let visit = |leaf: u32, t_max: f64| {
-            let hit = probe.meet(self, &self.leaves[leaf as usize], t_max);
-            hit.map_or(t_max, &mut see)
+            let hit = probe.meet(accel, &accel.leaves[leaf as usize], t_max);
+            hit.map_or(t_max, &mut *see)
         };
-        match &self.index {
-            Index::Tree(Some(tree)) => tree.walk(&probe.slabs, t_max, visit),
-            Index::Tree(None) => {}
+        match &accel.index {
+            Index::Trees(_) => {}
             Index::Grids(grids) => grids.walk(&probe.slabs, t_max, visit),
             Index::All(brute) => brute.walk(t_max, visit),
         }
@@ -292,86 +372,4 @@ impl<'a> Accel<'a> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::accel::slabs::SlabRay;
-    use crate::shape::Sphere;
-    use proptest::prelude::*;
-
-    #[test]
-    fn an_empty_scene_has_no_hits() {
-        let ray = Ray::from_eye(DVec3::ZERO, DVec3::X);
-        for structure in [Structure::Bvh, Structure::Grid, Structure::None] {
-            assert!(Accel::build(vec![], structure).closest(&ray, f64::INFINITY).is_none());
-        }
-    }
-
-    fn place() -> impl Strategy<Value = DVec3> {
-        prop::array::uniform3(-4i8..=4).prop_map(|p| DVec3::from(p.map(|k| f64::from(k) * 0.25)))
-    }
-
-    proptest! {
-        /// Rays that are traced together find the hits that each finds alone.
-        #[test]
-        fn a_slice_of_rays_is_traced_as_one_by_one(
-            centers in prop::collection::vec(place(), 1..20),
-            rays in prop::collection::vec((place(), place(), any::<bool>()), 0..20),
-        ) {
-            let ball = |center| Shape::Sphere(Sphere { center, radius: 0.2 });
-            let balls: Vec<Shape> = centers.into_iter().map(ball).collect();
-            let accel = Accel::build(balls.iter().collect(), Structure::Bvh);
-            let rays: Vec<(Ray, f64)> = rays.into_iter().map(|(eye, toward, near)| {
-                let direction = (toward - eye).normalize_or(DVec3::X);
-                (Ray::from_eye(eye, direction), if near { 0.75 } else { f64::INFINITY })
-            }).collect();
-            let bits = |hit: Hit| (hit.t.to_bits(), hit.piece);
-            let mut hits = vec![None; rays.len()];
-            accel.closest_of(&rays, &mut hits);
-            let mut met = vec![false; rays.len()];
-            let odd = |hit: &Hit| hit.piece.object % 2 == 1;
-            accel.any_of(&rays, |_, hit| odd(&hit), &mut met);
-            for (k, (ray, t_max)) in rays.iter().enumerate() {
-                prop_assert_eq!(hits[k].map(bits), accel.closest(ray, *t_max).map(bits));
-                prop_assert_eq!(met[k], accel.any(ray, *t_max, |hit| odd(&hit)));
-            }
-        }
-
-        /// Every structure visits the boxes that a ray crosses before `t_max`, and no box twice.
-        /// The test calls no hit function.
-        #[test]
-        fn every_box_that_a_ray_crosses_is_given_once(
-            boxes in prop::collection::vec((place(), place()), 1..200),
-            origin in place(), toward in place(), near in any::<bool>(),
-            nudge in prop::sample::select(vec![0.0, 1e-16, -1e-16, 1e-9]),
-        ) {
-            let boxes: Vec<_> = boxes.into_iter().map(|(a, b)| {
-                // Many small boxes, some of them flat.
-                let b = a + 0.25 * (b - a);
-                [a.min(b), a.max(b)]
-            }).collect();
-            let t_max = if near { 0.75 } else { f64::INFINITY };
-            let direction = (toward - origin + nudge).normalize_or(DVec3::NEG_X);
-            let ray = SlabRay::new(origin, direction, 2.0);
-            let crossed = |piece: &[DVec3; 2]| ray.crosses(*piece).is_some_and(|at| at[0] <= t_max);
-            let half = boxes.len() as u32 / 2;
-            let ranges = [0..half, half..boxes.len() as u32];
-            let [mut by_tree, mut by_grids] = [vec![0; boxes.len()], vec![0; boxes.len()]];
-            let (tree, order) = Bvh::build(&boxes).unwrap();
-            tree.walk(&ray, t_max, |place, t_max| {
-                by_tree[order[place as usize] as usize] += 1;
-                t_max
-            });
-            let objects: Vec<_> = ranges.into_iter().filter(|range| !range.is_empty()).collect();
-            Grids::build(&boxes, &objects).walk(&ray, t_max, |piece, t_max| {
-                by_grids[piece as usize] += 1;
-                t_max
-            });
-            for (k, piece) in boxes.iter().enumerate() {
-                for given in [&by_tree, &by_grids] {
-                    prop_assert!(given[k] <= 1, "box {} was given {} times", k, given[k]);
-                    prop_assert!(given[k] == 1 || !crossed(piece), "box {} was missed", k);
-                }
-            }
-        }
-    }
-}
+mod tests;

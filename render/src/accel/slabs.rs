@@ -8,7 +8,7 @@
 //! rounding. A ray that misses a box by this error may still hit a triangle in the box. Boxes are
 //! therefore widened, for each ray, by a bound on the error.
 
-use glam::DVec3;
+use glam::{DVec3, DVec4};
 
 /// A ray prepared for tests against boxes.
 #[derive(Debug, Clone, Copy)]
@@ -33,6 +33,7 @@ impl SlabRay {
 
     /// Prepares the ray for boxes whose absolute coordinates are at most `extent`.
     #[must_use]
+    #[inline(always)]
     pub fn new(origin: DVec3, direction: DVec3, extent: f64) -> Self {
         // A zero component gets a huge finite inverse: no product is NaN, even on a box's face.
         let invert =
@@ -56,10 +57,20 @@ impl SlabRay {
     /// Returns the distances at which the ray enters and leaves the box, from its start on, or
     /// `None` if the ray does not meet it.
     #[must_use]
+    #[inline]
     pub fn crosses(&self, [low, high]: [DVec3; 2]) -> Option<[f64; 2]> {
-        let low = (low - self.above) * self.inverse;
-        let high = (high - self.below) * self.inverse;
-        let enter = low.min(high).max_element().max(0.0);
+        self.crosses_padded([low.extend(0.0), high.extend(f64::INFINITY)])
+    }
+
+    /// Returns the distances as [`SlabRay::crosses`] does. The fourth components of the corners are 0
+    /// and infinity: the half line from the start on.
+    #[must_use]
+    #[inline(always)]
+    pub fn crosses_padded(&self, [low, high]: [DVec4; 2]) -> Option<[f64; 2]> {
+        let inverse = self.inverse.extend(1.0);
+        let low = (low - self.above.extend(0.0)) * inverse;
+        let high = (high - self.below.extend(0.0)) * inverse;
+        let enter = low.min(high).max_element();
         let leave = low.max(high).min_element();
         (enter <= leave).then_some([enter, leave])
     }

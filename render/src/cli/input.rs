@@ -6,8 +6,9 @@ use files::json::Document;
 use files::memory::of_process;
 use files::{FileError, Ledger, Report, input};
 use render::Scene;
+use render::scene::MeshSource;
+use render::scene::obj::{self, ObjFile};
 use render::scene::read::{self, Draft};
-use render::scene::{MeshSource, obj};
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
@@ -79,7 +80,12 @@ impl InputArguments {
             let bytes = ledger.argument(&mesh.file, &format!("the mesh {}", mesh.name))?;
             let name = input::name_of(&mesh.file);
             kept.push(of_process().reserve(obj::needed(&bytes), || format!("mesh {name}"))?);
-            given.insert(mesh.name.clone(), obj::read(&name, &bytes)?);
+            let folder = match mesh.file.parent() {
+                Some(folder) if !input::is_stdin(&mesh.file) => folder.into(),
+                _ => PathBuf::new(),
+            };
+            let read = ObjFile { folder, ..obj::read_file(&name, &bytes)? };
+            given.insert(mesh.name.clone(), read);
         }
         let scene = draft.resolve(ledger, given)?;
         drop(kept);

@@ -22,7 +22,8 @@ pub struct OutputArguments {
     #[arg(long, value_name = "srgb|G", default_value = "srgb", value_parser = gamma_argument)]
     pub gamma: Encoding,
     /// Layers of an EXR besides the colour, for the first hit of each pixel's middle ray: some of
-    /// normal, depth, uv, object, footprint, with commas between them
+    /// normal, depth, uv, object, footprint, with commas between them; and for the whole pixel: error
+    /// (estimated), rays (from the eye)
     #[arg(long, value_name = "LIST", value_delimiter = ',', requires = "output")]
     layers: Vec<Layer>,
     /// Fail if the picture file exists

@@ -21,8 +21,9 @@ pub struct SamplingArguments {
     #[arg(long, value_name = "METHOD", default_value = "area")]
     sampling: SamplingMethod,
     /// Rays along each side of a pixel, 1 to 256: N times N rays in each pixel
-    #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_SAMPLES)))]
-    samples: u32,
+    /// [default: 1]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_SAMPLES)))]
+    samples: Option<u32>,
     /// With --sampling area: split a pixel, or a part of one, while its estimated error times its
     /// area is above this: a number from 0.0001 to 1, in linear light, or none [default: 0.1]
     #[arg(long, value_name = "E|none", value_parser = split)]
@@ -35,7 +36,7 @@ pub struct SamplingArguments {
     seed: Option<u64>,
     /// Weights of the rays in a pixel
     #[arg(long, value_name = "SHAPE", default_value = "box")]
-    pixel_filter: PixelFilter,
+    pub pixel_filter: PixelFilter,
     /// With --sampling thesis, instead of --samples: trace the picture at twice the size. Each pixel is the mean of nine rays:
     /// its middle with weight 1/4, its sides with 1/8 and its corners with 1/16. Textures are averaged
     /// for each ray (image), or for the nine rays of a pixel together (rays)
@@ -67,9 +68,24 @@ impl SamplingArguments {
         }
     }
 
+    /// Returns a flag that was given and that chooses the number or the position of the rays, if any.
+    pub fn choices(&self) -> Option<&'static str> {
+        let thesis = self.sampling == SamplingMethod::Thesis;
+        let given = [
+            ("--samples", self.samples.is_some()),
+            ("--split", self.split.is_some()),
+            ("--sampling thesis", thesis),
+            ("--pattern", self.pattern.is_some()),
+            ("--seed", self.seed.is_some()),
+            ("--supersample", self.supersample.is_some()),
+        ];
+        given.into_iter().find(|(_, given)| *given).map(|(flag, _)| flag)
+    }
+
     /// Returns number, position and weight of the rays of a pixel.
     pub fn sampling(&self) -> Result<Sampling, UseError> {
-        let Self { sampling, samples, split, pattern, seed, pixel_filter, supersample, .. } = *self;
+        let Self { sampling, split, pattern, seed, pixel_filter, supersample, .. } = *self;
+        let samples = self.samples.unwrap_or(1);
         match sampling {
             SamplingMethod::Area => {
                 let given = [

@@ -4,6 +4,7 @@ use super::UseError;
 use clap::builder::TypedValueParser;
 use clap::{Args, ValueEnum};
 use files::exit::say;
+use render::Scene;
 use render::accel::Structure;
 use render::stats::Stats;
 
@@ -22,7 +23,7 @@ pub struct WorkArguments {
     /// Print counts of rays, hits and texels and the time of each stage on standard error
     #[arg(long, value_name = "AS", num_args = 0..=1, require_equals = true, default_missing_value = "text")]
     stats: Option<StatsForm>,
-    /// No progress bar
+    /// No progress bar, and no remarks on what the input files hold that is not used
     #[arg(short, long)]
     pub quiet: bool,
 }
@@ -41,6 +42,13 @@ impl WorkArguments {
         let threads = self.threads.unwrap_or(0);
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         pool.map_err(|error| UseError::Threads(threads, error))
+    }
+
+    /// Prints what the readers of the scene's files did not use, unless `--quiet` is given.
+    pub fn print_remarks(&self, scene: &Scene) {
+        if !self.quiet {
+            scene.remarks.iter().for_each(|remark| say(format_args!("render: {remark}")));
+        }
     }
 
     /// Prints the statistics that `--stats` requests, and warns of pixels that are not finite.

@@ -5,6 +5,7 @@
 //! `G` and `B`. All channels are 32-bit floats.
 
 use super::Picture;
+use super::bytes::Bytes;
 use crate::color::Encoding;
 use clap::ValueEnum;
 use exr::prelude::{AnyChannel, AnyChannels, FlatSamples, Image, SmallVec, WritableImage as _};
@@ -55,8 +56,9 @@ pub fn encode(
     let at = |x: u32, y: u32| picture.pixels[y as usize * picture.width as usize + x as usize];
     match format {
         Format::Png => {
-            let byte = |light: f32| encoding.to_byte(f64::from(light));
-            RgbImage::from_fn(picture.width, picture.height, |x, y| Rgb(at(x, y).map(byte)))
+            let bytes_of = Bytes::of(encoding);
+            let color = |x, y| Rgb(at(x, y).map(|light| bytes_of.at(light)));
+            RgbImage::from_fn(picture.width, picture.height, color)
                 .write_to(&mut bytes, ImageFormat::Png)?;
         }
         Format::Exr if !picture.channels.is_empty() => write_layers(picture, &mut bytes)?,

@@ -72,6 +72,7 @@ impl Witness for () {
 }
 
 /// The data that all tiles share.
+#[derive(Debug)]
 pub struct Exposure<'a> {
     pub tracer: Tracer<'a>,
     pub shader: Shader<'a>,
@@ -88,6 +89,17 @@ pub struct Exposed {
     channels: usize,
     /// Pixel by pixel the values of all channels of all layers.
     layers: Vec<f32>,
+    /// The work of each pixel.
+    pub work: Vec<Work>,
+}
+
+/// The rays of a pixel, and the error that they leave.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Work {
+    /// Square of the estimated error, linear light; 0 for methods without an estimate.
+    pub error_squared: f64,
+    /// Rays from the eye whose cells have their middle in the pixel.
+    pub rays: u64,
 }
 
 /// Collects the tiles of a picture, in any order. The order does not matter, since tiles do not
@@ -134,29 +146,39 @@ impl Exposure<'_> {
 
     /// Exposes a rectangle of pixels by the method that the settings choose.
     pub fn expose<W: Witness>(&self, tile: &Crop, witness: &mut W) -> Exposed {
-        let pixels = tile.width as usize * tile.height as usize;
-        let channels = self.settings.layers.iter().map(|layer| layer.channels().len()).sum();
-        let mut exposed = Exposed {
-            pixels: vec![Color::ZERO; pixels],
-            rays: RayCounts::default(),
-            shading: ShadeWork::default(),
-            channels,
-            layers: vec![0.0; channels * pixels],
-        };
+        let mut exposed = self.unexposed(tile);
         match self.settings.sampling {
             Sampling::Grid { samples, pattern, pixel_filter } => {
                 let lattice = Lattice::grid(samples, pattern, pixel_filter);
                 lattice.expose(self, tile, &mut exposed, witness);
+                exposed.spend_evenly(lattice);
             }
             Sampling::Supersample(method) => {
-                Lattice::supersample(method).expose(self, tile, &mut exposed, witness);
+                let lattice = Lattice::supersample(method);
+                lattice.expose(self, tile, &mut exposed, witness);
+                exposed.spend_evenly(lattice);
             }
             Sampling::Area { samples, pixel_filter, threshold } => {
                 let area = Area::new(samples, pixel_filter, threshold);
                 area.expose(self, tile, &mut exposed, witness);
             }
         }
+        exposed.keep_work(self.settings);
         exposed
+    }
+
+    /// Returns a tile before its exposure.
+    pub fn unexposed(&self, tile: &Crop) -> Exposed {
+        let pixels = tile.width as usize * tile.height as usize;
+        let channels = self.settings.layers.iter().map(|layer| layer.channels().len()).sum();
+        Exposed {
+            pixels: vec![Color::ZERO; pixels],
+            rays: RayCounts::default(),
+            shading: ShadeWork::default(),
+            channels,
+            layers: vec![0.0; channels * pixels],
+            work: vec![Work::default(); pixels],
+        }
     }
 
     /// Traces the ray through a position on the film, in pixels from the upper left corner.
@@ -196,6 +218,41 @@ impl Exposed {
             let (own, others) = rest.split_at_mut(count);
             own.copy_from_slice(&values[..count]);
             rest = others;
+        }
+    }
+
+    /// Adds a cell to the work of the pixel that contains its middle, if the pixel is in the tile.
+    /// `left` is the estimated error of the cell times its area in pixels.
+    pub fn spend(&mut self, tile: &Crop, middle: DVec2, left: f64, rays: u64) {
+        let corner = DVec2::new(f64::from(tile.x), f64::from(tile.y));
+        let (across, down) = ((middle - corner).x.floor(), (middle - corner).y.floor());
+        let (width, height) = (f64::from(tile.width), f64::from(tile.height));
+        if (0.0..width).contains(&across) && (0.0..height).contains(&down) {
+            let work = &mut self.work[down as usize * tile.width as usize + across as usize];
+            work.error_squared += left * left;
+            work.rays += rays;
+        }
+    }
+
+    /// Gives each pixel the rays of a lattice.
+    fn spend_evenly(&mut self, lattice: Lattice) {
+        let rays = lattice.per_pixel().unsigned_abs().pow(2);
+        self.work.fill(Work { error_squared: 0.0, rays });
+    }
+
+    /// Stores the layers that show the work of each pixel.
+    pub fn keep_work(&mut self, settings: &Settings) {
+        let mut first = 0;
+        for layer in &settings.layers {
+            for (values, work) in self.layers.chunks_exact_mut(self.channels).zip(&self.work) {
+                match layer {
+                    Layer::Error => values[first] = work.error_squared.sqrt() as f32,
+                    Layer::Rays => values[first] = work.rays as f32,
+                    Layer::Normal | Layer::Depth | Layer::Uv | Layer::Object | Layer::Footprint => {
+                    }
+                }
+            }
+            first += layer.channels().len();
         }
     }
 }

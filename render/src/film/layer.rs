@@ -7,7 +7,8 @@ use std::str::FromStr;
 /// Largest number of channels of a layer.
 pub(super) const MOST_CHANNELS: usize = 3;
 
-/// A value of the first hit of each pixel's middle ray.
+/// A value of each pixel besides its colour: of the first hit of its middle ray, or of the work that
+/// was spent on it.
 ///
 /// If a pixel has several rays, a layer holds the value of the middle ray. If no ray is in the
 /// middle, it holds the value of the first ray to the right and below. Nothing is averaged, so an
@@ -28,11 +29,32 @@ pub enum Layer {
     /// are 0 for a point and where the ray hits nothing. They are 0 everywhere if no neighbours are
     /// traced: no texture is shown, or the filter averages over points only.
     Footprint,
+    /// The error that the method estimates for the pixel, root mean square of linear RGB. It steers
+    /// the work and is no bound. It is 0 with the thesis's sampling, which estimates no error.
+    Error,
+    /// The number of rays from the eye that the pixel received.
+    Rays,
 }
 
 impl Layer {
     /// All layers.
-    pub const ALL: [Self; 5] = [Self::Normal, Self::Depth, Self::Uv, Self::Object, Self::Footprint];
+    pub const ALL: [Self; 7] = [
+        Self::Normal,
+        Self::Depth,
+        Self::Uv,
+        Self::Object,
+        Self::Footprint,
+        Self::Error,
+        Self::Rays,
+    ];
+
+    /// Returns whether the layer shows the first hit of a ray, and not the work of the pixel.
+    pub(super) fn is_of_hit(self) -> bool {
+        match self {
+            Self::Normal | Self::Depth | Self::Uv | Self::Object | Self::Footprint => true,
+            Self::Error | Self::Rays => false,
+        }
+    }
 
     /// Name of the layer, as in settings.
     #[must_use]
@@ -43,6 +65,8 @@ impl Layer {
             Self::Uv => "uv",
             Self::Object => "object",
             Self::Footprint => "footprint",
+            Self::Error => "error",
+            Self::Rays => "rays",
         }
     }
 
@@ -55,16 +79,21 @@ impl Layer {
             Self::Uv => &["uv.U", "uv.V"],
             Self::Object => &["object.id"],
             Self::Footprint => &["footprint.W", "footprint.H"],
+            Self::Error => &["error.V"],
+            Self::Rays => &["rays.N"],
         }
     }
 
-    /// Returns the values of the layer's channels for the root of a sight, followed by zeros.
+    /// Returns the values of the layer's channels for the root of a sight, followed by zeros. A layer
+    /// of the pixel's work gives zeros.
     pub(super) fn values<S: Sight>(self, sight: &S, shader: &Shader<'_>) -> [f32; MOST_CHANNELS] {
         let Some(node) = sight.node() else {
             return match self {
                 Self::Depth => [f32::INFINITY, 0.0, 0.0],
                 Self::Object => [-1.0, 0.0, 0.0],
-                Self::Normal | Self::Uv | Self::Footprint => [0.0; MOST_CHANNELS],
+                Self::Normal | Self::Uv | Self::Footprint | Self::Error | Self::Rays => {
+                    [0.0; MOST_CHANNELS]
+                }
             };
         };
         match self {
@@ -80,6 +109,8 @@ impl Layer {
                 let (_, half) = sight.footprint(node, charts).bounds();
                 (2.0 * half).as_vec2().extend(0.0).to_array()
             }
+            // The work is known when the pixel is complete.
+            Self::Error | Self::Rays => [0.0; MOST_CHANNELS],
         }
     }
 }

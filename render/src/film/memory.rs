@@ -105,10 +105,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_pixel_with_all_layers_has_twelve_numbers() {
+    fn a_pixel_with_all_layers_has_fourteen_numbers() {
         let channels: usize = Layer::ALL.iter().map(|layer| layer.channels().len()).sum();
-        assert_eq!(of_pixel(channels, None), 12 * 4);
-        assert_eq!(of_pixel(channels, Some(Format::Exr)), 3 * 48);
+        assert_eq!(of_pixel(channels, None), 14 * 4);
+        assert_eq!(of_pixel(channels, Some(Format::Exr)), 3 * 56);
         assert_eq!(of_pixel(0, Some(Format::Png)), 21);
     }
 }

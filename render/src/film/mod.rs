@@ -7,6 +7,8 @@
 //! not depend on the tiles or on the threads. `exposure.rs` is the interface for other methods.
 
 mod area;
+mod base;
+mod bytes;
 pub mod crop;
 pub mod encode;
 mod exposure;
@@ -15,13 +17,16 @@ pub mod layer;
 pub mod memory;
 pub mod pattern;
 pub mod picture;
+mod points;
 pub mod sampling;
 
+pub use base::{BasePicture, Pixel, aperture};
 pub use crop::Crop;
 pub use exposure::{Sample, Witness};
 pub use layer::Layer;
 pub use pattern::{Pattern, PatternName};
 pub use picture::Picture;
+pub use points::{PointWork, Points};
 pub use sampling::{
     MOST_SAMPLES, PixelFilter, SPLITS, Sampling, SamplingMethod, Supersample, THRESHOLD,
 };
@@ -60,6 +65,9 @@ pub struct Settings {
     pub layers: Vec<Layer>,
     /// Structure that finds the hits.
     pub accel: Structure,
+    /// Least weight of a ray in its cell that is worth following, [0, 1]; `None` leaves the choice to
+    /// the sampling. The scene's own least weight holds in any case.
+    pub least_weight: Option<f64>,
 }
 
 impl Settings {
@@ -69,7 +77,8 @@ impl Settings {
     pub fn new(width: u32, height: u32, filter: Filter) -> Self {
         let sampling = Sampling::regular(1);
         let accel = Structure::default();
-        Self { width, height, sampling, filter, crop: None, layers: Vec::new(), accel }
+        let (crop, layers, least_weight) = (None, Vec::new(), None);
+        Self { width, height, sampling, filter, crop, layers, accel, least_weight }
     }
 
     /// Returns these settings with `samples * samples` rays in each pixel, evenly spread and of
@@ -177,9 +186,10 @@ fn with_exposure<T>(
         lattice_bytes: scene.procedural.lattice_bytes(),
         ..Stats::default()
     };
-    let exposure =
-        Exposure { tracer: Tracer::new(scene, shader.accel, shader.volumes), shader, settings };
-    work(&exposure, stats)
+    let mut tracer = Tracer::new(scene, shader.accel, shader.volumes);
+    let least = settings.least_weight.unwrap_or(settings.sampling.least_weight());
+    tracer.min_weight = tracer.min_weight.max(least);
+    work(&Exposure { tracer, shader, settings }, stats)
 }
 
 #[cfg(test)]
@@ -196,7 +206,7 @@ mod tests {
     use glam::{DAffine3, DVec2, DVec3};
 
     /// A glass sphere on a textured floor.
-    fn scene() -> Scene {
+    pub(super) fn scene() -> Scene {
         let texels = (0..64u16).map(|k| [k * 1000, 60000 - k * 900, (k % 8) * 8000]).collect();
         let texture =
             Texture { width: 8, height: 8, texels, white: u16::MAX, ..Texture::default() };
@@ -236,6 +246,7 @@ mod tests {
             max_depth: 8,
             min_weight: 0.0,
             names: Names::default(),
+            remarks: Vec::new(),
         }
     }
 

@@ -66,7 +66,8 @@ impl Pattern {
 
 /// One step of the generator `SplitMix64` (Steele, Lea and Flood 2014). It is a permutation of all
 /// words, in which each bit of the argument flips about half of the result's bits.
-fn mixed(word: u64) -> u64 {
+#[must_use]
+pub fn mixed(word: u64) -> u64 {
     let word = word.wrapping_add(0x9e37_79b9_7f4a_7c15);
     let word = (word ^ (word >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     let word = (word ^ (word >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
@@ -74,7 +75,8 @@ fn mixed(word: u64) -> u64 {
 }
 
 /// Returns the upper 53 bits of a word as a number in `[0, 1)`.
-fn fraction(word: u64) -> f64 {
+#[must_use]
+pub fn fraction(word: u64) -> f64 {
     (word >> 11) as f64 / (1u64 << 53) as f64
 }
 

@@ -1,7 +1,7 @@
 //! The outline of a footprint on a texture, and its growth by a texel.
 
 use crate::footprint::Footprint;
-use crate::texture::{Texture, Wrap};
+use crate::texture::{Texture, Wrap, reduced};
 use glam::DVec2;
 
 /// Largest ratio between the perspective weights of two corners of an outline that is averaged as one.
@@ -91,8 +91,8 @@ impl Outline {
         }
         let reach = 0.5 * (sides[0].abs() + sides[1].abs()) + bend.abs() + 2.0;
         let near = |at: f64, size: f64, reach: f64| match texture.wrap {
-            Wrap::Repeat if at < 0.0 || at >= size => at.rem_euclid(size),
-            Wrap::Mirror if at < 0.0 || at >= 2.0 * size => at.rem_euclid(2.0 * size),
+            Wrap::Repeat if at < 0.0 || at >= size => reduced(at, size),
+            Wrap::Mirror if at < 0.0 || at >= 2.0 * size => reduced(at, 2.0 * size),
             Wrap::Clamp => at.clamp(-reach, size + reach),
             _ => at,
         };

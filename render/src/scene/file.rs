@@ -127,7 +127,7 @@ pub use background::{BackgroundFile, SkyFile};
 pub use color::ColorFile;
 pub use light::{DirectionalLightFile, FalloffFile, LightFile, PointLightFile};
 pub use material::{MaterialFile, ThinFilmFile};
-pub use object::{BoxFile, MeshFile, ObjectFile, PlaneFile, RectangleFile};
+pub use object::{BoxFile, MeshFile, ObjectFile, OneOrMore, PlaneFile, RectangleFile};
 pub use object::{RotateDegFile, SphereFile, StepFile, SuperquadricFile};
 pub use part::{FORMAT as PART_FORMAT, Lists, PartFile};
 pub use texture::{TextureFile, TextureKind};

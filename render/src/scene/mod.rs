@@ -16,6 +16,7 @@ pub mod obj;
 pub mod ramp;
 pub mod read;
 pub mod schema;
+pub mod text;
 
 pub use background::Background;
 pub use camera::Camera;
@@ -29,6 +30,7 @@ use crate::color::Color;
 use crate::procedural::Procedural;
 use crate::shape::Shape;
 use crate::texture::Texture;
+use files::check::Finding;
 use glam::DAffine3;
 
 /// Everything from which a picture is rendered. Lengths are in the scene's unit, colours are linear
@@ -57,6 +59,9 @@ pub struct Scene {
     pub min_weight: f64,
     /// Names of the scene file, for messages and reports.
     pub names: Names,
+    /// One remark for each of the scene's files of which something is not used, or is used with another
+    /// meaning than it states.
+    pub remarks: Vec<Finding>,
 }
 
 impl Scene {

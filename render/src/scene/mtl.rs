@@ -2,22 +2,33 @@
 //!
 //! | statement | becomes |
 //! |---|---|
-//! | `Kd` | `color`, taken as linear light |
-//! | `map_Kd` | a texture, `srgb` and `repeat`; its path is relative to the MTL file's folder |
+//! | `Kd` | `color`, taken as linear light; white if it is 0 and there is a `map_Kd` |
+//! | `map_Kd` | a texture, `srgb` and `repeat`, with the options `-s`, `-o` and `-clamp` ([`map`]) |
 //! | `Ks` | `specular`, the mean of its three numbers |
 //! | `Ns` | `shininess`, 1 if it is less |
-//! | `d`, or `Tr` for 1 - d | `ambient` and `diffuse` are d, `transparency` is 1 - d |
+//! | `d`, or without it `Tr` for 1 - d | `ambient` and `diffuse` are d, `transparency` is 1 - d |
 //! | `Ni` | `index_of_refraction`; 1 if left out, so that a `d` alone bends nothing |
+//! | `Ka`, `illum`, `Ke` and `Tf` without effect | nothing |
 //!
-//! All other statements are ignored: the illumination model, emission, and maps of other values. Tools
-//! differ in how they write mirrors, so mirrors are ignored too. A scene binds a material that should
-//! mirror.
+//! A `Tr 1` without `d` is taken as opaque: some programs wrote it for opaque materials, and
+//! none means an invisible object. Tools differ in how they write mirrors, so mirrors are ignored. A
+//! scene binds a material that should mirror.
+//!
+//! A line that is not valid is ignored. [`Library::remarks`] names all that is not used.
+
+mod map;
+
+pub use map::Map;
 
 use super::Material;
 use super::limits::LARGEST;
 use super::obj::{ObjError, shortened};
+use super::text::{self, before_comment, words};
 use crate::color::Color;
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashMap};
+
+/// Sentences about single lines and materials; further ones are counted.
+const QUOTED: usize = 3;
 
 /// A material of a library.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,57 +37,160 @@ pub struct Entry {
     pub name: String,
     /// The material.
     pub material: Material,
-    /// Path of the picture, as in the file, but with `/` between folders.
-    pub picture: Option<String>,
+    /// The picture of its colours.
+    pub picture: Option<Map>,
 }
 
-/// Reads the bytes of an MTL file. `file` is the name of the file in messages.
+/// The contents of an MTL file.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Library {
+    /// The materials, each name once.
+    pub entries: Vec<Entry>,
+    /// Numbers of the entries by their names, with and without the comment behind a name.
+    numbers: HashMap<String, usize>,
+    /// Sentences about statements that are not used, or are used with another meaning than they state.
+    pub remarks: Vec<String>,
+}
+
+/// The entry that is read, with the statements that are judged at its end.
+#[derive(Debug)]
+struct Open {
+    entry: Entry,
+    /// Opacity by `d` and transparency by `Tr`.
+    opacity: Option<f64>,
+    transparency: Option<f64>,
+}
+
+/// Reads the bytes of an MTL file. `file` is the name of the file in messages. Of entries of one name the
+/// first counts.
 ///
 /// # Errors
-/// If a line is not a valid statement. The error names the line.
-pub fn read(file: &str, bytes: &[u8]) -> Result<Vec<Entry>, ObjError> {
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let mut entries: Vec<Entry> = Vec::new();
-    let mut names = HashSet::new();
-    for (number, line) in bytes.split(|&byte| byte == b'\n').enumerate() {
-        let number = number + 1;
-        let line = std::str::from_utf8(line)
-            .map_err(|_| ObjError::NotText { file: file.into(), line: number })?
-            .trim();
-        let wrong = |expected| ObjError::Line {
-            file: file.into(),
-            line: number,
-            found: shortened(line),
-            expected,
-        };
-        let (keyword, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
-        let rest = rest.trim();
-        if keyword == "newmtl" {
-            if rest.is_empty() || !names.insert(rest) {
-                return Err(wrong("`newmtl` and a name, each name once"));
+/// If the file is not text.
+pub fn read(file: &str, bytes: &[u8]) -> Result<Library, ObjError> {
+    let not_text =
+        |text::NotText(line)| ObjError::NotText { file: file.into(), line, kind: "an MTL library" };
+    let text = text::of(bytes).map_err(not_text)?;
+    let mut library = Library::default();
+    let mut open: Option<Open> = None;
+    let mut odd = Vec::new();
+    let mut unused: BTreeMap<&str, usize> = BTreeMap::new();
+    for (number, line) in text.lines().enumerate() {
+        let (keyword, rest) = text::keyword(line);
+        if keyword.is_empty() || keyword.starts_with('#') {
+            continue;
+        }
+        let fault = match (keyword, &mut open) {
+            ("newmtl", _) if rest.is_empty() => Err("`newmtl` and a name"),
+            ("newmtl", _) => {
+                library.close(open.take(), &mut odd);
+                open = Some(Open::new(rest));
+                Ok(())
             }
-            entries.push(Entry { name: rest.into(), material: plain(), picture: None });
-            continue;
+            (_, None) => Err("`newmtl` before it"),
+            (_, Some(open)) => match open.statement(keyword, rest) {
+                Ok(true) => Ok(()),
+                Ok(false) => {
+                    *unused.entry(keyword).or_default() += 1;
+                    Ok(())
+                }
+                Err(expected) => Err(expected),
+            },
+        };
+        if let Err(expected) = fault {
+            odd.push(format!(
+                "line {} is ignored: found `{}`, expected {expected}",
+                number + 1,
+                shortened(line.trim())
+            ));
         }
-        if !["Kd", "Ks", "Ns", "Ni", "d", "Tr", "map_Kd"].contains(&keyword) {
-            continue;
+    }
+    library.close(open, &mut odd);
+    let more = odd.len().saturating_sub(QUOTED);
+    library.remarks.extend(odd.into_iter().take(QUOTED));
+    if more > 0 {
+        library.remarks.push(format!("{more} more such remarks"));
+    }
+    if !unused.is_empty() {
+        library.remarks.push(format!("not used: {}", counted(&unused)));
+    }
+    Ok(library)
+}
+
+/// Lists what is not used and how often it occurs.
+pub fn counted<T: AsRef<str>>(unused: &BTreeMap<T, usize>) -> String {
+    let item = |(what, count): (&T, &usize)| match count {
+        1 => shortened(what.as_ref()),
+        _ => format!("{} ({count} times)", shortened(what.as_ref())),
+    };
+    unused.iter().map(item).collect::<Vec<_>>().join(", ")
+}
+
+impl Library {
+    /// Returns the number of the entry with this name in `usemtl`. The name may have a comment behind it.
+    #[must_use]
+    pub fn find(&self, name: &str) -> Option<usize> {
+        let short = || self.numbers.get(before_comment(name)?);
+        self.numbers.get(name).or_else(short).copied()
+    }
+
+    /// Adds an entry that is complete. Sentences about it are added to `odd`.
+    fn close(&mut self, open: Option<Open>, odd: &mut Vec<String>) {
+        let Some(Open { mut entry, opacity, transparency }) = open else { return };
+        let name = shortened(&entry.name);
+        if self
+            .entries
+            .get(*self.numbers.get(&entry.name).unwrap_or(&usize::MAX))
+            .is_some_and(|other| other.name == entry.name)
+        {
+            odd.push(format!("material {name} occurs again; the first counts"));
+            return;
         }
-        let Some(entry) = entries.last_mut() else {
-            return Err(wrong("`newmtl` and a name before it"));
+        let opacity = match (opacity, transparency) {
+            (Some(opacity), _) => opacity,
+            (None, Some(1.0)) => {
+                odd.push(format!("`Tr 1` of material {name}, without `d`, is taken as opaque"));
+                1.0
+            }
+            (None, Some(transparency)) => 1.0 - transparency,
+            (None, None) => 1.0,
         };
         let material = &mut entry.material;
-        let within = |low: f64, high: f64, expected| {
-            let number = rest.parse().ok().filter(|x| (low..=high).contains(x));
-            number.ok_or_else(|| wrong(expected))
+        if opacity != 1.0 {
+            (material.ambient, material.diffuse) = (opacity, opacity);
+            material.transparency = 1.0 - opacity;
+        }
+        if entry.picture.is_some() && material.color == Color::ZERO {
+            material.color = Color::ONE;
+            odd.push(format!(
+                "`Kd 0` of material {name} is taken as white, since it has a `map_Kd`"
+            ));
+        }
+        let number = self.entries.len();
+        self.numbers.insert(entry.name.clone(), number);
+        if let Some(short) = before_comment(&entry.name) {
+            self.numbers.entry(short.into()).or_insert(number);
+        }
+        self.entries.push(entry);
+    }
+}
+
+impl Open {
+    fn new(name: &str) -> Self {
+        let entry = Entry { name: name.into(), material: plain(), picture: None };
+        Self { entry, opacity: None, transparency: None }
+    }
+
+    /// Reads a statement. Returns whether it is used or has no effect, or the expected form.
+    fn statement(&mut self, keyword: &str, rest: &str) -> Result<bool, &'static str> {
+        let material = &mut self.entry.material;
+        let within = |low: f64, high: f64, expected: &'static str| {
+            let number = words(rest).next().and_then(|word| word.parse().ok());
+            number.filter(|x| (low..=high).contains(x)).ok_or(expected)
         };
         match keyword {
-            "Kd" => {
-                material.color =
-                    color(rest).ok_or_else(|| wrong("`Kd` and three numbers of at least 0"))?;
-            }
+            "Kd" => material.color = color(rest).ok_or("`Kd` and three numbers of at least 0")?,
             "Ks" => {
-                let strength =
-                    color(rest).ok_or_else(|| wrong("`Ks` and three numbers of at least 0"))?;
+                let strength = color(rest).ok_or("`Ks` and three numbers of at least 0")?;
                 material.specular = (strength.element_sum() / 3.0).min(1.0);
             }
             "Ns" => {
@@ -87,33 +201,29 @@ pub fn read(file: &str, bytes: &[u8]) -> Result<Vec<Entry>, ObjError> {
                 material.index_of_refraction =
                     within(0.1, 10.0, "`Ni` and a number from 0.1 to 10")?;
             }
-            "map_Kd" => {
-                if rest.is_empty() || rest.starts_with('-') {
-                    return Err(wrong("`map_Kd` and a file, without options"));
-                }
-                entry.picture = Some(rest.replace('\\', "/"));
-            }
-            _ => {
-                let share: f64 = within(0.0, 1.0, "`d` or `Tr` and a number from 0 to 1")?;
-                let solid = if keyword == "d" { share } else { 1.0 - share };
-                material.ambient = solid;
-                material.diffuse = solid;
-                material.transparency = 1.0 - solid;
-            }
+            "d" => self.opacity = Some(within(0.0, 1.0, "`d` and a number from 0 to 1")?),
+            "Tr" => self.transparency = Some(within(0.0, 1.0, "`Tr` and a number from 0 to 1")?),
+            "map_Kd" => self.entry.picture = Some(Map::read(rest).ok_or("`map_Kd` and a file")?),
+            "Ka" | "illum" => {}
+            // Light of its own, and a filter of what passes.
+            "Ke" => return Ok(color(rest) == Some(Color::ZERO)),
+            "Tf" => return Ok(color(rest) == Some(Color::ONE)),
+            _ => return Ok(false),
         }
+        Ok(true)
     }
-    Ok(entries)
 }
 
 /// Returns the material of an entry that has a name alone.
-fn plain() -> Material {
+#[must_use]
+pub fn plain() -> Material {
     Material { diffuse: 1.0, index_of_refraction: 1.0, ..Material::default() }
 }
 
 /// Returns three numbers; a single number stands for all three.
 fn color(text: &str) -> Option<Color> {
     let mut numbers = Vec::new();
-    for word in text.split_whitespace() {
+    for word in words(text) {
         numbers.push(word.parse().ok().filter(|x| (0.0..=LARGEST).contains(x))?);
     }
     match numbers[..] {
@@ -129,9 +239,10 @@ mod tests {
 
     #[test]
     fn what_other_tools_write_becomes_a_material() {
-        let text = "# a comment\nnewmtl glass\nKd 0.5 0.25 1\nKs 0.3 0.6 0.9\nNs 225\nd 0.25\nNi 1.5\n\
-                    illum 4\nKe 0 0 0\nnewmtl wood old\nmap_Kd pictures\\oak wood.png\r\n\tNs 0\n";
-        let entries = read("a.mtl", text.as_bytes()).unwrap();
+        let text = "# a comment\nnewmtl glass\nKd 0.5 0.25 1 # blue\nKs 0.3 0.6 0.9\nNs 225\nd 0.25\nNi 1.5\n\
+                    illum 4\nKe 0 0 0\nnewmtl wood old\nmap_Kd pictures\\oak wood.png\r\n\tNs 0\nTr 0\n";
+        let Library { entries, remarks, .. } = read("a.mtl", text.as_bytes()).unwrap();
+        assert_eq!(remarks, [""; 0]);
         let glass = Material {
             color: Color::new(0.5, 0.25, 1.0),
             ambient: 0.25,
@@ -145,12 +256,12 @@ mod tests {
         assert_eq!(entries[0].material, glass);
         assert!((glass.specular - 0.6).abs() < 1e-15);
         let wood = Material { shininess: 1.0, ..plain() };
-        let picture = Some("pictures/oak wood.png".into());
+        let picture = Map::read("pictures/oak wood.png");
         assert_eq!(entries[1], Entry { name: "wood old".into(), material: wood, picture });
     }
 
     #[test]
-    fn bad_lines_are_named() {
+    fn a_line_that_is_not_valid_costs_only_itself() {
         for (line, expected) in [
             ("Kd 1 1", "three numbers"),
             ("Kd 1 1 -1", "at least 0"),
@@ -162,18 +273,69 @@ mod tests {
             ("d -halo 0.5", "0 to 1"),
             ("Tr inf", "0 to 1"),
             ("map_Kd", "a file"),
-            ("map_Kd -s 2 2 a.png", "without options"),
-            ("newmtl a", "each name once"),
             ("newmtl", "a name"),
         ] {
-            let said = read("a.mtl", format!("newmtl a\n{line}\n").as_bytes()).unwrap_err();
-            let said = said.to_string();
-            assert!(said.starts_with("a.mtl:2: found `"), "{said}");
+            let read = read("a.mtl", format!("newmtl a\n{line}\nKs 1 1 1\n").as_bytes()).unwrap();
+            let said = read.remarks.join("; ");
+            assert!(said.starts_with(&format!("line 2 is ignored: found `{line}`")), "{said}");
             assert!(said.contains(expected), "{said}");
+            assert_eq!(read.entries[0].material, Material { specular: 1.0, ..plain() });
         }
-        let early = read("a.mtl", b"Kd 1 1 1\n").unwrap_err().to_string();
-        assert!(early.contains("`newmtl` and a name before it"), "{early}");
-        let binary = read("a.mtl", b"newmtl a\n\xff\n").unwrap_err().to_string();
-        assert!(binary.starts_with("a.mtl:2: "), "{binary}");
+        let early = read("a.mtl", b"Kd 1 1 1\n").unwrap().remarks;
+        assert!(early[0].contains("`newmtl` before it"), "{early:?}");
+        let binary = read("a.mtl", b"newmtl a\n\0\n").unwrap_err().to_string();
+        assert!(
+            binary.starts_with("a.mtl:2: found a byte 0, expected the text of an MTL"),
+            "{binary}"
+        );
+    }
+
+    #[test]
+    fn what_is_not_used_is_named() {
+        let text = "newmtl a\nKe 1 1 1\nmap_d a.png\nnewmtl b\nmap_d b.png\nnewmtl a\nKd 0 0 0\nKd x\nKd y\nKd z\nKd w\n";
+        let Library { entries, remarks, .. } = read("a.mtl", text.as_bytes()).unwrap();
+        assert_eq!(entries.len(), 2);
+        assert_eq!(entries[0].material.color, Color::ONE, "the first of a name counts");
+        assert!(remarks[0].starts_with("line 8 is ignored: found `Kd x`"));
+        assert_eq!(remarks[3..], ["2 more such remarks", "not used: Ke, map_d (2 times)"]);
+    }
+
+    #[test]
+    fn a_name_may_have_a_comment_or_a_number_sign() {
+        let library =
+            read("a.mtl", b"newmtl red # paint\nnewmtl red\nnewmtl a #1\nnewmtl a #2\n").unwrap();
+        let numbers = ["red", "red # paint", "red # other", "a #1", "a #2", "a", "b"]
+            .map(|name| library.find(name));
+        let truth = [Some(1), Some(0), Some(1), Some(2), Some(3), Some(2), None];
+        assert_eq!(numbers, truth);
+    }
+
+    #[test]
+    fn opacity_is_that_of_d_or_else_of_tr() {
+        for (lines, transparency) in [
+            ("d 0.75\nTr 0.5", 0.25),
+            ("Tr 0.5\nd 0.75", 0.25),
+            ("Tr 0.5", 0.5),
+            ("Tr 1", 0.0),
+            ("Tr 1.000\nd 0", 1.0),
+            ("Tr 0", 0.0),
+            ("d 1\nTr 1", 0.0),
+        ] {
+            let read = read("a.mtl", format!("newmtl a\n{lines}\n").as_bytes()).unwrap();
+            let material = &read.entries[0].material;
+            assert_eq!(material.transparency, transparency, "{lines}");
+            assert_eq!(material.diffuse, 1.0 - transparency, "{lines}");
+        }
+        let lone = read("a.mtl", b"newmtl a\nTr 1\n").unwrap().remarks;
+        assert_eq!(lone, ["`Tr 1` of material a, without `d`, is taken as opaque"]);
+    }
+
+    #[test]
+    fn a_black_colour_does_not_hide_a_picture() {
+        let read =
+            read("a.mtl", b"newmtl a\nKd 0 0 0\nmap_Kd a.png\nnewmtl b\nKd 0 0 0\n").unwrap();
+        let colors: Vec<Color> = read.entries.iter().map(|entry| entry.material.color).collect();
+        assert_eq!(colors, [Color::ONE, Color::ZERO]);
+        assert_eq!(read.remarks.len(), 1);
     }
 }

@@ -1,16 +1,29 @@
-//! Reads OBJ files: vertices, texture coordinates, normals, faces of three or four corners, and the
-//! names that `usemtl` gives. Objects, groups, lines, points and material files are ignored.
+//! Reads OBJ files: vertices, texture coordinates, normals, faces, the names that `usemtl` gives,
+//! smoothing groups and the names of material libraries.
 //!
-//! The reader passes through a file once. It refuses numbers that are not finite, indices without a
-//! vertex, and faces whose corners differ in kind; the error names the line. A file of `triangulate`
-//! must end with the comment `# end V F`. If the comment is missing, the file is incomplete.
+//! | in the file | becomes |
+//! |---|---|
+//! | a face of four or more corners | triangles inside of it ([`polygon`]) |
+//! | corners of a face that lack a part which others have | a face without this part |
+//! | a normal that is not finite | no normal, as one of length 0 |
+//! | texture coordinates that are not finite | none |
+//! | a vertex that is not finite | a fault if a face uses it |
+//! | `s` other than 0 and `off`, faces without normals | mean normals ([`crate::shape::smooth`]) |
+//! | points, lines, curves, vertex colours and unknown keywords | counted in [`ObjFile::unused`] |
+//!
+//! A file of `triangulate` must end with the comment `# end V F`. If the comment is missing, the file is
+//! incomplete.
 
+mod polygon;
 mod reader;
 
+use super::text;
 use crate::shape::Mesh;
 use crate::shape::mesh::{MeshError, Triangle};
+use crate::shape::smooth::smooth;
 use files::{Exit, Failure};
 use reader::Reader;
+use std::path::PathBuf;
 use thiserror::Error;
 
 /// Beginning of the first line of an OBJ that `triangulate` wrote.
@@ -34,12 +47,14 @@ pub enum ObjError {
         file: String,
     },
     /// The file is not text.
-    #[error("{file}:{line}: found bytes that are not UTF-8, expected the text of an OBJ mesh")]
+    #[error("{file}:{line}: found a byte 0, expected the text of {kind}")]
     NotText {
         /// Name of the file.
         file: String,
         /// Number of the line, from 1.
         line: usize,
+        /// The expected kind of file, with its article.
+        kind: &'static str,
     },
     /// The file was written by `triangulate` and is incomplete.
     #[error(
@@ -79,37 +94,80 @@ impl Failure for ObjError {
     }
 }
 
-/// Reads the bytes of an OBJ file as one mesh. `file` is the name of the file in messages. Objects,
-/// groups and runs of `usemtl` are joined in the order of the file. A face of four corners becomes two
-/// triangles; larger faces are refused.
+/// The contents of an OBJ file.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct ObjFile {
+    /// Name of the file in messages; empty for a mesh that was made and not read.
+    pub file: String,
+    /// Folder to which the paths of the libraries are relative.
+    pub folder: PathBuf,
+    /// The mesh as it stands in the file.
+    pub mesh: Mesh,
+    /// The smoothing group of each triangle, 0 for none; empty if the file names no group.
+    pub groups: Vec<u32>,
+    /// The texts behind `mtllib`: the path of a file, or of several.
+    pub libraries: Vec<String>,
+    /// Keywords and values that are not used, each with its count.
+    pub unused: Vec<(String, usize)>,
+}
+
+impl From<Mesh> for ObjFile {
+    fn from(mesh: Mesh) -> Self {
+        Self { mesh, ..Self::default() }
+    }
+}
+
+impl ObjFile {
+    /// Returns the mesh with normals for the triangles that lack them: those in a smoothing group, and
+    /// with a `crease` all. `crease` is the largest angle between two faces, in degrees, that still
+    /// shade as one.
+    #[must_use]
+    pub fn smoothed(self, crease: Option<f64>) -> Mesh {
+        let Self { mut mesh, groups, .. } = self;
+        if !groups.is_empty() || crease.is_some() {
+            smooth(&mut mesh, &groups, crease.map(f64::to_radians));
+        }
+        mesh
+    }
+}
+
+/// Reads the bytes of an OBJ file as one mesh, with normals for smoothing groups. `file` is the name of
+/// the file in messages. Objects, groups and runs of `usemtl` are joined in the order of the file.
+///
+/// # Errors
+/// As those of [`read_file`].
+pub fn read(file: &str, bytes: &[u8]) -> Result<Mesh, ObjError> {
+    Ok(read_file(file, bytes)?.smoothed(None))
+}
+
+/// Reads the bytes of an OBJ file. `file` is the name of the file in messages.
 ///
 /// # Errors
 /// If the file is empty, incomplete, not an OBJ, or not a mesh. The error names the line if one line is
 /// at fault.
-pub fn read(file: &str, bytes: &[u8]) -> Result<Mesh, ObjError> {
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+pub fn read_file(file: &str, bytes: &[u8]) -> Result<ObjFile, ObjError> {
+    let start = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     // No line of an OBJ begins with these characters, but our grids and all JSON files do.
-    if bytes.starts_with(b"{") {
+    if start.starts_with(b"{") {
         return Err(ObjError::Json { file: file.into() });
     }
-    let text = std::str::from_utf8(bytes).map_err(|error| ObjError::NotText {
-        file: file.into(),
-        line: 1 + bytes[..error.valid_up_to()].iter().filter(|&&byte| byte == b'\n').count(),
-    })?;
+    let not_text =
+        |text::NotText(line)| ObjError::NotText { file: file.into(), line, kind: "an OBJ mesh" };
+    let text = text::of(bytes).map_err(not_text)?;
     if text.trim().is_empty() {
         return Err(ObjError::Empty { file: file.into() });
     }
-    let mut reader = Reader::new(file, text);
-    let end = closing_comment(file, text)?;
+    let mut reader = Reader::new(file, &text);
+    let end = closing_comment(file, &text)?;
     reader.read()?;
     let (vertices, faces) = (reader.vertices(), reader.faces);
     if let Some(end) = end.filter(|end| *end != format!("# end {vertices} {faces}")) {
         let found = format!("`{end}` after {vertices} vertices and {faces} faces");
         return Err(ObjError::NotFinished { file: file.into(), found });
     }
-    let mesh = reader.mesh();
-    mesh.check().map_err(|source| ObjError::Mesh { file: file.into(), source })?;
-    Ok(mesh)
+    let read = reader.finish();
+    read.mesh.check().map_err(|source| ObjError::Mesh { file: file.into(), source })?;
+    Ok(read)
 }
 
 /// Returns an upper bound of the bytes that the mesh of this text takes while it is read. Vertices and
@@ -117,11 +175,13 @@ pub fn read(file: &str, bytes: &[u8]) -> Result<Mesh, ObjError> {
 #[must_use]
 pub fn needed(bytes: &[u8]) -> u64 {
     const VERTEX: u64 = size_of::<[f32; 3]>() as u64 + 1;
-    // A quadrangle is two triangles.
-    const FACE: u64 = 2 * size_of::<Triangle>() as u64;
+    const TRIANGLE: u64 = size_of::<Triangle>() as u64 + size_of::<u32>() as u64;
     const NAME: u64 = size_of::<String>() as u64 + 32;
+    // A face has at most as many corners as blanks. Bytes are counted faster than words.
+    let blanks = |bytes: &[u8]| bytes.iter().filter(|&&byte| byte <= b' ').count() as u64;
     let lines = bytes.split(|&byte| byte == b'\n').map(|line| match line.trim_ascii_start() {
-        [b'f', ..] => FACE,
+        // A face has two triangles less than corners.
+        [b'f', corners @ ..] => TRIANGLE * blanks(corners).max(1),
         [b'v', ..] => VERTEX,
         [b'u', ..] => NAME + line.len() as u64,
         _ => 0,
@@ -152,7 +212,7 @@ fn closing_comment<'a>(file: &str, text: &'a str) -> Result<Option<&'a str>, Obj
 }
 
 /// Returns the line for a message: shortened if it is long, with invisible characters spelled out.
-pub(super) fn shortened(line: &str) -> String {
+pub fn shortened(line: &str) -> String {
     let start: String = line.chars().take(60).collect();
     let end = if start.len() < line.len() { "..." } else { "" };
     format!("{}{end}", files::words::shown(&start))
@@ -211,15 +271,13 @@ mod tests {
     #[test]
     fn bad_lines_are_named() {
         for (line, expected) in [
-            ("v 0 nan 0", "three finite numbers"),
-            ("v 0 1e400 0", "three finite numbers"),
-            ("v 0 1", "three finite numbers"),
-            ("vt 0.5", "two finite numbers"),
-            ("f 1 2", "three or four corners"),
-            ("f 1 2 3 4 1", "three or four corners"),
-            ("f 1 2/2 3", "three or four corners"),
-            ("f 0 1 2", "three or four corners"),
-            ("f 1 2 \\", "backslash"),
+            ("v 0 1", "three numbers"),
+            ("v 0 1 x", "three numbers"),
+            ("vt", "two numbers"),
+            ("f 1 2", "three or more corners"),
+            ("f 1 2 # 3", "three or more corners"),
+            ("f 0 1 2", "three or more corners"),
+            ("f 1 2 3/1/1/1", "three or more corners"),
             ("f 1 2 5", "corners that the file has"),
             ("f -5 1 2", "corners that the file has"),
             ("f 1/1 2/2 3/5", "corners that the file has"),
@@ -228,6 +286,60 @@ mod tests {
             let complaint = complaint(&format!("{SQUARE}{line}\n"));
             assert!(complaint.starts_with("a.obj:9: found `"), "{complaint}");
             assert!(complaint.contains(expected), "{complaint}");
+        }
+    }
+
+    #[test]
+    fn numbers_that_are_not_finite_matter_only_where_they_are_used() {
+        let faces =
+            |face: &str| format!("{SQUARE}v 0 nan 0\nvt 1 inf\nvn nan 0 0\nf 1 2 3\n{face}\n");
+        let read = |face: &str| read("a.obj", faces(face).as_bytes());
+        assert!(read("").is_ok());
+        let bad = read("f 1 2 5").unwrap_err().to_string();
+        assert!(bad.starts_with("a.obj:9: found `v 0 nan 0`") && bad.contains("finite"), "{bad}");
+        let mesh = read("f 1/5/1 2/2/1 3/3/1").unwrap();
+        assert_eq!((mesh.triangles[1].uv, mesh.normals[0]), ([NONE; 3], [0.0; 3]));
+    }
+
+    #[test]
+    fn what_is_not_used_is_counted() {
+        let more = "v 0 0 0 1 0 0\nv 1 0 0 1 0 1 0\nl 1 2\np 1\nl 2 3\ng a\no b\nvp 1\nf 1 2 3\n";
+        let read = read_file("a.obj", format!("{SQUARE}{more}").as_bytes()).unwrap();
+        let counts: Vec<(&str, usize)> =
+            read.unused.iter().map(|(what, count)| (what.as_str(), *count)).collect();
+        assert_eq!(counts, [("l", 2), ("p", 1), ("vertex colours", 2), ("vp", 1)]);
+    }
+
+    #[test]
+    fn corners_that_lack_a_part_take_it_from_their_face() {
+        let text =
+            format!("{SQUARE}vn 0 0 1\nf 1/1/1 2/2/1 3//1\nf 1/1/ 2/2 3/3//\nf 1/1 2/2 3/3/1\n");
+        let error = complaint(&text);
+        assert!(error.starts_with("a.obj:11:"), "a third slash: {error}");
+        let mesh = read("a.obj", text.replace("3/3//", "3/3/").as_bytes()).unwrap();
+        let has = |part: fn(&Triangle) -> [u32; 3]| {
+            mesh.triangles.iter().map(|triangle| part(triangle) != [NONE; 3]).collect::<Vec<_>>()
+        };
+        assert_eq!(has(|triangle| triangle.uv), [false, true, true]);
+        assert_eq!(has(|triangle| triangle.normal), [true, false, false]);
+    }
+
+    /// The same square, written as six programs write it.
+    #[test]
+    fn the_same_square_in_many_dialects() {
+        let plain = read("a.obj", format!("{SQUARE}f 1/1 2/2 3/3 4/4\n").as_bytes()).unwrap();
+        let lines = format!("{SQUARE}f 1/1 2/2 3/3 4/4\n");
+        let latin1: Vec<u8> = [b"# gr\xfcn\n", lines.as_bytes()].concat();
+        for text in [
+            lines.replace('\n', "\r").into_bytes(),
+            lines.replace('\n', "\r\n").into_bytes(),
+            lines.replace('\n', " # remark\n").into_bytes(),
+            lines.replace(" 0 0\n", " \\\n 0 \\\r\n0\n").into_bytes(),
+            [b"\xef\xbb\xbf", lines.as_bytes()].concat(),
+            latin1,
+        ] {
+            let shown = String::from_utf8_lossy(&text).into_owned();
+            assert_eq!(read("a.obj", &text).unwrap(), plain, "{shown}");
         }
     }
 
@@ -258,8 +370,8 @@ mod tests {
         assert!(complaint("# only a comment\n").contains("no triangles"));
         assert!(complaint(SQUARE).contains("no triangles"));
         assert!(complaint("{\"format\":\"tb-grid\"}").contains("`triangulate` makes a mesh"));
-        let error = read("a.obj", b"v 0 0 0\n\xff").unwrap_err().to_string();
-        assert!(error.starts_with("a.obj:2: found bytes"), "{error}");
+        let error = read("a.obj", b"v 0 0 0\n\0").unwrap_err().to_string();
+        assert!(error.starts_with("a.obj:2: found a byte 0"), "{error}");
         let mesh = read("a.obj", format!("\u{feff}{SQUARE}f 1 2 3\n").as_bytes()).unwrap();
         assert_eq!(mesh.triangles.len(), 1);
     }

@@ -9,6 +9,7 @@ mod given;
 mod libraries;
 mod lights;
 mod materials;
+mod meshes;
 mod objects;
 mod place;
 mod ranges;
@@ -20,18 +21,19 @@ pub use draft::{Draft, SceneText};
 
 use super::file::{FORMAT, Lists, SceneFile, VERSION};
 use super::limits::DEEPEST;
-use super::obj::ObjError;
+use super::obj::{ObjError, ObjFile};
 use super::{Names, Scene};
 use crate::procedural::{NoiseLattice, Procedural};
-use crate::shape::Mesh;
 use crate::shape::mesh::MeshError;
 use draft::Indices;
+use files::check::Finding;
 use files::json::Document;
 use files::words::{LONGEST_LIST, cut, shown};
 use files::{Budget, Exit, Failure, FileError, JsonError, MemoryError, Source, memory};
 use given::Given;
 use libraries::Libraries;
 use ranges::Ranges;
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
@@ -109,7 +111,7 @@ impl Failure for SceneError {
 }
 
 /// Meshes by name that are given to the reader, besides those that the scene file names.
-pub type MeshSource = BTreeMap<String, Mesh>;
+pub type MeshSource = BTreeMap<String, ObjFile>;
 
 /// Reads the text of a scene file and checks its types alone.
 ///
@@ -160,6 +162,7 @@ impl Draft<'_> {
         let indices = Indices::of(&texts)?;
         let lattice = OnceLock::new();
         let memory = Memory::new(budget);
+        let remarks = RefCell::default();
         let readers: Vec<Reader<'_>> = texts
             .iter()
             .map(|text| Reader {
@@ -170,6 +173,7 @@ impl Draft<'_> {
                 indices: &indices,
                 lattice: &lattice,
                 memory: &memory,
+                remarks: &remarks,
             })
             .collect();
         let mut scene = self.without_lists()?;
@@ -192,14 +196,13 @@ impl Draft<'_> {
             scene.textures.extend(reader.textures()?);
         }
         let mut libraries = Libraries::default();
-        for reader in &readers {
-            reader.libraries(&mut libraries, &mut scene)?;
-        }
         let mut given = Given::new(given, &texts);
         for (reader, planned) in readers.iter().zip(planned) {
-            scene.objects.extend(reader.objects(planned, &mut given, &libraries)?);
+            reader.objects(planned, &mut given, &mut libraries, &mut scene)?;
         }
         scene.procedural.lattice = lattice.into_inner();
+        let remarks = remarks.take().into_iter().chain(scene.remarks);
+        scene.remarks = libraries::joined(remarks.collect());
         Ok(scene)
     }
 
@@ -220,6 +223,7 @@ impl Draft<'_> {
             max_depth: file.max_depth,
             min_weight: document.within("min_weight", file.min_weight, 0.0, 1.0)?,
             names: Names::default(),
+            remarks: Vec::new(),
         })
     }
 }
@@ -235,6 +239,8 @@ struct Reader<'a> {
     /// The noise lattice, once a texture or a bump uses noise.
     lattice: &'a OnceLock<Arc<NoiseLattice>>,
     memory: &'a Memory<'a>,
+    /// Remarks on pictures.
+    remarks: &'a RefCell<Vec<Finding>>,
 }
 
 impl Ranges for Reader<'_> {

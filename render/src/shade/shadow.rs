@@ -284,6 +284,7 @@ mod tests {
             max_depth: 1,
             min_weight: 0.0,
             names: Names::default(),
+            remarks: Vec::new(),
         }
     }
 

@@ -1,8 +1,15 @@
 //! Decides whether a shape is closed and therefore has an inside.
 
 use super::mesh::as_dvec3;
-use super::weld::Weld;
+use super::weld::{Weld, join_near};
 use super::{Mesh, Shape};
+
+/// Distance within which the corners of an almost closed mesh are joined, in units in the last place of
+/// its largest coordinate.
+///
+/// Some programs compute the same corner twice by different formulas, such as sin(2 pi) for sin(0). A
+/// larger distance would close gaps that are meant.
+const JOINED: f64 = 16.0;
 
 impl Shape {
     /// Returns whether the shape divides space into an inside and an outside, with its normals
@@ -50,6 +57,23 @@ impl Mesh {
             |group: &[([u32; 2], i32)]| group.iter().map(|(_, sign)| sign).sum::<i32>() == 0;
         volume > 0.0 && sides.chunk_by(|(a, _), (b, _)| a == b).all(matched)
     }
+
+    /// Closes a mesh that is open only because some of its corners differ by rounding: joins them. Returns
+    /// the number of corners that were moved, 0 if the mesh is closed already or does not become closed.
+    pub fn close_rounded(&mut self) -> usize {
+        let largest = self.positions.iter().flatten().fold(0.0, |most: f32, x| most.max(x.abs()));
+        if largest == 0.0 || self.is_closed() {
+            return 0;
+        }
+        let distance = JOINED * f64::from(f32::EPSILON) * f64::from(largest);
+        let before = self.positions.clone();
+        let moved = join_near(&mut self.positions, distance);
+        if moved > 0 && self.is_closed() {
+            return moved;
+        }
+        self.positions = before;
+        0
+    }
 }
 
 #[cfg(test)]
@@ -73,6 +97,19 @@ mod tests {
             surfaces: vec![String::new()],
             ..Mesh::default()
         }
+    }
+
+    #[test]
+    fn corners_that_differ_by_rounding_are_joined_if_that_closes_the_mesh() {
+        let mut rounded = tetrahedron();
+        rounded.positions[3][1] = rounded.positions[3][1].next_up();
+        assert!(!rounded.is_closed());
+        assert_eq!(rounded.close_rounded(), 1);
+        assert!(rounded.is_closed() && rounded.positions == tetrahedron().positions);
+        let mut open = tetrahedron();
+        open.positions[3][1] += 0.1;
+        let before = open.clone();
+        assert_eq!((open.close_rounded(), &open), (0, &before));
     }
 
     #[test]

@@ -9,6 +9,7 @@ pub mod mesh;
 pub mod placed;
 pub mod placement;
 pub mod quad;
+pub mod smooth;
 pub mod sphere;
 pub mod superquadric;
 pub mod triangle;

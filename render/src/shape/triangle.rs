@@ -7,7 +7,7 @@
 //! slips between the triangles. This holds only if products are rounded one by one (no fused
 //! multiply-add). An edge function of exactly zero counts as inside on both sides.
 
-use glam::DVec3;
+use glam::{DVec3, DVec4, Vec4Swizzles};
 
 /// A ray prepared for tests against many triangles.
 #[derive(Debug, Clone, Copy)]
@@ -31,6 +31,7 @@ enum Order {
 }
 
 impl Order {
+    #[inline(always)]
     fn of(direction: DVec3) -> Self {
         let size = direction.abs();
         if size.x > size.y && size.x > size.z {
@@ -44,15 +45,12 @@ impl Order {
         }
     }
 
+    #[inline]
     fn axes(self) -> [usize; 3] {
-        match self {
-            Self::Xyz => [0, 1, 2],
-            Self::Yxz => [1, 0, 2],
-            Self::Yzx => [1, 2, 0],
-            Self::Zyx => [2, 1, 0],
-            Self::Zxy => [2, 0, 1],
-            Self::Xzy => [0, 2, 1],
-        }
+        // In the order of the variants.
+        const AXES: [[usize; 3]; 6] =
+            [[0, 1, 2], [1, 0, 2], [1, 2, 0], [2, 1, 0], [2, 0, 1], [0, 2, 1]];
+        AXES[self as usize]
     }
 }
 
@@ -62,46 +60,32 @@ pub type TriangleHit = (f64, [f64; 2]);
 impl ShearedRay {
     /// Prepares the ray that starts at `origin`; `direction` is unit.
     #[must_use]
+    #[inline(always)]
     pub fn new(origin: DVec3, direction: DVec3) -> Self {
         let order = Order::of(direction);
-        let [x, y, z] = order.axes().map(|axis| direction[axis]);
+        let [x, y, z] = order.axes();
+        let (x, y, z) = (direction[x], direction[y], direction[z]);
         Self { origin, order, shear: [x / z, y / z, 1.0 / z] }
     }
 
-    /// Returns the hit with a distance above 0, from either side. The test misses triangles of zero
-    /// area as seen along the ray, and triangles whose corners all lie farther along the ray than
-    /// `limit`.
+    /// Returns the hit with a distance above 0, from either side, and the sum of the edge functions.
+    /// The test misses triangles of zero area as seen along the ray, and triangles whose corners all
+    /// lie farther along the ray than `limit`.
     #[must_use]
-    #[inline]
-    pub fn intersect(&self, corners: &[[f32; 3]; 3], limit: f64) -> Option<TriangleHit> {
-        // Constant axes save a third of the time.
-        match self.order {
-            Order::Xyz => self.intersect_in::<0, 1, 2>(corners, limit),
-            Order::Yxz => self.intersect_in::<1, 0, 2>(corners, limit),
-            Order::Yzx => self.intersect_in::<1, 2, 0>(corners, limit),
-            Order::Zyx => self.intersect_in::<2, 1, 0>(corners, limit),
-            Order::Zxy => self.intersect_in::<2, 0, 1>(corners, limit),
-            Order::Xzy => self.intersect_in::<0, 2, 1>(corners, limit),
-        }
-    }
-
-    #[inline]
-    fn intersect_in<const X: usize, const Y: usize, const Z: usize>(
-        &self,
-        corners: &[[f32; 3]; 3],
-        limit: f64,
-    ) -> Option<TriangleHit> {
-        let from = |corner: [f32; 3], axis: usize| f64::from(corner[axis]) - self.origin[axis];
+    #[inline(always)]
+    pub fn intersect(&self, corners: &Corners, limit: f64) -> Option<(TriangleHit, f64)> {
+        let [x, y, z] = self.order.axes();
+        let from = |axis: usize| corners[axis] - DVec4::splat(self.origin[axis]);
         // Distances of the corners along the axis of depth, before shearing.
-        let depths = corners.map(|corner| from(corner, Z));
-        let [az, bz, cz] = depths.map(|depth| self.shear[2] * depth);
-        if (az > limit) & (bz > limit) & (cz > limit) {
+        let depths = from(z);
+        let along = self.shear[2] * depths;
+        if (along.x > limit) & (along.y > limit) & (along.z > limit) {
             return None;
         }
-        let [ax, bx, cx] = [0, 1, 2].map(|k| from(corners[k], X) - self.shear[0] * depths[k]);
-        let [ay, by, cy] = [0, 1, 2].map(|k| from(corners[k], Y) - self.shear[1] * depths[k]);
-        let edges = [cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax];
-        let [a, b, c] = edges;
+        let x = from(x) - self.shear[0] * depths;
+        let y = from(y) - self.shear[1] * depths;
+        let edges = x.zxyx() * y.yzxy() - y.zxyx() * x.yzxy();
+        let (a, b, c) = (edges.x, edges.y, edges.z);
         if ((a < 0.0) | (b < 0.0) | (c < 0.0)) & ((a > 0.0) | (b > 0.0) | (c > 0.0)) {
             return None;
         }
@@ -109,18 +93,50 @@ impl ShearedRay {
         if area == 0.0 {
             return None;
         }
-        let weights = edges.map(|edge| edge / area);
-        let t = weights[0] * az + weights[1] * bz + weights[2] * cz;
-        (t > 0.0).then_some((t, [weights[1], weights[2]]))
+        let weights = edges / area;
+        let parts = weights * along;
+        let t = parts.x + parts.y + parts.z;
+        (t > 0.0).then_some(((t, [weights.y, weights.z]), area))
     }
 
     /// Returns whether the ray starts within `skin` of the triangle's plane, in scene units.
     #[must_use]
-    pub fn starts_on(&self, corners: &[[f32; 3]; 3], skin: f64) -> bool {
-        let [a, b, c] = corners.map(|corner| DVec3::from(corner.map(f64::from)) - self.origin);
+    pub fn starts_on(&self, [x, y, z]: &Corners, skin: f64) -> bool {
+        let a = DVec3::new(x.x, y.x, z.x) - self.origin;
+        let b = DVec3::new(x.y, y.y, z.y) - self.origin;
+        let c = DVec3::new(x.z, y.z, z.z) - self.origin;
         let across = (b - a).cross(c - a);
         a.dot(across).abs() <= skin * across.length()
     }
+
+    /// Returns whether [`ShearedRay::starts_on`] is certainly false for a triangle that the ray meets
+    /// at the distance `t`. `area` is the sum of the edge functions, and `size` the diagonal of the
+    /// triangle's box.
+    ///
+    /// The start has a distance from the plane of `t` times the cosine between ray and normal. The sum
+    /// of the edge functions is that cosine times twice the triangle's area, over the direction's
+    /// largest component; and twice the area is below the square of the diagonal.
+    #[must_use]
+    #[inline(always)]
+    pub fn starts_off(&self, t: f64, area: f64, size: DVec4, skin: f64) -> bool {
+        // The factor of 32 exceeds all roundings, since a skin is above four roundings of the largest
+        // coordinate.
+        t * area.abs() > 32.0 * skin * size.length_squared() * self.shear[2].abs()
+    }
+}
+
+/// Corners of a triangle, along each axis: first, second, third, and the first again.
+pub type Corners = [DVec4; 3];
+
+/// Returns corners that are given one by one.
+#[must_use]
+#[inline]
+pub fn by_axis([a, b, c]: &[[f32; 3]; 3]) -> Corners {
+    let along = |axis: usize| {
+        let (a, b, c) = (f64::from(a[axis]), f64::from(b[axis]), f64::from(c[axis]));
+        DVec4::new(a, b, c, a)
+    };
+    [along(0), along(1), along(2)]
 }
 
 /// Returns whether two of a triangle's corners are equal.
@@ -150,9 +166,9 @@ mod tests {
         let corners = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]];
         for (z, direction) in [(2.0, DVec3::NEG_Z), (-2.0, DVec3::Z)] {
             let ray = ShearedRay::new(DVec3::new(1.0, 2.0, z), direction);
-            let (t, weights) = ray.intersect(&corners, f64::INFINITY).unwrap();
+            let ((t, weights), _) = ray.intersect(&by_axis(&corners), f64::INFINITY).unwrap();
             assert_eq!((t, weights), (2.0, [0.25, 0.5]));
-            assert!(ray.intersect(&corners, 1.9).is_none());
+            assert!(ray.intersect(&by_axis(&corners), 1.9).is_none());
         }
     }
 
@@ -172,7 +188,7 @@ mod tests {
             let aimed = DVec3::from(b.map(f64::from)) - eye;
             let direction = if at_corner { aimed } else { DVec3::from(toward) };
             let ray = ShearedRay::new(eye, direction.normalize_or(DVec3::X));
-            prop_assert_eq!(ray.intersect(&corners, f64::INFINITY), None);
+            prop_assert_eq!(ray.intersect(&by_axis(&corners), f64::INFINITY), None);
         }
 
         /// A ray aimed at a corner or an edge of a closed fan never slips through.
@@ -195,7 +211,7 @@ mod tests {
             let ray = ShearedRay::new(eye, direction);
             let hits = (0..5)
                 .filter(|&k| {
-                    ray.intersect(&[hub, rim(k), rim(k + 1)], f64::INFINITY).is_some()
+                    ray.intersect(&by_axis(&[hub, rim(k), rim(k + 1)]), f64::INFINITY).is_some()
                 })
                 .count();
             prop_assert!(hits >= 1);

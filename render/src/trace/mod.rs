@@ -40,6 +40,8 @@ pub struct Tracer<'a> {
     pub volumes: &'a Volumes,
     /// The volumes that contain the camera.
     pub around_eye: Media,
+    /// Least weight in its pixel, in some channel, of a ray that is followed, [0, 1].
+    pub min_weight: f64,
 }
 
 /// Number of rays by kind, and number of rays that hit a surface.
@@ -76,12 +78,35 @@ struct Seen {
     weight: Color,
 }
 
+/// Gives the weight of a ray that is not worth following to the other ray at the same surface. If neither
+/// is, but both together are, the heavier one gets both. The weights are those of the mirrored and of
+/// the refracted ray.
+///
+/// The light of a ray that is not followed is thus taken to be that of the other ray. No light is lost,
+/// and the error is the product of a small weight and a difference.
+fn followed([mirrored, refracted]: [Color; 2], worth_it: impl Fn(Color) -> bool) -> [Color; 2] {
+    let both = mirrored + refracted;
+    match (worth_it(mirrored), worth_it(refracted)) {
+        (true, true) => [mirrored, refracted],
+        (false, false) if !worth_it(both) => [mirrored, refracted],
+        (keeps, other) if keeps != other => {
+            if keeps {
+                [both, Color::ZERO]
+            } else {
+                [Color::ZERO, both]
+            }
+        }
+        _ if mirrored.max_element() > refracted.max_element() => [both, Color::ZERO],
+        _ => [Color::ZERO, both],
+    }
+}
+
 impl<'a> Tracer<'a> {
-    /// Creates a tracer for the scene's camera.
+    /// Creates a tracer for the scene's camera and the least weight that the scene states.
     #[must_use]
     pub fn new(scene: &'a Scene, accel: &'a Accel<'a>, volumes: &'a Volumes) -> Self {
         let around_eye = volumes.around(scene, accel, scene.camera.eye());
-        Self { scene, accel, volumes, around_eye }
+        Self { scene, accel, volumes, around_eye, min_weight: scene.min_weight }
     }
 
     /// Traces a ray from the eye and fills its intersection tree.
@@ -208,8 +233,14 @@ impl<'a> Tracer<'a> {
         let eta = boundary.eta(&self.scene.materials);
         let split = Split::at(material, ray.direction, normal, geometric_normal, eta);
         let tint = material.tint(-ray.direction.dot(normal));
-        let (reflect_weight, refract_weight) =
-            (split.reflect_weight * tint, Color::splat(split.refract_weight));
+        let mut weights = [split.reflect_weight * tint, Color::splat(split.refract_weight)];
+        // A ray is followed if its weight in the pixel is large enough in some channel.
+        let share = |weight: Color| (seen.weight * weight).max_element();
+        let worth_it = |weight: Color| share(weight) > 0.0 && share(weight) >= self.min_weight;
+        if differential.is_some() && split.refracted.is_some() {
+            weights = followed(weights, worth_it);
+        }
+        let [reflect_weight, refract_weight] = weights;
         let slot = tree.push(Node {
             piece: hit.piece,
             part: point.part,
@@ -231,11 +262,6 @@ impl<'a> Tracer<'a> {
             return Branch::Node(slot);
         }
 
-        // A ray is followed if its weight in the pixel is large enough in some channel.
-        let worth_it = |share: Color| {
-            let most = (weight * share).max_element();
-            most > 0.0 && most >= self.scene.min_weight
-        };
         if worth_it(reflect_weight) {
             counts.reflected += 1;
             let turned = mirror(ray.direction, normal, geometric_normal);

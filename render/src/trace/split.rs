@@ -43,20 +43,27 @@ impl Split {
         if transparency == 0.0 && !material.fresnel {
             return mirror_only;
         }
-        let share =
-            if material.fresnel { optics::fresnel(-incident.dot(normal), eta) } else { 1.0 };
+        let reflectance = |normal: DVec3| {
+            if material.fresnel { optics::fresnel(-incident.dot(normal), eta) } else { 1.0 }
+        };
         if transparency == 0.0 {
-            return Self { reflect_weight: reflectivity * share, ..mirror_only };
+            return Self { reflect_weight: reflectivity * reflectance(normal), ..mirror_only };
         }
-        // The facet's normal replaces an interpolated normal that would keep the ray on this side.
-        let refracted = optics::refract(incident, normal, eta).and_then(|direction| {
-            if direction.dot(geometric_normal) < 0.0 {
-                Some(Turned { direction, by_facet: false })
-            } else {
-                let direction = optics::refract(incident, geometric_normal, eta)?;
-                Some(Turned { direction, by_facet: true })
+        let by_facet = || {
+            let direction = optics::refract(incident, geometric_normal, eta)?;
+            Some(Turned { direction, by_facet: true })
+        };
+        let (refracted, share) = match optics::refract(incident, normal, eta) {
+            Some(direction) if direction.dot(geometric_normal) < 0.0 => {
+                (Some(Turned { direction, by_facet: false }), reflectance(normal))
             }
-        });
+            // The facet's normal replaces an interpolated normal that would keep the ray on this side.
+            Some(_) => (by_facet(), reflectance(normal)),
+            None if normal == geometric_normal => (None, reflectance(normal)),
+            // So it does where only the interpolated normal gives total reflection. Otherwise light could
+            // enter glass of few facets and never leave it.
+            None => (by_facet(), reflectance(geometric_normal)),
+        };
         match refracted {
             Some(turned) if material.fresnel => Self {
                 reflect_weight: reflectivity * share,

@@ -12,7 +12,7 @@ use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
 use render::shape::Mesh;
 use render::shape::mesh::{NONE, Triangle};
-use render::shape::triangle::ShearedRay;
+use render::shape::triangle::{self, ShearedRay};
 
 /// A ray and a triangle that it meets.
 #[derive(Debug, Clone, Copy)]
@@ -111,7 +111,8 @@ impl Sample {
     /// number. Returns `None` if the rounded ray misses the triangle.
     pub fn errors(&self) -> Option<[f64; 5]> {
         let ray = ShearedRay::new(self.origin, self.direction);
-        let (t, weights) = ray.intersect(&self.corners, f64::INFINITY)?;
+        let corners = triangle::by_axis(&self.corners);
+        let ((t, weights), _) = ray.intersect(&corners, f64::INFINITY)?;
         let truth = self.truth();
         let (hit, best) = (self.origin + t * self.direction, self.best_point(&truth));
         let corners = self.corners.map(doubles);

@@ -51,6 +51,9 @@ pub struct Pair {
 #[must_use]
 pub fn pair(a: &[Leaf], b: &[Leaf], across: DVec2, charts: &[Charts]) -> Pair {
     let mut found = Pair::default();
+    if a.is_empty() && b.is_empty() {
+        return found;
+    }
     // Light without partner: first sample minus second, and the largest of a leaf.
     let (mut apart, mut largest, mut shown) = ([0.0; 3], 0.0_f32, false);
     let mut paired = 0_u64;

@@ -71,6 +71,11 @@ impl Area {
         Self { cells: Lattice::grid(per_pixel, Pattern::Regular, pixel_filter), threshold }
     }
 
+    /// Positions and weights of the cells.
+    pub fn cells(self) -> Lattice {
+        self.cells
+    }
+
     /// Returns whether a first cell is split. `error` is its estimated error, root mean square of
     /// linear RGB, and `color` is the colour of its own sample.
     fn splits(self, cell: Cell, error: f32, color: Color) -> bool {
@@ -86,6 +91,115 @@ impl Area {
     }
 }
 
+/// The samples of the cells under a tile before any cell is split.
+///
+/// Any part of the tile can be developed from them, with any threshold.
+#[derive(Debug)]
+pub struct Base {
+    columns: Range<i64>,
+    rows: Range<i64>,
+    /// Colours of the cells, row by row, linear RGB.
+    colors: Vec<Color>,
+    /// Estimated errors of the cells; empty if they were not wanted.
+    estimates: Vec<Estimate>,
+}
+
+impl Base {
+    /// Bytes of a cell.
+    pub const OF_CELL: u64 = (size_of::<Color>() + size_of::<Estimate>()) as u64;
+
+    fn index(&self, x: i64, y: i64) -> usize {
+        let across = (self.columns.end - self.columns.start) as usize;
+        (y - self.rows.start) as usize * across + (x - self.columns.start) as usize
+    }
+}
+
+impl Area {
+    /// Traces and shades one ray for each cell under a tile. With `estimates`, the cells around them
+    /// are traced too, and errors are estimated.
+    pub fn base(
+        self,
+        shared: &Exposure<'_>,
+        tile: &Crop,
+        exposed: &mut Exposed,
+        estimates: bool,
+    ) -> Base {
+        let (columns, rows) = (self.cells.under(tile.columns()), self.cells.under(tile.rows()));
+        let halo = i64::from(estimates);
+        let widened = |range: &Range<i64>| range.start - halo..range.end + halo;
+        let mut sampler = Sampler::new(shared, exposed);
+        let samples = Samples::take(self, widened(&columns), widened(&rows), &mut sampler);
+        let errors = if estimates { samples.errors(shared.shader.charts) } else { Vec::new() };
+        let count = ((columns.end - columns.start) * (rows.end - rows.start)) as usize;
+        let mut base = Base {
+            colors: Vec::with_capacity(count),
+            estimates: Vec::with_capacity(if estimates { count } else { 0 }),
+            columns: columns.clone(),
+            rows: rows.clone(),
+        };
+        for y in rows {
+            for index in columns.clone().map(|x| samples.index(x, y)) {
+                base.colors.push(samples.color(index));
+                base.estimates.extend(errors.get(index));
+            }
+        }
+        base
+    }
+
+    /// Splits the cells under a tile and sums them into its pixels. `base` is that of the tile, or of
+    /// one that contains it.
+    pub fn develop<W: Witness>(
+        self,
+        shared: &Exposure<'_>,
+        base: &Base,
+        tile: &Crop,
+        exposed: &mut Exposed,
+        witness: &mut W,
+    ) {
+        let (columns, rows) = (self.cells.under(tile.columns()), self.cells.under(tile.rows()));
+        let mut colors = vec![Color::ZERO; (columns.end - columns.start) as usize];
+        let weights = self.cells.weights();
+        let mut sampler = Sampler::new(shared, exposed);
+        for (down, y) in rows.enumerate() {
+            for (color, x) in colors.iter_mut().zip(columns.clone()) {
+                let (cell, index) = (self.cell(x, y), base.index(x, y));
+                let estimate = base.estimates.get(index).copied().unwrap_or_default();
+                let own = base.colors[index];
+                let mut shots = W::LISTENS.then(Vec::new);
+                let before = sampler.exposed.rays.primary;
+                let splits = self.splits(cell, estimate.error, own);
+                let left;
+                (*color, left) = match self.threshold.filter(|_| splits) {
+                    Some(threshold) => Splitter::new(threshold, &mut sampler, shots.as_mut())
+                        .split(cell, own, estimate.edge),
+                    None => {
+                        let offset = DVec2::ZERO;
+                        shots.iter_mut().for_each(|s| s.push(Shot { cell, offset, weight: 1.0 }));
+                        (own, f64::from(estimate.error) * cell.side * cell.side)
+                    }
+                };
+                let rays = 1 + sampler.exposed.rays.primary - before;
+                sampler.exposed.spend(tile, cell.middle, left, rays);
+                for shot in shots.into_iter().flatten() {
+                    witness.sample(&AreaSample { area: self, at: [x, y], shot });
+                    sampler.show(&shot, witness);
+                }
+            }
+            self.cells.gather(down, tile, &weights, &colors, &mut sampler.exposed.pixels);
+        }
+        if shared.settings.layers.iter().any(|layer| layer.is_of_hit()) {
+            for (down, y) in tile.rows().enumerate() {
+                for (across, x) in tile.columns().enumerate() {
+                    let middle = DVec2::new(f64::from(x), f64::from(y)) + 0.5;
+                    sampler.keep_layers(down * tile.width as usize + across, middle);
+                }
+            }
+        }
+        let whole = (self.cells.whole() as f64).powi(2);
+        exposed.pixels.iter_mut().for_each(|pixel| *pixel /= whole);
+    }
+}
+
 impl Method for Area {
     fn tile_side(&self, samples: u32) -> u32 {
         self.cells.tile_side(samples)
@@ -98,47 +212,8 @@ impl Method for Area {
         exposed: &mut Exposed,
         witness: &mut W,
     ) {
-        let (columns, rows) = (self.cells.under(tile.columns()), self.cells.under(tile.rows()));
-        let halo = i64::from(self.threshold.is_some());
-        let widened = |range: &Range<i64>| range.start - halo..range.end + halo;
-        let mut sampler = Sampler::new(shared, exposed);
-        let samples = Samples::take(*self, widened(&columns), widened(&rows), &mut sampler);
-        let errors = self.threshold.map(|_| samples.errors(shared.shader.charts));
-        let mut colors = vec![Color::ZERO; (columns.end - columns.start) as usize];
-        let weights = self.cells.weights();
-        for (down, y) in rows.enumerate() {
-            for (color, x) in colors.iter_mut().zip(columns.clone()) {
-                let (cell, index) = (self.cell(x, y), samples.index(x, y));
-                let estimate = errors.as_ref().map_or(Estimate::default(), |errors| errors[index]);
-                let own = samples.color(index);
-                let mut shots = W::LISTENS.then(Vec::new);
-                let splits = self.splits(cell, estimate.error, own);
-                *color = match self.threshold.filter(|_| splits) {
-                    Some(threshold) => Splitter::new(threshold, &mut sampler, shots.as_mut())
-                        .split(cell, own, estimate.edge),
-                    None => {
-                        let offset = DVec2::ZERO;
-                        shots.iter_mut().for_each(|s| s.push(Shot { cell, offset, weight: 1.0 }));
-                        own
-                    }
-                };
-                for shot in shots.into_iter().flatten() {
-                    witness.sample(&AreaSample { area: *self, at: [x, y], shot });
-                    sampler.show(&shot, witness);
-                }
-            }
-            self.cells.gather(down, tile, &weights, &colors, &mut sampler.exposed.pixels);
-        }
-        if !shared.settings.layers.is_empty() {
-            for (down, y) in tile.rows().enumerate() {
-                for (across, x) in tile.columns().enumerate() {
-                    let middle = DVec2::new(f64::from(x), f64::from(y)) + 0.5;
-                    sampler.keep_layers(down * tile.width as usize + across, middle);
-                }
-            }
-        }
-        let whole = (self.cells.whole() as f64).powi(2);
-        exposed.pixels.iter_mut().for_each(|pixel| *pixel /= whole);
+        let base = self.base(shared, tile, exposed, self.threshold.is_some());
+        self.develop(shared, &base, tile, exposed, witness);
     }
 }
 

@@ -46,6 +46,8 @@ pub struct Splitter<'s, 'a, 'b> {
     shots: Option<&'s mut Vec<Shot>>,
     /// Leaves of the four parts of the cell in work, one part after the other.
     leaves: Vec<Leaf>,
+    /// Sum of the squares of the estimated errors times area of all parts that are not split.
+    left: f64,
 }
 
 impl<'s, 'a, 'b> Splitter<'s, 'a, 'b> {
@@ -55,15 +57,16 @@ impl<'s, 'a, 'b> Splitter<'s, 'a, 'b> {
         sampler: &'s mut Sampler<'a, 'b>,
         shots: Option<&'s mut Vec<Shot>>,
     ) -> Self {
-        Self { threshold, sampler, shots, leaves: Vec::new() }
+        Self { threshold, sampler, shots, leaves: Vec::new(), left: 0.0 }
     }
 
-    /// Returns the colour of a first cell from its parts, linear RGB. `own` is the colour of the
-    /// cell's own sample. `edge` is the error that an edge beside the cell's middle causes, root mean
-    /// square of linear RGB.
-    pub fn split(mut self, cell: Cell, own: Color, edge: f32) -> Color {
+    /// Returns the colour of a first cell from its parts, linear RGB, and the estimated error that is
+    /// left, times area in pixels. `own` is the colour of the cell's own sample. `edge` is the error
+    /// that an edge beside the cell's middle causes, root mean square of linear RGB.
+    pub fn split(mut self, cell: Cell, own: Color, edge: f32) -> (Color, f64) {
         let first = Shot { cell, offset: DVec2::ZERO, weight: 1.0 };
-        self.divided(&first, own, 1, f64::from(edge) * cell.side * cell.side)
+        let color = self.divided(&first, own, 1, f64::from(edge) * cell.side * cell.side);
+        (color, self.left.sqrt())
     }
 
     /// Returns the colour of a cell from its four parts. `whole` is the cell's own sample with the
@@ -89,8 +92,12 @@ impl<'s, 'a, 'b> Splitter<'s, 'a, 'b> {
         // the cell.
         let hidden = OF_HIDDEN * edge > self.threshold && !splits.contains(&true);
         let splits = if hidden { [true; 4] } else { splits };
-        for ((part, color), _) in parts.iter().zip(&mut colors).zip(splits).filter(|(_, s)| *s) {
-            *color = self.divided(part, *color, depth + 1, 0.0);
+        for (k, part) in parts.iter().enumerate() {
+            if splits[k] {
+                colors[k] = self.divided(part, colors[k], depth + 1, 0.0);
+            } else {
+                self.left += (f64::from(errors[k]) * side * side).powi(2);
+            }
         }
         let mean = 0.25 * (colors[0] + colors[1] + colors[2] + colors[3]);
         let of_whole = if splits.contains(&true) { 0.0 } else { OF_WHOLE };

@@ -24,8 +24,9 @@ const MOST_DOWN: usize = 254;
 /// Most covered texels in a window, about. Above it, sums of lines are faster.
 const MOST_COVERED: f64 = 2000.0;
 
-/// Cells of a line in a narrow window.
+/// Cells of a line in a narrow window, and in one of middle width.
 const FEW_CELLS: usize = 32;
+const SOME_CELLS: usize = 96;
 
 /// Cells of a line in the widest window: one on the left and two on the right of the texels.
 const MOST_CELLS: usize = MOST_ACROSS + 3;
@@ -36,7 +37,7 @@ pub struct Window {
     /// The upper left corner, a whole number of texels.
     corner: DVec2,
     /// Texels across and down.
-    width: usize,
+    pub width: usize,
     height: usize,
 }
 
@@ -83,8 +84,11 @@ impl Window {
         polygons: &[[DVec2; 4]; N],
     ) -> [f64; C] {
         // Clearing more cells than are needed takes time.
-        let sum = if self.width + 3 <= FEW_CELLS {
+        let cells = self.width + 3;
+        let sum = if cells <= FEW_CELLS {
             self.sum::<FEW_CELLS, N, T, C>(rows, polygons)
+        } else if cells <= SOME_CELLS {
+            self.sum::<SOME_CELLS, N, T, C>(rows, polygons)
         } else {
             self.sum::<MOST_CELLS, N, T, C>(rows, polygons)
         };

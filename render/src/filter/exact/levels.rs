@@ -2,6 +2,7 @@
 
 use super::level::Level;
 use super::line::LONGEST;
+use super::octave;
 use super::outline::{Axes, Outline};
 use super::palette::{self, Palette, palette};
 use super::range::{Range, Ranges};
@@ -217,8 +218,7 @@ impl<const C: usize> Levels<C> {
     /// Returns the index of the coarsest level whose texels have at most this side, in texels of the
     /// texture.
     fn stored_level(&self, side: f64) -> usize {
-        let level = side.max(1.0).log2() as usize;
-        level.saturating_sub(self.skipped).min(self.levels.len() - 1)
+        octave(side).saturating_sub(self.skipped).min(self.levels.len() - 1)
     }
 
     /// Returns the mean of the averages over outlines of equal area and orientation on a level.

@@ -27,7 +27,7 @@
 
 use super::floor;
 use super::palette::Code;
-use crate::texture::Wrap;
+use crate::texture::{Wrap, reduced};
 use std::array::from_fn;
 use std::fmt::Debug;
 
@@ -365,9 +365,4 @@ impl<T: Code, const C: usize> Line<'_, T, C> {
             double - x * (0.5 * mean[c] * x + constant[c])
         })
     }
-}
-/// Returns the position in `[0, period]` that equals `x` up to whole periods.
-#[inline(always)]
-fn reduced(x: f64, period: f64) -> f64 {
-    (x - period * floor(x / period)).clamp(0.0, period)
 }

@@ -191,5 +191,13 @@ fn floor(at: f64) -> f64 {
     toward_zero - f64::from(u8::from(toward_zero > at))
 }
 
+/// Returns the binary logarithm of a number, rounded down: its exponent. 0 for numbers below 2 and for
+/// NaN.
+#[inline(always)]
+fn octave(number: f64) -> usize {
+    let exponent = number.max(1.0).to_bits() >> (f64::MANTISSA_DIGITS - 1);
+    exponent as usize + 1 - f64::MAX_EXP as usize
+}
+
 #[cfg(test)]
 mod tests;

@@ -1,5 +1,6 @@
 //! Smallest and largest codes of a texture in any rectangle, from blocks of ever larger size.
 
+use super::octave;
 use crate::texture::{Texture, Wrap};
 use glam::DVec2;
 
@@ -85,7 +86,8 @@ impl<const C: usize> Ranges<C> {
     #[must_use]
     pub fn around(&self, low: DVec2, high: DVec2) -> Range<C> {
         let extent = (high - low).max_element() / BLOCK as f64;
-        let size = extent.max(1.0).log2().ceil() as usize;
+        // The smallest block that is at least as large.
+        let size = if extent > 1.0 { octave(extent.next_down()) + 1 } else { 0 };
         let top = self.grids.len() - 1;
         if size >= top {
             return self.grids[top].blocks[0];

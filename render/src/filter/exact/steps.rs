@@ -3,7 +3,7 @@
 use crate::texture::Wrap;
 use std::ops::Range;
 
-/// A place in a texture along one axis, and the way on from there.
+/// A place in a texture along one axis, which moves from texel to texel.
 #[derive(Debug, Clone, Copy)]
 pub struct Steps {
     wrap: Wrap,

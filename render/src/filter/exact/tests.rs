@@ -164,19 +164,19 @@ proptest! {
     }
 }
 
-/// Several quadrilaterals, whose windows are small, large, and too large for coverage.
+/// Several quadrilaterals, whose windows are narrow, of middle width, wide, and too wide for coverage.
 #[test]
 fn the_average_over_several_is_the_mean_of_their_averages() {
     let texture = texture(61, 47, Wrap::Mirror, |k| [mixed(k); 3]);
     let level = level_of(&texture);
-    for (length, cells) in [(3.0, 0..97), (20.0, 97..1025), (90.0, 1025..usize::MAX)] {
-        let (a, b) = (DVec2::new(length, 0.4 * length), DVec2::new(-1.5, 2.0));
+    for (length, widths) in [(3.0, 1..30), (20.0, 30..94), (90.0, 94..255), (200.0, 255..500)] {
+        let (a, b) = (DVec2::new(length, 0.02 * length), DVec2::new(-1.5, 2.0));
         let outlines = [[0.0, 0.0], [0.5, -0.25], [-3.0, 1.75]].map(|by| {
             let center = DVec2::new(30.3, 21.6) + DVec2::from(by);
             [center - a - b, center + a - b, center + a + b, center - a + b]
         });
-        let window = Window::around(&outlines).map_or(1025, |window| window.cells());
-        assert!(cells.contains(&window), "{length}: {window} cells");
+        let width = Window::around(&outlines).map_or(255, |window| window.width);
+        assert!(widths.contains(&width), "{length}: {width} texels");
         let [found] = level.average(&outlines);
         let mean = outlines.iter().map(|outline| by_clipping(&texture, outline)).sum::<f64>() / 3.0;
         // As above, with areas from 12.

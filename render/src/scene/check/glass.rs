@@ -27,8 +27,8 @@ fn open_or_inward(item: &Item<'_>) -> Option<Finding> {
     let skin = item.skin?;
     if skin.rims > 0 {
         let message = format!(
-            "the mesh refracts and is not closed ({} with triangles on one side only): light does not \
-             leave it",
+            "the mesh refracts and is not closed ({} with triangles on one side only): it has no inside \
+             and absorbs nothing",
             count(skin.rims, "edge", "edges")
         );
         return said(Severity::Wrong, message);

@@ -86,6 +86,7 @@ pub fn check(
     findings.extend(lights::findings(&subject));
     findings.extend(coincident::findings(&subject).findings);
     findings.extend(unused::findings(&subject));
+    findings.extend(scene.remarks.iter().cloned());
     findings.sort_by_key(|finding| Reverse(finding.severity));
     Ok(Report { inventory: inventory::lines(&subject, table_bytes), findings })
 }

@@ -102,7 +102,8 @@ pub struct DnoiseFile {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ImageReliefFile {
-    /// Path of a PNG or JPEG file, relative to the scene file's folder. Its grey is the height.
+    /// Path of a picture in one of the formats of textures, relative to the scene file's folder. Its grey
+    /// is the height.
     pub file: PathBuf,
     /// Number of repetitions over the unit square of texture coordinates, across and up; 1e-6 to
     /// 1e6, default once.

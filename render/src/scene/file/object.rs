@@ -176,10 +176,15 @@ pub struct MeshFile {
     pub name: String,
     /// OBJ file that is read if `--mesh` or a job gives no mesh; relative to this file's folder.
     pub file: Option<PathBuf>,
-    /// Material library (MTL) of another tool, by the names that `usemtl` gives; relative to this
-    /// file's folder; none if left out. The bindings of `materials` and `textures` take precedence.
-    /// `Kd`, `map_Kd`, `Ks`, `Ns`, `d` or `Tr`, and `Ni` of the library are read.
-    pub mtl: Option<PathBuf>,
+    /// Material library (MTL) of another tool, or a list of several, by the names that `usemtl` gives;
+    /// relative to this file's folder. The bindings of `materials` and `textures` take precedence. If
+    /// left out, the libraries that the OBJ file names serve the surfaces that nothing else binds.
+    /// `Kd`, `map_Kd`, `Ks`, `Ns`, `d` or `Tr`, and `Ni` of a library are read.
+    pub mtl: Option<OneOrMore>,
+    /// Largest angle between two faces, in degrees, that still shade as one: 0 to 180. Corners without
+    /// normals get mean normals. If left out, only faces in a smoothing group (`s`) of the OBJ file do.
+    #[schemars(transform = keywords::range(0.0..=180.0))]
+    pub smooth_deg: Option<f64>,
     /// Name of the material of all surfaces that neither `materials` nor `mtl` binds.
     pub material: Option<String>,
     /// Name of the texture of all surfaces that neither `textures` nor `mtl` binds; none if left
@@ -194,6 +199,27 @@ pub struct MeshFile {
     /// Steps that place the object, in order; none if left out.
     #[serde(default)]
     pub place: Vec<StepFile>,
+}
+
+/// A path, or a list of paths.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(untagged, expecting = "expected a path or a list of paths")]
+pub enum OneOrMore {
+    /// One path.
+    One(PathBuf),
+    /// Several paths.
+    More(Vec<PathBuf>),
+}
+
+impl OneOrMore {
+    /// Returns the paths.
+    #[must_use]
+    pub fn all(&self) -> &[PathBuf] {
+        match self {
+            Self::One(path) => std::slice::from_ref(path),
+            Self::More(paths) => paths,
+        }
+    }
 }
 
 /// A step of `place`.

@@ -13,7 +13,9 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct TextureFile {
-    /// A picture: path of a PNG or JPEG file with 8 or 16 bits, relative to this file's folder.
+    /// A picture: path of a PNG, JPEG, TGA, BMP, TIFF, WebP or GIF file with 8 or 16 bits, relative to
+    /// this file's folder. Of a file of several pictures the first is read. Texels are taken as they are
+    /// stored: the orientation of a camera and colour profiles are not applied.
     pub image: Option<PathBuf>,
     /// Continuation beyond the edges of the picture; `repeat` if left out. For pictures only.
     pub wrap: Option<Wrap>,

@@ -1,9 +1,13 @@
 //! Reads the lines of an OBJ file into a mesh.
 
-use super::{ObjError, shortened};
+use super::polygon;
+use super::{ObjError, ObjFile, shortened};
+use crate::scene::text::{keyword, words};
 use crate::shape::Mesh;
 use crate::shape::mesh::{NONE, Triangle};
-use std::collections::HashMap;
+use glam::DVec3;
+use std::collections::{BTreeMap, HashMap, HashSet};
+use std::path::PathBuf;
 
 /// Number of indices of a corner: vertex, texture coordinate and normal.
 const NUMBERED: usize = 3;
@@ -22,6 +26,18 @@ pub(super) struct Reader<'a> {
     surfaces: HashMap<&'a str, u32>,
     /// Faces with indices of later lines: the line, and the largest index of each part.
     ahead: Vec<(usize, [usize; NUMBERED])>,
+    /// Faces of more than three corners: the first triangle of their fan, and the one after the last.
+    fans: Vec<[usize; 2]>,
+    /// The current smoothing group, and the groups of the triangles before it was set.
+    group: u32,
+    groups: Vec<u32>,
+    /// Vertices with a number that is not finite: index and line.
+    bad_vertices: Vec<(u32, usize)>,
+    /// Texture coordinates with a number that is not finite.
+    bad_uvs: HashSet<u32>,
+    libraries: Vec<&'a str>,
+    /// Keywords and values that are not used, each with its count.
+    unused: BTreeMap<&'a str, usize>,
 }
 
 /// Indices of a corner: vertex, texture coordinate and normal. The last two are optional.
@@ -41,6 +57,13 @@ impl<'a> Reader<'a> {
             surface: None,
             surfaces: HashMap::new(),
             ahead: Vec::new(),
+            fans: Vec::new(),
+            group: 0,
+            groups: Vec::new(),
+            bad_vertices: Vec::new(),
+            bad_uvs: HashSet::new(),
+            libraries: Vec::new(),
+            unused: BTreeMap::new(),
         }
     }
 
@@ -48,15 +71,24 @@ impl<'a> Reader<'a> {
     pub(super) fn read(&mut self) -> Result<(), ObjError> {
         let text = self.text;
         for (number, line) in text.lines().enumerate() {
-            let line = line.trim();
             self.line(number, line).map_err(|expected| self.wrong(number, line, expected))?;
         }
         let counts = self.counts();
         let lost =
             |(_, most): &&(usize, [usize; NUMBERED])| (0..NUMBERED).any(|k| most[k] > counts[k]);
         if let Some(&(number, _)) = self.ahead.iter().find(lost) {
-            let line = text.lines().nth(number).unwrap_or_default();
-            return Err(self.wrong(number, line, THERE));
+            return Err(self.wrong_line(number, THERE));
+        }
+        if !self.bad_vertices.is_empty() {
+            let used: HashSet<u32> =
+                self.mesh.triangles.iter().flat_map(|triangle| triangle.position).collect();
+            if let Some(&(_, number)) = self.bad_vertices.iter().find(|(k, _)| used.contains(k)) {
+                return Err(self
+                    .wrong_line(number, "a vertex of three finite numbers, since a face uses it"));
+            }
+        }
+        if !self.groups.is_empty() || self.group != 0 {
+            self.groups.resize(self.mesh.triangles.len(), self.group);
         }
         Ok(())
     }
@@ -66,28 +98,59 @@ impl<'a> Reader<'a> {
         self.mesh.positions.len()
     }
 
-    /// Returns the mesh without the vertices that no face uses.
-    pub(super) fn mesh(mut self) -> Mesh {
+    /// Returns the file's contents. Polygons are divided into triangles, and vertices that no face uses
+    /// are left out.
+    pub(super) fn finish(mut self) -> ObjFile {
+        let positions = std::mem::take(&mut self.mesh.positions);
+        let place = |index: u32| DVec3::from(positions[index as usize].map(f64::from));
+        for &[first, end] in &self.fans {
+            polygon::divide(&mut self.mesh.triangles[first..end], place);
+        }
+        self.mesh.positions = positions;
+        if !self.bad_uvs.is_empty() {
+            for triangle in &mut self.mesh.triangles {
+                if triangle.uv.iter().any(|uv| self.bad_uvs.contains(uv)) {
+                    triangle.uv = [NONE; 3];
+                }
+            }
+            // No triangle uses these numbers, which must be finite all the same.
+            for &index in &self.bad_uvs {
+                self.mesh.uvs[index as usize] = [0.0; 2];
+            }
+        }
+        self.leave_out_unused();
+        ObjFile {
+            file: self.file.into(),
+            folder: PathBuf::new(),
+            mesh: self.mesh,
+            groups: self.groups,
+            libraries: self.libraries.into_iter().map(Into::into).collect(),
+            unused: self.unused.into_iter().map(|(what, count)| (what.into(), count)).collect(),
+        }
+    }
+
+    /// Removes the vertices that no face uses.
+    fn leave_out_unused(&mut self) {
         let mut used = vec![false; self.mesh.positions.len()];
         for index in self.mesh.triangles.iter().flat_map(|triangle| triangle.position) {
             used[index as usize] = true;
         }
-        if used.contains(&false) {
-            let mut next = 0;
-            let renumbered: Vec<u32> = used
-                .iter()
-                .map(|&used| {
-                    next += u32::from(used);
-                    next.saturating_sub(1)
-                })
-                .collect();
-            let mut used = used.into_iter();
-            self.mesh.positions.retain(|_| used.next().unwrap_or(true));
-            for triangle in &mut self.mesh.triangles {
-                triangle.position = triangle.position.map(|index| renumbered[index as usize]);
-            }
+        if !used.contains(&false) {
+            return;
         }
-        self.mesh
+        let mut next = 0;
+        let renumbered: Vec<u32> = used
+            .iter()
+            .map(|&used| {
+                next += u32::from(used);
+                next.saturating_sub(1)
+            })
+            .collect();
+        let mut used = used.into_iter();
+        self.mesh.positions.retain(|_| used.next().unwrap_or(true));
+        for triangle in &mut self.mesh.triangles {
+            triangle.position = triangle.position.map(|index| renumbered[index as usize]);
+        }
     }
 
     fn wrong(&self, number: usize, line: &str, expected: Expected) -> ObjError {
@@ -95,49 +158,82 @@ impl<'a> Reader<'a> {
         ObjError::Line { file: self.file.into(), line: number + 1, found, expected }
     }
 
+    fn wrong_line(&self, number: usize, expected: Expected) -> ObjError {
+        self.wrong(number, self.text.lines().nth(number).unwrap_or_default(), expected)
+    }
+
     fn counts(&self) -> [usize; NUMBERED] {
         [self.mesh.positions.len(), self.mesh.uvs.len(), self.mesh.normals.len()]
     }
 
     fn line(&mut self, number: usize, line: &'a str) -> Result<(), Expected> {
-        if line.ends_with('\\') {
-            return Err("one line per statement, without a backslash at its end");
-        }
-        let (keyword, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
+        let (keyword, rest) = keyword(line);
         match keyword {
             "v" => {
-                let position = numbers(rest, 7).ok_or("`v` and three finite numbers")?;
+                let (position, count) = numbers::<3>(rest).ok_or("`v` and three numbers")?;
+                if position.iter().any(|x| !x.is_finite()) {
+                    self.bad_vertices.push((self.mesh.positions.len() as u32, number));
+                }
+                // Three coordinates, a weight, and three channels.
+                if count >= 6 {
+                    self.pass_over("vertex colours");
+                }
                 self.mesh.positions.push(position);
             }
             "vn" => {
-                let normal = numbers(rest, 3).ok_or("`vn` and three finite numbers")?;
-                self.mesh.normals.push(normal);
+                let (normal, _) = numbers(rest).ok_or("`vn` and three numbers")?;
+                // A normal that is no direction stands for none.
+                let is_finite = normal.iter().all(|x: &f32| x.is_finite());
+                self.mesh.normals.push(if is_finite { normal } else { [0.0; 3] });
             }
             "vt" => {
-                let uv = numbers(rest, 3).ok_or("`vt` and two finite numbers")?;
+                // A texture of one dimension has one coordinate.
+                let two = numbers(rest);
+                let one = || numbers(rest).map(|([u], count)| ([u, 0.0], count));
+                let (uv, _) = two.or_else(one).ok_or("`vt` and two numbers")?;
+                if uv.iter().any(|x| !x.is_finite()) {
+                    self.bad_uvs.insert(self.mesh.uvs.len() as u32);
+                }
                 self.mesh.uvs.push(uv);
             }
             "usemtl" => {
-                self.name = rest.trim();
+                self.name = rest;
                 self.surface = self.surfaces.get(self.name).copied();
             }
             "f" => self.face(number, rest)?,
-            _ => {}
+            "s" => {
+                self.groups.resize(self.mesh.triangles.len(), self.group);
+                self.group = match words(rest).next() {
+                    None | Some("off") => 0,
+                    Some(group) => group.parse().unwrap_or(1),
+                };
+            }
+            "mtllib" => self.libraries.push(rest),
+            "" | "o" | "g" => {}
+            _ if keyword.starts_with('#') => {}
+            _ => self.pass_over(keyword),
         }
         Ok(())
     }
 
+    /// Counts something that is read and not used.
+    fn pass_over(&mut self, what: &'a str) {
+        *self.unused.entry(what).or_default() += 1;
+    }
+
     fn face(&mut self, number: usize, text: &str) -> Result<(), Expected> {
-        const FORM: Expected = "`f` and three or four corners, each v, v/vt, v//vn or v/vt/vn";
+        const FORM: Expected = "`f` and three or more corners, each v, v/vt, v//vn or v/vt/vn";
         self.faces += 1;
         let counts = self.counts();
-        let mut corners = [[NONE; NUMBERED]; 4];
+        let first = self.mesh.triangles.len();
+        let mut ends: [Corner; 2] = [[NONE; NUMBERED]; 2];
         let mut count = 0;
         let mut most = [0; NUMBERED];
-        for word in text.split_whitespace() {
-            let corner = corners.get_mut(count).ok_or(FORM)?;
-            let indices = parts(word).ok_or(FORM)?;
-            for (k, index) in indices.into_iter().enumerate() {
+        let mut is_mixed = false;
+        let surface = self.surface();
+        for word in words(text) {
+            let mut corner = [NONE; NUMBERED];
+            for (k, index) in parts(word).ok_or(FORM)?.into_iter().enumerate() {
                 let position = match index {
                     0 => continue,
                     1.. => {
@@ -152,27 +248,42 @@ impl<'a> Reader<'a> {
                 };
                 corner[k] = u32::try_from(position).map_err(|_| THERE)?;
             }
+            if count >= 2 {
+                let part = |k: usize| [ends[0][k], ends[1][k], corner[k]];
+                let (position, uv, normal) = (part(0), part(1), part(2));
+                self.mesh.triangles.push(Triangle { position, uv, normal, surface });
+            }
+            is_mixed |= (corner[1] == NONE) != (ends[0][1] == NONE) && count > 0;
+            is_mixed |= (corner[2] == NONE) != (ends[0][2] == NONE) && count > 0;
+            // The first corner, and the last.
+            ends[count.min(1)] = corner;
             count += 1;
         }
-        let parts = |corner: &Corner| corner.map(|index| index == NONE);
-        if count < 3 || corners[..count].iter().any(|corner| parts(corner) != parts(&corners[0])) {
+        if count < 3 {
             return Err(FORM);
+        }
+        if is_mixed {
+            self.complete(first);
+        }
+        if count > 3 {
+            self.fans.push([first, self.mesh.triangles.len()]);
         }
         if (0..NUMBERED).any(|k| most[k] > counts[k]) {
             self.ahead.push((number, most));
         }
-        let surface = self.surface();
-        for k in 2..count {
-            let [a, b, c] = [corners[0], corners[k - 1], corners[k]];
-            let part = |k: usize| [a[k], b[k], c[k]];
-            self.mesh.triangles.push(Triangle {
-                position: part(0),
-                uv: part(1),
-                normal: part(2),
-                surface,
-            });
-        }
         Ok(())
+    }
+
+    /// Takes texture coordinates and normals from the triangles of a face, from number `first` on, if
+    /// some of its corners have none.
+    fn complete(&mut self, first: usize) {
+        let face = &mut self.mesh.triangles[first..];
+        if face.iter().any(|triangle| triangle.uv.contains(&NONE)) {
+            face.iter_mut().for_each(|triangle| triangle.uv = [NONE; 3]);
+        }
+        if face.iter().any(|triangle| triangle.normal.contains(&NONE)) {
+            face.iter_mut().for_each(|triangle| triangle.normal = [NONE; 3]);
+        }
     }
 
     /// Returns the surface of the last name of `usemtl`.
@@ -190,18 +301,17 @@ impl<'a> Reader<'a> {
 
 const THERE: Expected = "corners that the file has, counted from 1, or back from -1";
 
-/// Returns the first `N` of at most `most` numbers, all of which must be finite.
-fn numbers<const N: usize>(text: &str, most: usize) -> Option<[f32; N]> {
+/// Returns the first `N` numbers of a statement, and the number of its words.
+fn numbers<const N: usize>(text: &str) -> Option<([f32; N], usize)> {
     let mut numbers = [0.0; N];
     let mut count = 0;
-    for word in text.split_whitespace() {
-        let number: f32 = word.parse().ok().filter(|number: &f32| number.is_finite())?;
+    for word in words(text) {
         if let Some(entry) = numbers.get_mut(count) {
-            *entry = number;
+            *entry = word.parse().ok()?;
         }
         count += 1;
     }
-    (N..=most).contains(&count).then_some(numbers)
+    (count >= N).then_some((numbers, count))
 }
 
 /// Returns the indices of a corner; 0 for a part that the corner does not have.
@@ -209,11 +319,11 @@ fn parts(word: &str) -> Option<[i64; NUMBERED]> {
     let index = |part: &str| part.parse().ok().filter(|&index| index != 0);
     let mut parts = word.split('/');
     let position = index(parts.next()?)?;
-    let (uv, normal) = match (parts.next(), parts.next()) {
-        (None, _) => (0, 0),
-        (Some(uv), None) => (index(uv)?, 0),
-        (Some(""), Some(normal)) => (0, index(normal)?),
-        (Some(uv), Some(normal)) => (index(uv)?, index(normal)?),
+    // Some programs write empty parts at the end: `1/` and `1//`.
+    let mut optional = || match parts.next() {
+        None | Some("") => Some(0),
+        Some(part) => index(part),
     };
+    let (uv, normal) = (optional()?, optional()?);
     parts.next().is_none().then_some([position, uv, normal])
 }

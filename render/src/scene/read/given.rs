@@ -2,7 +2,7 @@
 
 use super::MeshSource;
 use super::draft::{SceneText, meshes};
-use crate::shape::Mesh;
+use crate::scene::obj::ObjFile;
 use std::collections::BTreeMap;
 
 /// The meshes that the caller passed, and for each the number of objects that still need it.
@@ -23,7 +23,7 @@ impl Given {
 
     /// Returns the mesh of this name for the next object. The last object takes the mesh itself, and
     /// objects before it take copies.
-    pub(super) fn take(&mut self, name: &str) -> Option<Mesh> {
+    pub(super) fn take(&mut self, name: &str) -> Option<ObjFile> {
         let left = self.takers.get_mut(name)?;
         *left = left.saturating_sub(1);
         if *left == 0 { self.meshes.remove(name) } else { self.meshes.get(name).cloned() }

@@ -1,66 +1,164 @@
-//! Reads the material libraries that a scene's meshes name.
+//! The material libraries that a scene's meshes name, read when a surface needs them.
 
 use super::{Reader, SceneError};
-use crate::scene::{Scene, Surface, SurfaceTexture, mtl};
-use crate::texture::{Values, Wrap};
-use std::collections::BTreeMap;
+use crate::scene::mtl::{self, Library, Map};
+use crate::scene::text::before_comment;
+use crate::scene::{Scene, SurfaceTexture};
+use crate::texture::{Texture, Values, Wrap};
+use files::FileError;
+use files::check::{Finding, Severity};
+use std::collections::{BTreeMap, HashMap};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-/// The libraries read so far: for each path, the surfaces by their names in `usemtl`.
+/// The libraries read so far, and what surfaces took from them. Materials and textures follow those of
+/// the scene files in the scene's lists.
 #[derive(Debug, Default)]
-pub(super) struct Libraries(BTreeMap<PathBuf, BTreeMap<String, Surface>>);
+pub(super) struct Libraries {
+    files: BTreeMap<PathBuf, Library>,
+    /// Indices of materials by library and by the number of the entry.
+    materials: BTreeMap<(PathBuf, usize), usize>,
+    /// Indices of textures by path and continuation. A picture that cannot be read has none.
+    textures: BTreeMap<(PathBuf, bool), Option<usize>>,
+}
+
+/// A material of a library, as a surface takes it.
+#[derive(Debug, Clone)]
+pub(super) struct Taken {
+    pub(super) material: usize,
+    /// The picture, and the library that names it.
+    pub(super) picture: Option<(Map, PathBuf)>,
+}
 
 impl Libraries {
-    /// Returns the surface of this name in the library at `path`.
-    pub(super) fn surface(&self, path: &Path, name: &str) -> Option<Surface> {
-        self.0.get(path)?.get(name).copied()
+    /// Adds the library at `path` if it is new, with the bytes that `read` returns.
+    ///
+    /// # Errors
+    /// If the file cannot be read, or is not text.
+    pub(super) fn add(
+        &mut self,
+        path: &Path,
+        read: impl FnOnce() -> Result<Vec<u8>, SceneError>,
+        scene: &mut Scene,
+    ) -> Result<(), SceneError> {
+        if self.files.contains_key(path) {
+            return Ok(());
+        }
+        let file = files::input::name_of(path);
+        let library = mtl::read(&file, &read()?)?;
+        if !library.remarks.is_empty() {
+            scene.remarks.push(remark(&file, &library.remarks));
+        }
+        self.files.insert(path.into(), library);
+        Ok(())
+    }
+
+    /// Returns the material of this name from the first of these libraries that has it.
+    pub(super) fn take<'p>(
+        &mut self,
+        paths: &'p [PathBuf],
+        name: &str,
+        scene: &mut Scene,
+    ) -> Option<Taken> {
+        let find = |path: &'p PathBuf| Some((path, self.files.get(path)?.find(name)?));
+        let (path, number) = paths.iter().find_map(find)?;
+        let entry = &self.files[path].entries[number];
+        let material = *self.materials.entry((path.clone(), number)).or_insert_with(|| {
+            scene.materials.push(entry.material.clone());
+            scene.names.materials.push(entry.name.clone());
+            scene.materials.len() - 1
+        });
+        let picture = entry.picture.clone().map(|picture| (picture, path.clone()));
+        Some(Taken { material, picture })
     }
 }
 
+/// Sentences on one file; further ones are counted.
+const SENTENCES: usize = 6;
+
+/// Joins the remarks on the same file, in the order of the files' first remarks.
+pub(super) fn joined(remarks: Vec<Finding>) -> Vec<Finding> {
+    let mut files: Vec<(String, Vec<String>)> = Vec::new();
+    let mut numbers: HashMap<String, usize> = HashMap::new();
+    for Finding { path, message, .. } in remarks {
+        let number = *numbers.entry(path.clone()).or_insert(files.len());
+        if number == files.len() {
+            files.push((path, Vec::new()));
+        }
+        files[number].1.push(message);
+    }
+    let mut join = |(file, mut sentences): (String, Vec<String>)| {
+        let more = sentences.len().saturating_sub(SENTENCES);
+        sentences.truncate(SENTENCES);
+        sentences.extend((more > 0).then(|| format!("{more} more remarks")));
+        remark(&file, &sentences)
+    };
+    files.drain(..).map(&mut join).collect()
+}
+
+/// Returns the remark on a file, from its sentences.
+pub(super) fn remark(file: &str, sentences: &[String]) -> Finding {
+    Finding::new(Severity::Remark, file, sentences.join("; "))
+}
+
 impl Reader<'_> {
-    /// Reads the libraries of this file's meshes. Their materials and textures follow those of the scene
-    /// file in the scene's lists.
-    pub(super) fn libraries(
+    /// Returns the texture of a library's picture. A picture that cannot be read is a fault if the scene
+    /// names the library, at the JSON path `at`; otherwise it is a remark, and there is no texture.
+    pub(super) fn library_picture(
         &self,
+        at: &str,
+        named: bool,
+        (map, library): &(Map, PathBuf),
         libraries: &mut Libraries,
         scene: &mut Scene,
-    ) -> Result<(), SceneError> {
-        for (number, object) in self.file.objects.iter().enumerate() {
-            let Some(mesh) = object.mesh() else { continue };
-            let Some(path) = &mesh.mtl else { continue };
-            let path = self.folder.join(path);
-            if libraries.0.contains_key(&path) {
-                continue;
-            }
-            let at = format!("objects[{number}].mesh.mtl");
-            let bytes = self.named_file(&at, &path)?;
-            let mut surfaces = BTreeMap::new();
-            let folder = path.parent().unwrap_or(Path::new(""));
-            let mut pictures = BTreeMap::new();
-            for entry in mtl::read(&path.display().to_string(), &bytes)? {
-                let texture = match entry.picture {
-                    None => None,
-                    Some(picture) => Some(match pictures.get(&picture) {
-                        Some(&index) => index,
-                        None => {
-                            let file = folder.join(&picture);
-                            let index = scene.textures.len();
-                            let texture = self.texels(&at, &file, Values::Srgb, Wrap::Repeat)?;
-                            scene.textures.push(texture);
-                            scene.names.textures.push(picture.clone());
-                            pictures.insert(picture, index);
-                            index
-                        }
-                    }),
-                };
-                let material = scene.materials.len();
-                scene.materials.push(entry.material);
-                scene.names.materials.push(entry.name.clone());
-                let texture = texture.map(SurfaceTexture::Picture);
-                surfaces.insert(entry.name, Surface { material, texture });
-            }
-            libraries.0.insert(path, surfaces);
+    ) -> Result<Option<SurfaceTexture>, SceneError> {
+        let folder = library.parent().unwrap_or(Path::new(""));
+        let key = (folder.join(&map.path), map.wrap == Wrap::Clamp);
+        if let Some(&known) = libraries.textures.get(&key) {
+            return Ok(known.map(SurfaceTexture::Picture));
         }
-        Ok(())
+        let file = files::input::name_of(library);
+        let index = match self.found_picture(at, folder, map) {
+            Ok((texture, path)) => {
+                if path != key.0 {
+                    let sentence = format!("{} is taken for {}", path.display(), map.path);
+                    scene.remarks.push(remark(&file, &[sentence]));
+                }
+                scene.textures.push(texture);
+                scene.names.textures.push(map.path.clone());
+                Some(scene.textures.len() - 1)
+            }
+            Err(error) if named => return Err(error),
+            Err(error) => {
+                scene.remarks.push(remark(&file, &[format!("no picture: {error}")]));
+                None
+            }
+        };
+        libraries.textures.insert(key, index);
+        Ok(index.map(SurfaceTexture::Picture))
+    }
+
+    /// Reads a picture at its path. If there is no file, the path without a comment, the file of that
+    /// name in the library's folder, and one that differs in upper and lower case are tried.
+    fn found_picture(
+        &self,
+        at: &str,
+        folder: &Path,
+        map: &Map,
+    ) -> Result<(Texture, PathBuf), SceneError> {
+        let mut paths = vec![folder.join(&map.path)];
+        let short = before_comment(&map.path);
+        paths.extend(short.map(|path| folder.join(path)));
+        let name = |path: &str| path.rsplit('/').next().map(|name| folder.join(name));
+        paths.extend(name(short.unwrap_or(&map.path)));
+        for path in paths.clone() {
+            paths.extend(self.source.same_but_case(&path));
+        }
+        let is_missing = |error: &FileError| matches!(error, FileError::Read { source, .. } if source.kind() == ErrorKind::NotFound);
+        let exists =
+            |path: &&PathBuf| !self.source.read(path).is_err_and(|error| is_missing(&error));
+        let path = paths.iter().find(exists).unwrap_or(&paths[0]);
+        let texture = self.texels(at, path, Values::Srgb, map.wrap)?;
+        Ok((texture, path.clone()))
     }
 }

@@ -2,12 +2,12 @@
 
 use super::given::Given;
 use super::libraries::Libraries;
+use super::meshes::PlannedMesh;
 use super::ranges::Ranges;
 use super::{Reader, SceneError};
-use crate::scene::file::{MeshFile, ObjectFile};
-use crate::scene::{Object, Surface, SurfaceTexture, obj};
-use crate::shape::mesh::{NONE, Triangle};
-use crate::shape::{Mesh, Placement, Quad, Shape, Sphere};
+use crate::scene::file::ObjectFile;
+use crate::scene::{Object, Scene, Surface, SurfaceTexture};
+use crate::shape::{Placement, Quad, Shape, Sphere};
 use files::json::nearest;
 use glam::{DVec2, DVec3};
 use std::collections::BTreeMap;
@@ -21,16 +21,6 @@ pub(super) enum Planned<'a> {
     Mesh(PlannedMesh<'a>),
 }
 
-/// A mesh whose triangles are not read yet.
-#[derive(Debug)]
-pub(super) struct PlannedMesh<'a> {
-    file: &'a MeshFile,
-    /// JSON path of the mesh.
-    at: String,
-    bindings: Bindings,
-    placement: Placement,
-}
-
 impl<'a> Reader<'a> {
     /// Reads the objects as far as they need no other file.
     pub(super) fn planned_objects(&self) -> Result<Vec<Planned<'a>>, SceneError> {
@@ -42,21 +32,25 @@ impl<'a> Reader<'a> {
         objects.collect()
     }
 
-    /// Reads the meshes and completes the objects.
+    /// Reads the meshes, completes the objects, and adds them to the scene.
     pub(super) fn objects(
         &self,
         planned: Vec<Planned<'a>>,
         given: &mut Given,
-        libraries: &Libraries,
-    ) -> Result<Vec<Object>, SceneError> {
-        let objects = planned.into_iter().map(|object| match object {
-            Planned::Whole(object) => Ok(object),
-            Planned::Mesh(mesh) => {
-                let given = given.take(&mesh.file.name);
-                self.mesh(mesh, given, libraries)
-            }
-        });
-        objects.collect()
+        libraries: &mut Libraries,
+        scene: &mut Scene,
+    ) -> Result<(), SceneError> {
+        for object in planned {
+            let object = match object {
+                Planned::Whole(object) => object,
+                Planned::Mesh(mesh) => {
+                    let given = given.take(&mesh.file.name);
+                    self.mesh(mesh, given, libraries, scene)?
+                }
+            };
+            scene.objects.push(object);
+        }
+        Ok(())
     }
 
     /// Reads the object at the JSON path `at`, as far as it needs no other file.
@@ -90,6 +84,9 @@ impl<'a> Reader<'a> {
                 (self.superquadric(&at, file)?, &file.material, &file.texture, &file.place)
             }
             ObjectFile::Mesh(file) => {
+                if let Some(angle) = file.smooth_deg {
+                    self.within(&format!("{at}.smooth_deg"), angle, 0.0, 180.0)?;
+                }
                 let bindings = self.mesh_bindings(&at, file)?;
                 let placement = self.placement(&at, &file.place)?;
                 return Ok(Planned::Mesh(PlannedMesh { file, at, bindings, placement }));
@@ -106,7 +103,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Returns the object after its placement.
-    fn placed(
+    pub(super) fn placed(
         &self,
         path: &str,
         shape: Shape,
@@ -138,130 +135,15 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Reads the triangles of a mesh and binds its surfaces to materials and textures.
-    fn mesh(
-        &self,
-        planned: PlannedMesh<'_>,
-        given: Option<Mesh>,
-        libraries: &Libraries,
-    ) -> Result<Object, SceneError> {
-        let PlannedMesh { file, at, bindings, placement } = planned;
-        let mesh = match (given, &file.file) {
-            (Some(mesh), _) => {
-                let named = |source| SceneError::Mesh { name: file.name.clone(), source };
-                mesh.check().map_err(named)?;
-                mesh
-            }
-            (None, Some(path)) => {
-                let path = self.folder.join(path);
-                let bytes = self.named_file(&format!("{at}.file"), &path)?;
-                let name = files::input::name_of(&path);
-                self.memory.keep(obj::needed(&bytes), || format!("mesh {name}"))?;
-                obj::read(&name, &bytes)?
-            }
-            (None, None) => {
-                return Err(SceneError::MissingMesh {
-                    name: file.name.clone(),
-                    path: at,
-                    scene: self.document.file.into(),
-                });
-            }
-        };
-        let library = file.mtl.as_ref().map(|path| self.folder.join(path));
-        let mut parts = Vec::with_capacity(mesh.surfaces.len());
-        for name in &mesh.surfaces {
-            let own = library.as_ref().and_then(|path| libraries.surface(path, name));
-            parts.push(self.bind(&at, file, &bindings, name, own)?);
-        }
-        self.check_texture_coordinates(&at, file, &mesh, &parts)?;
-        self.placed(&at, Shape::Mesh(mesh), parts, &placement)
-    }
-
-    /// Refuses a mesh with a texture on triangles without texture coordinates.
-    fn check_texture_coordinates(
-        &self,
-        at: &str,
-        file: &MeshFile,
-        mesh: &Mesh,
-        parts: &[Surface],
-    ) -> Result<(), SceneError> {
-        let is_lost = |triangle: &&Triangle| {
-            triangle.uv[0] == NONE && parts[triangle.surface as usize].picture().is_some()
-        };
-        match mesh.triangles.iter().filter(is_lost).count() {
-            0 => Ok(()),
-            count => {
-                let message = format!(
-                    "found {count} triangles without texture coordinates (vt) in mesh {} on surfaces \
-                     with a texture, expected vt at each corner, or no texture",
-                    file.name
-                );
-                self.fault(at, message)
-            }
-        }
-    }
-
-    /// Finds the materials and textures that a mesh names.
-    fn mesh_bindings(&self, at: &str, file: &MeshFile) -> Result<Bindings, SceneError> {
-        let mut bindings = Bindings::default();
-        if let Some(name) = &file.material {
-            bindings.material = Some(self.material_index(&format!("{at}.material"), name)?);
-        }
-        if let Some(name) = &file.texture {
-            bindings.texture = Some(self.texture_index(&format!("{at}.texture"), name)?);
-        }
-        for (key, name) in &file.materials {
-            let index = self.material_index(&format!("{at}.materials.{key}"), name)?;
-            bindings.materials.insert(key.clone(), index);
-        }
-        for (key, name) in &file.textures {
-            let index = self.texture_index(&format!("{at}.textures.{key}"), name)?;
-            bindings.textures.insert(key.clone(), index);
-        }
-        Ok(bindings)
-    }
-
-    /// Returns the material and texture of the surface that `usemtl` names `surface`. `own` is the entry
-    /// of the mesh's material library.
-    fn bind(
-        &self,
-        at: &str,
-        file: &MeshFile,
-        bindings: &Bindings,
-        surface: &str,
-        own: Option<Surface>,
-    ) -> Result<Surface, SceneError> {
-        let ids = obj::ids(surface);
-        let [texture_key, material_key] = ids.unwrap_or([surface, surface]);
-        let material = bindings.materials.get(material_key).copied();
-        let material = material.or(own.map(|own| own.material)).or(bindings.material);
-        let Some(material) = material else {
-            let message = format!(
-                "found surface {material_key:?} in mesh {}, expected \"material\", or an entry for \
-                 it in \"materials\" or the \"mtl\"",
-                file.name
-            );
-            return self.fault(at, message);
-        };
-        let texture = bindings.textures.get(texture_key).copied();
-        let texture = texture.or(own.and_then(|own| own.texture)).or(bindings.texture);
-        // Texture id 0 means no texture; any other id was meant to be seen.
-        if texture.is_none() && ids.is_some() && texture_key != "0" {
-            let message = format!(
-                "found texture id {texture_key} in mesh {}, expected an entry for it in \
-                 \"textures\", or a \"texture\" for all",
-                file.name
-            );
-            return self.fault(at, message);
-        }
-        Ok(Surface { material, texture })
-    }
-
-    fn material_index(&self, path: &str, name: &str) -> Result<usize, SceneError> {
+    pub(super) fn material_index(&self, path: &str, name: &str) -> Result<usize, SceneError> {
         self.index_of(path, "material", name, &self.indices.materials)
     }
 
-    fn texture_index(&self, path: &str, name: &str) -> Result<SurfaceTexture, SceneError> {
+    pub(super) fn texture_index(
+        &self,
+        path: &str,
+        name: &str,
+    ) -> Result<SurfaceTexture, SceneError> {
         self.index_of(path, "texture", name, &self.indices.textures)
     }
 
@@ -284,13 +166,4 @@ impl<'a> Reader<'a> {
             format!("found unknown {kind} {name:?}, expected one of: {names}{suggestion}"),
         )
     }
-}
-
-/// The materials and textures that a mesh binds, by surface id and by texture id.
-#[derive(Debug, Default)]
-struct Bindings {
-    material: Option<usize>,
-    texture: Option<SurfaceTexture>,
-    materials: BTreeMap<String, usize>,
-    textures: BTreeMap<String, SurfaceTexture>,
 }

@@ -3,10 +3,11 @@
 use super::ranges::Ranges;
 use super::{Reader, SceneError};
 use crate::texture::{Texture, Values, Wrap};
+use files::check::{Finding, Severity};
 use files::input;
 use files::memory::{Budget, MemoryError, Reserved};
-use files::picture::{self, Format, PictureError};
-use image::DynamicImage;
+use files::picture::{self, PictureError, SURFACES};
+use image::{DynamicImage, GenericImageView as _};
 use std::cell::Cell;
 use std::path::Path;
 
@@ -92,21 +93,40 @@ impl<'a> Reader<'a> {
         let bytes = self.named_file(at, path)?;
         let name = || input::name_of(path);
         // An EXR is decoded and then refused with a message that names floating point values.
-        let formats = [Format::Png, Format::Jpeg, Format::OpenExr];
         let budget = self.memory.budget;
-        picture::decode(&bytes, &formats, Texture::decoding_bytes, budget, name).map_err(|error| {
-            match error {
-                PictureError::Memory(error) => {
-                    SceneError::TooLarge(self.document.fault(at, error.to_string()))
-                }
-                error @ (PictureError::Format(_) | PictureError::Broken(_)) => {
-                    let message = format!(
-                        "found no picture in {} ({error}), expected a PNG or JPEG file",
-                        name()
-                    );
-                    self.document.fault(at, message).into()
-                }
+        let decoded = picture::decode(&bytes, &SURFACES, Texture::decoding_bytes, budget, name);
+        let read = decoded.map_err(|error| match error {
+            PictureError::Memory(error) => {
+                SceneError::TooLarge(self.document.fault(at, error.to_string()))
             }
-        })
+            error @ (PictureError::Format(_) | PictureError::Broken(_)) => {
+                let message = format!(
+                    "found no picture in {} ({error}), expected a PNG, JPEG, TGA, BMP, TIFF, WebP \
+                         or GIF file",
+                    name()
+                );
+                self.document.fault(at, message).into()
+            }
+        })?;
+        let mut unused = picture::unused(&bytes);
+        if has_transparent_texels(&read.0) {
+            unused.push("transparent texels are taken as opaque");
+        }
+        if !unused.is_empty() {
+            let finding = Finding::new(Severity::Remark, name(), unused.join("; "));
+            self.remarks.borrow_mut().push(finding);
+        }
+        Ok(read)
+    }
+}
+
+fn has_transparent_texels(picture: &DynamicImage) -> bool {
+    match picture {
+        DynamicImage::ImageLumaA8(texels) => texels.pixels().any(|texel| texel.0[1] < u8::MAX),
+        DynamicImage::ImageRgba8(texels) => texels.pixels().any(|texel| texel.0[3] < u8::MAX),
+        picture if picture.color().has_alpha() => {
+            picture.pixels().any(|(_, _, texel)| texel.0[3] < u8::MAX)
+        }
+        _ => false,
     }
 }

@@ -1,0 +1,170 @@
+//! The triangles of a mesh in a tree.
+
+use super::Accel;
+use super::block::{ABSENT, Block, LANES};
+use super::build::Numbered;
+use super::frame::{Frame, TreeRay};
+use super::kernel::Kernel;
+use super::leaf::Probe;
+use super::node::Child;
+use super::simd::Task;
+use super::tree::{Leaves, Tree};
+use crate::ray::{Hit, Piece, Ray};
+use crate::shape::Mesh;
+use crate::shape::triangle::{self, Corners};
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// Largest number of triangles of a tree; a larger mesh has several trees.
+pub const MOST: u32 = Numbered::MOST;
+
+/// A tree over triangles of a mesh.
+#[derive(Debug)]
+pub struct MeshTree {
+    tree: Tree,
+    blocks: Vec<Block>,
+    /// True if the blocks hold the exact corners. Only meshes with coordinates that are smaller than the
+    /// mesh by a factor beyond 2^100 have inexact blocks.
+    exact: bool,
+}
+
+impl MeshTree {
+    /// Builds a tree over a range of at most [`MOST`] triangles, or returns `None` if no ray meets any
+    /// of them.
+    #[must_use]
+    pub fn build(mesh: &Mesh, triangles: Range<u32>) -> Option<Self> {
+        let first = triangles.start;
+        let kept = triangles.into_par_iter().filter(|&n| !triangle::is_segment(&mesh.corners(n)));
+        let bounds = kept
+            .clone()
+            .map(|number| mesh.bounds(number))
+            .reduce_with(|a, b| [a[0].min(b[0]), a[1].max(b[1])])?;
+        let frame = Frame::exact(bounds);
+        let numbered = |number: u32| {
+            let [low, high] = frame.box_around(mesh.bounds(number));
+            Numbered::new(number - first, low, high)
+        };
+        let mut boxes: Vec<Numbered> = kept.map(numbered).collect();
+        let (tree, leaves) = Tree::build(bounds, frame, &mut boxes, LANES);
+        let block = |leaf: &Range<usize>| {
+            let triangle = |one: &Numbered| {
+                let number = first + one.number();
+                (number, mesh.corners(number).map(|corner| frame.corner(corner)))
+            };
+            let mut triangles = [(0, [[0.0; 3]; 3]); LANES];
+            for (triangle_of, one) in triangles.iter_mut().zip(&boxes[leaf.clone()]) {
+                *triangle_of = triangle(one);
+            }
+            Block::new(&triangles[..leaf.len()])
+        };
+        let blocks: Vec<Block> = leaves.par_iter().map(block).collect();
+        let is_exact = |block: &Block| {
+            (0..LANES).filter(|&lane| block.numbers[lane] != ABSENT).all(|lane| {
+                let scene = frame.scene(block.corners(lane));
+                scene == triangle::by_axis(&mesh.corners(block.numbers[lane]))
+            })
+        };
+        let exact = blocks.par_iter().all(is_exact);
+        Some(Self { tree, blocks, exact })
+    }
+
+    /// The tree.
+    #[must_use]
+    pub fn tree(&self) -> &Tree {
+        &self.tree
+    }
+
+    /// Memory in bytes of the tree and of its copies of triangles.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.tree.bytes() + size_of_val(&*self.blocks)
+    }
+
+    /// Calls `see` with the hits up to the distance that it last returned, initially `t_max`. Returns
+    /// the last distance.
+    #[inline(always)]
+    pub fn walk<K: Kernel>(
+        &self,
+        kernel: K,
+        ray: &Ray,
+        (accel, object): (&Accel<'_>, u32),
+        t_max: f64,
+        see: &mut impl FnMut(Hit) -> f64,
+    ) -> f64 {
+        let mut blocks = Blocks { mesh: self, accel, object, ray, see };
+        self.tree.walk(kernel, (ray, accel.extent), t_max, &mut blocks)
+    }
+
+    /// Returns the corners of a triangle in scene space.
+    #[inline(always)]
+    fn corners(&self, accel: &Accel<'_>, object: u32, block: &Block, lane: usize) -> Corners {
+        if self.exact {
+            self.tree.frame.scene(block.corners(lane))
+        } else {
+            let piece = Piece { object, triangle: block.numbers[lane] };
+            triangle::by_axis(&accel.mesh_corners(piece))
+        }
+    }
+}
+
+/// The test of a ray against one triangle of a block. Few triangles of a tree come here, so that the
+/// ray is prepared anew for each.
+struct Test<'a, 'b> {
+    mesh: &'a MeshTree,
+    accel: &'a Accel<'b>,
+    object: u32,
+    ray: &'a Ray,
+    block: &'a Block,
+    lane: usize,
+    t_max: f64,
+}
+
+impl Task for Test<'_, '_> {
+    type Out = Option<Hit>;
+
+    #[inline(always)]
+    fn run<K: Kernel>(&mut self, _: K) -> Option<Hit> {
+        let Self { mesh, accel, object, ray, block, lane, t_max } = *self;
+        let piece = Piece { object, triangle: block.numbers[lane & (LANES - 1)] };
+        if ray.leaving == Some(piece) {
+            return None;
+        }
+        let corners = mesh.corners(accel, object, block, lane);
+        Probe::new(accel, ray).meet_triangle(accel, piece, &corners, t_max)
+    }
+}
+
+/// The leaves of a mesh's tree, visited by a ray.
+struct Blocks<'a, 'b, F> {
+    mesh: &'a MeshTree,
+    accel: &'a Accel<'b>,
+    object: u32,
+    ray: &'a Ray,
+    see: F,
+}
+
+impl<F: FnMut(Hit) -> f64> Leaves for Blocks<'_, '_, F> {
+    #[inline(always)]
+    fn visit<K: Kernel>(
+        &mut self,
+        kernel: K,
+        leaf: Child,
+        tree_ray: &TreeRay,
+        limit: f32,
+        mut t_max: f64,
+    ) -> f64 {
+        let Self { mesh, accel, object, ray, see } = self;
+        let block = &mesh.blocks[leaf.number()];
+        let mut mask = kernel.triangles(block, tree_ray, leaf.longest(), limit);
+        while mask != 0 {
+            let lane = mask.trailing_zeros() as usize;
+            mask &= mask - 1;
+            let (object, ray) = (*object, *ray);
+            let mut test = Test { mesh, accel, object, ray, block, lane, t_max };
+            if let Some(hit) = kernel.apart(&mut test) {
+                t_max = see(hit);
+            }
+        }
+        t_max
+    }
+}

@@ -1,0 +1,129 @@
+//! The flags that request an accuracy, and the picture that they choose.
+
+use super::UseError;
+use super::sampling::SamplingArguments;
+use clap::Args;
+use files::exit::say;
+use files::progress::Progress;
+use files::{Exit, Failure};
+use render::accuracy::{self, Statement};
+use render::film::PixelFilter;
+use render::stats::Stats;
+use render::{Picture, Prepared, Settings};
+use thiserror::Error;
+
+#[derive(Debug, Args)]
+pub struct AccuracyArguments {
+    /// Make the picture with the fewest rays whose error is below this, and print what was reached. A
+    /// request is a number between 0 and 1, root mean square in linear light, or 8bit for half a code of
+    /// an 8-bit picture. The rays are chosen for you
+    #[arg(long, value_name = "E|8bit", allow_hyphen_values = true)]
+    error: Option<String>,
+    /// Make the best picture in about this many seconds, and print its error. The picture is not the
+    /// same each time
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    time: Option<f64>,
+    /// Measure the error of the picture on some of its pixels by brute force, and print it
+    #[arg(long)]
+    audit: bool,
+}
+
+/// The requested error was not reached. The picture was written.
+#[derive(Debug, Error)]
+#[error("{0}")]
+pub struct Missed(Statement);
+
+impl Failure for Missed {
+    fn exit(&self) -> Exit {
+        Exit::Inaccurate
+    }
+}
+
+impl AccuracyArguments {
+    /// Checks that the flags agree with each other and with those of the rays.
+    pub fn check(&self, sampling: &SamplingArguments) -> Result<(), UseError> {
+        self.requested()?;
+        let flag = match (&self.error, self.time) {
+            (Some(_), Some(_)) => {
+                return Err(UseError::Accuracies("--error", "--time".into()));
+            }
+            (Some(_), None) => "--error",
+            (None, Some(_)) => "--time",
+            (None, None) if self.audit && sampling.pixel.is_some() => {
+                return Err(UseError::AccuracyOfPixel("--audit"));
+            }
+            (None, None) => return Ok(()),
+        };
+        if sampling.pixel.is_some() {
+            return Err(UseError::AccuracyOfPixel(flag));
+        }
+        match sampling.choices() {
+            Some(other) => Err(UseError::Accuracies(flag, other.into())),
+            None => Ok(()),
+        }
+    }
+
+    /// Returns the requested error, if there is one.
+    fn requested(&self) -> Result<Option<f64>, UseError> {
+        let error = self.error.as_ref().map(|text| {
+            accuracy::error(text).map_err(|expected| UseError::Request(text.clone(), expected))
+        });
+        error.transpose()
+    }
+
+    /// Returns whether the flags choose the rays of the picture.
+    pub fn chooses(&self) -> bool {
+        self.error.is_some() || self.time.is_some()
+    }
+
+    /// Renders the picture that the flags request, and audits it if they request that. The flags must
+    /// have been checked.
+    pub fn render(
+        &self,
+        prepared: &Prepared<'_>,
+        settings: &Settings,
+        pixel_filter: PixelFilter,
+        progress: &Progress,
+    ) -> (Picture, Stats, Option<Statement>) {
+        let tell = |step: &str, done, total| {
+            if step == "picture" {
+                progress.tell(done, total);
+            }
+        };
+        let reached = match (self.requested().ok().flatten(), self.time) {
+            (Some(error), _) => accuracy::reach(prepared, settings, pixel_filter, error, &tell),
+            (None, Some(seconds)) => {
+                accuracy::within(prepared, settings, pixel_filter, seconds, &tell)
+            }
+            (None, None) => {
+                let (picture, mut stats) =
+                    render::render(prepared, settings, &|done, total| progress.tell(done, total));
+                let statement =
+                    self.audit.then(|| accuracy::audit(prepared, settings, &picture, &mut stats));
+                return (picture, stats, statement);
+            }
+        };
+        (reached.picture, reached.stats, Some(reached.statement))
+    }
+
+    /// Prints a statement as the last line of the run.
+    ///
+    /// # Errors
+    /// If the requested error was not reached; the error is the statement.
+    pub fn state(&self, statement: Option<Statement>, quiet: bool) -> Result<(), Missed> {
+        match statement {
+            Some(statement) if statement.missed.is_some() => Err(Missed(statement)),
+            Some(statement) if self.audit || !quiet => {
+                say(statement);
+                Ok(())
+            }
+            Some(_) | None => Ok(()),
+        }
+    }
+}
+
+/// Reads the value of --time.
+fn seconds(text: &str) -> Result<f64, String> {
+    let seconds = text.parse().ok().filter(|seconds| (0.001..=1e6).contains(seconds));
+    seconds.ok_or_else(|| "expected a number of seconds from 0.001 to 1000000".into())
+}

@@ -1,0 +1,339 @@
+//! Reads the meshes of a scene: their triangles, and the appearance of their surfaces.
+
+use super::libraries::{Libraries, Taken, remark};
+use super::ranges::Ranges;
+use super::{Reader, SceneError};
+use crate::scene::file::{MeshFile, OneOrMore};
+use crate::scene::mtl::{Map, counted, plain};
+use crate::scene::obj::{self, ObjFile};
+use crate::scene::text::before_comment;
+use crate::scene::{Object, Scene, Surface, SurfaceTexture};
+use crate::shape::mesh::{NONE, Triangle};
+use crate::shape::{Mesh, Placement, Shape};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// A mesh whose triangles are not read yet.
+#[derive(Debug)]
+pub(super) struct PlannedMesh<'a> {
+    pub(super) file: &'a MeshFile,
+    /// JSON path of the mesh.
+    pub(super) at: String,
+    pub(super) bindings: Bindings,
+    pub(super) placement: Placement,
+}
+
+/// The materials and textures that a mesh binds, by surface id and by texture id.
+#[derive(Debug, Default)]
+pub(super) struct Bindings {
+    material: Option<usize>,
+    texture: Option<SurfaceTexture>,
+    materials: BTreeMap<String, usize>,
+    textures: BTreeMap<String, SurfaceTexture>,
+}
+
+/// The libraries of a mesh.
+#[derive(Debug)]
+struct Own {
+    paths: Vec<PathBuf>,
+    /// True if the scene names them, and false if the OBJ file does.
+    named: bool,
+}
+
+impl Reader<'_> {
+    /// Reads the triangles of a mesh and binds its surfaces to materials and textures.
+    pub(super) fn mesh(
+        &self,
+        planned: PlannedMesh<'_>,
+        given: Option<ObjFile>,
+        libraries: &mut Libraries,
+        scene: &mut Scene,
+    ) -> Result<Object, SceneError> {
+        let PlannedMesh { file, at, bindings, placement } = planned;
+        let read = self.mesh_file(&at, file, given)?;
+        if !read.unused.is_empty() {
+            let unused: BTreeMap<String, usize> = read.unused.iter().cloned().collect();
+            scene.remarks.push(remark(&read.file, &[format!("not used: {}", counted(&unused))]));
+        }
+        let own = self.libraries_of(&at, file, &bindings, &read, libraries, scene)?;
+        let mut mesh = read.smoothed(file.smooth_deg);
+        let (mut parts, mut maps) = (Vec::new(), Vec::new());
+        for (number, name) in mesh.surfaces.clone().iter().enumerate() {
+            let taken = libraries.take(&own.paths, name, scene);
+            let (surface, picture) = self.bind(&at, file, &bindings, name, taken, &own, scene)?;
+            let mut surface = surface;
+            if let Some(picture) = picture {
+                surface.texture = self.library_picture(
+                    &format!("{at}.mtl"),
+                    own.named,
+                    &picture,
+                    libraries,
+                    scene,
+                )?;
+                if surface.texture.is_some() {
+                    maps.push((number as u32, picture.0));
+                }
+            }
+            parts.push(surface);
+        }
+        for (number, map) in maps {
+            show_map(&mut mesh, &mut parts, number, &map);
+        }
+        self.check_texture_coordinates(&at, file, &mesh, &parts)?;
+        if parts.iter().any(|part| scene.materials[part.material].transparency > 0.0) {
+            let joined = mesh.close_rounded();
+            if joined > 0 {
+                let sentence = format!(
+                    "{joined} corners that differ by rounding were joined, which closes the mesh"
+                );
+                scene.remarks.push(remark(&file.name, &[sentence]));
+            }
+        }
+        self.placed(&at, Shape::Mesh(mesh), parts, &placement)
+    }
+
+    /// Returns the mesh that the caller gave, or reads its file.
+    fn mesh_file(
+        &self,
+        at: &str,
+        file: &MeshFile,
+        given: Option<ObjFile>,
+    ) -> Result<ObjFile, SceneError> {
+        match (given, &file.file) {
+            (Some(given), _) => {
+                let named = |source| SceneError::Mesh { name: file.name.clone(), source };
+                given.mesh.check().map_err(named)?;
+                Ok(given)
+            }
+            (None, Some(path)) => {
+                let path = self.folder.join(path);
+                let bytes = self.named_file(&format!("{at}.file"), &path)?;
+                let name = files::input::name_of(&path);
+                self.memory.keep(obj::needed(&bytes), || format!("mesh {name}"))?;
+                let folder = path.parent().unwrap_or(Path::new("")).into();
+                Ok(ObjFile { folder, ..obj::read_file(&name, &bytes)? })
+            }
+            (None, None) => Err(SceneError::MissingMesh {
+                name: file.name.clone(),
+                path: at.into(),
+                scene: self.document.file.into(),
+            }),
+        }
+    }
+
+    /// Reads the libraries that the scene names for a mesh. If it names none, reads those that the OBJ
+    /// file names, provided that a surface needs them.
+    fn libraries_of(
+        &self,
+        at: &str,
+        file: &MeshFile,
+        bindings: &Bindings,
+        read: &ObjFile,
+        libraries: &mut Libraries,
+        scene: &mut Scene,
+    ) -> Result<Own, SceneError> {
+        if let Some(named) = &file.mtl {
+            let paths: Vec<PathBuf> =
+                named.all().iter().map(|path| self.folder.join(path)).collect();
+            for (k, path) in paths.iter().enumerate() {
+                let at = match named {
+                    OneOrMore::One(_) => format!("{at}.mtl"),
+                    OneOrMore::More(_) => format!("{at}.mtl[{k}]"),
+                };
+                libraries.add(path, || self.named_file(&at, path), scene)?;
+            }
+            return Ok(Own { paths, named: true });
+        }
+        let mut own = Own { paths: Vec::new(), named: false };
+        let unbound = |name: &String| bindings.material_of(name).is_none();
+        if !read.mesh.surfaces.iter().any(unbound) {
+            if let Some(name) = read.libraries.first() {
+                let sentence = format!(
+                    "the library {} is not used, since the scene binds all surfaces; \"mtl\" uses it",
+                    obj::shortened(name)
+                );
+                scene.remarks.push(remark(&read.file, &[sentence]));
+            }
+            return Ok(own);
+        }
+        for name in &read.libraries {
+            for path in self.library_paths(&read.folder, name) {
+                let unread = match self.source.read(&path) {
+                    Ok(bytes) => {
+                        libraries.add(&path, || Ok(bytes), scene).err().map(|e| e.to_string())
+                    }
+                    Err(error) => Some(error.to_string()),
+                };
+                match unread {
+                    None => own.paths.push(path),
+                    Some(error) => {
+                        scene.remarks.push(remark(&read.file, &[format!("mtllib: {error}")]));
+                    }
+                }
+            }
+        }
+        Ok(own)
+    }
+
+    /// Returns the files that a text behind `mtllib` means: the whole text, or one file for each word.
+    fn library_paths(&self, folder: &Path, text: &str) -> Vec<PathBuf> {
+        let text = text.replace('\\', "/");
+        let near = |name: &str| {
+            let beside = name.rsplit('/').next().unwrap_or(name);
+            let mut paths = vec![folder.join(name), folder.join(beside)];
+            paths.extend(paths.clone().iter().filter_map(|path| self.source.same_but_case(path)));
+            paths.into_iter().find(|path| self.source.read(path).is_ok())
+        };
+        if let Some(path) = near(&text).or_else(|| near(before_comment(&text)?)) {
+            return vec![path];
+        }
+        text.split_whitespace()
+            .map(|name| near(name).unwrap_or_else(|| folder.join(name)))
+            .collect()
+    }
+
+    /// Refuses a mesh with a texture on triangles without texture coordinates.
+    fn check_texture_coordinates(
+        &self,
+        at: &str,
+        file: &MeshFile,
+        mesh: &Mesh,
+        parts: &[Surface],
+    ) -> Result<(), SceneError> {
+        let is_lost = |triangle: &&Triangle| {
+            triangle.uv[0] == NONE && parts[triangle.surface as usize].picture().is_some()
+        };
+        match mesh.triangles.iter().filter(is_lost).count() {
+            0 => Ok(()),
+            count => {
+                let message = format!(
+                    "found {count} triangles without texture coordinates (vt) in mesh {} on surfaces \
+                     with a texture, expected vt at each corner, or no texture",
+                    file.name
+                );
+                self.fault(at, message)
+            }
+        }
+    }
+
+    /// Finds the materials and textures that a mesh names.
+    pub(super) fn mesh_bindings(&self, at: &str, file: &MeshFile) -> Result<Bindings, SceneError> {
+        let mut bindings = Bindings::default();
+        if let Some(name) = &file.material {
+            bindings.material = Some(self.material_index(&format!("{at}.material"), name)?);
+        }
+        if let Some(name) = &file.texture {
+            bindings.texture = Some(self.texture_index(&format!("{at}.texture"), name)?);
+        }
+        for (key, name) in &file.materials {
+            let index = self.material_index(&format!("{at}.materials.{key}"), name)?;
+            bindings.materials.insert(key.clone(), index);
+        }
+        for (key, name) in &file.textures {
+            let index = self.texture_index(&format!("{at}.textures.{key}"), name)?;
+            bindings.textures.insert(key.clone(), index);
+        }
+        Ok(bindings)
+    }
+
+    /// Returns the material and texture of the surface that `usemtl` names `surface`, and the picture of
+    /// a library if the scene binds no texture. `taken` is the entry of the mesh's libraries.
+    #[expect(clippy::too_many_arguments, reason = "what a surface may take its appearance from")]
+    fn bind(
+        &self,
+        at: &str,
+        file: &MeshFile,
+        bindings: &Bindings,
+        surface: &str,
+        taken: Option<Taken>,
+        own: &Own,
+        scene: &mut Scene,
+    ) -> Result<(Surface, Option<(Map, PathBuf)>), SceneError> {
+        let ids = obj::ids(surface);
+        let [texture_key, material_key] = ids.unwrap_or([surface, surface]);
+        let material = match &taken {
+            // A library that the scene names comes before the material for all surfaces.
+            Some(taken) if own.named => {
+                bindings.materials_entry(material_key).or(Some(taken.material))
+            }
+            _ => bindings.material_of(surface).or(taken.as_ref().map(|taken| taken.material)),
+        };
+        let material = material.or(bindings.material).or_else(|| {
+            // The OBJ names libraries, and none of them has the material.
+            (!own.named && !own.paths.is_empty()).then(|| {
+                let name = obj::shortened(surface);
+                let sentence = format!("no library has material {name}, which is plain white");
+                scene.remarks.push(remark(&file.name, &[sentence]));
+                scene.materials.push(plain());
+                scene.names.materials.push(surface.into());
+                scene.materials.len() - 1
+            })
+        });
+        let Some(material) = material else {
+            let message = format!(
+                "found surface {material_key:?} in mesh {}, expected \"material\", or an entry for \
+                 it in \"materials\" or the \"mtl\"",
+                file.name
+            );
+            return self.fault(at, message);
+        };
+        let bound = bindings.textures_entry(texture_key);
+        let picture = taken.filter(|taken| taken.material == material || own.named);
+        let picture = picture.and_then(|taken| taken.picture).filter(|_| bound.is_none());
+        let texture = bound.or(bindings.texture.filter(|_| picture.is_none()));
+        // Texture id 0 means no texture; any other id was meant to be seen.
+        if texture.is_none() && picture.is_none() && ids.is_some() && texture_key != "0" {
+            let message = format!(
+                "found texture id {texture_key} in mesh {}, expected an entry for it in \
+                 \"textures\", or a \"texture\" for all",
+                file.name
+            );
+            return self.fault(at, message);
+        }
+        Ok((Surface { material, texture }, picture))
+    }
+}
+
+impl Bindings {
+    /// Returns the material that the scene binds to a surface, by its name, or to all.
+    fn material_of(&self, surface: &str) -> Option<usize> {
+        let key = obj::ids(surface).map_or(surface, |[_, material]| material);
+        self.materials_entry(key).or(self.material)
+    }
+
+    /// A name may be followed by a comment.
+    fn materials_entry(&self, key: &str) -> Option<usize> {
+        let short = || self.materials.get(before_comment(key)?);
+        self.materials.get(key).or_else(short).copied()
+    }
+
+    fn textures_entry(&self, key: &str) -> Option<SurfaceTexture> {
+        let short = || self.textures.get(before_comment(key)?);
+        self.textures.get(key).or_else(short).copied()
+    }
+}
+
+/// Moves the texture coordinates of a surface as a picture's options say. Triangles without texture
+/// coordinates become a part of the same material without a picture.
+fn show_map(mesh: &mut Mesh, parts: &mut Vec<Surface>, surface: u32, map: &Map) {
+    let bare = mesh.surfaces.len() as u32;
+    let mut moved: BTreeMap<u32, u32> = BTreeMap::new();
+    let mut has_bare = false;
+    for triangle in mesh.triangles.iter_mut().filter(|triangle| triangle.surface == surface) {
+        if triangle.uv[0] == NONE {
+            triangle.surface = bare;
+            has_bare = true;
+        } else if !map.is_plain() {
+            triangle.uv = triangle.uv.map(|index| {
+                *moved.entry(index).or_insert_with(|| {
+                    mesh.uvs.push(map.moved(mesh.uvs[index as usize]));
+                    mesh.uvs.len() as u32 - 1
+                })
+            });
+        }
+    }
+    if has_bare {
+        mesh.surfaces.push(mesh.surfaces[surface as usize].clone());
+        parts.push(Surface { texture: None, ..parts[surface as usize] });
+    }
+}
