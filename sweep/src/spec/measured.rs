@@ -27,7 +27,8 @@
 //! `formula` gives x, y and z as formulas of `t`, which runs over an interval. A formula has numbers, `t`, `pi`, `tau`,
 //! `+ - * / ^`, parentheses, and the functions sin, cos, tan, asin, acos, atan, atan2, sinh, cosh, tanh, exp, ln, sqrt,
 //! abs, min and max. Angles are in radians. A curve that ends where it starts, in the same direction, is closed by
-//! `"closed": true`. This is a torus knot that winds 3 times one way and 7 times the other:
+//! `"closed": true`. The knot below winds 3 times around the hole of a
+//! torus and 7 times through it:
 //!
 //! ```json
 //! {

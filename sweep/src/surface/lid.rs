@@ -63,7 +63,7 @@ pub fn filled(loops: &[Vec<DVec2>]) -> Option<Vec<[u32; 3]>> {
     if crossed || mesh.num_vertices() != count {
         return None;
     }
-    // Inside is where a way from outside crosses an odd number of sides.
+    // Inside are the faces that a path from outside enters over an odd number of sides.
     let mut inside: Vec<Option<bool>> = vec![None; mesh.num_all_faces()];
     inside[mesh.outer_face().fix().index()] = Some(false);
     let mut open = vec![mesh.outer_face().fix()];

@@ -44,15 +44,6 @@ const LEAST_STEP: f64 = 1.01;
 /// Cells that thinning may measure, in addition to `TRIMMED_TIMES` times the number of cells.
 const TRIMMED: usize = 150_000;
 
-/// Largest number of cells for which other proportions of rows to columns are measured.
-const TILTED: usize = 4000;
-
-/// Factor between two proportions that are tried.
-const TILT: f64 = 0.8;
-
-/// Most proportions that are tried in each direction.
-const MOST_TILTS: i32 = 4;
-
 /// Multiple of the number of cells that thinning may measure.
 const TRIMMED_TIMES: usize = 2;
 
@@ -145,7 +136,6 @@ impl Search<'_> {
                 best = again;
             }
             best = self.thinned(best, &mut rounds);
-            best = self.tilted(best, &mut rounds);
         }
         let Tried { stops: [rows, cols], field, .. } = best;
         let reached = self.reached(&field, rounds.count);
@@ -273,27 +263,6 @@ impl Search<'_> {
             Some(best) => best,
             None => self.tried(plan, rounds),
         }
-    }
-
-    /// Exchanges rows for columns, or columns for rows, where fewer cells then keep the tolerance.
-    fn tilted(&self, mut best: Tried, rounds: &mut Rounds<'_>) -> Tried {
-        if best.field.quads() > TILTED || self.directions[1].even.is_some() {
-            return best;
-        }
-        let plan = best.plan.clone();
-        for tilt in -MOST_TILTS..=MOST_TILTS {
-            let by = TILT.powi(tilt);
-            let factors = [plan.factors[0] * by, plan.factors[1] / by];
-            let other = self.kept(Plan { factors, ..plan.clone() }, rounds);
-            if other.worst > 1.0 || other.field.quads() > 2 * best.field.quads() {
-                continue;
-            }
-            let other = self.thinned(other, rounds);
-            if other.field.quads() < best.field.quads() {
-                best = other;
-            }
-        }
-        best
     }
 
     /// Removes columns and rows from a cut as long as the tolerance is kept.
