@@ -325,7 +325,7 @@ mod tests {
         assert_eq!(job.scene, Path::new("jobs/../scenes/vase.json"));
         let filters: Vec<Filter> = job.modes.iter().map(|mode| mode.filter).collect();
         let (exact, tent) = (Filter::Exact, Filter::Tent);
-        assert_eq!(filters, [exact, exact, Filter::Point, tent, tent]);
+        assert_eq!(filters, [exact, exact, exact, Filter::Point, tent, tent]);
         let fine = PixelFilter::Gaussian;
         let fine = Sampling::Area { samples: 2, pixel_filter: fine, threshold: Some(0.01) };
         let pattern = Pattern::Jitter { seed: 7 };
@@ -333,9 +333,11 @@ mod tests {
         let nine = Sampling::Supersample(Supersample::Image);
         let samplings: Vec<Sampling> = job.modes.iter().map(|mode| mode.sampling).collect();
         let exact = Mode::exact();
-        assert_eq!(samplings, [exact.sampling, fine, Sampling::regular(1), jittered, nine]);
+        let whole = exact.sampling;
+        assert_eq!(samplings, [whole, whole, fine, Sampling::regular(1), jittered, nine]);
+        assert_eq!(job.modes[1].error, Some(0.005));
         assert_eq!(
-            (job.modes[4].figure.as_deref(), job.modes[4].thesis_minutes),
+            (job.modes[5].figure.as_deref(), job.modes[5].thesis_minutes),
             (Some("A.4"), Some(90))
         );
         assert_eq!(job.meshes[0].resolution.rows, Some(60));
