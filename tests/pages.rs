@@ -117,7 +117,11 @@ fn every_surface_in_examples_is_what_the_gallery_says() {
         let report = fs::read(folder.path().join("a.json")).unwrap();
         let report: Report = Document::new("a.json", &report).unwrap().parse().unwrap();
         if let Some((_, euler)) = JOINED.iter().find(|joined| joined.0 == name) {
-            assert_eq!((report.euler, report.closed, report.manifold), (*euler, true, true), "{name}");
+            assert_eq!(
+                (report.euler, report.closed, report.manifold),
+                (*euler, true, true),
+                "{name}"
+            );
             continue;
         }
         assert_eq!(report.patches.len(), if name.ends_with("cup") { 2 } else { 1 }, "{name}");

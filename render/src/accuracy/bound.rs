@@ -77,9 +77,10 @@ mod tests {
         assert_eq!(upper(&[], 0.05), 0.0);
     }
 
-    /// `n - 1` zeros and a one. The best stake s of a supposed mean p gains `(n - 1) ln(1 + s p) + ln(1
-    /// - s (1 - p))`, which is largest at s = (p - 1/n) / (p (1 - p)): the divergence of two coins. The
-    /// bound is the p at which n times the divergence of 1/n from p is ln 20.
+    /// `n - 1` zeros and a one. A stake `s` against a supposed mean `p` gains the logarithm of `1 + s p`
+    /// for each zero and that of `1 - s (1 - p)` for the one. The sum is largest at
+    /// `s = (p - 1/n) / (p (1 - p))`: the divergence of two coins. The bound is the `p` at which `n` times
+    /// the divergence of `1/n` from `p` is ln 20.
     #[test]
     fn the_bound_of_coins_is_that_of_chernoff() {
         let n = 200;
@@ -95,7 +96,8 @@ mod tests {
     /// trials: with a true chance of a twentieth, more than 38 failures have a chance of 1e-4.
     #[test]
     fn the_bound_holds_for_heavy_tails() {
-        let tails: [(&str, f64, fn(f64) -> f64); 3] = [
+        type Tail = fn(f64) -> f64;
+        let tails: [(&str, f64, Tail); 3] = [
             ("a rare large value", 0.01, |u| if u < 0.01 { 1.0 } else { 0.0 }),
             ("the square of an exponential", 2.0, |u| (1.0 - u).ln().powi(2)),
             ("the fourth power", 0.2, |u| u.powi(4)),

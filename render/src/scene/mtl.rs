@@ -3,7 +3,7 @@
 //! | statement | becomes |
 //! |---|---|
 //! | `Kd` | `color`, taken as linear light; white if it is 0 and there is a `map_Kd` |
-//! | `map_Kd` | a texture, `srgb` and `repeat`, with the options `-s`, `-o` and `-clamp` ([`map`]) |
+//! | `map_Kd` | a texture, `srgb` and `repeat`, with the options `-s`, `-o` and `-clamp` ([`Map`]) |
 //! | `Ks` | `specular`, the mean of its three numbers |
 //! | `Ns` | `shininess`, 1 if it is less |
 //! | `d`, or without it `Tr` for 1 - d | `ambient` and `diffuse` are d, `transparency` is 1 - d |

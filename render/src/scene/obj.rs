@@ -3,7 +3,7 @@
 //!
 //! | in the file | becomes |
 //! |---|---|
-//! | a face of four or more corners | triangles inside of it ([`polygon`]) |
+//! | a face of four or more corners | triangles inside of it (`polygon.rs`) |
 //! | corners of a face that lack a part which others have | a face without this part |
 //! | a normal that is not finite | no normal, as one of length 0 |
 //! | texture coordinates that are not finite | none |
