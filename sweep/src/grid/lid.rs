@@ -1,6 +1,6 @@
 //! Lids: flat ends of a sweep, triangles between the points of its first or its last row.
 
-use crate::grid::row::Fault;
+use crate::grid::row::{self, Fault};
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
@@ -29,9 +29,12 @@ pub struct Lid {
     pub triangles: Vec<[u32; 3]>,
     /// One outward unit normal for all corners, or one for each corner.
     pub normals: Vec<[f32; 3]>,
-    /// Picture coordinates of each corner; the box of the outline is the unit square.
+    /// Picture coordinates of each corner, -1e30 to 1e30; the box of the outline is the unit square.
     pub uvs: Vec<[f64; 2]>,
 }
+
+/// The largest picture coordinate of a corner; far below the largest f32, to which a mesh rounds it.
+const MOST_UV: f64 = 1e30;
 
 impl Lid {
     /// Returns the outward normal of a corner.
@@ -69,6 +72,42 @@ impl Lid {
             let message = "found a number that is not finite, expected finite numbers";
             return fault("normals and uvs", message.into());
         }
+        if let Some(far) = self.uvs.iter().flatten().find(|uv| uv.abs() > MOST_UV) {
+            let found = row::number(*far);
+            let message = format!("found {found}, expected -{MOST_UV:e} to {MOST_UV:e}");
+            return fault("uvs", message);
+        }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn lid() -> Lid {
+        let uvs = vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+        let normals = vec![[0.0, 0.0, 1.0]];
+        Lid { end: End::End, patches: 1, triangles: vec![[0, 1, 2]], normals, uvs }
+    }
+
+    #[test]
+    fn every_number_of_a_lid_has_a_range() {
+        assert!(lid().check(1).is_ok());
+        type Change = fn(&mut Lid);
+        let faults: [(Change, &str); 7] = [
+            (|lid| lid.patches = 2, "patches"),
+            (|lid| lid.patches = 0, "patches"),
+            (|lid| lid.normals.push([0.0; 3]), "normals"),
+            (|lid| lid.triangles[0][1] = 3, "triangles"),
+            (|lid| lid.normals[0][2] = f32::NAN, "normals and uvs"),
+            (|lid| lid.uvs[1][0] = f64::INFINITY, "normals and uvs"),
+            (|lid| lid.uvs[2][1] = -1e39, "uvs"),
+        ];
+        for (change, subject) in faults {
+            let mut lid = lid();
+            change(&mut lid);
+            assert_eq!(lid.check(1).map_err(|fault| fault.subject), Err(subject.into()));
+        }
     }
 }
