@@ -42,7 +42,7 @@ impl Ramp {
         }
         let Some(&(_, first)) = self.stops.first() else { return Color::ZERO };
         let tent = positions.tent();
-        self.stops.windows(2).fold(first, |sum, pair| {
+        let average = self.stops.windows(2).fold(first, |sum, pair| {
             let [(low, from), (high, to)] = [pair[0], pair[1]];
             // The mean of a function that rises from 0 at `low` to 1 at `high`.
             let risen = if high > low {
@@ -51,7 +51,10 @@ impl Ramp {
                 tent.beyond(low)
             };
             sum + risen * (to - from)
-        })
+        });
+        // Rises and falls of very bright colours leave roundings that exceed dark ones.
+        let colors = || self.stops.iter().map(|(_, color)| *color);
+        average.clamp(colors().fold(first, Color::min), colors().fold(first, Color::max))
     }
 }
 
@@ -103,6 +106,17 @@ mod tests {
                 assert!(average.abs_diff_eq(sum, 1e-3), "{mean} {variance}: {average} {sum}");
                 assert_eq!(constant.average(Blur { mean, variance }), Color::X);
             }
+        }
+    }
+
+    #[test]
+    fn an_average_is_within_the_colours_however_bright_they_are() {
+        let stops = [(0.0, 0.03), (0.1, 1e29), (0.24, 0.4), (0.5, 0.66), (1.0, 0.8)];
+        let ramp = Ramp::new(stops.map(|(at, grey)| (at, Color::splat(grey))).to_vec()).unwrap();
+        for k in 0..200 {
+            let positions = Blur { mean: 0.01 * f64::from(k), variance: 1e-3 };
+            let average = ramp.average(positions).x;
+            assert!((0.03..=1e29).contains(&average), "{average} at {}", positions.mean);
         }
     }
 
