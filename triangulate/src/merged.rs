@@ -6,7 +6,7 @@
 use crate::{Topology, TriMesh};
 use glam::DVec3;
 use serde::Serialize;
-use std::collections::HashMap;
+use sweep::grid::near;
 
 /// Vertices at most this fraction of the object's size apart are merged.
 const NEAR: f64 = 1e-7;
@@ -32,29 +32,11 @@ impl Merged {
             points.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| {
                 (low.min(*p), high.max(*p))
             });
-        let near = NEAR * (high - low).length();
-        let mut known: HashMap<[i64; 3], Vec<u32>> = HashMap::new();
-        let mut ids: Vec<u32> = Vec::with_capacity(points.len());
-        for (&point, index) in points.iter().zip(0..) {
-            let cell = (point / near).floor().to_array().map(|x| x as i64);
-            let around = (0..27).map(|k| [k % 3, k / 3 % 3, k / 9].map(|step| step - 1));
-            let found = around
-                .filter_map(|step| {
-                    known.get(&std::array::from_fn(|i| cell[i].wrapping_add(step[i])))
-                })
-                .flatten()
-                .find(|&&other| points[other as usize].distance(point) <= near);
-            if let Some(&other) = found {
-                ids.push(other);
-            } else {
-                known.entry(cell).or_default().push(index);
-                ids.push(index);
-            }
-        }
+        let ids = near::merged(&points, NEAR * (high - low).length());
         let mut merged = TriMesh { positions: mesh.positions.clone(), ..TriMesh::default() };
         for triangle in &mesh.triangles {
             let mut triangle = *triangle;
-            triangle.position = triangle.position.map(|index| ids[index as usize]);
+            triangle.position = triangle.position.map(|index| ids[index as usize] as u32);
             let [a, b, c] = triangle.position;
             if a != b && b != c && c != a {
                 merged.triangles.push(triangle);

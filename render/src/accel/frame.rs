@@ -13,7 +13,7 @@
 //! - 4 for the inverse (2 for each of start and side), 1 for the product of the side, and 2 for the
 //!   difference: 10 in all.
 //!
-//! Those of the sheared coordinates of a triangle are:
+//! The roundings of the sheared coordinates of a triangle are:
 //!
 //! - 1 for the start, 1 for the corner, 2 for their difference, and the same 4 for the part that
 //!   shearing adds;
@@ -40,7 +40,7 @@ const NEAR: f64 = 8.0;
 pub struct Frame {
     /// Origin of the coordinates, in scene space.
     pub middle: DVec3,
-    /// The same point with -0 for 0. Unlike the sum with 0, the sum with -0 keeps the sign of -0.
+    /// The origin with each zero as -0: a sum with -0 keeps the sign of a -0, and a sum with 0 does not.
     back: DVec3,
     /// Unit of the coordinates in scene units, a power of two.
     pub unit: f64,

@@ -1,7 +1,7 @@
 //! The tests of [`super::kernel`] with AVX2 and FMA instructions, and the choice between both.
 //!
-//! This is the only file with `unsafe` code. It uses `unsafe` for two reasons: to load vectors from
-//! arrays, and to call functions that need instructions which the processor has.
+//! No other file has `unsafe` code. Here it loads vectors from arrays, and calls functions that are
+//! compiled for AVX2 and FMA after the processor was found to have both.
 
 use super::kernel::{Kernel, Portable};
 
@@ -16,7 +16,7 @@ pub trait Task {
 /// The instructions that rays use.
 #[derive(Debug, Clone, Copy)]
 pub enum Instructions {
-    /// Those that every processor has.
+    /// Instructions that every processor has.
     Portable,
     /// AVX2 and FMA. A value exists only if the processor has them.
     #[cfg(target_arch = "x86_64")]

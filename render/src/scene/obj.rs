@@ -324,7 +324,7 @@ mod tests {
         assert_eq!(has(|triangle| triangle.normal), [true, false, false]);
     }
 
-    /// The same square, written as six programs write it.
+    /// One square in six dialects of OBJ.
     #[test]
     fn the_same_square_in_many_dialects() {
         let plain = read("a.obj", format!("{SQUARE}f 1/1 2/2 3/3 4/4\n").as_bytes()).unwrap();

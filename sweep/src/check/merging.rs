@@ -5,8 +5,8 @@
 
 use super::{Finding, Severity, short};
 use crate::grid::GridMesh;
+use crate::grid::near::merged;
 use glam::DVec3;
-use std::collections::HashMap;
 
 /// Points nearer than this fraction of the object's size are merged: the rounding of coordinates to f32.
 const NEAR: f64 = 1e-7;
@@ -44,22 +44,7 @@ fn joined(grid: &GridMesh, near: Option<f64>) -> Vec<usize> {
     let (rows, cols) = (grid.rows(), grid.cols());
     let mut ids: Vec<usize> = (0..grid.positions.len()).collect();
     if let Some(near) = near.filter(|near| *near > 0.0) {
-        let mut known: HashMap<[i64; 3], Vec<usize>> = HashMap::new();
-        for (index, &point) in grid.positions.iter().enumerate() {
-            let cell = (point / near).floor().to_array().map(|x| x as i64);
-            let around = (0..27).map(|k| [k % 3, k / 3 % 3, k / 9].map(|step| step - 1));
-            let found = around
-                .filter_map(|step| {
-                    known.get(&std::array::from_fn(|i| cell[i].wrapping_add(step[i])))
-                })
-                .flatten()
-                .find(|&&other| grid.positions[other].distance(point) <= near);
-            match found {
-                Some(&other) => ids[index] = ids[other],
-                None => known.entry(cell).or_default().push(index),
-            }
-        }
-        return ids;
+        return merged(&grid.positions, near);
     }
     for row in 0..rows {
         for col in 0..cols {

@@ -67,7 +67,7 @@ pub fn check(
                 .iter_mut()
                 .for_each(|finding| finding.path = format!("parts[{owner}].{}", finding.path));
         }
-        // What holds for an outline and for its holes is said once.
+        // An outline and its holes have the same findings; one of each is kept.
         found.retain(|finding| !all.contains(finding));
         all.extend(found);
     }

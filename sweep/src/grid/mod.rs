@@ -3,6 +3,7 @@
 pub mod area;
 pub mod file;
 mod lid;
+pub mod near;
 mod quality;
 mod row;
 mod seam;
