@@ -6,6 +6,7 @@ use files::json::Document;
 use fixtures::rounding::{NORMAL, UNIT};
 use glam::DVec3;
 use serde_json::{Value, json};
+use sweep::grid::file::{self, Encoding};
 use sweep::{Sweep, SweepError};
 
 fn read(keys: &Value) -> Result<Sweep, SweepError> {
@@ -133,6 +134,19 @@ fn caps_are_refused_where_they_would_not_close_anything() {
         let found = read(&keys).unwrap_err().to_string();
         assert!(found.contains(message), "{found}");
     }
+}
+
+#[test]
+fn an_end_that_is_pressed_to_an_edge_has_no_lid() {
+    let keys = json!({
+        "contour": {"circle": 0.045}, "scale": [1, {"keys": [[0, 1.6], [1, 0]]}],
+        "caps": {"start": "flat", "end": "flat"}, "mesh": {"rows": 24, "cols": 24},
+    });
+    let sweep = swept(&keys);
+    let grid = sweep.grid();
+    assert!(grid.lids.is_empty(), "the edge closes its end");
+    assert!(sweep::check::summary(&sweep, &grid).contains("closed at both ends"));
+    file::write(&grid, Encoding::Binary, &mut Vec::new()).unwrap();
 }
 
 #[test]

@@ -115,6 +115,9 @@ impl Reader<'_> {
             self.caps(spec.caps, loops == 1, &contour, &trajectory, &modulation)?
         };
         let press = pressed(&contour, &trajectory, &modulation).filter(|_| loops == 1);
+        // The edge of a pressed end closes it.
+        let ends = press.as_ref().map_or([false; 2], |press| press.ends);
+        let lids = [lids[0] && !ends[0], lids[1] && !ends[1]];
         let shape = Shape {
             contour,
             trajectory,

@@ -7,8 +7,9 @@ use crate::surface::lid::filled;
 use crate::surface::profile::Column;
 use glam::DVec2;
 
-/// Returns the lids of a group of sweeps along one trajectory. `None` if the outlines of an end, with the columns that
-/// the sweeps have, cross themselves or each other.
+/// Returns the lids of a group of sweeps along one trajectory. An end without area has none: there, the sides meet in
+/// an edge or in a point. `None` if the outlines of an end, with the columns that the sweeps have, cross themselves or
+/// each other.
 pub(crate) fn of(group: &[Sweep]) -> Option<Vec<Lid>> {
     let Some(first) = group.first() else { return Some(Vec::new()) };
     let ends = [(End::Start, Stop::after(0.0), -1.0), (End::End, Stop::before(1.0), 1.0)];
@@ -16,6 +17,7 @@ pub(crate) fn of(group: &[Sweep]) -> Option<Vec<Lid>> {
         .zip(first.lids)
         .filter(|(_, closed)| *closed)
         .map(|((end, stop, side), _)| lid(group, end, stop, side))
+        .filter(|lid| lid.as_ref().is_none_or(|lid| !lid.triangles.is_empty()))
         .collect()
 }
 
@@ -40,7 +42,9 @@ fn lid(group: &[Sweep], end: End, stop: Stop, side: f64) -> Option<Lid> {
         .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), p| (low.min(*p), high.max(*p)));
     let size = high - low;
     let uvs = loops.iter().flatten().map(|&p| {
-        let [s, t] = ((p - low) / size).to_array();
+        // An end without area has no picture.
+        let [s, t] =
+            if size.cmpgt(DVec2::ZERO).all() { (p - low) / size } else { DVec2::ZERO }.to_array();
         // Seen from outside, no picture is mirrored.
         [if side < 0.0 { 1.0 - s } else { s }, t]
     });
