@@ -14,6 +14,8 @@ mod exact;
 mod exact_filter;
 mod examples;
 mod foreign;
+mod format_complaints;
+mod formats;
 mod hard_cases;
 mod hard_mutations;
 mod hard_optics;

@@ -10,6 +10,7 @@ pub mod file;
 pub mod light;
 pub mod limits;
 pub mod material;
+pub mod mesh_file;
 pub mod mtl;
 pub mod names;
 pub mod obj;

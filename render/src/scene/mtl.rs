@@ -126,6 +126,14 @@ pub fn counted<T: AsRef<str>>(unused: &BTreeMap<T, usize>) -> String {
 }
 
 impl Library {
+    /// Returns the library of materials that a mesh file holds, with names that differ.
+    #[must_use]
+    pub fn of(entries: &[Entry]) -> Self {
+        let names = entries.iter().map(|entry| entry.name.clone());
+        let numbers = names.zip(0..).collect();
+        Self { entries: entries.to_vec(), numbers, remarks: Vec::new() }
+    }
+
     /// Returns the number of the entry with this name in `usemtl`. The name may have a comment behind it.
     #[must_use]
     pub fn find(&self, name: &str) -> Option<usize> {

@@ -17,12 +17,15 @@
 mod polygon;
 mod reader;
 
+use super::mtl::Entry;
 use super::text;
 use crate::shape::Mesh;
 use crate::shape::mesh::{MeshError, Triangle};
 use crate::shape::smooth::smooth;
 use files::{Exit, Failure};
+pub use polygon::divide;
 use reader::Reader;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use thiserror::Error;
 
@@ -109,6 +112,14 @@ pub struct ObjFile {
     pub libraries: Vec<String>,
     /// Keywords and values that are not used, each with its count.
     pub unused: Vec<(String, usize)>,
+    /// Colours of the positions, linear RGB; empty if there are none.
+    pub colors: Vec<[f32; 3]>,
+    /// Materials that the file itself holds, by the names of its surfaces; an OBJ file holds none.
+    pub materials: Vec<Entry>,
+    /// Pictures that the file itself holds, by the paths that its materials name.
+    pub pictures: BTreeMap<String, Vec<u8>>,
+    /// Sentences about the file.
+    pub remarks: Vec<String>,
 }
 
 impl From<Mesh> for ObjFile {

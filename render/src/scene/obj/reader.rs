@@ -74,10 +74,22 @@ impl<'a> Reader<'a> {
             self.line(number, line).map_err(|expected| self.wrong(number, line, expected))?;
         }
         let counts = self.counts();
-        let lost =
-            |(_, most): &&(usize, [usize; NUMBERED])| (0..NUMBERED).any(|k| most[k] > counts[k]);
-        if let Some(&(number, _)) = self.ahead.iter().find(lost) {
+        if let Some(&(number, _)) = self.ahead.iter().find(|(_, most)| most[0] > counts[0]) {
             return Err(self.wrong_line(number, THERE));
+        }
+        let is_lost = |most: &[usize; NUMBERED]| (1..NUMBERED).any(|k| most[k] > counts[k]);
+        let lost = self.ahead.iter().filter(|(_, most)| is_lost(most)).count();
+        if lost > 0 {
+            self.unused.insert(LOST, lost);
+            for triangle in &mut self.mesh.triangles {
+                for (part, count) in
+                    [(&mut triangle.uv, counts[1]), (&mut triangle.normal, counts[2])]
+                {
+                    if part.iter().any(|&index| index as usize >= count) {
+                        *part = [NONE; 3];
+                    }
+                }
+            }
         }
         if !self.bad_vertices.is_empty() {
             let used: HashSet<u32> =
@@ -126,6 +138,7 @@ impl<'a> Reader<'a> {
             groups: self.groups,
             libraries: self.libraries.into_iter().map(Into::into).collect(),
             unused: self.unused.into_iter().map(|(what, count)| (what.into(), count)).collect(),
+            ..ObjFile::default()
         }
     }
 
@@ -243,7 +256,13 @@ impl<'a> Reader<'a> {
                     }
                     _ => {
                         let back = usize::try_from(index.unsigned_abs()).map_err(|_| THERE)?;
-                        counts[k].checked_sub(back).ok_or(THERE)?
+                        match counts[k].checked_sub(back) {
+                            None if k > 0 => {
+                                self.pass_over(LOST);
+                                continue;
+                            }
+                            position => position.ok_or(THERE)?,
+                        }
                     }
                 };
                 corner[k] = u32::try_from(position).map_err(|_| THERE)?;
@@ -260,7 +279,8 @@ impl<'a> Reader<'a> {
             count += 1;
         }
         if count < 3 {
-            return Err(FORM);
+            self.pass_over("faces of fewer than three corners");
+            return Ok(());
         }
         if is_mixed {
             self.complete(first);
@@ -299,6 +319,9 @@ impl<'a> Reader<'a> {
     }
 }
 
+/// Indices of texture coordinates and normals that the file does not have.
+const LOST: &str = "indices of vt or vn that the file does not have";
+
 const THERE: Expected = "corners that the file has, counted from 1, or back from -1";
 
 /// Returns the first `N` numbers of a statement, and the number of its words.
@@ -307,22 +330,27 @@ fn numbers<const N: usize>(text: &str) -> Option<([f32; N], usize)> {
     let mut count = 0;
     for word in words(text) {
         if let Some(entry) = numbers.get_mut(count) {
-            *entry = word.parse().ok()?;
+            *entry = number(word)?;
         }
         count += 1;
     }
     (count >= N).then_some((numbers, count))
 }
 
+/// Returns a number. Some programs write what is no number as `1.#IND` or `nan(ind)`.
+fn number(word: &str) -> Option<f32> {
+    let is_none = || word.contains(".#") || word.trim_start_matches('-').starts_with("nan(");
+    word.parse().ok().or_else(|| is_none().then_some(f32::NAN))
+}
+
 /// Returns the indices of a corner; 0 for a part that the corner does not have.
 fn parts(word: &str) -> Option<[i64; NUMBERED]> {
-    let index = |part: &str| part.parse().ok().filter(|&index| index != 0);
     let mut parts = word.split('/');
-    let position = index(parts.next()?)?;
-    // Some programs write empty parts at the end: `1/` and `1//`.
+    let position = parts.next()?.parse().ok().filter(|&index| index != 0)?;
+    // Some programs write empty parts at the end, `1/` and `1//`, and some write 0.
     let mut optional = || match parts.next() {
         None | Some("") => Some(0),
-        Some(part) => index(part),
+        Some(part) => part.parse().ok(),
     };
     let (uv, normal) = (optional()?, optional()?);
     parts.next().is_none().then_some([position, uv, normal])

@@ -1,10 +1,10 @@
 //! The material libraries that a scene's meshes name, read when a surface needs them.
 
 use super::{Reader, SceneError};
-use crate::scene::mtl::{self, Library, Map};
+use crate::scene::mtl::{self, Entry, Library, Map};
 use crate::scene::text::before_comment;
 use crate::scene::{Scene, SurfaceTexture};
-use crate::texture::{Texture, Values, Wrap};
+use crate::texture::{Texture, Values};
 use files::FileError;
 use files::check::{Finding, Severity};
 use std::collections::{BTreeMap, HashMap};
@@ -19,7 +19,7 @@ pub(super) struct Libraries {
     /// Indices of materials by library and by the number of the entry.
     materials: BTreeMap<(PathBuf, usize), usize>,
     /// Indices of textures by path and continuation. A picture that cannot be read has none.
-    textures: BTreeMap<(PathBuf, bool), Option<usize>>,
+    textures: BTreeMap<(PathBuf, u8), Option<usize>>,
 }
 
 /// A material of a library, as a surface takes it.
@@ -51,6 +51,11 @@ impl Libraries {
         }
         self.files.insert(path.into(), library);
         Ok(())
+    }
+
+    /// Adds the materials that a mesh file itself holds, under the path of this file.
+    pub(super) fn hold(&mut self, path: &Path, entries: &[Entry]) {
+        self.files.entry(path.into()).or_insert_with(|| Library::of(entries));
     }
 
     /// Returns the material of this name from the first of these libraries that has it.
@@ -113,7 +118,7 @@ impl Reader<'_> {
         scene: &mut Scene,
     ) -> Result<Option<SurfaceTexture>, SceneError> {
         let folder = library.parent().unwrap_or(Path::new(""));
-        let key = (folder.join(&map.path), map.wrap == Wrap::Clamp);
+        let key = (folder.join(&map.path), map.wrap as u8);
         if let Some(&known) = libraries.textures.get(&key) {
             return Ok(known.map(SurfaceTexture::Picture));
         }
@@ -155,8 +160,10 @@ impl Reader<'_> {
             paths.extend(self.source.same_but_case(&path));
         }
         let is_missing = |error: &FileError| matches!(error, FileError::Read { source, .. } if source.kind() == ErrorKind::NotFound);
-        let exists =
-            |path: &&PathBuf| !self.source.read(path).is_err_and(|error| is_missing(&error));
+        let is_held = |path: &PathBuf| self.held.borrow().contains_key(path);
+        let exists = |path: &&PathBuf| {
+            is_held(path) || !self.source.read(path).is_err_and(|error| is_missing(&error))
+        };
         let path = paths.iter().find(exists).unwrap_or(&paths[0]);
         let texture = self.texels(at, path, Values::Srgb, map.wrap)?;
         Ok((texture, path.clone()))

@@ -4,6 +4,7 @@ use super::libraries::{Libraries, Taken, remark};
 use super::ranges::Ranges;
 use super::{Reader, SceneError};
 use crate::scene::file::{MeshFile, OneOrMore};
+use crate::scene::mesh_file::{self, Near};
 use crate::scene::mtl::{Map, counted, plain};
 use crate::scene::obj::{self, ObjFile};
 use crate::scene::text::before_comment;
@@ -51,9 +52,13 @@ impl Reader<'_> {
     ) -> Result<Object, SceneError> {
         let PlannedMesh { file, at, bindings, placement } = planned;
         let read = self.mesh_file(&at, file, given)?;
+        let mut sentences = read.remarks.clone();
         if !read.unused.is_empty() {
             let unused: BTreeMap<String, usize> = read.unused.iter().cloned().collect();
-            scene.remarks.push(remark(&read.file, &[format!("not used: {}", counted(&unused))]));
+            sentences.push(format!("not used: {}", counted(&unused)));
+        }
+        if !sentences.is_empty() {
+            scene.remarks.push(remark(&read.file, &sentences));
         }
         let own = self.libraries_of(&at, file, &bindings, &read, libraries, scene)?;
         let mut mesh = read.smoothed(file.smooth_deg);
@@ -109,9 +114,10 @@ impl Reader<'_> {
                 let path = self.folder.join(path);
                 let bytes = self.named_file(&format!("{at}.file"), &path)?;
                 let name = files::input::name_of(&path);
-                self.memory.keep(obj::needed(&bytes), || format!("mesh {name}"))?;
-                let folder = path.parent().unwrap_or(Path::new("")).into();
-                Ok(ObjFile { folder, ..obj::read_file(&name, &bytes)? })
+                let folder = path.parent().unwrap_or(Path::new(""));
+                let reserve = &mut |bytes| self.memory.keep(bytes, || format!("mesh {name}"));
+                let near = Near { folder, source: self.source, reserve };
+                Ok(mesh_file::read(&name, &bytes, near)?)
             }
             (None, None) => Err(SceneError::MissingMesh {
                 name: file.name.clone(),
@@ -146,7 +152,17 @@ impl Reader<'_> {
         }
         let mut own = Own { paths: Vec::new(), named: false };
         let unbound = |name: &String| bindings.material_of(name).is_none();
-        if !read.mesh.surfaces.iter().any(unbound) {
+        let is_unbound = read.mesh.surfaces.iter().any(unbound);
+        if !read.materials.is_empty() {
+            if is_unbound {
+                own.paths.push(self.held_materials(read, libraries));
+            } else {
+                let sentence =
+                    "the materials of the file are not used, since the scene binds all surfaces";
+                scene.remarks.push(remark(&read.file, &[sentence.into()]));
+            }
+        }
+        if !is_unbound {
             if let Some(name) = read.libraries.first() {
                 let sentence = format!(
                     "the library {} is not used, since the scene binds all surfaces; \"mtl\" uses it",
@@ -173,6 +189,18 @@ impl Reader<'_> {
             }
         }
         Ok(own)
+    }
+
+    /// Makes the materials and pictures inside of a mesh file known. Returns the path of this library,
+    /// which is that of the file.
+    fn held_materials(&self, read: &ObjFile, libraries: &mut Libraries) -> PathBuf {
+        let name = Path::new(&read.file).file_name().unwrap_or_default();
+        let path = read.folder.join(name);
+        libraries.hold(&path, &read.materials);
+        let pictures = read.pictures.iter();
+        let named = pictures.map(|(name, bytes)| (read.folder.join(name), bytes.clone()));
+        self.held.borrow_mut().extend(named);
+        path
     }
 
     /// Returns the files that a text behind `mtllib` means: the whole text, or one file for each word.
