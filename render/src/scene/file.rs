@@ -124,7 +124,7 @@ pub mod solid;
 mod texture;
 
 pub use background::{BackgroundFile, SkyFile};
-pub use color::ColorFile;
+pub use color::{ColorFile, SurfaceColorFile};
 pub use light::{DirectionalLightFile, FalloffFile, LightFile, PointLightFile};
 pub use material::{MaterialFile, ThinFilmFile};
 pub use object::{BoxFile, MeshFile, ObjectFile, OneOrMore, PlaneFile, RectangleFile};

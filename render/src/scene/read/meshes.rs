@@ -7,7 +7,7 @@ use crate::scene::file::{MeshFile, OneOrMore};
 use crate::scene::mtl::{Map, counted, plain};
 use crate::scene::obj::{self, ObjFile};
 use crate::scene::text::before_comment;
-use crate::scene::{Object, Scene, Surface, SurfaceTexture};
+use crate::scene::{Material, Object, Scene, Surface, SurfaceTexture};
 use crate::shape::mesh::{NONE, Triangle};
 use crate::shape::{Mesh, Placement, Shape};
 use std::collections::BTreeMap;
@@ -38,6 +38,8 @@ struct Own {
     paths: Vec<PathBuf>,
     /// True if the scene names them, and false if the OBJ file does.
     named: bool,
+    /// True if the vertices of the mesh have colours.
+    colored: bool,
 }
 
 impl Reader<'_> {
@@ -56,6 +58,7 @@ impl Reader<'_> {
             scene.remarks.push(remark(&read.file, &[format!("not used: {}", counted(&unused))]));
         }
         let own = self.libraries_of(&at, file, &bindings, &read, libraries, scene)?;
+        let colored = (read.file.clone(), read.colored);
         let mut mesh = read.smoothed(file.smooth_deg);
         let (mut parts, mut maps) = (Vec::new(), Vec::new());
         for (number, name) in mesh.surfaces.clone().iter().enumerate() {
@@ -80,6 +83,7 @@ impl Reader<'_> {
             show_map(&mut mesh, &mut parts, number, &map);
         }
         self.check_texture_coordinates(&at, file, &mesh, &parts)?;
+        keep_shown_colors(&mut mesh, &parts, colored, scene);
         if parts.iter().any(|part| scene.materials[part.material].transparency > 0.0) {
             let joined = mesh.close_rounded();
             if joined > 0 {
@@ -132,6 +136,7 @@ impl Reader<'_> {
         libraries: &mut Libraries,
         scene: &mut Scene,
     ) -> Result<Own, SceneError> {
+        let colored = read.colored > 0;
         if let Some(named) = &file.mtl {
             let paths: Vec<PathBuf> =
                 named.all().iter().map(|path| self.folder.join(path)).collect();
@@ -142,9 +147,9 @@ impl Reader<'_> {
                 };
                 libraries.add(path, || self.named_file(&at, path), scene)?;
             }
-            return Ok(Own { paths, named: true });
+            return Ok(Own { paths, named: true, colored });
         }
-        let mut own = Own { paths: Vec::new(), named: false };
+        let mut own = Own { paths: Vec::new(), named: false, colored };
         let unbound = |name: &String| bindings.material_of(name).is_none();
         if !read.mesh.surfaces.iter().any(unbound) {
             if let Some(name) = read.libraries.first() {
@@ -259,6 +264,14 @@ impl Reader<'_> {
             _ => bindings.material_of(surface).or(taken.as_ref().map(|taken| taken.material)),
         };
         let material = material.or(bindings.material).or_else(|| {
+            // Colours of the vertices stand for a material.
+            own.colored.then(|| {
+                scene.materials.push(Material { vertex_colors: true, ..plain() });
+                scene.names.materials.push("vertex".into());
+                scene.materials.len() - 1
+            })
+        });
+        let material = material.or_else(|| {
             // The OBJ names libraries, and none of them has the material.
             (!own.named && !own.paths.is_empty()).then(|| {
                 let name = obj::shortened(surface);
@@ -311,6 +324,25 @@ impl Bindings {
         let short = || self.textures.get(before_comment(key)?);
         self.textures.get(key).or_else(short).copied()
     }
+}
+
+/// Removes the colours of the vertices if no material shows them, with a remark on the file, of which
+/// `colored` has the name and the number of coloured vertices.
+fn keep_shown_colors(
+    mesh: &mut Mesh,
+    parts: &[Surface],
+    (file, count): (String, usize),
+    scene: &mut Scene,
+) {
+    if mesh.colors.is_empty() || parts.iter().any(|part| scene.materials[part.material].vertex_colors)
+    {
+        return;
+    }
+    mesh.colors = Vec::new();
+    let sentence = format!(
+        "not used: vertex colours ({count} times), which a material with \"color\": \"vertex\" shows"
+    );
+    scene.remarks.push(remark(&file, &[sentence]));
 }
 
 /// Moves the texture coordinates of a surface as a picture's options say. Triangles without texture
