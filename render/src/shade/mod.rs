@@ -8,6 +8,7 @@
 mod lobe;
 pub mod observer;
 mod shadow;
+mod start;
 
 use crate::accel::Accel;
 use crate::color::Color;
@@ -24,6 +25,7 @@ use glam::DVec3;
 use lobe::Lobe;
 use observer::{Local, Observer, Seen, Textured};
 pub use shadow::{Facing, Shadows};
+pub use start::ShadowStart;
 
 /// Shades the trees of one scene.
 #[derive(Debug)]
@@ -165,11 +167,22 @@ impl Shader<'_> {
                     None => solid.color(&object.to_own_space, node.position),
                 }
             });
+            let own = material.color * self.vertex_color(node, material, sight);
             let light = material.ambient * self.scene.ambient + diffuse;
-            color += material.color * texture * carved * light;
-            plain += material.color * light;
+            color += own * texture * carved * light;
+            plain += own * light;
         }
         Local { textured, color, plain }
+    }
+
+    /// Returns the colour of a mesh's vertices in the middle of the part of the surface that is seen, or
+    /// white. Colours are linear on each triangle, so that the middle has their average.
+    fn vertex_color<S: Sight>(&self, node: &Node, material: &Material, sight: &S) -> Color {
+        if !material.vertex_colors {
+            return Color::ONE;
+        }
+        let shape = &self.scene.objects[node.piece.object as usize].shape;
+        shape.vertex_color(node.piece.triangle, sight.middle(node)).unwrap_or(Color::ONE)
     }
 
     /// Sums the light that the scene's lights send to a node. `variance` is that of its normal along
@@ -187,12 +200,13 @@ impl Shader<'_> {
         }
         let ShadeWork { counts, shadows } = work;
         shadows.clear();
+        let start = ShadowStart::of(self.scene, node);
         for (index, light) in self.scene.lights.iter().enumerate() {
             let toward = light.toward(node.position);
             let cosine = node.normal.dot(toward);
-            if cosine > 0.0 && node.geometric_normal.dot(toward) > 0.0 {
+            if cosine > 0.0 && start.normal.dot(toward) > 0.0 {
                 counts.shadow += 1;
-                shadows.add(self.scene, node, Facing { light: index, toward, cosine });
+                shadows.add(self.scene, &start, Facing { light: index, toward, cosine });
             }
         }
         self.trace_shadows(shadows);

@@ -1,11 +1,10 @@
 //! Traces shadow rays: the part of each light that reaches a point (thesis 4.5.2).
 
-use super::Shader;
+use super::{Shader, ShadowStart};
 use crate::color::Color;
 use crate::ray::{Hit, Ray};
 use crate::scene::{Light, PointLight, Scene};
 use crate::trace::medium::{Media, Medium};
-use crate::trace::tree::Node;
 use glam::DVec3;
 
 /// A boundary of a volume between a point and a light: its distance from the point, the volume, and
@@ -53,17 +52,17 @@ impl Shadows {
         self.lights.clear();
     }
 
-    /// Adds the ray from a node to a light of the scene.
-    pub fn add(&mut self, scene: &Scene, node: &Node, facing: Facing) {
+    /// Adds the ray from a start to a light of the scene.
+    pub fn add(&mut self, scene: &Scene, start: &ShadowStart, facing: Facing) {
         let (direction, distance) = match scene.lights[facing.light] {
             Light::Point(PointLight { position, .. }) => {
-                let toward = position - node.position;
+                let toward = position - start.position;
                 let distance = toward.length();
                 (toward / distance, distance)
             }
             Light::Directional(light) => (light.toward, f64::INFINITY),
         };
-        self.rays.push((Ray::leaving(node.piece, node.position, direction), distance));
+        self.rays.push((Ray::leaving(start.piece, start.position, direction), distance));
         self.lights.push(facing);
     }
 
@@ -242,7 +241,7 @@ mod tests {
     use crate::ray::Piece;
     use crate::scene::{Background, Camera, Material, Names, Object, Surface};
     use crate::shape::{Quad, Shape, Sphere};
-    use crate::trace::tree::Branch;
+    use crate::trace::tree::{Branch, Node};
     use crate::trace::volume::Volumes;
     use glam::{DAffine3, DVec2};
 
@@ -323,7 +322,8 @@ mod tests {
         let trace = |nodes: &[Node], shadows: &mut Shadows| {
             shadows.clear();
             for node in nodes {
-                shadows.add(&scene, node, Facing { light: 0, toward: DVec3::Z, cosine: 1.0 });
+                let facing = Facing { light: 0, toward: DVec3::Z, cosine: 1.0 };
+                shadows.add(&scene, &ShadowStart::of(&scene, node), facing);
             }
             shader.trace_shadows(shadows);
             shadows.results().map(|(_, reaching)| reaching).collect::<Vec<Color>>()
