@@ -19,7 +19,7 @@ mod textures;
 
 pub use draft::{Draft, SceneText};
 
-use super::file::{FORMAT, Lists, SceneFile, VERSION};
+use super::file::{BackgroundFile, FORMAT, Lists, SceneFile, VERSION};
 use super::limits::DEEPEST;
 use super::obj::{ObjError, ObjFile};
 use super::{Names, Scene};
@@ -195,6 +195,9 @@ impl Draft<'_> {
         for reader in &readers {
             scene.textures.extend(reader.textures()?);
         }
+        if let Some(own) = readers.last() {
+            own.environment(&self.file.background, &mut scene)?;
+        }
         let mut libraries = Libraries::default();
         let mut given = Given::new(given, &texts);
         for (reader, planned) in readers.iter().zip(planned) {
@@ -214,6 +217,7 @@ impl Draft<'_> {
         Ok(Scene {
             camera: camera::read(document, &file.camera)?,
             background: background::read(document, &file.background)?,
+            is_transparent: file.background == BackgroundFile::Nothing,
             ambient: document.color("ambient", file.ambient)?,
             lights: Vec::new(),
             materials: Vec::new(),

@@ -1,5 +1,6 @@
 //! The start of the shadow rays of a node.
 
+use crate::differential::Spread;
 use crate::ray::Piece;
 use crate::scene::Scene;
 use crate::trace::tree::Node;
@@ -18,17 +19,17 @@ pub struct ShadowStart {
     pub position: DVec3,
     /// Unit normal of the smooth surface, without bumps. Only lights on its side shine on the node.
     pub normal: DVec3,
+    /// Change of the position across and down the film, if it is known.
+    pub changes: Option<[DVec3; 2]>,
 }
 
 impl ShadowStart {
-    /// Returns the start of a node's shadow rays.
+    /// Returns the start of a node's shadow rays. `spread` is that of the node.
     #[must_use]
-    pub fn of(scene: &Scene, node: &Node) -> Self {
-        let own = Self {
-            piece: node.piece,
-            position: node.position,
-            normal: node.geometric_normal,
-        };
+    pub fn of(scene: &Scene, node: &Node, spread: Option<&Spread>) -> Self {
+        let changes = spread.map(|spread| spread.position);
+        let Node { piece, position, geometric_normal: normal, .. } = *node;
+        let own = Self { piece, position, normal, changes };
         let shape = &scene.objects[node.piece.object as usize].shape;
         let Some(facet) = shape.mesh().map(|mesh| mesh.normal(node.piece.triangle)) else {
             return own;

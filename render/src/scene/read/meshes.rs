@@ -1,6 +1,6 @@
 //! Reads the meshes of a scene: their triangles, and the appearance of their surfaces.
 
-use super::libraries::{Libraries, Taken, remark};
+use super::libraries::{Libraries, Pictured, Taken, remark};
 use super::ranges::Ranges;
 use super::{Reader, SceneError};
 use crate::scene::file::{MeshFile, OneOrMore};
@@ -73,8 +73,8 @@ impl Reader<'_> {
                     libraries,
                     scene,
                 )?;
-                if surface.texture.is_some() {
-                    maps.push((number as u32, picture.0));
+                if let Some(map) = picture.map().filter(|_| surface.texture.is_some()) {
+                    maps.push((number as u32, map.clone()));
                 }
             }
             parts.push(surface);
@@ -253,7 +253,7 @@ impl Reader<'_> {
         taken: Option<Taken>,
         own: &Own,
         scene: &mut Scene,
-    ) -> Result<(Surface, Option<(Map, PathBuf)>), SceneError> {
+    ) -> Result<(Surface, Option<Pictured>), SceneError> {
         let ids = obj::ids(surface);
         let [texture_key, material_key] = ids.unwrap_or([surface, surface]);
         let material = match &taken {
