@@ -77,7 +77,9 @@ fn stl_bytes(header: &[u8]) -> Vec<u8> {
 fn ply_text(end: &str) -> Vec<u8> {
     let mut lines = vec!["ply".to_string(), "format ascii 1.0".into(), "element vertex 4".into()];
     lines.extend(["x", "y", "z"].map(|name| format!("property double {name}")));
-    lines.extend(["element face 4", "property list uchar int vertex_index", "end_header"].map(Into::into));
+    lines.extend(
+        ["element face 4", "property list uchar int vertex_index", "end_header"].map(Into::into),
+    );
     lines.extend(CORNERS.map(|[x, y, z]| format!("{x} {y} {z}")));
     lines.extend(FACES.map(|[a, b, c]| format!("3 {a} {b} {c}")));
     (lines.join(end) + end).into_bytes()
@@ -196,8 +198,9 @@ fn a_name_of_another_format_is_remarked() {
     ] {
         let found = rendered(name, &bytes, CLAY, &[]);
         assert!(found.0 == truth.0, "{name}");
-        let sentence =
-            format!("remark: {name}: the contents are those of {contents}, the name that of {by_name}");
+        let sentence = format!(
+            "remark: {name}: the contents are those of {contents}, the name that of {by_name}"
+        );
         assert!(found.1.contains(&sentence), "{}", found.1);
     }
 }
@@ -209,7 +212,10 @@ fn a_mesh_of_any_format_can_be_given_by_the_command_line() {
     bench.write("shape.glb", glb(&gltf(), &chunk()));
     bench.make(&["scene.json", "--mesh", "shape=shape.glb", "-o", "a.png", "--size", "24x18"], b"");
     assert!(bench.read("a.png") == truth.0);
-    bench.make(&["scene.json", "--mesh", "shape=-", "-o", "b.png", "--size", "24x18"], &stl_bytes(b""));
+    bench.make(
+        &["scene.json", "--mesh", "shape=-", "-o", "b.png", "--size", "24x18"],
+        &stl_bytes(b""),
+    );
     assert!(bench.read("b.png") == truth.0);
 }
 
@@ -234,7 +240,8 @@ fn nodes_place_their_meshes() {
         { "mesh": 0, "matrix": [1, 0, 0, 0, 0, -0.5, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1] },
     ]);
     let found = rendered("shape.glb", &glb(&nodes, &chunk()), CLAY, &[]).0;
-    let [truth, found] = [truth.0, found].map(|png| image::load_from_memory(&png).unwrap().into_rgb8());
+    let [truth, found] =
+        [truth.0, found].map(|png| image::load_from_memory(&png).unwrap().into_rgb8());
     // The square root of a half is rounded.
     for (a, b) in truth.iter().zip(found.iter()) {
         assert!(a.abs_diff(*b) <= 1, "{a} {b}");

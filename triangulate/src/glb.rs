@@ -108,7 +108,8 @@ fn content(
     let count = split.vertices.len();
     let mut node = json!({ "mesh": 0, "name": mesh.name });
     if let Some(unit) = unit.filter(|&unit| unit != Unit::Meter) {
-        node["scale"] = json!([unit.meters(); 3]);
+        let meters = unit.meters();
+        node["scale"] = json!([meters, meters, meters]);
     }
     let view = |offset: usize, length: usize, target: u32| json!({ "buffer": 0, "byteOffset": offset, "byteLength": length, "target": target });
     let (low, high) = bounds(split);

@@ -46,7 +46,9 @@
 //! mesh has no inside. It absorbs nothing, and a ray that passes it stays in the same medium.
 //!
 //! The background is a colour or a sky: `"background": { "by_elevation": [[-1, 0.3], [0, 0.8], [90,
-//! [0.2, 0.35, 0.6]]] }` gives colours at degrees above the horizon, where y points up.
+//! [0.2, 0.35, 0.6]]] }` gives colours at degrees above the horizon, where y points up. A picture of all
+//! directions, such as a sky in an HDR or EXR file, is `"background": { "picture": "sky.exr", "turn_deg": 30
+//! }`. The background lights no surface; `ambient` and `lights` do.
 //!
 //! A light is a `point` light or a `directional` light, whose `direction` is the direction in which
 //! its light travels. A point light may fade: `"falloff": { "quadratic": 1, "reference": 4 }` is
@@ -123,8 +125,8 @@ mod part;
 pub mod solid;
 mod texture;
 
-pub use background::{BackgroundFile, SkyFile};
-pub use color::ColorFile;
+pub use background::{BackgroundFile, EnvironmentFile, SkyFile};
+pub use color::{ColorFile, SurfaceColorFile};
 pub use light::{DirectionalLightFile, FalloffFile, LightFile, PointLightFile};
 pub use material::{MaterialFile, ThinFilmFile};
 pub use object::{BoxFile, MeshFile, ObjectFile, OneOrMore, PlaneFile, RectangleFile};
@@ -164,7 +166,8 @@ pub struct SceneFile {
     pub include: Vec<PathBuf>,
     /// The camera that sees the scene.
     pub camera: CameraFile,
-    /// Colour of rays that leave the scene: one colour, or colours by elevation; black if left out.
+    /// Colour of rays that leave the scene: one colour, colours by elevation, or a picture; black if left
+    /// out. With `null` the background is black, and transparent in the picture file.
     #[serde(default)]
     pub background: BackgroundFile,
     /// Ambient light, from all directions; 0.1 if left out.

@@ -9,6 +9,7 @@ mod given;
 mod libraries;
 mod lights;
 mod materials;
+mod mesh_files;
 mod meshes;
 mod objects;
 mod place;
@@ -19,7 +20,7 @@ mod textures;
 
 pub use draft::{Draft, SceneText};
 
-use super::file::{FORMAT, Lists, SceneFile, VERSION};
+use super::file::{BackgroundFile, FORMAT, Lists, SceneFile, VERSION};
 use super::limits::DEEPEST;
 use super::mesh_file::MeshFileError;
 use super::obj::{ObjError, ObjFile};
@@ -201,6 +202,9 @@ impl Draft<'_> {
         for reader in &readers {
             scene.textures.extend(reader.textures()?);
         }
+        if let Some(own) = readers.last() {
+            own.environment(&self.file.background, &mut scene)?;
+        }
         let mut libraries = Libraries::default();
         let mut given = Given::new(given, &texts);
         for (reader, planned) in readers.iter().zip(planned) {
@@ -220,6 +224,7 @@ impl Draft<'_> {
         Ok(Scene {
             camera: camera::read(document, &file.camera)?,
             background: background::read(document, &file.background)?,
+            is_transparent: file.background == BackgroundFile::Nothing,
             ambient: document.color("ambient", file.ambient)?,
             lights: Vec::new(),
             materials: Vec::new(),

@@ -153,9 +153,9 @@ impl Sample {
         Mesh {
             positions: self.corners.to_vec(),
             uvs: vec![[1.0, 0.0], [0.0, 0.0], [0.0, 1.0]],
-            normals: vec![],
             triangles: vec![triangle],
             surfaces: vec![String::new()],
+            ..Mesh::default()
         }
     }
 }

@@ -9,7 +9,6 @@ use super::boxes::{Boxes, touch};
 use super::planes::{self, NEAR};
 use super::subject::{Item, Subject};
 use super::{Finding, Severity, count};
-use crate::shape::mesh::as_dvec3;
 use crate::shape::{Mesh, Quad, Shape};
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -222,7 +221,7 @@ impl Search {
             return;
         }
         let numbers = 0..mesh.triangles.len() as u32;
-        let corners = |n: u32| mesh.corners(n).map(as_dvec3);
+        let corners = |n: u32| mesh.places(n);
         let bounds = |n| {
             let [a, b, c] = corners(n);
             [a.min(b).min(c), a.max(b).max(c)]

@@ -21,6 +21,7 @@ pub use error::MeshFileError;
 
 use super::obj::{self, ObjError, ObjFile};
 use files::{MemoryError, Source};
+use glam::DVec3;
 use std::fmt::{self, Debug};
 use std::path::Path;
 
@@ -86,6 +87,9 @@ impl Format {
     }
 }
 
+/// The contents of a file, and the positions of its mesh. The mesh itself has none yet.
+type Placed = (ObjFile, Vec<DVec3>);
+
 /// First bytes of formats that are not read, and their names.
 const OTHERS: [(&[u8], &str); 7] = [
     (b"PK\x03\x04", "a ZIP archive, such as a 3MF"),
@@ -117,20 +121,18 @@ pub fn read(file: &str, bytes: &[u8], mut near: Near<'_>) -> Result<ObjFile, Mes
         let expected = "an OBJ, STL, PLY or glTF mesh".into();
         return Err(MeshFileError::Part { file: file.into(), found: (*found).into(), expected });
     }
-    let mut read = match format {
+    let placed = match format {
         Format::Obj => {
             (near.reserve)(obj::needed(bytes))?;
-            read_obj(file, bytes, by_name)?
+            (read_obj(file, bytes, by_name)?, Vec::new())
         }
         Format::Stl => stl::read(file, bytes, near.reserve)?,
         Format::Ply => ply::read(file, bytes, near.reserve)?,
         Format::Gltf => gltf::read(file, bytes, &mut near)?,
     };
+    let (mut read, positions) = placed;
     if format != Format::Obj {
-        tidy::tidy(file, &mut read)?;
-        if !read.colors.is_empty() {
-            read.unused.push(("vertex colours".into(), read.colors.len()));
-        }
+        tidy::tidy(file, &mut read, &positions)?;
     }
     if let Some(name) = by_name.filter(|&name| name != format) {
         let (contents, name) = (format.name(), name.name());

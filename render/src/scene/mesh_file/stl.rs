@@ -16,12 +16,14 @@
 //! begin with `solid` too. Equal corners become one vertex. Normals are those of the triangles' planes:
 //! the file's own are often zero, and never differ on purpose. Several solids become one mesh.
 
+use super::Placed;
 use super::error::MeshFileError;
 use crate::scene::obj::{ObjFile, shortened};
 use crate::scene::text;
 use crate::shape::Mesh;
 use crate::shape::mesh::{NONE, Triangle};
 use files::MemoryError;
+use glam::DVec3;
 use std::collections::{BTreeMap, HashMap};
 
 /// Bytes before the first facet of a binary file: the header and the count.
@@ -32,7 +34,7 @@ const FACET: usize = 50;
 
 /// Upper bound of the bytes for a facet while it is read: a triangle and three corners, each in a list
 /// and in a table of known corners. Lists and tables grow by doubling.
-const NEEDED: u64 = 2 * (size_of::<Triangle>() as u64 + 3 * (12 + 17));
+const NEEDED: u64 = 2 * (size_of::<Triangle>() as u64 + 3 * (12 + 24 + 29));
 
 /// Returns whether the length of a file is that of a binary STL.
 pub(super) fn is_binary(bytes: &[u8]) -> bool {
@@ -66,7 +68,7 @@ pub(super) fn read(
     file: &str,
     bytes: &[u8],
     reserve: &mut dyn FnMut(u64) -> Result<(), MemoryError>,
-) -> Result<ObjFile, MeshFileError> {
+) -> Result<Placed, MeshFileError> {
     let mut facets = Facets::default();
     let mut unused = BTreeMap::new();
     let mut remarks = Vec::new();
@@ -81,24 +83,26 @@ pub(super) fn read(
     }
     let mesh = Mesh { surfaces: vec![String::new()], ..facets.mesh };
     let unused = unused.into_iter().collect();
-    Ok(ObjFile { file: file.into(), mesh, unused, remarks, ..ObjFile::default() })
+    let read = ObjFile { file: file.into(), mesh, unused, remarks, ..ObjFile::default() };
+    Ok((read, facets.positions))
 }
 
 /// The triangles so far.
 #[derive(Debug, Default)]
 struct Facets {
     mesh: Mesh,
-    known: HashMap<[u32; 3], u32>,
+    positions: Vec<DVec3>,
+    known: HashMap<[u64; 3], u32>,
 }
 
 impl Facets {
-    fn push(&mut self, corners: [[f32; 3]; 3]) {
+    fn push(&mut self, corners: [[f64; 3]; 3]) {
         let position = corners.map(|corner| {
             // Adding zero makes -0 into +0.
             let bits = corner.map(|x| (x + 0.0).to_bits());
             *self.known.entry(bits).or_insert_with(|| {
-                self.mesh.positions.push(corner);
-                self.mesh.positions.len() as u32 - 1
+                self.positions.push(corner.into());
+                self.positions.len() as u32 - 1
             })
         });
         let none = [NONE; 3];
@@ -142,7 +146,7 @@ fn read_binary(
             let found = corners.as_flattened()[k].to_string();
             return Err(fault(START + FACET * number + 12 + 4 * k, found, FINITE.into()));
         }
-        facets.push(corners);
+        facets.push(corners.map(|corner| corner.map(f64::from)));
         colored += usize::from(facet[48..] != [0; 2]);
     }
     let rest = bytes.len() - end as usize;
@@ -173,7 +177,7 @@ fn read_text(
     let text = text::of(bytes).map_err(|text::NotText(line)| {
         fault(line - 1, "a byte 0".into(), "the text of an STL mesh")
     })?;
-    let mut corners: Vec<[f32; 3]> = Vec::new();
+    let mut corners: Vec<[f64; 3]> = Vec::new();
     let mut is_ended = false;
     let mut last = 0;
     for (number, line) in text.lines().enumerate() {
@@ -192,7 +196,7 @@ fn read_text(
                     let corner = (next(), next(), next());
                     match corner {
                         (Some(x), Some(y), Some(z))
-                            if [x, y, z].iter().all(|x: &f32| x.is_finite()) =>
+                            if [x, y, z].iter().all(|x: &f64| x.is_finite()) =>
                         {
                             corners.push([x, y, z]);
                         }

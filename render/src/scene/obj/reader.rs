@@ -1,7 +1,7 @@
 //! Reads the lines of an OBJ file into a mesh.
 
-use super::polygon;
 use super::{ObjError, ObjFile, shortened};
+use super::{colors, far, polygon};
 use crate::scene::text::{keyword, words};
 use crate::shape::Mesh;
 use crate::shape::mesh::{NONE, Triangle};
@@ -17,6 +17,8 @@ const NUMBERED: usize = 3;
 pub(super) struct Reader<'a> {
     file: &'a str,
     text: &'a str,
+    /// True if `triangulate` wrote the file.
+    is_ours: bool,
     mesh: Mesh,
     /// Number of lines that began with `f`.
     pub(super) faces: usize,
@@ -47,10 +49,11 @@ type Corner = [u32; NUMBERED];
 type Expected = &'static str;
 
 impl<'a> Reader<'a> {
-    pub(super) fn new(file: &'a str, text: &'a str) -> Self {
+    pub(super) fn new(file: &'a str, text: &'a str, is_ours: bool) -> Self {
         Self {
             file,
             text,
+            is_ours,
             mesh: Mesh::default(),
             faces: 0,
             name: "",
@@ -113,12 +116,24 @@ impl<'a> Reader<'a> {
     /// Returns the file's contents. Polygons are divided into triangles, and vertices that no face uses
     /// are left out.
     pub(super) fn finish(mut self) -> ObjFile {
+        let colored = self.mesh.colors.iter().filter(|color| !color[0].is_nan()).count();
+        if colored > 0 {
+            self.mesh.colors.resize(self.mesh.positions.len(), [f32::NAN; 3]);
+            colors::decode(&mut self.mesh.colors);
+        }
+        let far = if self.is_ours { None } else { far::positions(self.text, &self.mesh) };
         let positions = std::mem::take(&mut self.mesh.positions);
-        let place = |index: u32| DVec3::from(positions[index as usize].map(f64::from));
+        let place = |index: u32| match &far {
+            Some(far) => far[index as usize],
+            None => DVec3::from(positions[index as usize].map(f64::from)),
+        };
         for &[first, end] in &self.fans {
             polygon::divide(&mut self.mesh.triangles[first..end], place);
         }
         self.mesh.positions = positions;
+        if let Some(far) = far {
+            far::set(&mut self.mesh, &far);
+        }
         if !self.bad_uvs.is_empty() {
             for triangle in &mut self.mesh.triangles {
                 if triangle.uv.iter().any(|uv| self.bad_uvs.contains(uv)) {
@@ -136,6 +151,7 @@ impl<'a> Reader<'a> {
             folder: PathBuf::new(),
             mesh: self.mesh,
             groups: self.groups,
+            colored,
             libraries: self.libraries.into_iter().map(Into::into).collect(),
             unused: self.unused.into_iter().map(|(what, count)| (what.into(), count)).collect(),
             ..ObjFile::default()
@@ -159,8 +175,10 @@ impl<'a> Reader<'a> {
                 next.saturating_sub(1)
             })
             .collect();
-        let mut used = used.into_iter();
-        self.mesh.positions.retain(|_| used.next().unwrap_or(true));
+        for values in [&mut self.mesh.positions, &mut self.mesh.colors] {
+            let mut used = used.iter().copied();
+            values.retain(|_| used.next().unwrap_or(true));
+        }
         for triangle in &mut self.mesh.triangles {
             triangle.position = triangle.position.map(|index| renumbered[index as usize]);
         }
@@ -187,9 +205,8 @@ impl<'a> Reader<'a> {
                 if position.iter().any(|x| !x.is_finite()) {
                     self.bad_vertices.push((self.mesh.positions.len() as u32, number));
                 }
-                // Three coordinates, a weight, and three channels.
                 if count >= 6 {
-                    self.pass_over("vertex colours");
+                    self.color(rest);
                 }
                 self.mesh.positions.push(position);
             }
@@ -227,6 +244,20 @@ impl<'a> Reader<'a> {
             _ => self.pass_over(keyword),
         }
         Ok(())
+    }
+
+    /// Reads the colour of the vertex that comes next. Colours that are no numbers are passed over.
+    fn color(&mut self, text: &str) {
+        let Some(([_, _, _, red, green, blue], _)) = numbers(text) else {
+            return self.pass_over("vertex colours that are no numbers");
+        };
+        let color = [red, green, blue];
+        if color.iter().all(|x: &f32| x.is_finite()) {
+            self.mesh.colors.resize(self.mesh.positions.len(), [f32::NAN; 3]);
+            self.mesh.colors.push(color);
+        } else {
+            self.pass_over("vertex colours that are not finite");
+        }
     }
 
     /// Counts something that is read and not used.

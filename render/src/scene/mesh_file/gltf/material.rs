@@ -1,12 +1,13 @@
 //! The materials of a glTF file, as those of a material library.
 //!
-//! The base colour is the colour of a matt surface. An alpha below 1 counts where the material blends.
+//! The base colour is the colour of a matt surface. An alpha below 1 counts where the material blends or has
+//! a mask: the alpha of a picture cuts out the surface.
 
 use super::accessor::Numbers;
 use super::{Fault, uri};
 use crate::color::Color;
 use crate::scene::mtl::{Entry, Map, plain};
-use crate::texture::Wrap;
+use crate::texture::{Alpha, Wrap};
 use glam::{DVec2, dvec2};
 use gltf::material::AlphaMode;
 use gltf::texture::{Texture, WrappingMode};
@@ -28,6 +29,9 @@ pub(super) struct Materials {
     /// The parts that are not used.
     pub(super) unused: Vec<&'static str>,
 }
+
+/// The document, the bytes of its views, and the name of its file.
+pub(super) type Context<'a> = (&'a Document, &'a Numbers<'a>, &'a str);
 
 /// The texture coordinates that a material takes: the set, and their change before the picture is read.
 #[derive(Debug, Clone, Copy)]
@@ -67,15 +71,15 @@ impl Coordinates {
 }
 
 impl Materials {
-    /// Returns the surface of a material.
+    /// Returns the surface of a material. With `colored` it shows the colours of vertices too.
     pub(super) fn surface(
         &mut self,
         material: &Material<'_>,
-        document: &Document,
-        numbers: &Numbers<'_>,
-        file: &str,
+        colored: bool,
+        (document, numbers, file): Context<'_>,
     ) -> Result<u32, Fault> {
         if let Some(&known) = self.numbers.get(&material.index()) {
+            self.entries[known as usize].material.vertex_colors |= colored;
             return Ok(known);
         }
         let name = match (material.name(), material.index()) {
@@ -89,7 +93,8 @@ impl Materials {
             own = format!("{name} ({again})");
             again += 1;
         }
-        let entry = self.entry(own, material, document, numbers, file)?;
+        let mut entry = self.entry(own, material, (document, numbers, file))?;
+        entry.material.vertex_colors = colored;
         self.entries.push(entry);
         let surface = self.entries.len() as u32 - 1;
         self.numbers.insert(material.index(), surface);
@@ -100,9 +105,7 @@ impl Materials {
         &mut self,
         name: String,
         material: &Material<'_>,
-        document: &Document,
-        numbers: &Numbers<'_>,
-        file: &str,
+        context: Context<'_>,
     ) -> Result<Entry, Fault> {
         let pbr = material.pbr_metallic_roughness();
         let [red, green, blue, alpha] = pbr.base_color_factor().map(f64::from);
@@ -122,7 +125,7 @@ impl Materials {
             own.transparency = 1.0 - opacity;
         }
         let picture = match pbr.base_color_texture() {
-            Some(info) => self.picture(&info.texture(), document, numbers, file)?,
+            Some(info) => self.picture(&info.texture(), context)?,
             None => None,
         };
         let is_rough = pbr.metallic_factor() == 0.0 && pbr.roughness_factor() == 1.0;
@@ -137,16 +140,18 @@ impl Materials {
                 self.unused.push(what);
             }
         }
-        Ok(Entry { name, material: own, picture })
+        let alpha = match material.alpha_mode() {
+            AlphaMode::Opaque => Alpha::Ignore,
+            AlphaMode::Mask | AlphaMode::Blend => Alpha::Cut,
+        };
+        Ok(Entry { name, material: own, picture, mask: None, alpha })
     }
 
     /// Returns the picture of a texture. A picture inside the file gets a name, and its bytes are kept.
     fn picture(
         &mut self,
         texture: &Texture<'_>,
-        document: &Document,
-        numbers: &Numbers<'_>,
-        file: &str,
+        (document, numbers, file): Context<'_>,
     ) -> Result<Option<Map>, Fault> {
         let webp = || {
             let source = texture.extension_value("EXT_texture_webp")?.get("source")?.as_u64()?;

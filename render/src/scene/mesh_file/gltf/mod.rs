@@ -5,7 +5,7 @@
 //! |---|---|
 //! | `POSITION`, `NORMAL` | position and normal, moved by the node and its parents |
 //! | `TEXCOORD_n` of the base colour | texture coordinates |
-//! | `COLOR_0` | [`ObjFile::colors`] |
+//! | `COLOR_0` | colours of vertices, linear |
 //! | triangles, strips and fans | triangles; a node that mirrors turns them over |
 //! | `baseColorFactor`, `baseColorTexture`, `alphaMode` | a material ([`material`]) |
 //! | points and lines, skins, targets of morphing, other extensions | counted in [`ObjFile::unused`] |
@@ -18,8 +18,8 @@ mod container;
 mod material;
 mod uri;
 
-use super::Near;
 use super::error::MeshFileError;
+use super::{Near, Placed};
 use crate::scene::obj::ObjFile;
 use crate::shape::mesh::{NONE, Triangle};
 use accessor::Numbers;
@@ -64,11 +64,7 @@ pub(super) fn is_text(bytes: &[u8]) -> bool {
 }
 
 /// Reads the bytes of a glTF file.
-pub(super) fn read(
-    file: &str,
-    bytes: &[u8],
-    near: &mut Near<'_>,
-) -> Result<ObjFile, MeshFileError> {
+pub(super) fn read(file: &str, bytes: &[u8], near: &mut Near<'_>) -> Result<Placed, MeshFileError> {
     read_parts(file, bytes, near).map_err(|fault| match fault {
         Fault::Part { found, expected } => {
             MeshFileError::Part { file: file.into(), found, expected }
@@ -81,10 +77,10 @@ pub(super) fn read(
 }
 
 /// Bytes for each vertex and triangle of a node, with the numbers of its accessors in `f64`.
-const VERTEX: u64 = 2 * (12 + 12 + 8 + 12) + 8 * (3 + 3 + 2 + 3);
+const VERTEX: u64 = 2 * (12 + 24 + 12 + 8 + 12) + 8 * (3 + 3 + 2 + 3);
 const TRIANGLE: u64 = 2 * size_of::<Triangle>() as u64 + 3 * 12;
 
-fn read_parts(file: &str, bytes: &[u8], near: &mut Near<'_>) -> Result<ObjFile, Fault> {
+fn read_parts(file: &str, bytes: &[u8], near: &mut Near<'_>) -> Result<Placed, Fault> {
     let (document, chunk) = container::read(bytes)?;
     let placed = placed(&document)?;
     let mut wanted = 0_u64;
@@ -106,13 +102,15 @@ fn read_parts(file: &str, bytes: &[u8], near: &mut Near<'_>) -> Result<ObjFile, 
         numbers: Numbers::new(&buffers, chunk),
         read: ObjFile { file: file.into(), ..ObjFile::default() },
         materials: Materials::default(),
-        has_colors: false,
+        positions: Vec::new(),
+        colored: 0,
         unused: BTreeMap::new(),
     };
     for (node, matrix) in &placed {
         reader.node(node, *matrix)?;
     }
-    reader.finish()
+    let positions = std::mem::take(&mut reader.positions);
+    Ok((reader.finish()?, positions))
 }
 
 /// Returns the bytes of all buffers; those of the binary chunk are left out.
@@ -189,7 +187,10 @@ struct Reader<'a> {
     numbers: Numbers<'a>,
     read: ObjFile,
     materials: Materials,
-    has_colors: bool,
+    /// Positions in the scene of the file.
+    positions: Vec<DVec3>,
+    /// Number of vertices with a colour.
+    colored: usize,
     unused: BTreeMap<String, usize>,
 }
 
@@ -260,24 +261,29 @@ impl Reader<'_> {
                 return Err(Fault::part(found, format!("{}, as of POSITION", positions.len())));
             }
         }
-        let surface = self.materials.surface(&material, self.document, &self.numbers, self.file)?;
+        let surface = self.materials.surface(
+            &material,
+            colors.is_some(),
+            (self.document, &self.numbers, self.file),
+        )?;
         let mesh = &mut self.read.mesh;
         let starts =
-            [mesh.positions.len(), mesh.uvs.len(), mesh.normals.len()].map(|len| len as u32);
-        let place = |p: [f64; 3]| matrix.transform_point3(p.into()).as_vec3().to_array();
+            [self.positions.len(), mesh.uvs.len(), mesh.normals.len()].map(|len| len as u32);
+        let place = |p: [f64; 3]| matrix.transform_point3(p.into());
         let of_normals = DMat3::from_mat4(matrix).inverse().transpose();
         let turned =
             |n: [f64; 3]| (of_normals * DVec3::from(n)).normalize_or_zero().as_vec3().to_array();
-        self.has_colors |= colors.is_some();
+        let count = positions.len();
+        self.colored += if colors.is_some() { count } else { 0 };
         match colors {
             Some(colors) => {
                 let color = |color: [f64; 3]| color.map(|x| x as f32);
-                self.read.colors.extend(colors.into_iter().map(color));
+                mesh.colors.extend(colors.into_iter().map(color));
             }
-            None => self.read.colors.extend(std::iter::repeat_n([1.0; 3], positions.len())),
+            None => mesh.colors.extend(std::iter::repeat_n([1.0; 3], positions.len())),
         }
         let given = [uvs.is_some(), normals.is_some()];
-        mesh.positions.extend(positions.into_iter().map(place));
+        self.positions.extend(positions.into_iter().map(place));
         mesh.uvs.extend(uvs.into_iter().flatten().map(|uv| coordinates.moved(uv)));
         mesh.normals.extend(normals.into_iter().flatten().map(turned));
         let mirrors = matrix.determinant() < 0.0;
@@ -319,10 +325,11 @@ impl Reader<'_> {
         for name in others {
             self.pass_over(&format!("extension {name}"), 1);
         }
-        if !self.has_colors {
-            self.read.colors = Vec::new();
-        }
         let mut read = self.read;
+        read.colored = self.colored;
+        if self.colored == 0 {
+            read.mesh.colors = Vec::new();
+        }
         let names = self.materials.entries.iter().map(|entry| entry.name.clone());
         read.mesh.surfaces = names.collect();
         read.materials = self.materials.entries;

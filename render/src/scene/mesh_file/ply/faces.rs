@@ -194,7 +194,7 @@ impl Faces {
     }
 
     /// Gives the triangles the normals and texture coordinates of their vertices, and divides polygons.
-    pub(super) fn finish(self, mesh: &mut Mesh) {
+    pub(super) fn finish(self, mesh: &mut Mesh, positions: &[DVec3]) {
         let (by_uv, by_normal) = (!mesh.uvs.is_empty(), !mesh.normals.is_empty());
         let vertices = mesh.uvs.len() as u32;
         for triangle in &mut mesh.triangles {
@@ -209,12 +209,10 @@ impl Faces {
         }
         mesh.uvs.extend(self.uvs);
         mesh.surfaces = self.names;
-        let positions = std::mem::take(&mut mesh.positions);
-        let place = |index: u32| DVec3::from(positions[index as usize].map(f64::from));
+        let place = |index: u32| positions[index as usize];
         for [first, end] in self.fans {
             divide(&mut mesh.triangles[first..end], place);
         }
-        mesh.positions = positions;
     }
 }
 

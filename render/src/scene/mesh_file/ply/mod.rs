@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `x y z`, `nx ny nz` of a vertex | position and normal |
 //! | `s t`, `u v` or `texture_u texture_v` of a vertex | texture coordinates |
-//! | `red green blue` of a vertex, as sRGB | [`ObjFile::colors`], linear |
+//! | `red green blue` of a vertex, as sRGB | colour of the vertex, linear |
 //! | `vertex_indices` or `vertex_index` of a face | triangles inside the polygon |
 //! | `texcoord` of a face | texture coordinates of its corners |
 //! | `vertex_indices` of `tristrips`, separated by -1 | triangles, every other one turned over |
@@ -19,15 +19,18 @@ mod body;
 mod faces;
 mod header;
 
+use super::Placed;
 use super::error::MeshFileError;
 use crate::color::Encoding as ColorEncoding;
 use crate::scene::mtl::{Entry, Map, plain};
 use crate::scene::obj::ObjFile;
 use crate::shape::Mesh;
 use crate::shape::mesh::Triangle;
+use crate::texture::Alpha;
 use body::{Body, Fault, Position};
 use faces::Faces;
 use files::MemoryError;
+use glam::DVec3;
 use header::{Element, Encoding, Header, Property};
 use std::collections::BTreeMap;
 
@@ -45,7 +48,7 @@ pub(super) fn read(
     file: &str,
     bytes: &[u8],
     reserve: &mut dyn FnMut(u64) -> Result<(), MemoryError>,
-) -> Result<ObjFile, MeshFileError> {
+) -> Result<Placed, MeshFileError> {
     let header = Header::read(bytes).map_err(|(number, found, expected)| MeshFileError::Line {
         file: file.into(),
         line: number + 1,
@@ -82,7 +85,7 @@ struct Wrong {
 }
 
 /// Largest numbers of bytes for each vertex and triangle while they are read. Lists grow by doubling.
-const VERTEX: u64 = 2 * (12 + 12 + 8 + 12);
+const VERTEX: u64 = 2 * (12 + 24 + 12 + 8 + 12);
 const TRIANGLE: u64 = 2 * size_of::<Triangle>() as u64;
 
 /// Returns an upper bound of the bytes that the mesh takes while it is read. A face has two triangles less
@@ -137,7 +140,7 @@ const COLOR: std::ops::Range<usize> = 8..11;
 #[derive(Debug)]
 struct Reader {
     mesh: Mesh,
-    colors: Vec<[f32; 3]>,
+    positions: Vec<DVec3>,
     faces: Faces,
     vertices: u64,
     /// Number of lines with more words than their element has numbers.
@@ -150,7 +153,7 @@ impl Reader {
         let of_vertices = |element: &&Element| element.name == "vertex";
         Self {
             mesh: Mesh::default(),
-            colors: Vec::new(),
+            positions: Vec::new(),
             faces: Faces::new(header),
             vertices: header.elements.iter().filter(of_vertices).map(|element| element.count).sum(),
             longer: 0,
@@ -224,8 +227,8 @@ impl Reader {
             }
         }
         let single = numbers.map(|number| number as f32);
-        let [x, y, z, nx, ny, nz, s, t, ..] = single;
-        self.mesh.positions.push([x, y, z]);
+        let [_, _, _, nx, ny, nz, s, t, ..] = single;
+        self.positions.push(DVec3::new(numbers[0], numbers[1], numbers[2]));
         if slots.has(NORMAL) {
             self.mesh.normals.push([nx, ny, nz]);
         }
@@ -234,32 +237,39 @@ impl Reader {
         }
         if slots.has(COLOR) {
             let channel = |k: usize| ColorEncoding::Srgb.decode(numbers[k].clamp(0.0, 1.0)) as f32;
-            self.colors.push([channel(8), channel(9), channel(10)]);
+            self.mesh.colors.push([channel(8), channel(9), channel(10)]);
         }
         Ok(())
     }
 
-    fn finish(mut self, file: &str, header: &Header) -> Result<ObjFile, MeshFileError> {
+    fn finish(mut self, file: &str, header: &Header) -> Result<Placed, MeshFileError> {
         if self.mesh.triangles.is_empty() {
-            let found = format!("{} vertices and no faces", self.mesh.positions.len());
+            let found = format!("{} vertices and no faces", self.positions.len());
             let expected = "a mesh with faces".into();
             return Err(MeshFileError::Part { file: file.into(), found, expected });
         }
-        self.faces.finish(&mut self.mesh);
+        self.faces.finish(&mut self.mesh, &self.positions);
         let picture =
             header.comments.iter().find_map(|comment| comment.strip_prefix("TextureFile "));
         let material = picture.and_then(Map::read).map(|picture| {
             let [name] = &self.mesh.surfaces[..] else { return Vec::new() };
-            vec![Entry { name: name.clone(), material: plain(), picture: Some(picture) }]
+            vec![Entry {
+                name: name.clone(),
+                material: plain(),
+                picture: Some(picture),
+                mask: None,
+                alpha: Alpha::Cut,
+            }]
         });
-        Ok(ObjFile {
+        let read = ObjFile {
             file: file.into(),
+            colored: self.mesh.colors.len(),
             mesh: self.mesh,
-            colors: self.colors,
             materials: material.unwrap_or_default(),
             unused: self.unused.into_iter().collect(),
             ..ObjFile::default()
-        })
+        };
+        Ok((read, self.positions))
     }
 }
 
