@@ -105,22 +105,15 @@ fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Fault> {
 
 /// Returns the fault of JSON that is no glTF.
 fn json_fault(json: &[u8], error: &gltf::json::Error) -> Fault {
-    let lines = json.split(|&byte| byte == b'\n').take(error.line().saturating_sub(1));
-    let offset = lines.map(|line| line.len() + 1).sum::<usize>() + error.column().saturating_sub(1);
-    let has_old_asset =
-        json.windows(11).any(|part| part == b"\"version\":\"" || part == b"\"techniques");
-    let old = if has_old_asset && json.windows(12).any(|part| part == b"\"techniques\"") {
-        "; it may be of version 1.0"
+    let (line, column) = (error.line(), error.column());
+    // Version 1.0 has objects where version 2.0 has lists.
+    let is_old = json.windows(12).any(|part| part == b"\"techniques\"");
+    let expected = if is_old {
+        "glTF 2.0; the file seems to be of version 1.0"
     } else {
-        ""
+        "the keys and values of glTF 2.0"
     };
-    let found = format!(
-        "JSON that is no glTF 2.0 at line {}, column {}{old}",
-        error.line(),
-        error.column()
-    );
-    let _ = offset;
-    Fault::part(found, "the keys and values of glTF 2.0")
+    Fault::part(format!("a fault of the JSON at line {line}, column {column}"), expected)
 }
 
 pub(super) fn shown(text: &str) -> String {
