@@ -247,7 +247,8 @@ impl Run<'_> {
         let folder = mesh.spec.parent().unwrap_or(Path::new(""));
         // A scene does not move its meshes, so the scene's camera sees each mesh as a camera in the
         // spec would.
-        let CameraFile { eye, target, up, fov_deg } = *camera;
+        let CameraFile { eye, target, up, .. } = *camera;
+        let fov_deg = camera.angle_deg();
         let size = [self.options.size.0, self.options.size.1];
         let camera = Some(Camera { eye, target, up, fov_deg, size });
         let seen = spec::Resolution {
