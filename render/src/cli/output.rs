@@ -3,11 +3,11 @@
 use super::{EncodeError, UseError};
 use clap::Args;
 use files::{FileError, Ledger, Output, Report, input, words};
-use render::{Picture, Settings};
 use render::color::Encoding;
 use render::film::Layer;
 use render::film::command::{Named, command};
 use render::film::encode::{self, Bits, Coding, Format};
+use render::{Picture, Settings};
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 

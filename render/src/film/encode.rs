@@ -147,7 +147,8 @@ fn write_png(
     let straight = |k: usize| alpha::straight(picture.pixels[k], alpha(k));
     let count = 0..picture.pixels.len();
     let channels = if coverage.is_some() { 4 } else { 3 };
-    let mut data = Vec::with_capacity(count.len() * channels * (1 + usize::from(*bits == Bits::Sixteen)));
+    let mut data =
+        Vec::with_capacity(count.len() * channels * (1 + usize::from(*bits == Bits::Sixteen)));
     match bits {
         Bits::Eight => {
             encoder.set_depth(png::BitDepth::Eight);

@@ -159,16 +159,17 @@ impl Filter {
         let low = texture.floats.as_ref().map(|floats| &floats.low);
         let parts = low.into_iter().chain(texture.mask.as_deref());
         let parts = parts.map(|part| self.bytes_for(part)).sum::<u64>();
-        parts + match self {
-            Self::Point | Self::Bilinear => 0,
-            Self::Mip | Self::Ewa8 | Self::Ewa16 | Self::Ewa64 | Self::Probes => {
-                Pyramid::bytes_for(texture)
+        parts
+            + match self {
+                Self::Point | Self::Bilinear => 0,
+                Self::Mip | Self::Ewa8 | Self::Ewa16 | Self::Ewa64 | Self::Probes => {
+                    Pyramid::bytes_for(texture)
+                }
+                Self::Box => PrefilteredTable::bytes_for(texture, 1),
+                Self::Tent => PrefilteredTable::bytes_for(texture, 2),
+                Self::Quadratic => PrefilteredTable::bytes_for(texture, 3),
+                Self::Exact => Exact::bytes_for(texture),
             }
-            Self::Box => PrefilteredTable::bytes_for(texture, 1),
-            Self::Tent => PrefilteredTable::bytes_for(texture, 2),
-            Self::Quadratic => PrefilteredTable::bytes_for(texture, 3),
-            Self::Exact => Exact::bytes_for(texture),
-        }
     }
 }
 
@@ -358,13 +359,14 @@ impl<'a> FilteredTexture<'a> {
     pub fn table_bytes(&self) -> usize {
         let parts = self.low.iter().chain(&self.mask);
         let parts = parts.map(|part| part.table_bytes()).sum::<usize>();
-        parts + match &self.prepared {
-            Prepared::Texel | Prepared::FourTexels => 0,
-            Prepared::Pyramid(pyramid) | Prepared::Probes(pyramid) => pyramid.bytes(),
-            Prepared::Ewa(ewa) => ewa.bytes(),
-            Prepared::Table(table) => table.bytes(),
-            Prepared::Exact(exact) => exact.bytes(),
-        }
+        parts
+            + match &self.prepared {
+                Prepared::Texel | Prepared::FourTexels => 0,
+                Prepared::Pyramid(pyramid) | Prepared::Probes(pyramid) => pyramid.bytes(),
+                Prepared::Ewa(ewa) => ewa.bytes(),
+                Prepared::Table(table) => table.bytes(),
+                Prepared::Exact(exact) => exact.bytes(),
+            }
     }
 }
 

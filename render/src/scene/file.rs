@@ -128,9 +128,7 @@ mod texture;
 
 pub use background::{BackgroundFile, EnvironmentFile, SkyFile};
 pub use color::{ColorFile, SurfaceColorFile};
-pub use light::{
-    DirectionalLightFile, FalloffFile, LightFile, PointLightFile, SpotLightFile,
-};
+pub use light::{DirectionalLightFile, FalloffFile, LightFile, PointLightFile, SpotLightFile};
 pub use material::{MaterialFile, ThinFilmFile};
 pub use object::{BoxFile, MeshFile, ObjectFile, OneOrMore, PlaneFile, RectangleFile};
 pub use object::{RotateDegFile, SphereFile, StepFile, SuperquadricFile};

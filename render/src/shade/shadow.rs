@@ -74,8 +74,7 @@ impl Shadows {
             Light::Directional(light) => (light.toward, f64::INFINITY),
         };
         self.rays.push((Ray::leaving(start.piece, start.position, direction), distance));
-        let differential =
-            start.changes.map(|origin| RayDifferential { origin, direction: turns });
+        let differential = start.changes.map(|origin| RayDifferential { origin, direction: turns });
         self.differentials.push(differential);
         self.lights.push(facing);
     }
@@ -264,11 +263,11 @@ fn transparency(scene: &Scene, (object, part): (u32, u32)) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shade::View;
     use crate::accel::{Accel, Structure};
     use crate::procedural::Procedural;
     use crate::ray::Piece;
     use crate::scene::{Background, Camera, Material, Names, Object, Surface};
+    use crate::shade::View;
     use crate::shape::{Quad, Shape, Sphere};
     use crate::trace::tree::{Branch, Node};
     use crate::trace::volume::Volumes;

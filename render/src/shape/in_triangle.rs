@@ -73,7 +73,8 @@ mod tests {
     /// A triangle with its corners on the unit sphere, and the sphere's normals.
     fn on_a_sphere() -> Shape {
         let positions = vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-        let triangle = Triangle { position: [0, 1, 2], uv: [NONE; 3], normal: [0, 1, 2], surface: 0 };
+        let triangle =
+            Triangle { position: [0, 1, 2], uv: [NONE; 3], normal: [0, 1, 2], surface: 0 };
         Shape::Mesh(Mesh {
             normals: positions.clone(),
             colors: vec![[1.0, 0.0, 0.0], [0.0, 0.5, 0.0], [0.0, 0.0, 0.25]],

@@ -168,7 +168,8 @@ mod tests {
         let corners = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]];
         for (z, direction) in [(2.0, DVec3::NEG_Z), (-2.0, DVec3::Z)] {
             let ray = ShearedRay::new(DVec3::new(1.0, 2.0, z), direction);
-            let ((t, weights), _) = ray.intersect(&by_axis(&corners, DVec3::ZERO), f64::INFINITY).unwrap();
+            let ((t, weights), _) =
+                ray.intersect(&by_axis(&corners, DVec3::ZERO), f64::INFINITY).unwrap();
             assert_eq!((t, weights), (2.0, [0.25, 0.5]));
             assert!(ray.intersect(&by_axis(&corners, DVec3::ZERO), 1.9).is_none());
         }

@@ -15,12 +15,7 @@ const MOST: u16 = u16::MAX;
 impl Texture {
     /// Creates a texture from a decoded picture. Grey becomes three equal channels.
     #[must_use]
-    pub fn from_picture(
-        picture: &DynamicImage,
-        values: Values,
-        wrap: Wrap,
-        alpha: Alpha,
-    ) -> Self {
+    pub fn from_picture(picture: &DynamicImage, values: Values, wrap: Wrap, alpha: Alpha) -> Self {
         let (width, height) = (picture.width() as usize, picture.height() as usize);
         let bytes = bytes_per_channel(picture.color());
         let has_alpha = alpha == Alpha::Cut && picture.color().has_alpha();
@@ -180,8 +175,10 @@ fn of_floats(channels: &[[f32; 3]], [width, height]: [usize; 2], wrap: Wrap) -> 
         [whole.floor() as u16, low as u16]
     };
     let both = channels.iter().map(|texel| texel.map(digits));
-    let (texels, low) = both.map(|both| (both.map(|[high, _]| high), both.map(|[_, low]| low))).unzip();
-    let texture = |texels| Texture { width, height, wrap, texels, white: MOST, ..Texture::default() };
+    let (texels, low) =
+        both.map(|both| (both.map(|[high, _]| high), both.map(|[_, low]| low))).unzip();
+    let texture =
+        |texels| Texture { width, height, wrap, texels, white: MOST, ..Texture::default() };
     let floats = Some(Box::new(Floats { low: texture(low), light }));
     Texture { floats, ..texture(texels) }
 }
@@ -194,8 +191,7 @@ mod tests {
     #[test]
     fn encoded_texels_become_16_bit_light() {
         let white = RgbImage::from_pixel(1, 1, Rgb([255, 188, 0]));
-        let texture =
-            Texture::from_picture(&white.into(), Values::Srgb, Wrap::Clamp, Alpha::Cut);
+        let texture = Texture::from_picture(&white.into(), Values::Srgb, Wrap::Clamp, Alpha::Cut);
         assert_eq!((texture.white, texture.texels[0]), (65535, [65535, 32957, 0]));
     }
 
@@ -232,13 +228,17 @@ mod tests {
 
     #[test]
     fn a_mask_of_another_size_cuts_out_a_picture() {
-        let grey = image::GrayImage::from_fn(4, 1, |x, _| image::Luma([if x < 2 { 0 } else { 255 }]));
+        let grey =
+            image::GrayImage::from_fn(4, 1, |x, _| image::Luma([if x < 2 { 0 } else { 255 }]));
         let mask = Texture::mask_of_picture(&grey.into(), Wrap::Repeat);
         let cut = Texture::white(Wrap::Repeat).cut_out_by(&mask);
         assert_eq!((cut.width, cut.height), (4, 1));
         assert_eq!(cut.texels, [[0; 3], [0; 3], [65535; 3], [65535; 3]]);
         assert_eq!(cut.mask.map(|mask| mask.texels), Some(mask.texels));
-        let all = Texture { texels: vec![[65535; 3]; 4], ..Texture::mask_of_picture(&image::GrayImage::new(4, 1).into(), Wrap::Repeat) };
+        let all = Texture {
+            texels: vec![[65535; 3]; 4],
+            ..Texture::mask_of_picture(&image::GrayImage::new(4, 1).into(), Wrap::Repeat)
+        };
         assert_eq!(Texture::white(Wrap::Repeat).cut_out_by(&all).mask, None);
     }
 }

@@ -64,9 +64,10 @@ impl Split {
             Some(Turned { direction, by_facet: true, is_straight: false })
         };
         let (refracted, share) = match optics::refract(incident, normal, eta) {
-            Some(direction) if direction.dot(geometric_normal) < 0.0 => {
-                (Some(Turned { direction, by_facet: false, is_straight: false }), reflectance(normal))
-            }
+            Some(direction) if direction.dot(geometric_normal) < 0.0 => (
+                Some(Turned { direction, by_facet: false, is_straight: false }),
+                reflectance(normal),
+            ),
             // The facet's normal replaces an interpolated normal that would keep the ray on this side.
             Some(_) => (by_facet(), reflectance(normal)),
             None if normal == geometric_normal => (None, reflectance(normal)),

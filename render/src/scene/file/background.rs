@@ -123,9 +123,9 @@ impl<'de> Visitor<'de> for BackgroundVisitor {
                 let turn_deg = turn_deg.unwrap_or_default();
                 Ok(BackgroundFile::Picture(EnvironmentFile { picture, turn_deg }))
             }
-            _ => Err(de::Error::custom(
-                "expected by_elevation, or picture with or without turn_deg",
-            )),
+            _ => {
+                Err(de::Error::custom("expected by_elevation, or picture with or without turn_deg"))
+            }
         }
     }
 }

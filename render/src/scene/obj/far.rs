@@ -11,8 +11,9 @@ use glam::DVec3;
 pub(super) fn positions(text: &str, mesh: &Mesh) -> Option<Vec<DVec3>> {
     let used = mesh.triangles.iter().flat_map(|triangle| triangle.position);
     let places = used.map(|index| as_dvec3(mesh.positions[index as usize]));
-    let [low, high] = places
-        .fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[low, high], at| [low.min(at), high.max(at)]);
+    let [low, high] = places.fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[low, high], at| {
+        [low.min(at), high.max(at)]
+    });
     if !offset::is_far((high - low).max_element(), low.abs().max(high.abs()).max_element()) {
         return None;
     }

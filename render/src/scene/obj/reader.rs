@@ -1,7 +1,7 @@
 //! Reads the lines of an OBJ file into a mesh.
 
-use super::{colors, far, polygon};
 use super::{ObjError, ObjFile, shortened};
+use super::{colors, far, polygon};
 use crate::scene::text::{keyword, words};
 use crate::shape::Mesh;
 use crate::shape::mesh::{NONE, Triangle};

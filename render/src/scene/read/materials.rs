@@ -2,8 +2,8 @@
 
 use super::ranges::Ranges;
 use super::{Reader, SceneError};
-use crate::optics::thin_film::ThinFilm;
 use crate::color::Color;
+use crate::optics::thin_film::ThinFilm;
 use crate::scene::file::{MaterialFile, SurfaceColorFile, ThinFilmFile};
 use crate::scene::{AngleRamp, Material};
 use std::sync::Arc;

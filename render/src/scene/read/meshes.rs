@@ -334,7 +334,8 @@ fn keep_shown_colors(
     (file, count): (String, usize),
     scene: &mut Scene,
 ) {
-    if mesh.colors.is_empty() || parts.iter().any(|part| scene.materials[part.material].vertex_colors)
+    if mesh.colors.is_empty()
+        || parts.iter().any(|part| scene.materials[part.material].vertex_colors)
     {
         return;
     }
