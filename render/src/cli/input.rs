@@ -95,6 +95,17 @@ impl InputArguments {
         then(&draft, scene)
     }
 
+    /// Returns the names of the meshes that are given.
+    pub fn mesh_names(&self) -> Vec<&str> {
+        self.meshes.iter().map(|mesh| mesh.name.as_str()).collect()
+    }
+
+    /// Returns the file name of the scene, without its folders.
+    pub fn file_name(&self) -> String {
+        let name = self.scene().file_name().unwrap_or(self.scene().as_os_str());
+        name.to_string_lossy().into_owned()
+    }
+
     /// Returns the name of the scene in messages.
     pub fn name(&self) -> String {
         input::name_of(self.scene())

@@ -6,9 +6,11 @@
 //! samples of its neighbours too. Each tile is therefore complete by itself, and the picture does
 //! not depend on the tiles or on the threads. `exposure.rs` is the interface for other methods.
 
+pub mod alpha;
 mod area;
 mod base;
 mod bytes;
+pub mod command;
 pub mod crop;
 pub mod encode;
 mod exposure;

@@ -144,6 +144,25 @@ impl Shader<'_> {
         color
     }
 
+    /// Moves a sight behind the cut-outs that cover less than half of its footprint.
+    #[must_use]
+    pub fn behind_cutouts<S: Sight>(&self, mut sight: S) -> S {
+        while let Some(node) = sight.node()
+            && node.pass_weight != Color::ZERO
+        {
+            let object = &self.scene.objects[node.piece.object as usize];
+            let picture = object.parts[node.part as usize].picture();
+            let Some(texture) = picture.and_then(|index| self.textures[index].as_ref()) else {
+                break;
+            };
+            if texture.coverage(&self.footprints(node, &sight, texture)[1]) >= 0.5 {
+                break;
+            }
+            sight = sight.step(Child::Refracted);
+        }
+        sight
+    }
+
     /// Returns the footprint of a node on its texture, and the part of it that the filter averages.
     fn footprints<S: Sight>(
         &self,

@@ -4,7 +4,7 @@ use super::{Shader, ShadowStart};
 use crate::color::Color;
 use crate::differential::{self, RayDifferential};
 use crate::ray::{Hit, Ray};
-use crate::scene::{Light, PointLight, Scene};
+use crate::scene::{Light, PointLight, Scene, SpotLight};
 use crate::trace::medium::{Media, Medium};
 use glam::DVec3;
 
@@ -62,7 +62,8 @@ impl Shadows {
     pub fn add(&mut self, scene: &Scene, start: &ShadowStart, facing: Facing) {
         let mut turns = [DVec3::ZERO; 2];
         let (direction, distance) = match scene.lights[facing.light] {
-            Light::Point(PointLight { position, .. }) => {
+            Light::Point(PointLight { position, .. })
+            | Light::Spot(SpotLight { point: PointLight { position, .. }, .. }) => {
                 let toward = position - start.position;
                 let distance = toward.length();
                 if let Some(changes) = start.changes {
@@ -152,7 +153,11 @@ impl Shader<'_> {
     /// Returns whether a light lies on the surface that its ray hits. The distance between both is
     /// measured across the surface, as at the ray's start.
     fn holds_light(&self, ray: &Ray, distance: f64, hit: &Hit, light: &Light) -> bool {
-        let Light::Point(PointLight { position, .. }) = *light else { return false };
+        let (Light::Point(PointLight { position, .. })
+        | Light::Spot(SpotLight { point: PointLight { position, .. }, .. })) = *light
+        else {
+            return false;
+        };
         let Some(from) = ray.leaving else { return false };
         let normal = self.accel.geometric_normal(ray, hit);
         let gap = (distance - hit.t) * normal.dot(ray.direction).abs();

@@ -144,7 +144,13 @@ impl<'a> Tracer<'a> {
         tree.clear();
         counts.primary += 1;
         let mut media = std::mem::take(&mut tree.media);
-        media.start_in(&self.around_eye);
+        if self.scene.camera.is_orthographic() && self.volumes.any() {
+            // Each ray starts at a place of its own.
+            let (ray, _) = carried;
+            media = self.volumes.around(self.scene, self.accel, ray.origin);
+        } else {
+            media.start_in(&self.around_eye);
+        }
         let path = Path { depth: 0, passed: 0, weight: Color::ONE };
         (tree.root, tree.through) = self.follow(carried, &mut media, path, tree, counts);
         tree.media = media;

@@ -93,7 +93,7 @@ pub fn findings(subject: &Subject<'_>) -> Coincidences {
                         item.path,
                         item.kind
                     );
-                    pair(subject, &subject.items[other], item, &what)
+                    on_mesh(subject, &subject.items[other], item, &what)
                 }
             }
         })
@@ -263,6 +263,15 @@ fn pair(subject: &Subject<'_>, item: &Item<'_>, other: &Item<'_>, what: &str) ->
     }
     let message = format!("{what}; of the two only the first in the scene is seen");
     Finding::new(Severity::Remark, &item.path, message)
+}
+
+/// Describes triangles on a flat object. Their distances along a ray are rounded in different manners.
+fn on_mesh(subject: &Subject<'_>, item: &Item<'_>, flat: &Item<'_>, what: &str) -> Finding {
+    if subject.is_clear(item) || subject.is_clear(flat) {
+        return pair(subject, item, flat, what);
+    }
+    let message = format!("{what}; rounding decides at each point which of the two is seen");
+    Finding::new(Severity::Hint, &item.path, message)
 }
 
 fn coplanar(a: &Quad, b: &Quad) -> bool {
