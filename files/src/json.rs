@@ -5,12 +5,15 @@
 //! misspelt key, the complaint suggests a known one. Checks that only the reader of the value can make
 //! (a radius must be positive) go through [`Document::fault`], which finds the position from the path.
 
+mod mistakes;
+
 pub use crate::words::nearest;
 
 use crate::{Exit, Failure, words};
 use jsonc_parser::ast::Value;
 use jsonc_parser::common::Ranged;
 use jsonc_parser::{CollectOptions, ParseOptions, parse_to_ast};
+use mistakes::Mistake;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_path_to_error::{Path, Segment};
@@ -61,20 +64,25 @@ impl<'a> Document<'a> {
     /// # Errors
     /// When the bytes are not UTF-8 text, or are empty.
     pub fn new(file: &'a str, bytes: &'a [u8]) -> Result<Self, JsonError> {
-        let at = |line, message: String| JsonError {
+        let at = |(line, column), message: String| JsonError {
             file: file.into(),
             line,
-            column: 1,
+            column,
             path: String::new(),
             message,
         };
         let text = std::str::from_utf8(bytes).map_err(|error| {
-            let line = 1 + bytes[..error.valid_up_to()].iter().filter(|&&b| b == b'\n').count();
-            at(line, "found bytes that are not UTF-8, expected JSON text".into())
+            if let Some(kind) = mistakes::other_kind(bytes) {
+                return at((1, 1), format!("found {kind}, expected JSON text"));
+            }
+            let good = bytes.get(..error.valid_up_to()).unwrap_or_default();
+            let good = String::from_utf8_lossy(good);
+            let place = place(good.strip_prefix('\u{feff}').unwrap_or(&good));
+            at(place, "found bytes that are not UTF-8, expected JSON text".into())
         })?;
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         if text.trim().is_empty() {
-            return Err(at(1, "found nothing, expected a JSON object".into()));
+            return Err(at((1, 1), "found nothing, expected a JSON object".into()));
         }
         Ok(Self { file, text })
     }
@@ -124,15 +132,25 @@ impl<'a> Document<'a> {
     #[must_use]
     pub fn fault(&self, path: &str, message: impl Into<String>) -> JsonError {
         let offset = offset_of(self.text, path).unwrap_or(0);
-        let before = &self.text[..offset];
-        let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+        let (line, column) = place(&self.text[..offset]);
         JsonError {
             file: self.file.into(),
-            line: 1 + before.matches('\n').count(),
-            column: 1 + before[line_start..].chars().count(),
+            line,
+            column,
             path: words::shortened(path),
             message: words::cut(&message.into(), LONGEST_MESSAGE).to_string(),
         }
+    }
+
+    /// Returns the byte of a line and column by serde: lines count from 1, and columns are bytes from 1.
+    fn offset_of(&self, line: usize, column: usize) -> usize {
+        let mut starts = self.text.match_indices('\n').map(|(at, _)| at + 1);
+        let start = if line <= 1 { 0 } else { starts.nth(line - 2).unwrap_or(self.text.len()) };
+        let mut offset = (start + column.saturating_sub(1)).min(self.text.len());
+        while !self.text.is_char_boundary(offset) {
+            offset -= 1;
+        }
+        offset
     }
 
     fn serde_error(&self, path: String, error: &serde_json::Error) -> JsonError {
@@ -151,14 +169,34 @@ impl<'a> Document<'a> {
                 return fault;
             }
         }
+        let stopped = self.offset_of(error.line(), error.column());
+        if !error.is_data()
+            && let Some(Mistake { offset, message }) = mistakes::find(self.text, stopped)
+        {
+            let (line, column) = place(&self.text[..offset]);
+            return JsonError {
+                file: self.file.into(),
+                line,
+                column,
+                path: String::new(),
+                message,
+            };
+        }
+        let (line, column) = place(&self.text[..stopped]);
         JsonError {
             file: self.file.into(),
-            line: error.line().max(1),
-            column: error.column().max(1),
+            line,
+            column,
             path: words::shortened(&path),
             message: words::cut(&message, LONGEST_MESSAGE).to_string(),
         }
     }
+}
+
+/// Returns line and column of the character after a text, both from 1.
+fn place(before: &str) -> (usize, usize) {
+    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+    (1 + before.matches('\n').count(), 1 + before[line_start..].chars().count())
 }
 
 /// The keys that begin every file of this project.
@@ -264,6 +302,31 @@ mod tests {
     fn a_key_in_broken_text_is_placed_where_reading_stopped() {
         let text = complaint("{\n \"contuor\": 1, }}");
         assert!(text.starts_with("a.json:2:10: contuor: unknown key"), "{text}");
+    }
+
+    #[test]
+    fn common_mistakes_are_named_where_they_are() {
+        for (text, expected) in [
+            ("{\"contour\": // round\n{}}", "a.json:1:13: found a comment"),
+            ("/* a */ {}", "a.json:1:1: found a comment"),
+            ("{\n  # round\n}", "a.json:2:3: found a comment"),
+            ("{\"contour\": {\"circle\": NaN}}", "a.json:1:24: found NaN, expected a number"),
+            ("{\"contour\": {\"circle\": -Infinity}}", "a.json:1:24: found Infinity"),
+            ("{\"contour\": {\"circle\": 1,}}", "a.json:1:25: found a comma after the last value"),
+            ("{\"contour\": {\"free\": [[1, 2], ]}}", "a.json:1:30: found a comma"),
+            ("{'contour': 1}", "a.json:1:2: found a single quote"),
+            ("# mesh\nv 1 2 3\nf 1 1 1\n", "a.json:1:1: found an OBJ mesh, expected JSON text"),
+            ("ply\nformat ascii 1.0\n", "a.json:1:1: found a PLY mesh"),
+        ] {
+            let complaint = complaint(text);
+            assert!(complaint.starts_with(expected), "{text}: {complaint}");
+        }
+        let text = "{\"ü\": \"ü\", \"b\" 1}";
+        let error = Document::new("b", text.as_bytes()).unwrap().parse::<serde_json::Value>();
+        assert_eq!(error.unwrap_err().column, 16, "columns are characters");
+        let bytes = [&b"{\n  \"n\": \"\xc3\xbc"[..], b"\xff\"}"].concat();
+        let error = Document::new("b", &bytes).unwrap_err();
+        assert_eq!((error.line, error.column), (2, 10));
     }
 
     #[test]

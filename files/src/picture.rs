@@ -27,9 +27,8 @@ use thiserror::Error;
 
 pub use image::ImageFormat as Format;
 
-/// The formats of pictures that cover surfaces. An EXR holds floating point values, which those who take
-/// whole numbers refuse after decoding.
-pub const SURFACES: [Format; 8] = [
+/// The formats of pictures that cover surfaces. HDR and EXR hold floating point values.
+pub const SURFACES: [Format; 9] = [
     Format::Png,
     Format::Jpeg,
     Format::Tga,
@@ -37,6 +36,7 @@ pub const SURFACES: [Format; 8] = [
     Format::Tiff,
     Format::WebP,
     Format::Gif,
+    Format::Hdr,
     Format::OpenExr,
 ];
 

@@ -9,6 +9,7 @@
 pub mod book;
 pub mod calibrate;
 pub mod cli;
+mod coding;
 pub mod contact_sheet;
 pub mod error;
 pub mod html;

@@ -22,5 +22,6 @@ pub fn for_render(mesh: TriMesh) -> Mesh {
         uvs: mesh.uvs,
         normals: mesh.normals,
         surfaces,
+        ..Mesh::default()
     }
 }

@@ -2,14 +2,14 @@
 
 use crate::job::{MeshJob, Mode};
 use crate::stages::Stages;
-use crate::{Job, PipelineError, mesh};
+use crate::{Job, PipelineError, coding, mesh};
 use files::json::Document;
 use files::memory::{Reserved, of_process};
 use files::words::shown;
 use files::{Batch, MemoryError, Output, Source, input};
 use render::accuracy::{self, Statement};
 use render::color::Encoding;
-use render::film::encode::{self, Format};
+use render::film::encode::{self, Coding, Format};
 use render::film::{BasePicture, PixelFilter, memory};
 use render::filter::Filter;
 use render::scene::file::CameraFile;
@@ -134,7 +134,8 @@ pub fn run_in(
     }
     if let Some(strip) = job.strip_file() {
         let started = Instant::now();
-        run.write_picture(&strip, &Picture::side_by_side(&pictures, GAP))?;
+        let coding = Coding::new(Encoding::Srgb);
+        run.write_picture(&strip, &Picture::side_by_side(&pictures, GAP), &coding)?;
         run.took(Stages { write: started.elapsed(), ..Stages::default() });
     }
     Ok(run.stages.get())
@@ -247,7 +248,8 @@ impl Run<'_> {
         let folder = mesh.spec.parent().unwrap_or(Path::new(""));
         // A scene does not move its meshes, so the scene's camera sees each mesh as a camera in the
         // spec would.
-        let CameraFile { eye, target, up, fov_deg } = *camera;
+        let CameraFile { eye, target, up, .. } = *camera;
+        let fov_deg = camera.angle_deg();
         let size = [self.options.size.0, self.options.size.1];
         let camera = Some(Camera { eye, target, up, fov_deg, size });
         let seen = spec::Resolution {
@@ -326,7 +328,8 @@ impl Run<'_> {
             }
         };
         let started = Instant::now();
-        self.write_picture(&self.job.picture_file(mode), &picture)?;
+        let coding = coding::of(self.job, &settings, mode.error);
+        self.write_picture(&self.job.picture_file(mode), &picture, &coding)?;
         stats.read_time = read_time;
         stats.write_time = started.elapsed();
         self.took(Stages::of_mode(&stats));
@@ -340,9 +343,14 @@ impl Run<'_> {
         Ok(picture)
     }
 
-    fn write_picture(&self, name: &str, picture: &Picture) -> Result<(), PipelineError> {
+    fn write_picture(
+        &self,
+        name: &str,
+        picture: &Picture,
+        coding: &Coding,
+    ) -> Result<(), PipelineError> {
         let Some(batch) = self.batch else { return Ok(()) };
-        let bytes = encode::encode(picture, Format::Png, Encoding::Srgb)
+        let bytes = encode::encode_as(picture, Format::Png, coding)
             .map_err(|source| PipelineError::Encode { name: name.into(), source })?;
         self.write(batch, name, |out| {
             out.write_all(&bytes).map_err(|source| out.failed(source).into())

@@ -11,8 +11,9 @@ use clap::Parser;
 use files::memory::of_process;
 use files::progress::Progress;
 use files::{Exit, Failure, Report};
-use render::film::{BasePicture, Crop, Layer, memory};
+use render::film::{self, BasePicture, Crop, Layer, alpha, memory};
 use render::scene::{self, schema};
+use render::shade::View;
 use render::{Prepared, Sampling, Settings, inspect};
 use std::time::Instant;
 use thiserror::Error;
@@ -147,7 +148,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
     let target = output.target(sampling.pixel.is_some(), &ledger)?;
     input.expect(&ledger)?;
     let (width, height) = sampling.size;
-    let settings = Settings {
+    let mut settings = Settings {
         sampling: sampling.sampling()?,
         crop: sampling.crop,
         layers: output.layers(),
@@ -164,6 +165,10 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
     let started = Instant::now();
     let scene = input.read_scene(&ledger, |_, scene| Ok(scene))?;
     work.print_remarks(&scene);
+    let is_transparent = target.is_some() && (output.alpha || scene.is_transparent);
+    if is_transparent {
+        settings.view = View::Foreground;
+    }
     // A pixel alone is a complete picture.
     let of_pixel =
         |(x, y)| Settings { crop: Some(Crop { x, y, width: 1, height: 1 }), ..settings.clone() };
@@ -177,6 +182,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
     let pixels = u64::from(width) * u64::from(height);
     let first = pixels.saturating_mul(BasePicture::of_pixel(sampling.pixel_filter));
     let first = if accuracy.chooses() { first } else { 0 };
+    // The coverage and its picture, and the wider codes of a PNG.
+    let more = if is_transparent { 16 + 4 } else { 0 } + output.more_bytes();
+    let _more = of_process().reserve(pixels.saturating_mul(more), || "the picture".into())?;
     let _first = of_process().reserve(first, || "the first rays of all pixels".into())?;
     let read_time = started.elapsed();
 
@@ -184,11 +192,19 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
     let prepared = Prepared::new(&scene);
     if let Some(target) = target {
         let progress = Progress::new("render", work.quiet);
-        let (picture, mut stats, statement) = pool
+        let (mut picture, mut stats, statement) = pool
             .install(|| accuracy.render(&prepared, &settings, sampling.pixel_filter, &progress));
         drop(progress);
+        if is_transparent {
+            let (view, layers) = (View::Coverage, Vec::new());
+            let settings = Settings { view, layers, ..settings.clone() };
+            let (open, _) = pool.install(|| film::render(&prepared, &settings, &|_, _| {}));
+            alpha::add(&mut picture, &open);
+        }
         let started = Instant::now();
-        output.write(&target, &picture, &ledger)?;
+        let (scene, meshes) = (input.file_name(), input.mesh_names());
+        let named = output.named(&scene, &meshes, accuracy.error(), is_transparent);
+        output.write(&target, &picture, &settings, &named, &ledger)?;
         stats.read_time = read_time;
         stats.write_time = started.elapsed();
         work.print_stats(&stats);

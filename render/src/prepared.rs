@@ -9,7 +9,7 @@
 use crate::accel::{Accel, Structure};
 use crate::filter::{Filter, FilteredTexture};
 use crate::scene::Scene;
-use crate::shade::Shader;
+use crate::shade::{Shader, View};
 use crate::shape::Charts;
 use crate::trace::medium::Media;
 use crate::trace::volume::Volumes;
@@ -107,7 +107,8 @@ impl<'a> Prepared<'a> {
         built.table_time = started.elapsed();
         let volumes = &self.volumes;
         let scene = self.scene;
-        (Shader { scene, accel, textures, charts, wants_area, volumes, around_lights }, built)
+        let view = View::Whole;
+        (Shader { scene, accel, textures, charts, wants_area, volumes, around_lights, view }, built)
     }
 
     /// Returns a structure that finds the hits of rays.

@@ -1,8 +1,9 @@
 //! A picture as integer texels of linear light.
 
-use crate::color::{Color, Encoding};
+mod pixels;
+
+use crate::color::Color;
 use glam::{DVec2, DVec3};
-use image::{ColorType, DynamicImage};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -29,6 +30,24 @@ pub struct Texture {
     pub texels: Vec<[u16; 3]>,
     /// The largest code that can occur, which stands for 1.
     pub white: u16,
+    /// The lower digits of a picture of floating point values.
+    pub floats: Option<Box<Floats>>,
+    /// The coverage of the texels, three equal codes each, if some texels are transparent. The texels are
+    /// then multiplied by it. A surface is cut out by the mask.
+    pub mask: Option<Box<Texture>>,
+}
+
+/// The lower digits of a picture of floating point values.
+///
+/// A channel is `light (code + low / 65535)`, where `code` and `low` are whole numbers over 65535. Two
+/// digits of 16 bits hold brightness from 1 to 1 / 4,294,836,225 of the brightest channel. All filters
+/// average both digits as they average any texels.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Floats {
+    /// The lower digits, of the same size as the picture.
+    pub low: Texture,
+    /// Light of the brightest channel, positive.
+    pub light: f64,
 }
 
 /// The continuation of a texture beyond its edges.
@@ -55,51 +74,24 @@ pub enum Values {
     Linear,
 }
 
+/// The use of a picture's alpha channel.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Alpha {
+    /// Transparent texels cut out the surface.
+    #[default]
+    Cut,
+    /// All texels are opaque.
+    Ignore,
+}
+
 impl Texture {
-    /// Creates a texture from a decoded picture. Transparency is ignored, and grey becomes three
-    /// equal channels. Returns `None` for a picture of floating point values.
-    #[must_use]
-    pub fn from_picture(picture: &DynamicImage, values: Values, wrap: Wrap) -> Option<Self> {
-        let (width, height) = (picture.width() as usize, picture.height() as usize);
-        let wide = match bytes_per_channel(picture.color()) {
-            1 => false,
-            2 => true,
-            _ => return None,
-        };
-        let (codes, coded_white): (Vec<[u16; 3]>, u16) = if wide {
-            (picture.to_rgb16().pixels().map(|pixel| pixel.0).collect(), u16::MAX)
-        } else {
-            (picture.to_rgb8().pixels().map(|pixel| pixel.0.map(u16::from)).collect(), 255)
-        };
-        let (texels, white) = match values {
-            Values::Linear => (codes, coded_white),
-            Values::Srgb => {
-                let linear: Vec<u16> = (0..=coded_white)
-                    .map(|code| {
-                        let light = Encoding::Srgb.decode(f64::from(code) / f64::from(coded_white));
-                        (light * f64::from(u16::MAX)).round() as u16
-                    })
-                    .collect();
-                let decode = |texel: [u16; 3]| texel.map(|code| linear[usize::from(code)]);
-                (codes.into_iter().map(decode).collect(), u16::MAX)
-            }
-        };
-        Some(Self { name: String::new(), width, height, wrap, texels, white })
-    }
-
-    /// Returns the bytes per pixel while a picture of this kind becomes a texture: decoded, as
-    /// codes and as texels, all at once. The decoder's own working memory is not included.
-    #[must_use]
-    pub fn decoding_bytes(kind: ColorType) -> u64 {
-        let wide = bytes_per_channel(kind) > 1;
-        let codes = if wide { 6 } else { 3 };
-        u64::from(kind.bytes_per_pixel()) + codes + size_of::<[u16; 3]>() as u64
-    }
-
-    /// Memory of the texels, in bytes.
+    /// Memory of the texels, of the lower digits and of the mask, in bytes.
     #[must_use]
     pub fn bytes(&self) -> u64 {
-        size_of_val(self.texels.as_slice()) as u64
+        let floats = self.floats.as_ref().map_or(0, |floats| floats.low.bytes());
+        let mask = self.mask.as_ref().map_or(0, |mask| mask.bytes());
+        size_of_val(self.texels.as_slice()) as u64 + floats + mask
     }
 
     /// Returns the amount of light of one code, `1 / white`.
@@ -214,20 +206,15 @@ impl Wrap {
     }
 }
 
-/// Returns the bytes of one channel: 1 or 2 for whole numbers, 4 for floating point values.
-fn bytes_per_channel(kind: ColorType) -> u8 {
-    kind.bytes_per_pixel() / kind.channel_count()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use image::{GrayImage, Luma, RgbImage};
+    use image::{GrayImage, Luma};
 
     /// Two by two texels of codes 0, 10 (top) and 20, 30 (bottom).
     fn four(wrap: Wrap) -> Texture {
         let picture = GrayImage::from_fn(2, 2, |x, y| Luma([(10 * x + 20 * y) as u8]));
-        Texture::from_picture(&picture.into(), Values::Linear, wrap).unwrap()
+        Texture::from_picture(&picture.into(), Values::Linear, wrap, Alpha::Cut)
     }
 
     fn code(color: Color) -> f64 {
@@ -253,13 +240,6 @@ mod tests {
         assert_eq!(code(four(Wrap::Mirror).point(beyond + DVec2::X)), 0.0);
         assert_eq!(code(four(Wrap::Mirror).bilinear(DVec2::new(1.0, 0.75))), 10.0);
         assert_eq!(code(four(Wrap::Clamp).bilinear(DVec2::new(0.5, 0.5))), 15.0);
-    }
-
-    #[test]
-    fn encoded_texels_become_16_bit_light() {
-        let white = RgbImage::from_pixel(1, 1, image::Rgb([255, 188, 0]));
-        let texture = Texture::from_picture(&white.into(), Values::Srgb, Wrap::Clamp).unwrap();
-        assert_eq!((texture.white, texture.texels[0]), (65535, [65535, 32957, 0]));
     }
 
     #[test]

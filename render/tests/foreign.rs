@@ -92,12 +92,12 @@ fn what_the_scene_binds_comes_before_the_library_of_the_mesh() {
 #[test]
 fn what_is_missing_is_named_and_costs_only_itself() {
     let bench = folder("", &format!("mtllib halves.mtl\n{HALVES}"));
-    bench.write("halves.mtl", "newmtl left\nKd 1 0 0\nmap_Kd lost.png\nmap_d red.png\nKd 1 0\n");
+    bench.write("halves.mtl", "newmtl left\nKd 1 0 0\nmap_Kd lost.png\nrefl red.png\nKd 1 0\n");
     let (found, said) = halves(&bench);
     assert_eq!(found, [RED, WHITE]);
     for part in [
         "halves.mtl: line 5 is ignored: found `Kd 1 0`, expected `Kd` and three numbers",
-        "not used: map_d",
+        "not used: refl",
         "no picture: scene.json:",
         "cannot read lost.png",
         "remark: halves: no library has material right, which is plain white",
@@ -186,13 +186,4 @@ fn a_jpeg_that_is_cut_off_is_refused() {
         assert_eq!(code, Some(3), "{said}");
         assert!(said.contains("a.jpg (the file ends before its picture does)"), "{said}");
     }
-}
-
-#[test]
-fn transparent_texels_are_named() {
-    let bench = folder(r#", "material": "grey", "texture": "blue""#, HALVES);
-    let clear = RgbaImage::from_pixel(2, 2, image::Rgba([0, 0, 255, 128]));
-    bench.write("blue.png", encoded(clear, ImageFormat::Png));
-    let (_, said) = halves(&bench);
-    assert_eq!(said.trim_end(), "render: remark: blue.png: transparent texels are taken as opaque");
 }

@@ -15,7 +15,7 @@ use sweep::grid::file::GridReader;
 use thiserror::Error;
 use triangulate::mtl::{is_map_name, mtl};
 use triangulate::obj::object_name;
-use triangulate::{Format, MeshReport, Options, TriangulateError};
+use triangulate::{Format, MeshReport, Options, TriangulateError, Unit};
 use write::Written;
 
 const EXAMPLES: &str = "\
@@ -23,17 +23,17 @@ Examples:
   sweep vase.json -o vase.grid            a grid from a curve spec, then
   triangulate vase.grid -o vase.obj       its triangles
   sweep vase.json | triangulate --texture 2 | render scene.json --mesh vase=- -o vase.png
-  triangulate vase.grid -o vase.stl       for a printer
+  triangulate vase.grid -o vase.3mf --unit centimeter             for a printer
   triangulate vase.grid -o vase.obj --report -                    is it closed?
   triangulate vase.grid -o vase.obj --mtl --map marble.png        for other renderers
 
 An output file is replaced only when the whole grid was read and found undamaged. An OBJ on
 standard output is whole when its last line is `# end V F` (numbers of v and f lines).
 Mesh, material file and report are replaced together. No output replaces an input.
-The extension of an output must not belong to another format (a.glb), unless --format is given;
+The extension of an output must not belong to another format (a.fbx), unless --format is given;
 unknown extensions are allowed.";
 
-/// Makes triangles of a grid that `sweep` wrote, as OBJ, STL or PLY.
+/// Makes triangles of a grid that `sweep` wrote, as OBJ, STL, PLY, GLB or 3MF.
 #[derive(Debug, Parser)]
 #[command(name = "triangulate", version, after_help = EXAMPLES)]
 pub struct Arguments {
@@ -43,9 +43,14 @@ pub struct Arguments {
     /// The mesh file; - is standard output
     #[arg(short, long, value_name = "MESH", default_value = "-")]
     pub output: PathBuf,
-    /// Format of the mesh [default: the format of the output's extension (.stl, .ply), or else OBJ]
+    /// Format of the mesh [default: the format of the output's extension (.stl, .ply, .glb, .3mf), or
+    /// else OBJ]
     #[arg(long, value_enum)]
     format: Option<Format>,
+    /// Unit of the grid's lengths, which a 3MF states and a GLB converts to meters [default: millimeter
+    /// in a 3MF, meter in a GLB]
+    #[arg(long, value_enum)]
+    pub unit: Option<Unit>,
     /// Texture id, which a scene binds to a picture; 0 is none. Replaces the ids in the grid
     #[arg(long, value_name = "ID")]
     texture: Option<u32>,
@@ -92,6 +97,9 @@ pub enum UseError {
     /// A material file for a format that names none.
     #[error("--mtl is for OBJ, and the format is {0}")]
     MtlFormat(&'static str),
+    /// A unit for a format that states none.
+    #[error("--unit is for 3MF and GLB, and the format is {0}")]
+    UnitFormat(&'static str),
     /// A material file for an output that has no folder.
     #[error("--mtl found {0} as the output, expected a file to lie beside: name one with -o")]
     MtlPlace(String),
@@ -212,6 +220,9 @@ impl Arguments {
         if self.areas.as_deref().is_some_and(is_stdout) && is_stdout(&self.grid) {
             return Err(UseError::AreasPlace);
         }
+        if self.unit.is_some() && !format.has_unit() {
+            return Err(UseError::UnitFormat(format.name()));
+        }
         if self.mtl {
             if format != Format::Obj {
                 return Err(UseError::MtlFormat(format.name()));
@@ -289,6 +300,8 @@ mod tests {
             (&["-o", "stl"], Format::Obj),
             (&["-o", "a.stl", "--format", "ply"], Format::Ply),
             (&["--format", "stl"], Format::Stl),
+            (&["-o", "a.glb"], Format::Glb),
+            (&["-o", "a.3mf", "--unit", "inch"], Format::ThreeMf),
         ] {
             assert_eq!(parsed(words).format(), expected, "{words:?}");
         }
@@ -296,7 +309,7 @@ mod tests {
 
     #[test]
     fn bytes_are_not_sent_to_a_terminal() {
-        for format in ["stl", "ply"] {
+        for format in ["stl", "ply", "glb", "3mf"] {
             let arguments = parsed(&["--format", format]);
             let message = arguments.check(true).unwrap_err().to_string();
             assert!(message.contains("is not for a terminal"), "{message}");
@@ -304,6 +317,8 @@ mod tests {
             assert!(parsed(&["--format", format, "-o", "a"]).check(true).is_ok());
         }
         assert!(parsed(&[]).check(true).is_ok());
+        let message = parsed(&["--unit", "foot"]).check(false).unwrap_err().to_string();
+        assert_eq!(message, "--unit is for 3MF and GLB, and the format is OBJ");
     }
 
     #[test]

@@ -22,6 +22,11 @@ pub enum Format {
     Stl,
     /// Binary PLY with normals and picture coordinates; needs the mesh in memory
     Ply,
+    /// Binary glTF with normals and picture coordinates; needs the mesh in memory
+    Glb,
+    /// 3MF with a unit, for printers; needs the mesh in memory
+    #[value(name = "3mf")]
+    ThreeMf,
 }
 
 impl Format {
@@ -38,6 +43,8 @@ impl Format {
             Self::Obj => "OBJ",
             Self::Stl => "STL",
             Self::Ply => "PLY",
+            Self::Glb => "GLB",
+            Self::ThreeMf => "3MF",
         }
     }
 
@@ -48,6 +55,8 @@ impl Format {
             Self::Obj => "an OBJ",
             Self::Stl => "an STL",
             Self::Ply => "a PLY",
+            Self::Glb => "a GLB",
+            Self::ThreeMf => "a 3MF",
         }
     }
 
@@ -58,6 +67,8 @@ impl Format {
             Self::Obj => "an OBJ mesh",
             Self::Stl => "an STL mesh",
             Self::Ply => "a PLY mesh",
+            Self::Glb => "a GLB mesh",
+            Self::ThreeMf => "a 3MF mesh",
         }
     }
 
@@ -68,6 +79,8 @@ impl Format {
             Self::Obj => "obj",
             Self::Stl => "stl",
             Self::Ply => "ply",
+            Self::Glb => "glb",
+            Self::ThreeMf => "3mf",
         }
     }
 
@@ -76,8 +89,14 @@ impl Format {
     pub fn is_text(self) -> bool {
         match self {
             Self::Obj => true,
-            Self::Stl | Self::Ply => false,
+            Self::Stl | Self::Ply | Self::Glb | Self::ThreeMf => false,
         }
+    }
+
+    /// Returns whether files of the format state a unit of length.
+    #[must_use]
+    pub fn has_unit(self) -> bool {
+        matches!(self, Self::Glb | Self::ThreeMf)
     }
 }
 
@@ -93,6 +112,7 @@ mod tests {
             assert!(format.content().starts_with(format.with_article()));
         }
         assert_eq!(Format::of_extension("StL"), Some(Format::Stl));
-        assert_eq!(Format::of_extension("glb"), None);
+        assert_eq!(Format::of_extension("3MF"), Some(Format::ThreeMf));
+        assert_eq!(Format::of_extension("fbx"), None);
     }
 }

@@ -1,10 +1,10 @@
-//! Turns a contour x trajectory grid into triangles with texture ids, in memory or as OBJ, STL or PLY.
+//! Turns a contour x trajectory grid into triangles with texture ids, in memory or as OBJ, STL, PLY, GLB or 3MF.
 //!
 //! Each cell of the grid becomes two triangles, counter-clockwise seen from outside. Rows are read and
 //! written one at a time, so writing an OBJ takes the memory of three rows, however long the grid is.
 //! Both outputs agree to the bit: the [`TriMesh`] of [`mesh`] has the numbers and the order of
-//! triangles that [`write_obj`] writes. STL and PLY files begin with counts, so these two are written
-//! from a whole [`TriMesh`].
+//! triangles that [`write_obj`] writes. All other formats begin with counts, so they are written from a
+//! whole [`TriMesh`].
 //!
 //! Rules by which a grid becomes a mesh:
 //!
@@ -50,6 +50,9 @@
 //! | [`stl`]          | the mesh as binary STL                                       |
 //! | [`split`]        | vertices that carry position, normal and picture coordinates |
 //! | [`ply`]          | the mesh as binary PLY                                       |
+//! | [`glb`]          | the mesh as binary glTF                                      |
+//! | [`threemf`]      | the mesh as 3MF                                              |
+//! | [`unit`]         | units of length                                              |
 
 pub mod area_file;
 mod areas;
@@ -58,6 +61,7 @@ pub mod diagonal;
 mod error;
 mod forest;
 pub mod format;
+pub mod glb;
 mod lids;
 mod material;
 pub mod merged;
@@ -71,13 +75,16 @@ mod rounding;
 pub mod split;
 mod station;
 pub mod stl;
+pub mod threemf;
 pub mod topology;
 pub mod tri_mesh;
 pub mod triangulator;
+pub mod unit;
 mod validate;
 
 pub use error::TriangulateError;
 pub use format::Format;
+pub use glb::write_glb;
 pub use material::{Material, Options};
 pub use merged::Merged;
 pub use obj::ObjWriter;
@@ -86,9 +93,11 @@ pub use ply::write_ply;
 pub use report::MeshReport;
 pub use split::SplitMesh;
 pub use stl::write_stl;
+pub use threemf::write_3mf;
 pub use topology::Topology;
 pub use tri_mesh::{TriMesh, Triangle};
 pub use triangulator::{Counts, Sink, Triangulator};
+pub use unit::Unit;
 
 use std::io::Write;
 

@@ -26,6 +26,13 @@ impl Merged {
     /// Merges the vertices of a mesh.
     #[must_use]
     pub fn of(mesh: &TriMesh) -> Self {
+        Self::mesh(mesh).1
+    }
+
+    /// Merges the vertices of a mesh. Returns the mesh of positions and triangles too. Positions keep
+    /// their numbers, of which some are not used any more.
+    #[must_use]
+    pub fn mesh(mesh: &TriMesh) -> (TriMesh, Self) {
         let points: Vec<DVec3> =
             mesh.positions.iter().map(|point| DVec3::from(point.map(f64::from))).collect();
         let (low, high) =
@@ -43,7 +50,7 @@ impl Merged {
             }
         }
         let Topology { vertices, manifold, closed, .. } = Topology::of(&merged);
-        Self { vertices, manifold, closed }
+        (merged, Self { vertices, manifold, closed })
     }
 }
 

@@ -9,6 +9,7 @@ mod interrupted;
 mod lids;
 mod made;
 mod patches;
+mod printable;
 mod properties;
 mod seams;
 mod shapes;

@@ -1,8 +1,10 @@
 //! Reads meshes and material libraries, in a scene that shows them.
 
 use super::scene;
+use crate::seeds::SCENES;
 use crate::seeds::memory_files::MemoryFiles;
 use crate::verdict::{Tried, refused};
+use render::scene::mesh_file::{self, Near};
 use render::scene::{mtl, obj};
 use render::shape::mesh::NONE;
 
@@ -44,6 +46,25 @@ pub fn read_obj(bytes: &[u8], stored: &MemoryFiles) -> Tried {
     let textured = mesh.triangles.iter().all(|triangle| !triangle.uv.contains(&NONE));
     let scene = if textured { SCENE.into() } else { SCENE.replace(", \"texture\": \"net\"", "") };
     scene::read_with(scene.as_bytes(), stored, &[("tried", mesh)])
+}
+
+/// Reads a mesh file of any format through a scene that names it, and renders it with the materials that it
+/// holds.
+///
+/// # Errors
+/// When the mesh is refused, or its picture is wrong.
+pub fn read_file(ending: &str, bytes: &[u8], stored: &MemoryFiles) -> Tried {
+    let name = format!("tried.{ending}");
+    let reserve = &mut |_| Ok(());
+    let near = Near { folder: SCENES.as_ref(), source: stored, reserve };
+    let read = mesh_file::read(&name, bytes, near).map_err(refused)?;
+    if read.mesh.triangles.len() > MOST || read.mesh.positions.len() > MOST {
+        return Ok(());
+    }
+    let material = if read.materials.is_empty() { r#", "material": "m""# } else { "" };
+    let file = format!(r#""name": "tried", "file": "{name}"{material}"#);
+    let scene = SCENE.replace(r#""name": "tried", "material": "m", "texture": "net""#, &file);
+    scene::read(scene.as_bytes(), &stored.with(&format!("{SCENES}/{name}"), bytes))
 }
 
 /// Reads a library and renders a mesh with its materials.

@@ -39,6 +39,14 @@ pub enum Reader {
     Areas,
     /// A mesh.
     Obj,
+    /// A mesh as an STL file.
+    Stl,
+    /// A mesh as a PLY file.
+    Ply,
+    /// A mesh as a binary glTF file.
+    Glb,
+    /// A mesh as a glTF file of JSON.
+    Gltf,
     /// A material library.
     Mtl,
     /// A scene.
@@ -62,7 +70,7 @@ pub enum Reader {
 
 impl Reader {
     /// All readers that are tried when none is named.
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 19] = [
         Self::Spec,
         Self::Svg,
         Self::Depth,
@@ -70,6 +78,10 @@ impl Reader {
         Self::GridText,
         Self::Areas,
         Self::Obj,
+        Self::Stl,
+        Self::Ply,
+        Self::Glb,
+        Self::Gltf,
         Self::Mtl,
         Self::Scene,
         Self::Part,
@@ -91,6 +103,10 @@ impl Reader {
             Self::GridText => "grid-text",
             Self::Areas => "areas",
             Self::Obj => "obj",
+            Self::Stl => "stl",
+            Self::Ply => "ply",
+            Self::Glb => "glb",
+            Self::Gltf => "gltf",
             Self::Mtl => "mtl",
             Self::Scene => "scene",
             Self::Part => "part",
@@ -111,6 +127,10 @@ impl Reader {
             Self::Svg | Self::Words | Self::Trap => "txt",
             Self::Grid | Self::GridText => "grid",
             Self::Obj => "obj",
+            Self::Stl => "stl",
+            Self::Ply => "ply",
+            Self::Glb => "glb",
+            Self::Gltf => "gltf",
             Self::Mtl => "mtl",
             Self::Depth | Self::Png => "png",
             Self::Jpeg => "jpg",
@@ -184,6 +204,9 @@ impl Bench {
             Reader::Grid | Reader::GridText => grid::read(bytes),
             Reader::Areas => areas::read(bytes, &corpus.grids),
             Reader::Obj => mesh::read_obj(bytes, &corpus.stored),
+            Reader::Stl | Reader::Ply | Reader::Glb | Reader::Gltf => {
+                mesh::read_file(reader.ending(), bytes, &corpus.stored)
+            }
             Reader::Mtl => mesh::read_mtl(bytes, &corpus.stored),
             Reader::Scene => scene::read(bytes, &corpus.stored),
             Reader::Part => scene::read_part(bytes, &corpus.stored),

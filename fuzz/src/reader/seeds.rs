@@ -2,11 +2,12 @@
 
 use super::Reader;
 use crate::dice::Dice;
-use crate::mutate::{exr, grid, jpeg, json, png, text};
+use crate::mutate::{bytes, exr, grid, jpeg, json, png, text};
 use crate::seeds::{self, Corpus, SeedError, small};
 use image::codecs::jpeg::JpegEncoder;
 use serde_json::{Value, json};
 use sweep::grid::file::{Encoding, write_all};
+use triangulate::{TriMesh, write_glb, write_ply, write_stl};
 
 /// Words of OBJ files.
 const OBJ: [&str; 18] = [
@@ -28,6 +29,26 @@ const OBJ: [&str; 18] = [
     "l 1 2\n",
     "\\\n",
     "\r\n",
+];
+
+/// Words of STL and PLY files.
+const MESH: [&str; 16] = [
+    "solid ",
+    "facet normal ",
+    "vertex 0 0 1 ",
+    "endloop\n",
+    "endsolid",
+    "ply\n",
+    "format ascii 1.0\n",
+    "format binary_big_endian 1.0\n",
+    "element vertex ",
+    "element face ",
+    "property float x\n",
+    "property list uchar int vertex_indices\n",
+    "property uchar red\n",
+    "end_header\n",
+    " -1 ",
+    "\r",
 ];
 
 /// Words of MTL files.
@@ -81,6 +102,8 @@ pub enum Seeds {
     },
     /// Files of text, and words of their format.
     Text(Vec<Vec<u8>>, &'static [&'static str]),
+    /// Files of bytes and of text, and words of their format.
+    Bytes(Vec<Vec<u8>>, &'static [&'static str]),
     /// PNG files.
     Png(Vec<Vec<u8>>),
     /// JPEG files.
@@ -116,6 +139,16 @@ impl Seeds {
                     &OBJ,
                 )
             }
+            Reader::Stl => {
+                Self::Bytes(meshes(corpus, &extra, |mesh, out| write_stl(mesh, out)), &MESH)
+            }
+            Reader::Ply => {
+                Self::Bytes(meshes(corpus, &extra, |mesh, out| write_ply(mesh, out)), &MESH)
+            }
+            Reader::Glb => {
+                Self::Bytes(meshes(corpus, &extra, |mesh, out| write_glb(mesh, None, out)), &[])
+            }
+            Reader::Gltf => Self::json(seeds::documents("gltf")?, |_| {}),
             Reader::Mtl => text(Vec::new(), &MTL),
             Reader::Svg => text(paths(&corpus.specs), &SVG),
             Reader::Words => text(Vec::new(), &WORDS),
@@ -152,9 +185,11 @@ impl Seeds {
                 documents.iter().map(|document| document.to_string().into_bytes()).collect()
             }
             Self::Grids { files, .. } => files.iter().map(|patches| grid::file(patches)).collect(),
-            Self::Text(files, _) | Self::Png(files) | Self::Jpeg(files) | Self::Exr(files) => {
-                files.clone()
-            }
+            Self::Text(files, _)
+            | Self::Bytes(files, _)
+            | Self::Png(files)
+            | Self::Jpeg(files)
+            | Self::Exr(files) => files.clone(),
         }
     }
 
@@ -184,6 +219,18 @@ impl Seeds {
                 }
                 file
             }
+            Self::Bytes(files, words) => {
+                let mut file = dice.one(files).clone();
+                for _ in 0..=dice.below(2) {
+                    let other = dice.one(files);
+                    if dice.once_in(2) {
+                        text::mutate(&mut file, dice, words, other);
+                    } else {
+                        bytes::mutate(&mut file, dice, other);
+                    }
+                }
+                file
+            }
             Self::Png(files) => {
                 let (seed, other) = (dice.one(files), dice.one(files));
                 png::mutated(seed, dice, other)
@@ -209,6 +256,20 @@ fn part(scene: &Value) -> Value {
         }
     }
     part
+}
+
+/// Returns the meshes of the corpus in a format, and further files.
+fn meshes(
+    corpus: &Corpus,
+    extra: &[Vec<u8>],
+    write: impl Fn(&TriMesh, &mut Vec<u8>) -> std::io::Result<()>,
+) -> Vec<Vec<u8>> {
+    let made = |number: usize| {
+        let mut bytes = Vec::new();
+        write(&corpus.mesh(number)?, &mut bytes).ok()?;
+        (bytes.len() < 30_000).then_some(bytes)
+    };
+    (0..corpus.grids.len()).filter_map(made).chain(extra.iter().cloned()).collect()
 }
 
 /// Returns the mesh as other tools write it: without the comments that mark a complete file of

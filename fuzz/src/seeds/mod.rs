@@ -18,6 +18,7 @@ use std::path::{Path, PathBuf};
 use sweep::spec::Resolution;
 use sweep::{GridMesh, Object};
 use thiserror::Error;
+use triangulate::TriMesh;
 
 /// The folder of scenes in the corpus; scenes and parts that are tried have paths in this folder.
 pub const SCENES: &str = "examples/scenes";
@@ -97,6 +98,12 @@ impl Corpus {
         Ok(corpus)
     }
 
+    /// Returns the mesh of one of the grids.
+    #[must_use]
+    pub fn mesh(&self, number: usize) -> Option<TriMesh> {
+        triangulate::mesh(self.grids.get(number)?.as_slice(), &triangulate::Options::default()).ok()
+    }
+
     /// Returns the OBJ file of one of the grids.
     #[must_use]
     pub fn obj(&self, number: usize) -> Option<Vec<u8>> {
@@ -128,6 +135,18 @@ fn grids_of(spec: &Value, stored: &MemoryFiles) -> Result<Vec<GridMesh>, Stop> {
     let document = Document::new("spec.json", text.as_bytes()).map_err(refused)?;
     let object = Object::read(&document, CURVES.as_ref(), stored, &Resolution::default());
     object.and_then(|object| object.grids()).map_err(refused)
+}
+
+/// Returns the JSON files of `fuzz/seeds/` for a reader, in the order of their names.
+///
+/// # Errors
+/// When a file cannot be read or is no JSON.
+pub fn documents(reader: &str) -> Result<Vec<Value>, SeedError> {
+    let files = folder(&root().join("fuzz/seeds").join(reader), "json")?;
+    let parse = |(path, bytes): (PathBuf, Vec<u8>)| {
+        serde_json::from_slice(&bytes).map_err(|error| wrong(&path, &error))
+    };
+    files.into_iter().map(parse).collect()
 }
 
 /// Returns the root of the repository.

@@ -73,6 +73,14 @@ impl Frame {
         Self::at(DVec3::from(middle), bounds)
     }
 
+    /// Returns the frame with its origin moved by `offset`, in scene space.
+    #[must_use]
+    pub fn moved(self, offset: DVec3) -> Self {
+        let middle = self.middle + offset;
+        let back = DVec3::select(middle.cmpeq(DVec3::ZERO), DVec3::splat(-0.0), middle);
+        Self { middle, back, ..self }
+    }
+
     fn at(middle: DVec3, [low, high]: [DVec3; 2]) -> Self {
         let reach = (low - middle).abs().max((high - middle).abs()).max_element();
         let back = DVec3::select(middle.cmpeq(DVec3::ZERO), DVec3::splat(-0.0), middle);

@@ -91,7 +91,8 @@ impl<'a> Probe<'a> {
             return self.meet_shape(accel, leaf.object, t_max);
         }
         let piece = Piece { object: leaf.object, triangle: leaf.triangle };
-        self.meet_triangle(accel, piece, &triangle::by_axis(&leaf.corners), t_max)
+        let corners = triangle::by_axis(&leaf.corners, accel.offset(leaf.object));
+        self.meet_triangle(accel, piece, &corners, t_max)
     }
 
     /// Returns the hit of the ray with a triangle, as [`Probe::meet`] does.

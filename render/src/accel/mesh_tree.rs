@@ -39,7 +39,9 @@ impl MeshTree {
             .clone()
             .map(|number| mesh.bounds(number))
             .reduce_with(|a, b| [a[0].min(b[0]), a[1].max(b[1])])?;
-        let frame = Frame::exact(bounds);
+        // Corners are exact in the frame of their own coordinates, from the offset.
+        let own_frame = Frame::exact(bounds.map(|corner| corner - mesh.offset));
+        let frame = own_frame.moved(mesh.offset);
         let numbered = |number: u32| {
             let [low, high] = frame.box_around(mesh.bounds(number));
             Numbered::new(number - first, low, high)
@@ -49,7 +51,7 @@ impl MeshTree {
         let block = |leaf: &Range<usize>| {
             let triangle = |one: &Numbered| {
                 let number = first + one.number();
-                (number, mesh.corners(number).map(|corner| frame.corner(corner)))
+                (number, mesh.corners(number).map(|corner| own_frame.corner(corner)))
             };
             let mut triangles = [(0, [[0.0; 3]; 3]); LANES];
             for (triangle_of, one) in triangles.iter_mut().zip(&boxes[leaf.clone()]) {
@@ -61,7 +63,7 @@ impl MeshTree {
         let is_exact = |block: &Block| {
             (0..LANES).filter(|&lane| block.numbers[lane] != ABSENT).all(|lane| {
                 let scene = frame.scene(block.corners(lane));
-                scene == triangle::by_axis(&mesh.corners(block.numbers[lane]))
+                scene == triangle::by_axis(&mesh.corners(block.numbers[lane]), mesh.offset)
             })
         };
         let exact = blocks.par_iter().all(is_exact);
@@ -102,7 +104,7 @@ impl MeshTree {
             self.tree.frame.scene(block.corners(lane))
         } else {
             let piece = Piece { object, triangle: block.numbers[lane] };
-            triangle::by_axis(&accel.mesh_corners(piece))
+            triangle::by_axis(&accel.mesh_corners(piece), accel.offset(object))
         }
     }
 }

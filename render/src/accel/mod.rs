@@ -173,7 +173,7 @@ impl<'a> Accel<'a> {
                     .map(|n| (Piece { triangle: n, ..piece }, mesh.corners(n)))
                     .filter(|(_, corners)| !triangle::is_segment(corners))
                     .map(|(piece, corners)| {
-                        (Leaf::of_triangle(piece, corners), triangle::bounds(&corners))
+                        (Leaf::of_triangle(piece, corners), mesh.bounds(piece.triangle))
                     });
                 bounded.extend(triangles);
             } else if let Some(bounds) = self.bounds[object] {
@@ -314,7 +314,12 @@ impl<'a> Accel<'a> {
         self.shapes[hit.piece.object as usize].part(hit.piece.triangle)
     }
 
-    /// Returns the corners of a triangle.
+    /// Returns the offset of a mesh; zero for another shape.
+    fn offset(&self, object: u32) -> DVec3 {
+        self.shapes[object as usize].mesh().map_or(DVec3::ZERO, |mesh| mesh.offset)
+    }
+
+    /// Returns the corners of a triangle, from the offset of its mesh.
     fn mesh_corners(&self, piece: Piece) -> [[f32; 3]; 3] {
         match self.shapes[piece.object as usize] {
             Shape::Mesh(mesh) => mesh.corners(piece.triangle),

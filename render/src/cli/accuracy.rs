@@ -63,6 +63,11 @@ impl AccuracyArguments {
         }
     }
 
+    /// Returns the text of the requested error, if there is one.
+    pub fn error(&self) -> Option<&str> {
+        self.error.as_deref()
+    }
+
     /// Returns the requested error, if there is one.
     fn requested(&self) -> Result<Option<f64>, UseError> {
         let error = self.error.as_ref().map(|text| {

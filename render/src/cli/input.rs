@@ -7,7 +7,7 @@ use files::memory::of_process;
 use files::{FileError, Ledger, Report, input};
 use render::Scene;
 use render::scene::MeshSource;
-use render::scene::obj::{self, ObjFile};
+use render::scene::mesh_file::{self, Near};
 use render::scene::read::{self, Draft};
 use std::path::{Path, PathBuf};
 
@@ -16,7 +16,7 @@ pub struct InputArguments {
     /// The scene: a JSON file, or - for standard input
     #[arg(required_unless_present = "emit_schema")]
     scene: Option<PathBuf>,
-    /// A mesh for the scene: its name in the scene, and an OBJ file or - for standard input
+    /// A mesh for the scene: its name in the scene, and an OBJ, STL, PLY or glTF file or - for standard input
     #[arg(long = "mesh", value_name = "NAME=FILE", value_parser = mesh_argument)]
     meshes: Vec<MeshArgument>,
     /// Render nothing: print the contents of the scene, and what is wrong or suspicious, on standard
@@ -79,17 +79,31 @@ impl InputArguments {
         for mesh in &self.meshes {
             let bytes = ledger.argument(&mesh.file, &format!("the mesh {}", mesh.name))?;
             let name = input::name_of(&mesh.file);
-            kept.push(of_process().reserve(obj::needed(&bytes), || format!("mesh {name}"))?);
             let folder = match mesh.file.parent() {
-                Some(folder) if !input::is_stdin(&mesh.file) => folder.into(),
-                _ => PathBuf::new(),
+                Some(folder) if !input::is_stdin(&mesh.file) => folder,
+                _ => Path::new(""),
             };
-            let read = ObjFile { folder, ..obj::read_file(&name, &bytes)? };
+            let reserve = &mut |bytes| {
+                kept.push(of_process().reserve(bytes, || format!("mesh {name}"))?);
+                Ok(())
+            };
+            let read = mesh_file::read(&name, &bytes, Near { folder, source: ledger, reserve })?;
             given.insert(mesh.name.clone(), read);
         }
         let scene = draft.resolve(ledger, given)?;
         drop(kept);
         then(&draft, scene)
+    }
+
+    /// Returns the names of the meshes that are given.
+    pub fn mesh_names(&self) -> Vec<&str> {
+        self.meshes.iter().map(|mesh| mesh.name.as_str()).collect()
+    }
+
+    /// Returns the file name of the scene, without its folders.
+    pub fn file_name(&self) -> String {
+        let name = self.scene().file_name().unwrap_or(self.scene().as_os_str());
+        name.to_string_lossy().into_owned()
     }
 
     /// Returns the name of the scene in messages.

@@ -3,10 +3,11 @@
 use super::{EncodeError, UseError};
 use clap::Args;
 use files::{FileError, Ledger, Output, Report, input, words};
-use render::Picture;
 use render::color::Encoding;
 use render::film::Layer;
-use render::film::encode::{self, Format};
+use render::film::command::{Named, command};
+use render::film::encode::{self, Bits, Coding, Format};
+use render::{Picture, Settings};
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
@@ -26,6 +27,13 @@ pub struct OutputArguments {
     /// (estimated), rays (from the eye)
     #[arg(long, value_name = "LIST", value_delimiter = ',', requires = "output")]
     layers: Vec<Layer>,
+    /// Bits of each channel of a PNG
+    #[arg(long, value_name = "BITS", default_value = "8")]
+    bits: Bits,
+    /// Make the background transparent: a PNG with straight colours, or an EXR with multiplied ones. The
+    /// picture shows it beside objects, through glass and through cut-outs; mirrors show it as it is
+    #[arg(long)]
+    pub alpha: bool,
     /// Fail if the picture file exists
     #[arg(long)]
     no_clobber: bool,
@@ -68,6 +76,11 @@ impl OutputArguments {
         Ok(Some(Target { path, format }))
     }
 
+    /// Returns the bytes per pixel that a PNG of 16 bits takes beyond those of one of 8 bits.
+    pub fn more_bytes(&self) -> u64 {
+        if self.bits == Bits::Sixteen { 3 * 4 } else { 0 }
+    }
+
     /// Returns the ledger of the run's files, which may or may not replace an existing output.
     pub fn ledger(&self) -> Ledger {
         Ledger::new(!self.no_clobber)
@@ -85,10 +98,29 @@ impl OutputArguments {
         &self,
         target: &Target<'_>,
         picture: &Picture,
+        settings: &Settings,
+        named: &Named<'_>,
         ledger: &Ledger,
     ) -> Result<(), Report> {
-        let bytes = encode::encode(picture, target.format, self.gamma).map_err(EncodeError)?;
+        let coding = Coding {
+            encoding: self.gamma,
+            bits: self.bits,
+            part: settings.crop.map(|crop| (crop, [settings.width, settings.height])),
+            command: Some(command(named, settings)),
+        };
+        let bytes = encode::encode_as(picture, target.format, &coding).map_err(EncodeError)?;
         Ok(ledger.create(target.path)?.commit_all(&bytes)?)
+    }
+
+    /// Returns what the command in a file names, for a scene with this file name and these given meshes.
+    pub fn named<'a>(
+        &self,
+        scene: &'a str,
+        meshes: &'a [&'a str],
+        error: Option<&'a str>,
+        alpha: bool,
+    ) -> Named<'a> {
+        Named { scene, meshes, error, alpha, encoding: self.gamma, bits: self.bits }
     }
 }
 

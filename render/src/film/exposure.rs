@@ -211,6 +211,7 @@ impl Exposed {
     /// Stores the values of all layers of a pixel: those of the root of a sight. `pixel` is the
     /// pixel's index in the tile, row by row.
     pub fn keep_layers<S: Sight>(&mut self, shared: &Exposure<'_>, pixel: usize, sight: &S) {
+        let sight = &shared.shader.behind_cutouts(*sight);
         let mut rest = &mut self.layers[pixel * self.channels..][..self.channels];
         for layer in &shared.settings.layers {
             let values: [f32; MOST_CHANNELS] = layer.values(sight, &shared.shader);

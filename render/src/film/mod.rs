@@ -6,9 +6,11 @@
 //! samples of its neighbours too. Each tile is therefore complete by itself, and the picture does
 //! not depend on the tiles or on the threads. `exposure.rs` is the interface for other methods.
 
+pub mod alpha;
 mod area;
 mod base;
 mod bytes;
+pub mod command;
 pub mod crop;
 pub mod encode;
 mod exposure;
@@ -34,6 +36,7 @@ pub use sampling::{
 use crate::accel::Structure;
 use crate::filter::Filter;
 use crate::prepared::Prepared;
+use crate::shade::View;
 use crate::stats::Stats;
 use crate::trace::Tracer;
 use exposure::{Exposure, Film};
@@ -68,6 +71,8 @@ pub struct Settings {
     /// Least weight of a ray in its cell that is worth following, [0, 1]; `None` leaves the choice to
     /// the sampling. The scene's own least weight holds in any case.
     pub least_weight: Option<f64>,
+    /// The part of the light that the picture shows.
+    pub view: View,
 }
 
 impl Settings {
@@ -77,8 +82,8 @@ impl Settings {
     pub fn new(width: u32, height: u32, filter: Filter) -> Self {
         let sampling = Sampling::regular(1);
         let accel = Structure::default();
-        let (crop, layers, least_weight) = (None, Vec::new(), None);
-        Self { width, height, sampling, filter, crop, layers, accel, least_weight }
+        let (crop, layers, least_weight, view) = (None, Vec::new(), None, View::Whole);
+        Self { width, height, sampling, filter, crop, layers, accel, least_weight, view }
     }
 
     /// Returns these settings with `samples * samples` rays in each pixel, evenly spread and of
@@ -175,7 +180,8 @@ fn with_exposure<T>(
     work: impl FnOnce(&Exposure<'_>, Stats) -> T,
 ) -> T {
     let scene = prepared.scene();
-    let (shader, built) = prepared.shader(settings.accel, settings.filter);
+    let (mut shader, built) = prepared.shader(settings.accel, settings.filter);
+    shader.view = settings.view;
     let stats = Stats {
         structures: built.structures,
         accel_time: built.structure_time,
@@ -230,6 +236,7 @@ mod tests {
         Scene {
             camera: Camera::new(eye, DVec3::Y, DVec3::Y, 0.7).unwrap(),
             background: Background::Uniform(Color::splat(0.2)),
+            is_transparent: false,
             ambient: Color::splat(0.5),
             lights: vec![Light::Point(PointLight {
                 position: DVec3::new(3.0, 5.0, 4.0),

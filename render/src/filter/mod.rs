@@ -156,16 +156,20 @@ impl Filter {
     /// itself is not included.
     #[must_use]
     pub fn bytes_for(self, texture: &Texture) -> u64 {
-        match self {
-            Self::Point | Self::Bilinear => 0,
-            Self::Mip | Self::Ewa8 | Self::Ewa16 | Self::Ewa64 | Self::Probes => {
-                Pyramid::bytes_for(texture)
+        let low = texture.floats.as_ref().map(|floats| &floats.low);
+        let parts = low.into_iter().chain(texture.mask.as_deref());
+        let parts = parts.map(|part| self.bytes_for(part)).sum::<u64>();
+        parts
+            + match self {
+                Self::Point | Self::Bilinear => 0,
+                Self::Mip | Self::Ewa8 | Self::Ewa16 | Self::Ewa64 | Self::Probes => {
+                    Pyramid::bytes_for(texture)
+                }
+                Self::Box => PrefilteredTable::bytes_for(texture, 1),
+                Self::Tent => PrefilteredTable::bytes_for(texture, 2),
+                Self::Quadratic => PrefilteredTable::bytes_for(texture, 3),
+                Self::Exact => Exact::bytes_for(texture),
             }
-            Self::Box => PrefilteredTable::bytes_for(texture, 1),
-            Self::Tent => PrefilteredTable::bytes_for(texture, 2),
-            Self::Quadratic => PrefilteredTable::bytes_for(texture, 3),
-            Self::Exact => Exact::bytes_for(texture),
-        }
     }
 }
 
@@ -184,6 +188,10 @@ pub struct FilteredTexture<'a> {
     prepared: Prepared,
     /// Largest standard deviation of any channel of the texture, in light.
     deviation: f64,
+    /// The lower digits of floating point values.
+    low: Option<Box<FilteredTexture<'a>>>,
+    /// The mask of a cut-out.
+    mask: Option<Box<FilteredTexture<'a>>>,
 }
 
 /// Data built before the first average.
@@ -217,12 +225,41 @@ impl<'a> FilteredTexture<'a> {
             Filter::Ewa64 => Prepared::Ewa(Ewa::build(texture, 64.0)),
             Filter::Probes => Prepared::Probes(Pyramid::build(texture)),
         };
-        Self { texture, filter, prepared, deviation: deviation(texture) }
+        let part = |part: &'a Texture| Box::new(Self::new(part, filter));
+        let low = texture.floats.as_ref().map(|floats| part(&floats.low));
+        let mask = texture.mask.as_deref().map(part);
+        let deviation = light(texture) * deviation(texture);
+        Self { texture, filter, prepared, deviation, low, mask }
     }
 
-    /// Returns the average of the texture over the footprint, linear RGB.
+    /// Returns the average of the texture over the footprint, linear RGB. A texture with a mask is
+    /// multiplied by it.
     #[must_use]
     pub fn average(&self, footprint: &Footprint) -> Color {
+        let codes = self.average_of_codes(footprint);
+        self.with_low(codes, footprint)
+    }
+
+    /// Returns the average of the mask over the footprint, in `[0, 1]`: the part that the surface covers.
+    #[must_use]
+    pub fn coverage(&self, footprint: &Footprint) -> f64 {
+        let mask = self.mask.as_ref();
+        mask.map_or(1.0, |mask| mask.average_of_codes(footprint).x.clamp(0.0, 1.0))
+    }
+
+    /// Adds the lower digits of floating point values to an average of codes.
+    fn with_low(&self, codes: Color, footprint: &Footprint) -> Color {
+        match &self.low {
+            None => codes,
+            Some(low) => {
+                let low = low.average_of_codes(footprint) / f64::from(u16::MAX);
+                light(self.texture) * (codes + low)
+            }
+        }
+    }
+
+    /// Returns the average of the codes, with the largest as 1.
+    fn average_of_codes(&self, footprint: &Footprint) -> Color {
         let (center, half) = footprint.bounds();
         match &self.prepared {
             Prepared::Table(table) => table.average(self.texture, center, half),
@@ -249,7 +286,10 @@ impl<'a> FilteredTexture<'a> {
     #[must_use]
     pub fn average_and_contrast(&self, footprint: &Footprint) -> (Color, f64) {
         match &self.prepared {
-            Prepared::Exact(exact) => exact.average_and_contrast(self.texture, footprint),
+            Prepared::Exact(exact) => {
+                let (codes, contrast) = exact.average_and_contrast(self.texture, footprint);
+                (self.with_low(codes, footprint), light(self.texture) * contrast)
+            }
             _ => (self.average(footprint), self.deviation),
         }
     }
@@ -317,17 +357,25 @@ impl<'a> FilteredTexture<'a> {
     /// Memory of the table or pyramid, in bytes; 0 without one.
     #[must_use]
     pub fn table_bytes(&self) -> usize {
-        match &self.prepared {
-            Prepared::Texel | Prepared::FourTexels => 0,
-            Prepared::Pyramid(pyramid) | Prepared::Probes(pyramid) => pyramid.bytes(),
-            Prepared::Ewa(ewa) => ewa.bytes(),
-            Prepared::Table(table) => table.bytes(),
-            Prepared::Exact(exact) => exact.bytes(),
-        }
+        let parts = self.low.iter().chain(&self.mask);
+        let parts = parts.map(|part| part.table_bytes()).sum::<usize>();
+        parts
+            + match &self.prepared {
+                Prepared::Texel | Prepared::FourTexels => 0,
+                Prepared::Pyramid(pyramid) | Prepared::Probes(pyramid) => pyramid.bytes(),
+                Prepared::Ewa(ewa) => ewa.bytes(),
+                Prepared::Table(table) => table.bytes(),
+                Prepared::Exact(exact) => exact.bytes(),
+            }
     }
 }
 
-/// Returns the largest standard deviation of any channel, in light.
+/// Returns the light of the largest code.
+fn light(texture: &Texture) -> f64 {
+    texture.floats.as_ref().map_or(1.0, |floats| floats.light)
+}
+
+/// Returns the largest standard deviation of any channel, with the largest code as 1.
 fn deviation(texture: &Texture) -> f64 {
     let (mut sum, mut squares) = (DVec3::ZERO, DVec3::ZERO);
     for texel in &texture.texels {

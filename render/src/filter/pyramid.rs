@@ -123,7 +123,8 @@ fn halved(texture: &Texture) -> Texture {
             texels.push(sum.map(|sum| ((sum * scale + area / 2) / area) as u16));
         }
     }
-    Texture { name: String::new(), width, height, wrap: texture.wrap, texels, white: u16::MAX }
+    let wrap = texture.wrap;
+    Texture { width, height, wrap, texels, white: u16::MAX, ..Texture::default() }
 }
 
 /// Lists the texels of `size` that texel `k` of `smaller` covers, each with its part of the covered

@@ -5,7 +5,7 @@
 //! as well distinguishes two mirrors that show the same floor.
 
 use crate::shape::Charts;
-use crate::trace::tree::{Branch, Child, IntersectionTree, Node};
+use crate::trace::tree::{Away, Branch, Child, IntersectionTree, Node};
 use glam::DVec2;
 
 /// `N` trees, each with a current branch on the same path, and one of them that is shaded.
@@ -50,6 +50,12 @@ impl<'a, const N: usize> Bundle<'a, N> {
     #[must_use]
     pub fn branch(&self) -> Branch {
         self.branches[self.shaded]
+    }
+
+    /// Returns the ray with which tree `k` left the scene at its current branch, if it did.
+    #[must_use]
+    pub fn away(&self, k: usize) -> Option<Away> {
+        self.trees[k].away(self.branches[k])
     }
 
     /// Moves the trees that agree to a child of their nodes. The others are cut.

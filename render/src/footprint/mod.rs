@@ -28,7 +28,7 @@ pub use neighbours::Neighbourhood;
 use crate::color::Color;
 use crate::differential::Spread;
 use crate::shape::Charts;
-use crate::trace::tree::{Branch, Child, IntersectionTree, Node};
+use crate::trace::tree::{Away, Branch, Child, IntersectionTree, Node};
 use glam::{DVec2, DVec3};
 
 /// A part of a texture, in texture coordinates. A texture fills the unit square, with `x` across
@@ -145,8 +145,8 @@ pub trait Sight: Copy {
         self.tree().node(self.branch())
     }
 
-    /// Unit direction in which the current branch left the scene, if it did.
-    fn away(&self) -> Option<DVec3> {
+    /// The ray with which the current branch left the scene, if it did.
+    fn away(&self) -> Option<Away> {
         self.tree().away(self.branch())
     }
 }

@@ -7,7 +7,8 @@
 
 use super::{Bundle, Footprint, PointReason, Sight};
 use crate::shape::Charts;
-use crate::trace::tree::{Branch, Child, IntersectionTree, Node};
+use crate::trace::tree::{Away, Branch, Child, IntersectionTree, Node};
+use glam::DVec3;
 
 /// Number of trees in a neighbourhood: 3 x 3.
 pub const ALL: usize = 9;
@@ -73,6 +74,18 @@ impl Sight for Neighbourhood<'_> {
         Footprint::Rectangle { center: 0.5 * (low + high), half: 0.5 * (high - low) }
     }
 
+    /// The changes span the box around the directions of the neighbours, if all of them left the scene
+    /// along the same path.
+    fn away(&self) -> Option<Away> {
+        let own = self.tree().away(self.branch())?;
+        let to = |k: usize| self.0.away(k).map(|away| away.direction);
+        let all = (0..ALL).all(|k| to(k).is_some());
+        let [left, right, upper, lower] = [3, 5, 1, 7].map(|k| to(k).filter(|_| all));
+        let change = |from: Option<DVec3>, to: Option<DVec3>| Some(to? - from?);
+        let changes = change(left, right).zip(change(upper, lower)).map(|(x, y)| [x, y]);
+        Some(Away { changes: own.changes.or(changes), ..own })
+    }
+
     fn point_reason(&self, _: &Node) -> PointReason<'_> {
         self.0.stranger().map_or(PointReason::OtherChart, |(k, branch, node)| {
             PointReason::Stranger { position: POSITIONS[k], branch, node }
@@ -85,7 +98,7 @@ mod tests {
     use super::*;
     use crate::footprint::Alone;
     use crate::ray::Piece;
-    use glam::{DVec2, DVec3};
+    use glam::DVec2;
 
     fn tree(object: u32, uv: DVec2) -> IntersectionTree {
         let mut tree = IntersectionTree::default();
@@ -101,6 +114,8 @@ mod tests {
             refracted: Branch::Cut,
             reflect_weight: DVec3::ZERO,
             refract_weight: DVec3::ZERO,
+            pass_weight: DVec3::ZERO,
+            inside: false,
         });
         tree.root = Branch::Node(slot);
         tree

@@ -85,7 +85,7 @@ impl Witness for Recorder<'_> {
 }
 
 impl Observer for Recorder<'_> {
-    fn follow(&mut self, _: &Node, child: Child) {
+    fn follow(&mut self, _: &Node, child: Child, _: Color) {
         if self.wanted {
             self.open.push(Some(child));
             self.branches.push(String::new());

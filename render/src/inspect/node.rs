@@ -37,6 +37,9 @@ pub fn lines<S: Sight>(scene: &Scene, seen: &Seen<'_, S>) -> Vec<String> {
             lines.push(footprint(scene, seen.sight, node, &textured, index));
             lines.push(format!("texture average {}", light(textured.average)));
         }
+        if local.coverage < 1.0 {
+            lines.push(format!("covered by the mask: {}", local.coverage as f32));
+        }
         lines.push(format!("local colour {}", light(local.color)));
     }
     let [reflect, refract] = [node.reflect_weight, node.refract_weight].map(light);

@@ -8,7 +8,7 @@ use glam::{DVec2, DVec3};
 /// would leave few digits for the direction across. A larger number would refuse valid cameras.
 const PARALLEL: f64 = 1e-9;
 
-/// A pinhole camera.
+/// A pinhole camera, or an orthographic one, whose rays are parallel.
 ///
 /// ```text
 ///   film, in pixels        (0, 0) is the upper left corner of the picture,
@@ -23,8 +23,10 @@ pub struct Camera {
     right: DVec3,
     up: DVec3,
     forward: DVec3,
-    /// Half the picture's height at distance 1, positive.
+    /// Half the picture's height, positive: at distance 1 of a pinhole camera, and at any distance of an
+    /// orthographic one.
     half_height: f64,
+    is_orthographic: bool,
 }
 
 impl Camera {
@@ -33,14 +35,31 @@ impl Camera {
     /// at the target, or if `up` points along the view.
     #[must_use]
     pub fn new(eye: DVec3, target: DVec3, up: DVec3, field_of_view: f64) -> Option<Self> {
+        Self::with(eye, target, up, (0.5 * field_of_view).tan(), false)
+    }
+
+    /// Creates an orthographic camera whose picture is `height` scene units high, positive. Rays start in
+    /// the plane through the eye across the view. Returns `None` as [`Camera::new`] does.
+    #[must_use]
+    pub fn orthographic(eye: DVec3, target: DVec3, up: DVec3, height: f64) -> Option<Self> {
+        Self::with(eye, target, up, 0.5 * height, true)
+    }
+
+    fn with(
+        eye: DVec3,
+        target: DVec3,
+        up: DVec3,
+        half_height: f64,
+        is_orthographic: bool,
+    ) -> Option<Self> {
         let forward = (target - eye).try_normalize()?;
         let across = forward.cross(up.try_normalize()?);
         if across.length() < PARALLEL {
             return None;
         }
         let right = across.normalize();
-        let half_height = (0.5 * field_of_view).tan();
-        Some(Self { eye, right, up: right.cross(forward), forward, half_height })
+        let up = right.cross(forward);
+        Some(Self { eye, right, up, forward, half_height, is_orthographic })
     }
 
     /// Position of the camera, in scene space.
@@ -49,10 +68,26 @@ impl Camera {
         self.eye
     }
 
+    /// Returns whether rays are parallel.
+    #[must_use]
+    pub fn is_orthographic(&self) -> bool {
+        self.is_orthographic
+    }
+
+    /// Returns the distance from the start of a ray through a point to the point, in scene units.
+    #[must_use]
+    pub fn distance(&self, point: DVec3) -> f64 {
+        let from = point - self.eye;
+        if self.is_orthographic { from.dot(self.forward) } else { from.length() }
+    }
+
     /// Returns the ray through a position on a film of `size` pixels.
     #[must_use]
     pub fn ray(&self, position: DVec2, size: DVec2) -> Ray {
-        Ray::from_eye(self.eye, self.toward(position, size).normalize())
+        if self.is_orthographic {
+            return Ray::from_eye(self.eye + self.across(position, size), self.forward);
+        }
+        Ray::from_eye(self.eye, (self.forward + self.across(position, size)).normalize())
     }
 
     /// Returns the differential of [`Camera::ray`] for a step of `step` pixels across and down the
@@ -61,15 +96,20 @@ impl Camera {
     pub fn differential(&self, position: DVec2, size: DVec2, step: f64) -> RayDifferential {
         let per_step = 2.0 * step / size.y * self.half_height;
         let changes = [per_step * self.right, -per_step * self.up];
-        let direction = differential::normalized(self.toward(position, size), changes);
+        if self.is_orthographic {
+            return RayDifferential { origin: changes, direction: [DVec3::ZERO; 2] };
+        }
+        let toward = self.forward + self.across(position, size);
+        let direction = differential::normalized(toward, changes);
         RayDifferential { origin: [DVec3::ZERO; 2], direction }
     }
 
-    /// Returns the vector from the eye to a position on the film at distance 1.
-    fn toward(&self, position: DVec2, size: DVec2) -> DVec3 {
+    /// Returns the vector from the middle of the film to a position on it. The film of a pinhole camera
+    /// is at distance 1.
+    fn across(&self, position: DVec2, size: DVec2) -> DVec3 {
         let x = (2.0 * position.x - size.x) / size.y * self.half_height;
         let y = (size.y - 2.0 * position.y) / size.y * self.half_height;
-        self.forward + x * self.right + y * self.up
+        x * self.right + y * self.up
     }
 }
 
@@ -86,6 +126,24 @@ mod tests {
         assert!(middle.abs_diff_eq(DVec3::NEG_Z, 1e-15));
         let upper_right = camera.ray(DVec2::new(200.0, 0.0), size).direction;
         assert!(upper_right.abs_diff_eq(DVec3::new(2.0, 1.0, -1.0).normalize(), 1e-15));
+    }
+
+    #[test]
+    fn an_orthographic_camera_has_parallel_rays_and_pixels_of_one_size() {
+        let eye = DVec3::new(1.0, 2.0, 5.0);
+        let camera = Camera::orthographic(eye, eye - DVec3::Z, DVec3::Y, 3.0).unwrap();
+        let size = DVec2::new(200.0, 100.0);
+        let corner = camera.ray(DVec2::new(200.0, 0.0), size);
+        assert!(corner.origin.abs_diff_eq(DVec3::new(4.0, 3.5, 5.0), 1e-15));
+        assert_eq!(corner.direction, DVec3::NEG_Z);
+        assert_eq!(camera.distance(DVec3::new(7.0, -3.0, 1.0)), 4.0);
+        let here = DVec2::new(31.0, 77.0);
+        let RayDifferential { origin, direction } = camera.differential(here, size, 0.5);
+        assert_eq!(direction, [DVec3::ZERO; 2]);
+        for (change, step) in origin.into_iter().zip([DVec2::X, DVec2::Y]) {
+            let moved = camera.ray(here + 0.5 * step, size).origin - camera.ray(here, size).origin;
+            assert!(change.abs_diff_eq(moved, 1e-15), "{change} {moved}");
+        }
     }
 
     #[test]

@@ -46,10 +46,13 @@
 //! mesh has no inside. It absorbs nothing, and a ray that passes it stays in the same medium.
 //!
 //! The background is a colour or a sky: `"background": { "by_elevation": [[-1, 0.3], [0, 0.8], [90,
-//! [0.2, 0.35, 0.6]]] }` gives colours at degrees above the horizon, where y points up.
+//! [0.2, 0.35, 0.6]]] }` gives colours at degrees above the horizon, where y points up. A picture of all
+//! directions, such as a sky in an HDR or EXR file, is `"background": { "picture": "sky.exr", "turn_deg": 30
+//! }`. The background lights no surface; `ambient` and `lights` do.
 //!
-//! A light is a `point` light or a `directional` light, whose `direction` is the direction in which
-//! its light travels. A point light may fade: `"falloff": { "quadratic": 1, "reference": 4 }` is
+//! A light is a `point` light, a `directional` light, whose `direction` is the direction in which
+//! its light travels, or a `spot` light, which shines into a cone: `{ "spot": { "position": [0, 4, 0],
+//! "direction": [0, -1, 0], "outer_deg": 30 } }`. A point light may fade: `"falloff": { "quadratic": 1, "reference": 4 }` is
 //! the inverse square, with the light's colour at a distance of 4. In general the colour is
 //! multiplied by `1 / (constant + linear x + quadratic x^2)` with `x = distance / reference`. The
 //! factor is at most a million.
@@ -123,9 +126,9 @@ mod part;
 pub mod solid;
 mod texture;
 
-pub use background::{BackgroundFile, SkyFile};
-pub use color::ColorFile;
-pub use light::{DirectionalLightFile, FalloffFile, LightFile, PointLightFile};
+pub use background::{BackgroundFile, EnvironmentFile, SkyFile};
+pub use color::{ColorFile, SurfaceColorFile};
+pub use light::{DirectionalLightFile, FalloffFile, LightFile, PointLightFile, SpotLightFile};
 pub use material::{MaterialFile, ThinFilmFile};
 pub use object::{BoxFile, MeshFile, ObjectFile, OneOrMore, PlaneFile, RectangleFile};
 pub use object::{RotateDegFile, SphereFile, StepFile, SuperquadricFile};
@@ -164,7 +167,8 @@ pub struct SceneFile {
     pub include: Vec<PathBuf>,
     /// The camera that sees the scene.
     pub camera: CameraFile,
-    /// Colour of rays that leave the scene: one colour, or colours by elevation; black if left out.
+    /// Colour of rays that leave the scene: one colour, colours by elevation, or a picture; black if left
+    /// out. With `null` the background is black, and transparent in the picture file.
     #[serde(default)]
     pub background: BackgroundFile,
     /// Ambient light, from all directions; 0.1 if left out.
@@ -191,7 +195,7 @@ pub struct SceneFile {
     pub objects: Vec<ObjectFile>,
 }
 
-/// A pinhole camera.
+/// A pinhole camera with `fov_deg`, or an orthographic camera with `height`.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CameraFile {
@@ -203,9 +207,24 @@ pub struct CameraFile {
     #[serde(default = "y_axis")]
     pub up: [f64; 3],
     /// Angle between the lower and the upper edge of the picture, in degrees, above 0 and below
-    /// 180.
+    /// 180. Exactly one of `fov_deg` and `height` is given.
     #[schemars(transform = keywords::between(0.0, 180.0))]
-    pub fov_deg: f64,
+    pub fov_deg: Option<f64>,
+    /// Height of the picture of an orthographic camera, whose rays are parallel, in the unit of length,
+    /// above 0: 1e-30 to 1e30. Its rays start in the plane through the eye.
+    #[schemars(transform = keywords::positive)]
+    pub height: Option<f64>,
+}
+
+impl CameraFile {
+    /// Returns the angle between the lower and the upper edge of the picture, in degrees; for an
+    /// orthographic camera the angle of its height at the target.
+    #[must_use]
+    pub fn angle_deg(&self) -> f64 {
+        let distance = glam::DVec3::from(self.eye).distance(self.target.into());
+        let of_height = |height: f64| 2.0 * (0.5 * height).atan2(distance).to_degrees();
+        self.fov_deg.or(self.height.map(of_height)).unwrap_or_default()
+    }
 }
 
 fn dim() -> ColorFile {

@@ -21,8 +21,23 @@ use glam::DVec3;
 pub enum Light {
     /// A light at a point.
     Point(PointLight),
+    /// A light at a point that shines into a cone.
+    Spot(SpotLight),
     /// A light at infinite distance.
     Directional(DirectionalLight),
+}
+
+/// A light at a point that shines into a cone with a smooth edge.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SpotLight {
+    /// The light as it shines along its axis.
+    pub point: PointLight,
+    /// Unit direction of the axis, away from the light.
+    pub axis: DVec3,
+    /// Cosine of the angle from the axis up to which the light has its full brightness.
+    pub inner: f64,
+    /// Cosine of the angle from which on it is dark, at most `inner`.
+    pub outer: f64,
 }
 
 /// A light at a point. A surface point at exactly this position is not lit by it.
@@ -74,7 +89,7 @@ impl Light {
     #[must_use]
     pub fn color(&self) -> Color {
         match self {
-            Self::Point(light) => light.color,
+            Self::Point(light) | Self::Spot(SpotLight { point: light, .. }) => light.color,
             Self::Directional(light) => light.color,
         }
     }
@@ -83,7 +98,9 @@ impl Light {
     #[must_use]
     pub fn toward(&self, point: DVec3) -> DVec3 {
         match self {
-            Self::Point(light) => (light.position - point).normalize_or_zero(),
+            Self::Point(light) | Self::Spot(SpotLight { point: light, .. }) => {
+                (light.position - point).normalize_or_zero()
+            }
             Self::Directional(light) => light.toward,
         }
     }
@@ -93,7 +110,9 @@ impl Light {
     #[must_use]
     pub fn distance(&self, point: DVec3) -> f64 {
         match self {
-            Self::Point(light) => (light.position - point).length(),
+            Self::Point(light) | Self::Spot(SpotLight { point: light, .. }) => {
+                (light.position - point).length()
+            }
             Self::Directional(_) => f64::INFINITY,
         }
     }
@@ -102,12 +121,35 @@ impl Light {
     #[must_use]
     pub fn arriving(&self, point: DVec3) -> Color {
         match self {
-            Self::Point(PointLight { color, falloff: None, .. }) => *color,
-            Self::Point(PointLight { color, falloff: Some(falloff), .. }) => {
-                falloff.at(self.distance(point)) * *color
-            }
+            Self::Point(light) => light.arriving(point),
+            Self::Spot(light) => light.toward(point) * light.point.arriving(point),
             Self::Directional(light) => light.color,
         }
+    }
+}
+
+impl PointLight {
+    /// Returns the light that arrives at a point if nothing is between, linear RGB.
+    #[must_use]
+    pub fn arriving(&self, point: DVec3) -> Color {
+        match &self.falloff {
+            None => self.color,
+            Some(falloff) => falloff.at((self.position - point).length()) * self.color,
+        }
+    }
+}
+
+impl SpotLight {
+    /// Returns the part of the light that the cone lets pass toward a point, [0, 1]. Between the two
+    /// angles it falls with the cosine along a cubic curve without steps in its slope.
+    #[must_use]
+    pub fn toward(&self, point: DVec3) -> f64 {
+        let cosine = (point - self.point.position).normalize_or_zero().dot(self.axis);
+        if cosine >= self.inner {
+            return 1.0;
+        }
+        let part = ((cosine - self.outer) / (self.inner - self.outer)).max(0.0);
+        if part > 0.0 { part * part * (3.0 - 2.0 * part) } else { 0.0 }
     }
 }
 
@@ -124,6 +166,21 @@ impl Falloff {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_spot_is_bright_inside_dark_outside_and_half_between() {
+        let point = PointLight { position: DVec3::Y, color: Color::ONE, falloff: None };
+        let spot = SpotLight { point, axis: DVec3::NEG_Y, inner: 0.9, outer: 0.7 };
+        let at = |cosine: f64| {
+            let down = DVec3::new((1.0 - cosine * cosine).sqrt(), -cosine, 0.0);
+            Light::Spot(spot).arriving(DVec3::Y + 3.0 * down).x
+        };
+        assert_eq!([1.0, 0.91, 0.69, 0.0, -1.0].map(at), [1.0, 1.0, 0.0, 0.0, 0.0]);
+        assert!((at(0.8) - 0.5).abs() < 1e-12);
+        let hard = Light::Spot(SpotLight { inner: 0.9, outer: 0.9, ..spot });
+        assert_eq!(hard.arriving(DVec3::new(5.0, 0.9, 0.0)), Color::ZERO);
+        assert_eq!(hard.arriving(DVec3::ZERO), Color::ONE);
+    }
 
     #[test]
     fn twice_as_far_is_a_quarter_as_bright() {

@@ -14,6 +14,8 @@ use std::sync::Arc;
 pub struct Material {
     /// Colour of the surface, linear RGB, each channel at least 0. A texture is multiplied by it.
     pub color: Color,
+    /// True if the colour is also multiplied by the colours of a mesh's vertices, where it has some.
+    pub vertex_colors: bool,
     /// Share of the ambient light that is reflected, in `[0, 1]`.
     pub ambient: f64,
     /// Share of the light of lights that is reflected diffusely, in `[0, 1]`.
@@ -50,6 +52,7 @@ impl Default for Material {
     fn default() -> Self {
         Self {
             color: Color::ONE,
+            vertex_colors: false,
             ambient: 1.0,
             diffuse: 0.9,
             specular: 0.0,

@@ -10,6 +10,7 @@ pub mod file;
 pub mod light;
 pub mod limits;
 pub mod material;
+pub mod mesh_file;
 pub mod mtl;
 pub mod names;
 pub mod obj;
@@ -18,9 +19,9 @@ pub mod read;
 pub mod schema;
 pub mod text;
 
-pub use background::Background;
+pub use background::{Background, Environment};
 pub use camera::Camera;
-pub use light::{DirectionalLight, Falloff, Light, PointLight};
+pub use light::{DirectionalLight, Falloff, Light, PointLight, SpotLight};
 pub use material::Material;
 pub use names::Names;
 pub use ramp::AngleRamp;
@@ -41,6 +42,8 @@ pub struct Scene {
     pub camera: Camera,
     /// Colours of rays that leave the scene.
     pub background: Background,
+    /// True if picture files show the background as transparent.
+    pub is_transparent: bool,
     /// Ambient light, which comes from all directions; each channel at least 0.
     pub ambient: Color,
     /// Lights with a position or a direction.
@@ -78,16 +81,24 @@ impl Scene {
         meshes.map(|mesh| mesh.triangles.len() as u64).sum()
     }
 
-    /// Returns for each of `textures` whether some surface shows it.
+    /// Returns whether some picture cuts out surfaces.
+    #[must_use]
+    pub fn has_masks(&self) -> bool {
+        self.textures.iter().any(|texture| texture.mask.is_some())
+    }
+
+    /// Returns for each of `textures` whether some surface or the background shows it.
     #[must_use]
     pub fn shown_textures(&self) -> Vec<bool> {
         let mut shown = vec![false; self.textures.len()];
         for surface in self.objects.iter().flat_map(|object| &object.parts) {
-            if let Some(texture) = surface.picture()
-                && self.materials[surface.material].shows_color()
-            {
-                shown[texture] = true;
+            if let Some(texture) = surface.picture() {
+                let shows = self.materials[surface.material].shows_color();
+                shown[texture] |= shows || self.textures[texture].mask.is_some();
             }
+        }
+        if let Background::Picture(environment) = &self.background {
+            shown[environment.texture] = true;
         }
         shown
     }
@@ -125,6 +136,12 @@ pub enum SurfaceTexture {
 }
 
 impl Surface {
+    /// The mask that cuts out the surface, if there is one.
+    #[must_use]
+    pub fn mask<'a>(&self, scene: &'a Scene) -> Option<&'a Texture> {
+        scene.textures[self.picture()?].mask.as_deref()
+    }
+
     /// Index of the picture on the surface, if there is one.
     #[must_use]
     pub fn picture(&self) -> Option<usize> {

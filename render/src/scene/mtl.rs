@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `Kd` | `color`, taken as linear light; white if it is 0 and there is a `map_Kd` |
 //! | `map_Kd` | a texture, `srgb` and `repeat`, with the options `-s`, `-o` and `-clamp` ([`Map`]) |
+//! | `map_d` | a mask that cuts out surfaces: the alpha of the picture, or its grey if it has none |
 //! | `Ks` | `specular`, the mean of its three numbers |
 //! | `Ns` | `shininess`, 1 if it is less |
 //! | `d`, or without it `Tr` for 1 - d | `ambient` and `diffuse` are d, `transparency` is 1 - d |
@@ -25,6 +26,7 @@ use super::limits::LARGEST;
 use super::obj::{ObjError, shortened};
 use super::text::{self, before_comment, words};
 use crate::color::Color;
+use crate::texture::Alpha;
 use std::collections::{BTreeMap, HashMap};
 
 /// Sentences about single lines and materials; further ones are counted.
@@ -39,6 +41,10 @@ pub struct Entry {
     pub material: Material,
     /// The picture of its colours.
     pub picture: Option<Map>,
+    /// The picture of its opacity, which cuts out surfaces.
+    pub mask: Option<Map>,
+    /// The use of the alpha of its picture.
+    pub alpha: Alpha,
 }
 
 /// The contents of an MTL file.
@@ -126,6 +132,14 @@ pub fn counted<T: AsRef<str>>(unused: &BTreeMap<T, usize>) -> String {
 }
 
 impl Library {
+    /// Returns the library of materials that a mesh file holds, with names that differ.
+    #[must_use]
+    pub fn of(entries: &[Entry]) -> Self {
+        let names = entries.iter().map(|entry| entry.name.clone());
+        let numbers = names.zip(0..).collect();
+        Self { entries: entries.to_vec(), numbers, remarks: Vec::new() }
+    }
+
     /// Returns the number of the entry with this name in `usemtl`. The name may have a comment behind it.
     #[must_use]
     pub fn find(&self, name: &str) -> Option<usize> {
@@ -176,7 +190,9 @@ impl Library {
 
 impl Open {
     fn new(name: &str) -> Self {
-        let entry = Entry { name: name.into(), material: plain(), picture: None };
+        let material = plain();
+        let entry =
+            Entry { name: name.into(), material, picture: None, mask: None, alpha: Alpha::Cut };
         Self { entry, opacity: None, transparency: None }
     }
 
@@ -204,6 +220,7 @@ impl Open {
             "d" => self.opacity = Some(within(0.0, 1.0, "`d` and a number from 0 to 1")?),
             "Tr" => self.transparency = Some(within(0.0, 1.0, "`Tr` and a number from 0 to 1")?),
             "map_Kd" => self.entry.picture = Some(Map::read(rest).ok_or("`map_Kd` and a file")?),
+            "map_d" => self.entry.mask = Some(Map::read(rest).ok_or("`map_d` and a file")?),
             "Ka" | "illum" => {}
             // Light of its own, and a filter of what passes.
             "Ke" => return Ok(color(rest) == Some(Color::ZERO)),
@@ -257,7 +274,8 @@ mod tests {
         assert!((glass.specular - 0.6).abs() < 1e-15);
         let wood = Material { shininess: 1.0, ..plain() };
         let picture = Map::read("pictures/oak wood.png");
-        assert_eq!(entries[1], Entry { name: "wood old".into(), material: wood, picture });
+        let name = "wood old".into();
+        assert_eq!(entries[1], Entry { name, material: wood, picture, mask: None });
     }
 
     #[test]
@@ -292,12 +310,12 @@ mod tests {
 
     #[test]
     fn what_is_not_used_is_named() {
-        let text = "newmtl a\nKe 1 1 1\nmap_d a.png\nnewmtl b\nmap_d b.png\nnewmtl a\nKd 0 0 0\nKd x\nKd y\nKd z\nKd w\n";
+        let text = "newmtl a\nKe 1 1 1\nrefl a.png\nnewmtl b\nrefl b.png\nnewmtl a\nKd 0 0 0\nKd x\nKd y\nKd z\nKd w\n";
         let Library { entries, remarks, .. } = read("a.mtl", text.as_bytes()).unwrap();
         assert_eq!(entries.len(), 2);
         assert_eq!(entries[0].material.color, Color::ONE, "the first of a name counts");
         assert!(remarks[0].starts_with("line 8 is ignored: found `Kd x`"));
-        assert_eq!(remarks[3..], ["2 more such remarks", "not used: Ke, map_d (2 times)"]);
+        assert_eq!(remarks[3..], ["2 more such remarks", "not used: Ke, refl (2 times)"]);
     }
 
     #[test]

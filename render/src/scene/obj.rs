@@ -8,21 +8,28 @@
 //! | a normal that is not finite | no normal, as one of length 0 |
 //! | texture coordinates that are not finite | none |
 //! | a vertex that is not finite | a fault if a face uses it |
+//! | three numbers behind a vertex | its colour (`colors.rs`) |
+//! | vertices far from the origin | vertices from an offset (`far.rs`) |
 //! | `s` other than 0 and `off`, faces without normals | mean normals ([`crate::shape::smooth`]) |
-//! | points, lines, curves, vertex colours and unknown keywords | counted in [`ObjFile::unused`] |
+//! | points, lines, curves and unknown keywords | counted in [`ObjFile::unused`] |
 //!
 //! A file of `triangulate` must end with the comment `# end V F`. If the comment is missing, the file is
 //! incomplete.
 
+mod colors;
+mod far;
 mod polygon;
 mod reader;
 
+use super::mtl::Entry;
 use super::text;
 use crate::shape::Mesh;
 use crate::shape::mesh::{MeshError, Triangle};
 use crate::shape::smooth::smooth;
 use files::{Exit, Failure};
+pub use polygon::divide;
 use reader::Reader;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use thiserror::Error;
 
@@ -103,12 +110,20 @@ pub struct ObjFile {
     pub folder: PathBuf,
     /// The mesh as it stands in the file.
     pub mesh: Mesh,
+    /// Number of the vertices that have a colour.
+    pub colored: usize,
     /// The smoothing group of each triangle, 0 for none; empty if the file names no group.
     pub groups: Vec<u32>,
     /// The texts behind `mtllib`: the path of a file, or of several.
     pub libraries: Vec<String>,
     /// Keywords and values that are not used, each with its count.
     pub unused: Vec<(String, usize)>,
+    /// Materials that the file itself holds, by the names of its surfaces; an OBJ file holds none.
+    pub materials: Vec<Entry>,
+    /// Pictures that the file itself holds, by the paths that its materials name.
+    pub pictures: BTreeMap<String, Vec<u8>>,
+    /// Sentences about the file.
+    pub remarks: Vec<String>,
 }
 
 impl From<Mesh> for ObjFile {
@@ -157,7 +172,7 @@ pub fn read_file(file: &str, bytes: &[u8]) -> Result<ObjFile, ObjError> {
     if text.trim().is_empty() {
         return Err(ObjError::Empty { file: file.into() });
     }
-    let mut reader = Reader::new(file, &text);
+    let mut reader = Reader::new(file, &text, text.starts_with(OURS));
     let end = closing_comment(file, &text)?;
     reader.read()?;
     let (vertices, faces) = (reader.vertices(), reader.faces);
@@ -174,7 +189,9 @@ pub fn read_file(file: &str, bytes: &[u8]) -> Result<ObjFile, ObjError> {
 /// triangles are counted by the lines that begin them, and twice, since lists grow by doubling.
 #[must_use]
 pub fn needed(bytes: &[u8]) -> u64 {
-    const VERTEX: u64 = size_of::<[f32; 3]>() as u64 + 1;
+    // A position, in `f64` too where the mesh lies far from the origin, a color, and whether it is used.
+    const VERTEX: u64 = 2 * size_of::<[f32; 3]>() as u64 + 1;
+    const COLOR: u64 = size_of::<[f32; 3]>() as u64;
     const TRIANGLE: u64 = size_of::<Triangle>() as u64 + size_of::<u32>() as u64;
     const NAME: u64 = size_of::<String>() as u64 + 32;
     // A face has at most as many corners as blanks. Bytes are counted faster than words.
@@ -182,6 +199,7 @@ pub fn needed(bytes: &[u8]) -> u64 {
     let lines = bytes.split(|&byte| byte == b'\n').map(|line| match line.trim_ascii_start() {
         // A face has two triangles less than corners.
         [b'f', corners @ ..] => TRIANGLE * blanks(corners).max(1),
+        [b'v', b' ', ..] if blanks(line) >= 6 => VERTEX + COLOR,
         [b'v', ..] => VERTEX,
         [b'u', ..] => NAME + line.len() as u64,
         _ => 0,
@@ -307,7 +325,7 @@ mod tests {
         let read = read_file("a.obj", format!("{SQUARE}{more}").as_bytes()).unwrap();
         let counts: Vec<(&str, usize)> =
             read.unused.iter().map(|(what, count)| (what.as_str(), *count)).collect();
-        assert_eq!(counts, [("l", 2), ("p", 1), ("vertex colours", 2), ("vp", 1)]);
+        assert_eq!((counts, read.colored), (vec![("l", 2), ("p", 1), ("vp", 1)], 2));
     }
 
     #[test]

@@ -9,6 +9,7 @@ mod given;
 mod libraries;
 mod lights;
 mod materials;
+mod mesh_files;
 mod meshes;
 mod objects;
 mod place;
@@ -19,8 +20,9 @@ mod textures;
 
 pub use draft::{Draft, SceneText};
 
-use super::file::{FORMAT, Lists, SceneFile, VERSION};
+use super::file::{BackgroundFile, FORMAT, Lists, SceneFile, VERSION};
 use super::limits::DEEPEST;
+use super::mesh_file::MeshFileError;
 use super::obj::{ObjError, ObjFile};
 use super::{Names, Scene};
 use crate::procedural::{NoiseLattice, Procedural};
@@ -35,7 +37,7 @@ use libraries::Libraries;
 use ranges::Ranges;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 use textures::Memory;
 use thiserror::Error;
@@ -59,6 +61,9 @@ pub enum SceneError {
     #[error(transparent)]
     Memory(#[from] MemoryError),
     /// A mesh file is not valid.
+    #[error(transparent)]
+    MeshFile(#[from] MeshFileError),
+    /// A material library is not valid.
     #[error(transparent)]
     Obj(#[from] ObjError),
     /// Arrays given as a mesh are not valid.
@@ -104,6 +109,7 @@ impl Failure for SceneError {
             Self::Named(_, exit) => *exit,
             Self::TooLarge(_) => Exit::Resource,
             Self::Memory(error) => error.exit(),
+            Self::MeshFile(error) => error.exit(),
             Self::UnknownMesh { .. } | Self::MissingMesh { .. } => Exit::Use,
             Self::Json(_) | Self::Obj(_) | Self::Mesh { .. } => Exit::Malformed,
         }
@@ -162,7 +168,7 @@ impl Draft<'_> {
         let indices = Indices::of(&texts)?;
         let lattice = OnceLock::new();
         let memory = Memory::new(budget);
-        let remarks = RefCell::default();
+        let (remarks, held) = (RefCell::default(), RefCell::default());
         let readers: Vec<Reader<'_>> = texts
             .iter()
             .map(|text| Reader {
@@ -174,6 +180,7 @@ impl Draft<'_> {
                 lattice: &lattice,
                 memory: &memory,
                 remarks: &remarks,
+                held: &held,
             })
             .collect();
         let mut scene = self.without_lists()?;
@@ -195,6 +202,9 @@ impl Draft<'_> {
         for reader in &readers {
             scene.textures.extend(reader.textures()?);
         }
+        if let Some(own) = readers.last() {
+            own.environment(&self.file.background, &mut scene)?;
+        }
         let mut libraries = Libraries::default();
         let mut given = Given::new(given, &texts);
         for (reader, planned) in readers.iter().zip(planned) {
@@ -214,6 +224,7 @@ impl Draft<'_> {
         Ok(Scene {
             camera: camera::read(document, &file.camera)?,
             background: background::read(document, &file.background)?,
+            is_transparent: file.background == BackgroundFile::Nothing,
             ambient: document.color("ambient", file.ambient)?,
             lights: Vec::new(),
             materials: Vec::new(),
@@ -241,6 +252,8 @@ struct Reader<'a> {
     memory: &'a Memory<'a>,
     /// Remarks on pictures.
     remarks: &'a RefCell<Vec<Finding>>,
+    /// Pictures inside of mesh files, by the paths that their materials name.
+    held: &'a RefCell<BTreeMap<PathBuf, Vec<u8>>>,
 }
 
 impl Ranges for Reader<'_> {
@@ -252,6 +265,9 @@ impl Ranges for Reader<'_> {
 impl Reader<'_> {
     /// Reads the file that the scene names at the JSON path `at`.
     fn named_file(&self, at: &str, path: &Path) -> Result<Vec<u8>, SceneError> {
+        if let Some(bytes) = self.held.borrow().get(path) {
+            return Ok(bytes.clone());
+        }
         self.source.read(path).map_err(|error| named(self.document, at, &error))
     }
 }

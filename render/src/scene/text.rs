@@ -8,13 +8,16 @@ pub struct NotText(pub usize);
 
 /// Returns the text of a file.
 ///
-/// Bytes that are not UTF-8 are Latin-1, as in files of older programs. A byte order mark at the start is
-/// left out. Lines may end in CR, LF or both. A backslash at the end of a line joins it with the next
+/// Bytes that are not UTF-8 are Latin-1, as in files of older programs, or UTF-16 behind its byte order
+/// mark. A byte order mark at the start is left out. Lines may end in CR, LF or both. A backslash at the end of a line joins it with the next
 /// one; empty lines behind a joined line keep the numbers of the lines that follow.
 ///
 /// # Errors
 /// If the file contains a byte 0.
 pub fn of(bytes: &[u8]) -> Result<Cow<'_, str>, NotText> {
+    if let Some(text) = wide(bytes) {
+        return of(text.as_bytes()).map(|text| Cow::Owned(text.into_owned()));
+    }
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     // One fast pass: most files have none of these bytes.
     let seen = bytes.iter().fold(0, |seen, &byte| {
@@ -36,6 +39,17 @@ pub fn of(bytes: &[u8]) -> Result<Cow<'_, str>, NotText> {
     };
     let continues = backslash && text.lines().any(|line| line.ends_with('\\'));
     Ok(if continues { joined(&text).into() } else { text })
+}
+
+/// Returns the text of a file in UTF-16, which begins with a byte order mark.
+fn wide(bytes: &[u8]) -> Option<String> {
+    let (words, read): (_, fn([u8; 2]) -> u16) = match bytes {
+        [0xff, 0xfe, words @ ..] => (words, u16::from_le_bytes),
+        [0xfe, 0xff, words @ ..] => (words, u16::from_be_bytes),
+        _ => return None,
+    };
+    let words = words.as_chunks::<2>().0.iter().map(|&two| read(two));
+    Some(char::decode_utf16(words).map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER)).collect())
 }
 
 fn has_lone_returns(text: &str) -> bool {
@@ -95,6 +109,9 @@ mod tests {
         assert_eq!(text(b"gr\xfcn\n").as_deref(), Ok("gr\u{fc}n\n"));
         assert_eq!(text("gr\u{fc}n".as_bytes()).as_deref(), Ok("gr\u{fc}n"));
         assert_eq!(text(b"a\nb\0"), Err(NotText(2)));
+        // UTF-16 in both orders of bytes.
+        assert_eq!(text(b"\xff\xfea\0\r\0\n\0").as_deref(), Ok("a\r\n"));
+        assert_eq!(text(b"\xfe\xff\0a\0\xfc").as_deref(), Ok("a\u{fc}"));
     }
 
     #[test]

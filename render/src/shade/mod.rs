@@ -5,15 +5,18 @@
 //! to their parents. The thesis's figure weights refraction with the reflectivity; this module
 //! weights it with the transparency.
 
+mod background;
 mod lobe;
+mod masks;
 pub mod observer;
 mod shadow;
+mod start;
 
 use crate::accel::Accel;
 use crate::color::Color;
 use crate::differential::Spread;
 use crate::filter::FilteredTexture;
-use crate::footprint::Sight;
+use crate::footprint::{Footprint, Sight};
 use crate::optics;
 use crate::scene::{Material, Scene};
 use crate::shape::Charts;
@@ -24,6 +27,7 @@ use glam::DVec3;
 use lobe::Lobe;
 use observer::{Local, Observer, Seen, Textured};
 pub use shadow::{Facing, Shadows};
+pub use start::ShadowStart;
 
 /// Shades the trees of one scene.
 #[derive(Debug)]
@@ -45,6 +49,21 @@ pub struct Shader<'a> {
     pub volumes: &'a Volumes,
     /// The volumes that contain each light, in the order of the scene's lights.
     pub around_lights: &'a [Media],
+    /// The part of the light that is wanted.
+    pub view: View,
+}
+
+/// The part of a picture that is shaded.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum View {
+    /// The scene before its background.
+    #[default]
+    Whole,
+    /// The scene without the background behind it. Surfaces mirror the background all the same.
+    Foreground,
+    /// The part of the background that shows, per channel, [0, 1]; what covers it is black. It shows
+    /// beside surfaces, through refracting ones and through masks, but not in mirrors.
+    Coverage,
 }
 
 /// Counts of the operations that shading performs.
@@ -86,34 +105,37 @@ impl Shader<'_> {
         work: &mut ShadeWork,
         observer: &mut O,
     ) -> Color {
-        sight.through() * self.branch(sight, work, observer)
+        sight.through() * self.branch(sight, true, work, observer)
     }
 
     /// Returns the colour at the start of the current branch. Reports the branch and its
-    /// descendants to `observer`.
+    /// descendants to `observer`. `through` is true if light came here through surfaces alone, and was
+    /// not mirrored by any from outside.
     fn branch<S: Sight, O: Observer>(
         &self,
         sight: &S,
+        through: bool,
         work: &mut ShadeWork,
         observer: &mut O,
     ) -> Color {
         let (local, color) = match sight.node() {
-            None => {
-                let background = |toward| self.scene.background.toward(toward);
-                (None, sight.away().map_or(Color::ZERO, background))
-            }
+            None => (None, sight.away().map_or(Color::ZERO, |away| self.background(away, through))),
             Some(node) => {
                 let local = self.local(node, sight, work);
                 let mut color = local.color;
-                if node.reflect_weight != Color::ZERO {
-                    observer.follow(node, Child::Reflected);
+                let c = local.coverage;
+                let reflect_weight = c * node.reflect_weight;
+                if reflect_weight != Color::ZERO {
+                    observer.follow(node, Child::Reflected, reflect_weight);
                     let reflected = sight.step(Child::Reflected);
-                    color += node.reflect_weight * self.branch(&reflected, work, observer);
+                    let through = through && node.inside;
+                    color += reflect_weight * self.branch(&reflected, through, work, observer);
                 }
-                if node.refract_weight != Color::ZERO {
-                    observer.follow(node, Child::Refracted);
+                let refract_weight = c * node.refract_weight + (1.0 - c) * node.pass_weight;
+                if refract_weight != Color::ZERO {
+                    observer.follow(node, Child::Refracted, refract_weight);
                     let refracted = sight.step(Child::Refracted);
-                    color += node.refract_weight * self.branch(&refracted, work, observer);
+                    color += refract_weight * self.branch(&refracted, through, work, observer);
                 }
                 (Some(local), color)
             }
@@ -122,30 +144,63 @@ impl Shader<'_> {
         color
     }
 
+    /// Moves a sight behind the cut-outs that cover less than half of its footprint.
+    #[must_use]
+    pub fn behind_cutouts<S: Sight>(&self, mut sight: S) -> S {
+        while let Some(node) = sight.node()
+            && node.pass_weight != Color::ZERO
+        {
+            let object = &self.scene.objects[node.piece.object as usize];
+            let picture = object.parts[node.part as usize].picture();
+            let Some(texture) = picture.and_then(|index| self.textures[index].as_ref()) else {
+                break;
+            };
+            if texture.coverage(&self.footprints(node, &sight, texture)[1]) >= 0.5 {
+                break;
+            }
+            sight = sight.step(Child::Refracted);
+        }
+        sight
+    }
+
+    /// Returns the footprint of a node on its texture, and the part of it that the filter averages.
+    fn footprints<S: Sight>(
+        &self,
+        node: &Node,
+        sight: &S,
+        texture: &FilteredTexture<'_>,
+    ) -> [Footprint; 2] {
+        let footprint = sight.footprint(node, &self.charts[node.piece.object as usize]);
+        let has_poles = self.scene.objects[node.piece.object as usize].shape.has_poles();
+        [footprint, if has_poles { texture.between_poles(footprint) } else { footprint }]
+    }
+
     /// Computes the colour of the surface itself under ambient light and the lights that reach it.
     fn local<S: Sight>(&self, node: &Node, sight: &S, work: &mut ShadeWork) -> Local {
         let object = &self.scene.objects[node.piece.object as usize];
         let surface = object.parts[node.part as usize];
         let material = &self.scene.materials[surface.material];
+        let texture = surface.picture().and_then(|index| self.textures[index].as_ref());
+        // A surface is opaque where its ray was not followed beyond.
+        let cut = texture.filter(|_| node.pass_weight != Color::ZERO);
+        let coverage =
+            cut.map_or(1.0, |texture| texture.coverage(&self.footprints(node, sight, texture)[1]));
+        if coverage == 0.0 || self.view == View::Coverage {
+            return Local { textured: None, color: Color::ZERO, plain: Color::ZERO, coverage };
+        }
         let variance = sight.spread().map_or(0.0, Spread::normal_variance);
-        let Lighting { diffuse, highlight } = self.lighting(node, variance, material, work);
+        let Lighting { diffuse, highlight } = self.lighting(node, sight, variance, material, work);
         let counts = &mut work.counts;
-        let mut color = highlight;
-        let mut plain = highlight;
+        let mut color = coverage * highlight;
+        let mut plain = coverage * highlight;
         let mut textured = None;
         if material.shows_color() {
-            let texture = surface.picture().and_then(|index| self.textures[index].as_ref());
             textured = texture.map(|texture| {
-                let footprint = sight.footprint(node, &self.charts[node.piece.object as usize]);
+                let [footprint, averaged] = self.footprints(node, sight, texture);
                 counts.texels += texture.reads();
                 let count =
                     if footprint.is_point() { &mut counts.points } else { &mut counts.areas };
                 *count += 1;
-                let averaged = if object.shape.has_poles() {
-                    texture.between_poles(footprint)
-                } else {
-                    footprint
-                };
                 // Only a method with spreads compares samples.
                 let (average, contrast) = if sight.spread().is_some() {
                     texture.average_and_contrast(&averaged)
@@ -154,6 +209,7 @@ impl Shader<'_> {
                 };
                 Textured { footprint, average, contrast }
             });
+            // The average of a picture with a mask contains its coverage.
             let texture = textured.map_or(Color::ONE, |textured| textured.average);
             let carved = surface.solid().map_or(Color::ONE, |index| {
                 counts.solids += 1;
@@ -165,18 +221,30 @@ impl Shader<'_> {
                     None => solid.color(&object.to_own_space, node.position),
                 }
             });
+            let own = material.color * self.vertex_color(node, material, sight);
             let light = material.ambient * self.scene.ambient + diffuse;
-            color += material.color * texture * carved * light;
-            plain += material.color * light;
+            color += own * texture * carved * light;
+            plain += coverage * own * light;
         }
-        Local { textured, color, plain }
+        Local { textured, color, plain, coverage }
+    }
+
+    /// Returns the colour of a mesh's vertices in the middle of the part of the surface that is seen, or
+    /// white. Colours are linear on each triangle, so that the middle has their average.
+    fn vertex_color<S: Sight>(&self, node: &Node, material: &Material, sight: &S) -> Color {
+        if !material.vertex_colors {
+            return Color::ONE;
+        }
+        let shape = &self.scene.objects[node.piece.object as usize].shape;
+        shape.vertex_color(node.piece.triangle, sight.middle(node)).unwrap_or(Color::ONE)
     }
 
     /// Sums the light that the scene's lights send to a node. `variance` is that of its normal along
     /// each tangent.
-    fn lighting(
+    fn lighting<S: Sight>(
         &self,
         node: &Node,
+        sight: &S,
         variance: f64,
         material: &Material,
         work: &mut ShadeWork,
@@ -187,12 +255,13 @@ impl Shader<'_> {
         }
         let ShadeWork { counts, shadows } = work;
         shadows.clear();
+        let start = ShadowStart::of(self.scene, node, sight.spread());
         for (index, light) in self.scene.lights.iter().enumerate() {
             let toward = light.toward(node.position);
             let cosine = node.normal.dot(toward);
-            if cosine > 0.0 && node.geometric_normal.dot(toward) > 0.0 {
+            if cosine > 0.0 && start.normal.dot(toward) > 0.0 {
                 counts.shadow += 1;
-                shadows.add(self.scene, node, Facing { light: index, toward, cosine });
+                shadows.add(self.scene, &start, Facing { light: index, toward, cosine });
             }
         }
         self.trace_shadows(shadows);

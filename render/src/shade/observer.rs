@@ -29,6 +29,9 @@ pub struct Local {
     pub color: Color,
     /// The surface's own colour if all its textures were white, linear RGB.
     pub plain: Color,
+    /// The part of the footprint that a mask leaves of the surface, [0, 1]; 1 without a mask. Both colours
+    /// are multiplied by it.
+    pub coverage: f64,
 }
 
 /// A branch that has been shaded.
@@ -45,13 +48,14 @@ pub struct Seen<'a, S> {
 
 /// Receives the branches of a tree in the order of shading: depth first, from the root.
 pub trait Observer {
-    /// Called before a child of `node`, the current node, is shaded.
-    fn follow(&mut self, node: &Node, child: Child);
+    /// Called before a child of `node`, the current node, is shaded. `share` is the weight of the
+    /// child's light in that of the node, linear RGB.
+    fn follow(&mut self, node: &Node, child: Child, share: Color);
     /// Called when the current branch has its colour. The root is reported too, as the last branch.
     fn leave<S: Sight>(&mut self, seen: &Seen<'_, S>);
 }
 
 impl Observer for () {
-    fn follow(&mut self, _: &Node, _: Child) {}
+    fn follow(&mut self, _: &Node, _: Child, _: Color) {}
     fn leave<S: Sight>(&mut self, _: &Seen<'_, S>) {}
 }

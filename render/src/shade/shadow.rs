@@ -1,11 +1,11 @@
 //! Traces shadow rays: the part of each light that reaches a point (thesis 4.5.2).
 
-use super::Shader;
+use super::{Shader, ShadowStart};
 use crate::color::Color;
+use crate::differential::{self, RayDifferential};
 use crate::ray::{Hit, Ray};
-use crate::scene::{Light, PointLight, Scene};
+use crate::scene::{Light, PointLight, Scene, SpotLight};
 use crate::trace::medium::{Media, Medium};
-use crate::trace::tree::Node;
 use glam::DVec3;
 
 /// A boundary of a volume between a point and a light: its distance from the point, the volume, and
@@ -33,6 +33,10 @@ pub struct Shadows {
     rays: Vec<(Ray, f64)>,
     /// For each ray, its light.
     lights: Vec<Facing>,
+    /// For each ray, its differential, if it is known.
+    differentials: Vec<Option<RayDifferential>>,
+    /// For each ray, true if it meets a surface with a mask.
+    masked: Vec<bool>,
     /// For each ray, the transmittance to its light.
     transmittance: Vec<Color>,
     /// For each ray, true if it hits an opaque surface.
@@ -51,19 +55,27 @@ impl Shadows {
     pub fn clear(&mut self) {
         self.rays.clear();
         self.lights.clear();
+        self.differentials.clear();
     }
 
-    /// Adds the ray from a node to a light of the scene.
-    pub fn add(&mut self, scene: &Scene, node: &Node, facing: Facing) {
+    /// Adds the ray from a start to a light of the scene.
+    pub fn add(&mut self, scene: &Scene, start: &ShadowStart, facing: Facing) {
+        let mut turns = [DVec3::ZERO; 2];
         let (direction, distance) = match scene.lights[facing.light] {
-            Light::Point(PointLight { position, .. }) => {
-                let toward = position - node.position;
+            Light::Point(PointLight { position, .. })
+            | Light::Spot(SpotLight { point: PointLight { position, .. }, .. }) => {
+                let toward = position - start.position;
                 let distance = toward.length();
+                if let Some(changes) = start.changes {
+                    turns = differential::normalized(toward, changes.map(|change| -change));
+                }
                 (toward / distance, distance)
             }
             Light::Directional(light) => (light.toward, f64::INFINITY),
         };
-        self.rays.push((Ray::leaving(node.piece, node.position, direction), distance));
+        self.rays.push((Ray::leaving(start.piece, start.position, direction), distance));
+        let differential = start.changes.map(|origin| RayDifferential { origin, direction: turns });
+        self.differentials.push(differential);
         self.lights.push(facing);
     }
 
@@ -84,18 +96,24 @@ impl Shader<'_> {
     /// on which the light itself lies blocks nothing. The ray to a directional light has no end.
     pub fn trace_shadows(&self, shadows: &mut Shadows) {
         let Self { scene, accel, .. } = *self;
-        let Shadows { rays, lights, transmittance, blocked, met, crossed, .. } = shadows;
+        let Shadows { rays, lights, transmittance, blocked, met, masked, crossed, .. } = shadows;
         crossed.clear();
-        for flags in [&mut *blocked, &mut *met] {
+        for flags in [&mut *blocked, &mut *met, &mut *masked] {
             flags.clear();
             flags.resize(rays.len(), false);
         }
+        let has_masks = scene.has_masks();
         let opaque = |k: usize, hit: Hit| {
             met[k] = true;
             let (ray, distance) = &rays[k];
             let (object, part) = (hit.piece.object, accel.part(&hit));
             let opaque = transparency(scene, (object, part)) == 0.0;
             if self.holds_light(ray, *distance, &hit, &scene.lights[lights[k].light]) {
+                return false;
+            }
+            let surface = scene.objects[object as usize].parts[part as usize];
+            if has_masks && surface.mask(scene).is_some() {
+                masked[k] = true;
                 return false;
             }
             if !opaque {
@@ -117,6 +135,10 @@ impl Shader<'_> {
                 dimmed *= transparency(scene, (object, part));
                 next += 1;
             }
+            if shadows.masked[k] && !shadows.blocked[k] && dimmed > 0.0 {
+                let (ray, distance) = shadows.rays[k];
+                dimmed *= self.passed_by_masks(&ray, distance, shadows.differentials[k].as_ref());
+            }
             let reaching = if shadows.blocked[k] {
                 Color::ZERO
             } else if self.volumes.absorb() && dimmed > 0.0 {
@@ -131,7 +153,11 @@ impl Shader<'_> {
     /// Returns whether a light lies on the surface that its ray hits. The distance between both is
     /// measured across the surface, as at the ray's start.
     fn holds_light(&self, ray: &Ray, distance: f64, hit: &Hit, light: &Light) -> bool {
-        let Light::Point(PointLight { position, .. }) = *light else { return false };
+        let (Light::Point(PointLight { position, .. })
+        | Light::Spot(SpotLight { point: PointLight { position, .. }, .. })) = *light
+        else {
+            return false;
+        };
         let Some(from) = ray.leaving else { return false };
         let normal = self.accel.geometric_normal(ray, hit);
         let gap = (distance - hit.t) * normal.dot(ray.direction).abs();
@@ -241,8 +267,9 @@ mod tests {
     use crate::procedural::Procedural;
     use crate::ray::Piece;
     use crate::scene::{Background, Camera, Material, Names, Object, Surface};
+    use crate::shade::View;
     use crate::shape::{Quad, Shape, Sphere};
-    use crate::trace::tree::Branch;
+    use crate::trace::tree::{Branch, Node};
     use crate::trace::volume::Volumes;
     use glam::{DAffine3, DVec2};
 
@@ -266,6 +293,7 @@ mod tests {
         Scene {
             camera: Camera::new(DVec3::NEG_Z, DVec3::ZERO, DVec3::Y, 1.0).unwrap(),
             background: Background::Uniform(Color::ZERO),
+            is_transparent: false,
             ambient: Color::ZERO,
             lights: vec![Light::Point(PointLight {
                 position: DVec3::new(0.0, 0.0, 9.0),
@@ -302,6 +330,8 @@ mod tests {
             refracted: Branch::Cut,
             reflect_weight: Color::ZERO,
             refract_weight: Color::ZERO,
+            pass_weight: Color::ZERO,
+            inside: false,
         }
     }
 
@@ -319,11 +349,13 @@ mod tests {
             wants_area: false,
             volumes: &volumes,
             around_lights: &volumes.around_lights(&scene, &accel),
+            view: View::Whole,
         };
         let trace = |nodes: &[Node], shadows: &mut Shadows| {
             shadows.clear();
             for node in nodes {
-                shadows.add(&scene, node, Facing { light: 0, toward: DVec3::Z, cosine: 1.0 });
+                let facing = Facing { light: 0, toward: DVec3::Z, cosine: 1.0 };
+                shadows.add(&scene, &ShadowStart::of(&scene, node, None), facing);
             }
             shader.trace_shadows(shadows);
             shadows.results().map(|(_, reaching)| reaching).collect::<Vec<Color>>()

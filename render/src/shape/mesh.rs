@@ -1,6 +1,9 @@
 //! The triangle mesh, with coordinates exactly as in its file.
+//!
+//! Coordinates far from the origin, such as metres in a national grid, do not fit `f32`. Such a mesh has
+//! an [`Mesh::offset`], from which its coordinates count.
 
-use super::{Changes, Placement, PlacementError, SurfacePoint, triangle};
+use super::{Changes, Placement, PlacementError, SurfacePoint, offset, triangle};
 use crate::differential;
 use glam::{DVec2, DVec3};
 use thiserror::Error;
@@ -10,12 +13,16 @@ pub const NONE: u32 = u32::MAX;
 
 /// Triangles over shared positions, texture coordinates and normals.
 ///
-/// Coordinates are the `f32` values of the OBJ file. Hits are found and refined on exactly these
-/// values, in `f64`.
+/// Coordinates are the `f32` values of the OBJ file, plus the offset. Hits are found and refined on
+/// exactly these sums, in `f64`.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Mesh {
-    /// Corner positions, in the object's units.
+    /// Origin of the positions, in scene space; zero for a mesh near the scene's origin.
+    pub offset: DVec3,
+    /// Corner positions from the offset, in the object's units.
     pub positions: Vec<[f32; 3]>,
+    /// Colours of the positions, linear RGB; empty if the mesh has none.
+    pub colors: Vec<[f32; 3]>,
     /// Texture coordinates, across and up; a texture fills the unit square.
     pub uvs: Vec<[f32; 2]>,
     /// Shading normals, which need not be unit.
@@ -90,6 +97,7 @@ impl Mesh {
         let bad = [
             ("vertex", finite3(&self.positions)),
             ("normal", finite3(&self.normals)),
+            ("vertex colour", finite3(&self.colors)),
             ("texture coordinate", bad_uv),
         ];
         if let Some((what, Some(index))) = bad.into_iter().find(|(_, bad)| bad.is_some()) {
@@ -113,15 +121,19 @@ impl Mesh {
         Ok(())
     }
 
-    /// Returns the mesh, moved. Coordinates are computed in `f64` and rounded once. If the
-    /// placement mirrors, the order of each triangle's corners is reversed, so that its outside
-    /// stays its outside.
+    /// Returns the mesh, moved. Coordinates are computed in `f64` and rounded once, from a new offset if
+    /// the mesh then lies far from the origin. If the placement mirrors, the order of each triangle's
+    /// corners is reversed, so that its outside stays its outside.
     ///
     /// # Errors
     /// If a coordinate leaves the range of `f32`.
     pub fn placed(mut self, placement: &Placement) -> Result<Self, PlacementError> {
+        let from = self.offset;
+        let moved =
+            |position: [f32; 3]| placement.to_scene().transform_point3(as_dvec3(position) + from);
+        self.offset = offset::of(self.positions.iter().map(|&position| moved(position)));
         for (number, position) in self.positions.iter_mut().enumerate() {
-            let moved = placement.to_scene().transform_point3(as_dvec3(*position)).as_vec3();
+            let moved = (moved(*position) - self.offset).as_vec3();
             if !moved.is_finite() {
                 return Err(PlacementError::Far(number));
             }
@@ -140,10 +152,16 @@ impl Mesh {
         Ok(self)
     }
 
-    /// Returns the three corner positions of a triangle.
+    /// Returns the three corner positions of a triangle, from the mesh's offset.
     #[must_use]
     pub fn corners(&self, triangle: u32) -> [[f32; 3]; 3] {
         self.triangles[triangle as usize].position.map(|index| self.positions[index as usize])
+    }
+
+    /// Returns the three corner positions of a triangle in scene space.
+    #[must_use]
+    pub fn places(&self, triangle: u32) -> [DVec3; 3] {
+        self.corners(triangle).map(|corner| as_dvec3(corner) + self.offset)
     }
 
     /// Returns the unit normal of a triangle's plane, on the side from which its corners turn left.
@@ -173,7 +191,7 @@ impl Mesh {
             let [s, t] = [0, 1].map(|k| (0..3).map(|i| weights[i] * uvs[i][k]).sum());
             DVec2::new(s, t)
         };
-        let position = weighted(weights, [p0, p1, p2]);
+        let position = weighted(weights, [p0, p1, p2]) + self.offset;
         SurfacePoint { position, geometric_normal, shading_normal, uv, part: corners.surface }
     }
 
@@ -228,7 +246,7 @@ impl Mesh {
 
     /// Returns the gradients of the barycentric weights of a triangle's second and third corner, or
     /// `None` if the triangle has no area.
-    fn weight_gradients(&self, triangle: u32) -> Option<[DVec3; 2]> {
+    pub(super) fn weight_gradients(&self, triangle: u32) -> Option<[DVec3; 2]> {
         let [p0, p1, p2] = self.corners(triangle).map(as_dvec3);
         let (b, c) = (p1 - p0, p2 - p0);
         let normal = b.cross(c);
@@ -236,10 +254,10 @@ impl Mesh {
         (area_sq > 0.0).then(|| [c.cross(normal) / area_sq, normal.cross(b) / area_sq])
     }
 
-    /// Lower and upper corner of a triangle's bounding box.
+    /// Lower and upper corner of a triangle's bounding box, in scene space.
     #[must_use]
     pub fn bounds(&self, triangle: u32) -> [DVec3; 2] {
-        triangle::bounds(&self.corners(triangle))
+        triangle::bounds(&self.corners(triangle)).map(|corner| corner + self.offset)
     }
 }
 
@@ -248,7 +266,7 @@ fn normal([a, b, c]: [DVec3; 3]) -> DVec3 {
     (b - a).cross(c - a).normalize_or(DVec3::Y)
 }
 
-fn weighted(weights: [f64; 3], points: [DVec3; 3]) -> DVec3 {
+pub(super) fn weighted(weights: [f64; 3], points: [DVec3; 3]) -> DVec3 {
     weights[0] * points[0] + weights[1] * points[1] + weights[2] * points[2]
 }
 
@@ -273,9 +291,9 @@ mod tests {
         Mesh {
             positions: vec![[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.]],
             uvs: vec![[0., 0.], [repeat, 0.], [repeat, repeat], [0., repeat]],
-            normals: vec![],
             triangles: vec![corner([0, 1, 2]), corner([0, 2, 3])],
             surfaces: vec![String::new()],
+            ..Mesh::default()
         }
     }
 

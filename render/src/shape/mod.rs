@@ -5,7 +5,9 @@ pub mod charts;
 mod closed;
 pub mod cuboid;
 mod gradient_changes;
+mod in_triangle;
 pub mod mesh;
+pub mod offset;
 pub mod placed;
 pub mod placement;
 pub mod quad;
@@ -203,8 +205,8 @@ impl Shape {
             // The edges determine the size of the rectangle, and the corner its position.
             Self::Quad(quad) => quad.corner().abs().max_element(),
             Self::Mesh(mesh) => {
-                let coordinates = mesh.positions.iter().flatten();
-                coordinates.fold(0.0, |most: f64, &x| most.max(f64::from(x).abs()))
+                let places = mesh.positions.iter().map(|&at| mesh::as_dvec3(at) + mesh.offset);
+                places.fold(0.0, |most, place| place.abs().max_element().max(most))
             }
             Self::Cuboid(cuboid) => largest(cuboid.bounds()),
             Self::Superquadric(superquadric) => largest(superquadric.bounds()),

@@ -5,9 +5,10 @@
 //! 1998). It does not depend on how flat parts are divided into triangles.
 
 use super::mesh::NONE;
+use super::weld::bits;
 use super::{Mesh, Weld};
 use glam::DVec3;
-use std::collections::HashMap;
+use std::ops::Range;
 
 /// Largest number of triangles around a vertex for which creases are found. The time grows with its
 /// square. Around a vertex of more, all triangles of a group are averaged.
@@ -26,36 +27,123 @@ pub fn smooth(mesh: &mut Mesh, groups: &[u32], crease: Option<f64>) {
     let wanted: Vec<usize> =
         (0..count).filter(|&k| mesh.triangles[k].normal[0] == NONE && group(k) != 0).collect();
     let weld = Weld::new(&mesh.positions);
-    // The triangles around each vertex in each group, with their unit normals, and their angles there.
-    let mut around: HashMap<(u32, u32), Vec<(DVec3, f64)>> = HashMap::new();
-    for &k in &wanted {
-        let corners = mesh.corners(k as u32).map(|corner| DVec3::from(corner.map(f64::from)));
-        let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-        let Some(normal) = normal.try_normalize() else { continue };
-        for (c, vertex) in weld.corners(mesh.triangles[k].position).into_iter().enumerate() {
-            let [next, last] = [1, 2].map(|step| corners[(c + step) % 3] - corners[c]);
-            around.entry((vertex, group(k))).or_default().push((normal, next.angle_between(last)));
-        }
-    }
+    let around = Around::new(mesh, &wanted, &weld);
     let least_cosine = crease.map(f64::cos);
-    let mut known: HashMap<[u32; 3], u32> = HashMap::new();
+    let mut made = Made { of: vec![NONE; around.corners.len()], zero: None };
     for &k in &wanted {
         let own = mesh.normal(k as u32);
-        let vertices = weld.corners(mesh.triangles[k].position);
-        let normals = vertices.map(|vertex| {
-            let faces = around.get(&(vertex, group(k))).map_or(&[][..], Vec::as_slice);
-            let sharp = least_cosine.filter(|_| faces.len() <= MOST_AROUND);
+        let normals = weld.corners(mesh.triangles[k].position).map(|vertex| {
+            let range = around.starts[vertex as usize]..around.starts[vertex as usize + 1];
+            let faces = &around.corners[range.clone()];
+            let is_of_group = |corner: &&u32| group(wanted[**corner as usize / 3]) == group(k);
+            let sharp =
+                least_cosine.filter(|_| faces.iter().filter(is_of_group).count() <= MOST_AROUND);
+            let first = faces.iter().position(|corner| is_of_group(&corner));
+            // Without a crease, all corners of a group at a vertex have the same normal.
+            if let (None, Some(first)) = (sharp, first)
+                && made.of[range.start + first] != NONE
+            {
+                return made.of[range.start + first];
+            }
             let near = |normal: DVec3| sharp.is_none_or(|cosine| normal.dot(own) >= cosine - 1e-9);
-            let near = faces.iter().filter(|(normal, _)| near(*normal));
-            near.map(|&(normal, angle)| angle * normal).sum::<DVec3>().normalize_or_zero()
+            let faces = faces.iter().filter(is_of_group).map(|&corner| around.part(corner));
+            let faces = faces.filter(|&(normal, _)| near(normal));
+            let sum = faces.map(|(normal, angle)| angle * normal).sum::<DVec3>();
+            let normal = sum.normalize_or_zero().as_vec3().to_array();
+            let places = match (sharp, first) {
+                (None, Some(first)) => range.start + first..range.start + first + 1,
+                _ => range,
+            };
+            made.index(normal, places, &mut mesh.normals)
         });
-        mesh.triangles[k].normal = normals.map(|normal| {
-            let normal = normal.as_vec3().to_array();
-            *known.entry(super::weld::bits(normal)).or_insert_with(|| {
-                mesh.normals.push(normal);
-                mesh.normals.len() as u32 - 1
-            })
-        });
+        mesh.triangles[k].normal = normals;
+    }
+}
+
+/// The triangles around each vertex of a mesh.
+struct Around {
+    /// Corners of triangles, three for each, ordered by vertex. A corner is 3 k + c in triangle `k` of
+    /// those that are averaged. Triangles without area are left out.
+    corners: Vec<u32>,
+    /// The first corner of each vertex, and the end.
+    starts: Vec<usize>,
+    /// Unit normals of the triangles.
+    normals: Vec<DVec3>,
+    /// Angles at the corners of the triangles.
+    angles: Vec<[f64; 3]>,
+}
+
+impl Around {
+    fn new(mesh: &Mesh, wanted: &[usize], weld: &Weld) -> Self {
+        let (mut normals, mut angles) = (Vec::new(), Vec::new());
+        for &k in wanted {
+            let corners = mesh.corners(k as u32).map(|corner| DVec3::from(corner.map(f64::from)));
+            let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+            normals.push(normal.normalize_or_zero());
+            angles.push([0, 1, 2].map(|c| {
+                let [next, last] = [1, 2].map(|step| corners[(c + step) % 3] - corners[c]);
+                next.angle_between(last)
+            }));
+        }
+        // Each corner is put behind those of smaller vertices, and of earlier triangles.
+        let vertices = |w: usize| weld.corners(mesh.triangles[wanted[w]].position);
+        let has_area = |w: &usize| normals[*w] != DVec3::ZERO;
+        let mut starts = vec![0; mesh.positions.len() + 1];
+        for vertex in (0..wanted.len()).filter(has_area).flat_map(vertices) {
+            starts[vertex as usize + 1] += 1;
+        }
+        for vertex in 1..starts.len() {
+            starts[vertex] += starts[vertex - 1];
+        }
+        let mut next = starts.clone();
+        let mut corners = vec![0; *starts.last().unwrap_or(&0)];
+        for w in (0..wanted.len()).filter(has_area) {
+            for (c, vertex) in (0..).zip(vertices(w)) {
+                corners[next[vertex as usize]] = 3 * w as u32 + c;
+                next[vertex as usize] += 1;
+            }
+        }
+        Self { corners, starts, normals, angles }
+    }
+
+    /// Returns the normal of a corner's triangle, and the angle there.
+    fn part(&self, corner: u32) -> (DVec3, f64) {
+        let (w, c) = (corner as usize / 3, corner as usize % 3);
+        (self.normals[w], self.angles[w][c])
+    }
+}
+
+/// The normals made so far.
+struct Made {
+    /// Indices of the normals of each vertex, at the places of its corners; [`NONE`] behind them.
+    of: Vec<u32>,
+    /// Index of the normal of vertices whose triangles have no area.
+    zero: Option<u32>,
+}
+
+impl Made {
+    /// Returns the index of a normal, which is added unless it is at one of the places.
+    fn index(
+        &mut self,
+        normal: [f32; 3],
+        places: Range<usize>,
+        normals: &mut Vec<[f32; 3]>,
+    ) -> u32 {
+        let same = |index: u32| bits(normals[index as usize]) == bits(normal);
+        let of_vertex = &self.of[places.clone()];
+        let known = of_vertex.iter().copied().take_while(|&index| index != NONE).find(|&k| same(k));
+        if let Some(index) = known.or(self.zero.filter(|_| places.is_empty())) {
+            return index;
+        }
+        let free = of_vertex.iter().position(|&index| index == NONE);
+        let index = normals.len() as u32;
+        normals.push(normal);
+        match free {
+            Some(free) => self.of[places.start + free] = index,
+            None if places.is_empty() => self.zero = Some(index),
+            None => {}
+        }
+        index
     }
 }
 

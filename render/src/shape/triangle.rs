@@ -128,13 +128,15 @@ impl ShearedRay {
 /// Corners of a triangle, along each axis: first, second, third, and the first again.
 pub type Corners = [DVec4; 3];
 
-/// Returns corners that are given one by one.
+/// Returns corners that are given one by one, each from `offset`.
 #[must_use]
 #[inline]
-pub fn by_axis([a, b, c]: &[[f32; 3]; 3]) -> Corners {
+pub fn by_axis([a, b, c]: &[[f32; 3]; 3], offset: DVec3) -> Corners {
     let along = |axis: usize| {
         let (a, b, c) = (f64::from(a[axis]), f64::from(b[axis]), f64::from(c[axis]));
-        DVec4::new(a, b, c, a)
+        // A sum with -0 keeps the sign of a -0.
+        let offset = if offset[axis] == 0.0 { -0.0 } else { offset[axis] };
+        DVec4::new(a, b, c, a) + offset
     };
     [along(0), along(1), along(2)]
 }
@@ -166,9 +168,10 @@ mod tests {
         let corners = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]];
         for (z, direction) in [(2.0, DVec3::NEG_Z), (-2.0, DVec3::Z)] {
             let ray = ShearedRay::new(DVec3::new(1.0, 2.0, z), direction);
-            let ((t, weights), _) = ray.intersect(&by_axis(&corners), f64::INFINITY).unwrap();
+            let ((t, weights), _) =
+                ray.intersect(&by_axis(&corners, DVec3::ZERO), f64::INFINITY).unwrap();
             assert_eq!((t, weights), (2.0, [0.25, 0.5]));
-            assert!(ray.intersect(&by_axis(&corners), 1.9).is_none());
+            assert!(ray.intersect(&by_axis(&corners, DVec3::ZERO), 1.9).is_none());
         }
     }
 
@@ -188,7 +191,7 @@ mod tests {
             let aimed = DVec3::from(b.map(f64::from)) - eye;
             let direction = if at_corner { aimed } else { DVec3::from(toward) };
             let ray = ShearedRay::new(eye, direction.normalize_or(DVec3::X));
-            prop_assert_eq!(ray.intersect(&by_axis(&corners), f64::INFINITY), None);
+            prop_assert_eq!(ray.intersect(&by_axis(&corners, DVec3::ZERO), f64::INFINITY), None);
         }
 
         /// A ray aimed at a corner or an edge of a closed fan never slips through.
@@ -211,7 +214,7 @@ mod tests {
             let ray = ShearedRay::new(eye, direction);
             let hits = (0..5)
                 .filter(|&k| {
-                    ray.intersect(&by_axis(&[hub, rim(k), rim(k + 1)]), f64::INFINITY).is_some()
+                    ray.intersect(&by_axis(&[hub, rim(k), rim(k + 1)], DVec3::ZERO), f64::INFINITY).is_some()
                 })
                 .count();
             prop_assert!(hits >= 1);

@@ -4,6 +4,7 @@
 //! during tracing, which is unusual. Each sample on the film gets an [`tree::IntersectionTree`].
 //! The sample is shaded only when its neighbours have trees too.
 
+mod cutout;
 pub mod medium;
 mod ranked;
 pub mod rows;
@@ -21,8 +22,8 @@ use crate::scene::{Material, Scene};
 use crate::shape::SurfacePoint;
 use glam::DVec3;
 use medium::{Boundary, Media};
-use split::{Split, mirror};
-use tree::{Branch, IntersectionTree, Node};
+use split::{Split, Turned, mirror};
+use tree::{Away, Branch, IntersectionTree, Node};
 use volume::Volumes;
 
 /// Largest number of hidden boundaries that a ray passes before it is dropped. No meaningful scene
@@ -72,8 +73,16 @@ struct Seen {
     hit: Hit,
     point: SurfacePoint,
     boundary: Boundary,
+    path: Path,
+}
+
+/// The path of a ray from the eye.
+#[derive(Clone, Copy)]
+struct Path {
     /// Number of reflections and refractions before this surface.
     depth: u32,
+    /// Number of surfaces with masks that the path passed.
+    passed: u32,
     /// Weight in the pixel of the light from this surface, linear RGB.
     weight: Color,
 }
@@ -135,8 +144,15 @@ impl<'a> Tracer<'a> {
         tree.clear();
         counts.primary += 1;
         let mut media = std::mem::take(&mut tree.media);
-        media.start_in(&self.around_eye);
-        (tree.root, tree.through) = self.follow(carried, &mut media, 0, Color::ONE, tree, counts);
+        if self.scene.camera.is_orthographic() && self.volumes.any() {
+            // Each ray starts at a place of its own.
+            let (ray, _) = carried;
+            media = self.volumes.around(self.scene, self.accel, ray.origin);
+        } else {
+            media.start_in(&self.around_eye);
+        }
+        let path = Path { depth: 0, passed: 0, weight: Color::ONE };
+        (tree.root, tree.through) = self.follow(carried, &mut media, path, tree, counts);
         tree.media = media;
     }
 
@@ -144,14 +160,12 @@ impl<'a> Tracer<'a> {
     /// the branch that the ray reaches and the transmittance up to it, linear RGB, [0, 1] per
     /// channel.
     ///
-    /// `media` are the volumes around the ray's start and are restored at the end. `weight` is the
-    /// ray's weight in its pixel, linear RGB.
+    /// `media` are the volumes around the ray's start and are restored at the end.
     fn follow(
         &self,
         carried: Carried<'_>,
         media: &mut Media,
-        depth: u32,
-        weight: Color,
+        path: Path,
         tree: &mut IntersectionTree,
         counts: &mut RayCounts,
     ) -> (Branch, Color) {
@@ -159,14 +173,18 @@ impl<'a> Tracer<'a> {
             return (Branch::Cut, Color::ONE);
         }
         let start = media.mark();
-        let (ray, _) = carried;
+        let (ray, differential) = carried;
         let (end, through) = self.arrive(ray, media);
         let branch = match end {
             End::Surface(hit, point, boundary) => {
-                let seen = Seen { hit, point, boundary, depth, weight: weight * through };
+                let path = Path { weight: path.weight * through, ..path };
+                let seen = Seen { hit, point, boundary, path };
                 self.divide(carried, media, &seen, tree, counts)
             }
-            End::Background => tree.leave(ray.direction),
+            End::Background => {
+                let changes = differential.map(|differential| differential.direction);
+                tree.leave(Away { direction: ray.direction, changes })
+            }
             End::Lost => Branch::Cut,
         };
         media.back_to(start);
@@ -204,10 +222,12 @@ impl<'a> Tracer<'a> {
         tree: &mut IntersectionTree,
         counts: &mut RayCounts,
     ) -> Branch {
-        let Seen { hit, point, boundary, depth, weight } = *seen;
+        let Seen { hit, point, boundary, path } = *seen;
         counts.hits += 1;
         let object = &self.scene.objects[hit.piece.object as usize];
-        let material = &self.scene.materials[object.parts[point.part as usize].material];
+        let surface = &object.parts[point.part as usize];
+        let material = &self.scene.materials[surface.material];
+        let own = self.volumes.medium(self.scene, hit.piece.object, point.part);
 
         // Both normals are turned to the side from which the ray comes.
         let inside = ray.direction.dot(point.geometric_normal) > 0.0;
@@ -231,15 +251,25 @@ impl<'a> Tracer<'a> {
         }
 
         let eta = boundary.eta(&self.scene.materials);
-        let split = Split::at(material, ray.direction, normal, geometric_normal, eta);
+        let mut split = Split::at(material, ray.direction, normal, geometric_normal, eta);
         let tint = material.tint(-ray.direction.dot(normal));
         let mut weights = [split.reflect_weight * tint, Color::splat(split.refract_weight)];
         // A ray is followed if its weight in the pixel is large enough in some channel.
-        let share = |weight: Color| (seen.weight * weight).max_element();
+        let share = |weight: Color| (path.weight * weight).max_element();
         let worth_it = |weight: Color| share(weight) > 0.0 && share(weight) >= self.min_weight;
         if differential.is_some() && split.refracted.is_some() {
             weights = followed(weights, worth_it);
         }
+        let is_last = path.depth >= self.scene.max_depth;
+        if is_last && inside && own.is_some() {
+            // Light that has not found its way out of a volume is not lost: it leaves straight.
+            weights = [Color::ZERO, weights[0] + weights[1]];
+            split.refracted = Some(Turned::straight(ray.direction));
+        }
+        let passes = path.passed < cutout::MOST_PASSED
+            && surface.mask(self.scene).is_some_and(|mask| {
+                cutout::may_pass(mask, point.uv, spreads.as_ref().map(|s| s.shading.uv))
+            });
         let [reflect_weight, refract_weight] = weights;
         let slot = tree.push(Node {
             piece: hit.piece,
@@ -253,43 +283,56 @@ impl<'a> Tracer<'a> {
             refracted: Branch::Cut,
             reflect_weight,
             refract_weight,
+            pass_weight: if passes { Color::ONE } else { Color::ZERO },
+            inside: inside && own.is_some(),
         });
         if let Some(spreads) = &spreads {
             tree.push_spread(spreads.shading);
         }
         let normals = [normal, geometric_normal];
-        if depth >= self.scene.max_depth {
-            return Branch::Node(slot);
-        }
-
-        if worth_it(reflect_weight) {
+        let deeper = |weight: Color| Path {
+            depth: path.depth + 1,
+            passed: path.passed,
+            weight: path.weight * weight,
+        };
+        if worth_it(reflect_weight) && !is_last {
             counts.reflected += 1;
             let turned = mirror(ray.direction, normal, geometric_normal);
             let mirrored = Ray::leaving(hit.piece, point.position, turned.direction);
             let differential =
                 spreads.as_ref().map(|spreads| spreads.reflected(turned, ray.direction, normals));
             let mirrored = (&mirrored, differential.as_ref());
-            let share = weight * reflect_weight;
-            let (branch, through) = self.follow(mirrored, media, depth + 1, share, tree, counts);
+            let path = deeper(reflect_weight);
+            let (branch, through) = self.follow(mirrored, media, path, tree, counts);
             let node = tree.node_mut(slot);
             node.reflected = branch;
             node.reflect_weight *= through;
         }
-        if let Some(turned) = split.refracted.filter(|_| worth_it(refract_weight)) {
+        // A mask lets light run straight on, which is no refraction and has no depth of its own.
+        let passing = passes.then(|| Turned::straight(ray.direction));
+        let leaves = !is_last || inside && own.is_some();
+        let refracted = split.refracted.filter(|_| leaves && worth_it(refract_weight));
+        if let Some(turned) = refracted.or(passing.filter(|_| worth_it(Color::ONE))) {
             counts.refracted += 1;
             let passed = Ray::leaving(hit.piece, point.position, turned.direction);
+            let eta = if turned.is_straight { 1.0 } else { eta };
             let differential = spreads
                 .as_ref()
                 .map(|spreads| spreads.refracted(turned, ray.direction, normals, eta));
             let passed = (&passed, differential.as_ref());
-            let share = weight * refract_weight;
-            if let Some(own) = self.volumes.medium(self.scene, hit.piece.object, point.part) {
+            let path = if passes {
+                Path { passed: path.passed + 1, ..path }
+            } else {
+                deeper(refract_weight)
+            };
+            if let Some(own) = own {
                 media.cross(own, inside, &self.scene.materials);
             }
-            let (branch, through) = self.follow(passed, media, depth + 1, share, tree, counts);
+            let (branch, through) = self.follow(passed, media, path, tree, counts);
             let node = tree.node_mut(slot);
             node.refracted = branch;
             node.refract_weight *= through;
+            node.pass_weight *= through;
         }
         Branch::Node(slot)
     }

@@ -23,6 +23,16 @@ pub struct Turned {
     /// True if the facet's normal turned the ray, because the interpolated normal would have sent
     /// it to the wrong side of the surface.
     pub by_facet: bool,
+    /// True if the ray runs straight on, whatever the media.
+    pub is_straight: bool,
+}
+
+impl Turned {
+    /// A ray that runs on in its direction.
+    #[must_use]
+    pub fn straight(direction: DVec3) -> Self {
+        Self { direction, by_facet: true, is_straight: true }
+    }
 }
 
 impl Split {
@@ -51,12 +61,13 @@ impl Split {
         }
         let by_facet = || {
             let direction = optics::refract(incident, geometric_normal, eta)?;
-            Some(Turned { direction, by_facet: true })
+            Some(Turned { direction, by_facet: true, is_straight: false })
         };
         let (refracted, share) = match optics::refract(incident, normal, eta) {
-            Some(direction) if direction.dot(geometric_normal) < 0.0 => {
-                (Some(Turned { direction, by_facet: false }), reflectance(normal))
-            }
+            Some(direction) if direction.dot(geometric_normal) < 0.0 => (
+                Some(Turned { direction, by_facet: false, is_straight: false }),
+                reflectance(normal),
+            ),
             // The facet's normal replaces an interpolated normal that would keep the ray on this side.
             Some(_) => (by_facet(), reflectance(normal)),
             None if normal == geometric_normal => (None, reflectance(normal)),
@@ -90,9 +101,10 @@ impl Split {
 pub fn mirror(incident: DVec3, normal: DVec3, geometric_normal: DVec3) -> Turned {
     let direction = optics::reflect(incident, normal);
     if direction.dot(geometric_normal) > 0.0 {
-        Turned { direction, by_facet: false }
+        Turned { direction, by_facet: false, is_straight: false }
     } else {
-        Turned { direction: optics::reflect(incident, geometric_normal), by_facet: true }
+        let direction = optics::reflect(incident, geometric_normal);
+        Turned { direction, by_facet: true, is_straight: false }
     }
 }
 

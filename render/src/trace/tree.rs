@@ -30,8 +30,8 @@ pub struct IntersectionTree {
     nodes: Vec<Node>,
     /// Spreads of the nodes, by index; empty if the ray was traced without a differential.
     spreads: Vec<Spread>,
-    /// Unit directions of the rays that left the scene.
-    away: Vec<DVec3>,
+    /// The rays that left the scene.
+    away: Vec<Away>,
     /// Media of the current ray while the tree is made; kept here for its allocation.
     pub(super) media: Media,
 }
@@ -48,6 +48,15 @@ pub enum Branch {
     /// The ray hit a surface. The index selects one of the tree's nodes; see
     /// [`IntersectionTree::node`].
     Node(u32),
+}
+
+/// A ray that left the scene.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Away {
+    /// Unit direction of the ray.
+    pub direction: DVec3,
+    /// Change of the direction across and down the film, if the ray was traced with a differential.
+    pub changes: Option<[DVec3; 2]>,
 }
 
 /// One of the two rays that continue a path at a node.
@@ -85,6 +94,11 @@ pub struct Node {
     pub reflect_weight: Color,
     /// Weight of the refracted ray's light per channel, including the transmittance along that ray.
     pub refract_weight: Color,
+    /// Weight of the same ray's light where the mask of the surface is transparent; 0 if the surface is
+    /// opaque around the hit. Such a ray runs straight on, unless the surface refracts.
+    pub pass_weight: Color,
+    /// True if the ray met the surface from the inside of its volume.
+    pub inside: bool,
 }
 
 impl Node {
@@ -150,15 +164,15 @@ impl IntersectionTree {
         }
     }
 
-    /// Records a ray that left the scene in `direction`, a unit vector, and returns its branch.
-    pub fn leave(&mut self, direction: DVec3) -> Branch {
-        self.away.push(direction);
+    /// Records a ray that left the scene and returns its branch.
+    pub fn leave(&mut self, away: Away) -> Branch {
+        self.away.push(away);
         Branch::Background(self.away.len() as u32 - 1)
     }
 
-    /// Returns the unit direction in which a branch left the scene, or `None` if it did not.
+    /// Returns the ray with which a branch left the scene, or `None` if it did not.
     #[must_use]
-    pub fn away(&self, branch: Branch) -> Option<DVec3> {
+    pub fn away(&self, branch: Branch) -> Option<Away> {
         match branch {
             Branch::Background(slot) => self.away.get(slot as usize).copied(),
             Branch::Cut | Branch::Node(_) => None,

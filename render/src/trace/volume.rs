@@ -3,7 +3,7 @@
 use super::medium::{Media, Medium};
 use crate::accel::Accel;
 use crate::ray::Ray;
-use crate::scene::{Light, Object, Scene};
+use crate::scene::{Light, Object, Scene, SpotLight};
 use crate::shape::Shape;
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
@@ -37,6 +37,12 @@ impl Volumes {
         Self { volumes, absorb }
     }
 
+    /// Returns whether the scene has a volume.
+    #[must_use]
+    pub fn any(&self) -> bool {
+        self.volumes.contains(&true)
+    }
+
     /// Returns whether some volume absorbs light.
     #[must_use]
     pub fn absorb(&self) -> bool {
@@ -65,7 +71,7 @@ impl Volumes {
         // For each volume that the ray meets: the volume, the number of backs minus the number of
         // fronts, and the distance of the farthest hit.
         let mut met: BTreeMap<u32, (Medium, i32, f64)> = BTreeMap::new();
-        if self.volumes.contains(&true) {
+        if self.any() {
             accel.any(&ray, f64::INFINITY, |hit| {
                 if let Some(own) = self.medium(scene, hit.piece.object, accel.part(&hit)) {
                     let normal = accel.geometric_normal(&ray, &hit);
@@ -105,7 +111,9 @@ impl Volumes {
     pub fn around_lights(&self, scene: &Scene, accel: &Accel<'_>) -> Vec<Media> {
         let around = |light: &Light| match light {
             _ if !self.absorb => Media::default(),
-            Light::Point(light) => self.around(scene, accel, light.position),
+            Light::Point(light) | Light::Spot(SpotLight { point: light, .. }) => {
+                self.around(scene, accel, light.position)
+            }
             Light::Directional(light) => self.around_far(scene, light.toward),
         };
         scene.lights.iter().map(around).collect()

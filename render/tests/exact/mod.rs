@@ -111,7 +111,7 @@ impl Sample {
     /// number. Returns `None` if the rounded ray misses the triangle.
     pub fn errors(&self) -> Option<[f64; 5]> {
         let ray = ShearedRay::new(self.origin, self.direction);
-        let corners = triangle::by_axis(&self.corners);
+        let corners = triangle::by_axis(&self.corners, DVec3::ZERO);
         let ((t, weights), _) = ray.intersect(&corners, f64::INFINITY)?;
         let truth = self.truth();
         let (hit, best) = (self.origin + t * self.direction, self.best_point(&truth));
@@ -153,9 +153,9 @@ impl Sample {
         Mesh {
             positions: self.corners.to_vec(),
             uvs: vec![[1.0, 0.0], [0.0, 0.0], [0.0, 1.0]],
-            normals: vec![],
             triangles: vec![triangle],
             surfaces: vec![String::new()],
+            ..Mesh::default()
         }
     }
 }

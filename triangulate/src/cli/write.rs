@@ -4,7 +4,8 @@ use super::Arguments;
 use super::grid::Grid;
 use std::io::{BufRead, Write};
 use triangulate::{
-    Counts, Format, Material, ObjWriter, Patches, TriMesh, TriangulateError, write_ply, write_stl,
+    Counts, Format, Material, ObjWriter, Patches, TriMesh, TriangulateError, Unit, write_3mf,
+    write_glb, write_ply, write_stl,
 };
 
 /// The result of writing a mesh.
@@ -28,6 +29,11 @@ pub fn write(
         Format::Obj => write_obj(arguments, grid, out),
         Format::Stl => write_whole(arguments, grid, |mesh| write_stl(mesh, out)),
         Format::Ply => write_whole(arguments, grid, |mesh| write_ply(mesh, out)),
+        Format::Glb => write_whole(arguments, grid, |mesh| write_glb(mesh, arguments.unit, out)),
+        Format::ThreeMf => {
+            let unit = arguments.unit.unwrap_or(Unit::default());
+            write_whole(arguments, grid, |mesh| write_3mf(mesh, unit, out))
+        }
     }
 }
 

@@ -69,11 +69,11 @@ impl<'a> Recorder<'a> {
 }
 
 impl Observer for Recorder<'_> {
-    fn follow(&mut self, node: &Node, child: Child) {
+    fn follow(&mut self, node: &Node, child: Child, share: Color) {
         let Some(&(key, weight)) = self.open.last() else { return };
-        let (turn, share) = match child {
-            Child::Reflected => (1, node.reflect_weight),
-            Child::Refracted => (2, node.refract_weight),
+        let turn = match child {
+            Child::Reflected => 1,
+            Child::Refracted => 2,
         };
         self.open.push((mixed(mixed(key, area(node)), turn), weight * share));
     }

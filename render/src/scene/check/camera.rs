@@ -82,11 +82,12 @@ enum Miss {
     Beside,
 }
 
-/// The front and the four sides of the view, as planes through the eye.
+/// The front and the four sides of the view. The sides of a pinhole camera pass through the eye.
 struct View {
     eye: DVec3,
     forward: DVec3,
-    inward: [DVec3; 4],
+    /// Normal of each side, and its distance from the eye times the length of the normal.
+    inward: [(DVec3, f64); 4],
 }
 
 impl View {
@@ -96,14 +97,16 @@ impl View {
         let forward = (DVec3::from(camera.target) - eye).normalize_or(DVec3::NEG_Z);
         let right = forward.cross(camera.up.into()).normalize_or(DVec3::X);
         let up = right.cross(forward);
-        let high = (0.5 * camera.fov_deg.to_radians()).tan();
+        let high = match camera.height {
+            Some(height) => 0.5 * height,
+            None => (0.5 * camera.angle_deg().to_radians()).tan(),
+        };
         let wide = high * subject.aspect;
-        let inward = [
-            wide * forward - right,
-            wide * forward + right,
-            high * forward - up,
-            high * forward + up,
-        ];
+        let sides = [(wide, -right), (wide, right), (high, -up), (high, up)];
+        let inward = sides.map(|(reach, normal)| match camera.height {
+            Some(_) => (normal, reach),
+            None => (reach * forward + normal, 0.0),
+        });
         Self { eye, forward, inward }
     }
 
@@ -122,6 +125,7 @@ impl View {
         if front < 0.0 {
             return Some(Miss::Behind(-front));
         }
-        self.inward.iter().any(|&side| most(side) < 0.0).then_some(Miss::Beside)
+        let beside = |&(side, reach): &(DVec3, f64)| most(side) + reach < 0.0;
+        self.inward.iter().any(beside).then_some(Miss::Beside)
     }
 }

@@ -9,7 +9,6 @@ use super::boxes::{Boxes, touch};
 use super::planes::{self, NEAR};
 use super::subject::{Item, Subject};
 use super::{Finding, Severity, count};
-use crate::shape::mesh::as_dvec3;
 use crate::shape::{Mesh, Quad, Shape};
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -94,7 +93,7 @@ pub fn findings(subject: &Subject<'_>) -> Coincidences {
                         item.path,
                         item.kind
                     );
-                    pair(subject, &subject.items[other], item, &what)
+                    on_mesh(subject, &subject.items[other], item, &what)
                 }
             }
         })
@@ -222,7 +221,7 @@ impl Search {
             return;
         }
         let numbers = 0..mesh.triangles.len() as u32;
-        let corners = |n: u32| mesh.corners(n).map(as_dvec3);
+        let corners = |n: u32| mesh.places(n);
         let bounds = |n| {
             let [a, b, c] = corners(n);
             [a.min(b).min(c), a.max(b).max(c)]
@@ -264,6 +263,15 @@ fn pair(subject: &Subject<'_>, item: &Item<'_>, other: &Item<'_>, what: &str) ->
     }
     let message = format!("{what}; of the two only the first in the scene is seen");
     Finding::new(Severity::Remark, &item.path, message)
+}
+
+/// Describes triangles on a flat object. Their distances along a ray are rounded in different manners.
+fn on_mesh(subject: &Subject<'_>, item: &Item<'_>, flat: &Item<'_>, what: &str) -> Finding {
+    if subject.is_clear(item) || subject.is_clear(flat) {
+        return pair(subject, item, flat, what);
+    }
+    let message = format!("{what}; rounding decides at each point which of the two is seen");
+    Finding::new(Severity::Hint, &item.path, message)
 }
 
 fn coplanar(a: &Quad, b: &Quad) -> bool {

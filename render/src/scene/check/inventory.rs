@@ -12,18 +12,24 @@ use glam::DVec3;
 pub fn lines(subject: &Subject<'_>, table_bytes: &dyn Fn(&Texture) -> u64) -> Vec<String> {
     let scene = subject.scene;
     let camera = subject.camera;
-    let mut lines = vec![format!(
-        "camera: at {}, looks at {}, {} degrees high",
-        point(camera.eye.into()),
-        point(camera.target.into()),
-        short(camera.fov_deg)
-    )];
+    let high = match camera.height {
+        Some(height) => format!("orthographic, {} high", short(height)),
+        None => format!("{} degrees high", short(camera.angle_deg())),
+    };
+    let [eye, target] = [camera.eye, camera.target].map(|at| point(at.into()));
+    let mut lines = vec![format!("camera: at {eye}, looks at {target}, {high}")];
     for (light, path) in scene.lights.iter().zip(&subject.lights) {
         let color = point(light.color());
         lines.push(match light {
             Light::Point(light) => {
                 format!("{path}: point at {}, colour {color}", point(light.position))
             }
+            Light::Spot(light) => format!(
+                "{path}: spot at {}, toward {}, {} degrees from its axis to its edge, colour {color}",
+                point(light.point.position),
+                point(light.axis),
+                short(light.outer.acos().to_degrees())
+            ),
             Light::Directional(light) => {
                 format!("{path}: from the direction {}, colour {color}", point(light.toward))
             }

@@ -4,7 +4,7 @@ use super::boxes::{Boxes, touch};
 use super::solid;
 use super::subject::{Item, Subject};
 use super::{Finding, Severity};
-use crate::scene::{Light, PointLight};
+use crate::scene::{Light, PointLight, SpotLight};
 use glam::DVec3;
 use std::ops::ControlFlow;
 
@@ -44,7 +44,8 @@ impl<'a> Enclosures<'a> {
     /// Finds the first opaque object that contains the light and not the eye.
     fn shut_in(&self, light: &Light, path: &str) -> Option<Finding> {
         let position = match *light {
-            Light::Point(PointLight { position, .. }) => position,
+            Light::Point(PointLight { position, .. })
+            | Light::Spot(SpotLight { point: PointLight { position, .. }, .. }) => position,
             Light::Directional(_) => return None,
         };
         let mut around: Option<u32> = None;

@@ -133,7 +133,8 @@ fn stretch([a, b, c]: [DVec3; 3], [s, t, u]: [DVec2; 3]) -> Option<f64> {
 fn rounded(item: &Item<'_>, mesh: &Mesh) -> Option<Finding> {
     let [low, high] = solid::bounds(item)?;
     let size = (high - low).max_element();
-    let far = low.abs().max(high.abs()).max_element();
+    // Coordinates count from the offset of the mesh.
+    let far = (low - mesh.offset).abs().max((high - mesh.offset).abs()).max_element();
     let step = far * f64::from(f32::EPSILON);
     let message = format!(
         "its coordinates have steps of {}, a {}th of its size: move the mesh nearer to the origin",

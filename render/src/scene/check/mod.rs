@@ -9,7 +9,8 @@
 //! | [`lights`]     | lights inside opaque objects                                               |
 //! | [`meshes`]     | triangles without area, normals, stretched textures                        |
 //! | [`glass`]      | transparent objects                                                        |
-//! | [`coincident`] | surfaces that coincide                                                     |
+//! | [`coincident`] | flat objects that coincide with each other or with meshes                  |
+//! | [`coplanar`]   | triangles of meshes and faces of boxes that overlap in one plane           |
 //! | [`boxes`]      | search among many boxes                                                    |
 //! | [`planes`]     | flat objects that may lie in one plane                                     |
 //! | [`skin`]       | rims and volume of a mesh                                                  |
@@ -20,6 +21,7 @@
 pub mod boxes;
 pub mod camera;
 pub mod coincident;
+pub mod coplanar;
 pub mod glass;
 pub mod inventory;
 pub mod lights;
@@ -85,6 +87,7 @@ pub fn check(
     findings.extend(glass::findings(&subject));
     findings.extend(lights::findings(&subject));
     findings.extend(coincident::findings(&subject).findings);
+    findings.extend(coplanar::findings(&subject).0);
     findings.extend(unused::findings(&subject));
     findings.extend(scene.remarks.iter().cloned());
     findings.sort_by_key(|finding| Reverse(finding.severity));

@@ -1,7 +1,6 @@
 //! Bounding boxes, insides and heights of shapes, for the checks.
 
 use super::subject::Item;
-use crate::shape::mesh::as_dvec3;
 use crate::shape::{Mesh, Shape};
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -34,7 +33,7 @@ pub fn contains(item: &Item<'_>, point: DVec3) -> Option<bool> {
 /// Oosterom and Strackee 1983), divided by 4 pi.
 fn winding(mesh: &Mesh, point: DVec3) -> f64 {
     let angle = |triangle: u32| {
-        let [a, b, c] = mesh.corners(triangle).map(|corner| as_dvec3(corner) - point);
+        let [a, b, c] = mesh.places(triangle).map(|corner| corner - point);
         let lengths = [a.length(), b.length(), c.length()];
         let below = lengths[0] * lengths[1] * lengths[2]
             + a.dot(b) * lengths[2]
@@ -61,7 +60,7 @@ pub fn height(item: &Item<'_>, point: DVec3) -> Option<f64> {
         }
         Shape::Mesh(mesh) => {
             let heights = (0..mesh.triangles.len() as u32)
-                .filter_map(|triangle| above(mesh.corners(triangle).map(as_dvec3), point));
+                .filter_map(|triangle| above(mesh.places(triangle), point));
             heights.min_by(f64::total_cmp)
         }
         Shape::Cuboid(_) | Shape::Superquadric(_) | Shape::Placed(_) => None,

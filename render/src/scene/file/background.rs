@@ -1,20 +1,40 @@
 //! The key `background` of a scene file.
 
 use super::color::{ColorFile, ColorVisitor};
+use super::keywords;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
 use std::borrow::Cow;
 use std::fmt;
+use std::path::PathBuf;
 
-/// A colour, or a sky.
+/// A colour, a sky, a picture, or nothing.
 #[derive(Debug, Clone, PartialEq)]
 pub enum BackgroundFile {
+    /// Black, and transparent in picture files.
+    Nothing,
     /// One colour in all directions.
     Uniform(ColorFile),
     /// Colours that depend on the elevation of the direction.
     Sky(SkyFile),
+    /// A picture of all directions.
+    Picture(EnvironmentFile),
+}
+
+/// A picture of all directions, of longitude across and latitude up. Its middle lies toward -z.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct EnvironmentFile {
+    /// Path of the picture, in one of the formats of textures, relative to this file's folder. HDR and EXR
+    /// hold light brighter than white.
+    pub picture: PathBuf,
+    /// Angle by which the picture is turned about y, counter-clockwise as seen from above, in degrees:
+    /// -1e6 to 1e6; 0 if left out.
+    #[serde(default)]
+    #[schemars(transform = keywords::range(-1e6..=1e6))]
+    pub turn_deg: f64,
 }
 
 /// A sky, including the directions below the horizon.
@@ -45,9 +65,23 @@ impl JsonSchema for BackgroundFile {
     }
 
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        let kinds = [generator.subschema_for::<ColorFile>(), generator.subschema_for::<SkyFile>()];
-        json_schema!({ "description": "A colour, or a sky.", "oneOf": kinds })
+        let kinds = [
+            json_schema!({ "type": "null" }),
+            generator.subschema_for::<ColorFile>(),
+            generator.subschema_for::<SkyFile>(),
+            generator.subschema_for::<EnvironmentFile>(),
+        ];
+        json_schema!({ "description": "A colour, a sky, a picture, or null.", "oneOf": kinds })
     }
+}
+
+/// The keys of both kinds of objects.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SkyOrPicture {
+    by_elevation: Option<Vec<(f64, ColorFile)>>,
+    picture: Option<PathBuf>,
+    turn_deg: Option<f64>,
 }
 
 struct BackgroundVisitor;
@@ -57,7 +91,7 @@ impl<'de> Visitor<'de> for BackgroundVisitor {
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         ColorVisitor.expecting(f)?;
-        f.write_str(", or an object with by_elevation")
+        f.write_str(", null, or an object with by_elevation or picture")
     }
 
     fn visit_f64<E: de::Error>(self, grey: f64) -> Result<BackgroundFile, E> {
@@ -72,11 +106,26 @@ impl<'de> Visitor<'de> for BackgroundVisitor {
         self.visit_f64(grey as f64)
     }
 
+    fn visit_unit<E: de::Error>(self) -> Result<BackgroundFile, E> {
+        Ok(BackgroundFile::Nothing)
+    }
+
     fn visit_seq<A: SeqAccess<'de>>(self, channels: A) -> Result<BackgroundFile, A::Error> {
         ColorVisitor.visit_seq(channels).map(BackgroundFile::Uniform)
     }
 
     fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<BackgroundFile, A::Error> {
-        SkyFile::deserialize(MapAccessDeserializer::new(map)).map(BackgroundFile::Sky)
+        let SkyOrPicture { by_elevation, picture, turn_deg } =
+            SkyOrPicture::deserialize(MapAccessDeserializer::new(map))?;
+        match (by_elevation, picture, turn_deg) {
+            (Some(by_elevation), None, None) => Ok(BackgroundFile::Sky(SkyFile { by_elevation })),
+            (None, Some(picture), turn_deg) => {
+                let turn_deg = turn_deg.unwrap_or_default();
+                Ok(BackgroundFile::Picture(EnvironmentFile { picture, turn_deg }))
+            }
+            _ => {
+                Err(de::Error::custom("expected by_elevation, or picture with or without turn_deg"))
+            }
+        }
     }
 }

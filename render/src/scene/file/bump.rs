@@ -100,7 +100,7 @@ pub struct DnoiseFile {
 
 /// A picture used as a relief.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "an object with \"file\"")]
 pub struct ImageReliefFile {
     /// Path of a picture in one of the formats of textures, relative to the scene file's folder. Its grey
     /// is the height.

@@ -12,8 +12,33 @@ use serde::Deserialize;
 pub enum LightFile {
     /// A light at a point.
     Point(PointLightFile),
+    /// A light at a point that shines into a cone.
+    Spot(SpotLightFile),
     /// A light as far away as the sun, with parallel rays.
     Directional(DirectionalLightFile),
+}
+
+/// A light at a point that shines into a cone with a smooth edge.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SpotLightFile {
+    /// Position of the light, in the unit of length.
+    pub position: [f64; 3],
+    /// Direction of the axis in which the light travels, of any length but 0.
+    pub direction: [f64; 3],
+    /// Angle between the axis and the edge of the cone, beyond which there is no light, in degrees, above
+    /// 0 and at most 180.
+    #[schemars(transform = keywords::range(0.0..=180.0))]
+    pub outer_deg: f64,
+    /// Angle from the axis up to which the light has its full brightness, in degrees, 0 to `outer_deg`;
+    /// four fifths of `outer_deg` if left out.
+    #[schemars(transform = keywords::range(0.0..=180.0))]
+    pub inner_deg: Option<f64>,
+    /// Brightness of the light, at least 0; 1 if left out.
+    #[serde(default = "white")]
+    pub color: ColorFile,
+    /// Fading with distance; without it the light is equally bright everywhere in the cone.
+    pub falloff: Option<FalloffFile>,
 }
 
 /// A point light. It does not light a surface point at its own position.

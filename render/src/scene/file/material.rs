@@ -1,7 +1,7 @@
 //! The key `materials` of a scene file.
 
 use super::bump::BumpFile;
-use super::color::{ColorFile, white};
+use super::color::{ColorFile, SurfaceColorFile, white};
 use super::keywords;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -10,8 +10,9 @@ use serde::Deserialize;
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct MaterialFile {
-    /// Colour of the surface, at least 0; 1 if left out. A texture is multiplied by it.
-    pub color: ColorFile,
+    /// Colour of the surface, at least 0, or `"vertex"` for the colours that the vertices of a mesh have;
+    /// 1 if left out. A texture is multiplied by it.
+    pub color: SurfaceColorFile,
     /// Share of the ambient light that the surface reflects, 0 to 1; 1 if left out.
     #[schemars(transform = keywords::range(0.0..=1.0))]
     pub ambient: f64,
@@ -84,7 +85,7 @@ fn air() -> f64 {
 impl Default for MaterialFile {
     fn default() -> Self {
         Self {
-            color: white(),
+            color: SurfaceColorFile::Uniform(white()),
             ambient: 1.0,
             diffuse: 0.9,
             specular: 0.0,

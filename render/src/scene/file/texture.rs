@@ -4,7 +4,7 @@ use super::solid::{
     BrickFile, CheckerFile, CloudsFile, GraniteFile, MarbleFile, PlaceFile, StripesFile, WallFile,
     WoodFile,
 };
-use crate::texture::{Values, Wrap};
+use crate::texture::{Alpha, Values, Wrap};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
@@ -13,14 +13,17 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct TextureFile {
-    /// A picture: path of a PNG, JPEG, TGA, BMP, TIFF, WebP or GIF file with 8 or 16 bits, relative to
-    /// this file's folder. Of a file of several pictures the first is read. Texels are taken as they are
-    /// stored: the orientation of a camera and colour profiles are not applied.
+    /// A picture: path of a PNG, JPEG, TGA, BMP, TIFF, WebP, GIF, HDR or EXR file, relative to this file's
+    /// folder. Of a file of several pictures the first is read. Texels are taken as they are stored: the
+    /// orientation of a camera and colour profiles are not applied.
     pub image: Option<PathBuf>,
     /// Continuation beyond the edges of the picture; `repeat` if left out. For pictures only.
     pub wrap: Option<Wrap>,
-    /// Meaning of the picture's codes; `srgb` if left out. For pictures only.
+    /// Meaning of the picture's codes; `srgb` if left out. For pictures only. Floating point values are
+    /// always linear.
     pub values: Option<Values>,
+    /// Use of the picture's alpha channel: `cut` if left out. For pictures only.
+    pub alpha: Option<Alpha>,
     /// Veined stone.
     pub marble: Option<MarbleFile>,
     /// Crystals of several minerals.
@@ -95,6 +98,7 @@ impl TextureFile {
             brick,
             wrap: _,
             values: _,
+            alpha: _,
             place: _,
         } = self;
         [

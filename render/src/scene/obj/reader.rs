@@ -1,7 +1,7 @@
 //! Reads the lines of an OBJ file into a mesh.
 
-use super::polygon;
 use super::{ObjError, ObjFile, shortened};
+use super::{colors, far, polygon};
 use crate::scene::text::{keyword, words};
 use crate::shape::Mesh;
 use crate::shape::mesh::{NONE, Triangle};
@@ -17,6 +17,8 @@ const NUMBERED: usize = 3;
 pub(super) struct Reader<'a> {
     file: &'a str,
     text: &'a str,
+    /// True if `triangulate` wrote the file.
+    is_ours: bool,
     mesh: Mesh,
     /// Number of lines that began with `f`.
     pub(super) faces: usize,
@@ -47,10 +49,11 @@ type Corner = [u32; NUMBERED];
 type Expected = &'static str;
 
 impl<'a> Reader<'a> {
-    pub(super) fn new(file: &'a str, text: &'a str) -> Self {
+    pub(super) fn new(file: &'a str, text: &'a str, is_ours: bool) -> Self {
         Self {
             file,
             text,
+            is_ours,
             mesh: Mesh::default(),
             faces: 0,
             name: "",
@@ -74,10 +77,22 @@ impl<'a> Reader<'a> {
             self.line(number, line).map_err(|expected| self.wrong(number, line, expected))?;
         }
         let counts = self.counts();
-        let lost =
-            |(_, most): &&(usize, [usize; NUMBERED])| (0..NUMBERED).any(|k| most[k] > counts[k]);
-        if let Some(&(number, _)) = self.ahead.iter().find(lost) {
+        if let Some(&(number, _)) = self.ahead.iter().find(|(_, most)| most[0] > counts[0]) {
             return Err(self.wrong_line(number, THERE));
+        }
+        let is_lost = |most: &[usize; NUMBERED]| (1..NUMBERED).any(|k| most[k] > counts[k]);
+        let lost = self.ahead.iter().filter(|(_, most)| is_lost(most)).count();
+        if lost > 0 {
+            self.unused.insert(LOST, lost);
+            for triangle in &mut self.mesh.triangles {
+                for (part, count) in
+                    [(&mut triangle.uv, counts[1]), (&mut triangle.normal, counts[2])]
+                {
+                    if part.iter().any(|&index| index as usize >= count) {
+                        *part = [NONE; 3];
+                    }
+                }
+            }
         }
         if !self.bad_vertices.is_empty() {
             let used: HashSet<u32> =
@@ -101,12 +116,24 @@ impl<'a> Reader<'a> {
     /// Returns the file's contents. Polygons are divided into triangles, and vertices that no face uses
     /// are left out.
     pub(super) fn finish(mut self) -> ObjFile {
+        let colored = self.mesh.colors.iter().filter(|color| !color[0].is_nan()).count();
+        if colored > 0 {
+            self.mesh.colors.resize(self.mesh.positions.len(), [f32::NAN; 3]);
+            colors::decode(&mut self.mesh.colors);
+        }
+        let far = if self.is_ours { None } else { far::positions(self.text, &self.mesh) };
         let positions = std::mem::take(&mut self.mesh.positions);
-        let place = |index: u32| DVec3::from(positions[index as usize].map(f64::from));
+        let place = |index: u32| match &far {
+            Some(far) => far[index as usize],
+            None => DVec3::from(positions[index as usize].map(f64::from)),
+        };
         for &[first, end] in &self.fans {
             polygon::divide(&mut self.mesh.triangles[first..end], place);
         }
         self.mesh.positions = positions;
+        if let Some(far) = far {
+            far::set(&mut self.mesh, &far);
+        }
         if !self.bad_uvs.is_empty() {
             for triangle in &mut self.mesh.triangles {
                 if triangle.uv.iter().any(|uv| self.bad_uvs.contains(uv)) {
@@ -124,8 +151,10 @@ impl<'a> Reader<'a> {
             folder: PathBuf::new(),
             mesh: self.mesh,
             groups: self.groups,
+            colored,
             libraries: self.libraries.into_iter().map(Into::into).collect(),
             unused: self.unused.into_iter().map(|(what, count)| (what.into(), count)).collect(),
+            ..ObjFile::default()
         }
     }
 
@@ -146,8 +175,10 @@ impl<'a> Reader<'a> {
                 next.saturating_sub(1)
             })
             .collect();
-        let mut used = used.into_iter();
-        self.mesh.positions.retain(|_| used.next().unwrap_or(true));
+        for values in [&mut self.mesh.positions, &mut self.mesh.colors] {
+            let mut used = used.iter().copied();
+            values.retain(|_| used.next().unwrap_or(true));
+        }
         for triangle in &mut self.mesh.triangles {
             triangle.position = triangle.position.map(|index| renumbered[index as usize]);
         }
@@ -174,9 +205,8 @@ impl<'a> Reader<'a> {
                 if position.iter().any(|x| !x.is_finite()) {
                     self.bad_vertices.push((self.mesh.positions.len() as u32, number));
                 }
-                // Three coordinates, a weight, and three channels.
                 if count >= 6 {
-                    self.pass_over("vertex colours");
+                    self.color(rest);
                 }
                 self.mesh.positions.push(position);
             }
@@ -216,6 +246,20 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
+    /// Reads the colour of the vertex that comes next. Colours that are no numbers are passed over.
+    fn color(&mut self, text: &str) {
+        let Some(([_, _, _, red, green, blue], _)) = numbers(text) else {
+            return self.pass_over("vertex colours that are no numbers");
+        };
+        let color = [red, green, blue];
+        if color.iter().all(|x: &f32| x.is_finite()) {
+            self.mesh.colors.resize(self.mesh.positions.len(), [f32::NAN; 3]);
+            self.mesh.colors.push(color);
+        } else {
+            self.pass_over("vertex colours that are not finite");
+        }
+    }
+
     /// Counts something that is read and not used.
     fn pass_over(&mut self, what: &'a str) {
         *self.unused.entry(what).or_default() += 1;
@@ -243,7 +287,13 @@ impl<'a> Reader<'a> {
                     }
                     _ => {
                         let back = usize::try_from(index.unsigned_abs()).map_err(|_| THERE)?;
-                        counts[k].checked_sub(back).ok_or(THERE)?
+                        match counts[k].checked_sub(back) {
+                            None if k > 0 => {
+                                self.pass_over(LOST);
+                                continue;
+                            }
+                            position => position.ok_or(THERE)?,
+                        }
                     }
                 };
                 corner[k] = u32::try_from(position).map_err(|_| THERE)?;
@@ -260,7 +310,8 @@ impl<'a> Reader<'a> {
             count += 1;
         }
         if count < 3 {
-            return Err(FORM);
+            self.pass_over("faces of fewer than three corners");
+            return Ok(());
         }
         if is_mixed {
             self.complete(first);
@@ -299,6 +350,9 @@ impl<'a> Reader<'a> {
     }
 }
 
+/// Indices of texture coordinates and normals that the file does not have.
+const LOST: &str = "indices of vt or vn that the file does not have";
+
 const THERE: Expected = "corners that the file has, counted from 1, or back from -1";
 
 /// Returns the first `N` numbers of a statement, and the number of its words.
@@ -307,22 +361,27 @@ fn numbers<const N: usize>(text: &str) -> Option<([f32; N], usize)> {
     let mut count = 0;
     for word in words(text) {
         if let Some(entry) = numbers.get_mut(count) {
-            *entry = word.parse().ok()?;
+            *entry = number(word)?;
         }
         count += 1;
     }
     (count >= N).then_some((numbers, count))
 }
 
+/// Returns a number. Some programs write what is no number as `1.#IND` or `nan(ind)`.
+fn number(word: &str) -> Option<f32> {
+    let is_none = || word.contains(".#") || word.trim_start_matches('-').starts_with("nan(");
+    word.parse().ok().or_else(|| is_none().then_some(f32::NAN))
+}
+
 /// Returns the indices of a corner; 0 for a part that the corner does not have.
 fn parts(word: &str) -> Option<[i64; NUMBERED]> {
-    let index = |part: &str| part.parse().ok().filter(|&index| index != 0);
     let mut parts = word.split('/');
-    let position = index(parts.next()?)?;
-    // Some programs write empty parts at the end: `1/` and `1//`.
+    let position = parts.next()?.parse().ok().filter(|&index| index != 0)?;
+    // Some programs write empty parts at the end, `1/` and `1//`, and some write 0.
     let mut optional = || match parts.next() {
         None | Some("") => Some(0),
-        Some(part) => index(part),
+        Some(part) => part.parse().ok(),
     };
     let (uv, normal) = (optional()?, optional()?);
     parts.next().is_none().then_some([position, uv, normal])

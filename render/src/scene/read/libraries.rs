@@ -1,10 +1,11 @@
 //! The material libraries that a scene's meshes name, read when a surface needs them.
 
+use super::textures::Kind;
 use super::{Reader, SceneError};
-use crate::scene::mtl::{self, Library, Map};
+use crate::scene::mtl::{self, Entry, Library, Map};
 use crate::scene::text::before_comment;
 use crate::scene::{Scene, SurfaceTexture};
-use crate::texture::{Texture, Values, Wrap};
+use crate::texture::{Alpha, Texture, Values};
 use files::FileError;
 use files::check::{Finding, Severity};
 use std::collections::{BTreeMap, HashMap};
@@ -18,16 +19,35 @@ pub(super) struct Libraries {
     files: BTreeMap<PathBuf, Library>,
     /// Indices of materials by library and by the number of the entry.
     materials: BTreeMap<(PathBuf, usize), usize>,
-    /// Indices of textures by path and continuation. A picture that cannot be read has none.
-    textures: BTreeMap<(PathBuf, bool), Option<usize>>,
+    /// Indices of textures by what they show. Pictures that cannot be read have none.
+    textures: BTreeMap<Shown, Option<usize>>,
 }
+
+/// Paths of a picture and of a mask, each if there is one, and the numbers of its continuation and of its use of alpha.
+type Shown = (Option<PathBuf>, Option<PathBuf>, [u8; 2]);
 
 /// A material of a library, as a surface takes it.
 #[derive(Debug, Clone)]
 pub(super) struct Taken {
     pub(super) material: usize,
-    /// The picture, and the library that names it.
-    pub(super) picture: Option<(Map, PathBuf)>,
+    pub(super) picture: Option<Pictured>,
+}
+
+/// The pictures of a material of a library: its colours, its mask, or both.
+#[derive(Debug, Clone)]
+pub(super) struct Pictured {
+    colors: Option<Map>,
+    mask: Option<Map>,
+    alpha: Alpha,
+    /// The library that names the pictures.
+    library: PathBuf,
+}
+
+impl Pictured {
+    /// The map by whose options the texture coordinates are moved.
+    pub(super) fn map(&self) -> Option<&Map> {
+        self.colors.as_ref().or(self.mask.as_ref())
+    }
 }
 
 impl Libraries {
@@ -53,6 +73,11 @@ impl Libraries {
         Ok(())
     }
 
+    /// Adds the materials that a mesh file itself holds, under the path of this file.
+    pub(super) fn hold(&mut self, path: &Path, entries: &[Entry]) {
+        self.files.entry(path.into()).or_insert_with(|| Library::of(entries));
+    }
+
     /// Returns the material of this name from the first of these libraries that has it.
     pub(super) fn take<'p>(
         &mut self,
@@ -68,7 +93,14 @@ impl Libraries {
             scene.names.materials.push(entry.name.clone());
             scene.materials.len() - 1
         });
-        let picture = entry.picture.clone().map(|picture| (picture, path.clone()));
+        let (colors, mask) = (entry.picture.clone(), entry.mask.clone());
+        let is_pictured = colors.is_some() || mask.is_some();
+        let picture = is_pictured.then(|| Pictured {
+            colors,
+            mask,
+            alpha: entry.alpha,
+            library: path.clone(),
+        });
         Some(Taken { material, picture })
     }
 }
@@ -102,49 +134,74 @@ pub(super) fn remark(file: &str, sentences: &[String]) -> Finding {
 }
 
 impl Reader<'_> {
-    /// Returns the texture of a library's picture. A picture that cannot be read is a fault if the scene
+    /// Returns the texture of a library's pictures. A picture that cannot be read is a fault if the scene
     /// names the library, at the JSON path `at`; otherwise it is a remark, and there is no texture.
     pub(super) fn library_picture(
         &self,
         at: &str,
         named: bool,
-        (map, library): &(Map, PathBuf),
+        pictured: &Pictured,
         libraries: &mut Libraries,
         scene: &mut Scene,
     ) -> Result<Option<SurfaceTexture>, SceneError> {
-        let folder = library.parent().unwrap_or(Path::new(""));
-        let key = (folder.join(&map.path), map.wrap == Wrap::Clamp);
+        let Some(map) = pictured.map() else { return Ok(None) };
+        let folder = pictured.library.parent().unwrap_or(Path::new(""));
+        let path = |map: &Option<Map>| map.as_ref().map(|map| folder.join(&map.path));
+        let key =
+            (path(&pictured.colors), path(&pictured.mask), [map.wrap as u8, pictured.alpha as u8]);
         if let Some(&known) = libraries.textures.get(&key) {
             return Ok(known.map(SurfaceTexture::Picture));
         }
-        let file = files::input::name_of(library);
-        let index = match self.found_picture(at, folder, map) {
-            Ok((texture, path)) => {
-                if path != key.0 {
-                    let sentence = format!("{} is taken for {}", path.display(), map.path);
-                    scene.remarks.push(remark(&file, &[sentence]));
+        let file = files::input::name_of(&pictured.library);
+        let mut read = |map: &Map, is_mask: bool| {
+            let (values, alpha) = (Values::Srgb, pictured.alpha);
+            let kind = Kind { values, alpha, wrap: map.wrap };
+            match self.found_picture(at, folder, map, (!is_mask).then_some(kind)) {
+                Ok((texture, found)) => {
+                    if found != folder.join(&map.path) {
+                        let sentence = format!("{} is taken for {}", found.display(), map.path);
+                        scene.remarks.push(remark(&file, &[sentence]));
+                    }
+                    Ok(Some(texture))
                 }
-                scene.textures.push(texture);
-                scene.names.textures.push(map.path.clone());
-                Some(scene.textures.len() - 1)
-            }
-            Err(error) if named => return Err(error),
-            Err(error) => {
-                scene.remarks.push(remark(&file, &[format!("no picture: {error}")]));
-                None
+                Err(error) if named => Err(error),
+                Err(error) => {
+                    scene.remarks.push(remark(&file, &[format!("no picture: {error}")]));
+                    Ok(None)
+                }
             }
         };
+        let colors = pictured.colors.as_ref().map(|map| read(map, false)).transpose()?.flatten();
+        let mask = pictured.mask.as_ref().map(|map| read(map, true)).transpose()?.flatten();
+        if let (Some(colors), Some(mask)) = (&pictured.colors, &pictured.mask)
+            && (colors.scale, colors.offset) != (mask.scale, mask.offset)
+        {
+            let sentence = "`map_d` is laid as `map_Kd` is, whose options differ".to_string();
+            scene.remarks.push(remark(&file, &[sentence]));
+        }
+        let texture = match (colors, mask) {
+            (Some(colors), Some(mask)) => Some(colors.cut_out_by(&mask)),
+            (None, Some(mask)) => Some(Texture::white(map.wrap).cut_out_by(&mask)),
+            (colors, None) => colors,
+        };
+        let index = texture.map(|texture| {
+            scene.textures.push(texture);
+            scene.names.textures.push(map.path.clone());
+            scene.textures.len() - 1
+        });
         libraries.textures.insert(key, index);
         Ok(index.map(SurfaceTexture::Picture))
     }
 
     /// Reads a picture at its path. If there is no file, the path without a comment, the file of that
-    /// name in the library's folder, and one that differs in upper and lower case are tried.
+    /// name in the library's folder, and one that differs in upper and lower case are tried. Without a
+    /// `kind` the picture becomes a mask.
     fn found_picture(
         &self,
         at: &str,
         folder: &Path,
         map: &Map,
+        kind: Option<Kind>,
     ) -> Result<(Texture, PathBuf), SceneError> {
         let mut paths = vec![folder.join(&map.path)];
         let short = before_comment(&map.path);
@@ -155,10 +212,15 @@ impl Reader<'_> {
             paths.extend(self.source.same_but_case(&path));
         }
         let is_missing = |error: &FileError| matches!(error, FileError::Read { source, .. } if source.kind() == ErrorKind::NotFound);
-        let exists =
-            |path: &&PathBuf| !self.source.read(path).is_err_and(|error| is_missing(&error));
+        let is_held = |path: &PathBuf| self.held.borrow().contains_key(path);
+        let exists = |path: &&PathBuf| {
+            is_held(path) || !self.source.read(path).is_err_and(|error| is_missing(&error))
+        };
         let path = paths.iter().find(exists).unwrap_or(&paths[0]);
-        let texture = self.texels(at, path, Values::Srgb, map.wrap)?;
+        let texture = match kind {
+            Some(kind) => self.texels(at, path, kind)?,
+            None => self.texture_of(at, path, |file| Texture::mask_of_picture(file, map.wrap))?,
+        };
         Ok((texture, path.clone()))
     }
 }

@@ -2,8 +2,9 @@
 
 use super::ranges::Ranges;
 use super::{Reader, SceneError};
+use crate::color::Color;
 use crate::optics::thin_film::ThinFilm;
-use crate::scene::file::{MaterialFile, ThinFilmFile};
+use crate::scene::file::{MaterialFile, SurfaceColorFile, ThinFilmFile};
 use crate::scene::{AngleRamp, Material};
 use std::sync::Arc;
 
@@ -23,8 +24,13 @@ impl Reader<'_> {
     fn material(&self, name: &str, material: &MaterialFile) -> Result<Material, SceneError> {
         let at = |key: &str| format!("materials.{name}.{key}");
         let share = |key: &str, value: f64| self.within(&at(key), value, 0.0, 1.0);
+        let (color, vertex_colors) = match material.color {
+            SurfaceColorFile::Uniform(color) => (self.color(&at("color"), color)?, false),
+            SurfaceColorFile::Vertex => (Color::ONE, true),
+        };
         Ok(Material {
-            color: self.color(&at("color"), material.color)?,
+            color,
+            vertex_colors,
             ambient: share("ambient", material.ambient)?,
             diffuse: share("diffuse", material.diffuse)?,
             specular: share("specular", material.specular)?,

@@ -1,17 +1,17 @@
 //! Reads the meshes of a scene: their triangles, and the appearance of their surfaces.
 
-use super::libraries::{Libraries, Taken, remark};
+use super::libraries::{Libraries, Pictured, Taken, remark};
 use super::ranges::Ranges;
 use super::{Reader, SceneError};
 use crate::scene::file::{MeshFile, OneOrMore};
 use crate::scene::mtl::{Map, counted, plain};
 use crate::scene::obj::{self, ObjFile};
 use crate::scene::text::before_comment;
-use crate::scene::{Object, Scene, Surface, SurfaceTexture};
+use crate::scene::{Material, Object, Scene, Surface, SurfaceTexture};
 use crate::shape::mesh::{NONE, Triangle};
 use crate::shape::{Mesh, Placement, Shape};
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// A mesh whose triangles are not read yet.
 #[derive(Debug)]
@@ -38,6 +38,8 @@ struct Own {
     paths: Vec<PathBuf>,
     /// True if the scene names them, and false if the OBJ file does.
     named: bool,
+    /// True if the vertices of the mesh have colours.
+    colored: bool,
 }
 
 impl Reader<'_> {
@@ -51,11 +53,16 @@ impl Reader<'_> {
     ) -> Result<Object, SceneError> {
         let PlannedMesh { file, at, bindings, placement } = planned;
         let read = self.mesh_file(&at, file, given)?;
+        let mut sentences = read.remarks.clone();
         if !read.unused.is_empty() {
             let unused: BTreeMap<String, usize> = read.unused.iter().cloned().collect();
-            scene.remarks.push(remark(&read.file, &[format!("not used: {}", counted(&unused))]));
+            sentences.push(format!("not used: {}", counted(&unused)));
+        }
+        if !sentences.is_empty() {
+            scene.remarks.push(remark(&read.file, &sentences));
         }
         let own = self.libraries_of(&at, file, &bindings, &read, libraries, scene)?;
+        let colored = (read.file.clone(), read.colored);
         let mut mesh = read.smoothed(file.smooth_deg);
         let (mut parts, mut maps) = (Vec::new(), Vec::new());
         for (number, name) in mesh.surfaces.clone().iter().enumerate() {
@@ -70,8 +77,8 @@ impl Reader<'_> {
                     libraries,
                     scene,
                 )?;
-                if surface.texture.is_some() {
-                    maps.push((number as u32, picture.0));
+                if let Some(map) = picture.map().filter(|_| surface.texture.is_some()) {
+                    maps.push((number as u32, map.clone()));
                 }
             }
             parts.push(surface);
@@ -80,6 +87,7 @@ impl Reader<'_> {
             show_map(&mut mesh, &mut parts, number, &map);
         }
         self.check_texture_coordinates(&at, file, &mesh, &parts)?;
+        keep_shown_colors(&mut mesh, &parts, colored, scene);
         if parts.iter().any(|part| scene.materials[part.material].transparency > 0.0) {
             let joined = mesh.close_rounded();
             if joined > 0 {
@@ -90,35 +98,6 @@ impl Reader<'_> {
             }
         }
         self.placed(&at, Shape::Mesh(mesh), parts, &placement)
-    }
-
-    /// Returns the mesh that the caller gave, or reads its file.
-    fn mesh_file(
-        &self,
-        at: &str,
-        file: &MeshFile,
-        given: Option<ObjFile>,
-    ) -> Result<ObjFile, SceneError> {
-        match (given, &file.file) {
-            (Some(given), _) => {
-                let named = |source| SceneError::Mesh { name: file.name.clone(), source };
-                given.mesh.check().map_err(named)?;
-                Ok(given)
-            }
-            (None, Some(path)) => {
-                let path = self.folder.join(path);
-                let bytes = self.named_file(&format!("{at}.file"), &path)?;
-                let name = files::input::name_of(&path);
-                self.memory.keep(obj::needed(&bytes), || format!("mesh {name}"))?;
-                let folder = path.parent().unwrap_or(Path::new("")).into();
-                Ok(ObjFile { folder, ..obj::read_file(&name, &bytes)? })
-            }
-            (None, None) => Err(SceneError::MissingMesh {
-                name: file.name.clone(),
-                path: at.into(),
-                scene: self.document.file.into(),
-            }),
-        }
     }
 
     /// Reads the libraries that the scene names for a mesh. If it names none, reads those that the OBJ
@@ -132,6 +111,7 @@ impl Reader<'_> {
         libraries: &mut Libraries,
         scene: &mut Scene,
     ) -> Result<Own, SceneError> {
+        let colored = read.colored > 0;
         if let Some(named) = &file.mtl {
             let paths: Vec<PathBuf> =
                 named.all().iter().map(|path| self.folder.join(path)).collect();
@@ -142,11 +122,21 @@ impl Reader<'_> {
                 };
                 libraries.add(path, || self.named_file(&at, path), scene)?;
             }
-            return Ok(Own { paths, named: true });
+            return Ok(Own { paths, named: true, colored });
         }
-        let mut own = Own { paths: Vec::new(), named: false };
+        let mut own = Own { paths: Vec::new(), named: false, colored };
         let unbound = |name: &String| bindings.material_of(name).is_none();
-        if !read.mesh.surfaces.iter().any(unbound) {
+        let is_unbound = read.mesh.surfaces.iter().any(unbound);
+        if !read.materials.is_empty() {
+            if is_unbound {
+                own.paths.push(self.held_materials(read, libraries));
+            } else {
+                let sentence =
+                    "the materials of the file are not used, since the scene binds all surfaces";
+                scene.remarks.push(remark(&read.file, &[sentence.into()]));
+            }
+        }
+        if !is_unbound {
             if let Some(name) = read.libraries.first() {
                 let sentence = format!(
                     "the library {} is not used, since the scene binds all surfaces; \"mtl\" uses it",
@@ -173,23 +163,6 @@ impl Reader<'_> {
             }
         }
         Ok(own)
-    }
-
-    /// Returns the files that a text behind `mtllib` means: the whole text, or one file for each word.
-    fn library_paths(&self, folder: &Path, text: &str) -> Vec<PathBuf> {
-        let text = text.replace('\\', "/");
-        let near = |name: &str| {
-            let beside = name.rsplit('/').next().unwrap_or(name);
-            let mut paths = vec![folder.join(name), folder.join(beside)];
-            paths.extend(paths.clone().iter().filter_map(|path| self.source.same_but_case(path)));
-            paths.into_iter().find(|path| self.source.read(path).is_ok())
-        };
-        if let Some(path) = near(&text).or_else(|| near(before_comment(&text)?)) {
-            return vec![path];
-        }
-        text.split_whitespace()
-            .map(|name| near(name).unwrap_or_else(|| folder.join(name)))
-            .collect()
     }
 
     /// Refuses a mesh with a texture on triangles without texture coordinates.
@@ -248,7 +221,7 @@ impl Reader<'_> {
         taken: Option<Taken>,
         own: &Own,
         scene: &mut Scene,
-    ) -> Result<(Surface, Option<(Map, PathBuf)>), SceneError> {
+    ) -> Result<(Surface, Option<Pictured>), SceneError> {
         let ids = obj::ids(surface);
         let [texture_key, material_key] = ids.unwrap_or([surface, surface]);
         let material = match &taken {
@@ -259,6 +232,14 @@ impl Reader<'_> {
             _ => bindings.material_of(surface).or(taken.as_ref().map(|taken| taken.material)),
         };
         let material = material.or(bindings.material).or_else(|| {
+            // Colours of the vertices stand for a material.
+            own.colored.then(|| {
+                scene.materials.push(Material { vertex_colors: true, ..plain() });
+                scene.names.materials.push("vertex".into());
+                scene.materials.len() - 1
+            })
+        });
+        let material = material.or_else(|| {
             // The OBJ names libraries, and none of them has the material.
             (!own.named && !own.paths.is_empty()).then(|| {
                 let name = obj::shortened(surface);
@@ -311,6 +292,26 @@ impl Bindings {
         let short = || self.textures.get(before_comment(key)?);
         self.textures.get(key).or_else(short).copied()
     }
+}
+
+/// Removes the colours of the vertices if no material shows them, with a remark on the file, of which
+/// `colored` has the name and the number of coloured vertices.
+fn keep_shown_colors(
+    mesh: &mut Mesh,
+    parts: &[Surface],
+    (file, count): (String, usize),
+    scene: &mut Scene,
+) {
+    if mesh.colors.is_empty()
+        || parts.iter().any(|part| scene.materials[part.material].vertex_colors)
+    {
+        return;
+    }
+    mesh.colors = Vec::new();
+    let sentence = format!(
+        "not used: vertex colours ({count} times), which a material with \"color\": \"vertex\" shows"
+    );
+    scene.remarks.push(remark(&file, &[sentence]));
 }
 
 /// Moves the texture coordinates of a surface as a picture's options say. Triangles without texture

@@ -46,6 +46,7 @@ impl Reader<'_> {
             for (key, given, of_pictures) in [
                 ("wrap", file.wrap.is_some(), true),
                 ("values", file.values.is_some(), true),
+                ("alpha", file.alpha.is_some(), true),
                 ("place", file.place.is_some(), false),
             ] {
                 if given && of_pictures != picture {

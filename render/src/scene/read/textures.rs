@@ -1,13 +1,12 @@
 //! Reads the textures of a scene file that are pictures.
 
-use super::ranges::Ranges;
 use super::{Reader, SceneError};
-use crate::texture::{Texture, Values, Wrap};
+use crate::texture::{Alpha, Texture, Values, Wrap};
 use files::check::{Finding, Severity};
 use files::input;
 use files::memory::{Budget, MemoryError, Reserved};
 use files::picture::{self, PictureError, SURFACES};
-use image::{DynamicImage, GenericImageView as _};
+use image::DynamicImage;
 use std::cell::Cell;
 use std::path::Path;
 
@@ -46,41 +45,50 @@ impl<'b> Memory<'b> {
     }
 }
 
+/// The reading of a picture as a texture.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Kind {
+    pub(super) values: Values,
+    pub(super) wrap: Wrap,
+    pub(super) alpha: Alpha,
+}
+
 impl<'a> Reader<'a> {
     pub(super) fn textures(&self) -> Result<Vec<Texture>, SceneError> {
         let pictures = self.file.textures.iter().filter_map(|(name, texture)| {
             let path = self.folder.join(texture.image.as_deref()?);
-            let (values, wrap) =
-                (texture.values.unwrap_or_default(), texture.wrap.unwrap_or_default());
-            let texels = self.texels(&format!("textures.{name}.image"), &path, values, wrap);
+            let kind = Kind {
+                values: texture.values.unwrap_or_default(),
+                wrap: texture.wrap.unwrap_or_default(),
+                alpha: texture.alpha.unwrap_or_default(),
+            };
+            let texels = self.texels(&format!("textures.{name}.image"), &path, kind);
             Some(texels.map(|texels| Texture { name: name.clone(), ..texels }))
         });
         pictures.collect()
     }
 
     /// Reads the picture file `path`, which the scene names at the JSON path `at`, as a texture.
-    pub(super) fn texels(
+    pub(super) fn texels(&self, at: &str, path: &Path, kind: Kind) -> Result<Texture, SceneError> {
+        let make = |picture: &DynamicImage| {
+            Texture::from_picture(picture, kind.values, kind.wrap, kind.alpha)
+        };
+        self.texture_of(at, path, make)
+    }
+
+    /// Reads the picture file `path`, which the scene names at the JSON path `at`, and keeps the memory of
+    /// the texture that `make` makes of it.
+    pub(super) fn texture_of(
         &self,
         at: &str,
         path: &Path,
-        values: Values,
-        wrap: Wrap,
+        make: impl FnOnce(&DynamicImage) -> Texture,
     ) -> Result<Texture, SceneError> {
         let (picture, mut reserved) = self.picture(at, path)?;
-        match Texture::from_picture(&picture, values, wrap) {
-            Some(texture) => {
-                reserved.shrink(texture.bytes());
-                self.memory.take(reserved);
-                Ok(texture)
-            }
-            None => self.fault(
-                at,
-                format!(
-                    "found floating point values in {}, expected 8 or 16 bits",
-                    input::name_of(path)
-                ),
-            ),
-        }
+        let texture = make(&picture);
+        reserved.shrink(texture.bytes());
+        self.memory.take(reserved);
+        Ok(texture)
     }
 
     /// Reads the picture file `path`, which the scene names at the JSON path `at`. Returns the picture and
@@ -92,7 +100,6 @@ impl<'a> Reader<'a> {
     ) -> Result<(DynamicImage, Reserved<'a>), SceneError> {
         let bytes = self.named_file(at, path)?;
         let name = || input::name_of(path);
-        // An EXR is decoded and then refused with a message that names floating point values.
         let budget = self.memory.budget;
         let decoded = picture::decode(&bytes, &SURFACES, Texture::decoding_bytes, budget, name);
         let read = decoded.map_err(|error| match error {
@@ -101,32 +108,18 @@ impl<'a> Reader<'a> {
             }
             error @ (PictureError::Format(_) | PictureError::Broken(_)) => {
                 let message = format!(
-                    "found no picture in {} ({error}), expected a PNG, JPEG, TGA, BMP, TIFF, WebP \
-                         or GIF file",
+                    "found no picture in {} ({error}), expected a PNG, JPEG, TGA, BMP, TIFF, \
+                     WebP, GIF, HDR or EXR file",
                     name()
                 );
                 self.document.fault(at, message).into()
             }
         })?;
-        let mut unused = picture::unused(&bytes);
-        if has_transparent_texels(&read.0) {
-            unused.push("transparent texels are taken as opaque");
-        }
+        let unused = picture::unused(&bytes);
         if !unused.is_empty() {
             let finding = Finding::new(Severity::Remark, name(), unused.join("; "));
             self.remarks.borrow_mut().push(finding);
         }
         Ok(read)
-    }
-}
-
-fn has_transparent_texels(picture: &DynamicImage) -> bool {
-    match picture {
-        DynamicImage::ImageLumaA8(texels) => texels.pixels().any(|texel| texel.0[1] < u8::MAX),
-        DynamicImage::ImageRgba8(texels) => texels.pixels().any(|texel| texel.0[3] < u8::MAX),
-        picture if picture.color().has_alpha() => {
-            picture.pixels().any(|(_, _, texel)| texel.0[3] < u8::MAX)
-        }
-        _ => false,
     }
 }

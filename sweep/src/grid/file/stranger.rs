@@ -1,13 +1,15 @@
 //! Descriptions of files that are not grids, so that messages can state a remedy.
 
 /// Descriptions of files known by their first bytes.
-const KNOWN: [(&[u8], &str); 7] = [
+const KNOWN: [(&[u8], &str); 9] = [
     (b"\x89PNG", "it is a PNG picture"),
     (b"\xff\xd8\xff", "it is a JPEG picture"),
     (b"v/1\x01", "it is an EXR picture"),
     (b"\x1f\x8b", "it is compressed; unpack it first"),
     (b"\xef\xbb\xbf", "it starts with the byte order mark of a text editor"),
     (b"\xff\xfe", "it is UTF-16 text; a program changed the encoding after `sweep` wrote the grid"),
+    (b"ply", "it is a PLY mesh, which has triangles already"),
+    (b"solid ", "it is an STL mesh, which has triangles already"),
     (b"[", "it is JSON without the header line of a grid"),
 ];
 
@@ -44,6 +46,7 @@ mod tests {
         assert!(described(b"\x89PNG\r\n\x1a\n").contains("PNG picture"));
         assert!(described(b"# Blender 5\nv 0 0 0\n").contains("OBJ mesh"));
         assert!(described(b"v 0 0 0\n").contains("OBJ mesh"));
+        assert!(described(b"ply\nformat ascii 1.0\n").contains("a PLY mesh"));
         assert!(described(b"  {\n").contains("curve spec"));
         assert!(described(b"\x00\x01").contains(r"\x00\x01"));
     }

@@ -1,0 +1,26 @@
+//! What the picture files of a job state: the encoding, and the command of `render` that makes them.
+
+use crate::Job;
+use render::Settings;
+use render::color::Encoding;
+use render::film::command::{Named, command};
+use render::film::encode::{Bits, Coding};
+
+/// Returns what the file of one picture states. `error` is the requested error of its mode.
+///
+/// `render` states the same for the job's scene and meshes, so that both write equal files.
+#[must_use]
+pub fn of(job: &Job, settings: &Settings, error: Option<f64>) -> Coding {
+    let scene = job.scene.file_name().unwrap_or(job.scene.as_os_str()).to_string_lossy();
+    let meshes: Vec<&str> = job.meshes.iter().map(|mesh| mesh.name.as_str()).collect();
+    let error = error.map(|error| error.to_string());
+    let named = Named {
+        scene: &scene,
+        meshes: &meshes,
+        error: error.as_deref(),
+        alpha: false,
+        encoding: Encoding::Srgb,
+        bits: Bits::Eight,
+    };
+    Coding { command: Some(command(&named, settings)), ..Coding::new(Encoding::Srgb) }
+}
