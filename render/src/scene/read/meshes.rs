@@ -1,7 +1,8 @@
 //! Reads the meshes of a scene: their triangles, and the appearance of their surfaces.
 
-use super::libraries::{Libraries, Taken, remark};
+use super::libraries::{self, Libraries, remark};
 use super::ranges::Ranges;
+use super::stored::{Stored, Taken};
 use super::{Reader, SceneError};
 use crate::scene::file::{MeshFile, OneOrMore};
 use crate::scene::mtl::{Map, counted, plain};
@@ -9,7 +10,7 @@ use crate::scene::obj::{self, ObjFile};
 use crate::scene::text::before_comment;
 use crate::scene::{Object, Scene, Surface, SurfaceTexture};
 use crate::shape::mesh::{NONE, Triangle};
-use crate::shape::{Mesh, Placement, Shape};
+use crate::shape::{Instance, Mesh, Placement, Shape, SharedMesh};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -21,6 +22,8 @@ pub(super) struct PlannedMesh<'a> {
     pub(super) at: String,
     pub(super) bindings: Bindings,
     pub(super) placement: Placement,
+    /// The placements of the copies of a mesh with instances, which include `placement`.
+    pub(super) instances: Option<Vec<Placement>>,
 }
 
 /// The materials and textures that a mesh binds, by surface id and by texture id.
@@ -45,20 +48,22 @@ impl Reader<'_> {
     pub(super) fn mesh(
         &self,
         planned: PlannedMesh<'_>,
-        given: Option<ObjFile>,
+        stored: &mut Stored,
         libraries: &mut Libraries,
         scene: &mut Scene,
-    ) -> Result<Object, SceneError> {
-        let PlannedMesh { file, at, bindings, placement } = planned;
-        let read = self.mesh_file(&at, file, given)?;
-        if !read.unused.is_empty() {
+    ) -> Result<(), SceneError> {
+        let PlannedMesh { file, at, bindings, placement, instances } = planned;
+        let key = stored.key(file, self.folder);
+        let read = |given| self.mesh_file(&at, file, given);
+        let (read, mut taken, first) = stored.take(&key, read)?;
+        if first && !read.unused.is_empty() {
             let unused: BTreeMap<String, usize> = read.unused.iter().cloned().collect();
             scene.remarks.push(remark(&read.file, &[format!("not used: {}", counted(&unused))]));
         }
-        let own = self.libraries_of(&at, file, &bindings, &read, libraries, scene)?;
-        let mut mesh = read.smoothed(file.smooth_deg);
+        let surfaces = taken.mesh().surfaces.clone();
+        let own = self.libraries_of(&at, file, &bindings, (&read, &surfaces), libraries, scene)?;
         let (mut parts, mut maps) = (Vec::new(), Vec::new());
-        for (number, name) in mesh.surfaces.clone().iter().enumerate() {
+        for (number, name) in surfaces.iter().enumerate() {
             let taken = libraries.take(&own.paths, name, scene);
             let (surface, picture) = self.bind(&at, file, &bindings, name, taken, &own, scene)?;
             let mut surface = surface;
@@ -76,12 +81,16 @@ impl Reader<'_> {
             }
             parts.push(surface);
         }
-        for (number, map) in maps {
-            show_map(&mut mesh, &mut parts, number, &map);
+        if !maps.is_empty() {
+            let mut mesh = taken.into_own();
+            for (number, map) in maps {
+                show_map(&mut mesh, &mut parts, number, &map);
+            }
+            taken = Taken::Owned(mesh);
         }
-        self.check_texture_coordinates(&at, file, &mesh, &parts)?;
+        self.check_texture_coordinates(&at, file, taken.mesh(), &parts)?;
         if parts.iter().any(|part| scene.materials[part.material].transparency > 0.0) {
-            let joined = mesh.close_rounded();
+            let joined = stored.close_rounded(&key, &mut taken);
             if joined > 0 {
                 let sentence = format!(
                     "{joined} corners that differ by rounding were joined, which closes the mesh"
@@ -89,7 +98,26 @@ impl Reader<'_> {
                 scene.remarks.push(remark(&file.name, &[sentence]));
             }
         }
-        self.placed(&at, Shape::Mesh(mesh), parts, &placement)
+        let placements = instances.unwrap_or(vec![placement]);
+        let taken = match taken {
+            Taken::Owned(mesh) if placements.len() > 1 => Taken::Shared(SharedMesh::new(mesh)),
+            taken => taken,
+        };
+        match taken {
+            Taken::Owned(mesh) => {
+                let placement = placements.first().unwrap_or(&placement);
+                scene.objects.push(self.placed(&at, Shape::Mesh(mesh), parts, placement)?);
+            }
+            Taken::Shared(shared) => {
+                let objects = placements.into_iter().map(|placement| Object {
+                    shape: Shape::Instance(Instance::new(shared.clone(), placement)),
+                    parts: parts.clone(),
+                    to_own_space: placement.to_own(),
+                });
+                scene.objects.extend(objects);
+            }
+        }
+        Ok(())
     }
 
     /// Returns the mesh that the caller gave, or reads its file.
@@ -128,7 +156,7 @@ impl Reader<'_> {
         at: &str,
         file: &MeshFile,
         bindings: &Bindings,
-        read: &ObjFile,
+        (read, surfaces): (&ObjFile, &[String]),
         libraries: &mut Libraries,
         scene: &mut Scene,
     ) -> Result<Own, SceneError> {
@@ -146,7 +174,7 @@ impl Reader<'_> {
         }
         let mut own = Own { paths: Vec::new(), named: false };
         let unbound = |name: &String| bindings.material_of(name).is_none();
-        if !read.mesh.surfaces.iter().any(unbound) {
+        if !surfaces.iter().any(unbound) {
             if let Some(name) = read.libraries.first() {
                 let sentence = format!(
                     "the library {} is not used, since the scene binds all surfaces; \"mtl\" uses it",
@@ -245,7 +273,7 @@ impl Reader<'_> {
         file: &MeshFile,
         bindings: &Bindings,
         surface: &str,
-        taken: Option<Taken>,
+        taken: Option<libraries::Taken>,
         own: &Own,
         scene: &mut Scene,
     ) -> Result<(Surface, Option<(Map, PathBuf)>), SceneError> {
