@@ -230,7 +230,7 @@ fn is_flat(shape: &Shape) -> bool {
     match shape {
         Shape::Quad(_) | Shape::Cuboid(_) => true,
         Shape::Placed(placed) => is_flat(placed.shape()),
-        Shape::Sphere(_) | Shape::Mesh(_) | Shape::Superquadric(_) => false,
+        Shape::Sphere(_) | Shape::Mesh(_) | Shape::Superquadric(_) | Shape::Instance(_) => false,
     }
 }
 

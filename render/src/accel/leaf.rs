@@ -38,6 +38,12 @@ impl Leaf {
         Self { object, triangle: WHOLE, corners: [[0.0; 3]; 3] }
     }
 
+    /// Returns the same triangle of another object.
+    #[must_use]
+    pub fn of_object(&self, object: u32) -> Self {
+        Self { object, ..*self }
+    }
+
     /// Index of the object.
     #[must_use]
     pub fn object(&self) -> u32 {
@@ -55,6 +61,9 @@ pub struct Probe<'a> {
     /// Rounding of the start as a point of the surface on which the ray starts, in scene units; 0
     /// for a ray from the eye.
     skin: f64,
+    /// Rounding of the start and of the object together, in the space of an instance; `None` in the
+    /// scene's space.
+    whole_skin: Option<f64>,
     /// Bound on the error of distances to corners, in scene units.
     slack: f64,
 }
@@ -67,12 +76,26 @@ impl<'a> Probe<'a> {
         let sheared = ShearedRay::new(ray.origin, ray.direction);
         let slabs = SlabRay::new(ray.origin, ray.direction, accel.extent);
         let skin = ray.leaving.map_or(0.0, |from| accel.rounding(from.object, ray.origin));
-        Self { ray, sheared, slabs, skin, slack: slabs.slack() }
+        Self { ray, sheared, slabs, skin, whole_skin: None, slack: slabs.slack() }
+    }
+
+    /// Prepares a ray in the space of an instance. `extent` is that of [`SlabRay::new`], and `skin` the
+    /// distance from the start within which a surface coincides with the start, both in own units.
+    #[must_use]
+    #[inline(always)]
+    pub fn within(ray: &'a Ray, extent: f64, skin: f64) -> Self {
+        let sheared = ShearedRay::new(ray.origin, ray.direction);
+        let slabs = SlabRay::new(ray.origin, ray.direction, extent);
+        Self { ray, sheared, slabs, skin, whole_skin: Some(skin), slack: slabs.slack() }
     }
 
     /// Returns the distance from the start within which a surface of this object coincides with
     /// the start.
-    fn skin(&self, accel: &Accel<'_>, object: u32) -> f64 {
+    #[must_use]
+    pub fn skin(&self, accel: &Accel<'_>, object: u32) -> f64 {
+        if let Some(skin) = self.whole_skin {
+            return skin;
+        }
         match self.ray.leaving {
             Some(_) => self.skin + accel.rounding(object, DVec3::ZERO),
             // A start that is meant to lie on a surface is off it by the rounding of its own

@@ -7,6 +7,7 @@ use super::frame::{Frame, TreeRay};
 use super::kernel::Kernel;
 use super::leaf::Probe;
 use super::node::Child;
+use super::own_ray::OwnRay;
 use super::simd::Task;
 use super::tree::{Leaves, Tree};
 use crate::ray::{Hit, Piece, Ray};
@@ -93,8 +94,24 @@ impl MeshTree {
         t_max: f64,
         see: &mut impl FnMut(Hit) -> f64,
     ) -> f64 {
-        let mut blocks = Blocks { mesh: self, accel, object, ray, see };
+        let mut blocks = Blocks { mesh: self, accel, object, ray, own: None, see };
         self.tree.walk(kernel, (ray, accel.extent), t_max, &mut blocks)
+    }
+
+    /// Calls `see` as [`MeshTree::walk`] does, with the hits of a ray in the space of an instance.
+    /// Distances are in own units.
+    #[inline(always)]
+    pub fn walk_own<K: Kernel>(
+        &self,
+        kernel: K,
+        own: &OwnRay,
+        (accel, object): (&Accel<'_>, u32),
+        t_max: f64,
+        see: &mut impl FnMut(Hit) -> f64,
+    ) {
+        let ray = &own.ray;
+        let mut blocks = Blocks { mesh: self, accel, object, ray, own: Some(own), see };
+        self.tree.walk(kernel, (ray, own.extent), t_max, &mut blocks);
     }
 
     /// Returns the corners of a triangle in scene space.
@@ -116,6 +133,7 @@ struct Test<'a, 'b> {
     accel: &'a Accel<'b>,
     object: u32,
     ray: &'a Ray,
+    own: Option<&'a OwnRay>,
     block: &'a Block,
     lane: usize,
     t_max: f64,
@@ -126,13 +144,14 @@ impl Task for Test<'_, '_> {
 
     #[inline(always)]
     fn run<K: Kernel>(&mut self, _: K) -> Option<Hit> {
-        let Self { mesh, accel, object, ray, block, lane, t_max } = *self;
+        let Self { mesh, accel, object, ray, own, block, lane, t_max } = *self;
         let piece = Piece { object, triangle: block.numbers[lane & (LANES - 1)] };
         if ray.leaving == Some(piece) {
             return None;
         }
         let corners = mesh.corners(accel, object, block, lane);
-        Probe::new(accel, ray).meet_triangle(accel, piece, &corners, t_max)
+        let probe = own.map_or_else(|| Probe::new(accel, ray), OwnRay::probe);
+        probe.meet_triangle(accel, piece, &corners, t_max)
     }
 }
 
@@ -142,6 +161,8 @@ struct Blocks<'a, 'b, F> {
     accel: &'a Accel<'b>,
     object: u32,
     ray: &'a Ray,
+    /// The ray if the mesh is that of an instance.
+    own: Option<&'a OwnRay>,
     see: F,
 }
 
@@ -155,14 +176,14 @@ impl<F: FnMut(Hit) -> f64> Leaves for Blocks<'_, '_, F> {
         limit: f32,
         mut t_max: f64,
     ) -> f64 {
-        let Self { mesh, accel, object, ray, see } = self;
+        let Self { mesh, accel, object, ray, own, see } = self;
         let block = &mesh.blocks[leaf.number()];
         let mut mask = kernel.triangles(block, tree_ray, leaf.longest(), limit);
         while mask != 0 {
             let lane = mask.trailing_zeros() as usize;
             mask &= mask - 1;
-            let (object, ray) = (*object, *ray);
-            let mut test = Test { mesh, accel, object, ray, block, lane, t_max };
+            let (object, ray, own) = (*object, *ray, *own);
+            let mut test = Test { mesh, accel, object, ray, own, block, lane, t_max };
             if let Some(hit) = kernel.apart(&mut test) {
                 t_max = see(hit);
             }

@@ -8,7 +8,8 @@
 //! grids also shapes so large beside the rest (a floor under a vase) that they would spoil a grid. All
 //! others are leaves of a [`Structure`]: trees of boxes, the thesis's grids, or none. One function,
 //! `Probe::meet`, decides about hits for all of them, and one rule, [`Hit::before`], selects the
-//! visible hit.
+//! visible hit. A mesh that many instances show is prepared once, in its own space, to which rays are
+//! transformed (`own_ray.rs`).
 //!
 //! All structures find the same hits to the last bit. For this, a hit must lie where the ray
 //! crosses the box of its piece, widened by the roundings of the hit function (`Probe::meet`). A
@@ -28,23 +29,24 @@ mod block;
 mod brute;
 mod build;
 mod collapse;
+mod flat;
 mod frame;
 mod grid;
 mod kernel;
 mod leaf;
 mod mesh_tree;
 mod node;
+mod own_ray;
 mod simd;
 mod slabs;
 mod top;
 mod tree;
 
 use crate::ray::{Hit, Piece, Ray};
-use crate::shape::{Shape, SurfacePoint, triangle};
-use brute::Brute;
+use crate::shape::{Shape, SurfacePoint};
 use clap::ValueEnum;
+use flat::Flat;
 use glam::DVec3;
-use grid::Grids;
 use kernel::Kernel;
 use leaf::{Leaf, Probe};
 use serde::Deserialize;
@@ -100,9 +102,7 @@ impl Structure {
 #[derive(Debug)]
 pub struct Accel<'a> {
     shapes: Vec<&'a Shape>,
-    apart: Vec<Leaf>,
     index: Index,
-    leaves: Vec<Leaf>,
     /// Boxes of shapes that are one piece; `None` for meshes and planes.
     bounds: Vec<Option<[DVec3; 2]>>,
     /// The largest absolute coordinate from which each shape's points are computed.
@@ -112,12 +112,12 @@ pub struct Accel<'a> {
     instructions: Instructions,
 }
 
-/// A structure over the leaves.
+/// A structure over all shapes.
 #[derive(Debug)]
 enum Index {
-    Trees(Trees),
-    Grids(Grids),
-    All(Brute),
+    /// Trees, and the shapes without a box.
+    Trees(Trees, Vec<Leaf>),
+    Flat(Flat),
 }
 
 impl<'a> Accel<'a> {
@@ -128,113 +128,42 @@ impl<'a> Accel<'a> {
             Shape::Mesh(_) => None,
             shape => shape.bounds(),
         };
-        let bounds = shapes.iter().map(bounds).collect();
+        let bounds: Vec<_> = shapes.iter().map(bounds).collect();
         let extents: Vec<f64> = shapes.iter().map(|shape| shape.extent()).collect();
         let extent = extents.iter().copied().fold(0.0, f64::max);
-        let mut accel = Self {
-            shapes,
-            apart: vec![],
-            index: Index::All(Brute { pieces: 0 }),
-            leaves: vec![],
-            bounds,
-            extents,
-            extent,
-            instructions: Instructions::detect(),
+        let apart = unbounded(&shapes, &bounds);
+        let index = match structure {
+            Structure::Bvh => Index::Trees(Trees::build(&shapes, &bounds), apart),
+            Structure::Grid => Index::Flat(Flat::build(&shapes, &bounds, apart, true)),
+            Structure::None => Index::Flat(Flat::build(&shapes, &bounds, apart, false)),
         };
-        match structure {
-            Structure::Bvh => {
-                accel.apart = accel.unbounded();
-                accel.index = Index::Trees(Trees::build(&accel.shapes, &accel.bounds));
-            }
-            Structure::Grid | Structure::None => accel.build_flat(structure),
-        }
-        accel
-    }
-
-    /// Returns the shapes without a box.
-    fn unbounded(&self) -> Vec<Leaf> {
-        let objects = self.shapes.iter().enumerate();
-        objects
-            .filter(|(object, shape)| {
-                !matches!(shape, Shape::Mesh(_)) && self.bounds[*object].is_none()
-            })
-            .map(|(object, _)| Leaf::whole(object as u32))
-            .collect()
-    }
-
-    /// Builds a structure over all pieces, with the outsized ones apart.
-    fn build_flat(&mut self, structure: Structure) {
-        let mut apart = self.unbounded();
-        let mut bounded: Vec<(Leaf, [DVec3; 2])> = Vec::new();
-        for (object, shape) in self.shapes.iter().enumerate() {
-            let piece = Piece { object: object as u32, triangle: 0 };
-            if let Shape::Mesh(mesh) = shape {
-                let triangles = (0..mesh.triangles.len() as u32)
-                    .map(|n| (Piece { triangle: n, ..piece }, mesh.corners(n)))
-                    .filter(|(_, corners)| !triangle::is_segment(corners))
-                    .map(|(piece, corners)| {
-                        (Leaf::of_triangle(piece, corners), mesh.bounds(piece.triangle))
-                    });
-                bounded.extend(triangles);
-            } else if let Some(bounds) = self.bounds[object] {
-                bounded.push((Leaf::whole(piece.object), bounds));
-            }
-        }
-        let whole = bounded.iter().fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |all, (_, b)| {
-            [all[0].min(b[0]), all[1].max(b[1])]
-        });
-        let limit = OUTSIZED * (whole[1] - whole[0]).max_element();
-        let mut free = MOST_APART.saturating_sub(apart.len());
-        bounded.retain(|(leaf, [low, high])| {
-            let outsized = free > 0 && (*high - *low).max_element() > limit;
-            if outsized {
-                apart.push(*leaf);
-                free -= 1;
-            }
-            !outsized
-        });
-        let (leaves, boxes): (Vec<Leaf>, Vec<[DVec3; 2]>) = bounded.into_iter().unzip();
-        self.index = if structure == Structure::Grid {
-            let object = |a: &Leaf, b: &Leaf| a.object() == b.object();
-            let ranges = leaves.chunk_by(object).scan(0, |end, leaves| {
-                let start = std::mem::replace(end, *end + leaves.len() as u32);
-                Some(start..*end)
-            });
-            Index::Grids(Grids::build(&boxes, &ranges.collect::<Vec<_>>()))
-        } else {
-            Index::All(Brute { pieces: leaves.len() as u32 })
-        };
-        (self.apart, self.leaves) = (apart, leaves);
+        Self { shapes, index, bounds, extents, extent, instructions: Instructions::detect() }
     }
 
     /// Memory in bytes of the structure and of its copies of triangles.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        let index = match &self.index {
-            Index::Trees(trees) => trees.bytes(),
-            Index::Grids(grids) => grids.bytes(),
-            Index::All(_) => 0,
-        };
-        index + size_of_val(&*self.leaves)
+        match &self.index {
+            Index::Trees(trees, _) => trees.bytes(),
+            Index::Flat(flat) => flat.bytes(),
+        }
     }
 
     /// Returns the number of voxels of all grids, the number of those that list a piece, and the number
     /// of entries of all lists; `None` for other structures.
     #[must_use]
     pub fn cells(&self) -> Option<[u64; 3]> {
-        match &self.index {
-            Index::Grids(grids) => Some(grids.cells()),
-            Index::Trees(_) | Index::All(_) => None,
-        }
+        let Index::Flat(flat) = &self.index else { return None };
+        let cells = flat.grids().map(grid::Grids::cells);
+        cells.reduce(|a, b| [a[0] + b[0], a[1] + b[1], a[2] + b[2]])
     }
 
     /// Number of boxes examined to build the structure; a box counts each time it is examined.
     #[must_use]
     pub fn looks(&self) -> u64 {
         match &self.index {
-            Index::Trees(trees) => trees.looks(),
-            Index::Grids(grids) => grids.looks(),
-            Index::All(_) => 0,
+            Index::Trees(trees, _) => trees.looks(),
+            Index::Flat(flat) => flat.grids().map(grid::Grids::looks).sum(),
         }
     }
 
@@ -321,10 +250,8 @@ impl<'a> Accel<'a> {
 
     /// Returns the corners of a triangle, from the offset of its mesh.
     fn mesh_corners(&self, piece: Piece) -> [[f32; 3]; 3] {
-        match self.shapes[piece.object as usize] {
-            Shape::Mesh(mesh) => mesh.corners(piece.triangle),
-            _ => [[0.0; 3]; 3],
-        }
+        let mesh = self.shapes[piece.object as usize].mesh();
+        mesh.map_or([[0.0; 3]; 3], |mesh| mesh.corners(piece.triangle))
     }
 
     /// Calls `see` with hits up to the distance that it last returned, initially `t_max`.
@@ -349,31 +276,27 @@ impl<F: FnMut(Hit) -> f64> Task for Walk<'_, '_, F> {
     fn run<K: Kernel>(&mut self, kernel: K) {
         let Self { accel, ray, t_max, see } = self;
         let mut t_max = *t_max;
-        if let Index::Trees(trees) = &accel.index {
-            for leaf in &accel.apart {
-                if let Some(hit) = Probe::new(accel, ray).meet(accel, leaf, t_max) {
-                    t_max = see(hit);
-                }
-            }
-            trees.walk(kernel, ray, accel, t_max, see);
-            return;
-        }
-        let probe = Probe::new(accel, ray);
-        for leaf in &accel.apart {
-            if let Some(hit) = probe.meet(accel, leaf, t_max) {
-                t_max = see(hit);
-            }
-        }
-        let visit = |leaf: u32, t_max: f64| {
-            let hit = probe.meet(accel, &accel.leaves[leaf as usize], t_max);
-            hit.map_or(t_max, &mut *see)
-        };
         match &accel.index {
-            Index::Trees(_) => {}
-            Index::Grids(grids) => grids.walk(&probe.slabs, t_max, visit),
-            Index::All(brute) => brute.walk(t_max, visit),
+            Index::Trees(trees, apart) => {
+                for leaf in apart {
+                    if let Some(hit) = Probe::new(accel, ray).meet(accel, leaf, t_max) {
+                        t_max = see(hit);
+                    }
+                }
+                trees.walk(kernel, ray, accel, t_max, see);
+            }
+            Index::Flat(flat) => flat.walk(accel, ray, t_max, see),
         }
     }
+}
+
+/// Returns the shapes without a box.
+fn unbounded(shapes: &[&Shape], bounds: &[Option<[DVec3; 2]>]) -> Vec<Leaf> {
+    let objects = shapes.iter().zip(bounds).enumerate();
+    objects
+        .filter(|(_, (shape, bounds))| !matches!(shape, Shape::Mesh(_)) && bounds.is_none())
+        .map(|(object, _)| Leaf::whole(object as u32))
+        .collect()
 }
 
 #[cfg(test)]

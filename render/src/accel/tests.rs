@@ -6,6 +6,7 @@ use super::kernel::Portable;
 use super::node::Child;
 use super::tree::{Leaves, Tree};
 use super::*;
+use crate::accel::grid::Grids;
 use crate::accel::slabs::SlabRay;
 use crate::shape::Mesh;
 use crate::shape::Sphere;

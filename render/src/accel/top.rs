@@ -7,19 +7,25 @@ use super::kernel::Kernel;
 use super::leaf::Probe;
 use super::mesh_tree::{self, MeshTree};
 use super::node::Child;
+use super::own_ray::OwnRay;
+use super::simd::Task;
+use super::slabs::SlabRay;
 use super::tree::{Leaves, Tree};
 use crate::ray::{Hit, Ray};
-use crate::shape::Shape;
-
+use crate::shape::{Mesh, Shape};
 use glam::DVec3;
+use std::collections::HashMap;
+use std::ops::Range;
 
 /// An object of the upper tree.
-#[derive(Debug)]
+#[derive(Debug, Clone, Copy)]
 enum Item {
     /// A shape that is one piece.
     Whole(u32),
-    /// Triangles of a mesh.
-    Mesh(u32, MeshTree),
+    /// An object that is a mesh, and a tree over triangles of the mesh.
+    Mesh(u32, usize),
+    /// An instance, and a tree over triangles of its mesh.
+    Instance(u32, usize),
 }
 
 /// A tree over objects.
@@ -28,6 +34,8 @@ pub struct Trees {
     tree: Option<Tree>,
     /// The objects, in the order of the upper tree's leaves.
     items: Vec<Item>,
+    /// The trees of all meshes. The instances of a mesh have the same trees.
+    meshes: Vec<MeshTree>,
 }
 
 impl Trees {
@@ -36,24 +44,27 @@ impl Trees {
     #[must_use]
     pub fn build(shapes: &[&Shape], bounds: &[Option<[DVec3; 2]>]) -> Self {
         let mut items: Vec<(Item, [DVec3; 2])> = Vec::new();
+        let mut meshes = Vec::new();
+        let mut known = HashMap::new();
         for (object, shape) in shapes.iter().enumerate() {
             let number = object as u32;
-            if let Shape::Mesh(mesh) = shape {
-                let count = mesh.triangles.len() as u32;
-                for first in (0..count).step_by(mesh_tree::MOST as usize) {
-                    let last = first.saturating_add(mesh_tree::MOST).min(count);
-                    if let Some(tree) = MeshTree::build(mesh, first..last) {
-                        let bounds = tree.tree().bounds;
-                        items.push((Item::Mesh(number, tree), bounds));
-                    }
+            match (shape, bounds[object]) {
+                (Shape::Mesh(mesh), _) => {
+                    let trees = plant(mesh, &mut meshes);
+                    items.extend(trees.map(|k| (Item::Mesh(number, k), meshes[k].tree().bounds)));
                 }
-            } else if let Some(bounds) = bounds[object] {
-                items.push((Item::Whole(number), bounds));
+                (Shape::Instance(instance), Some(bounds)) => {
+                    let trees = known.entry(instance.key());
+                    let trees = trees.or_insert_with(|| plant(instance.mesh(), &mut meshes));
+                    items.extend(trees.clone().map(|k| (Item::Instance(number, k), bounds)));
+                }
+                (_, Some(bounds)) => items.push((Item::Whole(number), bounds)),
+                (_, None) => {}
             }
         }
         let whole = items.iter().map(|(_, bounds)| *bounds);
         let Some(whole) = whole.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]) else {
-            return Self { tree: None, items: vec![] };
+            return Self { tree: None, items: vec![], meshes };
         };
         let frame = Frame::around(whole);
         let numbered = |(number, (_, bounds)): (usize, &(Item, [DVec3; 2]))| {
@@ -62,32 +73,23 @@ impl Trees {
         };
         let mut boxes: Vec<Numbered> = items.iter().enumerate().map(numbered).collect();
         let (tree, leaves) = Tree::build(whole, frame, &mut boxes, 1);
-        let mut unsorted: Vec<Option<Item>> =
-            items.into_iter().map(|(item, _)| Some(item)).collect();
         let in_order = leaves.into_iter().flatten().map(|at| boxes[at].number());
-        let items = in_order.filter_map(|number| unsorted[number as usize].take()).collect();
-        Self { tree: Some(tree), items }
-    }
-
-    /// The trees of the meshes.
-    fn meshes(&self) -> impl Iterator<Item = &MeshTree> {
-        self.items.iter().filter_map(|item| match item {
-            Item::Mesh(_, tree) => Some(tree),
-            Item::Whole(_) => None,
-        })
+        let items = in_order.map(|number| items[number as usize].0).collect();
+        Self { tree: Some(tree), items, meshes }
     }
 
     /// Memory in bytes of all trees and of their copies of triangles.
     #[must_use]
     pub fn bytes(&self) -> usize {
         let own = self.tree.as_ref().map_or(0, Tree::bytes);
-        own + self.meshes().map(MeshTree::bytes).sum::<usize>()
+        let items = size_of_val(&*self.items);
+        own + items + self.meshes.iter().map(MeshTree::bytes).sum::<usize>()
     }
 
     /// Number of boxes examined to build the trees; a box counts each time it is examined.
     #[must_use]
     pub fn looks(&self) -> u64 {
-        let meshes = self.meshes().map(|mesh| mesh.tree().looks()).sum::<u64>();
+        let meshes = self.meshes.iter().map(|mesh| mesh.tree().looks()).sum::<u64>();
         self.tree.as_ref().map_or(0, Tree::looks) + meshes
     }
 
@@ -102,7 +104,7 @@ impl Trees {
         see: &mut impl FnMut(Hit) -> f64,
     ) {
         let Some(tree) = &self.tree else { return };
-        let mut objects = Objects { items: &self.items, accel, ray, see };
+        let mut objects = Objects { trees: self, accel, ray, see };
         if let [item] = &*self.items {
             objects.visit_item(kernel, item, t_max);
         } else {
@@ -113,7 +115,7 @@ impl Trees {
 
 /// The leaves of the upper tree, visited by a ray.
 struct Objects<'a, 'b, F> {
-    items: &'a [Item],
+    trees: &'a Trees,
     accel: &'a Accel<'b>,
     ray: &'a Ray,
     see: F,
@@ -122,13 +124,20 @@ struct Objects<'a, 'b, F> {
 impl<F: FnMut(Hit) -> f64> Objects<'_, '_, F> {
     #[inline(always)]
     fn visit_item<K: Kernel>(&mut self, kernel: K, item: &Item, t_max: f64) -> f64 {
-        let Self { accel, ray, see, .. } = self;
+        let Self { trees, accel, ray, see } = self;
         match item {
             Item::Whole(object) => {
                 let hit = Probe::new(accel, ray).meet_shape(accel, *object, t_max);
                 hit.map_or(t_max, see)
             }
-            Item::Mesh(object, mesh) => mesh.walk(kernel, ray, (accel, *object), t_max, see),
+            Item::Mesh(object, mesh) => {
+                let mesh = &trees.meshes[*mesh];
+                mesh.walk(kernel, ray, (accel, *object), t_max, see)
+            }
+            Item::Instance(object, mesh) => {
+                let (object, mesh) = (*object, &trees.meshes[*mesh]);
+                kernel.apart(&mut InOwnSpace { mesh, accel, object, ray, t_max, see })
+            }
         }
     }
 }
@@ -136,7 +145,47 @@ impl<F: FnMut(Hit) -> f64> Objects<'_, '_, F> {
 impl<F: FnMut(Hit) -> f64> Leaves for Objects<'_, '_, F> {
     #[inline(always)]
     fn visit<K: Kernel>(&mut self, kernel: K, leaf: Child, _: &TreeRay, _: f32, t_max: f64) -> f64 {
-        let items = self.items;
-        self.visit_item(kernel, &items[leaf.number()], t_max)
+        let trees = self.trees;
+        self.visit_item(kernel, &trees.items[leaf.number()], t_max)
     }
+}
+
+/// The walk of a ray through the mesh of an instance.
+struct InOwnSpace<'a, 'b, F> {
+    mesh: &'a MeshTree,
+    accel: &'a Accel<'b>,
+    object: u32,
+    ray: &'a Ray,
+    t_max: f64,
+    see: F,
+}
+
+impl<F: FnMut(Hit) -> f64> Task for InOwnSpace<'_, '_, F> {
+    type Out = f64;
+
+    #[inline(always)]
+    fn run<K: Kernel>(&mut self, kernel: K) -> f64 {
+        let Self { mesh, accel, object, ray, t_max, see } = self;
+        let Shape::Instance(instance) = accel.shapes[*object as usize] else { return *t_max };
+        let slabs = SlabRay::new(ray.origin, ray.direction, accel.extent);
+        let own = OwnRay::new(accel, (*object, instance), ray, &slabs, *t_max);
+        let Some(own) = own else { return *t_max };
+        mesh.walk_own(kernel, &own, (accel, *object), own.limit(*t_max), &mut |hit| {
+            if let Some(hit) = own.in_scene(hit, *t_max) {
+                *t_max = see(hit);
+            }
+            own.limit(*t_max)
+        });
+        *t_max
+    }
+}
+
+/// Builds the trees of a mesh and returns their indices.
+fn plant(mesh: &Mesh, trees: &mut Vec<MeshTree>) -> Range<usize> {
+    let (before, count) = (trees.len(), mesh.triangles.len() as u32);
+    for first in (0..count).step_by(mesh_tree::MOST as usize) {
+        let last = first.saturating_add(mesh_tree::MOST).min(count);
+        trees.extend(MeshTree::build(mesh, first..last));
+    }
+    before..trees.len()
 }

@@ -61,7 +61,8 @@ fn nothing(branch: Branch) -> &'static str {
 /// Describes the object that was hit, and the triangle of a mesh.
 fn piece(scene: &Scene, node: &Node) -> String {
     let index = node.piece.object as usize;
-    let kind = scene.objects[index].shape.kind();
+    let shape = &scene.objects[index].shape;
+    let kind = shape.kind();
     match scene.names.objects.get(index) {
         Some(Some(name)) => {
             let name = files::words::shown(name);

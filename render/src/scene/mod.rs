@@ -33,6 +33,7 @@ use crate::shape::Shape;
 use crate::texture::Texture;
 use files::check::Finding;
 use glam::DAffine3;
+use std::collections::HashSet;
 
 /// Everything from which a picture is rendered. Lengths are in the scene's unit, colours are linear
 /// RGB, and axes are right-handed.
@@ -74,11 +75,16 @@ impl Scene {
         self.textures.iter().map(Texture::bytes).sum()
     }
 
-    /// Number of triangles of all meshes together.
+    /// Number of triangles of all meshes together. A mesh that several objects share counts once.
     #[must_use]
     pub fn triangles(&self) -> u64 {
-        let meshes = self.objects.iter().filter_map(|object| object.shape.mesh());
-        meshes.map(|mesh| mesh.triangles.len() as u64).sum()
+        let mut known = HashSet::new();
+        let shapes = self.objects.iter().map(|object| &object.shape);
+        let stored = shapes.filter(|shape| match shape {
+            Shape::Instance(instance) => known.insert(instance.key()),
+            _ => true,
+        });
+        stored.filter_map(Shape::mesh).map(|mesh| mesh.triangles.len() as u64).sum()
     }
 
     /// Returns whether some picture cuts out surfaces.

@@ -1,6 +1,6 @@
 //! The names of a scene file, for messages and reports.
 
-use super::file::{Lists, ObjectFile};
+use super::file::{Lists, MeshFile, ObjectFile};
 
 /// The names of a scene's materials, textures and objects, in the order of its lists. A scene that
 /// was not read from a file may have no names.
@@ -24,7 +24,10 @@ impl Names {
             let names = if texture.image.is_some() { &mut self.textures } else { &mut self.solids };
             names.push(name.clone());
         }
-        let meshes = lists.objects.iter().map(ObjectFile::mesh);
-        self.objects.extend(meshes.map(|mesh| mesh.map(|mesh| mesh.name.clone())));
+        for mesh in lists.objects.iter().map(ObjectFile::mesh) {
+            let name = mesh.map(|mesh| mesh.name.clone());
+            let count = mesh.map_or(1, MeshFile::placements);
+            self.objects.extend(std::iter::repeat_n(name, count));
+        }
     }
 }

@@ -5,7 +5,6 @@ mod background;
 mod bumps;
 mod camera;
 mod draft;
-mod given;
 mod libraries;
 mod lights;
 mod materials;
@@ -16,6 +15,7 @@ mod place;
 mod ranges;
 mod shapes;
 mod solids;
+mod stored;
 mod textures;
 
 pub use draft::{Draft, SceneText};
@@ -32,13 +32,13 @@ use files::check::Finding;
 use files::json::Document;
 use files::words::{LONGEST_LIST, cut, shown};
 use files::{Budget, Exit, Failure, FileError, JsonError, MemoryError, Source, memory};
-use given::Given;
 use libraries::Libraries;
 use ranges::Ranges;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
+use stored::Stored;
 use textures::Memory;
 use thiserror::Error;
 
@@ -206,9 +206,9 @@ impl Draft<'_> {
             own.environment(&self.file.background, &mut scene)?;
         }
         let mut libraries = Libraries::default();
-        let mut given = Given::new(given, &texts);
+        let mut stored = Stored::new(given, &texts);
         for (reader, planned) in readers.iter().zip(planned) {
-            reader.objects(planned, &mut given, &mut libraries, &mut scene)?;
+            reader.objects(planned, &mut stored, &mut libraries, &mut scene)?;
         }
         scene.procedural.lattice = lattice.into_inner();
         let remarks = remarks.take().into_iter().chain(scene.remarks);

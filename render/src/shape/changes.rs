@@ -26,6 +26,7 @@ impl Shape {
             Self::Cuboid(cuboid) => cuboid.uv_gradients(number),
             Self::Superquadric(superquadric) => superquadric.uv_gradients(position),
             Self::Placed(placed) => placed.uv_gradients(number, position),
+            Self::Instance(instance) => instance.uv_gradients(number),
         }
     }
 
@@ -46,6 +47,7 @@ impl Shape {
             Self::Cuboid(cuboid) => Changes::flat(cuboid.uv_gradients(number), steps),
             Self::Superquadric(superquadric) => superquadric.changes(point.position, steps),
             Self::Placed(placed) => placed.changes(number, point, steps),
+            Self::Instance(instance) => instance.changes(number, barycentric, steps),
         }
     }
 }

@@ -17,6 +17,7 @@ use super::mesh::{Mesh, NONE};
 use super::weld::{self, Weld};
 use glam::DVec2;
 use std::collections::HashMap;
+use std::sync::Arc;
 
 /// Largest rounding of a file's texture coordinates, which have the precision of `f32` or six
 /// digits.
@@ -26,7 +27,7 @@ const ROUNDING: f64 = 1e-4;
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Charts {
     /// Chart of each triangle; empty if there is only one chart.
-    of_triangle: Vec<u32>,
+    of_triangle: Arc<[u32]>,
     /// Seam of each chart.
     seams: Vec<Seam>,
 }
@@ -45,7 +46,7 @@ impl Charts {
     /// One chart, whose texture coordinates jump by `period` at its seams.
     #[must_use]
     pub fn one(period: SeamPeriod) -> Self {
-        Self { of_triangle: Vec::new(), seams: vec![Seam { period, mirrors: [false; 2] }] }
+        Self { of_triangle: Arc::default(), seams: vec![Seam { period, mirrors: [false; 2] }] }
     }
 
     /// Finds the charts of a mesh. All triangles without texture coordinates form one chart.
@@ -55,7 +56,8 @@ impl Charts {
         let of_triangle = connected(mesh, &weld);
         let count = of_triangle.iter().max().map_or(1, |&last| last as usize + 1);
         let seams = seams(mesh, &weld, &of_triangle, count);
-        Self { of_triangle: if count == 1 { Vec::new() } else { of_triangle }, seams }
+        let of_triangle = if count == 1 { Arc::default() } else { of_triangle.into() };
+        Self { of_triangle, seams }
     }
 
     /// Returns the difference `to - from` of two texture coordinates, each given with its triangle.

@@ -20,6 +20,7 @@ impl Shape {
         match self {
             Self::Sphere(_) | Self::Cuboid(_) | Self::Superquadric(_) => true,
             Self::Placed(placed) => placed.shape().is_closed(),
+            Self::Instance(instance) => instance.is_closed(),
             Self::Quad(quad) => quad.bounds().is_none(),
             Self::Mesh(mesh) => mesh.is_closed(),
         }

@@ -46,7 +46,7 @@ impl Shape {
             Self::Sphere(sphere) => Some(sphere.extensions(position, steps)),
             Self::Superquadric(superquadric) => Some(superquadric.extensions(position, steps)),
             Self::Placed(placed) => placed.extensions(position, steps),
-            Self::Quad(_) | Self::Mesh(_) | Self::Cuboid(_) => None,
+            Self::Quad(_) | Self::Mesh(_) | Self::Cuboid(_) | Self::Instance(_) => None,
         }
     }
 }

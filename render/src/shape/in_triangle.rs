@@ -2,7 +2,7 @@
 //! that its normals stand for.
 
 use super::mesh::{NONE, as_dvec3, weighted};
-use super::{Mesh, Shape};
+use super::{Instance, Mesh, Shape};
 use glam::DVec3;
 
 /// A point of the smooth surface over a triangle, where shadow rays start.
@@ -22,7 +22,7 @@ impl Shape {
         let mesh = self.mesh().filter(|mesh| !mesh.colors.is_empty())?;
         let corners = mesh.triangles[number as usize].position;
         let colors = corners.map(|index| as_dvec3(mesh.colors[index as usize]));
-        Some(weighted(mesh.weights(number, point), colors))
+        Some(weighted(mesh.weights(number, self.own_point(point)), colors))
     }
 
     /// Returns the point of the smooth surface over a point of the triangle `number`. `side` is 1 if the
@@ -39,17 +39,29 @@ impl Shape {
         if corners[0] == NONE {
             return None;
         }
+        let placement = self.instance().map(Instance::placement);
         let normals = corners.map(|index| as_dvec3(mesh.normals[index as usize]));
-        let normals = [0, 1, 2].map(|k| normals[k].try_normalize());
+        let normals = normals.map(|own| placement.map_or(own, |at| at.normal(own)).try_normalize());
         let [Some(a), Some(b), Some(c)] = normals else { return None };
-        let (normals, weights) = ([a, b, c], mesh.weights(number, point));
-        let places = mesh.places(number);
+        let (normals, weights) = ([a, b, c], mesh.weights(number, self.own_point(point)));
+        let to_scene = |own| placement.map_or(own, |at| at.to_scene().transform_point3(own));
+        let places = mesh.places(number).map(to_scene);
         let moves = [0, 1, 2].map(|k| {
             let height = side * (point - places[k]).dot(normals[k]);
             height.min(0.0) * side * normals[k]
         });
         let normal = weighted(weights, normals).try_normalize()?;
         Some(SmoothPoint { position: point - weighted(weights, moves), normal })
+    }
+
+    fn instance(&self) -> Option<&Instance> {
+        if let Self::Instance(instance) = self { Some(instance) } else { None }
+    }
+
+    /// Returns a point of the scene in the space of the mesh.
+    fn own_point(&self, point: DVec3) -> DVec3 {
+        let instance = self.instance();
+        instance.map_or(point, |one| one.placement().to_own().transform_point3(point))
     }
 }
 
@@ -69,6 +81,8 @@ impl Mesh {
 mod tests {
     use super::*;
     use crate::shape::mesh::Triangle;
+    use crate::shape::{Placement, SharedMesh};
+    use glam::{DAffine3, DMat3};
 
     /// A triangle with its corners on the unit sphere, and the sphere's normals.
     fn on_a_sphere() -> Shape {
@@ -109,5 +123,26 @@ mod tests {
         assert!(middle.abs_diff_eq(DVec3::new(1.0, 0.5, 0.25) / 3.0, 1e-15));
         let beside = shape.vertex_color(0, DVec3::new(5.0, 0.0, 0.0)).unwrap();
         assert!(beside.min_element() >= 0.0 && beside.max_element() <= 1.0);
+    }
+
+    #[test]
+    fn an_instance_has_the_smooth_points_and_colors_of_a_moved_copy() {
+        let Shape::Mesh(mut mesh) = on_a_sphere() else { panic!("a mesh") };
+        mesh.colors = vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        // Powers of two and small whole numbers: the coordinates of the copy are exact in `f32`.
+        let linear = DMat3::from_diagonal(DVec3::new(2.0, 0.5, -4.0));
+        let to_scene = DAffine3::from_mat3_translation(linear, DVec3::new(3.0, -5.0, 7.0));
+        let placement = Placement::new(to_scene).unwrap();
+        let copy = Shape::Mesh(mesh.clone().placed(&placement).unwrap());
+        let instance = Shape::Instance(Instance::new(SharedMesh::new(mesh), placement));
+        let point = to_scene.transform_point3(DVec3::new(0.5, 0.25, 0.25));
+        let [one, other] =
+            [&instance, &copy].map(|shape| shape.smooth_point(0, point, 1.0).unwrap());
+        // The normals of the copy are rounded to `f32`.
+        assert!(one.position.distance(other.position) < 1e-5, "{one:?} {other:?}");
+        assert!(one.normal.distance(other.normal) < 1e-5, "{one:?} {other:?}");
+        let [one, other] = [instance, copy].map(|shape| shape.vertex_color(0, point).unwrap());
+        assert!(one.distance(other) < 1e-12, "{one} {other}");
+        assert!(one.distance(DVec3::new(0.5, 0.25, 0.25)) < 1e-12, "{one}");
     }
 }

@@ -254,6 +254,20 @@ impl Mesh {
         (area_sq > 0.0).then(|| [c.cross(normal) / area_sq, normal.cross(b) / area_sq])
     }
 
+    /// Lower and upper corner of the box around all triangles in scene space, or `None` without triangles.
+    #[must_use]
+    pub fn all_bounds(&self) -> Option<[DVec3; 2]> {
+        let boxes = (0..self.triangles.len() as u32).map(|number| self.bounds(number));
+        boxes.reduce(|all, one| [all[0].min(one[0]), all[1].max(one[1])])
+    }
+
+    /// Largest absolute value of a coordinate in scene space.
+    #[must_use]
+    pub fn extent(&self) -> f64 {
+        let places = self.positions.iter().map(|&at| as_dvec3(at) + self.offset);
+        places.fold(0.0, |most, place| place.abs().max_element().max(most))
+    }
+
     /// Lower and upper corner of a triangle's bounding box, in scene space.
     #[must_use]
     pub fn bounds(&self, triangle: u32) -> [DVec3; 2] {

@@ -6,6 +6,7 @@ mod closed;
 pub mod cuboid;
 mod gradient_changes;
 mod in_triangle;
+pub mod instance;
 pub mod mesh;
 pub mod offset;
 pub mod placed;
@@ -20,6 +21,7 @@ pub mod weld;
 pub use changes::Changes;
 pub use charts::Charts;
 pub use cuboid::Cuboid;
+pub use instance::{Instance, SharedMesh};
 pub use mesh::Mesh;
 pub use placed::Placed;
 pub use placement::{Placement, PlacementError};
@@ -62,6 +64,8 @@ pub enum Shape {
     Superquadric(Superquadric),
     /// A sphere, superquadric or box that is moved, rotated or stretched.
     Placed(Placed),
+    /// A mesh that several objects share, in one of its places.
+    Instance(Instance),
 }
 
 /// The properties of a ray's start on which intersections depend.
@@ -85,18 +89,20 @@ impl Shape {
             Self::Sphere(_) => "sphere",
             Self::Quad(quad) if quad.bounds().is_some() => "rectangle",
             Self::Quad(_) => "plane",
-            Self::Mesh(_) => "mesh",
+            Self::Mesh(_) | Self::Instance(_) => "mesh",
             Self::Cuboid(_) => "box",
             Self::Superquadric(_) => "superquadric",
             Self::Placed(placed) => placed.shape().kind(),
         }
     }
 
-    /// Returns the mesh, if the shape is one.
+    /// Returns the mesh in its own space, if the shape is a mesh or an instance of one. The own space
+    /// of a mesh is the scene's.
     #[must_use]
     pub fn mesh(&self) -> Option<&Mesh> {
         match self {
             Self::Mesh(mesh) => Some(mesh),
+            Self::Instance(instance) => Some(instance.mesh()),
             Self::Sphere(_)
             | Self::Quad(_)
             | Self::Cuboid(_)
@@ -121,7 +127,7 @@ impl Shape {
             }
             Self::Quad(_) if leaves => None,
             Self::Quad(quad) => quad.intersect(origin, direction, start.skin).map(only_face),
-            Self::Mesh(_) => None,
+            Self::Mesh(_) | Self::Instance(_) => None,
             Self::Cuboid(cuboid) => cuboid.intersect(origin, direction, start),
             Self::Superquadric(superquadric) => {
                 superquadric.intersect(origin, direction, start).map(only_face)
@@ -142,6 +148,7 @@ impl Shape {
             Self::Cuboid(cuboid) => cuboid.surface_point(number, near),
             Self::Superquadric(superquadric) => superquadric.surface_point(near),
             Self::Placed(placed) => placed.surface_point(number, near),
+            Self::Instance(instance) => instance.surface_point(number, barycentric),
         }
     }
 
@@ -156,6 +163,7 @@ impl Shape {
             Self::Cuboid(cuboid) => cuboid.normal(number),
             Self::Superquadric(superquadric) => superquadric.normal(near),
             Self::Placed(placed) => placed.normal(number, near),
+            Self::Instance(instance) => instance.normal(number),
         }
     }
 
@@ -166,6 +174,7 @@ impl Shape {
             Self::Mesh(mesh) => mesh.triangles[number as usize].surface,
             Self::Cuboid(_) => number,
             Self::Placed(placed) => placed.shape().part(number),
+            Self::Instance(instance) => instance.mesh().triangles[number as usize].surface,
             Self::Sphere(_) | Self::Quad(_) | Self::Superquadric(_) => 0,
         }
     }
@@ -177,6 +186,7 @@ impl Shape {
             Self::Mesh(mesh) => mesh.surfaces.len(),
             Self::Cuboid(_) => cuboid::FACES,
             Self::Placed(placed) => placed.shape().parts(),
+            Self::Instance(instance) => instance.mesh().surfaces.len(),
             Self::Sphere(_) | Self::Quad(_) | Self::Superquadric(_) => 1,
         }
     }
@@ -187,12 +197,11 @@ impl Shape {
         match self {
             Self::Sphere(sphere) => Some(sphere.bounds()),
             Self::Quad(quad) => quad.bounds(),
-            Self::Mesh(mesh) => (0..mesh.triangles.len() as u32)
-                .map(|number| mesh.bounds(number))
-                .reduce(|all, one| [all[0].min(one[0]), all[1].max(one[1])]),
+            Self::Mesh(mesh) => mesh.all_bounds(),
             Self::Cuboid(cuboid) => Some(cuboid.bounds()),
             Self::Superquadric(superquadric) => Some(superquadric.bounds()),
             Self::Placed(placed) => Some(placed.bounds()),
+            Self::Instance(instance) => Some(instance.bounds()),
         }
     }
 
@@ -204,13 +213,11 @@ impl Shape {
             Self::Sphere(sphere) => largest(sphere.bounds()),
             // The edges determine the size of the rectangle, and the corner its position.
             Self::Quad(quad) => quad.corner().abs().max_element(),
-            Self::Mesh(mesh) => {
-                let places = mesh.positions.iter().map(|&at| mesh::as_dvec3(at) + mesh.offset);
-                places.fold(0.0, |most, place| place.abs().max_element().max(most))
-            }
+            Self::Mesh(mesh) => mesh.extent(),
             Self::Cuboid(cuboid) => largest(cuboid.bounds()),
             Self::Superquadric(superquadric) => largest(superquadric.bounds()),
             Self::Placed(placed) => placed.extent(),
+            Self::Instance(instance) => instance.extent(),
         }
     }
 
@@ -222,6 +229,7 @@ impl Shape {
             Self::Mesh(mesh) => Charts::of(mesh),
             Self::Superquadric(superquadric) => Charts::one(superquadric.seam()),
             Self::Placed(placed) => placed.shape().charts(),
+            Self::Instance(instance) => instance.charts(),
             Self::Quad(_) | Self::Cuboid(_) => Charts::one(DVec2::ZERO),
         }
     }
@@ -234,15 +242,15 @@ impl Shape {
             Self::Sphere(_) => true,
             Self::Superquadric(superquadric) => !superquadric.is_ring(),
             Self::Placed(placed) => placed.shape().has_poles(),
-            Self::Quad(_) | Self::Mesh(_) | Self::Cuboid(_) => false,
+            Self::Quad(_) | Self::Mesh(_) | Self::Cuboid(_) | Self::Instance(_) => false,
         }
     }
 
     /// Returns the shape moved, rotated, stretched or mirrored. Its outside stays its outside.
     ///
     /// The corners and edges of flat shapes are transformed in `f64`, and those of a mesh are then
-    /// rounded once to `f32`. Other shapes stay unchanged, and rays are transformed to their own
-    /// space. The identity returns the shape itself.
+    /// rounded once to `f32`. Other shapes stay unchanged, also the mesh of an instance, and rays are
+    /// transformed to their own space. The identity returns the shape itself.
     ///
     /// # Errors
     /// If coordinates of a mesh leave the range of `f32`, or if the edges of a rectangle become
@@ -254,6 +262,7 @@ impl Shape {
         match self {
             Self::Quad(quad) => quad.placed(placement).map(Self::Quad),
             Self::Mesh(mesh) => mesh.placed(placement).map(Self::Mesh),
+            Self::Instance(instance) => instance.placed(placement).map(Self::Instance),
             curved @ (Self::Sphere(_)
             | Self::Cuboid(_)
             | Self::Superquadric(_)

@@ -128,7 +128,8 @@ impl Placed {
             | Shape::Mesh(_)
             | Shape::Cuboid(_)
             | Shape::Superquadric(_)
-            | Shape::Placed(_)) => {
+            | Shape::Placed(_)
+            | Shape::Instance(_)) => {
                 self.placement.bounds(shape.bounds().unwrap_or([DVec3::ZERO; 2]))
             }
         };

@@ -99,7 +99,8 @@ impl Volumes {
             | Shape::Mesh(_)
             | Shape::Cuboid(_)
             | Shape::Superquadric(_)
-            | Shape::Placed(_) => false,
+            | Shape::Placed(_)
+            | Shape::Instance(_) => false,
         };
         let media = self.all(scene).filter(|own| behind(&scene.objects[own.object as usize]));
         ordered(media.map(|own| (own, f64::INFINITY)).collect(), scene)
@@ -128,7 +129,8 @@ impl Volumes {
             | Shape::Mesh(_)
             | Shape::Cuboid(_)
             | Shape::Superquadric(_)
-            | Shape::Placed(_) => false,
+            | Shape::Placed(_)
+            | Shape::Instance(_) => false,
         })
     }
 

@@ -49,8 +49,21 @@ fn unseen(subject: &Subject<'_>) -> Vec<Finding> {
     let sides = View::of(subject);
     let mut found = Vec::new();
     let mut seen = false;
-    for item in &subject.items {
-        match solid::bounds(item).and_then(|bounds| sides.misses(bounds)) {
+    let mut items = &*subject.items;
+    while let Some((item, others)) = items.split_first() {
+        let count = others.iter().take_while(|other| other.placement > 0).count();
+        let misses = |item: &Item<'_>| solid::bounds(item).and_then(|bounds| sides.misses(bounds));
+        // A mesh with instances is seen if one of its placements is.
+        let all_missed = others[..count].iter().all(|other| misses(other).is_some());
+        items = &others[count..];
+        match misses(item).filter(|_| all_missed) {
+            Some(_) if count > 0 => {
+                let message = format!(
+                    "none of the {} placements is in the picture: only mirrors and shadows show them",
+                    count + 1
+                );
+                found.push(Finding::new(Severity::Remark, &item.path, message));
+            }
             Some(Miss::Behind(distance)) => {
                 let message = format!(
                     "the whole object is behind the camera, at a distance of {}: only mirrors and shadows show it",

@@ -59,14 +59,15 @@ pub fn findings(subject: &Subject<'_>) -> Coincidences {
             | Shape::Mesh(_)
             | Shape::Cuboid(_)
             | Shape::Superquadric(_)
-            | Shape::Placed(_) => None,
+            | Shape::Placed(_)
+            | Shape::Instance(_) => None,
         })
         .collect();
     let quads: Vec<&Quad> = flat.iter().map(|(_, quad)| *quad).collect();
     let mut search = Search::new(quads.len());
     search.among(&quads);
     for (number, item) in subject.items.iter().enumerate() {
-        if let Some(mesh) = item.mesh() {
+        if let Shape::Mesh(mesh) = &item.object.shape {
             search.on_mesh(&quads, number, mesh);
         }
     }

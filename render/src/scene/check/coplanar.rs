@@ -20,6 +20,10 @@ const MOST_NAMED: usize = 10;
 /// mesh of long thin triangles slow. A smaller number lowers the counts of such a mesh.
 const MOST_TRIED: u64 = 128;
 
+/// Largest number of pieces up to which copies of meshes are compared. A larger number makes the check of a scene with
+/// thousands of copies slow.
+const MOST_OF_COPIES: usize = 1 << 22;
+
 /// Part of the largest coordinate within which corners lie in a plane: some roundings of `f32` for meshes,
 /// and of `f64` for boxes, which may be placed.
 const NEAR_MESH: f64 = 8.0 * f32::EPSILON as f64;
@@ -96,8 +100,9 @@ impl Piece {
 #[must_use]
 pub fn findings(subject: &Subject<'_>) -> (Vec<Finding>, u64) {
     let mut pieces = Vec::new();
+    let mut left_out = 0;
     for (number, item) in subject.items.iter().enumerate() {
-        add_pieces(number, item, &mut pieces);
+        left_out += usize::from(!add_pieces(number, item, &mut pieces));
     }
     let is_flat =
         |piece: &Piece| matches!(subject.items[piece.surface.0].object.shape, Shape::Quad(_));
@@ -144,11 +149,19 @@ pub fn findings(subject: &Subject<'_>) -> (Vec<Finding>, u64) {
         let message = format!("{least}{more} more pairs of surfaces overlap in one plane");
         findings.push(Finding::new(Severity::Remark, "objects", message));
     }
+    if left_out > 0 {
+        let copies = count(left_out, "copy of a mesh was", "copies of meshes were");
+        let message = format!(
+            "{copies} not compared with other surfaces, since all copies together have more than {MOST_OF_COPIES} \
+             triangles"
+        );
+        findings.push(Finding::new(Severity::Remark, "objects", message));
+    }
     (findings, looks)
 }
 
-/// Adds the flat pieces of an item.
-fn add_pieces(number: usize, item: &Item<'_>, pieces: &mut Vec<Piece>) {
+/// Adds the flat pieces of an item. Returns false for a copy of a mesh with which there would be too many.
+fn add_pieces(number: usize, item: &Item<'_>, pieces: &mut Vec<Piece>) -> bool {
     let faces = |to_scene: &DAffine3, [low, high]: [DVec3; 2]| {
         let corner = |k: usize| {
             let pick = |bit: usize| if k >> bit & 1 == 0 { low[bit] } else { high[bit] };
@@ -174,6 +187,20 @@ fn add_pieces(number: usize, item: &Item<'_>, pieces: &mut Vec<Piece>) {
                 Piece::new((number, surface), [a, b, c, c], near)
             }));
         }
+        Shape::Instance(instance) => {
+            let (mesh, to_scene) = (instance.mesh(), instance.placement().to_scene());
+            if pieces.len() + mesh.triangles.len() > MOST_OF_COPIES {
+                return false;
+            }
+            pieces.extend((0..mesh.triangles.len() as u32).filter_map(|triangle| {
+                let places = mesh.places(triangle).map(|place| to_scene.transform_point3(place));
+                let surface = mesh.triangles[triangle as usize].surface;
+                let largest =
+                    places.iter().map(|place| place.abs().max_element()).fold(0.0, f64::max);
+                let [a, b, c] = places;
+                Piece::new((number, surface), [a, b, c, c], NEAR_MESH * largest)
+            }));
+        }
         Shape::Cuboid(cuboid) => boxed(faces(&DAffine3::IDENTITY, cuboid.bounds()), pieces),
         Shape::Placed(placed) => {
             if let Shape::Cuboid(cuboid) = placed.shape() {
@@ -187,6 +214,7 @@ fn add_pieces(number: usize, item: &Item<'_>, pieces: &mut Vec<Piece>) {
         }
         Shape::Sphere(_) | Shape::Superquadric(_) => {}
     }
+    true
 }
 
 /// Returns the distance from the plane of exact corners within which a point counts as in it.

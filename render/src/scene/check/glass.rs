@@ -10,7 +10,7 @@ use glam::DVec3;
 /// Returns the findings about transparent objects.
 #[must_use]
 pub fn findings(subject: &Subject<'_>) -> Vec<Finding> {
-    let bent = subject.items.iter().filter(|item| subject.bends(item));
+    let bent = subject.items.iter().filter(|item| item.placement == 0 && subject.bends(item));
     let mut found: Vec<Finding> = bent.filter_map(open_or_inward).collect();
     found.extend(too_deep(subject));
     found
@@ -66,7 +66,8 @@ fn too_deep(subject: &Subject<'_>) -> Option<Finding> {
                 | Shape::Mesh(_)
                 | Shape::Cuboid(_)
                 | Shape::Superquadric(_)
-                | Shape::Placed(_) => 2,
+                | Shape::Placed(_)
+                | Shape::Instance(_) => 2,
             };
             Some((solid::bounds(item)?, surfaces))
         })

@@ -42,7 +42,20 @@ pub fn lines(subject: &Subject<'_>, table_bytes: &dyn Fn(&Texture) -> u64) -> Ve
             sizes(texture, table_bytes)
         ));
     }
-    lines.extend(subject.items.iter().map(|item| object(subject, item)));
+    let mut items = &*subject.items;
+    while let Some((first, others)) = items.split_first() {
+        let count = others.iter().take_while(|other| other.placement > 0).count();
+        lines.push(object(subject, first));
+        if count > 0 {
+            let last = &others[count - 1];
+            let said = format!("{} to {}: the same mesh", others[0].path, last.path);
+            let boxes = others[..count].iter().filter_map(solid::bounds);
+            let around = boxes.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
+            let extent = around.map_or(String::new(), |[a, b]| format!(", {}", extent(a, b)));
+            lines.push(said + &extent);
+        }
+        items = &others[count..];
+    }
     let boxes = subject.items.iter().filter_map(solid::bounds);
     let around = boxes.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
     if let Some([low, high]) = around {

@@ -1,6 +1,5 @@
 //! Triangles, normals and textures of meshes.
 
-use super::solid;
 use super::subject::{Item, Subject};
 use super::{Finding, Severity, count};
 use crate::shape::Mesh;
@@ -14,7 +13,9 @@ const STRETCHED: f64 = 100.0;
 /// Returns the findings about meshes.
 #[must_use]
 pub fn findings(subject: &Subject<'_>) -> Vec<Finding> {
-    let meshes = subject.items.iter().filter_map(|item| Some((item, item.mesh()?)));
+    // The placements of one mesh have the same faults.
+    let items = subject.items.iter().filter(|item| item.placement == 0);
+    let meshes = items.filter_map(|item| Some((item, item.mesh()?)));
     let mut found = Vec::new();
     for (item, mesh) in meshes {
         found.extend(flat(item, mesh));
@@ -131,7 +132,7 @@ fn stretch([a, b, c]: [DVec3; 3], [s, t, u]: [DVec2; 3]) -> Option<f64> {
 
 /// Finds a mesh so far from the origin that the steps of its `f32` coordinates are visible.
 fn rounded(item: &Item<'_>, mesh: &Mesh) -> Option<Finding> {
-    let [low, high] = solid::bounds(item)?;
+    let [low, high] = mesh.all_bounds()?;
     let size = (high - low).max_element();
     // Coordinates count from the offset of the mesh.
     let far = (low - mesh.offset).abs().max((high - mesh.offset).abs()).max_element();

@@ -1,7 +1,7 @@
 //! Rims, folded sides and volume of a mesh.
 
 use crate::shape::mesh::as_dvec3;
-use crate::shape::{Mesh, Weld};
+use crate::shape::{Mesh, Shape, Weld};
 use glam::DVec3;
 use std::collections::{HashMap, HashSet};
 
@@ -20,6 +20,24 @@ pub struct Skin {
     pub flat: usize,
     /// Number of triangles whose corners are those of an earlier triangle.
     pub doubled: usize,
+}
+
+/// The skins of meshes that several objects share, each examined once.
+#[derive(Debug, Default)]
+pub struct Skins {
+    shared: HashMap<usize, Skin>,
+}
+
+impl Skins {
+    /// Returns the skin of a shape in scene space, if the shape is a mesh.
+    pub fn of(&mut self, shape: &Shape) -> Option<Skin> {
+        let Shape::Instance(instance) = shape else { return shape.mesh().map(Skin::of) };
+        let known = self.shared.entry(instance.key());
+        let own = known.or_insert_with(|| Skin::of(instance.mesh()));
+        // A placement that mirrors keeps the outside, and with it the sign of the volume.
+        let growth = instance.placement().to_scene().matrix3.determinant().abs();
+        Some(Skin { volume: growth * own.volume, ..*own })
+    }
 }
 
 impl Skin {

@@ -25,6 +25,13 @@ pub fn contains(item: &Item<'_>, point: DVec3) -> Option<bool> {
             let closed = item.skin.is_some_and(|skin| skin.is_closed());
             closed.then(|| winding(mesh, point).abs() > 0.5)
         }
+        Shape::Instance(instance) => {
+            let [low, high] = instance.bounds();
+            let near = point.cmpge(low).all() && point.cmple(high).all();
+            let own = || instance.placement().to_own().transform_point3(point);
+            let closed = item.skin.is_some_and(|skin| skin.is_closed());
+            closed.then(|| near && winding(instance.mesh(), own()).abs() > 0.5)
+        }
         Shape::Quad(_) | Shape::Superquadric(_) | Shape::Placed(_) => None,
     }
 }
@@ -63,7 +70,7 @@ pub fn height(item: &Item<'_>, point: DVec3) -> Option<f64> {
                 .filter_map(|triangle| above(mesh.places(triangle), point));
             heights.min_by(f64::total_cmp)
         }
-        Shape::Cuboid(_) | Shape::Superquadric(_) | Shape::Placed(_) => None,
+        Shape::Cuboid(_) | Shape::Superquadric(_) | Shape::Placed(_) | Shape::Instance(_) => None,
     }
 }
 

@@ -1,7 +1,7 @@
 //! A scene with the names and paths of its files.
 
-use super::skin::Skin;
-use crate::scene::file::{CameraFile, ObjectFile};
+use super::skin::{Skin, Skins};
+use crate::scene::file::{CameraFile, MeshFile, ObjectFile};
 use crate::scene::read::{Draft, SceneText};
 use crate::scene::{Material, Object, Scene, SurfaceTexture};
 use crate::shape::Mesh;
@@ -38,6 +38,8 @@ pub struct Item<'a> {
     pub kind: String,
     /// The object.
     pub object: &'a Object,
+    /// Number of the placement of a mesh with instances, from 0; 0 for other objects.
+    pub placement: usize,
     /// Rims and volume, if the object is a mesh.
     pub skin: Option<Skin>,
 }
@@ -62,6 +64,7 @@ impl<'a> Subject<'a> {
             texture_indices: HashMap::new(),
         };
         let mut objects = scene.objects.iter();
+        let mut skins = Skins::default();
         let (mut pictures, mut solids) = (0.., 0..);
         for (number, text) in texts.iter().enumerate() {
             let own = number + 1 == texts.len();
@@ -77,7 +80,7 @@ impl<'a> Subject<'a> {
                 };
                 subject.textures.extend(texture.map(|texture| (texture, named("textures", name))));
             }
-            for ((number, entry), object) in lists.objects.iter().enumerate().zip(&mut objects) {
+            for (number, entry) in lists.objects.iter().enumerate() {
                 let kind = match entry {
                     ObjectFile::Mesh(mesh) => format!("mesh {}", mesh.name),
                     other @ (ObjectFile::Sphere(_)
@@ -87,8 +90,15 @@ impl<'a> Subject<'a> {
                     | ObjectFile::Superquadric(_)) => other.kind().into(),
                 };
                 let path = format!("{file}objects[{number}].{}", entry.kind());
-                let skin = object.shape.mesh().map(Skin::of);
-                subject.items.push(Item { path, kind, object, skin });
+                let count = entry.mesh().map_or(1, MeshFile::placements);
+                for (placement, object) in objects.by_ref().take(count).enumerate() {
+                    let skin = skins.of(&object.shape);
+                    let several = entry.mesh().is_some_and(|mesh| mesh.instances.is_some());
+                    let own =
+                        if several { format!(".instances[{placement}]") } else { String::new() };
+                    let (path, kind) = (format!("{path}{own}"), kind.clone());
+                    subject.items.push(Item { path, kind, object, placement, skin });
+                }
             }
         }
         let textures = subject.textures.iter().enumerate();
@@ -137,7 +147,7 @@ impl<'a> Subject<'a> {
 }
 
 impl Item<'_> {
-    /// Returns the mesh, if the item is one.
+    /// Returns the mesh in its own space, if the item is one.
     #[must_use]
     pub fn mesh(&self) -> Option<&Mesh> {
         self.object.shape.mesh()

@@ -199,6 +199,18 @@ pub struct MeshFile {
     /// Steps that place the object, in order; none if left out.
     #[serde(default)]
     pub place: Vec<StepFile>,
+    /// Placements of the mesh, each a list of steps that follow those of `place`. Every placement is an
+    /// object of its own, and the mesh is stored once. One object if left out.
+    #[schemars(length(min = 1))]
+    pub instances: Option<Vec<Vec<StepFile>>>,
+}
+
+impl MeshFile {
+    /// Number of objects of the scene that show the mesh.
+    #[must_use]
+    pub fn placements(&self) -> usize {
+        self.instances.as_ref().map_or(1, Vec::len)
+    }
 }
 
 /// A path, or a list of paths.

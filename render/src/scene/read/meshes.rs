@@ -1,7 +1,8 @@
 //! Reads the meshes of a scene: their triangles, and the appearance of their surfaces.
 
-use super::libraries::{Libraries, Pictured, Taken, remark};
+use super::libraries::{self, Libraries, Pictured, remark};
 use super::ranges::Ranges;
+use super::stored::{Stored, Taken};
 use super::{Reader, SceneError};
 use crate::scene::file::{MeshFile, OneOrMore};
 use crate::scene::mtl::{Map, counted, plain};
@@ -9,7 +10,7 @@ use crate::scene::obj::{self, ObjFile};
 use crate::scene::text::before_comment;
 use crate::scene::{Material, Object, Scene, Surface, SurfaceTexture};
 use crate::shape::mesh::{NONE, Triangle};
-use crate::shape::{Mesh, Placement, Shape};
+use crate::shape::{Instance, Mesh, Placement, Shape, SharedMesh};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
@@ -21,6 +22,8 @@ pub(super) struct PlannedMesh<'a> {
     pub(super) at: String,
     pub(super) bindings: Bindings,
     pub(super) placement: Placement,
+    /// The placements of the copies of a mesh with instances, which include `placement`.
+    pub(super) instances: Option<Vec<Placement>>,
 }
 
 /// The materials and textures that a mesh binds, by surface id and by texture id.
@@ -47,25 +50,26 @@ impl Reader<'_> {
     pub(super) fn mesh(
         &self,
         planned: PlannedMesh<'_>,
-        given: Option<ObjFile>,
+        stored: &mut Stored,
         libraries: &mut Libraries,
         scene: &mut Scene,
-    ) -> Result<Object, SceneError> {
-        let PlannedMesh { file, at, bindings, placement } = planned;
-        let read = self.mesh_file(&at, file, given)?;
-        let mut sentences = read.remarks.clone();
-        if !read.unused.is_empty() {
+    ) -> Result<(), SceneError> {
+        let PlannedMesh { file, at, bindings, placement, instances } = planned;
+        let key = stored.key(file, self.folder);
+        let read = |given| self.mesh_file(&at, file, given);
+        let (read, mut taken, first) = stored.take(&key, read)?;
+        let mut sentences = if first { read.remarks.clone() } else { Vec::new() };
+        if first && !read.unused.is_empty() {
             let unused: BTreeMap<String, usize> = read.unused.iter().cloned().collect();
             sentences.push(format!("not used: {}", counted(&unused)));
         }
         if !sentences.is_empty() {
             scene.remarks.push(remark(&read.file, &sentences));
         }
-        let own = self.libraries_of(&at, file, &bindings, &read, libraries, scene)?;
-        let colored = (read.file.clone(), read.colored);
-        let mut mesh = read.smoothed(file.smooth_deg);
+        let surfaces = taken.mesh().surfaces.clone();
+        let own = self.libraries_of(&at, file, &bindings, (&read, &surfaces), libraries, scene)?;
         let (mut parts, mut maps) = (Vec::new(), Vec::new());
-        for (number, name) in mesh.surfaces.clone().iter().enumerate() {
+        for (number, name) in surfaces.iter().enumerate() {
             let taken = libraries.take(&own.paths, name, scene);
             let (surface, picture) = self.bind(&at, file, &bindings, name, taken, &own, scene)?;
             let mut surface = surface;
@@ -83,13 +87,17 @@ impl Reader<'_> {
             }
             parts.push(surface);
         }
-        for (number, map) in maps {
-            show_map(&mut mesh, &mut parts, number, &map);
+        if !maps.is_empty() {
+            let mut mesh = taken.into_own();
+            for (number, map) in maps {
+                show_map(&mut mesh, &mut parts, number, &map);
+            }
+            taken = Taken::Owned(mesh);
         }
-        self.check_texture_coordinates(&at, file, &mesh, &parts)?;
-        keep_shown_colors(&mut mesh, &parts, colored, scene);
+        self.check_texture_coordinates(&at, file, taken.mesh(), &parts)?;
+        keep_shown_colors(&mut taken, &parts, first.then_some(&*read), scene);
         if parts.iter().any(|part| scene.materials[part.material].transparency > 0.0) {
-            let joined = mesh.close_rounded();
+            let joined = stored.close_rounded(&key, &mut taken);
             if joined > 0 {
                 let sentence = format!(
                     "{joined} corners that differ by rounding were joined, which closes the mesh"
@@ -97,7 +105,26 @@ impl Reader<'_> {
                 scene.remarks.push(remark(&file.name, &[sentence]));
             }
         }
-        self.placed(&at, Shape::Mesh(mesh), parts, &placement)
+        let placements = instances.unwrap_or(vec![placement]);
+        let taken = match taken {
+            Taken::Owned(mesh) if placements.len() > 1 => Taken::Shared(SharedMesh::new(mesh)),
+            taken => taken,
+        };
+        match taken {
+            Taken::Owned(mesh) => {
+                let placement = placements.first().unwrap_or(&placement);
+                scene.objects.push(self.placed(&at, Shape::Mesh(mesh), parts, placement)?);
+            }
+            Taken::Shared(shared) => {
+                let objects = placements.into_iter().map(|placement| Object {
+                    shape: Shape::Instance(Instance::new(shared.clone(), placement)),
+                    parts: parts.clone(),
+                    to_own_space: placement.to_own(),
+                });
+                scene.objects.extend(objects);
+            }
+        }
+        Ok(())
     }
 
     /// Reads the libraries that the scene names for a mesh. If it names none, reads those that the OBJ
@@ -107,7 +134,7 @@ impl Reader<'_> {
         at: &str,
         file: &MeshFile,
         bindings: &Bindings,
-        read: &ObjFile,
+        (read, surfaces): (&ObjFile, &[String]),
         libraries: &mut Libraries,
         scene: &mut Scene,
     ) -> Result<Own, SceneError> {
@@ -126,7 +153,7 @@ impl Reader<'_> {
         }
         let mut own = Own { paths: Vec::new(), named: false, colored };
         let unbound = |name: &String| bindings.material_of(name).is_none();
-        let is_unbound = read.mesh.surfaces.iter().any(unbound);
+        let is_unbound = surfaces.iter().any(unbound);
         if !read.materials.is_empty() {
             if is_unbound {
                 own.paths.push(self.held_materials(read, libraries));
@@ -218,7 +245,7 @@ impl Reader<'_> {
         file: &MeshFile,
         bindings: &Bindings,
         surface: &str,
-        taken: Option<Taken>,
+        taken: Option<libraries::Taken>,
         own: &Own,
         scene: &mut Scene,
     ) -> Result<(Surface, Option<Pictured>), SceneError> {
@@ -294,24 +321,29 @@ impl Bindings {
     }
 }
 
-/// Removes the colours of the vertices if no material shows them, with a remark on the file, of which
-/// `colored` has the name and the number of coloured vertices.
+/// Removes the colours of the vertices of an object's own mesh if no material shows them. `first` is the file of a mesh
+/// that no earlier object shows; a remark on the file counts the colours.
 fn keep_shown_colors(
-    mesh: &mut Mesh,
+    taken: &mut Taken,
     parts: &[Surface],
-    (file, count): (String, usize),
+    first: Option<&ObjFile>,
     scene: &mut Scene,
 ) {
-    if mesh.colors.is_empty()
+    if taken.mesh().colors.is_empty()
         || parts.iter().any(|part| scene.materials[part.material].vertex_colors)
     {
         return;
     }
-    mesh.colors = Vec::new();
-    let sentence = format!(
-        "not used: vertex colours ({count} times), which a material with \"color\": \"vertex\" shows"
-    );
-    scene.remarks.push(remark(&file, &[sentence]));
+    if let Taken::Owned(mesh) = taken {
+        mesh.colors = Vec::new();
+    }
+    if let Some(read) = first {
+        let sentence = format!(
+            "not used: vertex colours ({} times), which a material with \"color\": \"vertex\" shows",
+            read.colored
+        );
+        scene.remarks.push(remark(&read.file, &[sentence]));
+    }
 }
 
 /// Moves the texture coordinates of a surface as a picture's options say. Triangles without texture

@@ -1,9 +1,9 @@
 //! Reads the objects of a scene file: shapes, meshes, and the appearance of their surfaces.
 
-use super::given::Given;
 use super::libraries::Libraries;
 use super::meshes::PlannedMesh;
 use super::ranges::Ranges;
+use super::stored::Stored;
 use super::{Reader, SceneError};
 use crate::scene::file::ObjectFile;
 use crate::scene::{Object, Scene, Surface, SurfaceTexture};
@@ -36,19 +36,15 @@ impl<'a> Reader<'a> {
     pub(super) fn objects(
         &self,
         planned: Vec<Planned<'a>>,
-        given: &mut Given,
+        stored: &mut Stored,
         libraries: &mut Libraries,
         scene: &mut Scene,
     ) -> Result<(), SceneError> {
         for object in planned {
-            let object = match object {
-                Planned::Whole(object) => object,
-                Planned::Mesh(mesh) => {
-                    let given = given.take(&mesh.file.name);
-                    self.mesh(mesh, given, libraries, scene)?
-                }
-            };
-            scene.objects.push(object);
+            match object {
+                Planned::Whole(object) => scene.objects.push(object),
+                Planned::Mesh(mesh) => self.mesh(mesh, stored, libraries, scene)?,
+            }
         }
         Ok(())
     }
@@ -89,7 +85,11 @@ impl<'a> Reader<'a> {
                 }
                 let bindings = self.mesh_bindings(&at, file)?;
                 let placement = self.placement(&at, &file.place)?;
-                return Ok(Planned::Mesh(PlannedMesh { file, at, bindings, placement }));
+                let instances = match &file.instances {
+                    Some(instances) => Some(self.instances(&at, &placement, instances)?),
+                    None => None,
+                };
+                return Ok(Planned::Mesh(PlannedMesh { file, at, bindings, placement, instances }));
             }
         };
         let material = self.material_index(&format!("{at}.material"), material)?;

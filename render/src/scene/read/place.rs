@@ -2,6 +2,7 @@
 
 use super::ranges::Ranges;
 use super::{Reader, SceneError};
+use crate::scene::Object;
 use crate::scene::file::{RotateDegFile, StepFile};
 use crate::shape::Placement;
 use glam::{DAffine3, DMat3, DVec3};
@@ -13,9 +14,39 @@ impl Reader<'_> {
         path: &str,
         steps: &[StepFile],
     ) -> Result<Placement, SceneError> {
+        let list = format!("{path}.place");
+        let whole = self.joined(&list, steps)?;
+        self.valid(&list, whole)
+    }
+
+    /// Returns the placement of each instance of the mesh at the JSON path `path`, which is placed by
+    /// `place` first.
+    pub(super) fn instances(
+        &self,
+        path: &str,
+        place: &Placement,
+        instances: &[Vec<StepFile>],
+    ) -> Result<Vec<Placement>, SceneError> {
+        if instances.is_empty() {
+            let message =
+                "found no placement, expected at least one: leave the key out for one object";
+            return self.fault(&format!("{path}.instances"), message);
+        }
+        let bytes = instances.len() as u64 * size_of::<Object>() as u64;
+        self.memory.keep(bytes, || format!("instances of {path}"))?;
+        let placed = instances.iter().enumerate().map(|(k, steps)| {
+            let list = format!("{path}.instances[{k}]");
+            let whole = self.joined(&list, steps)? * place.to_scene();
+            self.valid(&list, whole)
+        });
+        placed.collect()
+    }
+
+    /// Joins the steps at the JSON path `list` to one map.
+    fn joined(&self, list: &str, steps: &[StepFile]) -> Result<DAffine3, SceneError> {
         let mut whole = DAffine3::IDENTITY;
         for (k, step) in steps.iter().enumerate() {
-            let at = |key: &str| format!("{path}.place[{k}].{key}");
+            let at = |key: &str| format!("{list}[{k}].{key}");
             let step = match step {
                 StepFile::Scale(factors) => {
                     if let Some(axis) = factors.iter().position(|&factor| factor == 0.0) {
@@ -43,9 +74,13 @@ impl Reader<'_> {
             };
             whole = step * whole;
         }
+        Ok(whole)
+    }
+
+    fn valid(&self, path: &str, whole: DAffine3) -> Result<Placement, SceneError> {
         match Placement::new(whole) {
             Ok(placement) => Ok(placement),
-            Err(error) => self.fault(&format!("{path}.place"), error.to_string()),
+            Err(error) => self.fault(path, error.to_string()),
         }
     }
 }
