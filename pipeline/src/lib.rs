@@ -9,6 +9,7 @@
 pub mod book;
 pub mod calibrate;
 pub mod cli;
+pub mod collected;
 pub mod contact_sheet;
 pub mod error;
 pub mod html;
@@ -18,6 +19,7 @@ pub mod number;
 pub mod pages;
 pub mod report;
 pub mod run;
+pub mod settings;
 pub mod stages;
 pub mod truth;
 
