@@ -15,6 +15,7 @@
 //! | [`memory`]    | a budget of bytes, which are reserved before they are allocated       |
 //! | [`picture`]   | the bytes of a picture file into a picture, without a panic           |
 //! | [`words`]     | names and values in messages: cut, and without invisible characters   |
+//! | [`setting`]   | values of a JSON file that the command line sets                      |
 //! | [`check`]     | the findings of `--check`, and the weight of each                     |
 //! | [`schema`]    | JSON Schema of the file formats                                       |
 //! | [`svg`]       | drawings as SVG                                                       |
@@ -36,6 +37,7 @@ pub mod output;
 pub mod picture;
 pub mod progress;
 pub mod schema;
+pub mod setting;
 #[cfg(target_os = "linux")]
 mod stdout;
 pub mod stop;
@@ -50,6 +52,7 @@ pub use json::JsonError;
 pub use ledger::Ledger;
 pub use memory::{Budget, MemoryError};
 pub use output::Output;
+pub use setting::Setting;
 
 use std::io;
 use thiserror::Error;
@@ -99,6 +102,9 @@ pub enum FileError {
     /// The file was named for two purposes, of which one would destroy the other.
     #[error(transparent)]
     Clash(#[from] ledger::Clash),
+    /// The command line sets a value that the file has no place for.
+    #[error(transparent)]
+    Setting(#[from] setting::SettingError),
     /// The program that read our standard output has closed it.
     #[error("the reader of standard output closed it")]
     ClosedPipe,
@@ -110,6 +116,7 @@ impl Failure for FileError {
             Self::Clash(error) => error.exit(),
             Self::ClosedPipe => Exit::ClosedPipe,
             Self::Memory(error) => error.exit(),
+            Self::Setting(error) => error.exit(),
             _ => Exit::ReadWrite,
         }
     }

@@ -102,6 +102,21 @@ pub enum PipelineError {
         /// The names that exist.
         known: String,
     },
+    /// The command line sets a value in the spec of a mesh that the job does not make.
+    #[error(
+        "-D {}: expected specs.NAME and a path in the spec of the mesh NAME; job {} makes {}",
+        shown(setting),
+        shown(job),
+        cut(if known.is_empty() { "no mesh" } else { known }, LONGEST_LIST)
+    )]
+    UnknownSpec {
+        /// The argument.
+        setting: String,
+        /// The job.
+        job: String,
+        /// The names of the job's meshes.
+        known: String,
+    },
     /// No page shows that figure of the thesis.
     #[error("there is no figure A.{number}; there are {known}")]
     UnknownFigure {
@@ -138,6 +153,7 @@ impl Failure for PipelineError {
             | Self::UnknownMesh { .. }
             | Self::MissingMesh { .. }
             | Self::UnknownMode { .. }
+            | Self::UnknownSpec { .. }
             | Self::UnknownFigure { .. }
             | Self::UnknownPage { .. } => Exit::Use,
         }

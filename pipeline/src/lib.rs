@@ -10,6 +10,7 @@ pub mod book;
 pub mod calibrate;
 pub mod cli;
 mod coding;
+pub mod collected;
 pub mod contact_sheet;
 pub mod error;
 pub mod html;
@@ -19,6 +20,7 @@ pub mod number;
 pub mod pages;
 pub mod report;
 pub mod run;
+pub mod settings;
 pub mod stages;
 pub mod truth;
 

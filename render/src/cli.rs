@@ -24,6 +24,7 @@ Examples:
   render scene.json --mesh vase=vase.obj --size 1024x768 --samples 3 -o vase.png
   sweep vase.json | triangulate --texture 2 | render scene.json --mesh vase=- -o vase.png
   render scene.json --error 0.01 -o scene.png
+  render scene.json -D camera.fov_deg=35 -D objects[0].sphere.radius=2 -o variant.png
   render scene.json --sampling thesis --filter tent --audit -o scene.png
   render scene.json --filter point --stats -o - --format exr > picture.exr
   render scene.json --pixel 256,300

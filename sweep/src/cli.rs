@@ -8,7 +8,7 @@ use clap::Parser;
 use files::exit::{Exit, Failure, Report, say};
 use files::json::Document;
 use files::progress::Progress;
-use files::{Batch, Ledger, Output, extension, input, memory};
+use files::{Batch, Ledger, Output, Setting, extension, input, memory, setting};
 use format::Format;
 use resolution::ResolutionArguments;
 use std::io::{self, IsTerminal, Write};
@@ -24,6 +24,7 @@ Examples:
   sweep examples/curves/vase.json -o vase.grid
   sweep examples/curves/trefoil.json --rows 1000 --cols 64 --stats -o trefoil.grid
   sweep examples/curves/vase.json --tol 1e-3 --angle 5 --stats -o vase.grid
+  sweep examples/curves/vase.json -D trajectory.rotation.angle_deg=270 -o part.grid
   sweep --emit-schema > tb-sweep.schema.json
   sweep --format json < examples/curves/cup-handle.json | head -3
   sweep examples/curves/vase.json | triangulate --texture 2 > vase.obj
@@ -61,6 +62,10 @@ pub struct Arguments {
     /// Format of the grid
     #[arg(long, value_enum, default_value_t = Format::Bin)]
     format: Format,
+
+    /// Set a value of the spec: -D contour.circle=2; may be given several times
+    #[arg(short = 'D', value_name = "PATH=VALUE")]
+    settings: Vec<Setting>,
 
     #[command(flatten)]
     resolution: ResolutionArguments,
@@ -160,6 +165,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
     }
     let bytes = ledger.argument_json(&arguments.spec, "the spec")?;
     let name = input::name_of(&arguments.spec);
+    let bytes = setting::apply(&name, bytes, &arguments.settings)?;
+    let name = setting::name(name, &arguments.settings);
     let folder = arguments.spec.parent().unwrap_or(Path::new(""));
     let document = Document::new(&name, &bytes)?;
     let fitting = Progress::new("cells", arguments.quiet);

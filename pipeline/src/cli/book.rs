@@ -49,9 +49,9 @@ pub fn book(arguments: &BookArguments) -> Result<(), Report> {
     arguments.common.limit_memory();
     let ledger = arguments.common.ledger();
     let jobs = if arguments.jobs.is_empty() {
-        named::jobs(&["all".to_owned()], &ledger)?
+        named::jobs(&["all".to_owned()], &[], &ledger)?
     } else {
-        named::jobs(&arguments.jobs, &ledger)?
+        named::jobs(&arguments.jobs, &[], &ledger)?
     };
     make_folder(&arguments.output)?;
     let path = arguments.output.join(book::FILE);

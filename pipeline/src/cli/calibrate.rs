@@ -31,7 +31,7 @@ pub fn calibrate(
 ) -> Result<(), Report> {
     let ledger = common.ledger();
     let all = ["all".to_string()];
-    let jobs = named::jobs(if names.is_empty() { &all } else { names }, &ledger)?;
+    let jobs = named::jobs(if names.is_empty() { &all } else { names }, &[], &ledger)?;
     let side = size.map_or(SIDE, |(width, _)| width);
     let options = Options {
         folder: folder.into(),

@@ -5,6 +5,7 @@ mod book;
 mod calibrate;
 mod common;
 mod compare;
+mod export;
 mod list;
 mod named;
 mod report;
@@ -22,7 +23,9 @@ Examples:
   pipeline run glass-sphere vase -o out
   pipeline run A.11 -o out
   pipeline run all -o out --size 1024x1024 --keep
-  pipeline run my-job.json -o out --stats
+  pipeline export vase -o my-vase
+  pipeline run my-vase/pages/vase.json -o out --stats
+  pipeline run vase -D scene.camera.fov_deg=30 -D specs.vase.mesh.cols=40 -o out
   pipeline run vase --error 0.005 -o out
   pipeline run frontispiece --mode exact --size 4096x4096 -o poster
   pipeline report glass-sphere -o report --quick
@@ -51,6 +54,8 @@ struct Arguments {
 enum Command {
     /// List the built-in pages, and the figures of the thesis that each page shows
     List,
+    /// Write the files of a built-in page into a folder, as a starting point for your own job
+    Export(export::ExportArguments),
     /// Make the pictures of built-in pages or of your own jobs
     Run(run::RunArguments),
     /// Measure the cost of each rendering method and the error of its pictures
@@ -74,6 +79,7 @@ pub fn main(memory: Option<&dyn Memory>) -> ExitCode {
 fn run(command: &Command, memory: Option<&dyn Memory>) -> Result<(), Report> {
     match command {
         Command::List => list::list(),
+        Command::Export(arguments) => export::export(arguments),
         Command::Run(arguments) => run::run(arguments),
         Command::Report(arguments) if arguments.calibrate => report::calibrate(arguments),
         Command::Report(arguments) => match memory {

@@ -1,8 +1,9 @@
 //! The pages, figures and job files that a command line names.
 
 use crate::job::figure;
+use crate::settings::Changed;
 use crate::{Job, PipelineError, pages};
-use files::{Ledger, Source};
+use files::{Ledger, Setting, Source};
 use std::path::{Path, PathBuf};
 
 /// A job that an argument names.
@@ -30,24 +31,26 @@ impl NamedJob<'_> {
     }
 }
 
-/// Returns the jobs that arguments name, in the order of the arguments. Job files are read through the
-/// ledger. A job that is named twice occurs once. A figure beside the page that shows it adds nothing.
+/// Returns the jobs that arguments name, in the order of the arguments, with the values that the settings give them.
+/// Job files are read through the ledger. A job that is named twice occurs once. A figure beside the page that shows it
+/// adds nothing.
 ///
 /// # Errors
 /// When there is no such page or figure, or a job file is wrong.
 pub fn jobs<'a>(
     arguments: &[String],
+    settings: &[Setting],
     ledger: &'a Ledger,
 ) -> Result<Vec<NamedJob<'a>>, PipelineError> {
     let mut all: Vec<NamedJob<'a>> = Vec::new();
     for argument in arguments {
         if argument == "all" {
             for job in pages::in_order()? {
-                add(&mut all, page(&job.name, argument, Vec::new())?);
+                add(&mut all, page(&job.name, argument, Vec::new(), settings)?);
             }
         } else if Path::new(argument).extension().is_some_and(|extension| extension == "json") {
             let path = PathBuf::from(argument);
-            let job = Job::read(&path, ledger)?;
+            let job = Job::read(&path, &Changed::job(ledger, &path, settings))?;
             let argument = argument.clone();
             add(
                 &mut all,
@@ -61,16 +64,24 @@ pub fn jobs<'a>(
                 },
             );
         } else if let Some(number) = figure::number(argument) {
-            add(&mut all, page(&pages::of_figure(number)?, argument, vec![number])?);
+            add(&mut all, page(&pages::of_figure(number)?, argument, vec![number], settings)?);
         } else {
-            add(&mut all, page(argument, argument, Vec::new())?);
+            add(&mut all, page(argument, argument, Vec::new(), settings)?);
         }
     }
     Ok(all)
 }
 
-fn page<'a>(name: &str, argument: &str, figures: Vec<u8>) -> Result<NamedJob<'a>, PipelineError> {
-    let (job, path) = (pages::page(name)?, pages::path(name));
+fn page<'a>(
+    name: &str,
+    argument: &str,
+    figures: Vec<u8>,
+    settings: &[Setting],
+) -> Result<NamedJob<'a>, PipelineError> {
+    let (mut job, path) = (pages::page(name)?, pages::path(name));
+    if !settings.is_empty() {
+        job = Job::read(&path, &Changed::job(&pages::FILES, &path, settings))?;
+    }
     Ok(NamedJob {
         job,
         path,

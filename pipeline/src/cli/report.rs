@@ -191,9 +191,9 @@ fn summary(page: &PageMeasured, seconds: f64) -> String {
 /// thesis, and the scenes that other renderers were measured on.
 fn jobs<'a>(names: &[String], ledger: &'a Ledger) -> Result<Vec<NamedJob<'a>>, PipelineError> {
     if !names.is_empty() {
-        return named::jobs(names, ledger);
+        return named::jobs(names, &[], ledger);
     }
-    let all = named::jobs(&["all".into()], ledger)?;
+    let all = named::jobs(&["all".into()], &[], ledger)?;
     let default = |job: &Job| {
         PEERS.contains(&job.name.as_str()) || job.modes.iter().any(|mode| mode.figure.is_some())
     };

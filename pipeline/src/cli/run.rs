@@ -7,11 +7,12 @@ use super::{OTHER_FOLDER, make_folder};
 use crate::contact_sheet::ContactSheet;
 use crate::run as of_job;
 use crate::run::{Event, Options};
+use crate::settings::Changed;
 use crate::stages::Stages;
 use crate::{Job, PipelineError};
 use clap::Args;
 use files::exit::say;
-use files::{Batch, Ledger, Report, input};
+use files::{Batch, Ledger, Report, Setting, input};
 use render::Picture;
 use render::accuracy;
 use std::collections::BTreeMap;
@@ -39,6 +40,10 @@ pub struct RunArguments {
     /// mean square in linear light, or 8bit for half a code of an 8-bit picture
     #[arg(long, value_name = "E|8bit", value_parser = accuracy::error, conflicts_with = "modes")]
     error: Option<f64>,
+    /// Set a value of the job, of its scene or of a spec: -D scene.camera.fov_deg=35, or
+    /// -D specs.MESH.contour.circle=2; may be given several times
+    #[arg(short = 'D', value_name = "PATH=VALUE")]
+    settings: Vec<Setting>,
     /// Also write the grids and OBJ files, as the three programs would pipe them
     #[arg(long)]
     keep: bool,
@@ -73,7 +78,10 @@ pub fn run(arguments: &RunArguments) -> Result<(), Report> {
         keep: arguments.keep,
         clobber: arguments.common.clobber(),
     };
-    pool.install(|| read_first(&jobs, &files, &options))?;
+    let sources =
+        jobs.iter().map(|named| Changed::parts(named.source, &named.job, &arguments.settings));
+    let sources = sources.collect::<Result<Vec<_>, _>>()?;
+    pool.install(|| read_first(&jobs, &sources, &files, &options))?;
     let together = arguments.sheet.then(|| Batch::new(&options.folder, "sheet", &files));
     let together = together.transpose()?;
     together.iter().for_each(|batch| arguments.remark(batch));
@@ -81,7 +89,7 @@ pub fn run(arguments: &RunArguments) -> Result<(), Report> {
     let mut all = Stages::default();
     let mut sheet = ContactSheet::default();
     let mut missed = 0;
-    for NamedJob { job, source, .. } in &jobs {
+    for (NamedJob { job, .. }, source) in jobs.iter().zip(&sources) {
         let listener = Listener::new(job, arguments);
         let batch = of_job::batch(job, &options)?;
         arguments.remark(&batch);
@@ -90,7 +98,7 @@ pub fn run(arguments: &RunArguments) -> Result<(), Report> {
             None => batch,
         };
         let stages = pool.install(|| {
-            of_job::run_in(&batch, job, *source, &options, &|event| listener.hear(&event))
+            of_job::run_in(&batch, job, source, &options, &|event| listener.hear(&event))
         })?;
         batch.finish()?;
         rows.push((job.name.clone(), stages));
@@ -134,12 +142,14 @@ impl RunArguments {
 /// cannot be an input.
 fn read_first(
     jobs: &[NamedJob<'_>],
+    sources: &[Changed<'_>],
     outputs: &[PathBuf],
     options: &Options,
 ) -> Result<(), PipelineError> {
     if (jobs.len() > 1 || options.keep) && outputs.iter().any(|path| path.exists()) {
-        for NamedJob { job, source, .. } in jobs.iter().filter(|named| !named.built_in) {
-            of_job::scene(job, *source, options, &|_| {})?;
+        let own = jobs.iter().zip(sources).filter(|(named, _)| !named.built_in);
+        for (NamedJob { job, .. }, source) in own {
+            of_job::scene(job, source, options, &|_| {})?;
         }
     }
     Ok(())
@@ -156,7 +166,7 @@ fn jobs<'a>(
         written.insert(ContactSheet::FILE.into(), "--sheet".into());
     }
     for NamedJob { job, path, source, built_in, figures, argument } in
-        named::jobs(&arguments.jobs, ledger)?
+        named::jobs(&arguments.jobs, &arguments.settings, ledger)?
     {
         let job = if figures.is_empty() { job } else { job.only(&figures) };
         let job = job.with_modes(&arguments.modes)?;

@@ -4,7 +4,7 @@ use super::UseError;
 use clap::Args;
 use files::json::Document;
 use files::memory::of_process;
-use files::{FileError, Ledger, Report, input};
+use files::{FileError, Ledger, Report, Setting, input, setting};
 use render::Scene;
 use render::scene::MeshSource;
 use render::scene::mesh_file::{self, Near};
@@ -19,6 +19,9 @@ pub struct InputArguments {
     /// A mesh for the scene: its name in the scene, and an OBJ, STL, PLY or glTF file or - for standard input
     #[arg(long = "mesh", value_name = "NAME=FILE", value_parser = mesh_argument)]
     meshes: Vec<MeshArgument>,
+    /// Set a value of the scene: -D camera.fov_deg=35; may be given several times
+    #[arg(short = 'D', value_name = "PATH=VALUE")]
+    settings: Vec<Setting>,
     /// Render nothing: print the contents of the scene, and what is wrong or suspicious, on standard
     /// output; the exit code is 4 if something is wrong
     #[arg(long, conflicts_with_all = ["output", "pixel"])]
@@ -67,6 +70,8 @@ impl InputArguments {
     ) -> Result<T, Report> {
         let name = self.name();
         let text = ledger.argument_json(self.scene(), "the scene")?;
+        let text = setting::apply(&name, text, &self.settings)?;
+        let name = setting::name(name, &self.settings);
         let document = Document::new(&name, &text)?;
         let file = read::parse(&document)?;
         let folder = match self.scene().parent() {
