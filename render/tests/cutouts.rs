@@ -15,10 +15,10 @@ fn page(keys: &str, more: &str) -> String {
     )
 }
 
-/// A picture of two columns: red, and transparent green.
+/// A picture of two halves: red, and transparent green.
 fn leaf() -> Vec<u8> {
-    let texel = |x, _| if x == 0 { Rgba([255, 0, 0, 255]) } else { Rgba([0, 255, 0, 0]) };
-    encoded(RgbaImage::from_fn(2, 2, texel), ImageFormat::Png)
+    let texel = |x, _| if x < 32 { Rgba([255, 0, 0, 255]) } else { Rgba([0, 255, 0, 0]) };
+    encoded(RgbaImage::from_fn(64, 64, texel), ImageFormat::Png)
 }
 
 /// Renders, and returns the linear colours.
@@ -152,7 +152,8 @@ fn libraries_cut_out_surfaces() {
     let bench = Bench::with_scene(scene);
     bench.write("a.obj", obj);
     bench.write("leaf.png", leaf());
-    let grey = image::GrayImage::from_fn(4, 1, |x, _| image::Luma([if x < 2 { 255 } else { 0 }]));
+    let grey =
+        image::GrayImage::from_fn(128, 1, |x, _| image::Luma([if x < 64 { 255 } else { 0 }]));
     bench.write("grey.png", encoded(grey, ImageFormat::Png));
     let red = image::RgbImage::from_pixel(1, 1, image::Rgb([255, 0, 0]));
     bench.write("red.png", encoded(red, ImageFormat::Png));
