@@ -22,6 +22,7 @@ mod pipe;
 mod prose;
 mod reliefs;
 mod report;
+mod requested;
 mod still_lifes;
 mod structures;
 #[path = "../render/tests/studio/mod.rs"]

@@ -11,6 +11,7 @@ pub mod calibrate;
 pub mod cli;
 pub mod contact_sheet;
 pub mod error;
+pub mod fineness;
 pub mod html;
 pub mod job;
 pub mod mesh;
