@@ -22,6 +22,7 @@ mod pipe;
 mod prose;
 mod reliefs;
 mod report;
+mod requested;
 mod starting_points;
 mod still_lifes;
 mod structures;

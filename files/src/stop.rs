@@ -15,7 +15,14 @@
 
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, AtomicI32, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// True while the next signal is held back.
+static HOLDS: AtomicBool = AtomicBool::new(false);
+
+/// The signal that was held back, or 0.
+static HELD: AtomicI32 = AtomicI32::new(0);
 
 static OPEN: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
@@ -60,7 +67,11 @@ pub fn clean_up_when_stopped() {
         let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, caught);
         let Ok(mut signals) = signal_hook::iterator::Signals::new(signals()) else { return };
         let wait = move || {
-            if let Some(signal) = signals.forever().next() {
+            for signal in signals.forever() {
+                if HOLDS.swap(false, Ordering::SeqCst) {
+                    HELD.store(signal, Ordering::SeqCst);
+                    continue;
+                }
                 let open = open();
                 for path in open.iter() {
                     // A temporary that was already renamed no longer exists.
@@ -70,6 +81,33 @@ pub fn clean_up_when_stopped() {
             }
         };
         let _ = std::thread::Builder::new().name("signals".into()).spawn(wait);
+    }
+}
+
+/// Holds the next signal back, so that the program can save what it has. The program asks
+/// [`is_stopped`], and calls [`end_if_stopped`] when it is done. A second signal has its usual effect at
+/// once.
+///
+/// On a system without signals, nothing changes.
+pub fn hold_next() {
+    HOLDS.store(true, Ordering::SeqCst);
+}
+
+/// Returns whether a signal was held back.
+#[must_use]
+pub fn is_stopped() -> bool {
+    HELD.load(Ordering::SeqCst) != 0
+}
+
+/// Lets a signal that was held back have its usual effect, which ends the program.
+pub fn end_if_stopped() {
+    HOLDS.store(false, Ordering::SeqCst);
+    #[cfg(unix)]
+    match HELD.load(Ordering::SeqCst) {
+        0 => {}
+        signal => {
+            let _ = signal_hook::low_level::emulate_default_handler(signal);
+        }
     }
 }
 

@@ -13,6 +13,7 @@ mod coding;
 pub mod collected;
 pub mod contact_sheet;
 pub mod error;
+pub mod fineness;
 pub mod html;
 pub mod job;
 pub mod mesh;

@@ -1,30 +1,25 @@
 //! Runs a job: from specs to grids, meshes and pictures.
 
-use crate::job::{MeshJob, Mode};
+mod requested;
+mod scene;
+
+pub use requested::Accuracy;
+
+use crate::fineness::{Fineness, Kinds};
+use crate::job::Mode;
 use crate::stages::Stages;
-use crate::{Job, PipelineError, coding, mesh};
-use files::json::Document;
+use crate::{Job, PipelineError};
 use files::memory::{Reserved, of_process};
-use files::words::shown;
-use files::{Batch, MemoryError, Output, Source, input};
-use render::accuracy::{self, Statement};
+use files::{Batch, MemoryError, Output, Source};
 use render::color::Encoding;
 use render::film::encode::{self, Coding, Format};
 use render::film::{BasePicture, PixelFilter, memory};
-use render::filter::Filter;
-use render::scene::file::CameraFile;
-use render::scene::read::{self, Draft};
-use render::scene::{MeshSource, SceneError};
 use render::stats::Stats;
-use render::{Picture, Prepared, Sampling, Scene, Settings};
+use render::{Picture, Prepared, Scene, Settings};
 use std::cell::Cell;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
-use sweep::grid::file as grid_file;
-use sweep::spec::{self, Camera};
-use sweep::{GridMesh, Object, SweepError};
-use triangulate::{ObjWriter, Patches, TriMesh, TriangulateError};
 
 /// White between the pictures of a strip, in pixels.
 const GAP: u32 = 8;
@@ -75,8 +70,8 @@ pub enum Event<'a> {
         picture: &'a Picture,
         /// The counts and times of the picture.
         stats: &'a Stats,
-        /// The error that was reached, if the mode requests one.
-        statement: Option<&'a Statement>,
+        /// What is known of the error, if the mode requests one.
+        accuracy: Option<&'a Accuracy>,
     },
     /// A file is written.
     Written(&'a Path),
@@ -122,15 +117,19 @@ pub fn run_in(
     options: &Options,
     tell: &(dyn Fn(Event<'_>) + Sync),
 ) -> Result<Stages, PipelineError> {
-    let run = Run { job, source, options, tell, batch: Some(batch), stages: Cell::default() };
-    let scene = run.scene()?;
+    let run = Run { batch: Some(batch), ..Run::new(job, source, options, tell) };
+    let scene = run.scene(Fineness::Stated)?;
     // Sweeping and triangulating are stages of their own.
     let read_time = run.stages.get().read;
     let _reserved = run.reserve_pictures()?;
-    let prepared = Prepared::new(&scene);
+    let finer = run.finer()?;
+    let (prepared, finer) = (Prepared::new(&scene), finer.as_ref().map(Prepared::new));
     let mut pictures = Vec::with_capacity(job.modes.len());
     for mode in &job.modes {
-        pictures.push(run.picture(&prepared, mode, read_time)?);
+        pictures.push(run.picture(&prepared, finer.as_ref(), mode, read_time)?);
+    }
+    if let Some(mode) = &job.further {
+        run.picture(&prepared, finer.as_ref(), mode, read_time)?;
     }
     if let Some(strip) = job.strip_file() {
         let started = Instant::now();
@@ -151,7 +150,7 @@ pub fn scene(
     options: &Options,
     tell: &(dyn Fn(Event<'_>) + Sync),
 ) -> Result<Scene, PipelineError> {
-    Run { job, source, options, tell, batch: None, stages: Cell::default() }.scene()
+    Run::new(job, source, options, tell).scene(Fineness::Stated)
 }
 
 /// Returns the settings of a mode for a picture of this width and height.
@@ -170,15 +169,27 @@ struct Run<'a> {
     /// The batch of the job's files; `None` if nothing is written.
     batch: Option<&'a Batch<'a>>,
     stages: Cell<Stages>,
+    /// The kinds of resolution of the job's meshes, once they were made.
+    kinds: Cell<Kinds>,
 }
 
-impl Run<'_> {
+impl<'a> Run<'a> {
+    fn new(
+        job: &'a Job,
+        source: &'a dyn Source,
+        options: &'a Options,
+        tell: &'a (dyn Fn(Event<'_>) + Sync),
+    ) -> Self {
+        let (stages, kinds) = (Cell::default(), Cell::default());
+        Self { job, source, options, tell, batch: None, stages, kinds }
+    }
+
     /// Reserves memory for the pictures of all modes and for the strip of them.
     fn reserve_pictures(&self) -> Result<Reserved<'static>, MemoryError> {
         let (width, height) = self.options.size;
-        let count = self.job.modes.len() as u64;
+        let count = self.job.all_modes().count() as u64;
         let strip = memory::of_pixel(0, Some(Format::Png));
-        let searches = self.job.modes.iter().any(|mode| mode.error.is_some());
+        let searches = self.job.all_modes().any(|mode| mode.error.is_some());
         let first = if searches { BasePicture::of_pixel(PixelFilter::Gaussian) } else { 0 };
         let pixel = count * (memory::of_pixel(0, None) + strip) + first;
         let bytes = (u64::from(width) * u64::from(height)).saturating_mul(pixel);
@@ -190,157 +201,6 @@ impl Run<'_> {
         let mut stages = self.stages.get();
         stages += more;
         self.stages.set(stages);
-    }
-
-    /// Makes the scene with the job's meshes.
-    fn scene(&self) -> Result<Scene, PipelineError> {
-        let started = Instant::now();
-        let path = &self.job.scene;
-        let (name, bytes) = (input::name_of(path), self.source.read_json(path)?);
-        let document = Document::new(&name, &bytes)?;
-        let file = read::parse(&document)?;
-        let folder = path.parent().unwrap_or(Path::new(""));
-        let draft = Draft::gather(&document, &file, folder, self.source)?;
-        draft
-            .check_mesh_names(self.job.meshes.iter().map(|mesh| mesh.name.as_str()))
-            .map_err(|error| self.of_meshes(error))?;
-        let mut meshes = MeshSource::new();
-        for mesh in &self.job.meshes {
-            meshes.insert(mesh.name.clone(), self.mesh(mesh, &file.camera)?.into());
-        }
-        let scene = draft.resolve(self.source, meshes).map_err(|error| self.of_meshes(error))?;
-        // Reserves memory for each picture together with the tables that earlier modes keep.
-        let mut kept: Vec<(Filter, Reserved<'_>)> = Vec::new();
-        for mode in &self.job.modes {
-            kept.retain(|(filter, _)| *filter != mode.filter);
-            let settings = settings(mode, self.options.size);
-            memory::reserve(&scene, &settings, Some(Format::Png), of_process()).map(drop)?;
-            kept.push((mode.filter, memory::reserve_tables(&scene, mode.filter, of_process())?));
-        }
-        // The meshes are made in between, and their times belong to other stages.
-        let read = started.elapsed().saturating_sub(self.stages.get().total());
-        self.took(Stages { read, ..Stages::default() });
-        Ok(scene)
-    }
-
-    /// Turns an error of the scene into an error of the job, if the job has a mesh too many or too
-    /// few.
-    fn of_meshes(&self, error: SceneError) -> PipelineError {
-        let job = self.job.name.clone();
-        match error {
-            SceneError::UnknownMesh { name, known } => {
-                PipelineError::UnknownMesh { job, name, known }
-            }
-            SceneError::MissingMesh { name, path, scene } => {
-                PipelineError::MissingMesh { job, name, path, scene }
-            }
-            other => other.into(),
-        }
-    }
-
-    fn mesh(
-        &self,
-        mesh: &MeshJob,
-        camera: &CameraFile,
-    ) -> Result<render::shape::Mesh, PipelineError> {
-        let started = Instant::now();
-        let (name, bytes) = (input::name_of(&mesh.spec), self.source.read_json(&mesh.spec)?);
-        let folder = mesh.spec.parent().unwrap_or(Path::new(""));
-        // A scene does not move its meshes, so the scene's camera sees each mesh as a camera in the
-        // spec would.
-        let CameraFile { eye, target, up, .. } = *camera;
-        let fov_deg = camera.angle_deg();
-        let size = [self.options.size.0, self.options.size.1];
-        let camera = Some(Camera { eye, target, up, fov_deg, size });
-        let seen = spec::Resolution {
-            camera: mesh.resolution.camera.or(camera),
-            ..mesh.resolution.clone()
-        };
-        let document = Document::new(&name, &bytes)?;
-        let object =
-            Object::read(&document, folder, self.source, &seen).map_err(|error| match error {
-                // The complaint is about the resolution that the job states in place of the spec's.
-                SweepError::Resolution(message) => mesh.resolution_fault(message).into(),
-                other => PipelineError::from(other),
-            })?;
-        let points = object.parts().iter().map(|part| {
-            let [rows, cols] = part.points();
-            (rows as u64).saturating_mul(cols as u64)
-        });
-        let points: u64 = points.sum();
-        // Memory for the grid, its triangles, and the copy of them that is rendered.
-        let bytes = points.saturating_mul(36).saturating_add(TriMesh::bytes_for(2 * points));
-        of_process().check(bytes, || format!("mesh {} of {points} points", shown(&mesh.name)))?;
-        let grids = object.grids()?;
-        let sweep = started.elapsed();
-        let keep = self.batch.filter(|_| self.options.keep);
-        if let Some(batch) = keep {
-            self.write(batch, &self.job.grid_file(mesh), |out| {
-                grid_file::write_all(&grids, grid_file::Encoding::Binary, out)
-                    .map_err(|source| out.failed(source).into())
-            })?;
-        }
-        let write = started.elapsed() - sweep;
-        let started = Instant::now();
-        let triangles = match keep {
-            Some(batch) => self.write(batch, &self.job.obj_file(mesh), |out| {
-                mesh_and_obj(&grids, &mesh.options, out).map_err(|error| match error {
-                    TriangulateError::Write(source) => out.failed(source).into(),
-                    error => error.into(),
-                })
-            })?,
-            None => triangulate::mesh(grids.as_slice(), &mesh.options)?,
-        };
-        let triangles = mesh::for_render(triangles);
-        let triangulate = started.elapsed();
-        self.took(Stages { sweep, triangulate, write, ..Stages::default() });
-        (self.tell)(Event::Mesh {
-            name: &mesh.name,
-            triangles: triangles.triangles.len(),
-            sweep,
-            triangulate,
-            missed: object.missed(),
-        });
-        Ok(triangles)
-    }
-
-    fn picture(
-        &self,
-        prepared: &Prepared<'_>,
-        mode: &Mode,
-        read_time: Duration,
-    ) -> Result<Picture, PipelineError> {
-        let settings = settings(mode, self.options.size);
-        let progress = |done, total| (self.tell)(Event::Progress { mode: &mode.name, done, total });
-        let (picture, mut stats, statement) = match (mode.error, mode.sampling) {
-            (Some(error), Sampling::Area { pixel_filter, .. }) => {
-                let progress = |step: &str, done, total| {
-                    if step == "picture" {
-                        progress(done, total);
-                    }
-                };
-                let reached = accuracy::reach(prepared, &settings, pixel_filter, error, &progress);
-                (reached.picture, reached.stats, Some(reached.statement))
-            }
-            _ => {
-                let (picture, stats) = render::render(prepared, &settings, &progress);
-                (picture, stats, None)
-            }
-        };
-        let started = Instant::now();
-        let coding = coding::of(self.job, &settings, mode.error);
-        self.write_picture(&self.job.picture_file(mode), &picture, &coding)?;
-        stats.read_time = read_time;
-        stats.write_time = started.elapsed();
-        self.took(Stages::of_mode(&stats));
-        let statement = statement.as_ref();
-        (self.tell)(Event::Picture {
-            mode: &mode.name,
-            picture: &picture,
-            stats: &stats,
-            statement,
-        });
-        Ok(picture)
     }
 
     fn write_picture(
@@ -371,16 +231,4 @@ impl Run<'_> {
         (self.tell)(Event::Written(&path));
         Ok(filled)
     }
-}
-
-/// Makes the triangles of grids in memory, and writes them as OBJ in the same pass.
-fn mesh_and_obj(
-    grids: &[GridMesh],
-    options: &triangulate::Options,
-    out: &mut impl Write,
-) -> Result<TriMesh, TriangulateError> {
-    let sinks = (ObjWriter::new(out), TriMesh::default());
-    let ((writer, mesh), counts) = grids.run(options, sinks)?;
-    writer.finish(&counts).map_err(TriangulateError::Write)?;
-    Ok(mesh)
 }

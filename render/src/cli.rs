@@ -189,6 +189,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
     let _first = of_process().reserve(first, || "the first rays of all pixels".into())?;
     let read_time = started.elapsed();
 
+    accuracy.hold_signals();
     let pool = work.pool()?;
     let prepared = Prepared::new(&scene);
     if let Some(target) = target {
@@ -210,6 +211,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
         stats.read_time = read_time;
         stats.write_time = started.elapsed();
         work.print_stats(&stats);
+        accuracy.state_unfinished(&stats, &picture);
         accuracy.state(statement, work.quiet)?;
     }
     if let Some(pixel) = sampling.pixel {

@@ -41,6 +41,8 @@ pub struct Stats {
     pub lattice_bytes: u64,
     /// Pixels that were NaN or infinite and were made black. There should be none.
     pub not_finite: u64,
+    /// Pixels that were left out because the picture was ended early.
+    pub unfinished: u64,
     /// Rays from the eye of the audit, and of pixels that were tried alone for an accuracy.
     pub audit_rays: u64,
     /// Time to read the scene, its meshes and its textures.
@@ -129,6 +131,9 @@ impl fmt::Display for Stats {
         }
         if self.not_finite > 0 {
             writeln!(f, "{:<16}{:>14}", "not finite", self.not_finite)?;
+        }
+        if self.unfinished > 0 {
+            writeln!(f, "{:<16}{:>14}", "unfinished", self.unfinished)?;
         }
         let times = [
             ("read", self.read_time),

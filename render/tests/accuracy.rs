@@ -4,7 +4,7 @@ use crate::bench;
 use crate::studio;
 
 use bench::{Bench, ending};
-use render::accuracy::{audit, reach};
+use render::accuracy::{Request, audit};
 use render::film::{Pattern, PixelFilter};
 use render::filter::Filter;
 use render::stats::Stats;
@@ -90,7 +90,7 @@ fn a_requested_error_is_reached() {
     let mut rays = 0;
     for wanted in [0.05, 0.02, 0.01, 0.005] {
         let settings = Settings::new(64, 64, Filter::Exact);
-        let reached = reach(&prepared, &settings, PixelFilter::Box, wanted, &|_, _, _| {});
+        let reached = Request::new(&prepared, &settings, PixelFilter::Box).reach(wanted);
         let error = squared_error(&reached.picture, &truths).max(0.0).sqrt();
         assert!(error < wanted, "{}, true {error}", reached.statement);
         assert_eq!(reached.statement.missed, None);
@@ -109,7 +109,7 @@ fn pictures_and_statements_do_not_depend_on_threads() {
         let settings = Settings::new(50, 40, Filter::Exact);
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
-            let reached = reach(&prepared, &settings, PixelFilter::Box, 0.01, &|_, _, _| {});
+            let reached = Request::new(&prepared, &settings, PixelFilter::Box).reach(0.01);
             let mut stats = Stats::default();
             let audited = audit(&prepared, &reached.settings, &reached.picture, &mut stats);
             (reached.picture, reached.statement, audited)
@@ -125,7 +125,24 @@ fn a_plain_wall_has_no_error() {
     let arguments = ["scene.json", "--size", "16x16", "-o", "out.png", "--error", "8bit"];
     let (code, words) = ending(&bench.run(&arguments, b""));
     assert_eq!(code, Some(0), "{words}");
-    assert!(words.starts_with("error 0.0, below 0.0020 with 95 % confidence; "), "{words}");
+    assert!(words.starts_with("error 0.0, below 0.00040 with 95 % confidence; "), "{words}");
+}
+
+/// A white disk before black. No sampling of the ladder finds the parts of the pixels under its edge to
+/// within the request.
+#[test]
+fn a_request_that_is_out_of_reach_has_an_exit_code_of_its_own() {
+    let scene = r#"{ "format": "tb-scene", "version": 1, "ambient": 1, "background": 0,
+        "camera": { "eye": [0, 0, 4], "target": [0, 0, 0], "fov_deg": 40 },
+        "materials": { "white": { "diffuse": 0 } },
+        "objects": [ { "sphere": { "center": [0, 0, 0], "radius": 1, "material": "white" } } ] }"#;
+    let bench = Bench::with_scene(scene);
+    let arguments = ["scene.json", "--size", "8x8", "-o", "out.png", "--error", "0.00005"];
+    let (code, words) = ending(&bench.run(&arguments, b""));
+    assert_eq!(code, Some(7), "{words}");
+    let end = "; the requested error of 0.00005 was not reached\n";
+    assert!(words.starts_with("render: error 0.00") && words.ends_with(end), "{words}");
+    assert!(image::load_from_memory(&bench.read("out.png")).is_ok(), "the picture is written");
 }
 
 #[test]

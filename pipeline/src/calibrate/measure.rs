@@ -2,7 +2,7 @@
 
 use cpu_time::ProcessTime;
 use render::accuracy::census::Census;
-use render::accuracy::{audit, reach};
+use render::accuracy::{Request, audit};
 use render::film::{PixelFilter, THRESHOLD};
 use render::filter::Filter;
 use render::{Prepared, Sampling, Scene, Settings};
@@ -68,7 +68,7 @@ pub fn scene(name: &str, scene: &Scene, side: u32) -> SceneCases {
     let mut cases = Vec::new();
     for requested in REQUESTS {
         let started = ProcessTime::now();
-        let reached = reach(&prepared, &base, PixelFilter::Box, requested, &|_, _, _| {});
+        let reached = Request::new(&prepared, &base, PixelFilter::Box).reach(requested);
         let seconds = started.elapsed().as_secs_f64();
         let method = in_words(reached.settings.sampling);
         let statement = &reached.statement;

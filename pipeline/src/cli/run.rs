@@ -21,10 +21,15 @@ use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
+/// Error of the further picture of a page that is named alone.
+const PAGE_ERROR: f64 = 0.005;
+
 /// Arguments of `pipeline run`.
 #[derive(Debug, Args)]
 pub struct RunArguments {
-    /// Pages by name, all of them, figures of the thesis by number, or job files, whose names end in .json
+    /// Pages by name, all of them, figures of the thesis by number, or job files, whose names end in
+    /// .json. A page that is named alone also gets a picture whose error is below 0.005, unless --mode or
+    /// --error is given
     #[arg(required = true, value_name = "NAME|all|A.N|FILE.json")]
     jobs: Vec<String>,
     /// The folder for the pictures; created if it is missing
@@ -170,8 +175,12 @@ fn jobs<'a>(
     {
         let job = if figures.is_empty() { job } else { job.only(&figures) };
         let job = job.with_modes(&arguments.modes)?;
+        let page_alone = built_in && figures.is_empty() && argument == job.name;
         let job = match arguments.error {
             Some(error) => job.with_error(error),
+            None if page_alone && arguments.jobs.len() == 1 && arguments.modes.is_empty() => {
+                job.and_error(PAGE_ERROR)
+            }
             None => job,
         };
         for file in job.files(arguments.keep) {
@@ -225,10 +234,18 @@ impl<'a> Listener<'a> {
                     self.say(&format!("{}: note: {name}: {missed}", self.job));
                 }
             }
-            Event::Picture { mode, picture, stats, statement } => {
+            Event::Picture { mode, picture, stats, accuracy } => {
                 self.bar.clear();
                 let mut heard = self.heard.lock().unwrap_or_else(PoisonError::into_inner);
-                if let Some(statement) = statement {
+                if let Some(accuracy) = accuracy {
+                    if let Some(sources) = &accuracy.sources {
+                        let pixels = accuracy.pixels.map(|pixels| {
+                            format!("; meshes within {pixels:.2} pixels of their surfaces")
+                        });
+                        let pixels = pixels.unwrap_or_default();
+                        self.say(&format!("{} {mode}: {sources}{pixels}", self.job));
+                    }
+                    let statement = &accuracy.statement;
                     self.say(&format!("{} {mode}: {statement}", self.job));
                     heard.2 += usize::from(statement.missed.is_some());
                 }

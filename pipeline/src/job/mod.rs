@@ -63,6 +63,7 @@ pub mod figure;
 pub mod mode;
 mod requested;
 mod sampling;
+mod select;
 
 pub use mode::Mode;
 
@@ -88,6 +89,8 @@ pub struct Job {
     /// True if these are all modes of the job file. Otherwise the pictures are not put side by
     /// side.
     pub whole: bool,
+    /// A further mode, whose picture is not put beside the others.
+    pub further: Option<Mode>,
 }
 
 /// A mesh to make.
@@ -182,29 +185,9 @@ impl Job {
         Ok(Self::parse(&name, &bytes, &stem, folder)?)
     }
 
-    /// Returns the job with only the modes of these names, in the job's own order. Without names,
-    /// all modes stay.
-    ///
-    /// # Errors
-    /// When the job has no mode of one of the names.
-    pub fn with_modes(mut self, names: &[String]) -> Result<Self, PipelineError> {
-        let has = |name: &&String| self.modes.iter().any(|mode| mode.name == **name);
-        if let Some(name) = names.iter().find(|name| !has(name)) {
-            let known: Vec<&str> = self.modes.iter().map(|mode| mode.name.as_str()).collect();
-            let (job, name, known) = (self.name.clone(), name.clone(), known.join(", "));
-            return Err(PipelineError::UnknownMode { job, name, known });
-        }
-        let all = self.modes.len();
-        self.modes.retain(|mode| names.is_empty() || names.contains(&mode.name));
-        self.whole &= self.modes.len() == all;
-        Ok(self)
-    }
-
-    /// Returns the job with one mode `error` in place of its own, which reaches this error.
-    #[must_use]
-    pub fn with_error(mut self, error: f64) -> Self {
-        self.modes = vec![Mode::of_error("error", error)];
-        self
+    /// Returns the modes in which the scene is rendered, with the further one.
+    pub fn all_modes(&self) -> impl Iterator<Item = &Mode> {
+        self.modes.iter().chain(&self.further)
     }
 
     /// Returns the numbers of the thesis's figures that the job shows, ascending.
@@ -216,22 +199,13 @@ impl Job {
         numbers
     }
 
-    /// Returns the job with only those modes that show one of these figures.
-    #[must_use]
-    pub fn only(mut self, figures: &[u8]) -> Self {
-        let all = self.modes.len();
-        self.modes.retain(|mode| mode.figure_number().is_some_and(|k| figures.contains(&k)));
-        self.whole &= self.modes.len() == all;
-        self
-    }
-
     /// Returns the names of all files that the job writes; with `keep` also those of its grids and
     /// OBJ files.
     #[must_use]
     pub fn files(&self, keep: bool) -> Vec<String> {
         let kept = self.meshes.iter().filter(|_| keep);
         kept.flat_map(|mesh| [self.grid_file(mesh), self.obj_file(mesh)])
-            .chain(self.modes.iter().map(|mode| self.picture_file(mode)))
+            .chain(self.all_modes().map(|mode| self.picture_file(mode)))
             .chain(self.strip_file())
             .collect()
     }
@@ -287,6 +261,7 @@ impl Job {
             scene: folder.join(file.scene),
             modes: mode::modes(document, file.modes)?,
             whole: true,
+            further: None,
         })
     }
 }

@@ -6,6 +6,9 @@
 //! method itself estimates, around a pixel and in it. One part follows the contrast to the
 //! neighbours, which needs no method. The rest is equal for all pixels: an error that nothing
 //! announces is drawn too, and no weight is large.
+//!
+//! An estimated error counts up to a multiple of the requested one, since pixels above it will be
+//! split.
 
 use crate::film::Picture;
 use crate::film::pattern::{fraction, mixed};
@@ -17,6 +20,20 @@ const PARTS: [f64; 3] = [0.5, 0.1, 0.2];
 
 /// The part of the contrast where no error is estimated.
 const CONTRAST_ALONE: f64 = 0.6;
+
+/// Largest estimated error that counts, in requested errors. Chosen on the peer scenes. Without a
+/// limit, an audit of the same precision takes 35 % more rays on the glass at 0.01, and about as many on
+/// the tube. With a limit of 0.5, it takes up to 20 % more.
+const MOST: f32 = 3.0;
+
+/// Estimates for each pixel of a picture before its cells are split.
+#[derive(Debug, Clone, Copy)]
+pub struct Estimates<'e> {
+    /// Errors, root mean square of linear RGB.
+    pub errors: &'e [f32],
+    /// The requested error.
+    pub requested: f64,
+}
 
 /// A pixel that was drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,21 +55,24 @@ pub struct Chances {
 }
 
 impl Chances {
-    /// Chances for a picture. `errors` holds an estimated error for each pixel, or nothing.
+    /// Chances for a picture, with the estimates of its method if there are any.
     #[must_use]
-    pub fn new(picture: &Picture, errors: &[f32]) -> Self {
+    pub fn new(picture: &Picture, estimates: Option<Estimates<'_>>) -> Self {
         let width = picture.width as usize;
         let contrast = around(width, picture.pixels.len(), |own, other| {
             let [own, other] = [picture.pixels[own], picture.pixels[other]];
             (0..3).map(|k| (own[k] - other[k]).powi(2)).sum::<f32>()
         });
         let contrast: Vec<f32> = contrast.iter().map(|squared| squared.sqrt()).collect();
-        let parts = if errors.is_empty() {
-            vec![(CONTRAST_ALONE, contrast)]
-        } else {
-            let near = around(width, errors.len(), |own, other| errors[own].max(errors[other]));
-            let [of_near, of_own, of_contrast] = PARTS;
-            vec![(of_near, near), (of_own, errors.to_vec()), (of_contrast, contrast)]
+        let parts = match estimates {
+            None => vec![(CONTRAST_ALONE, contrast)],
+            Some(Estimates { errors, requested }) => {
+                let most = MOST * requested as f32;
+                let own: Vec<f32> = errors.iter().map(|error| error.min(most)).collect();
+                let near = around(width, own.len(), |a, b| own[a].max(own[b]));
+                let [of_near, of_own, of_contrast] = PARTS;
+                vec![(of_near, near), (of_own, own), (of_contrast, contrast)]
+            }
         };
         let count = picture.pixels.len();
         let mut chances = vec![0.0; count];
@@ -130,8 +150,9 @@ mod tests {
         let picture = edge();
         let mut errors = vec![0.0; 1200];
         errors[777] = 3.0;
-        for errors in [&[][..], &errors] {
-            let chances = Chances::new(&picture, errors);
+        let estimates = Estimates { errors: &errors, requested: 0.01 };
+        for estimates in [None, Some(estimates)] {
+            let chances = Chances::new(&picture, estimates);
             for value in [|_| 1.0, |place| (place % 40) as f64, |place| f64::from(place == 777)] {
                 let all = (0..1200).map(value).sum::<f64>() / 1200.0;
                 let draws = chances.draw(4000, 1);
@@ -147,7 +168,7 @@ mod tests {
 
     #[test]
     fn no_weight_is_large_and_edges_are_drawn_more_often() {
-        let chances = Chances::new(&edge(), &[]);
+        let chances = Chances::new(&edge(), None);
         let draws = chances.draw(1000, 0);
         assert!(draws.iter().all(|draw| draw.weight <= 1.0 / (1.0 - CONTRAST_ALONE) + 1e-9));
         let beside = |draw: &&Draw| matches!(draw.place % 40, 19 | 20);
@@ -159,7 +180,9 @@ mod tests {
 
     #[test]
     fn a_constant_picture_is_drawn_evenly() {
-        let draws = Chances::new(&Picture::black(10, 10), &[0.0; 100]).draw(100, 5);
+        let zeros = [0.0; 100];
+        let nothing = Estimates { errors: &zeros, requested: 0.01 };
+        let draws = Chances::new(&Picture::black(10, 10), Some(nothing)).draw(100, 5);
         assert!(draws.iter().all(|draw| (draw.weight - 1.0).abs() < 1e-9));
         let mut places: Vec<usize> = draws.iter().map(|draw| draw.place).collect();
         places.dedup();

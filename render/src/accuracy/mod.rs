@@ -3,8 +3,8 @@
 //! [`audit`] judges any picture, whatever method made it. A sample of its pixels ([`chances`]) is
 //! compared with their true colours by brute force ([`truth`]). The result is an unbiased estimate
 //! of the mean squared error and an upper bound that holds with a stated confidence ([`bound`]).
-//! [`reach`] tries samplings ([`ladder`]) on such a sample until the bound is below a requested
-//! error ([`search`]).
+//! [`Request::reach`] tries samplings ([`ladder`]) on such a sample until the bound is below a requested
+//! error (`search.rs`).
 //!
 //! [`census`] finds the true colours of all pixels, by which audits are checked.
 //!
@@ -15,18 +15,24 @@ pub mod bound;
 pub mod census;
 pub mod chances;
 pub mod ladder;
+pub mod meshes;
+mod plan;
+pub mod request;
 pub mod sample;
-pub mod search;
+mod search;
+pub mod sources;
 pub mod statement;
 pub mod truth;
 
-pub use search::{Reached, reach, within};
+pub use meshes::apart;
+pub use request::{Progress, Reached, Request};
+pub use sources::Sources;
 pub use statement::Statement;
 
 use crate::film::{Picture, Settings};
 use crate::prepared::Prepared;
 use crate::stats::Stats;
-use bound::upper;
+use bound::{mean, upper};
 use chances::Chances;
 use sample::Sample;
 use std::time::Instant;
@@ -93,18 +99,38 @@ pub fn audit(
     stats: &mut Stats,
 ) -> Statement {
     let started = Instant::now();
-    let chances = Chances::new(picture, &[]);
+    let chances = Chances::new(picture, None);
     let rough = Sample::take(prepared, settings, &chances, (FIRST, 1), 0.02);
     let values = rough.values_of(picture);
     // Neither an accidental 0 nor a single large value decides the noise.
-    let accuracy = bound::mean(&values).max(0.0).sqrt().clamp(0.0025, 0.05);
+    let accuracy = mean(&values).max(0.0).sqrt().clamp(0.0025, 0.05);
     // Nothing announces the errors of an unknown method, so more pixels are drawn than in a search.
     let sample = Sample::take(prepared, settings, &chances, (2 * draws(accuracy), 0), accuracy);
     let values = sample.values_of(picture);
-    let bound = upper(&values, 1.0 - CONFIDENCE).max(0.0).sqrt().max(LEAST);
+    let bound = upper(&values, 1.0 - CONFIDENCE).max(0.0).sqrt();
+    let bound = bound.max(search::LEAST_BOUND * accuracy);
     stats.audit_rays += rough.rays() + sample.rays();
     stats.audit_time += started.elapsed();
-    search::stated(&values, bound, None, stats, picture.pixels.len())
+    stated(&values, bound, None, stats, picture.pixels.len())
+}
+
+/// Returns the statement on a picture of this many pixels.
+fn stated(
+    values: &[f64],
+    bound: f64,
+    missed: Option<f64>,
+    stats: &Stats,
+    pixels: usize,
+) -> Statement {
+    let per_pixel = |rays: u64| rays as f64 / pixels.max(1) as f64;
+    Statement {
+        error: mean(values).max(0.0).sqrt(),
+        bound,
+        confidence: CONFIDENCE,
+        rays: per_pixel(stats.primary_rays),
+        audit: per_pixel(stats.audit_rays),
+        missed,
+    }
 }
 
 #[cfg(test)]

@@ -1,248 +1,292 @@
 //! The search for the cheapest picture whose error is below a requested one.
 //!
-//! The pixels of the audit are drawn and judged first, once. Each sampling is then tried on these
-//! pixels alone, and only the chosen one makes the whole picture. So the audit looks at the picture
-//! before it exists: its pixels have the same bits.
+//! The pixels of the audit are drawn and judged first. Each sampling is then tried on these pixels
+//! alone, and only the chosen one makes the whole picture. So the audit looks at the picture before
+//! it exists: its pixels have the same bits.
 //!
-//! Many samplings are tried and one is chosen, which must not make the statement wrong. In a round,
-//! the order of the trials is fixed before any pixel is seen. A round starts at a rung of the ladder
-//! that should suffice. It goes to cheaper rungs while their bounds are below the request, and the
-//! first that fails ends it. A wrong choice needs a wrong bound at the first insufficient rung of
-//! the round, so the risk of one bound is the risk of the round (fixed sequence testing; A.
-//! Angelopoulos et al., "Learn then Test", 2021, section 4). If the first rung of a round fails,
-//! another round follows with new pixels, more of them, and a part of the rest of the risk. The
-//! pixels of the round before show at which rung it should start.
+//! Many samplings are tried and one is chosen, which must not make the statement wrong. The search
+//! takes a sampling only if its bound is below the request, and finer samplings are then below it
+//! too. So consider the finest sampling whose true error is above the request. To choose it, or a
+//! coarser one, its own bound must be wrong. The risk of one bound is therefore the risk of the
+//! choice (fixed sequence testing from the finest sampling down; A. Angelopoulos et al., "Learn then
+//! Test", 2021, section 4). That finer samplings pass on the same pixels is assumed and not computed,
+//! since the finest ones cost far more than the picture.
+//!
+//! If too few pixels were drawn, more are drawn, and the pixels so far stay. Each such look at the
+//! sample takes a part of the risk.
+//!
+//! A printed bound below the request is a further claim, about the sampling that was chosen. It has a
+//! risk of its own in each look, divided among all samplings.
 
 use super::bound::{mean, upper};
-use super::chances::Chances;
+use super::chances::{Chances, Estimates};
 use super::ladder::{rungs, start};
+use super::plan::{Outlook, Prospect, jump};
+use super::request::{Reached, Request};
 use super::sample::Sample;
-use super::statement::Statement;
-use super::{CONFIDENCE, draws};
-use crate::film::{BasePicture, Picture, PixelFilter, Sampling, Settings};
-use crate::prepared::Prepared;
+use super::sources::by_cause;
+use super::{CONFIDENCE, audit, draws, stated};
+use crate::film::{BasePicture, Picture, Pixel, Sampling, Settings};
 use crate::stats::Stats;
-use std::time::{Duration, Instant};
+use std::collections::BTreeMap;
+use std::time::Instant;
 
-/// Risks of the rounds. Their sum is the risk of the statement.
-const RISKS: [f64; 5] = [0.035, 0.008, 0.004, 0.002, 0.001];
+/// Risks of the choice in each look. Together with [`PRINTED`] times as much for printed bounds they
+/// sum to the risk of the statement.
+const RISKS: [f64; 6] = [0.016, 0.006, 0.003, 0.002, 0.002, 0.001];
 
-/// Pixels of each round, in those of the first.
-const SIZES: [usize; 5] = [1, 2, 4, 8, 16];
+/// Risk of the printed bounds of a look, in risks of the choice.
+const PRINTED: f64 = 2.0 / 3.0;
 
-/// Rungs that a round looks ahead for the start of the next.
-const AHEAD: usize = 4;
+/// Draws at each look, in halves of those of the first.
+const SIZES: [usize; RISKS.len()] = [2, 3, 5, 8, 16, 32];
+
+/// Least printed bound, in requested errors. The number of draws and the noise of true colours suit
+/// the request, and tell little of much smaller errors.
+pub(super) const LEAST_BOUND: f64 = 0.2;
 
 /// Part of the requested error that a ray must weigh in its cell to be followed. True colours follow
 /// all rays, so the audit counts what is lost.
 const FOLLOWED: f64 = 0.1;
 
-/// A rung should suffice if its estimated error is below this part of the requested one.
-const PROMISING: f64 = 0.7;
-
-/// A picture and what is known of its error.
-#[derive(Debug)]
-pub struct Reached {
-    /// The picture.
-    pub picture: Picture,
-    /// Counts and times, with those of the audit.
-    pub stats: Stats,
-    /// The settings that were chosen. `render` makes the same picture with them.
-    pub settings: Settings,
-    /// The result of the audit.
-    pub statement: Statement,
-}
-
-/// Calls with the finished parts and all parts of the picture, and the name of the step.
-pub type Progress<'p> = dyn Fn(&str, usize, usize) + Sync + 'p;
-
-/// Makes the cheapest picture whose error is below `error`, in linear light. The sampling of
-/// `settings` is replaced; its pixel filter is `pixel_filter`. If no sampling suffices, the picture
-/// is that of the finest, and the statement says so.
-///
-/// Runs on the threads of the current rayon pool. The picture and the statement are the same for
-/// any number of threads.
-#[must_use]
-pub fn reach(
-    prepared: &Prepared<'_>,
-    settings: &Settings,
-    pixel_filter: PixelFilter,
-    error: f64,
-    progress: &Progress<'_>,
-) -> Reached {
-    let mut search = Search::start(prepared, settings, pixel_filter, error, progress);
-    let rungs = rungs(pixel_filter);
-    let limit = error * error;
-    let mut first = start(error);
-    let mut missed = Some(error);
-    let mut chosen = search.try_out(rungs[first]);
-    for (round, risk) in RISKS.into_iter().enumerate() {
-        if round > 0 {
-            first = search.promising(&rungs, first, &chosen, PROMISING * error);
-            search.draw(round, error);
-            chosen = search.try_out(rungs[first]);
-        }
-        if upper(&chosen.values, risk) < limit {
-            missed = None;
-            // Cheaper rungs in order, until one fails.
-            for &sampling in rungs[..first].iter().rev() {
-                let tried = search.try_out(sampling);
-                if upper(&tried.values, risk) >= limit {
-                    break;
-                }
-                chosen = tried;
-            }
-            break;
-        }
-    }
-    let Trial { sampling, values } = chosen;
-    let bound = match missed {
-        // The choice depends on the request and on nothing else that the audit found.
-        None => error,
-        Some(_) => upper(&values, 1.0 - CONFIDENCE).max(0.0).sqrt(),
-    };
-    search.finish(sampling, &values, bound, missed, progress)
-}
-
-/// Makes the best picture in about `seconds` of wall-clock time. The choice depends on measured
-/// times, so the picture is not the same in each run.
-#[must_use]
-pub fn within(
-    prepared: &Prepared<'_>,
-    settings: &Settings,
-    pixel_filter: PixelFilter,
-    seconds: f64,
-    progress: &Progress<'_>,
-) -> Reached {
-    let started = Instant::now();
-    let mut search = Search::start(prepared, settings, pixel_filter, TIMED, progress);
-    let rungs = rungs(pixel_filter);
-    let mut chosen = search.try_out(rungs[0]);
-    for &sampling in &rungs[1..] {
-        let before = (Instant::now(), search.stats.audit_rays);
-        let tried = search.try_out(sampling);
-        let took = before.0.elapsed().as_secs_f64();
-        // The pixels of the audit take longer than others; their rays tell by how much.
-        let traced = (search.stats.audit_rays - before.1).max(1) as f64;
-        let needed = search.rays_per_pixel * search.base.errors.len() as f64 * took / traced;
-        if started.elapsed().as_secs_f64() + needed > seconds {
-            break;
-        }
-        chosen = tried;
-    }
-    // The values were not used for the choice.
-    let bound = upper(&chosen.values, 1.0 - CONFIDENCE).max(0.0).sqrt();
-    search.finish(chosen.sampling, &chosen.values, bound, None, progress)
-}
-
 /// The accuracy for which a search by time judges pixels.
 const TIMED: f64 = 0.005;
 
-/// A sampling that was tried.
-struct Trial {
-    sampling: Sampling,
-    /// Weighted squared errors of the drawn pixels.
-    values: Vec<f64>,
+/// See [`Request::reach`].
+pub(super) fn by_error(request: &Request<'_, '_>, error: f64) -> Reached {
+    let mut search = Search::start(request, error);
+    search.requested = Some(error);
+    let limit = error * error;
+    let (mut at, mut look) = (start(error), 0);
+    let found = loop {
+        if !search.draw(look, error) {
+            return search.ended_early();
+        }
+        let Some((rung, outlook)) = search.cheapest(at, look, limit) else { break None };
+        at = rung;
+        if outlook.growth <= 1.0 {
+            break Some(rung);
+        }
+        // The first look whose draws should suffice.
+        let wanted = SIZES[look] as f64 * outlook.growth;
+        let next = (look + 1..SIZES.len()).find(|&next| SIZES[next] as f64 >= wanted);
+        match next {
+            Some(next) => look = next,
+            None => break None,
+        }
+    };
+    let found = found.or(search.passed);
+    let rung = found.unwrap_or_else(|| search.finest());
+    let values = search.values(rung);
+    let bound = match found {
+        // Either claim holds: that of the choice, and that of the printed bound.
+        Some(_) => upper(&values, PRINTED * RISKS[look] * share(rung, start(error)))
+            .max((LEAST_BOUND * error).powi(2))
+            .min(limit),
+        None => upper(&values, 1.0 - CONFIDENCE),
+    };
+    let missed = found.is_none().then_some(error);
+    search.finish(rung, &values, bound.max(mean(&values)).max(0.0).sqrt(), missed)
 }
 
-struct Search<'p, 's> {
-    prepared: &'p Prepared<'s>,
-    base: BasePicture<'p, 's>,
+/// See [`Request::within`].
+pub(super) fn by_time(request: &Request<'_, '_>, seconds: f64) -> Reached {
+    let started = Instant::now();
+    let mut search = Search::start(request, TIMED);
+    if !search.draw(0, TIMED) {
+        return search.ended_early();
+    }
+    let mut chosen = 0;
+    search.try_out(0);
+    for rung in 1..search.rungs.len() {
+        let before = (Instant::now(), search.stats.audit_rays);
+        search.try_out(rung);
+        let took = before.0.elapsed().as_secs_f64();
+        // The pixels of the audit take longer than others; their rays tell by how much.
+        let traced = (search.stats.audit_rays - before.1).max(1) as f64;
+        let needed = search.rays(rung) * took / traced;
+        if started.elapsed().as_secs_f64() + needed > seconds || !(request.go_on)() {
+            break;
+        }
+        chosen = rung;
+    }
+    // The values were not used for the choice.
+    let values = search.values(chosen);
+    let bound = upper(&values, 1.0 - CONFIDENCE).max(0.0).sqrt();
+    search.finish(chosen, &values, bound, None)
+}
+
+/// Returns the part of the risk of printed bounds that belongs to a rung. The parts of all rungs sum
+/// to less than 1, and those of rungs near the first are the largest.
+fn share(rung: usize, first: usize) -> f64 {
+    0.4 / (1.0 + rung.abs_diff(first) as f64).powi(2)
+}
+
+struct Search<'q, 'r, 's> {
+    request: &'q Request<'r, 's>,
+    base: BasePicture<'r, 's>,
+    rungs: Vec<Sampling>,
     chances: Chances,
-    /// The pixels of the round.
     sample: Sample,
+    /// The pixels of the sample in each sampling that was tried.
+    tried: BTreeMap<usize, Vec<Pixel>>,
+    /// The cheapest sampling whose bound was below the request in any look.
+    passed: Option<usize>,
     stats: Stats,
-    /// Rays from the eye per pixel of a picture with the sampling that was tried last.
-    rays_per_pixel: f64,
+    /// The requested error, if one was requested.
+    requested: Option<f64>,
 }
 
-impl<'p, 's> Search<'p, 's> {
-    fn start(
-        prepared: &'p Prepared<'s>,
-        settings: &Settings,
-        pixel_filter: PixelFilter,
-        error: f64,
-        progress: &Progress<'_>,
-    ) -> Self {
+impl<'q, 'r, 's> Search<'q, 'r, 's> {
+    fn start(request: &'q Request<'r, 's>, error: f64) -> Self {
+        let &Request { prepared, settings, pixel_filter, progress, go_on, .. } = request;
         let tell = |done, total| progress("first rays", done, total);
         let settings = Settings { least_weight: Some(FOLLOWED * error), ..settings.clone() };
-        let base = BasePicture::new(prepared, &settings, pixel_filter, &tell);
-        let chances = Chances::new(&base.picture, &base.errors);
-        let sample = Sample::default();
-        let mut search =
-            Self { prepared, base, chances, sample, stats: Stats::default(), rays_per_pixel: 0.0 };
-        search.draw(0, error);
-        search
-    }
-
-    /// Draws and judges the pixels of a round.
-    fn draw(&mut self, round: usize, error: f64) {
-        let started = Instant::now();
-        let count = SIZES[round] * draws(error);
-        let settings = self.base.settings();
-        self.sample =
-            Sample::take(self.prepared, settings, &self.chances, (count, round as u64), error);
-        self.stats.audit_rays += self.sample.rays();
-        self.stats.audit_time += started.elapsed();
-    }
-
-    /// Returns the first rung, from `first` on, whose estimated error is at most `wanted`, or the
-    /// last one that it looks at. `tried` is the trial of `first`.
-    fn promising(&mut self, rungs: &[Sampling], first: usize, tried: &Trial, wanted: f64) -> usize {
-        let suffices = |values: &[f64]| mean(values) <= wanted * wanted;
-        if suffices(&tried.values) {
-            return first;
+        let base = BasePicture::new(prepared, &settings, pixel_filter, &tell, go_on);
+        let estimates = Estimates { errors: &base.errors, requested: error };
+        let chances = Chances::new(&base.picture, Some(estimates));
+        Self {
+            request,
+            base,
+            rungs: rungs(pixel_filter),
+            chances,
+            sample: Sample::default(),
+            tried: BTreeMap::new(),
+            passed: None,
+            stats: Stats::default(),
+            requested: None,
         }
-        let last = (first + AHEAD).min(rungs.len() - 1);
-        let mut ahead = first + 1..last;
-        ahead.find(|&rung| suffices(&self.try_out(rungs[rung]).values)).unwrap_or(last)
     }
 
-    /// Finishes the drawn pixels with a sampling.
-    fn try_out(&mut self, sampling: Sampling) -> Trial {
+    /// Lets the sample grow to its size at a look. Returns false if the request was ended early.
+    fn draw(&mut self, look: usize, error: f64) -> bool {
+        let &Request { truth, go_on, .. } = self.request;
         let started = Instant::now();
-        let pixels = self.base.pixels(sampling, &self.sample.pixels);
-        let values = self.sample.values(|k| pixels[k].color);
-        self.rays_per_pixel = self.sample.mean(|k| pixels[k].rays as f64);
-        self.stats.audit_rays += pixels.iter().map(|pixel| pixel.traced).sum::<u64>();
+        let more = (SIZES[look] * draws(error) / 2).saturating_sub(self.sample.len());
+        if self.base.stats.unfinished == 0 {
+            let (settings, round) = (self.base.settings(), look as u64);
+            self.sample.grow(truth, settings, &self.chances, (more, round), error, go_on);
+        }
         self.stats.audit_time += started.elapsed();
-        Trial { sampling, values }
+        go_on()
     }
 
-    /// Makes the whole picture with the chosen sampling.
-    fn finish(
-        self,
-        sampling: Sampling,
-        values: &[f64],
-        bound: f64,
-        missed: Option<f64>,
-        progress: &Progress<'_>,
-    ) -> Reached {
-        let (picture, mut stats) =
-            self.base.finish(sampling, &|done, total| progress("picture", done, total));
-        let Stats { audit_rays, audit_time, .. } = self.stats;
-        stats.audit_rays = audit_rays;
-        stats.audit_time = audit_time.max(Duration::ZERO);
+    /// Returns the rung with the least predicted work, and its outlook; `None` if no rung suffices.
+    /// The search starts at a rung and goes to finer and coarser ones while these are better.
+    fn cheapest(&mut self, at: usize, look: usize, limit: f64) -> Option<(usize, Outlook)> {
+        let last = self.rungs.len() - 1;
+        let (mut rung, mut best) = (at, self.outlook(at, look, limit));
+        while rung < last && best.is_none_or(|best| best.growth > 1.0) {
+            // Without an outlook, the rungs in between are looked at on the way back.
+            let step = if best.is_some() { 1 } else { jump(mean(&self.values(rung)), limit) };
+            let finer = (rung + step).min(last);
+            let found = self.outlook(finer, look, limit);
+            match (best, found) {
+                (Some(best), Some(found)) if found.work >= best.work => break,
+                (Some(_), None) => break,
+                _ => (rung, best) = (finer, found),
+            }
+        }
+        let mut best = best?;
+        while rung > 0 {
+            let found = self.outlook(rung - 1, look, limit);
+            let Some(found) = found.filter(|found| found.work <= best.work) else { break };
+            (rung, best) = (rung - 1, found);
+        }
+        Some((rung, best))
+    }
+
+    /// Tries a rung and predicts the work until its picture is known to suffice.
+    fn outlook(&mut self, rung: usize, look: usize, limit: f64) -> Option<Outlook> {
+        self.try_out(rung);
+        let values = self.values(rung);
+        let passed = self.passed.is_some_and(|passed| passed <= rung);
+        let bound = if passed { 0.0 } else { upper(&values, RISKS[look]) };
+        if !passed && bound < limit {
+            self.passed = Some(rung);
+        }
+        let prospect = Prospect { mean: mean(&values), bound, rays: self.rays(rung) };
+        let most = SIZES[SIZES.len() - 1] as f64 / SIZES[look] as f64;
+        prospect.outlook(limit, self.audit_rays() as f64, most)
+    }
+
+    /// Finishes those drawn pixels with a sampling that were not finished yet.
+    fn try_out(&mut self, rung: usize) {
+        let started = Instant::now();
+        let pixels = self.tried.entry(rung).or_default();
+        let new = self.base.pixels(self.rungs[rung], &self.sample.pixels[pixels.len()..]);
+        self.stats.audit_rays += new.iter().map(|pixel| pixel.traced).sum::<u64>();
+        pixels.extend(new);
+        self.stats.audit_time += started.elapsed();
+    }
+
+    /// Weighted squared errors of the draws with a rung that was tried.
+    fn values(&self, rung: usize) -> Vec<f64> {
+        let none = Vec::new();
+        let pixels = self.tried.get(&rung).unwrap_or(&none);
+        self.sample.values(|k| pixels.get(k).map_or([0.0; 3], |pixel| pixel.color))
+    }
+
+    /// Estimates the rays that a picture with a rung that was tried takes beside the first rays.
+    fn rays(&self, rung: usize) -> f64 {
+        let Some(pixels) = self.tried.get(&rung) else { return 0.0 };
+        let of_pixel = self.sample.mean(|k| pixels.get(k).map_or(0.0, |pixel| pixel.rays as f64));
+        let known = if self.base.shares_rays(self.rungs[rung]) { 1.0 } else { 0.0 };
+        (of_pixel - known).max(0.0) * self.base.errors.len() as f64
+    }
+
+    /// Rays of true colours and of pixels that were tried.
+    fn audit_rays(&self) -> u64 {
+        self.sample.rays() + self.stats.audit_rays
+    }
+
+    /// Returns the finest rung that was tried.
+    fn finest(&self) -> usize {
+        self.tried.keys().next_back().copied().unwrap_or(0)
+    }
+
+    /// Makes the whole picture with the chosen rung.
+    fn finish(self, rung: usize, values: &[f64], bound: f64, missed: Option<f64>) -> Reached {
+        let &Request { progress, go_on, .. } = self.request;
+        let tell = |done, total| progress("picture", done, total);
+        let (picture, mut stats) = self.base.finish(self.rungs[rung], &tell, go_on);
+        if stats.unfinished > 0 {
+            return self.with_audit(picture, stats);
+        }
+        stats.audit_rays = self.audit_rays();
+        stats.audit_time = self.stats.audit_time;
         let statement = stated(values, bound, missed, &stats, picture.pixels.len());
-        Reached { picture, stats, settings: self.base.with(sampling), statement }
+        let color = |k: usize| self.tried[&rung][k].color;
+        let sources = by_cause(self.request, &self.base, &self.sample, color, &mut stats);
+        let settings = self.base.with(self.rungs[rung]);
+        Reached { picture, stats, settings, statement, sources: Some(sources) }
+    }
+
+    /// Returns the first rays as the picture.
+    fn ended_early(self) -> Reached {
+        let (picture, stats) = (self.base.picture.clone(), self.base.stats.clone());
+        self.with_audit(picture, stats)
+    }
+
+    /// Returns a picture that was ended early with an audit of its own.
+    fn with_audit(self, picture: Picture, mut stats: Stats) -> Reached {
+        let settings = self.base.settings().clone();
+        let mut statement = audit(self.request.truth, &settings, &picture, &mut stats);
+        statement.missed = self.requested.filter(|wanted| statement.bound > *wanted);
+        Reached { picture, stats, settings, statement, sources: None }
     }
 }
 
-/// Returns the statement on a picture of this many pixels.
-pub(super) fn stated(
-    values: &[f64],
-    bound: f64,
-    missed: Option<f64>,
-    stats: &Stats,
-    pixels: usize,
-) -> Statement {
-    let per_pixel = |rays: u64| rays as f64 / pixels.max(1) as f64;
-    Statement {
-        error: mean(values).max(0.0).sqrt(),
-        bound,
-        confidence: CONFIDENCE,
-        rays: per_pixel(stats.primary_rays),
-        audit: per_pixel(stats.audit_rays),
-        missed,
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_risks_together_are_those_of_the_statement() {
+        let choice: f64 = RISKS.iter().sum();
+        assert!((1.0 + PRINTED) * choice <= 1.0 - CONFIDENCE + 1e-12);
+        for first in 0..20 {
+            assert!((0..20).map(|rung| share(rung, first)).sum::<f64>() < 1.0);
+        }
     }
 }

@@ -28,12 +28,14 @@ const VARIANCE: f64 = 20.0;
 const MOST_WEIGHT: f64 = 4.0;
 
 /// Two independent estimates of the colour of one pixel, linear RGB.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Truth {
     /// The two estimates.
     pub sets: [[f64; 3]; 2],
     /// Rays from the eye, including those that found the number.
     pub rays: u64,
+    /// Rays along each side of either set.
+    pub side: u32,
 }
 
 impl Truth {
@@ -47,6 +49,14 @@ impl Truth {
             (own - a[k]) * (own - b[k])
         };
         (0..3).map(product).sum::<f64>() / 3.0
+    }
+
+    /// Returns an unbiased estimate of the squared difference of two true colours, the mean of the
+    /// channels, if the first sets of both are independent of the second ones.
+    #[must_use]
+    pub fn squared_distance(&self, other: &Self) -> f64 {
+        let apart = |set: usize, k: usize| self.sets[set][k] - other.sets[set][k];
+        (0..3).map(|k| apart(0, k) * apart(1, k)).sum::<f64>() / 3.0
     }
 
     /// Returns half of the squared difference of the two sets, the mean of the channels: an estimate of
@@ -93,14 +103,33 @@ impl<'a> Judge<'a> {
         // A variance that is not a number asks for the least.
         let side = (variance / wanted).sqrt().ceil() as u32;
         let side = side.clamp(LEAST, MOST);
-        let sets = [1, 2].map(|set| {
+        let sets = self.sets(pixel, draw, side, &mut work);
+        Truth { sets, rays: work.rays(), side }
+    }
+
+    /// Returns the true colour of a drawn pixel by rays at the positions of another truth, which was
+    /// found in a scene with other meshes. The difference of the two has little noise.
+    #[must_use]
+    pub fn look_again(&self, pixel: (u32, u32), draw: &Draw, other: &Truth) -> Truth {
+        let mut work = PointWork::default();
+        let sets = self.sets(pixel, draw, other.side, &mut work);
+        Truth { sets, rays: work.rays(), side: other.side }
+    }
+
+    fn sets(
+        &self,
+        pixel: (u32, u32),
+        draw: &Draw,
+        side: u32,
+        work: &mut PointWork,
+    ) -> [[f64; 3]; 2] {
+        [1, 2].map(|set| {
             let mut sum = [0.0; 3];
-            self.jittered(pixel, side, mixed(draw.seed ^ set), &mut work, |color| {
+            self.jittered(pixel, side, mixed(draw.seed ^ set), work, |color| {
                 sum.iter_mut().zip(color).for_each(|(sum, light)| *sum += light);
             });
             sum.map(|light| light / f64::from(side * side))
-        });
-        Truth { sets, rays: work.rays() }
+        })
     }
 
     /// Calls `take` with the light of `side` x `side` jittered rays of a pixel.

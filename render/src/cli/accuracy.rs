@@ -5,9 +5,9 @@ use super::sampling::SamplingArguments;
 use clap::Args;
 use files::exit::say;
 use files::progress::Progress;
-use files::{Exit, Failure};
-use render::accuracy::{self, Statement};
-use render::film::PixelFilter;
+use files::{Exit, Failure, stop};
+use render::accuracy::{self, Request, Statement};
+use render::film::{PixelFilter, render_while};
 use render::stats::Stats;
 use render::{Picture, Prepared, Settings};
 use thiserror::Error;
@@ -26,6 +26,10 @@ pub struct AccuracyArguments {
     /// Measure the error of the picture on some of its pixels by brute force, and print it
     #[arg(long)]
     audit: bool,
+    /// On Ctrl-C, write the picture as far as it is done, and print its error. A second Ctrl-C ends the
+    /// program at once
+    #[arg(long, requires = "output")]
+    partial: bool,
 }
 
 /// The requested error was not reached. The picture was written.
@@ -95,16 +99,18 @@ impl AccuracyArguments {
                 progress.tell(done, total);
             }
         };
+        let go_on = || !(self.partial && stop::is_stopped());
+        let request = Request::new(prepared, settings, pixel_filter);
+        let request = Request { progress: &tell, go_on: &go_on, ..request };
         let reached = match (self.requested().ok().flatten(), self.time) {
-            (Some(error), _) => accuracy::reach(prepared, settings, pixel_filter, error, &tell),
-            (None, Some(seconds)) => {
-                accuracy::within(prepared, settings, pixel_filter, seconds, &tell)
-            }
+            (Some(error), _) => request.reach(error),
+            (None, Some(seconds)) => request.within(seconds),
             (None, None) => {
-                let (picture, mut stats) =
-                    render::render(prepared, settings, &|done, total| progress.tell(done, total));
+                let tell = |done, total| progress.tell(done, total);
+                let (picture, mut stats) = render_while(prepared, settings, &tell, &go_on);
+                let audits = self.audit || stats.unfinished > 0;
                 let statement =
-                    self.audit.then(|| accuracy::audit(prepared, settings, &picture, &mut stats));
+                    audits.then(|| accuracy::audit(prepared, settings, &picture, &mut stats));
                 return (picture, stats, statement);
             }
         };
@@ -112,11 +118,31 @@ impl AccuracyArguments {
         (reached.picture, reached.stats, Some(reached.statement))
     }
 
-    /// Prints a statement as the last line of the run.
+    /// Holds Ctrl-C back if the picture so far is wanted.
+    pub fn hold_signals(&self) {
+        if self.partial {
+            stop::hold_next();
+        }
+    }
+
+    /// Prints that the picture is not finished, if it is not.
+    pub fn state_unfinished(&self, stats: &Stats, picture: &Picture) {
+        if stats.unfinished > 0 {
+            let (count, all) = (stats.unfinished, picture.pixels.len());
+            say(format_args!("render: interrupted: {count} of {all} pixels are not finished"));
+        }
+    }
+
+    /// Prints a statement as the last line of the run. If the run was interrupted, the program ends here
+    /// by the signal.
     ///
     /// # Errors
     /// If the requested error was not reached; the error is the statement.
     pub fn state(&self, statement: Option<Statement>, quiet: bool) -> Result<(), Missed> {
+        if let Some(statement) = statement.filter(|_| stop::is_stopped()) {
+            say(statement);
+        }
+        stop::end_if_stopped();
         match statement {
             Some(statement) if statement.missed.is_some() => Err(Missed(statement)),
             Some(statement) if self.audit || !quiet => {

@@ -7,7 +7,10 @@
 use super::area::{Area, Base};
 use super::exposure::{Exposed, Exposure, Film};
 use super::lattice::Lattice;
-use super::{Crop, Picture, PixelFilter, Sampling, Settings, TILE_SAMPLES, render, with_exposure};
+use super::{
+    Crop, GoOn, Picture, PixelFilter, Sampling, Settings, TILE_SAMPLES, render_in_tiles,
+    with_exposure,
+};
 use crate::prepared::Prepared;
 use crate::stats::Stats;
 use rayon::prelude::*;
@@ -24,6 +27,8 @@ pub struct BasePicture<'p, 's> {
     pub picture: Picture,
     /// Estimated error of each pixel of [`BasePicture::picture`], root mean square of linear RGB.
     pub errors: Vec<f32>,
+    /// For each pixel whether edges cause its estimated error.
+    pub edges: Vec<bool>,
     /// Counts and times of all work on the picture so far.
     pub stats: Stats,
 }
@@ -49,52 +54,56 @@ impl<'p, 's> BasePicture<'p, 's> {
 
     /// Traces and shades one ray for each cell: one in each pixel, or four under a pixel filter that
     /// reaches beyond the pixel. The sampling of `settings` is not used, and without a least weight
-    /// all rays are followed. Calls `progress` after each
-    /// tile with the number of finished tiles and the number of all tiles.
+    /// all rays are followed. Calls `progress` after each tile with the number of finished tiles and
+    /// the number of all tiles. Once `go_on` returns false, the tiles that follow are left out, and the
+    /// result is of no use but for its picture.
     pub fn new(
         prepared: &'p Prepared<'s>,
         settings: &Settings,
         pixel_filter: PixelFilter,
         progress: &(dyn Fn(usize, usize) + Sync),
+        go_on: &GoOn<'_>,
     ) -> Self {
         let sampling = Sampling::Area { samples: 1, pixel_filter, threshold: None };
         let least_weight = Some(settings.least_weight.unwrap_or(0.0));
         let settings = Settings { sampling, least_weight, ..settings.clone() };
         let area = Area::new(1, pixel_filter, None);
-        let (tiles, picture, errors, stats) =
+        let (tiles, picture, (errors, edges), stats) =
             with_exposure(prepared, &settings, |shared, stats| {
                 let started = Instant::now();
                 let crop = Crop::of(&settings);
                 let tiles = crop.tiles(shared.tile_side(TILE_SAMPLES));
-                let film = Mutex::new(Film::new(crop, &settings.layers, stats));
-                let bases = tiles.par_iter().with_max_len(1).map(|tile| {
+                let film = Mutex::new(Film::new(crop, Picture::of(&settings), stats));
+                let bases = tiles.par_iter().with_max_len(1).filter(|_| go_on()).map(|tile| {
                     let mut exposed = shared.unexposed(tile);
                     let base = area.base(shared, tile, &mut exposed, true);
                     area.develop(shared, &base, tile, &mut exposed, &mut ());
                     exposed.keep_work(&settings);
                     let mut film = film.lock().unwrap_or_else(PoisonError::into_inner);
                     progress(film.take(tile, &exposed), tiles.len());
-                    (base, exposed.work)
+                    (*tile, base, exposed.work)
                 });
                 let bases: Vec<_> = bases.collect();
-                let Film { mut picture, mut stats, .. } =
-                    film.into_inner().unwrap_or_else(PoisonError::into_inner);
+                let (mut picture, mut stats) =
+                    film.into_inner().unwrap_or_else(PoisonError::into_inner).developed();
                 stats.not_finite = picture.remove_not_finite();
                 let mut errors = vec![0.0; picture.pixels.len()];
-                let mut kept = Vec::with_capacity(tiles.len());
-                for (tile, (base, work)) in tiles.into_iter().zip(bases) {
+                let mut edges = vec![false; errors.len()];
+                let mut kept = Vec::with_capacity(bases.len());
+                for (tile, base, work) in bases {
                     let places = tile.rows().flat_map(|y| tile.columns().map(move |x| (x, y)));
                     for ((x, y), work) in places.zip(&work) {
                         let place =
                             (y - crop.y) as usize * crop.width as usize + (x - crop.x) as usize;
                         errors[place] = work.error_squared.sqrt() as f32;
+                        edges[place] = work.edge_squared > 0.5 * work.error_squared;
                     }
                     kept.push((tile, base));
                 }
                 stats.picture_time = started.elapsed();
-                (kept, picture, errors, stats)
+                (kept, picture, (errors, edges), stats)
             });
-        Self { prepared, settings, tiles, picture, errors, stats }
+        Self { prepared, settings, tiles, picture, errors, edges, stats }
     }
 
     /// The settings of the picture, with the sampling of its first rays.
@@ -157,31 +166,43 @@ impl<'p, 's> BasePicture<'p, 's> {
         exposed
     }
 
-    /// Makes the whole picture with a sampling. It equals the picture that [`render`] makes with
+    /// Returns whether a sampling has the first rays of this picture.
+    #[must_use]
+    pub fn shares_rays(&self, sampling: Sampling) -> bool {
+        self.shares(sampling).is_some()
+    }
+
+    /// Makes the whole picture with a sampling. It equals the picture that [`super::render`] makes with
     /// [`BasePicture::with`], to the last bit. The counts are those of all work on both pictures.
+    ///
+    /// Once `go_on` returns false, the tiles that follow are left out. Their pixels are those of
+    /// [`BasePicture::picture`], and [`Stats::unfinished`] is their number.
     #[must_use]
     pub fn finish(
         &self,
         sampling: Sampling,
         progress: &(dyn Fn(usize, usize) + Sync),
+        go_on: &GoOn<'_>,
     ) -> (Picture, Stats) {
         let settings = self.with(sampling);
         let Some(area) = self.shares(sampling) else {
-            let (picture, mut stats) = render(self.prepared, &settings, progress);
+            let over = (TILE_SAMPLES, self.picture.clone());
+            let (picture, mut stats) =
+                render_in_tiles(self.prepared, &settings, over, progress, go_on);
             stats.include(&self.stats);
             return (picture, stats);
         };
         with_exposure(self.prepared, &settings, |shared, _| {
             let started = Instant::now();
             let crop = Crop::of(&settings);
-            let film = Mutex::new(Film::new(crop, &settings.layers, Stats::default()));
-            self.tiles.par_iter().with_max_len(1).for_each(|(tile, base)| {
+            let film = Mutex::new(Film::new(crop, self.picture.clone(), Stats::default()));
+            self.tiles.par_iter().with_max_len(1).filter(|_| go_on()).for_each(|(tile, base)| {
                 let exposed = self.developed(shared, area, tile, base);
                 let done = film.lock().unwrap_or_else(PoisonError::into_inner).take(tile, &exposed);
                 progress(done, self.tiles.len());
             });
-            let Film { mut picture, mut stats, .. } =
-                film.into_inner().unwrap_or_else(PoisonError::into_inner);
+            let (mut picture, mut stats) =
+                film.into_inner().unwrap_or_else(PoisonError::into_inner).developed();
             stats.not_finite = picture.remove_not_finite();
             stats.picture_time = started.elapsed();
             let broken = stats.not_finite;
@@ -236,7 +257,7 @@ fn expose_pixel_with_work(
 ) -> (Picture, u64, u64) {
     with_exposure(prepared, settings, |exposure, stats| {
         let tile = Crop { x, y, width: 1, height: 1 };
-        let mut film = Film::new(tile, &settings.layers, stats);
+        let mut film = Film::new(tile, Picture::with_layers(1, 1, &settings.layers), stats);
         let exposed = exposure.expose(&tile, &mut ());
         film.take(&tile, &exposed);
         film.picture.remove_not_finite();
@@ -248,7 +269,7 @@ fn expose_pixel_with_work(
 mod tests {
     use super::super::tests::scene;
     use super::*;
-    use crate::film::Layer;
+    use crate::film::{Layer, render};
     use crate::filter::Filter;
 
     /// Settings with a crop that cuts tiles, and with all layers.
@@ -271,10 +292,10 @@ mod tests {
         let scene = scene();
         let prepared = Prepared::new(&scene);
         for pixel_filter in [PixelFilter::Box, PixelFilter::Tent] {
-            let base = BasePicture::new(&prepared, &settings(), pixel_filter, &|_, _| {});
+            let base = BasePicture::new(&prepared, &settings(), pixel_filter, &|_, _| {}, &|| true);
             for sampling in samplings(pixel_filter) {
                 let expected = render(&prepared, &base.with(sampling), &|_, _| {}).0;
-                let finished = base.finish(sampling, &|_, _| {}).0;
+                let finished = base.finish(sampling, &|_, _| {}, &|| true).0;
                 // The layer of estimated errors is empty in a picture that compares no neighbours.
                 let unsplit = matches!(sampling, Sampling::Area { threshold: None, .. });
                 assert!(finished.pixels == expected.pixels, "{sampling:?}");
@@ -289,9 +310,9 @@ mod tests {
         let prepared = Prepared::new(&scene);
         let places: Vec<(u32, u32)> = (2..69).flat_map(|y| [(3, y), (40, y), (72, y)]).collect();
         for pixel_filter in [PixelFilter::Box, PixelFilter::Gaussian] {
-            let base = BasePicture::new(&prepared, &settings(), pixel_filter, &|_, _| {});
+            let base = BasePicture::new(&prepared, &settings(), pixel_filter, &|_, _| {}, &|| true);
             for sampling in samplings(pixel_filter) {
-                let (picture, _) = base.finish(sampling, &|_, _| {});
+                let (picture, _) = base.finish(sampling, &|_, _| {}, &|| true);
                 let rays = picture.channels.iter().find(|channel| channel.name == "rays.N");
                 let pixels = base.pixels(sampling, &places);
                 for (&(x, y), pixel) in places.iter().zip(&pixels) {

@@ -98,6 +98,8 @@ pub struct Exposed {
 pub struct Work {
     /// Square of the estimated error, linear light; 0 for methods without an estimate.
     pub error_squared: f64,
+    /// The part of `error_squared` of cells that an edge cuts, or that lie beside one.
+    pub edge_squared: f64,
     /// Rays from the eye whose cells have their middle in the pixel.
     pub rays: u64,
 }
@@ -111,12 +113,21 @@ pub struct Film {
     crop: Crop,
     /// Number of tiles collected.
     done: usize,
+    /// Number of pixels that were not collected yet.
+    left: u64,
 }
 
 impl Film {
-    pub fn new(crop: Crop, layers: &[Layer], stats: Stats) -> Self {
-        let picture = Picture::with_layers(crop.width, crop.height, layers);
-        Self { picture, stats, crop, done: 0 }
+    /// Starts with a picture of the crop's size, whose pixels are replaced tile by tile.
+    pub fn new(crop: Crop, picture: Picture, stats: Stats) -> Self {
+        let left = picture.pixels.len() as u64;
+        Self { picture, stats, crop, done: 0, left }
+    }
+
+    /// Returns the picture and its counts.
+    pub fn developed(mut self) -> (Picture, Stats) {
+        self.stats.unfinished = self.left;
+        (self.picture, self.stats)
     }
 
     /// Copies a tile into the picture and returns the number of tiles collected so far.
@@ -125,6 +136,7 @@ impl Film {
         self.picture.place(x, y, tile.width, &exposed.pixels);
         self.picture.place_layers(x, y, tile.width, &exposed.layers);
         self.stats.add(&exposed.rays, &exposed.shading.counts);
+        self.left -= exposed.pixels.len() as u64;
         self.done += 1;
         self.done
     }
@@ -222,23 +234,24 @@ impl Exposed {
         }
     }
 
-    /// Adds a cell to the work of the pixel that contains its middle, if the pixel is in the tile.
-    /// `left` is the estimated error of the cell times its area in pixels.
-    pub fn spend(&mut self, tile: &Crop, middle: DVec2, left: f64, rays: u64) {
+    /// Adds a cell to the work of the pixel that contains its middle, if the pixel is in the tile. Errors
+    /// are those of the cell times its area in pixels.
+    pub fn spend(&mut self, tile: &Crop, middle: DVec2, of_cell: Work) {
         let corner = DVec2::new(f64::from(tile.x), f64::from(tile.y));
         let (across, down) = ((middle - corner).x.floor(), (middle - corner).y.floor());
         let (width, height) = (f64::from(tile.width), f64::from(tile.height));
         if (0.0..width).contains(&across) && (0.0..height).contains(&down) {
             let work = &mut self.work[down as usize * tile.width as usize + across as usize];
-            work.error_squared += left * left;
-            work.rays += rays;
+            work.error_squared += of_cell.error_squared;
+            work.edge_squared += of_cell.edge_squared;
+            work.rays += of_cell.rays;
         }
     }
 
     /// Gives each pixel the rays of a lattice.
     fn spend_evenly(&mut self, lattice: Lattice) {
         let rays = lattice.per_pixel().unsigned_abs().pow(2);
-        self.work.fill(Work { error_squared: 0.0, rays });
+        self.work.fill(Work { rays, ..Work::default() });
     }
 
     /// Stores the layers that show the work of each pixel.

@@ -94,6 +94,9 @@ impl Settings {
     }
 }
 
+/// Asked before each tile: false once the picture should be ended early. After false it stays false.
+pub type GoOn<'p> = dyn Fn() -> bool + Sync + 'p;
+
 /// Largest number of pixels in a picture; such a picture takes 3 GB.
 const MOST_PIXELS: u64 = 1 << 28;
 
@@ -125,29 +128,44 @@ pub fn render(
     settings: &Settings,
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> (Picture, Stats) {
-    render_in_tiles(prepared, settings, TILE_SAMPLES, progress)
+    render_while(prepared, settings, progress, &|| true)
 }
 
+/// Renders a scene as [`render`] does, and leaves out the tiles that follow once `go_on` returns false.
+/// Their pixels are black, and [`Stats::unfinished`] is their number.
+pub fn render_while(
+    prepared: &Prepared<'_>,
+    settings: &Settings,
+    progress: &(dyn Fn(usize, usize) + Sync),
+    go_on: &GoOn<'_>,
+) -> (Picture, Stats) {
+    let under = Picture::of(settings);
+    render_in_tiles(prepared, settings, (TILE_SAMPLES, under), progress, go_on)
+}
+
+/// Renders a scene as [`render_while`] does, over a picture of the same size. Tiles that are left out
+/// keep the pixels of that picture.
 fn render_in_tiles(
     prepared: &Prepared<'_>,
     settings: &Settings,
-    tile_samples: u32,
+    (tile_samples, under): (u32, Picture),
     progress: &(dyn Fn(usize, usize) + Sync),
+    go_on: &GoOn<'_>,
 ) -> (Picture, Stats) {
     with_exposure(prepared, settings, |exposure, stats| {
         let started = Instant::now();
         let crop = Crop::of(settings);
         let tiles = crop.tiles(exposure.tile_side(tile_samples));
-        let film = Mutex::new(Film::new(crop, &settings.layers, stats));
+        let film = Mutex::new(Film::new(crop, under, stats));
         // One tile per task. In longer runs, which one core takes as a whole, the last run would
         // leave the other cores idle.
-        tiles.par_iter().with_max_len(1).for_each(|tile| {
+        tiles.par_iter().with_max_len(1).filter(|_| go_on()).for_each(|tile| {
             let exposed = exposure.expose(tile, &mut ());
             let done = film.lock().unwrap_or_else(PoisonError::into_inner).take(tile, &exposed);
             progress(done, tiles.len());
         });
-        let Film { mut picture, mut stats, .. } =
-            film.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let (mut picture, mut stats) =
+            film.into_inner().unwrap_or_else(PoisonError::into_inner).developed();
         stats.not_finite = picture.remove_not_finite();
         stats.picture_time = started.elapsed();
         (picture, stats)
@@ -166,7 +184,7 @@ pub fn expose_pixel<W: Witness>(
 ) -> Picture {
     with_exposure(prepared, settings, |exposure, stats| {
         let tile = Crop { x, y, width: 1, height: 1 };
-        let mut film = Film::new(tile, &settings.layers, stats);
+        let mut film = Film::new(tile, Picture::with_layers(1, 1, &settings.layers), stats);
         film.take(&tile, &exposure.expose(&tile, witness));
         film.picture.remove_not_finite();
         film.picture
@@ -262,7 +280,16 @@ mod tests {
         let scene = scene();
         let prepared = Prepared::new(&scene);
         for settings in every_kind() {
-            let cut = |side| render_in_tiles(&prepared, &settings, side, &|_, _| {}).0;
+            let cut = |side| {
+                render_in_tiles(
+                    &prepared,
+                    &settings,
+                    (side, Picture::of(&settings)),
+                    &|_, _| {},
+                    &|| true,
+                )
+                .0
+            };
             let whole = cut(1000);
             for side in [1, 10, 64] {
                 assert!(cut(side) == whole, "{settings:?} in tiles of {side} samples");

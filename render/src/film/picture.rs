@@ -1,6 +1,6 @@
 //! A finished picture in linear light.
 
-use super::Layer;
+use super::{Crop, Layer, Settings};
 use crate::color::Color;
 
 /// A picture in linear RGB, with optional further channels.
@@ -39,6 +39,13 @@ impl Picture {
         let names = layers.iter().flat_map(|layer| layer.channels());
         let channels = names.map(|name| Channel { name, values: vec![0.0; count] }).collect();
         Self { width, height, pixels: vec![[0.0; 3]; count], channels }
+    }
+
+    /// Creates a black picture of the size and the layers that settings select.
+    #[must_use]
+    pub fn of(settings: &Settings) -> Self {
+        let crop = Crop::of(settings);
+        Self::with_layers(crop.width, crop.height, &settings.layers)
     }
 
     /// Copies a rectangle of pixels into the picture, with its upper left corner at column `x` and

@@ -20,7 +20,7 @@ mod sampler;
 mod samples;
 mod split;
 
-use super::exposure::{Exposed, Exposure, Method, Sample, Witness};
+use super::exposure::{Exposed, Exposure, Method, Sample, Witness, Work};
 use super::lattice::Lattice;
 use super::sampling::PixelFilter;
 use super::{Crop, Pattern};
@@ -50,6 +50,9 @@ const VISIBLE: f64 = 0.2;
 
 /// Steepest slope of the codes of an sRGB picture, at black.
 const STEEPEST: f64 = 12.92;
+
+/// A cell counts as cut by an edge if the edge causes this part of its estimated error.
+const MOSTLY_EDGE: f32 = 0.5;
 
 /// A method of exposing tiles by areas.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -183,7 +186,11 @@ impl Area {
                     }
                 };
                 let rays = 1 + sampler.exposed.rays.primary - before;
-                sampler.exposed.spend(tile, cell.middle, left, rays);
+                let error_squared = left * left;
+                let beside = estimate.edge >= MOSTLY_EDGE * estimate.error && estimate.edge > 0.0;
+                let edge_squared = if beside { error_squared } else { 0.0 };
+                let work = Work { error_squared, edge_squared, rays };
+                sampler.exposed.spend(tile, cell.middle, work);
                 for shot in shots.into_iter().flatten() {
                     witness.sample(&AreaSample { area: self, at: [x, y], shot });
                     sampler.show(&shot, witness);
