@@ -5,6 +5,11 @@ use crate::support;
 use std::fs;
 use support::{root, run, said};
 
+/// Returns the pixels of a PNG; its texts name the command.
+fn pixels(folder: &std::path::Path, name: &str) -> Vec<u8> {
+    image::open(folder.join(name)).unwrap().to_rgb8().into_raw()
+}
+
 /// Runs a program that must succeed.
 fn done(program: &str, arguments: &[&str], folder: &std::path::Path) {
     let ran = run(program, arguments, folder);
@@ -41,7 +46,7 @@ fn a_value_that_is_set_gives_the_picture_of_the_edited_file() {
     let own = ["scene.json", "-o", "set.png"];
     done("render", &[&own[..], &set, &size].concat(), folder.path());
     done("render", &[&["edited.json", "-o", "edited.png"], &size[..]].concat(), folder.path());
-    let read = |name: &str| fs::read(folder.path().join(name)).unwrap();
+    let read = |name: &str| pixels(folder.path(), name);
     assert_eq!(read("set.png"), read("edited.png"));
 }
 
@@ -63,7 +68,7 @@ fn a_job_sets_values_of_its_scene_and_of_its_specs() {
     done("pipeline", &[&edited[..], &more].concat(), folder.path());
     let set = ["-D", "scene.camera.fov_deg=20", "-D", "specs.vase.mesh.cols=24"];
     done("pipeline", &[&["run", "vase", "-o", "b"][..], &set, &more].concat(), folder.path());
-    let read = |name: &str| fs::read(folder.path().join(name)).unwrap();
+    let read = |name: &str| pixels(folder.path(), name);
     assert_eq!(read("a/vase-exact.png"), read("b/vase-exact.png"));
 }
 

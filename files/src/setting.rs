@@ -81,6 +81,12 @@ impl Setting {
         &self.argument
     }
 
+    /// Returns the setting as `PATH=VALUE`, with the value as JSON.
+    #[must_use]
+    pub fn text(&self) -> String {
+        format!("{}={}", path_of(&self.steps), self.value)
+    }
+
     /// Returns the setting without its first key, if that is `key`: `camera.fov_deg=35` of `scene.camera.fov_deg=35`.
     #[must_use]
     pub fn below(&self, key: &str) -> Option<Self> {
@@ -172,14 +178,7 @@ impl Setting {
 
     /// Returns the path of the first steps, as messages show it.
     fn path(&self, steps: usize) -> String {
-        let mut path = String::new();
-        for step in &self.steps[..steps] {
-            match step {
-                Step::Key(key) if path.is_empty() => path.push_str(key),
-                Step::Key(key) => path.push_str(&format!(".{key}")),
-                Step::Index(index) => path.push_str(&format!("[{index}]")),
-            }
-        }
+        let path = path_of(&self.steps[..steps]);
         if path.is_empty() { "the root".into() } else { words::shortened(&path) }
     }
 
@@ -187,6 +186,19 @@ impl Setting {
         let argument = words::shortened(&self.argument);
         SettingError { argument, file: file.into(), message }
     }
+}
+
+/// Returns a path as text, such as `objects[0].place`.
+fn path_of(steps: &[Step]) -> String {
+    let mut path = String::new();
+    for step in steps {
+        match step {
+            Step::Key(key) if path.is_empty() => path.push_str(key),
+            Step::Key(key) => path.push_str(&format!(".{key}")),
+            Step::Index(index) => path.push_str(&format!("[{index}]")),
+        }
+    }
+    path
 }
 
 /// Returns the text of a JSON file with its settings applied one after another. A text that is not JSON stays as it is,
@@ -230,6 +242,15 @@ mod tests {
         expected["camera"]["fov_deg"] = json!(35);
         expected["objects"][0]["sphere"]["radius"] = json!([1, 2]);
         assert_eq!(changed, expected);
+    }
+
+    #[test]
+    fn a_setting_without_its_first_key_is_one_of_the_file_below() {
+        let setting: Setting = "scene.objects[0].material=my glass".parse().unwrap();
+        let below = setting.below("scene").unwrap();
+        assert_eq!(below.text(), "objects[0].material=\"my glass\"");
+        assert_eq!(below.argument(), setting.argument());
+        assert_eq!(setting.below("objects"), None);
     }
 
     #[test]

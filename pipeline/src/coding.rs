@@ -17,6 +17,7 @@ pub fn of(job: &Job, settings: &Settings, error: Option<f64>) -> Coding {
     let named = Named {
         scene: &scene,
         meshes: &meshes,
+        set: &job.set,
         error: error.as_deref(),
         alpha: false,
         encoding: Encoding::Srgb,

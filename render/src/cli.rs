@@ -206,7 +206,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
         }
         let started = Instant::now();
         let (scene, meshes) = (input.file_name(), input.mesh_names());
-        let named = output.named(&scene, &meshes, accuracy.error(), is_transparent);
+        let set = input.set();
+        let named = output.named(&scene, (&meshes, &set), accuracy.error(), is_transparent);
         output.write(&target, &picture, &settings, &named, &ledger)?;
         stats.read_time = read_time;
         stats.write_time = started.elapsed();

@@ -84,6 +84,8 @@ pub struct Job {
     pub meshes: Vec<MeshJob>,
     /// The scene file.
     pub scene: PathBuf,
+    /// Values of the scene that the command line sets, as `PATH=VALUE`, for the texts in picture files.
+    pub set: Vec<String>,
     /// The modes in which the scene is rendered, at least one.
     pub modes: Vec<Mode>,
     /// True if these are all modes of the job file. Otherwise the pictures are not put side by
@@ -259,6 +261,7 @@ impl Job {
             crops: file.crops,
             meshes: meshes.collect(),
             scene: folder.join(file.scene),
+            set: Vec::new(),
             modes: mode::modes(document, file.modes)?,
             whole: true,
             further: None,

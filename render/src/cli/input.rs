@@ -111,6 +111,11 @@ impl InputArguments {
         name.to_string_lossy().into_owned()
     }
 
+    /// Returns the values that are set in the scene, each as `PATH=VALUE`.
+    pub fn set(&self) -> Vec<String> {
+        self.settings.iter().map(Setting::text).collect()
+    }
+
     /// Returns the name of the scene in messages.
     pub fn name(&self) -> String {
         input::name_of(self.scene())

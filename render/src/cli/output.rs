@@ -112,15 +112,16 @@ impl OutputArguments {
         Ok(ledger.create(target.path)?.commit_all(&bytes)?)
     }
 
-    /// Returns what the command in a file names, for a scene with this file name and these given meshes.
+    /// Returns what the command in a file names, for a scene with this file name, these given meshes and
+    /// these values that are set.
     pub fn named<'a>(
         &self,
         scene: &'a str,
-        meshes: &'a [&'a str],
+        (meshes, set): (&'a [&'a str], &'a [String]),
         error: Option<&'a str>,
         alpha: bool,
     ) -> Named<'a> {
-        Named { scene, meshes, error, alpha, encoding: self.gamma, bits: self.bits }
+        Named { scene, meshes, set, error, alpha, encoding: self.gamma, bits: self.bits }
     }
 }
 

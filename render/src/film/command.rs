@@ -17,6 +17,8 @@ pub struct Named<'a> {
     pub scene: &'a str,
     /// Names of the meshes that are given.
     pub meshes: &'a [&'a str],
+    /// Values of the scene that the command line sets, each as `PATH=VALUE`.
+    pub set: &'a [String],
     /// The requested error, which chooses the rays.
     pub error: Option<&'a str>,
     /// True if the background is transparent.
@@ -33,6 +35,9 @@ pub fn command(named: &Named<'_>, settings: &Settings) -> String {
     let mut words = vec!["render".to_string(), quoted(named.scene)];
     for name in named.meshes {
         words.extend(["--mesh".into(), quoted(&format!("{name}={name}.obj"))]);
+    }
+    for value in named.set {
+        words.push(format!("-D {}", quoted(value)));
     }
     words.push(format!("--size {}x{}", settings.width, settings.height));
     if let Some(crop) = settings.crop {
@@ -122,6 +127,7 @@ mod tests {
         let named = Named {
             scene: "my scene.json",
             meshes: &["vase"],
+            set: &["camera.up=[0, 0, 1]".into(), "camera.fov_deg=35".into()],
             error: None,
             alpha: true,
             encoding: Encoding::Gamma(2.2),
@@ -131,12 +137,14 @@ mod tests {
         let settings = Settings { crop, ..Settings::new(64, 48, Filter::Tent) };
         assert_eq!(
             command(&named, &settings),
-            "render 'my scene.json' --mesh vase=vase.obj --size 64x48 --crop 1,2,3x4 --sampling thesis \
+            "render 'my scene.json' --mesh vase=vase.obj -D 'camera.up=[0, 0, 1]' \
+             -D camera.fov_deg=35 --size 64x48 --crop 1,2,3x4 --sampling thesis \
              --filter tent --gamma 2.2 --bits 16 --alpha"
         );
         let plain = Named {
             scene: "a.json",
             meshes: &[],
+            set: &[],
             alpha: false,
             encoding: Encoding::Srgb,
             bits: Bits::Eight,
