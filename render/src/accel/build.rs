@@ -346,19 +346,20 @@ impl Builder {
     }
 }
 
-/// Returns the order of a small part along an axis, by insertion. Equal middles are in the order of the
-/// numbers.
+/// Returns the order of a small part along an axis. The place of a box is the number of boxes before it,
+/// which takes no branches. Equal middles stay in their order.
 fn sorted(part: &[Numbered], axis: usize) -> [u8; SORTED] {
+    let mut keys = [f32::INFINITY; SORTED];
+    for (key, one) in keys.iter_mut().zip(part) {
+        *key = one.middle()[axis];
+    }
     let mut order = [0; SORTED];
-    let mut keys = [(0.0, 0); SORTED];
-    for (k, one) in part.iter().enumerate().take(SORTED) {
-        let key = (one.middle()[axis], one.number());
-        let mut at = k;
-        while at > 0 && key < keys[at - 1] {
-            (keys[at], order[at]) = (keys[at - 1], order[at - 1]);
-            at -= 1;
+    for (k, own) in keys.iter().enumerate().take(part.len()) {
+        let mut before = 0u32;
+        for (other, key) in keys.iter().enumerate() {
+            before += u32::from((key < own) | ((key == own) & (other < k)));
         }
-        (keys[at], order[at]) = (key, k as u8);
+        order[before as usize % SORTED] = k as u8;
     }
     order
 }

@@ -75,6 +75,13 @@ impl MeshTree {
         &self.tree
     }
 
+    /// The triangles of a leaf.
+    #[must_use]
+    #[inline(always)]
+    pub fn block(&self, leaf: Child) -> &Block {
+        &self.blocks[leaf.number()]
+    }
+
     /// Memory in bytes of the tree and of its copies of triangles.
     #[must_use]
     pub fn bytes(&self) -> usize {
@@ -113,8 +120,9 @@ impl MeshTree {
     }
 
     /// Returns the corners of a triangle in scene space.
+    #[must_use]
     #[inline(always)]
-    fn corners(&self, accel: &Accel<'_>, object: u32, block: &Block, lane: usize) -> Corners {
+    pub fn corners(&self, accel: &Accel<'_>, object: u32, block: &Block, lane: usize) -> Corners {
         if self.exact {
             self.tree.frame.scene(block.corners(lane))
         } else {
@@ -154,7 +162,7 @@ impl Task for Test<'_, '_> {
 }
 
 /// The leaves of a mesh's tree, visited by a ray.
-struct Blocks<'a, 'b, F> {
+pub struct Blocks<'a, 'b, F> {
     mesh: &'a MeshTree,
     accel: &'a Accel<'b>,
     object: u32,
@@ -162,6 +170,20 @@ struct Blocks<'a, 'b, F> {
     /// The ray if the mesh is that of an instance.
     own: Option<&'a OwnRay>,
     see: F,
+}
+
+impl<'a, 'b, F: FnMut(Hit) -> f64> Blocks<'a, 'b, F> {
+    /// The leaves of a mesh that is an object of the scene. `see` takes hits and returns the next distance.
+    #[inline(always)]
+    pub fn of(
+        mesh: &'a MeshTree,
+        accel: &'a Accel<'b>,
+        object: u32,
+        ray: &'a Ray,
+        see: F,
+    ) -> Self {
+        Self { mesh, accel, object, ray, own: None, see }
+    }
 }
 
 impl<F: FnMut(Hit) -> f64> Leaves for Blocks<'_, '_, F> {
