@@ -62,6 +62,7 @@ const RENDER: Layers = &[
             "footprint",
             "prepared",
             "procedural",
+            "ray",
             "scene",
             "shade",
             "shape",

@@ -19,8 +19,7 @@ fn sheet(side: u32) -> Mesh {
         let a = k / side * (side + 1) + k % side;
         [[a, a + 1, a + side + 2], [a, a + side + 2, a + side + 1]]
     });
-    let triangle =
-        |position| Triangle { position, uv: [NONE; 3], normal: [NONE; 3], surface: 0 };
+    let triangle = |position| Triangle { position, uv: [NONE; 3], normal: [NONE; 3], surface: 0 };
     Mesh {
         positions,
         triangles: triangles.map(triangle).collect(),
@@ -35,9 +34,8 @@ fn scenes() -> [Vec<Shape>; 3] {
     let ball = |center| Shape::Sphere(Sphere { center, radius: 0.15 });
     let edges = [at(8.0, 0.0, 0.0), at(0.0, 0.0, 8.0)];
     let corner = at(-4.0, -1.25, -4.0);
-    let floor = |bounded| {
-        Shape::Quad(Quad::new(corner, edges[1], edges[0], DVec2::ONE, bounded).unwrap())
-    };
+    let floor =
+        |bounded| Shape::Quad(Quad::new(corner, edges[1], edges[0], DVec2::ONE, bounded).unwrap());
     let shared = SharedMesh::new(sheet(12));
     let instance = |turn: f64, shift: DVec3| {
         let map = DAffine3::from_translation(shift) * DAffine3::from_rotation_y(turn);
@@ -109,7 +107,13 @@ fn agree(accel: &Accel<'_>, rays: &[Bounded]) -> Result<(), TestCaseError> {
         &mut none,
     );
     for (k, (ray, t_max)) in rays.iter().enumerate() {
-        prop_assert_eq!(hits[k].map(bits), accel.closest(ray, *t_max).map(bits), "ray {}: {:?}", k, ray);
+        prop_assert_eq!(
+            hits[k].map(bits),
+            accel.closest(ray, *t_max).map(bits),
+            "ray {}: {:?}",
+            k,
+            ray
+        );
         prop_assert_eq!(found[k], accel.any(ray, *t_max, |hit| odd(&hit)), "ray {}: {:?}", k, ray);
         let mut all = Vec::new();
         accel.any(ray, *t_max, |hit| {
@@ -156,7 +160,11 @@ fn groups_along_the_axes_find_the_hits_of_single_rays() {
             let direction = DVec3::new(x, y, z).normalize();
             let rays: Vec<Bounded> = (0..289)
                 .map(|k| {
-                    let start = DVec3::new(f64::from(k % 17) / 8.0 - 1.0, f64::from(k / 17) / 8.0 - 1.0, -z);
+                    let start = DVec3::new(
+                        f64::from(k % 17) / 8.0 - 1.0,
+                        f64::from(k / 17) / 8.0 - 1.0,
+                        -z,
+                    );
                     (Ray::from_eye(start, direction), f64::INFINITY)
                 })
                 .collect();

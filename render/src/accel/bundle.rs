@@ -1,8 +1,8 @@
 //! Rays of a group in the coordinates of one tree, and the intervals that contain all of them.
 //!
 //! A box that the intervals miss is missed by every ray: Boulos et al., *Packet-based Whitted and
-//! Distribution Ray Tracing*, Graphics Interface 2007, section 3. The rays of a bundle go the same way
-//! along each axis, and have the same axes after shearing.
+//! Distribution Ray Tracing*, Graphics Interface 2007, section 3. The directions of a
+//! bundle have the same signs along each axis, and the same axes after shearing.
 //!
 //! The intervals contain the rays' numbers in `f32`, so that the bounds of `frame.rs` hold: an interval
 //! rounds less often than the test of one ray.
@@ -125,7 +125,8 @@ impl Bundle {
             let axis = self.axes[sheared] % 3;
             let (mut least, mut most) = ([f32::INFINITY; FOUR], [f32::NEG_INFINITY; FOUR]);
             for four in 0..FOURS {
-                let (direction, over) = (&lanes.direction[axis][four], &lanes.direction[last][four]);
+                let (direction, over) =
+                    (&lanes.direction[axis][four], &lanes.direction[last][four]);
                 for k in 0..FOUR {
                     let (along, over) = (direction[k] as f32, over[k] as f32);
                     let inverse = 1.0 / along;

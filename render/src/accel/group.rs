@@ -30,7 +30,7 @@ const IN_VAIN: usize = 12;
 /// Capacity of the stack of nodes. Beyond it the rays go on one by one.
 const STACK: usize = 64;
 
-/// A group of rays on its way through the trees.
+/// A group of rays, and the state of its walk.
 pub struct Group<'a, 'b, F> {
     /// The shapes.
     pub accel: &'a Accel<'b>,

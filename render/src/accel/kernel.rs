@@ -169,12 +169,7 @@ impl Kernel for Portable {
     }
 
     fn four(self, lanes: &Lanes, four: usize, target: &Target) -> Met {
-        let mut met = Met {
-            mask: 0,
-            t: [0.0; FOUR],
-            clear: 0,
-            weights: [[0.0; FOUR]; 2],
-        };
+        let mut met = Met { mask: 0, t: [0.0; FOUR], clear: 0, weights: [[0.0; FOUR]; 2] };
         let [x, y, z] = lanes.axes.map(|axis| axis.min(2));
         let four = four % (MOST / FOUR);
         let corners = &target.corners;

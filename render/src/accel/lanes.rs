@@ -217,7 +217,8 @@ impl Lanes {
         for axis in 0..3 {
             let down = self.near[axis] == 1;
             let (near, far) = if down { (high, low) } else { (low, high) };
-            let (nearest, farthest) = (near[axis] - around.near[axis], far[axis] - around.far[axis]);
+            let (nearest, farthest) =
+                (near[axis] - around.near[axis], far[axis] - around.far[axis]);
             let [a, b] = [around.inverse[0][axis], around.inverse[1][axis]];
             enter = enter.max((nearest * a).min(nearest * b));
             leave = leave.min((farthest * a).max(farthest * b));
@@ -236,10 +237,8 @@ impl Lanes {
         for axis in 0..3 {
             [around.inverse[0][axis], around.inverse[1][axis]] = interval(&self.inverse[axis]);
             // Lower sides are seen from starts moved up, and upper sides from starts moved down.
-            let ([above, below], up) = (
-                [interval(&self.above[axis]), interval(&self.below[axis])],
-                self.near[axis] == 0,
-            );
+            let ([above, below], up) =
+                ([interval(&self.above[axis]), interval(&self.below[axis])], self.near[axis] == 0);
             (around.near[axis], around.far[axis]) =
                 if up { (above[1], below[0]) } else { (below[0], above[1]) };
         }

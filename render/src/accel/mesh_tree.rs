@@ -6,8 +6,8 @@ use super::build::Numbered;
 use super::frame::{Frame, TreeRay};
 use super::kernel::Kernel;
 use super::leaf::Probe;
-use super::own_ray::OwnRay;
 use super::node::Child;
+use super::own_ray::OwnRay;
 use super::simd::Task;
 use super::tree::{Leaves, Tree};
 use crate::ray::{Hit, Piece, Ray};
@@ -35,17 +35,23 @@ impl MeshTree {
     #[must_use]
     pub fn build(mesh: &Mesh, triangles: Range<u32>) -> Option<Self> {
         let first = triangles.start;
-        let kept = triangles.into_par_iter().filter(|&n| !triangle::is_segment(&mesh.corners(n)));
-        let bounds = kept
-            .clone()
-            .map(|number| mesh.bounds(number))
+        let boxed = |number: u32| {
+            let corners = mesh.corners(number);
+            (!triangle::is_segment(&corners)).then(|| {
+                let [low, high] = triangle::bounds(&corners).map(|side| side.as_vec3().to_array());
+                Numbered::new(number - first, low, high)
+            })
+        };
+        let mut boxes: Vec<Numbered> = triangles.into_par_iter().filter_map(boxed).collect();
+        let bounds = boxes
+            .par_iter()
+            .map(Numbered::sides)
             .reduce_with(|a, b| [a[0].min(b[0]), a[1].max(b[1])])?;
         let frame = Frame::exact(bounds);
-        let numbered = |number: u32| {
-            let [low, high] = frame.box_around(mesh.bounds(number));
-            Numbered::new(number - first, low, high)
-        };
-        let mut boxes: Vec<Numbered> = kept.map(numbered).collect();
+        boxes.par_iter_mut().for_each(|one| {
+            let [low, high] = frame.box_around(one.sides());
+            *one = Numbered::new(one.number(), low, high);
+        });
         let (tree, leaves) = Tree::build(bounds, frame, &mut boxes, LANES);
         let block = |leaf: &Range<usize>| {
             let triangle = |one: &Numbered| {
@@ -175,13 +181,7 @@ pub struct Blocks<'a, 'b, F> {
 impl<'a, 'b, F: FnMut(Hit) -> f64> Blocks<'a, 'b, F> {
     /// The leaves of a mesh that is an object of the scene. `see` takes hits and returns the next distance.
     #[inline(always)]
-    pub fn of(
-        mesh: &'a MeshTree,
-        accel: &'a Accel<'b>,
-        object: u32,
-        ray: &'a Ray,
-        see: F,
-    ) -> Self {
+    pub fn of(mesh: &'a MeshTree, accel: &'a Accel<'b>, object: u32, ray: &'a Ray, see: F) -> Self {
         Self { mesh, accel, object, ray, own: None, see }
     }
 }

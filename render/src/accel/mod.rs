@@ -40,6 +40,7 @@ mod leaf;
 mod mesh_tree;
 mod node;
 mod own_ray;
+mod parts;
 mod simd;
 mod slabs;
 mod top;

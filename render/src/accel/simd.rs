@@ -60,12 +60,12 @@ mod avx2 {
         __m128, __m256, __m256d, _CMP_EQ_OQ, _CMP_GE_OQ, _CMP_GT_OQ, _CMP_LE_OQ, _CMP_LT_OQ,
         _mm_and_ps, _mm_cmpge_ps, _mm_cmple_ps, _mm_fmsub_ps, _mm_fnmadd_ps, _mm_loadu_ps,
         _mm_max_ps, _mm_min_ps, _mm_movemask_ps, _mm_mul_ps, _mm_or_ps, _mm_set1_ps, _mm_sub_ps,
-        _mm256_add_pd, _mm256_add_ps, _mm256_and_ps, _mm256_andnot_pd, _mm256_cmp_pd, _mm256_cmp_ps, _mm256_div_pd,
-        _mm256_fmsub_ps, _mm256_fnmadd_ps, _mm256_loadu_pd, _mm256_loadu_ps, _mm256_max_pd,
-        _mm256_max_ps, _mm256_min_pd, _mm256_min_ps, _mm256_movemask_pd, _mm256_movemask_ps,
-        _mm256_mul_pd, _mm256_mul_ps, _mm256_or_ps, _mm256_set1_pd, _mm256_set1_ps,
-        _mm256_setzero_pd, _mm256_setzero_ps, _mm256_storeu_pd, _mm256_storeu_ps, _mm256_sub_pd,
-        _mm256_sub_ps,
+        _mm256_add_pd, _mm256_add_ps, _mm256_and_ps, _mm256_andnot_pd, _mm256_cmp_pd,
+        _mm256_cmp_ps, _mm256_div_pd, _mm256_fmsub_ps, _mm256_fnmadd_ps, _mm256_loadu_pd,
+        _mm256_loadu_ps, _mm256_max_pd, _mm256_max_ps, _mm256_min_pd, _mm256_min_ps,
+        _mm256_movemask_pd, _mm256_movemask_ps, _mm256_mul_pd, _mm256_mul_ps, _mm256_or_ps,
+        _mm256_set1_pd, _mm256_set1_ps, _mm256_setzero_pd, _mm256_setzero_ps, _mm256_storeu_pd,
+        _mm256_storeu_ps, _mm256_sub_pd, _mm256_sub_ps,
     };
 
     /// Proof that the processor has AVX2 and FMA: only [`Avx2::detect`] makes a value.
@@ -298,11 +298,13 @@ mod avx2 {
                     let oz = load8(&bundle.origin[2][eight]);
                     let (da, db, dc) =
                         (_mm256_sub_ps(paz, oz), _mm256_sub_ps(pbz, oz), _mm256_sub_ps(pcz, oz));
-                    let (ox, sx) = (load8(&bundle.origin[0][eight]), load8(&bundle.shear[0][eight]));
+                    let (ox, sx) =
+                        (load8(&bundle.origin[0][eight]), load8(&bundle.shear[0][eight]));
                     let ax = _mm256_fnmadd_ps(sx, da, _mm256_sub_ps(pax, ox));
                     let bx = _mm256_fnmadd_ps(sx, db, _mm256_sub_ps(pbx, ox));
                     let cx = _mm256_fnmadd_ps(sx, dc, _mm256_sub_ps(pcx, ox));
-                    let (oy, sy) = (load8(&bundle.origin[1][eight]), load8(&bundle.shear[1][eight]));
+                    let (oy, sy) =
+                        (load8(&bundle.origin[1][eight]), load8(&bundle.shear[1][eight]));
                     let ay = _mm256_fnmadd_ps(sy, da, _mm256_sub_ps(pay, oy));
                     let by = _mm256_fnmadd_ps(sy, db, _mm256_sub_ps(pby, oy));
                     let cy = _mm256_fnmadd_ps(sy, dc, _mm256_sub_ps(pcy, oy));
@@ -356,7 +358,8 @@ mod avx2 {
                 let ay = _mm256_sub_pd(_mm256_sub_pd(of(py.x), oy), _mm256_mul_pd(sy, da));
                 let by = _mm256_sub_pd(_mm256_sub_pd(of(py.y), oy), _mm256_mul_pd(sy, db));
                 let cy = _mm256_sub_pd(_mm256_sub_pd(of(py.z), oy), _mm256_mul_pd(sy, dc));
-                let (a, b, c) = (cross(cx, by, cy, bx), cross(ax, cy, ay, cx), cross(bx, ay, by, ax));
+                let (a, b, c) =
+                    (cross(cx, by, cy, bx), cross(ax, cy, ay, cx), cross(bx, ay, by, ax));
                 let area = _mm256_add_pd(_mm256_add_pd(a, b), c);
                 let wa = _mm256_div_pd(a, area);
                 let wb = _mm256_div_pd(b, area);
@@ -364,7 +367,8 @@ mod avx2 {
                 let t = _mm256_add_pd(_mm256_mul_pd(wa, az), _mm256_mul_pd(wb, bz));
                 let t = _mm256_add_pd(t, _mm256_mul_pd(wc, cz));
                 let zero = _mm256_setzero_pd();
-                let enter = _mm256_max_pd(_mm256_max_pd(near_x, near_y), _mm256_max_pd(near_z, zero));
+                let enter =
+                    _mm256_max_pd(_mm256_max_pd(near_x, near_y), _mm256_max_pd(near_z, zero));
                 let leave = _mm256_min_pd(_mm256_min_pd(far_x, far_y), far_z);
                 let clamped = _mm256_min_pd(_mm256_max_pd(t, enter), leave);
                 let t_max = load4(&lanes.t_max[four]);

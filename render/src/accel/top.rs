@@ -23,7 +23,7 @@ use std::ops::Range;
 const FEW: usize = 32;
 
 /// Largest number of objects that every ray tries without the upper tree. If larger, rays try objects
-/// beside their path. If smaller, scenes of a thing and a floor pay for a tree.
+/// beside their path. If smaller, scenes of an object and a floor pay for a tree.
 const ALL: usize = 2;
 
 /// An object of the upper tree.
@@ -93,7 +93,9 @@ impl Trees {
     #[must_use]
     pub fn bytes(&self) -> usize {
         let own = self.tree.as_ref().map_or(0, Tree::bytes);
+        // Of a single object, there is nothing to search.
         let items = size_of_val(&*self.items) + size_of_val(&*self.bounds);
+        let items = if own > 0 { items } else { 0 };
         own + items + self.meshes.iter().map(MeshTree::bytes).sum::<usize>()
     }
 

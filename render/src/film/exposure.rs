@@ -204,7 +204,12 @@ impl Exposure<'_> {
     ) {
         let ray = self.ray(position);
         let differential = self.tracer.scene.camera.differential(position, self.size(), side);
-        self.tracer.trace_spread(&ray, &differential, first, tree, rays);
+        match first {
+            Some(first) => {
+                self.tracer.trace_spread_from(&ray, &differential, first, tree, rays);
+            }
+            None => self.tracer.trace_spread(&ray, &differential, tree, rays),
+        }
     }
 
     /// Size of the film, in pixels.

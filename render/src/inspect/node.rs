@@ -2,8 +2,7 @@
 
 use super::{light, vector};
 use crate::footprint::{Footprint, PointReason, Sight};
-use crate::scene::{Object, Scene, SurfaceTexture};
-use crate::shape::Shape;
+use crate::scene::{Scene, SurfaceTexture};
 use crate::shade::observer::{Seen, Textured};
 use crate::trace::tree::{Branch, Node};
 
@@ -63,25 +62,16 @@ fn piece(scene: &Scene, node: &Node) -> String {
     match scene.names.objects.get(index) {
         Some(Some(name)) => {
             let name = files::words::shown(name);
-            let placement = placement(scene, index);
-            format!("object {index}, {kind} \"{name}\"{placement}, triangle {}", node.piece.triangle)
+            let number = scene.placement(index).map(|number| format!(", placement {number}"));
+            let placement = number.unwrap_or_default();
+            format!(
+                "object {index}, {kind} \"{name}\"{placement}, triangle {}",
+                node.piece.triangle
+            )
         }
         _ if kind == "mesh" => format!("object {index}, {kind}, triangle {}", node.piece.triangle),
         _ => format!("object {index}, {kind}"),
     }
-}
-
-/// Returns the number of the placement of an instance, from 0, among the objects that follow one another
-/// and share its mesh.
-fn placement(scene: &Scene, index: usize) -> String {
-    let key = |object: &Object| match &object.shape {
-        Shape::Instance(instance) => Some(instance.key()),
-        _ => None,
-    };
-    let Some(own) = key(&scene.objects[index]) else { return String::new() };
-    let before = scene.objects[..index].iter().rev();
-    let number = before.take_while(|object| key(object) == Some(own)).count();
-    format!(", placement {number}")
 }
 
 fn named(names: &[String], index: usize) -> String {

@@ -161,10 +161,16 @@ impl Instance {
         self.placement.normal(normal).normalize_or(DVec3::Y)
     }
 
-    /// Lower and upper corner of the bounding box, in scene space.
+    /// Lower and upper corner of the placed box of the mesh, in scene space.
+    #[must_use]
+    pub fn box_of_mesh(&self) -> [DVec3; 2] {
+        self.placement.bounds(self.shared.bounds)
+    }
+
+    /// Lower and upper corner of the bounding box, in scene space. It contains all roundings.
     #[must_use]
     pub fn bounds(&self) -> [DVec3; 2] {
-        let [low, high] = self.placement.bounds(self.shared.bounds);
+        let [low, high] = self.box_of_mesh();
         let widening = ROUNDINGS * f64::EPSILON * self.extent();
         [low - widening, high + widening]
     }

@@ -116,17 +116,27 @@ impl<'a> Tracer<'a> {
     }
 
     /// Traces a ray from the eye as [`Tracer::trace`] does, and stores the spread of each hit in the
-    /// tree. `differential` is that of the ray, and `first` its closest hit, if it is known whether there
-    /// is one.
+    /// tree. `differential` is that of the ray.
     pub fn trace_spread(
         &self,
         ray: &Ray,
         differential: &RayDifferential,
-        first: Option<Option<Hit>>,
         tree: &mut IntersectionTree,
         counts: &mut RayCounts,
     ) {
-        self.trace_carried((ray, Some(differential), first), tree, counts);
+        self.trace_carried((ray, Some(differential), None), tree, counts);
+    }
+
+    /// Traces a ray from the eye as [`Tracer::trace_spread`] does. `first` is its closest hit.
+    pub fn trace_spread_from(
+        &self,
+        ray: &Ray,
+        differential: &RayDifferential,
+        first: Option<Hit>,
+        tree: &mut IntersectionTree,
+        counts: &mut RayCounts,
+    ) {
+        self.trace_carried((ray, Some(differential), Some(first)), tree, counts);
     }
 
     fn trace_carried(
@@ -301,12 +311,7 @@ impl<'a> Tracer<'a> {
     /// the transmittance up to it, linear RGB, [0, 1] per channel. `media` become the volumes in
     /// front of that surface. `first` is the ray's closest hit, if it is known whether there is one.
     #[inline]
-    fn arrive(
-        &self,
-        ray: &Ray,
-        mut first: Option<Option<Hit>>,
-        media: &mut Media,
-    ) -> (End, Color) {
+    fn arrive(&self, ray: &Ray, mut first: Option<Option<Hit>>, media: &mut Media) -> (End, Color) {
         let Self { scene, volumes, .. } = self;
         let mut through = Color::ONE;
         let mut ray = *ray;

@@ -79,8 +79,11 @@ impl Samples {
     /// Returns the closest hits of the rays through the middles of all cells. Rays of square blocks of
     /// cells are traced together.
     fn first_hits(&self, area: Area, sampler: &Sampler<'_, '_>) -> Vec<Option<Hit>> {
-        let mut hits = vec![None; ((self.columns.end - self.columns.start) as usize)
-            * (self.rows.end - self.rows.start) as usize];
+        let mut hits = vec![
+            None;
+            ((self.columns.end - self.columns.start) as usize)
+                * (self.rows.end - self.rows.start) as usize
+        ];
         let (mut rays, mut places) = (Vec::new(), Vec::new());
         let mut found = Vec::new();
         for top in self.rows.clone().step_by(BLOCK) {

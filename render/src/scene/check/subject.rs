@@ -94,7 +94,8 @@ impl<'a> Subject<'a> {
                 for (placement, object) in objects.by_ref().take(count).enumerate() {
                     let skin = skins.of(&object.shape);
                     let several = entry.mesh().is_some_and(|mesh| mesh.instances.is_some());
-                    let own = if several { format!(".instances[{placement}]") } else { String::new() };
+                    let own =
+                        if several { format!(".instances[{placement}]") } else { String::new() };
                     let (path, kind) = (format!("{path}{own}"), kind.clone());
                     subject.items.push(Item { path, kind, object, placement, skin });
                 }

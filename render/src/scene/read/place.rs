@@ -28,7 +28,8 @@ impl Reader<'_> {
         instances: &[Vec<StepFile>],
     ) -> Result<Vec<Placement>, SceneError> {
         if instances.is_empty() {
-            let message = "found no placement, expected at least one: leave the key out for one object";
+            let message =
+                "found no placement, expected at least one: leave the key out for one object";
             return self.fault(&format!("{path}.instances"), message);
         }
         let bytes = instances.len() as u64 * size_of::<Object>() as u64;
