@@ -75,6 +75,7 @@ const RENDER: Layers = &[
             "footprint",
             "prepared",
             "procedural",
+            "ray",
             "scene",
             "shade",
             "shape",

@@ -16,11 +16,8 @@
 
 use super::bins::{Bins, MOST_BINS};
 use super::collapse::{Binary, Costs};
-use glam::Vec4;
-
-/// Parts of at most this many boxes are sorted instead of binned. If larger, building takes longer.
-/// If smaller, the lower levels, which hold most of the nodes, are cut less well.
-const SORTED: usize = 12;
+use super::parts::{self, SORTED};
+use glam::{DVec3, Vec4};
 
 /// Parts of more boxes than this are divided in parallel. If smaller, threads are started for less
 /// work than they cost. If larger, one thread waits for the other.
@@ -40,7 +37,10 @@ impl Numbered {
     /// The largest number.
     pub const MOST: u32 = 1 << 30;
 
-    /// A box with a number up to [`Numbered::MOST`]; its corners lie in [-1, 1].
+    /// A box around the origin, with the number 0.
+    pub const NONE: Self = Self { low: Vec4::ZERO, high: Vec4::ZERO };
+
+    /// A box with a number up to [`Numbered::MOST`].
     #[must_use]
     pub fn new(number: u32, low: [f32; 3], high: [f32; 3]) -> Self {
         let [x, y, z] = low;
@@ -55,14 +55,26 @@ impl Numbered {
         self.low.w.to_bits()
     }
 
+    /// Lower and upper corner of the box.
+    #[must_use]
+    pub fn sides(&self) -> [DVec3; 2] {
+        [self.low.truncate().as_dvec3(), self.high.truncate().as_dvec3()]
+    }
+
+    /// Enlarges a box so that it contains this one.
+    pub fn add_to(&self, bounds: &mut Bounds) {
+        bounds.add(self.low, self.high);
+    }
+
     /// The longest side of the box.
     #[must_use]
     pub fn longest(&self) -> f32 {
         (self.high - self.low).truncate().max_element()
     }
 
-    /// Twice the middle of the box.
-    fn middle(&self) -> Vec4 {
+    /// Twice the middle of the box, whose corners lie in [-1, 1].
+    #[must_use]
+    pub fn middle(&self) -> Vec4 {
         self.low + self.high
     }
 }
@@ -80,7 +92,8 @@ impl Bounds {
     /// The empty box. Its union with another box is that other box.
     pub const NONE: Self = Self { low: Vec4::INFINITY, high: Vec4::NEG_INFINITY };
 
-    fn add(&mut self, low: Vec4, high: Vec4) {
+    /// Enlarges the box so that it contains another.
+    pub fn add(&mut self, low: Vec4, high: Vec4) {
         self.low = self.low.min(low);
         self.high = self.high.max(high);
     }
@@ -251,14 +264,18 @@ impl Builder {
             self.best_sorted(part.boxes)
         };
         let Part { boxes, first, middles, depth, .. } = part;
+        let mut parts = None;
         let at = if cut.cost.is_infinite() {
             0
         } else if binned {
             let bins = Bins::new([middles.low, middles.high], count);
-            partition(boxes, |one| bins.of_axis(one.middle(), cut.axis) < cut.at)
+            let is_first = |one: &Numbered| bins.of_axis(one.middle(), cut.axis) < cut.at;
+            let (at, bounds) = parts::partition(boxes, is_first);
+            parts = Some(bounds);
+            at
         } else {
-            let order = sorted(boxes, cut.axis);
-            let unsorted = copied(boxes);
+            let order = parts::sorted(boxes, cut.axis);
+            let unsorted = parts::copied(boxes);
             for (one, from) in boxes.iter_mut().zip(order) {
                 *one = unsorted[usize::from(from)];
             }
@@ -268,14 +285,19 @@ impl Builder {
             at
         } else {
             *looks += count as u64;
-            halve(boxes, &middles)
+            parts = None;
+            parts::halve(boxes, &middles)
         };
         let (a, b) = boxes.split_at_mut(at);
-        let part = |boxes: &'a mut [Numbered], first| {
-            let [bounds, middles] = Bounds::of(boxes);
-            Part { boxes, first, bounds, middles, depth: depth + 1 }
+        let [of_a, of_b] = parts.unwrap_or_else(|| [Bounds::of(a), Bounds::of(b)]);
+        let part = |boxes: &'a mut [Numbered], first, [bounds, middles]: [Bounds; 2]| Part {
+            boxes,
+            first,
+            bounds,
+            middles,
+            depth: depth + 1,
         };
-        [part(a, first), part(b, first + at)]
+        [part(a, first, of_a), part(b, first + at, of_b)]
     }
 
     /// Number of leaves for `count` boxes.
@@ -325,7 +347,7 @@ impl Builder {
         let mut best = Cut::NONE;
         let mut areas = [0.0; SORTED];
         for axis in 0..3 {
-            let order = sorted(part, axis);
+            let order = parts::sorted(part, axis);
             let boxed = |at: usize| &part[usize::from(order[at])];
             let mut all = Bounds::NONE;
             for at in (1..part.len()).rev() {
@@ -344,52 +366,4 @@ impl Builder {
         }
         best
     }
-}
-
-/// Returns the order of a small part along an axis, by insertion. Equal middles are in the order of the
-/// numbers.
-fn sorted(part: &[Numbered], axis: usize) -> [u8; SORTED] {
-    let mut order = [0; SORTED];
-    let mut keys = [(0.0, 0); SORTED];
-    for (k, one) in part.iter().enumerate().take(SORTED) {
-        let key = (one.middle()[axis], one.number());
-        let mut at = k;
-        while at > 0 && key < keys[at - 1] {
-            (keys[at], order[at]) = (keys[at - 1], order[at - 1]);
-            at -= 1;
-        }
-        (keys[at], order[at]) = (key, k as u8);
-    }
-    order
-}
-
-/// Returns a copy of a small part.
-fn copied(part: &[Numbered]) -> [Numbered; SORTED] {
-    let mut copy = [Numbered { low: Vec4::ZERO, high: Vec4::ZERO }; SORTED];
-    copy[..part.len()].copy_from_slice(part);
-    copy
-}
-
-/// Moves the lower half of a part to its front, along the axis on which its middles spread the most.
-fn halve(part: &mut [Numbered], middles: &Bounds) -> usize {
-    let size = (middles.high - middles.low).to_array();
-    let axis = (0..3).max_by(|&a, &b| size[a].total_cmp(&size[b])).unwrap_or(0);
-    let key = |one: &Numbered| one.middle()[axis];
-    let half = part.len() / 2;
-    part.select_nth_unstable_by(half, |a, b| {
-        key(a).total_cmp(&key(b)).then(a.number().cmp(&b.number()))
-    });
-    half
-}
-
-/// Moves the boxes for which `is_first` holds to the front and returns their number.
-fn partition(part: &mut [Numbered], is_first: impl Fn(&Numbered) -> bool) -> usize {
-    let mut at = 0;
-    for k in 0..part.len() {
-        if is_first(&part[k]) {
-            part.swap(k, at);
-            at += 1;
-        }
-    }
-    at
 }

@@ -29,12 +29,6 @@ use glam::{DVec3, Vec3A, Vec4};
 /// Bound on the roundings of one coordinate, in units of a tree.
 const ROUNDING: f64 = 24.0 / (1u32 << 24) as f64;
 
-/// A ray that starts within this distance along each axis, in units of a tree, is not moved.
-///
-/// If larger, the tests reject less, since their roundings grow with the distance. If smaller, more
-/// rays compute where they enter the tree.
-const NEAR: f64 = 8.0;
-
 /// The coordinates of a tree.
 #[derive(Debug, Clone, Copy)]
 pub struct Frame {
@@ -86,6 +80,12 @@ impl Frame {
         let back = DVec3::select(middle.cmpeq(DVec3::ZERO), DVec3::splat(-0.0), middle);
         let unit = power_of_two(reach);
         Self { middle, back, unit, per_unit: unit.recip() }
+    }
+
+    /// Units of the tree per scene unit.
+    #[must_use]
+    pub fn per_unit(&self) -> f64 {
+        self.per_unit
     }
 
     /// Returns the smallest box of `f32` in the frame around a box in scene space.
@@ -155,40 +155,59 @@ pub struct TreeRay {
 }
 
 impl TreeRay {
+    /// A ray that starts within this distance along each axis, in units of a tree, is not moved.
+    ///
+    /// If larger, the tests reject less, since their roundings grow with the distance. If smaller, more
+    /// rays compute where they enter the tree.
+    pub const NEAR: f64 = 8.0;
+
     /// Prepares a ray for a tree with these bounds, or returns `None` if it misses the tree. `extent`
     /// is that of [`SlabRay::new`].
     #[must_use]
     #[inline(always)]
     pub fn new(frame: &Frame, bounds: [DVec3; 2], ray: &Ray, extent: f64) -> Option<Self> {
-        let mut start = 0.0;
-        let mut place = (ray.origin - frame.middle) * frame.per_unit;
-        let mut reach = place.abs().max_element();
-        if reach > NEAR {
-            start = SlabRay::new(ray.origin, ray.direction, extent).crosses(bounds)?[0];
-            place += start * frame.per_unit * ray.direction;
-            reach = 1.0;
-        }
-        let scale = ray.origin.abs().max_element() + extent;
-        let rounding = ROUNDING * reach.max(1.0) + 64.0 * f64::EPSILON * scale * frame.per_unit;
-        let rounding = rounding as f32;
-        // Beyond 8 units every box is crossed. A start that is off by less lies within 2 NEAR.
-        let widening = rounding.min(8.0);
-        let most = Vec3A::splat(2.0 * NEAR as f32);
-        let origin = place.as_vec3a().clamp(-most, most);
-        let direction = ray.direction.as_vec3a();
-        // Where the clamp applies, the ray stays on one side of all planes in the tree.
-        let inverse = direction.recip().clamp(Vec3A::splat(-1e30), Vec3A::splat(1e30));
-        let (start_times, moved) = (origin * inverse, widening * inverse.abs());
-        let size = direction.abs();
-        let [x, y, z] = if size.x > size.y && size.x > size.z {
+        let size = ray.direction.as_vec3a().abs();
+        let axes = if size.x > size.y && size.x > size.z {
             [1, 2, 0]
         } else if size.y > size.z {
             [2, 0, 1]
         } else {
             [0, 1, 2]
         };
+        Self::along(frame, bounds, ray, extent, axes)
+    }
+
+    /// Prepares a ray as [`TreeRay::new`] does, with given axes of the sheared space. No component of the
+    /// direction exceeds that along the last axis by more than a rounding.
+    #[must_use]
+    #[inline(always)]
+    pub fn along(
+        frame: &Frame,
+        bounds: [DVec3; 2],
+        ray: &Ray,
+        extent: f64,
+        [x, y, z]: [usize; 3],
+    ) -> Option<Self> {
+        let mut start = 0.0;
+        let mut place = (ray.origin - frame.middle) * frame.per_unit;
+        let mut reach = place.abs().max_element();
+        if reach > Self::NEAR {
+            start = SlabRay::new(ray.origin, ray.direction, extent).crosses(bounds)?[0];
+            place += start * frame.per_unit * ray.direction;
+            reach = 1.0;
+        }
+        let scale = ray.origin.abs().max_element() + extent;
+        let rounding = Self::rounding_of(reach, scale * frame.per_unit);
+        // Beyond 8 units every box is crossed. A start that is off by less lies within 2 NEAR.
+        let widening = rounding.min(8.0);
+        let most = Vec3A::splat(2.0 * Self::NEAR as f32);
+        let origin = place.as_vec3a().clamp(-most, most);
+        let direction = ray.direction.as_vec3a();
+        // Where the clamp applies, the ray stays on one side of all planes in the tree.
+        let inverse = direction.recip().clamp(Vec3A::splat(-1e30), Vec3A::splat(1e30));
+        let (start_times, moved) = (origin * inverse, widening * inverse.abs());
         let upper = |component: f32| (component.to_bits() >> 31) as usize;
-        let over = direction[z];
+        let over = inverse[z];
         Some(Self {
             start,
             per_unit: frame.per_unit,
@@ -198,17 +217,40 @@ impl TreeRay {
             near: [upper(inverse.x), upper(inverse.y), upper(inverse.z)],
             axes: [x, y, z],
             origin: Vec3A::new(origin[x], origin[y], origin[z]),
-            shear: Vec3A::new(direction[x], direction[y], 1.0) / over,
+            shear: Vec3A::new(direction[x], direction[y], 1.0) * over,
             rounding,
         })
+    }
+
+    /// Returns the bound on the error of sheared coordinates. `reach` is the largest coordinate of the
+    /// start, and `scale` that of [`SlabRay`], in units of the tree.
+    #[must_use]
+    #[inline(always)]
+    pub fn rounding_of(reach: f64, scale: f64) -> f32 {
+        (ROUNDING * reach.max(1.0) + 64.0 * f64::EPSILON * scale) as f32
+    }
+
+    /// Distance from which distances in the tree count, in scene units.
+    #[must_use]
+    #[inline(always)]
+    pub fn start(&self) -> f64 {
+        self.start
     }
 
     /// Converts a distance along the ray into one in the tree, rounded up.
     #[must_use]
     #[inline(always)]
     pub fn distance(&self, t: f64) -> f32 {
+        Self::distance_from(self.start, self.per_unit, t)
+    }
+
+    /// Converts a distance as [`TreeRay::distance`] does, for a ray whose distances in the tree count from
+    /// `start`.
+    #[must_use]
+    #[inline(always)]
+    pub fn distance_from(start: f64, per_unit: f64, t: f64) -> f32 {
         // A part of 2^-22 exceeds the roundings of the conversion.
-        let distance = ((t - self.start) * self.per_unit) as f32;
+        let distance = ((t - start) * per_unit) as f32;
         distance + distance.abs() * (2.0 * f32::EPSILON)
     }
 }

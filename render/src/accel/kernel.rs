@@ -12,7 +12,9 @@
 //! therefore accept edge functions whose sign is wrong by up to `12 d (L + d)`.
 
 use super::block::{Block, LANES};
+use super::bundle::{Bundle, EIGHT};
 use super::frame::TreeRay;
+use super::lanes::{FOUR, Lanes, MOST, Met, Target};
 use super::node::{Node, WIDTH};
 use super::simd::Task;
 
@@ -25,6 +27,17 @@ pub trait Kernel: Copy {
     /// Returns a mask of the triangles that the ray may hit within `limit`. `longest` is the longest
     /// side of their boxes.
     fn triangles(self, block: &Block, ray: &TreeRay, longest: f32, limit: f32) -> u32;
+
+    /// Returns for each box of a node a distance at or before which all rays of a bundle enter it, and a
+    /// mask of the boxes that some ray may enter within its limit.
+    fn boxes_of_all(self, node: &Node, bundle: &Bundle) -> ([f32; WIDTH], u32);
+
+    /// Returns a mask of the rays of a bundle that may hit triangle `lane` of a block within their limits.
+    fn rays(self, block: &Block, lane: usize, bundle: &Bundle, tolerance: Tolerance) -> u64;
+
+    /// Returns the hits of four rays with a triangle, as `Probe::meet_triangle` finds them. The rays are
+    /// those from `FOUR * four` on.
+    fn four(self, lanes: &Lanes, four: usize, target: &Target) -> Met;
 
     /// Runs a task with the kernel's instructions, in a function of its own.
     fn apart<T: Task>(self, task: &mut T) -> T::Out;
@@ -44,9 +57,16 @@ impl Tolerance {
     #[must_use]
     #[inline]
     pub fn of(ray: &TreeRay, longest: f32) -> Self {
+        Self::of_rounding(ray.rounding, longest)
+    }
+
+    /// Returns the bounds for rays whose sheared coordinates are off by at most `rounding`.
+    #[must_use]
+    #[inline]
+    pub fn of_rounding(rounding: f32, longest: f32) -> Self {
         // The smallest normal number exceeds the error of products that underflow.
-        let edge = 12.0 * ray.rounding * (longest + ray.rounding) + f32::MIN_POSITIVE;
-        Self { edge, depth: 4.0 * ray.rounding }
+        let edge = 12.0 * rounding * (longest + rounding) + f32::MIN_POSITIVE;
+        Self { edge, depth: 4.0 * rounding }
     }
 }
 
@@ -101,5 +121,95 @@ impl Kernel for Portable {
             mask |= u32::from((front | back) & near & ahead) << lane;
         }
         mask
+    }
+
+    fn boxes_of_all(self, node: &Node, bundle: &Bundle) -> ([f32; WIDTH], u32) {
+        let mut enter = [0.0f32; WIDTH];
+        let mut leave = [bundle.farthest; WIDTH];
+        for axis in 0..3 {
+            let near = &node.sides[axis][bundle.near[axis] & 1];
+            let far = &node.sides[axis][!bundle.near[axis] & 1];
+            let [least, most] = [bundle.inverse[0][axis], bundle.inverse[1][axis]];
+            for k in 0..WIDTH {
+                let (a, b) = (near[k] - bundle.from[0][axis], far[k] - bundle.from[1][axis]);
+                enter[k] = enter[k].max((a * least).min(a * most));
+                leave[k] = leave[k].min((b * least).max(b * most));
+            }
+        }
+        let mask = (0..WIDTH).map(|k| u32::from(enter[k] <= leave[k]) << k).sum();
+        (enter, mask)
+    }
+
+    fn rays(self, block: &Block, lane: usize, bundle: &Bundle, tolerance: Tolerance) -> u64 {
+        let Tolerance { edge, depth } = tolerance;
+        let [x, y, z] = bundle.axes.map(|axis| axis.min(2));
+        let corner = |k: usize| [x, y, z].map(|axis| block.corners[k][axis][lane & (LANES - 1)]);
+        let corners = [corner(0), corner(1), corner(2)];
+        let mut mask = 0u64;
+        for k in 0..MOST {
+            let of = |numbers: &[[f32; EIGHT]; MOST / EIGHT]| numbers[k / EIGHT][k % EIGHT];
+            let origin = [0, 1, 2].map(|axis| of(&bundle.origin[axis]));
+            let shear = [0, 1, 2].map(|axis| of(&bundle.shear[axis]));
+            let sheared = corners.map(|corner| {
+                let depth = corner[2] - origin[2];
+                let x = corner[0] - origin[0] - shear[0] * depth;
+                let y = corner[1] - origin[1] - shear[1] * depth;
+                [x, y, shear[2] * depth]
+            });
+            let [[ax, ay, az], [bx, by, bz], [cx, cy, cz]] = sheared;
+            let [a, b, c] = [cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax];
+            let front = (a >= -edge) & (b >= -edge) & (c >= -edge);
+            let back = (a <= edge) & (b <= edge) & (c <= edge);
+            let beyond = of(&bundle.limit) + depth;
+            let near = (az <= beyond) | (bz <= beyond) | (cz <= beyond);
+            let ahead = (az >= -depth) | (bz >= -depth) | (cz >= -depth);
+            mask |= u64::from((front | back) & near & ahead) << k;
+        }
+        mask
+    }
+
+    fn four(self, lanes: &Lanes, four: usize, target: &Target) -> Met {
+        let mut met = Met { mask: 0, t: [0.0; FOUR], clear: 0, weights: [[0.0; FOUR]; 2] };
+        let [x, y, z] = lanes.axes.map(|axis| axis.min(2));
+        let four = four % (MOST / FOUR);
+        let corners = &target.corners;
+        for k in 0..FOUR {
+            let origin = |axis: usize| lanes.origin[axis][four][k];
+            let [sx, sy, sz] = [0, 1, 2].map(|axis| lanes.shear[axis][four][k]);
+            let from = |axis: usize| {
+                let (corners, origin) = (corners[axis], origin(axis));
+                [corners.x - origin, corners.y - origin, corners.z - origin]
+            };
+            let depths = from(z);
+            let [az, bz, cz] = depths.map(|depth| sz * depth);
+            let ([ax, bx, cx], [ay, by, cy]) = (from(x), from(y));
+            let [ax, bx, cx] = [ax - sx * depths[0], bx - sx * depths[1], cx - sx * depths[2]];
+            let [ay, by, cy] = [ay - sy * depths[0], by - sy * depths[1], cy - sy * depths[2]];
+            let [a, b, c] = [cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax];
+            let area = a + b + c;
+            let [wa, wb, wc] = [a / area, b / area, c / area];
+            let t = wa * az + wb * bz + wc * cz;
+            let (mut enter, mut leave) = (0.0f64, f64::INFINITY);
+            for axis in 0..3 {
+                let inverse = lanes.inverse[axis][four][k];
+                let low = (target.low[axis] - lanes.above[axis][four][k]) * inverse;
+                let high = (target.high[axis] - lanes.below[axis][four][k]) * inverse;
+                (enter, leave) = (enter.max(low.min(high)), leave.min(low.max(high)));
+            }
+            let late = if t < enter { enter } else { t };
+            let clamped = if late > leave { leave } else { late };
+            let t_max = lanes.t_max[four][k];
+            let limit = t_max + lanes.slack[four][k];
+            let beyond = (az > limit) & (bz > limit) & (cz > limit);
+            let negative = (a < 0.0) | (b < 0.0) | (c < 0.0);
+            let positive = (a > 0.0) | (b > 0.0) | (c > 0.0);
+            let missed = beyond | (negative & positive) | (area == 0.0) | (enter > leave);
+            let hit = !missed & (t > 0.0) & (clamped > 0.0) & (clamped <= t_max);
+            met.mask |= u32::from(hit) << k;
+            met.clear |= u32::from(t * area.abs() > target.off * sz.abs()) << k;
+            met.t[k] = clamped;
+            (met.weights[0][k], met.weights[1][k]) = (wb, wc);
+        }
+        met
     }
 }

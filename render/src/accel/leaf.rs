@@ -58,9 +58,6 @@ pub struct Probe<'a> {
     sheared: ShearedRay,
     /// The ray, prepared for tests against boxes.
     pub slabs: SlabRay,
-    /// Rounding of the start as a point of the surface on which the ray starts, in scene units; 0
-    /// for a ray from the eye.
-    skin: f64,
     /// Rounding of the start and of the object together, in the space of an instance; `None` in the
     /// scene's space.
     whole_skin: Option<f64>,
@@ -73,10 +70,9 @@ impl<'a> Probe<'a> {
     #[must_use]
     #[inline(always)]
     pub fn new(accel: &Accel<'_>, ray: &'a Ray) -> Self {
-        let sheared = ShearedRay::new(ray.origin, ray.direction);
         let slabs = SlabRay::new(ray.origin, ray.direction, accel.extent);
-        let skin = ray.leaving.map_or(0.0, |from| accel.rounding(from.object, ray.origin));
-        Self { ray, sheared, slabs, skin, whole_skin: None, slack: slabs.slack() }
+        let sheared = ShearedRay::with_inverse(ray.origin, ray.direction, slabs.inverse);
+        Self { ray, sheared, slabs, whole_skin: None, slack: slabs.slack() }
     }
 
     /// Prepares a ray in the space of an instance. `extent` is that of [`SlabRay::new`], and `skin` the
@@ -84,25 +80,28 @@ impl<'a> Probe<'a> {
     #[must_use]
     #[inline(always)]
     pub fn within(ray: &'a Ray, extent: f64, skin: f64) -> Self {
-        let sheared = ShearedRay::new(ray.origin, ray.direction);
         let slabs = SlabRay::new(ray.origin, ray.direction, extent);
-        Self { ray, sheared, slabs, skin, whole_skin: Some(skin), slack: slabs.slack() }
+        let sheared = ShearedRay::with_inverse(ray.origin, ray.direction, slabs.inverse);
+        Self { ray, sheared, slabs, whole_skin: Some(skin), slack: slabs.slack() }
     }
 
     /// Returns the distance from the start within which a surface of this object coincides with
     /// the start.
     #[must_use]
     pub fn skin(&self, accel: &Accel<'_>, object: u32) -> f64 {
-        if let Some(skin) = self.whole_skin {
-            return skin;
-        }
-        match self.ray.leaving {
-            Some(_) => self.skin + accel.rounding(object, DVec3::ZERO),
+        self.whole_skin.unwrap_or_else(|| Self::skin_of(accel, self.ray, object))
+    }
+
+    /// Returns the distance as [`Probe::skin`] does, for a ray in scene space.
+    #[must_use]
+    pub fn skin_of(accel: &Accel<'_>, ray: &Ray, object: u32) -> f64 {
+        match ray.leaving {
+            Some(from) => {
+                accel.rounding(from.object, ray.origin) + accel.rounding(object, DVec3::ZERO)
+            }
             // A start that is meant to lie on a surface is off it by the rounding of its own
             // coordinates.
-            None => {
-                super::EYE_ROUNDINGS / super::ROUNDINGS * accel.rounding(object, self.ray.origin)
-            }
+            None => super::EYE_ROUNDINGS / super::ROUNDINGS * accel.rounding(object, ray.origin),
         }
     }
 

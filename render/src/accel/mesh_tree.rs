@@ -35,19 +35,26 @@ impl MeshTree {
     #[must_use]
     pub fn build(mesh: &Mesh, triangles: Range<u32>) -> Option<Self> {
         let first = triangles.start;
-        let kept = triangles.into_par_iter().filter(|&n| !triangle::is_segment(&mesh.corners(n)));
-        let bounds = kept
-            .clone()
-            .map(|number| mesh.bounds(number))
+        let boxed = |number: u32| {
+            let corners = mesh.corners(number);
+            (!triangle::is_segment(&corners)).then(|| {
+                let [low, high] = triangle::bounds(&corners).map(|side| side.as_vec3().to_array());
+                Numbered::new(number - first, low, high)
+            })
+        };
+        let mut boxes: Vec<Numbered> = triangles.into_par_iter().filter_map(boxed).collect();
+        let bounds = boxes
+            .par_iter()
+            .map(Numbered::sides)
             .reduce_with(|a, b| [a[0].min(b[0]), a[1].max(b[1])])?;
         // Corners are exact in the frame of their own coordinates, from the offset.
-        let own_frame = Frame::exact(bounds.map(|corner| corner - mesh.offset));
+        let own_frame = Frame::exact(bounds);
         let frame = own_frame.moved(mesh.offset);
-        let numbered = |number: u32| {
-            let [low, high] = frame.box_around(mesh.bounds(number));
-            Numbered::new(number - first, low, high)
-        };
-        let mut boxes: Vec<Numbered> = kept.map(numbered).collect();
+        let bounds = bounds.map(|corner| corner + mesh.offset);
+        boxes.par_iter_mut().for_each(|one| {
+            let [low, high] = own_frame.box_around(one.sides());
+            *one = Numbered::new(one.number(), low, high);
+        });
         let (tree, leaves) = Tree::build(bounds, frame, &mut boxes, LANES);
         let block = |leaf: &Range<usize>| {
             let triangle = |one: &Numbered| {
@@ -75,6 +82,13 @@ impl MeshTree {
     #[must_use]
     pub fn tree(&self) -> &Tree {
         &self.tree
+    }
+
+    /// The triangles of a leaf.
+    #[must_use]
+    #[inline(always)]
+    pub fn block(&self, leaf: Child) -> &Block {
+        &self.blocks[leaf.number()]
     }
 
     /// Memory in bytes of the tree and of its copies of triangles.
@@ -115,8 +129,9 @@ impl MeshTree {
     }
 
     /// Returns the corners of a triangle in scene space.
+    #[must_use]
     #[inline(always)]
-    fn corners(&self, accel: &Accel<'_>, object: u32, block: &Block, lane: usize) -> Corners {
+    pub fn corners(&self, accel: &Accel<'_>, object: u32, block: &Block, lane: usize) -> Corners {
         if self.exact {
             self.tree.frame.scene(block.corners(lane))
         } else {
@@ -156,7 +171,7 @@ impl Task for Test<'_, '_> {
 }
 
 /// The leaves of a mesh's tree, visited by a ray.
-struct Blocks<'a, 'b, F> {
+pub struct Blocks<'a, 'b, F> {
     mesh: &'a MeshTree,
     accel: &'a Accel<'b>,
     object: u32,
@@ -164,6 +179,14 @@ struct Blocks<'a, 'b, F> {
     /// The ray if the mesh is that of an instance.
     own: Option<&'a OwnRay>,
     see: F,
+}
+
+impl<'a, 'b, F: FnMut(Hit) -> f64> Blocks<'a, 'b, F> {
+    /// The leaves of a mesh that is an object of the scene. `see` takes hits and returns the next distance.
+    #[inline(always)]
+    pub fn of(mesh: &'a MeshTree, accel: &'a Accel<'b>, object: u32, ray: &'a Ray, see: F) -> Self {
+        Self { mesh, accel, object, ray, own: None, see }
+    }
 }
 
 impl<F: FnMut(Hit) -> f64> Leaves for Blocks<'_, '_, F> {

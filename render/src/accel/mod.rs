@@ -28,15 +28,19 @@ mod bins;
 mod block;
 mod brute;
 mod build;
+mod bundle;
 mod collapse;
 mod flat;
 mod frame;
 mod grid;
+mod group;
 mod kernel;
+mod lanes;
 mod leaf;
 mod mesh_tree;
 mod node;
 mod own_ray;
+mod parts;
 mod simd;
 mod slabs;
 mod top;
@@ -47,7 +51,9 @@ use crate::shape::{Shape, SurfacePoint};
 use clap::ValueEnum;
 use flat::Flat;
 use glam::DVec3;
+use group::Group;
 use kernel::Kernel;
+use lanes::Lanes;
 use leaf::{Leaf, Probe};
 use serde::Deserialize;
 use simd::{Instructions, Task};
@@ -195,8 +201,15 @@ impl<'a> Accel<'a> {
     /// Finds the closest hits of several rays, each given with its `t_max`. The results are those of
     /// [`Accel::closest`] for each ray. `hits` has one element for each ray.
     pub fn closest_of(&self, rays: &[(Ray, f64)], hits: &mut [Option<Hit>]) {
-        for ((ray, t_max), hit) in rays.iter().zip(hits) {
-            *hit = self.closest(ray, *t_max);
+        for (rays, hits) in rays.chunks(lanes::MOST).zip(hits.chunks_mut(lanes::MOST)) {
+            hits.fill(None);
+            self.walk_group(rays, |k, hit| {
+                let best = &mut hits[k];
+                if best.is_none_or(|best| hit.before(&best)) {
+                    *best = Some(hit);
+                }
+                best.map_or(rays[k].1, |best| best.t)
+            });
         }
     }
 
@@ -209,8 +222,14 @@ impl<'a> Accel<'a> {
         mut test: impl FnMut(usize, Hit) -> bool,
         found: &mut [bool],
     ) {
-        for (k, ((ray, t_max), found)) in rays.iter().zip(found).enumerate() {
-            *found = self.any(ray, *t_max, |hit| test(k, hit));
+        found.fill(false);
+        for (part, rays) in rays.chunks(lanes::MOST).enumerate() {
+            let first = part * lanes::MOST;
+            self.walk_group(rays, |k, hit| {
+                let (number, t_max) = (first + k, rays[k].1);
+                found[number] = hit.t < t_max && test(number, hit);
+                if found[number] { -1.0 } else { t_max }
+            });
         }
     }
 
@@ -258,6 +277,51 @@ impl<'a> Accel<'a> {
     #[inline]
     fn walk(&self, ray: &Ray, t_max: f64, see: impl FnMut(Hit) -> f64) {
         self.instructions.run(&mut Walk { accel: self, ray, t_max, see });
+    }
+}
+
+impl Accel<'_> {
+    /// Calls `see` with the numbers of rays and their hits, up to the distance that it last returned for
+    /// the ray. There are at most [`lanes::MOST`] rays.
+    #[inline]
+    fn walk_group(&self, rays: &[(Ray, f64)], mut see: impl FnMut(usize, Hit) -> f64) {
+        if rays.len() < group::LEAST || matches!(self.index, Index::Flat(_)) {
+            for (k, (ray, t_max)) in rays.iter().enumerate() {
+                self.walk(ray, *t_max, |hit| see(k, hit));
+            }
+        } else {
+            self.instructions.run(&mut WalkGroup { accel: self, rays, see });
+        }
+    }
+}
+
+/// The walk of a group of rays.
+struct WalkGroup<'a, 'b, F> {
+    accel: &'a Accel<'b>,
+    rays: &'a [(Ray, f64)],
+    see: F,
+}
+
+impl<F: FnMut(usize, Hit) -> f64> Task for WalkGroup<'_, '_, F> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run<K: Kernel>(&mut self, kernel: K) {
+        let Self { accel, rays, see } = self;
+        let Index::Trees(trees, apart) = &accel.index else { return };
+        let mut left = u64::MAX >> (lanes::MOST - rays.len().clamp(1, lanes::MOST));
+        let mut group = Group { accel, rays, lanes: Lanes::none(), see };
+        while left != 0 {
+            group.lanes.take(rays, &mut left, accel.extent);
+            for leaf in apart {
+                group.each(|ray, t_max, see| {
+                    if let Some(hit) = Probe::new(accel, ray).meet(accel, leaf, t_max) {
+                        see(hit);
+                    }
+                });
+            }
+            trees.walk_group(kernel, &mut group);
+        }
     }
 }
 

@@ -51,15 +51,21 @@ impl Instructions {
 mod avx2 {
     use super::Task;
     use crate::accel::block::Block;
+    use crate::accel::bundle::{Bundle, EIGHT};
     use crate::accel::frame::TreeRay;
     use crate::accel::kernel::{Kernel, Tolerance};
+    use crate::accel::lanes::{FOUR, Lanes, MOST, Met, Target};
     use crate::accel::node::{Node, WIDTH};
     use std::arch::x86_64::{
-        __m128, __m256, _CMP_LE_OQ, _mm_and_ps, _mm_cmpge_ps, _mm_cmple_ps, _mm_fmsub_ps,
-        _mm_fnmadd_ps, _mm_loadu_ps, _mm_max_ps, _mm_min_ps, _mm_movemask_ps, _mm_mul_ps,
-        _mm_or_ps, _mm_set1_ps, _mm_sub_ps, _mm256_cmp_ps, _mm256_fmsub_ps, _mm256_loadu_ps,
-        _mm256_max_ps, _mm256_min_ps, _mm256_movemask_ps, _mm256_set1_ps, _mm256_setzero_ps,
-        _mm256_storeu_ps,
+        __m128, __m256, __m256d, _CMP_EQ_OQ, _CMP_GE_OQ, _CMP_GT_OQ, _CMP_LE_OQ, _CMP_LT_OQ,
+        _mm_and_ps, _mm_cmpge_ps, _mm_cmple_ps, _mm_fmsub_ps, _mm_fnmadd_ps, _mm_loadu_ps,
+        _mm_max_ps, _mm_min_ps, _mm_movemask_ps, _mm_mul_ps, _mm_or_ps, _mm_set1_ps, _mm_sub_ps,
+        _mm256_add_pd, _mm256_add_ps, _mm256_and_ps, _mm256_andnot_pd, _mm256_cmp_pd,
+        _mm256_cmp_ps, _mm256_div_pd, _mm256_fmsub_ps, _mm256_fnmadd_ps, _mm256_loadu_pd,
+        _mm256_loadu_ps, _mm256_max_pd, _mm256_max_ps, _mm256_min_pd, _mm256_min_ps,
+        _mm256_movemask_pd, _mm256_movemask_ps, _mm256_mul_pd, _mm256_mul_ps, _mm256_or_ps,
+        _mm256_set1_pd, _mm256_set1_ps, _mm256_setzero_pd, _mm256_setzero_ps, _mm256_storeu_pd,
+        _mm256_storeu_ps, _mm256_sub_pd, _mm256_sub_ps,
     };
 
     /// Proof that the processor has AVX2 and FMA: only [`Avx2::detect`] makes a value.
@@ -93,6 +99,66 @@ mod avx2 {
     fn load8(from: &[f32; 8]) -> __m256 {
         // SAFETY: the array holds eight numbers, and the load needs no alignment. Callers have AVX.
         unsafe { _mm256_loadu_ps(from.as_ptr()) }
+    }
+
+    #[inline(always)]
+    fn load4(from: &[f64; FOUR]) -> __m256d {
+        // SAFETY: the array holds four numbers, and the load needs no alignment. Callers have AVX.
+        unsafe { _mm256_loadu_pd(from.as_ptr()) }
+    }
+
+    #[inline(always)]
+    fn store4(numbers: __m256d) -> [f64; FOUR] {
+        let mut out = [0.0; FOUR];
+        // SAFETY: the array holds four numbers, and the store needs no alignment. Callers have AVX.
+        unsafe { _mm256_storeu_pd(out.as_mut_ptr(), numbers) };
+        out
+    }
+
+    /// The distances of the near sides of eight boxes from the nearest start, and of the far sides from
+    /// the farthest, along one axis: the least and the largest.
+    #[inline(always)]
+    fn interval(node: &Node, bundle: &Bundle, axis: usize) -> (__m256, __m256) {
+        let side = bundle.near[axis] & 1;
+        // SAFETY: callers have AVX.
+        unsafe {
+            let near = load8(&node.sides[axis][side]);
+            let far = load8(&node.sides[axis][side ^ 1]);
+            let near = _mm256_sub_ps(near, _mm256_set1_ps(bundle.from[0][axis]));
+            let far = _mm256_sub_ps(far, _mm256_set1_ps(bundle.from[1][axis]));
+            let least = _mm256_set1_ps(bundle.inverse[0][axis]);
+            let most = _mm256_set1_ps(bundle.inverse[1][axis]);
+            let enter = _mm256_min_ps(_mm256_mul_ps(near, least), _mm256_mul_ps(near, most));
+            let leave = _mm256_max_ps(_mm256_mul_ps(far, least), _mm256_mul_ps(far, most));
+            (enter, leave)
+        }
+    }
+
+    /// The distances of the two sides of a box along one axis, the nearer first.
+    #[inline(always)]
+    fn slab(lanes: &Lanes, four: usize, target: &Target, axis: usize) -> (__m256d, __m256d) {
+        // SAFETY: callers have AVX.
+        unsafe {
+            let inverse = load4(&lanes.inverse[axis][four]);
+            let (above, below) = (load4(&lanes.above[axis][four]), load4(&lanes.below[axis][four]));
+            let low = _mm256_sub_pd(_mm256_set1_pd(target.low[axis]), above);
+            let high = _mm256_sub_pd(_mm256_set1_pd(target.high[axis]), below);
+            let (low, high) = (_mm256_mul_pd(low, inverse), _mm256_mul_pd(high, inverse));
+            (_mm256_min_pd(low, high), _mm256_max_pd(low, high))
+        }
+    }
+
+    #[inline(always)]
+    fn bits(mask: __m256d) -> u32 {
+        // SAFETY: callers have AVX.
+        unsafe { _mm256_movemask_pd(mask) as u32 }
+    }
+
+    /// The difference of two products, each rounded alone.
+    #[inline(always)]
+    fn cross(ax: __m256d, by: __m256d, ay: __m256d, bx: __m256d) -> __m256d {
+        // SAFETY: callers have AVX.
+        unsafe { _mm256_sub_pd(_mm256_mul_pd(ax, by), _mm256_mul_pd(ay, bx)) }
     }
 
     /// The distances of the sides of eight boxes along one axis.
@@ -189,6 +255,145 @@ mod avx2 {
                 let ahead = _mm_cmpge_ps(farthest, _mm_set1_ps(-tolerance.depth));
                 let hit = _mm_and_ps(_mm_or_ps(front, back), _mm_and_ps(near, ahead));
                 _mm_movemask_ps(hit) as u32
+            }
+        }
+
+        #[inline(always)]
+        fn boxes_of_all(self, node: &Node, bundle: &Bundle) -> ([f32; WIDTH], u32) {
+            let (near_x, far_x) = interval(node, bundle, 0);
+            let (near_y, far_y) = interval(node, bundle, 1);
+            let (near_z, far_z) = interval(node, bundle, 2);
+            let mut distances = [0.0; WIDTH];
+            // SAFETY: a value of this type exists only if the processor has AVX2 and FMA. The array
+            // holds eight numbers, and the store needs no alignment.
+            unsafe {
+                let near_z = _mm256_max_ps(near_z, _mm256_setzero_ps());
+                let enter = _mm256_max_ps(_mm256_max_ps(near_x, near_y), near_z);
+                let far_z = _mm256_min_ps(far_z, _mm256_set1_ps(bundle.farthest));
+                let leave = _mm256_min_ps(_mm256_min_ps(far_x, far_y), far_z);
+                let mask = _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(enter, leave));
+                _mm256_storeu_ps(distances.as_mut_ptr(), enter);
+                (distances, mask as u32)
+            }
+        }
+
+        #[inline(always)]
+        fn rays(self, block: &Block, lane: usize, bundle: &Bundle, tolerance: Tolerance) -> u64 {
+            let [x, y, z] = [bundle.axes[0].min(2), bundle.axes[1].min(2), bundle.axes[2].min(2)];
+            let (lane, [first, second, third]) = (lane & 3, &block.corners);
+            let mut mask = 0;
+            let mut eight = 0;
+            // SAFETY: a value of this type exists only if the processor has AVX2 and FMA.
+            unsafe {
+                let of = _mm256_set1_ps;
+                let edges = of(tolerance.edge);
+                let edges_below = of(-tolerance.edge);
+                let ahead = of(-tolerance.depth);
+                let slack = of(tolerance.depth);
+                let (pax, pay, paz) = (of(first[x][lane]), of(first[y][lane]), of(first[z][lane]));
+                let (pbx, pby, pbz) =
+                    (of(second[x][lane]), of(second[y][lane]), of(second[z][lane]));
+                let (pcx, pcy, pcz) = (of(third[x][lane]), of(third[y][lane]), of(third[z][lane]));
+                while eight < MOST / EIGHT {
+                    let oz = load8(&bundle.origin[2][eight]);
+                    let (da, db, dc) =
+                        (_mm256_sub_ps(paz, oz), _mm256_sub_ps(pbz, oz), _mm256_sub_ps(pcz, oz));
+                    let (ox, sx) =
+                        (load8(&bundle.origin[0][eight]), load8(&bundle.shear[0][eight]));
+                    let ax = _mm256_fnmadd_ps(sx, da, _mm256_sub_ps(pax, ox));
+                    let bx = _mm256_fnmadd_ps(sx, db, _mm256_sub_ps(pbx, ox));
+                    let cx = _mm256_fnmadd_ps(sx, dc, _mm256_sub_ps(pcx, ox));
+                    let (oy, sy) =
+                        (load8(&bundle.origin[1][eight]), load8(&bundle.shear[1][eight]));
+                    let ay = _mm256_fnmadd_ps(sy, da, _mm256_sub_ps(pay, oy));
+                    let by = _mm256_fnmadd_ps(sy, db, _mm256_sub_ps(pby, oy));
+                    let cy = _mm256_fnmadd_ps(sy, dc, _mm256_sub_ps(pcy, oy));
+                    let a = _mm256_fmsub_ps(cx, by, _mm256_mul_ps(cy, bx));
+                    let b = _mm256_fmsub_ps(ax, cy, _mm256_mul_ps(ay, cx));
+                    let c = _mm256_fmsub_ps(bx, ay, _mm256_mul_ps(by, ax));
+                    let least = _mm256_min_ps(_mm256_min_ps(a, b), c);
+                    let most = _mm256_max_ps(_mm256_max_ps(a, b), c);
+                    let sz = load8(&bundle.shear[2][eight]);
+                    let (az, bz, cz) =
+                        (_mm256_mul_ps(sz, da), _mm256_mul_ps(sz, db), _mm256_mul_ps(sz, dc));
+                    let nearest = _mm256_min_ps(_mm256_min_ps(az, bz), cz);
+                    let farthest = _mm256_max_ps(_mm256_max_ps(az, bz), cz);
+                    let front = _mm256_cmp_ps::<_CMP_GE_OQ>(least, edges_below);
+                    let back = _mm256_cmp_ps::<_CMP_LE_OQ>(most, edges);
+                    let limit = _mm256_add_ps(load8(&bundle.limit[eight]), slack);
+                    let near = _mm256_cmp_ps::<_CMP_LE_OQ>(nearest, limit);
+                    let far = _mm256_cmp_ps::<_CMP_GE_OQ>(farthest, ahead);
+                    let crossed = _mm256_or_ps(front, back);
+                    let hit = _mm256_and_ps(crossed, _mm256_and_ps(near, far));
+                    mask |= (_mm256_movemask_ps(hit) as u32 as u64) << (EIGHT * eight);
+                    eight += 1;
+                }
+            }
+            mask
+        }
+
+        #[inline(always)]
+        fn four(self, lanes: &Lanes, four: usize, target: &Target) -> Met {
+            let four = four % (MOST / FOUR);
+            let [x, y, z] = [lanes.axes[0].min(2), lanes.axes[1].min(2), lanes.axes[2].min(2)];
+            let (px, py, pz) = (target.corners[x], target.corners[y], target.corners[z]);
+            let (near_x, far_x) = slab(lanes, four, target, 0);
+            let (near_y, far_y) = slab(lanes, four, target, 1);
+            let (near_z, far_z) = slab(lanes, four, target, 2);
+            // SAFETY: a value of this type exists only if the processor has AVX2 and FMA.
+            unsafe {
+                let of = _mm256_set1_pd;
+                let oz = load4(&lanes.origin[z][four]);
+                let da = _mm256_sub_pd(of(pz.x), oz);
+                let db = _mm256_sub_pd(of(pz.y), oz);
+                let dc = _mm256_sub_pd(of(pz.z), oz);
+                let sz = load4(&lanes.shear[2][four]);
+                let (az, bz, cz) =
+                    (_mm256_mul_pd(sz, da), _mm256_mul_pd(sz, db), _mm256_mul_pd(sz, dc));
+                let (ox, sx) = (load4(&lanes.origin[x][four]), load4(&lanes.shear[0][four]));
+                let ax = _mm256_sub_pd(_mm256_sub_pd(of(px.x), ox), _mm256_mul_pd(sx, da));
+                let bx = _mm256_sub_pd(_mm256_sub_pd(of(px.y), ox), _mm256_mul_pd(sx, db));
+                let cx = _mm256_sub_pd(_mm256_sub_pd(of(px.z), ox), _mm256_mul_pd(sx, dc));
+                let (oy, sy) = (load4(&lanes.origin[y][four]), load4(&lanes.shear[1][four]));
+                let ay = _mm256_sub_pd(_mm256_sub_pd(of(py.x), oy), _mm256_mul_pd(sy, da));
+                let by = _mm256_sub_pd(_mm256_sub_pd(of(py.y), oy), _mm256_mul_pd(sy, db));
+                let cy = _mm256_sub_pd(_mm256_sub_pd(of(py.z), oy), _mm256_mul_pd(sy, dc));
+                let (a, b, c) =
+                    (cross(cx, by, cy, bx), cross(ax, cy, ay, cx), cross(bx, ay, by, ax));
+                let area = _mm256_add_pd(_mm256_add_pd(a, b), c);
+                let wa = _mm256_div_pd(a, area);
+                let wb = _mm256_div_pd(b, area);
+                let wc = _mm256_div_pd(c, area);
+                let t = _mm256_add_pd(_mm256_mul_pd(wa, az), _mm256_mul_pd(wb, bz));
+                let t = _mm256_add_pd(t, _mm256_mul_pd(wc, cz));
+                let zero = _mm256_setzero_pd();
+                let enter =
+                    _mm256_max_pd(_mm256_max_pd(near_x, near_y), _mm256_max_pd(near_z, zero));
+                let leave = _mm256_min_pd(_mm256_min_pd(far_x, far_y), far_z);
+                let clamped = _mm256_min_pd(_mm256_max_pd(t, enter), leave);
+                let t_max = load4(&lanes.t_max[four]);
+                let limit = _mm256_add_pd(t_max, load4(&lanes.slack[four]));
+                let least = _mm256_min_pd(_mm256_min_pd(a, b), c);
+                let most = _mm256_max_pd(_mm256_max_pd(a, b), c);
+                let nearest = _mm256_min_pd(_mm256_min_pd(az, bz), cz);
+                let beyond = bits(_mm256_cmp_pd::<_CMP_GT_OQ>(nearest, limit));
+                let negative = bits(_mm256_cmp_pd::<_CMP_LT_OQ>(least, zero));
+                let positive = bits(_mm256_cmp_pd::<_CMP_GT_OQ>(most, zero));
+                let empty = bits(_mm256_cmp_pd::<_CMP_EQ_OQ>(area, zero));
+                let crossed = bits(_mm256_cmp_pd::<_CMP_LE_OQ>(enter, leave));
+                let ahead = bits(_mm256_cmp_pd::<_CMP_GT_OQ>(t, zero));
+                let met = bits(_mm256_cmp_pd::<_CMP_GT_OQ>(clamped, zero));
+                let within = bits(_mm256_cmp_pd::<_CMP_LE_OQ>(clamped, t_max));
+                let missed = beyond | (negative & positive) | empty;
+                let sign = of(-0.0);
+                let apart = _mm256_mul_pd(t, _mm256_andnot_pd(sign, area));
+                let off = _mm256_mul_pd(of(target.off), _mm256_andnot_pd(sign, sz));
+                Met {
+                    clear: bits(_mm256_cmp_pd::<_CMP_GT_OQ>(apart, off)),
+                    mask: !missed & crossed & ahead & met & within,
+                    t: store4(clamped),
+                    weights: [store4(wb), store4(wc)],
+                }
             }
         }
     }

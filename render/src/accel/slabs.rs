@@ -31,27 +31,37 @@ impl SlabRay {
     /// overflow.
     pub const ZERO: f64 = 1e-300;
 
+    /// Widening of boxes, as a part of the scale.
+    ///
+    /// Shearing rounds each coordinate four times. The bound is twice that, and three roundings of the box
+    /// test.
+    pub const WIDENING: f64 = 16.0 * f64::EPSILON;
+
+    /// Bound of [`SlabRay::slack`], as a part of the scale: twice the widening along the ray, and the
+    /// roundings of the distances.
+    pub const SLACK: f64 = 64.0 * f64::EPSILON;
+
     /// Prepares the ray for boxes whose absolute coordinates are at most `extent`.
     #[must_use]
     #[inline(always)]
     pub fn new(origin: DVec3, direction: DVec3, extent: f64) -> Self {
         // A zero component gets a huge finite inverse: no product is NaN, even on a box's face.
-        let invert =
-            |d: f64| if d.abs() > Self::ZERO { 1.0 / d } else { Self::ZERO.recip().copysign(d) };
-        let inverse = DVec3::new(invert(direction.x), invert(direction.y), invert(direction.z));
+        let inverse = DVec3::select(
+            direction.abs().cmpgt(DVec3::splat(Self::ZERO)),
+            direction.recip(),
+            DVec3::splat(Self::ZERO.recip()).copysign(direction),
+        );
         let scale = origin.abs().max_element() + extent;
-        // Shearing rounds each coordinate four times. The bound is twice that, and three roundings
-        // of the box test.
-        let widening = 16.0 * f64::EPSILON * scale;
+        let widening = Self::WIDENING * scale;
         let (above, below) = (origin + widening, origin - widening);
         Self { origin, direction, inverse, scale, above, below }
     }
 
     /// Returns a bound on the error of distances to planes across the direction's largest component,
-    /// in scene units: twice the widening along the ray, and the roundings of the distances.
+    /// in scene units.
     #[must_use]
     pub fn slack(&self) -> f64 {
-        64.0 * f64::EPSILON * self.scale
+        Self::SLACK * self.scale
     }
 
     /// Returns the distances at which the ray enters and leaves the box, from its start on, or

@@ -2,11 +2,11 @@
 
 use super::build::Numbered;
 use super::frame::{Frame, TreeRay};
+use super::grid::Grids;
 use super::kernel::Portable;
 use super::node::Child;
 use super::tree::{Leaves, Tree};
 use super::*;
-use crate::accel::grid::Grids;
 use crate::accel::slabs::SlabRay;
 use crate::shape::Mesh;
 use crate::shape::Sphere;
@@ -206,6 +206,20 @@ proptest! {
                 tree.instructions = instructions;
                 prop_assert_eq!(tree.closest(&ray, f64::INFINITY).map(bits), expected);
                 prop_assert_eq!(all(&tree, middle), all(&brute, middle));
+            }
+            // A group of rays to the points of a triangle.
+            let group: Vec<(Ray, f64)> = (0..40).map(|k| {
+                let [u, v] = [k % 8, k / 8].map(|k| f64::from(k) * 0.125);
+                let toward = a + u * (b - a) + v * (1.0 - u) * (c - a) - start;
+                (Ray { direction: toward.normalize_or(DVec3::X), ..ray }, f64::INFINITY)
+            }).collect();
+            for instructions in [Instructions::Portable, Instructions::detect()] {
+                tree.instructions = instructions;
+                let mut hits = vec![None; group.len()];
+                tree.closest_of(&group, &mut hits);
+                for ((ray, t_max), hit) in group.iter().zip(hits) {
+                    prop_assert_eq!(hit.map(bits), brute.closest(ray, *t_max).map(bits));
+                }
             }
         }
     }

@@ -3,6 +3,7 @@
 use super::Accel;
 use super::build::Numbered;
 use super::frame::{Frame, TreeRay};
+use super::group::Group;
 use super::kernel::Kernel;
 use super::leaf::Probe;
 use super::mesh_tree::{self, MeshTree};
@@ -16,6 +17,14 @@ use crate::shape::{Mesh, Shape};
 use glam::DVec3;
 use std::collections::HashMap;
 use std::ops::Range;
+
+/// Largest number of objects that are tested against a group. If larger, a group tests boxes that no ray
+/// comes near. If smaller, scenes of many objects trace their rays one by one.
+const FEW: usize = 32;
+
+/// Largest number of objects that every ray tries without the upper tree. If larger, rays try objects
+/// beside their path. If smaller, scenes of an object and a floor pay for a tree.
+const ALL: usize = 2;
 
 /// An object of the upper tree.
 #[derive(Debug, Clone, Copy)]
@@ -34,6 +43,8 @@ pub struct Trees {
     tree: Option<Tree>,
     /// The objects, in the order of the upper tree's leaves.
     items: Vec<Item>,
+    /// The boxes of the objects.
+    bounds: Vec<[DVec3; 2]>,
     /// The trees of all meshes. The instances of a mesh have the same trees.
     meshes: Vec<MeshTree>,
 }
@@ -64,7 +75,7 @@ impl Trees {
         }
         let whole = items.iter().map(|(_, bounds)| *bounds);
         let Some(whole) = whole.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]) else {
-            return Self { tree: None, items: vec![], meshes };
+            return Self { tree: None, items: vec![], bounds: vec![], meshes };
         };
         let frame = Frame::around(whole);
         let numbered = |(number, (_, bounds)): (usize, &(Item, [DVec3; 2]))| {
@@ -74,15 +85,17 @@ impl Trees {
         let mut boxes: Vec<Numbered> = items.iter().enumerate().map(numbered).collect();
         let (tree, leaves) = Tree::build(whole, frame, &mut boxes, 1);
         let in_order = leaves.into_iter().flatten().map(|at| boxes[at].number());
-        let items = in_order.map(|number| items[number as usize].0).collect();
-        Self { tree: Some(tree), items, meshes }
+        let (items, bounds) = in_order.map(|number| items[number as usize]).unzip();
+        Self { tree: Some(tree), items, bounds, meshes }
     }
 
     /// Memory in bytes of all trees and of their copies of triangles.
     #[must_use]
     pub fn bytes(&self) -> usize {
         let own = self.tree.as_ref().map_or(0, Tree::bytes);
-        let items = size_of_val(&*self.items);
+        // Of a single object, there is nothing to search.
+        let items = size_of_val(&*self.items) + size_of_val(&*self.bounds);
+        let items = if own > 0 { items } else { 0 };
         own + items + self.meshes.iter().map(MeshTree::bytes).sum::<usize>()
     }
 
@@ -105,10 +118,68 @@ impl Trees {
     ) {
         let Some(tree) = &self.tree else { return };
         let mut objects = Objects { trees: self, accel, ray, see };
-        if let [item] = &*self.items {
-            objects.visit_item(kernel, item, t_max);
+        if self.items.len() <= ALL {
+            let mut t_max = t_max;
+            for item in &self.items {
+                t_max = objects.visit_item(kernel, item, t_max);
+            }
         } else {
             tree.walk(kernel, (ray, accel.extent), t_max, &mut objects);
+        }
+    }
+}
+
+impl Trees {
+    /// Calls the group's `see` with the hits of all its rays. The upper tree is not used: the boxes of a
+    /// few objects are tested against the whole group. Among many objects, rays are traced one by one.
+    #[inline(always)]
+    pub fn walk_group<K: Kernel>(
+        &self,
+        kernel: K,
+        group: &mut Group<'_, '_, impl FnMut(usize, Hit) -> f64>,
+    ) {
+        let accel = group.accel;
+        if self.items.len() > FEW {
+            group.each(|ray, t_max, mut see| self.walk(kernel, ray, accel, t_max, &mut see));
+            return;
+        }
+        if let [Item::Mesh(object, mesh)] = *self.items {
+            group.walk_mesh(kernel, object, &self.meshes[mesh]);
+            return;
+        }
+        let around = group.lanes.around();
+        let mut order = [(0.0, 0); FEW];
+        let mut count = 0;
+        for (number, bounds) in self.bounds.iter().enumerate() {
+            let Some(enter) = group.lanes.crosses(&around, bounds) else { continue };
+            let mut at = count;
+            while at > 0 && enter < order[at - 1].0 {
+                order[at] = order[at - 1];
+                at -= 1;
+            }
+            order[at] = (enter, number);
+            count += 1;
+        }
+        for &(enter, number) in &order[..count] {
+            if enter > group.lanes.farthest() {
+                return;
+            }
+            match self.items[number] {
+                Item::Whole(object) => group.each(|ray, t_max, see| {
+                    if let Some(hit) = Probe::new(accel, ray).meet_shape(accel, object, t_max) {
+                        see(hit);
+                    }
+                }),
+                Item::Mesh(object, mesh) => {
+                    group.walk_mesh(kernel, object, &self.meshes[mesh]);
+                }
+                Item::Instance(object, mesh) => {
+                    let mesh = &self.meshes[mesh];
+                    group.each(|ray, t_max, see| {
+                        kernel.apart(&mut InOwnSpace { mesh, accel, object, ray, t_max, see });
+                    });
+                }
+            }
         }
     }
 }

@@ -61,6 +61,20 @@ impl Tree {
         (Self { bounds, frame, root, nodes, looks: grove.looks }, leaves)
     }
 
+    /// The root.
+    #[must_use]
+    #[inline(always)]
+    pub fn root(&self) -> Child {
+        self.root
+    }
+
+    /// The node of a child that is no leaf.
+    #[must_use]
+    #[inline(always)]
+    pub fn node(&self, child: Child) -> &Node {
+        &self.nodes[child.number()]
+    }
+
     /// Number of boxes examined to build the tree; a box counts each time it is examined.
     #[must_use]
     pub fn looks(&self) -> u64 {
@@ -104,8 +118,9 @@ impl Tree {
         self.walk_from(kernel, start, ray, t_max, leaves)
     }
 
+    /// Visits the leaves below `start` as [`Tree::walk`] does.
     #[inline(always)]
-    fn walk_from<K: Kernel>(
+    pub fn walk_from<K: Kernel>(
         &self,
         kernel: K,
         start: Child,

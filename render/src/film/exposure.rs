@@ -19,6 +19,7 @@ use super::sampling::Sampling;
 use super::{Picture, Settings};
 use crate::color::Color;
 use crate::footprint::Sight;
+use crate::ray::{Hit, Ray};
 use crate::shade::observer::Observer;
 use crate::shade::{ShadeWork, Shader};
 use crate::stats::Stats;
@@ -198,19 +199,29 @@ impl Exposure<'_> {
         self.tracer.trace(&self.tracer.scene.camera.ray(position, self.size()), tree, rays);
     }
 
+    /// Returns the ray through a position on the film.
+    pub fn ray(&self, position: DVec2) -> Ray {
+        self.tracer.scene.camera.ray(position, self.size())
+    }
+
     /// Traces the ray through a position on the film, with its differential for a step of `side`
-    /// pixels.
+    /// pixels. `first` is the ray's closest hit, if it is known whether there is one.
     pub fn trace_spread(
         &self,
         position: DVec2,
         side: f64,
+        first: Option<Option<Hit>>,
         tree: &mut IntersectionTree,
         rays: &mut RayCounts,
     ) {
-        let camera = &self.tracer.scene.camera;
-        let ray = camera.ray(position, self.size());
-        let differential = camera.differential(position, self.size(), side);
-        self.tracer.trace_spread(&ray, &differential, tree, rays);
+        let ray = self.ray(position);
+        let differential = self.tracer.scene.camera.differential(position, self.size(), side);
+        match first {
+            Some(first) => {
+                self.tracer.trace_spread_from(&ray, &differential, first, tree, rays);
+            }
+            None => self.tracer.trace_spread(&ray, &differential, tree, rays),
+        }
     }
 
     /// Size of the film, in pixels.

@@ -61,12 +61,16 @@ fn nothing(branch: Branch) -> &'static str {
 /// Describes the object that was hit, and the triangle of a mesh.
 fn piece(scene: &Scene, node: &Node) -> String {
     let index = node.piece.object as usize;
-    let shape = &scene.objects[index].shape;
-    let kind = shape.kind();
+    let kind = scene.objects[index].shape.kind();
     match scene.names.objects.get(index) {
         Some(Some(name)) => {
             let name = files::words::shown(name);
-            format!("object {index}, {kind} \"{name}\", triangle {}", node.piece.triangle)
+            let number = scene.placement(index).map(|number| format!(", placement {number}"));
+            let placement = number.unwrap_or_default();
+            format!(
+                "object {index}, {kind} \"{name}\"{placement}, triangle {}",
+                node.piece.triangle
+            )
         }
         _ if kind == "mesh" => format!("object {index}, {kind}, triangle {}", node.piece.triangle),
         _ => format!("object {index}, {kind}"),

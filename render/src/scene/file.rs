@@ -98,6 +98,12 @@
 //! gives. `mtl` names the material library that the tool wrote with it ([what is
 //! read](super::mtl)).
 //!
+//! `instances` shows a mesh several times: `"instances": [ [ { "translate": [-3, 0, 0] } ], [ {
+//! "rotate_deg": { "axis": [0, 1, 0], "angle": 40 } }, { "translate": [3, 0, 0] } ] ]`. Each placement is
+//! a list of steps, which follow those of `place`, and is an object of its own. The mesh is read, stored
+//! and prepared for rays once. This also holds for objects that name the same file. Corners of such a mesh
+//! are placed in double precision, where those of a single mesh are rounded to single precision.
+//!
 //! # Parts
 //!
 //! `include` adds lights, textures, materials and objects from files of format `tb-scene-part`.

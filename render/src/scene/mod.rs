@@ -93,6 +93,19 @@ impl Scene {
         self.textures.iter().any(|texture| texture.mask.is_some())
     }
 
+    /// Returns the number of the placement of an instance, from 0, among the objects that follow one
+    /// another and share its mesh. Returns `None` for an object that is no instance.
+    #[must_use]
+    pub fn placement(&self, object: usize) -> Option<usize> {
+        let key = |object: &Object| match &object.shape {
+            Shape::Instance(instance) => Some(instance.key()),
+            _ => None,
+        };
+        let own = key(self.objects.get(object)?)?;
+        let before = self.objects[..object].iter().rev();
+        Some(before.take_while(|object| key(object) == Some(own)).count())
+    }
+
     /// Returns for each of `textures` whether some surface or the background shows it.
     #[must_use]
     pub fn shown_textures(&self) -> Vec<bool> {

@@ -178,11 +178,9 @@ impl Mesh {
         let corners = &self.triangles[triangle as usize];
         let [p0, p1, p2] = corners.position.map(|i| as_dvec3(self.positions[i as usize]));
         let geometric_normal = normal([p0, p1, p2]);
-        let shading_normal = if corners.normal[0] == NONE {
-            geometric_normal
-        } else {
-            let normals = corners.normal.map(|i| as_dvec3(self.normals[i as usize]));
-            weighted(weights, normals).normalize_or(geometric_normal)
+        let shading_normal = match self.corner_normals(triangle) {
+            None => geometric_normal,
+            Some(normals) => weighted(weights, normals).normalize_or(geometric_normal),
         };
         let uv = if corners.uv[0] == NONE {
             DVec2::ZERO
@@ -212,10 +210,27 @@ impl Mesh {
     /// without area, and those of the normal also on a triangle without normals.
     #[must_use]
     pub fn changes(&self, triangle: u32, barycentric: [f64; 2], steps: [DVec3; 2]) -> Changes {
+        self.changes_with(triangle, barycentric, steps, self.corner_normals(triangle))
+    }
+
+    /// Returns the normals at a triangle's corners as in the file, or `None` if it has none.
+    pub(super) fn corner_normals(&self, triangle: u32) -> Option<[DVec3; 3]> {
+        let normals = self.triangles[triangle as usize].normal;
+        (normals[0] != NONE).then(|| normals.map(|i| as_dvec3(self.normals[i as usize])))
+    }
+
+    /// Returns changes as [`Mesh::changes`] does, with other normals at the corners.
+    pub(super) fn changes_with(
+        &self,
+        triangle: u32,
+        barycentric: [f64; 2],
+        steps: [DVec3; 2],
+        normals: Option<[DVec3; 3]>,
+    ) -> Changes {
         let mut changes = Changes::default();
         let corners = &self.triangles[triangle as usize];
-        let (with_uv, with_normal) = (corners.uv[0] != NONE, corners.normal[0] != NONE);
-        if !with_uv && !with_normal {
+        let with_uv = corners.uv[0] != NONE;
+        if !with_uv && normals.is_none() {
             return changes;
         }
         let Some([by_b, by_c]) = self.weight_gradients(triangle) else { return changes };
@@ -224,9 +239,8 @@ impl Mesh {
             let [along_b, along_c] = self.uv_sides(corners);
             changes.uv = weights.map(|[b, c]| b * along_b + c * along_c);
         }
-        if with_normal {
+        if let Some(normals) = normals {
             let [b, c] = barycentric;
-            let normals = corners.normal.map(|i| as_dvec3(self.normals[i as usize]));
             let sum = weighted([1.0 - b - c, b, c], normals);
             if sum != DVec3::ZERO {
                 let [along_b, along_c] = [normals[1] - normals[0], normals[2] - normals[0]];
@@ -280,6 +294,7 @@ fn normal([a, b, c]: [DVec3; 3]) -> DVec3 {
     (b - a).cross(c - a).normalize_or(DVec3::Y)
 }
 
+/// Sum of points with these weights.
 pub(super) fn weighted(weights: [f64; 3], points: [DVec3; 3]) -> DVec3 {
     weights[0] * points[0] + weights[1] * points[1] + weights[2] * points[2]
 }

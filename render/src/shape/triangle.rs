@@ -62,10 +62,39 @@ impl ShearedRay {
     #[must_use]
     #[inline(always)]
     pub fn new(origin: DVec3, direction: DVec3) -> Self {
+        Self::with_inverse(origin, direction, direction.recip())
+    }
+
+    /// Prepares a ray as [`ShearedRay::new`] does. `inverse` is one over the direction along its largest
+    /// component.
+    #[must_use]
+    #[inline(always)]
+    pub fn with_inverse(origin: DVec3, direction: DVec3, inverse: DVec3) -> Self {
         let order = Order::of(direction);
         let [x, y, z] = order.axes();
-        let (x, y, z) = (direction[x], direction[y], direction[z]);
-        Self { origin, order, shear: [x / z, y / z, 1.0 / z] }
+        let over = inverse[z];
+        Self { origin, order, shear: [direction[x] * over, direction[y] * over, over] }
+    }
+
+    /// Returns [`ShearedRay::axes`] of a ray with this direction.
+    #[must_use]
+    #[inline(always)]
+    pub fn axes_of(direction: DVec3) -> [usize; 3] {
+        Order::of(direction).axes()
+    }
+
+    /// The axes after shearing: the last is that of the direction's largest component.
+    #[must_use]
+    #[inline(always)]
+    pub fn axes(&self) -> [usize; 3] {
+        self.order.axes()
+    }
+
+    /// The components of the direction along the first two axes, and 1, over that of the last.
+    #[must_use]
+    #[inline(always)]
+    pub fn shear(&self) -> [f64; 3] {
+        self.shear
     }
 
     /// Returns the hit with a distance above 0, from either side, and the sum of the edge functions.
@@ -119,11 +148,13 @@ impl ShearedRay {
     #[must_use]
     #[inline(always)]
     pub fn starts_off(&self, t: f64, area: f64, size: DVec4, skin: f64) -> bool {
-        // The factor of 32 exceeds all roundings, since a skin is above four roundings of the largest
-        // coordinate.
-        t * area.abs() > 32.0 * skin * size.length_squared() * self.shear[2].abs()
+        t * area.abs() > START_OFF * skin * size.length_squared() * self.shear[2].abs()
     }
 }
+
+/// Factor of the skin in [`ShearedRay::starts_off`]. It exceeds all roundings, since a skin is above four
+/// roundings of the largest coordinate.
+pub const START_OFF: f64 = 32.0;
 
 /// Corners of a triangle, along each axis: first, second, third, and the first again.
 pub type Corners = [DVec4; 3];

@@ -65,8 +65,9 @@ enum End {
     Lost,
 }
 
-/// A ray and, if footprints come from it alone, its differential.
-type Carried<'a> = (&'a Ray, Option<&'a RayDifferential>);
+/// A ray and, if footprints come from it alone, its differential. Last its closest hit, if it is known
+/// whether there is one.
+type Carried<'a> = (&'a Ray, Option<&'a RayDifferential>, Option<Option<Hit>>);
 
 /// A visible surface that a ray reaches.
 struct Seen {
@@ -120,7 +121,7 @@ impl<'a> Tracer<'a> {
 
     /// Traces a ray from the eye and fills its intersection tree.
     pub fn trace(&self, ray: &Ray, tree: &mut IntersectionTree, counts: &mut RayCounts) {
-        self.trace_carried((ray, None), tree, counts);
+        self.trace_carried((ray, None, None), tree, counts);
     }
 
     /// Traces a ray from the eye as [`Tracer::trace`] does, and stores the spread of each hit in the
@@ -132,7 +133,19 @@ impl<'a> Tracer<'a> {
         tree: &mut IntersectionTree,
         counts: &mut RayCounts,
     ) {
-        self.trace_carried((ray, Some(differential)), tree, counts);
+        self.trace_carried((ray, Some(differential), None), tree, counts);
+    }
+
+    /// Traces a ray from the eye as [`Tracer::trace_spread`] does. `first` is its closest hit.
+    pub fn trace_spread_from(
+        &self,
+        ray: &Ray,
+        differential: &RayDifferential,
+        first: Option<Hit>,
+        tree: &mut IntersectionTree,
+        counts: &mut RayCounts,
+    ) {
+        self.trace_carried((ray, Some(differential), Some(first)), tree, counts);
     }
 
     fn trace_carried(
@@ -146,7 +159,7 @@ impl<'a> Tracer<'a> {
         let mut media = std::mem::take(&mut tree.media);
         if self.scene.camera.is_orthographic() && self.volumes.any() {
             // Each ray starts at a place of its own.
-            let (ray, _) = carried;
+            let (ray, _, _) = carried;
             media = self.volumes.around(self.scene, self.accel, ray.origin);
         } else {
             media.start_in(&self.around_eye);
@@ -173,8 +186,8 @@ impl<'a> Tracer<'a> {
             return (Branch::Cut, Color::ONE);
         }
         let start = media.mark();
-        let (ray, differential) = carried;
-        let (end, through) = self.arrive(ray, media);
+        let (ray, differential, first) = carried;
+        let (end, through) = self.arrive(ray, first, media);
         let branch = match end {
             End::Surface(hit, point, boundary) => {
                 let path = Path { weight: path.weight * through, ..path };
@@ -216,7 +229,7 @@ impl<'a> Tracer<'a> {
     #[inline]
     fn divide(
         &self,
-        (ray, differential): Carried<'_>,
+        (ray, differential, _): Carried<'_>,
         media: &mut Media,
         seen: &Seen,
         tree: &mut IntersectionTree,
@@ -301,7 +314,7 @@ impl<'a> Tracer<'a> {
             let mirrored = Ray::leaving(hit.piece, point.position, turned.direction);
             let differential =
                 spreads.as_ref().map(|spreads| spreads.reflected(turned, ray.direction, normals));
-            let mirrored = (&mirrored, differential.as_ref());
+            let mirrored = (&mirrored, differential.as_ref(), None);
             let path = deeper(reflect_weight);
             let (branch, through) = self.follow(mirrored, media, path, tree, counts);
             let node = tree.node_mut(slot);
@@ -319,7 +332,7 @@ impl<'a> Tracer<'a> {
             let differential = spreads
                 .as_ref()
                 .map(|spreads| spreads.refracted(turned, ray.direction, normals, eta));
-            let passed = (&passed, differential.as_ref());
+            let passed = (&passed, differential.as_ref(), None);
             let path = if passes {
                 Path { passed: path.passed + 1, ..path }
             } else {
@@ -339,14 +352,15 @@ impl<'a> Tracer<'a> {
 
     /// Sends a ray to the first surface that no other volume hides. Returns the end of the ray and
     /// the transmittance up to it, linear RGB, [0, 1] per channel. `media` become the volumes in
-    /// front of that surface.
+    /// front of that surface. `first` is the ray's closest hit, if it is known whether there is one.
     #[inline]
-    fn arrive(&self, ray: &Ray, media: &mut Media) -> (End, Color) {
+    fn arrive(&self, ray: &Ray, mut first: Option<Option<Hit>>, media: &mut Media) -> (End, Color) {
         let Self { scene, volumes, .. } = self;
         let mut through = Color::ONE;
         let mut ray = *ray;
         for _ in 0..MOST_HIDDEN {
-            let Some(hit) = self.accel.closest(&ray, f64::INFINITY) else {
+            let hit = first.take().unwrap_or_else(|| self.accel.closest(&ray, f64::INFINITY));
+            let Some(hit) = hit else {
                 let medium = media.current();
                 return (End::Background, through * self.transmittance(medium, f64::INFINITY));
             };

@@ -5,6 +5,7 @@ use super::compare::{pair, step};
 use super::leaf::Leaf;
 use super::sampler::Sampler;
 use crate::color::Color;
+use crate::ray::Hit;
 use crate::shape::Charts;
 use glam::DVec2;
 use std::ops::Range;
@@ -14,6 +15,10 @@ use std::ops::Range;
 ///
 /// Without it, an edge that cuts a corner is not seen.
 const DIAGONAL: f32 = 0.35;
+
+/// Side of the blocks of cells whose first rays are traced together, in cells. A block has as many rays
+/// as a group.
+const BLOCK: usize = 8;
 
 /// Estimated errors of a cell, root mean square of linear RGB.
 #[derive(Debug, Clone, Copy, Default)]
@@ -58,14 +63,48 @@ impl Samples {
             ends: Vec::with_capacity(count + 1),
         };
         samples.ends.push(0);
+        let firsts = samples.first_hits(area, sampler);
         for y in samples.rows.clone() {
             for x in samples.columns.clone() {
-                let color = sampler.sample(area.cell(x, y), DVec2::ZERO, &mut samples.leaves);
+                let first = Some(firsts[samples.index(x, y)]);
+                let (cell, leaves) = (area.cell(x, y), &mut samples.leaves);
+                let color = sampler.sample_from(cell, DVec2::ZERO, first, leaves);
                 samples.colors.push(color);
                 samples.ends.push(samples.leaves.len());
             }
         }
         samples
+    }
+
+    /// Returns the closest hits of the rays through the middles of all cells. Rays of square blocks of
+    /// cells are traced together.
+    fn first_hits(&self, area: Area, sampler: &Sampler<'_, '_>) -> Vec<Option<Hit>> {
+        let mut hits = vec![
+            None;
+            ((self.columns.end - self.columns.start) as usize)
+                * (self.rows.end - self.rows.start) as usize
+        ];
+        let (mut rays, mut places) = (Vec::new(), Vec::new());
+        let mut found = Vec::new();
+        for top in self.rows.clone().step_by(BLOCK) {
+            for left in self.columns.clone().step_by(BLOCK) {
+                rays.clear();
+                places.clear();
+                for y in top..(top + BLOCK as i64).min(self.rows.end) {
+                    for x in left..(left + BLOCK as i64).min(self.columns.end) {
+                        let ray = sampler.shared.ray(area.cell(x, y).middle);
+                        rays.push((ray, f64::INFINITY));
+                        places.push(self.index(x, y));
+                    }
+                }
+                found.resize(rays.len(), None);
+                sampler.shared.shader.accel.closest_of(&rays, &mut found);
+                for (place, hit) in places.iter().zip(&found) {
+                    hits[*place] = *hit;
+                }
+            }
+        }
+        hits
     }
 
     /// Returns the index of the cell in column `x` and row `y`.

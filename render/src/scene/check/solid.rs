@@ -8,7 +8,10 @@ use std::f64::consts::PI;
 /// Returns the lower and upper corner of an item's bounding box; `None` for an infinite plane.
 #[must_use]
 pub fn bounds(item: &Item<'_>) -> Option<[DVec3; 2]> {
-    item.object.shape.bounds()
+    match &item.object.shape {
+        Shape::Instance(instance) => Some(instance.box_of_mesh()),
+        shape => shape.bounds(),
+    }
 }
 
 /// Returns whether a point is inside a closed item. Returns `None` for an open item, and for a kind
