@@ -20,6 +20,7 @@ use crate::procedural::{Bump, Place};
 use crate::ray::{Hit, Ray};
 use crate::scene::{Material, Scene};
 use crate::shape::SurfacePoint;
+use crate::shape::mesh::NONE;
 use glam::DVec3;
 use medium::{Boundary, Media};
 use split::{Split, Turned, mirror};
@@ -191,6 +192,13 @@ impl<'a> Tracer<'a> {
         (branch, through)
     }
 
+    /// Returns whether the normals of the surface that a ray hits are interpolated.
+    fn is_smooth(&self, hit: &Hit) -> bool {
+        let mesh = self.scene.objects[hit.piece.object as usize].shape.mesh();
+        let triangle = mesh.map(|mesh| &mesh.triangles[hit.piece.triangle as usize]);
+        triangle.is_some_and(|triangle| triangle.normal[0] != NONE)
+    }
+
     /// Returns the unit normal for shading, perturbed by the material's bump if it has one.
     fn bumped(&self, material: &Material, hit: &Hit, point: &SurfacePoint) -> DVec3 {
         let Some(bump) = material.bump.map(|bump| &self.scene.procedural.bumps[bump]) else {
@@ -261,8 +269,9 @@ impl<'a> Tracer<'a> {
             weights = followed(weights, worth_it);
         }
         let is_last = path.depth >= self.scene.max_depth;
-        if is_last && inside && own.is_some() {
-            // Light that has not found its way out of a volume is not lost: it leaves straight.
+        let is_trapped = is_last && inside && own.is_some() && self.is_smooth(&hit);
+        if is_trapped {
+            // Interpolated normals may turn light round without end. It is not lost: it leaves straight.
             weights = [Color::ZERO, weights[0] + weights[1]];
             split.refracted = Some(Turned::straight(ray.direction));
         }
@@ -310,7 +319,7 @@ impl<'a> Tracer<'a> {
         }
         // A mask lets light run straight on, which is no refraction and has no depth of its own.
         let passing = passes.then(|| Turned::straight(ray.direction));
-        let leaves = !is_last || inside && own.is_some();
+        let leaves = !is_last || is_trapped;
         let refracted = split.refracted.filter(|_| leaves && worth_it(refract_weight));
         if let Some(turned) = refracted.or(passing.filter(|_| worth_it(Color::ONE))) {
             counts.refracted += 1;
