@@ -136,7 +136,7 @@ fn shadows_are_cut_out_too() {
         // The lid covers the columns 2 to 5; its left half is opaque.
         let row = [0, 1, 2, 3, 4, 5, 6, 7].map(|x| at(x, 4));
         let truth = [1.0, 1.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0];
-        let near = row.iter().zip(truth).all(|(found, truth)| (found - truth).abs() < 0.02);
+        let near = row.iter().zip(truth).all(|(found, truth)| (found - truth).abs() < 0.05);
         assert!(near, "{lids}: {row:?}");
     }
 }
