@@ -24,7 +24,8 @@ fn ours(text: &str) -> Vec<Seen> {
         let normals = triangle.normal.iter().filter(|i| there(i));
         let normals = normals.map(|&i| mesh.normals[i as usize]).collect();
         let name = mesh.surfaces[triangle.surface as usize].clone();
-        (mesh.corners(number).to_vec(), uvs, normals, name)
+        let places = mesh.places(number).map(|place| place.as_vec3().to_array());
+        (places.to_vec(), uvs, normals, name)
     };
     (0..mesh.triangles.len() as u32).map(seen).collect()
 }
