@@ -279,11 +279,11 @@ fn square() -> (Value, Vec<u8>) {
     (json, bytes)
 }
 
-/// A picture of four colours: red and green above, blue and white below.
+/// A picture of four colours: red and green above, blue and white below. Its texels are small beside the
+/// quarters, so that no filter mixes colours in their middles.
 fn four() -> Vec<u8> {
-    let colors = [[255, 0, 0], [0, 255, 0], [0, 0, 255], [255; 3]];
-    let texel = |x, y| image::Rgb(colors[(x + 2 * y) as usize]);
-    encoded(RgbImage::from_fn(2, 2, texel), ImageFormat::Png)
+    let texel = |x, y| image::Rgb(FOUR[(x / 8 + 2 * (y / 8)) as usize]);
+    encoded(RgbImage::from_fn(16, 16, texel), ImageFormat::Png)
 }
 
 /// Returns the colours in the middle of the four quarters, row by row.
