@@ -224,8 +224,8 @@ fn another_program_opens_both_and_finds_the_same_closed_volume() {
         for (line, unit) in lines.iter().zip(["meters", "inch"]) {
             assert_eq!((line[0], line[1]), ("True", "True"), "{said}");
             let found: f64 = line[2].parse().unwrap();
-            // trimesh sums in f64 about another point.
-            assert!((found - truth).abs() < 1e-9 * truth, "{found} against {truth}");
+            // trimesh moves vertices by at most 1e-8 where it merges them; the area is below 3 times the volume.
+            assert!((found - truth).abs() < 3e-8 * truth, "{found} against {truth}");
             assert!(line[3].starts_with(unit), "{said}");
         }
     }

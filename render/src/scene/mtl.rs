@@ -275,7 +275,10 @@ mod tests {
         let wood = Material { shininess: 1.0, ..plain() };
         let picture = Map::read("pictures/oak wood.png");
         let name = "wood old".into();
-        assert_eq!(entries[1], Entry { name, material: wood, picture, mask: None });
+        assert_eq!(
+            entries[1],
+            Entry { name, material: wood, picture, mask: None, alpha: Alpha::Cut }
+        );
     }
 
     #[test]
