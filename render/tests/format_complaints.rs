@@ -66,7 +66,7 @@ fn a_broken_ply_is_refused_with_its_byte_or_line() {
         ),
         (
             "0 0 0\n1 0 0\n0 1 nan\n3 0 1 2\n",
-            ["a.ply: found vertex 2 at (0, 1, NaN)", "a face uses it"],
+            ["a.ply: found vertex 2 at (0.0, 1.0, NaN)", "a face uses it"],
         ),
         (
             "0 0 0\n1 0 0\n0 1 0\n2 0 1\n",
