@@ -33,7 +33,20 @@ const RENDER: Layers = &[
     ("procedural", &["color"]),
     ("scene", &["color", "differential", "optics", "procedural", "ray", "shape", "texture"]),
     ("accel", &["ray", "shape"]),
-    ("trace", &["accel", "color", "differential", "optics", "procedural", "ray", "scene", "shape"]),
+    (
+        "trace",
+        &[
+            "accel",
+            "color",
+            "differential",
+            "optics",
+            "procedural",
+            "ray",
+            "scene",
+            "shape",
+            "texture",
+        ],
+    ),
     ("footprint", &["color", "differential", "shape", "trace"]),
     ("filter", &["color", "footprint", "texture"]),
     (

@@ -313,7 +313,7 @@ mod tests {
             ("{\"contour\": {\"circle\": NaN}}", "a.json:1:24: found NaN, expected a number"),
             ("{\"contour\": {\"circle\": -Infinity}}", "a.json:1:24: found Infinity"),
             ("{\"contour\": {\"circle\": 1,}}", "a.json:1:25: found a comma after the last value"),
-            ("{\"contour\": {\"free\": [[1, 2], ]}}", "a.json:1:30: found a comma"),
+            ("{\"contour\": {\"free\": [[1, 2], ]}}", "a.json:1:29: found a comma"),
             ("{'contour': 1}", "a.json:1:2: found a single quote"),
             ("# mesh\nv 1 2 3\nf 1 1 1\n", "a.json:1:1: found an OBJ mesh, expected JSON text"),
             ("ply\nformat ascii 1.0\n", "a.json:1:1: found a PLY mesh"),

@@ -1,4 +1,4 @@
-//! What the picture files of a job state: the encoding, and the command of `render` that makes them.
+//! The texts in the picture files of a job: the encoding, and the command of `render` that makes them.
 
 use crate::Job;
 use render::Settings;
@@ -6,7 +6,7 @@ use render::color::Encoding;
 use render::film::command::{Named, command};
 use render::film::encode::{Bits, Coding};
 
-/// Returns what the file of one picture states. `error` is the requested error of its mode.
+/// Returns the texts of the file of one picture. `error` is the requested error of its mode.
 ///
 /// `render` states the same for the job's scene and meshes, so that both write equal files.
 #[must_use]

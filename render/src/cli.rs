@@ -192,8 +192,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
     let prepared = Prepared::new(&scene);
     if let Some(target) = target {
         let progress = Progress::new("render", work.quiet);
-        let (mut picture, mut stats, statement) = pool
-            .install(|| accuracy.render(&prepared, &settings, sampling.pixel_filter, &progress));
+        let (mut picture, mut stats, statement) = pool.install(|| {
+            accuracy.render(&prepared, &mut settings, sampling.pixel_filter, &progress)
+        });
         drop(progress);
         if is_transparent {
             let (view, layers) = (View::Coverage, Vec::new());

@@ -107,8 +107,20 @@ impl<'a> Prepared<'a> {
         built.table_time = started.elapsed();
         let volumes = &self.volumes;
         let scene = self.scene;
+        let has_masks = scene.has_masks();
         let view = View::Whole;
-        (Shader { scene, accel, textures, charts, wants_area, volumes, around_lights, view }, built)
+        let shader = Shader {
+            scene,
+            accel,
+            textures,
+            charts,
+            wants_area,
+            volumes,
+            around_lights,
+            has_masks,
+            view,
+        };
+        (shader, built)
     }
 
     /// Returns a structure that finds the hits of rays.

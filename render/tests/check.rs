@@ -229,8 +229,11 @@ fn triangles_and_normals_that_cannot_be_meant_are_counted() {
             0,
             "the normals (vn) of 2 triangles of 2 point to the side",
         ),
+        // A file of `triangulate` holds numbers of single precision; others are read with all digits.
         (
-            "v 9e6 0 0\nv 9000001 0 0\nv 9e6 1 0\nv 9e6 0 1\nf 1 2 3\nf 1 2 4\n".into(),
+            "# topobook triangulate OBJ 1\nv 9e6 0 0\nv 9000001 0 0\nv 9e6 1 0\nv 9e6 0 1\nf 1 2 3\nf 1 2 4\n\
+             # end 4 2\n"
+                .into(),
             4,
             "move the mesh nearer",
         ),

@@ -195,7 +195,7 @@ fn vertices_have_their_colours() {
     assert!(code == Some(0) && said.contains("vertex colours that are not finite"), "{said}");
     let bad = square(r#"{ "color": "vertices" }"#, "", SQUARE);
     let parts =
-        ["scene.json:3:34: materials.m.color: found the string \"vertices\"", "or \"vertex\""];
+        ["scene.json:3:40: materials.m.color: found the string \"vertices\"", "or \"vertex\""];
     bad.refuse(&["scene.json"], b"", 3, &parts);
 }
 

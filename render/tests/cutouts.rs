@@ -8,17 +8,17 @@ fn page(keys: &str, more: &str) -> String {
     format!(
         r#"{{ "format": "tb-scene", "version": 1, "ambient": 1, "background": [0, 0, 1],
         "camera": {{ "eye": [0, 0, 5], "target": [0, 0, 0], "height": 2 }},
-        "textures": {{ "leaf": {{ "image": "leaf.png"{keys} }} }},
+        "textures": {{ "leaf": {{ "image": "leaf.png", "wrap": "clamp"{keys} }} }},
         "materials": {{ "m": {{ "diffuse": 0 }} }},
         "objects": [ {{ "rectangle": {{ "corner": [-1, -1, 0], "edge_u": [2, 0, 0],
             "edge_v": [0, 2, 0], "material": "m", "texture": "leaf" }} }}{more} ] }}"#
     )
 }
 
-/// A picture of two columns: red, and transparent green.
+/// A picture of two halves: red, and transparent green.
 fn leaf() -> Vec<u8> {
-    let texel = |x, _| if x == 0 { Rgba([255, 0, 0, 255]) } else { Rgba([0, 255, 0, 0]) };
-    encoded(RgbaImage::from_fn(2, 2, texel), ImageFormat::Png)
+    let texel = |x, _| if x < 32 { Rgba([255, 0, 0, 255]) } else { Rgba([0, 255, 0, 0]) };
+    encoded(RgbaImage::from_fn(64, 64, texel), ImageFormat::Png)
 }
 
 /// Renders, and returns the linear colours.
@@ -121,7 +121,7 @@ fn shadows_are_cut_out_too() {
         let bench = Bench::with_scene(&format!(
             r#"{{ "format": "tb-scene", "version": 1, "ambient": 0, "lights": [ {light} ],
             "camera": {{ "eye": [0, -5, 0], "target": [0, 0, 0], "up": [0, 0, -1], "height": 4 }},
-            "textures": {{ "leaf": {{ "image": "leaf.png" }} }},
+            "textures": {{ "leaf": {{ "image": "leaf.png", "wrap": "clamp" }} }},
             "materials": {{ "m": {{}}, "pane": {{ "diffuse": 0, "ambient": 0, "transparency": 1,
                 "reflectivity": 1, "index_of_refraction": 1 }}, "f": {{ "diffuse": 1 }} }},
             "objects": [ {lids}, {{ "plane": {{ "point": [0, 0, 0], "edge_u": [1, 0, 0],
@@ -136,7 +136,7 @@ fn shadows_are_cut_out_too() {
         // The lid covers the columns 2 to 5; its left half is opaque.
         let row = [0, 1, 2, 3, 4, 5, 6, 7].map(|x| at(x, 4));
         let truth = [1.0, 1.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0];
-        let near = row.iter().zip(truth).all(|(found, truth)| (found - truth).abs() < 0.02);
+        let near = row.iter().zip(truth).all(|(found, truth)| (found - truth).abs() < 0.05);
         assert!(near, "{lids}: {row:?}");
     }
 }
@@ -152,7 +152,8 @@ fn libraries_cut_out_surfaces() {
     let bench = Bench::with_scene(scene);
     bench.write("a.obj", obj);
     bench.write("leaf.png", leaf());
-    let grey = image::GrayImage::from_fn(4, 1, |x, _| image::Luma([if x < 2 { 255 } else { 0 }]));
+    let grey =
+        image::GrayImage::from_fn(128, 1, |x, _| image::Luma([if x < 64 { 255 } else { 0 }]));
     bench.write("grey.png", encoded(grey, ImageFormat::Png));
     let red = image::RgbImage::from_pixel(1, 1, image::Rgb([255, 0, 0]));
     bench.write("red.png", encoded(red, ImageFormat::Png));

@@ -32,7 +32,7 @@ fn rendered(bench: &Bench, flags: &[&str]) -> Rgb32FImage {
 #[test]
 fn directions_are_longitude_and_latitude() {
     let bench = Bench::new();
-    bench.write("sky.exr", sky(8, 4, |x, y| [x as f32, y as f32, 100.0]));
+    bench.write("sky.exr", sky(128, 64, |x, y| [(x / 16) as f32, (y / 16) as f32, 100.0]));
     for (turn, left, right) in
         [(0.0, 3.0, 4.0), (45.0, 4.0, 5.0), (-90.0, 1.0, 2.0), (360.0, 3.0, 4.0)]
     {
@@ -42,7 +42,7 @@ fn directions_are_longitude_and_latitude() {
             for (y, row) in [(28, 1.0), (36, 2.0)] {
                 let found = picture.get_pixel(x, y).0;
                 let near = [column, row, 100.0].into_iter().zip(found);
-                // Codes are 32 bits of the brightest light.
+                // A code is the brightest light over 2^32.
                 assert!(
                     near.clone().all(|(a, b)| (a - b).abs() < 1e-4),
                     "{turn}: {x},{y}: {found:?}"
@@ -87,17 +87,17 @@ fn faults_of_the_picture_are_placed() {
         &["scene.json"],
         b"",
         5,
-        &["scene.json:2:35: background.picture: cannot read sky.exr"],
+        &["scene.json:2:36: background.picture: cannot read sky.exr"],
     );
     bench.write("sky.exr", "text");
-    let parts = ["scene.json:2:35: background.picture: found no picture in sky.exr", "HDR or EXR"];
+    let parts = ["scene.json:2:36: background.picture: found no picture in sky.exr", "HDR or EXR"];
     bench.refuse(&["scene.json"], b"", 3, &parts);
     bench.write("scene.json", scene(r#", "turn_deg": 1e9"#, ""));
     bench.refuse(
         &["scene.json"],
         b"",
         3,
-        &["scene.json:2:58: background.turn_deg: found 1000000000"],
+        &["scene.json:2:59: background.turn_deg: found 1000000000"],
     );
     bench.write("scene.json", scene(r#", "by_elevation": []"#, ""));
     bench.refuse(

@@ -125,9 +125,12 @@ fn a_sky_that_is_none_is_refused_with_its_place_by_reader_and_schema_alike() {
         });
         read.err().map(|error| error.to_string())
     };
-    for taken in
-        [json!(0.5), json!([0, 1, 2]), json!({ "by_elevation": [[-90, 0], [90, [0, 0, 1]]] })]
-    {
+    for taken in [
+        json!(null),
+        json!(0.5),
+        json!([0, 1, 2]),
+        json!({ "by_elevation": [[-90, 0], [90, [0, 0, 1]]] }),
+    ] {
         let scene = with(taken);
         assert!(validator.is_valid(&scene), "{scene}");
         assert_eq!(said(&scene), None, "{scene}");
@@ -135,7 +138,7 @@ fn a_sky_that_is_none_is_refused_with_its_place_by_reader_and_schema_alike() {
     // Both refuse a wrong form; only the reader refuses a value out of range.
     for (background, part, form) in [
         (json!("blue"), "background: found the string \"blue\", expected a colour", true),
-        (json!({}), "missing key `by_elevation`", true),
+        (json!({}), "background: expected by_elevation, or picture", true),
         (json!({ "by_elevation": [[0, 1]], "haze": 1 }), "unknown key `haze`", true),
         (json!({ "by_elevation": [[0]] }), "background.by_elevation[0]", true),
         (json!({ "by_elevation": [] }), "background.by_elevation: found no angles", false),

@@ -294,7 +294,7 @@ fn every_kind_of_picture_is_the_same_texture() {
     let grey = ImageBuffer::<Luma<u8>, _>::from_raw(2, 2, codes.to_vec()).unwrap();
     let deep = ImageBuffer::<Luma<u16>, _>::from_raw(2, 2, wide).unwrap();
     let (grey, deep) = (DynamicImage::from(grey), DynamicImage::from(deep));
-    // All texels are transparent; transparency is ignored.
+    // Transparency is ignored on request.
     let mut clear = grey.to_luma_alpha8();
     clear.pixels_mut().for_each(|pixel| pixel[1] = 0);
     let mut deep_clear = deep.to_rgba16();
@@ -319,7 +319,7 @@ fn every_kind_of_picture_is_the_same_texture() {
     for values in ["linear", "srgb"] {
         let keys = format!(
             r#""ambient": 1, "materials": {{ "paper": {{ "diffuse": 0 }} }}, "textures":
-            {{ "image": {{ "image": "i.png", "values": "{values}" }} }}, "objects": [ {RECTANGLE} ]"#
+            {{ "image": {{ "image": "i.png", "values": "{values}", "alpha": "ignore" }} }}, "objects": [ {RECTANGLE} ]"#
         );
         for (kind, file) in files.iter().enumerate() {
             let shown = picture(&scene(&keys, &[("i.png", file.clone())]), 2, Filter::Point);

@@ -71,13 +71,13 @@ pub(super) fn find(text: &str, offset: usize) -> Option<Mistake> {
         let message = "found a single quote, expected double quotes around keys and texts".into();
         return Some(Mistake { offset, message });
     }
-    // A comma before a closing bracket.
-    let before = text[..offset].trim_end();
-    if rest.starts_with(['}', ']']) && before.ends_with(',') {
-        let message = "found a comma after the last value, expected none".into();
-        return Some(Mistake { offset: before.len() - 1, message });
-    }
-    None
+    // A comma before a closing bracket. Reading may stop before the comma, at it, or at the bracket.
+    let begin = text[..offset].trim_end().trim_end_matches(',').len();
+    let behind = text[begin..].find(',').map(|at| begin + at)?;
+    let is_next = text[begin..behind].chars().filter(|c| !c.is_whitespace()).count() <= 1;
+    let is_last = text[behind + 1..].trim_start().starts_with(['}', ']']);
+    let message = "found a comma after the last value, expected none".into();
+    (is_next && is_last).then_some(Mistake { offset: behind, message })
 }
 
 #[cfg(test)]

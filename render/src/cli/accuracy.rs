@@ -81,12 +81,12 @@ impl AccuracyArguments {
         self.error.is_some() || self.time.is_some()
     }
 
-    /// Renders the picture that the flags request, and audits it if they request that. The flags must
-    /// have been checked.
+    /// Renders the picture that the flags request, and audits it if they request that. The settings become
+    /// those that were chosen. The flags must have been checked.
     pub fn render(
         &self,
         prepared: &Prepared<'_>,
-        settings: &Settings,
+        settings: &mut Settings,
         pixel_filter: PixelFilter,
         progress: &Progress,
     ) -> (Picture, Stats, Option<Statement>) {
@@ -108,6 +108,7 @@ impl AccuracyArguments {
                 return (picture, stats, statement);
             }
         };
+        *settings = reached.settings;
         (reached.picture, reached.stats, Some(reached.statement))
     }
 

@@ -10,7 +10,7 @@ use crate::color::Encoding;
 use crate::film::Pattern;
 use clap::ValueEnum;
 
-/// What a command names besides the settings of its picture.
+/// The names and flags of a command besides the settings of its picture.
 #[derive(Debug, Clone, Copy)]
 pub struct Named<'a> {
     /// File name of the scene, without folders.

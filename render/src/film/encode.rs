@@ -61,7 +61,7 @@ pub enum Bits {
     Sixteen,
 }
 
-/// What a file states besides the values of the picture.
+/// The encoding, the texts and the place of a picture in its file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Coding {
     /// Function from linear values to the codes of a PNG. An EXR stays linear.
@@ -292,7 +292,7 @@ mod tests {
         assert_eq!(info.utf8_text[0].get_text().unwrap(), "render a.json --size 9x8");
         let gamma = encode(&small(), Format::Png, Encoding::Gamma(2.0)).unwrap();
         let reader = png::Decoder::new(Cursor::new(&gamma)).read_info().unwrap();
-        assert_eq!(reader.info().source_gamma.map(|gamma| gamma.into_value()), Some(0.5));
+        assert_eq!(reader.info().gama_chunk.map(|gamma| gamma.into_value()), Some(0.5));
         let exr = encode_as(&small(), Format::Exr, &coding).unwrap();
         let meta = exr::meta::MetaData::read_from_buffered(&*exr, false).unwrap();
         let header = &meta.headers[0];

@@ -97,7 +97,7 @@ mod tests {
     #[test]
     fn changes_of_coordinates_agree_with_differences() {
         let environment = Environment { texture: 0, turn: 0.7 };
-        for k in 0..50 {
+        for k in 1..50 {
             let k = f64::from(k);
             let direction = DVec3::new(k.sin(), (1.3 * k).cos(), (2.1 * k).sin()).normalize();
             let (one, other) = direction.any_orthonormal_pair();

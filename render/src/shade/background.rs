@@ -7,13 +7,15 @@ use crate::scene::Background;
 use crate::trace::tree::Away;
 
 impl Shader<'_> {
-    /// Returns the light of the background along a ray, linear RGB. `through` is true if the background
-    /// shows behind the scene, and false if surfaces mirror it.
-    pub(super) fn background(&self, away: Away, through: bool) -> Color {
+    /// Returns the light of the background along a ray, linear RGB, and the light that is reported to
+    /// observers. `through` is true if the background shows behind the scene, and false if surfaces
+    /// mirror it. A transparent background is reported as white, whatever lies before it.
+    pub(super) fn background(&self, away: Away, through: bool) -> [Color; 2] {
         match (self.view, through) {
-            (View::Foreground, true) | (View::Coverage, false) => Color::ZERO,
-            (View::Coverage, true) => Color::ONE,
-            (View::Whole, _) | (View::Foreground, false) => self.background_light(away),
+            (View::Foreground, true) => [Color::ZERO, Color::ONE],
+            (View::Coverage, true) => [Color::ONE; 2],
+            (View::Coverage, false) => [Color::ZERO, self.background_light(away)],
+            (View::Whole, _) | (View::Foreground, false) => [self.background_light(away); 2],
         }
     }
 

@@ -49,6 +49,8 @@ pub struct Shader<'a> {
     pub volumes: &'a Volumes,
     /// The volumes that contain each light, in the order of the scene's lights.
     pub around_lights: &'a [Media],
+    /// True if some picture cuts out surfaces.
+    pub has_masks: bool,
     /// The part of the light that is wanted.
     pub view: View,
 }
@@ -63,6 +65,9 @@ pub enum View {
     Foreground,
     /// The part of the background that shows, per channel, [0, 1]; what covers it is black. It shows
     /// beside surfaces, through refracting ones and through masks, but not in mirrors.
+    ///
+    /// Observers see what they see of the foreground: both views divide their pixels alike, so that
+    /// colour and coverage belong together.
     Coverage,
 }
 
@@ -119,10 +124,17 @@ impl Shader<'_> {
         observer: &mut O,
     ) -> Color {
         let (local, color) = match sight.node() {
-            None => (None, sight.away().map_or(Color::ZERO, |away| self.background(away, through))),
+            None => {
+                let away = sight.away();
+                let seen = away.map(|away| self.background(away, through));
+                let [color, reported] = seen.unwrap_or_default();
+                observer.leave(&Seen { sight, local: None, color: reported });
+                return color;
+            }
             Some(node) => {
                 let local = self.local(node, sight, work);
-                let mut color = local.color;
+                let covers = self.view == View::Coverage;
+                let mut color = if covers { Color::ZERO } else { local.color };
                 let c = local.coverage;
                 let reflect_weight = c * node.reflect_weight;
                 if reflect_weight != Color::ZERO {
@@ -185,7 +197,7 @@ impl Shader<'_> {
         let cut = texture.filter(|_| node.pass_weight != Color::ZERO);
         let coverage =
             cut.map_or(1.0, |texture| texture.coverage(&self.footprints(node, sight, texture)[1]));
-        if coverage == 0.0 || self.view == View::Coverage {
+        if coverage == 0.0 {
             return Local { textured: None, color: Color::ZERO, plain: Color::ZERO, coverage };
         }
         let variance = sight.spread().map_or(0.0, Spread::normal_variance);
@@ -250,7 +262,7 @@ impl Shader<'_> {
         work: &mut ShadeWork,
     ) -> Lighting {
         let mut sum = Lighting { diffuse: Color::ZERO, highlight: Color::ZERO };
-        if !material.sees_lights() {
+        if !material.sees_lights() || self.scene.lights.is_empty() {
             return sum;
         }
         let ShadeWork { counts, shadows } = work;

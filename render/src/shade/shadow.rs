@@ -102,7 +102,7 @@ impl Shader<'_> {
             flags.clear();
             flags.resize(rays.len(), false);
         }
-        let has_masks = scene.has_masks();
+        let has_masks = self.has_masks;
         let opaque = |k: usize, hit: Hit| {
             met[k] = true;
             let (ray, distance) = &rays[k];
@@ -349,6 +349,7 @@ mod tests {
             wants_area: false,
             volumes: &volumes,
             around_lights: &volumes.around_lights(&scene, &accel),
+            has_masks: false,
             view: View::Whole,
         };
         let trace = |nodes: &[Node], shadows: &mut Shadows| {

@@ -31,13 +31,9 @@ impl ShadowStart {
         let Node { piece, position, geometric_normal: normal, .. } = *node;
         let own = Self { piece, position, normal, changes };
         let shape = &scene.objects[node.piece.object as usize].shape;
-        let Some(facet) = shape.mesh().map(|mesh| mesh.normal(node.piece.triangle)) else {
-            return own;
-        };
-        let side = if facet.dot(node.geometric_normal) < 0.0 { -1.0 } else { 1.0 };
-        match shape.smooth_point(node.piece.triangle, node.position, side) {
-            Some(smooth) if node.incident.dot(side * smooth.normal) < 0.0 => {
-                Self { position: smooth.position, normal: side * smooth.normal, ..own }
+        match shape.smooth_point(node.piece.triangle, node.position, normal) {
+            Some(smooth) if node.incident.dot(smooth.normal) < 0.0 => {
+                Self { position: smooth.position, normal: smooth.normal, ..own }
             }
             // The facet's normal replaces an interpolated normal that is seen from its back.
             Some(_) | None => own,

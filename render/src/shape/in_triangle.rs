@@ -10,7 +10,7 @@ use glam::DVec3;
 pub struct SmoothPoint {
     /// The point, in scene space.
     pub position: DVec3,
-    /// Unit normal of the smooth surface, on the side of its corners' normals.
+    /// Unit normal of the smooth surface, on the side that is seen.
     pub normal: DVec3,
 }
 
@@ -25,15 +25,15 @@ impl Shape {
         Some(weighted(mesh.weights(number, point), colors))
     }
 
-    /// Returns the point of the smooth surface over a point of the triangle `number`. `side` is 1 if the
-    /// surface is seen from its outside, and -1 from its inside. Returns `None` for a shape or triangle
-    /// without interpolated normals.
+    /// Returns the point of the smooth surface over a point of the triangle `number`. `facing` is the
+    /// triangle's normal on the side that is seen. Returns `None` for a shape or triangle without
+    /// interpolated normals.
     ///
     /// Each corner's tangent plane is moved to the side that is seen, never behind the triangle, and the
     /// three projections of the point are interpolated (J. Hanika, "Hacking the Shadow Terminator", Ray
     /// Tracing Gems II, 2021). Where the normals agree, the point stays where it is.
     #[must_use]
-    pub fn smooth_point(&self, number: u32, point: DVec3, side: f64) -> Option<SmoothPoint> {
+    pub fn smooth_point(&self, number: u32, point: DVec3, facing: DVec3) -> Option<SmoothPoint> {
         let mesh = self.mesh()?;
         let corners = mesh.triangles[number as usize].normal;
         if corners[0] == NONE {
@@ -44,12 +44,15 @@ impl Shape {
         let [Some(a), Some(b), Some(c)] = normals else { return None };
         let (normals, weights) = ([a, b, c], mesh.weights(number, point));
         let places = mesh.places(number);
+        let across = (places[1] - places[0]).cross(places[2] - places[0]);
+        // Normals point outward; seen from the inside they are turned.
+        let side = if across.dot(facing) < 0.0 { -1.0 } else { 1.0 };
         let moves = [0, 1, 2].map(|k| {
             let height = side * (point - places[k]).dot(normals[k]);
             height.min(0.0) * side * normals[k]
         });
         let normal = weighted(weights, normals).try_normalize()?;
-        Some(SmoothPoint { position: point - weighted(weights, moves), normal })
+        Some(SmoothPoint { position: point - weighted(weights, moves), normal: side * normal })
     }
 }
 
@@ -89,16 +92,16 @@ mod tests {
     fn shadows_start_outside_the_triangle_and_at_its_corners_on_it() {
         let shape = on_a_sphere();
         let middle = DVec3::splat(1.0 / 3.0);
-        let outside = shape.smooth_point(0, middle, 1.0).unwrap();
+        let outside = shape.smooth_point(0, middle, DVec3::ONE).unwrap();
         // Each tangent plane is moved by 2/3 along one axis, with the weight 1/3.
         assert!(outside.position.abs_diff_eq(DVec3::splat(1.0 / 3.0 + 2.0 / 9.0), 1e-15));
         assert!(outside.normal.abs_diff_eq(DVec3::splat(1.0 / 3f64.sqrt()), 1e-15));
         for corner in [DVec3::X, DVec3::Y, DVec3::Z] {
-            let found = shape.smooth_point(0, corner, 1.0).unwrap();
+            let found = shape.smooth_point(0, corner, DVec3::ONE).unwrap();
             assert!(found.position.abs_diff_eq(corner, 1e-15) && found.normal == corner);
         }
         // Seen from the inside of the sphere, the tangent planes lie behind the triangle.
-        assert_eq!(shape.smooth_point(0, middle, -1.0).unwrap().position, middle);
+        assert_eq!(shape.smooth_point(0, middle, DVec3::NEG_ONE).unwrap().position, middle);
     }
 
     #[test]

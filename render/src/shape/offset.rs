@@ -18,10 +18,10 @@ pub fn of(positions: impl Iterator<Item = DVec3>) -> DVec3 {
         [low.min(at), high.max(at)]
     });
     let (size, far) = ((high - low).max_element(), low.abs().max(high.abs()).max_element());
-    if !is_far(size, far) || !(low.is_finite() && high.is_finite()) {
+    // A single point has no size, and nothing to lose.
+    if !is_far(size, far) || !(size > 0.0 && size < f64::INFINITY) {
         return DVec3::ZERO;
     }
-    // A single point has no size; its offset keeps 24 bits for the rest.
     let unit = size.max(far * f64::EPSILON).log2().ceil().exp2();
     unit * (low.midpoint(high) / unit).round()
 }
@@ -50,7 +50,7 @@ mod tests {
         let near = [DVec3::ZERO, DVec3::new(10.0, 1.0, 0.0)];
         assert_eq!(of(near.into_iter()), DVec3::ZERO);
         assert_eq!(of([DVec3::NAN].into_iter()), DVec3::ZERO);
-        assert_eq!(of([DVec3::ZERO].into_iter()), DVec3::ZERO);
+        assert_eq!(of([corner].into_iter()), DVec3::ZERO);
         assert_eq!(of(std::iter::empty()), DVec3::ZERO);
     }
 }

@@ -18,7 +18,8 @@ impl Texture {
     pub fn from_picture(picture: &DynamicImage, values: Values, wrap: Wrap, alpha: Alpha) -> Self {
         let (width, height) = (picture.width() as usize, picture.height() as usize);
         let bytes = bytes_per_channel(picture.color());
-        let has_alpha = alpha == Alpha::Cut && picture.color().has_alpha();
+        let has_alpha =
+            alpha == Alpha::Cut && picture.color().has_alpha() && !Self::is_invisible(picture);
         if bytes > 2 {
             let texels = picture.to_rgba32f();
             let light = texels.pixels().map(|pixel| [pixel.0[0], pixel.0[1], pixel.0[2]]);
@@ -57,6 +58,21 @@ impl Texture {
         texture.multiplied_by(mask)
     }
 
+    /// Returns whether a picture has an alpha channel in which all texels are wholly transparent. Such a
+    /// channel was written by mistake, and its texels are taken as opaque.
+    #[must_use]
+    pub fn is_invisible(picture: &DynamicImage) -> bool {
+        let clear = |alpha: f32| alpha <= 0.0;
+        match picture {
+            DynamicImage::ImageLumaA8(texels) => texels.pixels().all(|texel| texel.0[1] == 0),
+            DynamicImage::ImageRgba8(texels) => texels.pixels().all(|texel| texel.0[3] == 0),
+            picture if picture.color().has_alpha() => {
+                picture.to_rgba32f().pixels().all(|texel| clear(texel.0[3]))
+            }
+            _ => false,
+        }
+    }
+
     /// Creates a mask from a decoded picture: its alpha if some of its texels are transparent, and
     /// otherwise its grey, as codes of coverage.
     #[must_use]
@@ -69,7 +85,7 @@ impl Texture {
             white: MOST,
             ..Self::default()
         };
-        if picture.color().has_alpha() {
+        if picture.color().has_alpha() && !Self::is_invisible(picture) {
             let alpha = picture.to_rgba16();
             if alpha.pixels().any(|pixel| pixel.0[3] < MOST) {
                 return size(alpha.pixels().map(|pixel| [pixel.0[3]; 3]).collect());
@@ -222,6 +238,9 @@ mod tests {
         let mask = cut.mask.unwrap();
         assert_eq!(mask.texels, [[0; 3], [13107; 3], [65535; 3]]);
         assert_eq!(Texture::mask_of_picture(&picture, Wrap::Clamp).texels, mask.texels);
+        let clear = RgbaImage::from_pixel(1, 1, Rgba([9, 8, 7, 0])).into();
+        let shown = Texture::from_picture(&clear, Values::Linear, Wrap::Clamp, Alpha::Cut);
+        assert_eq!((shown.mask, shown.texels[0]), (None, [9, 8, 7]), "nothing would be left");
         let whole = Texture::from_picture(&picture, Values::Linear, Wrap::Clamp, Alpha::Ignore);
         assert_eq!((whole.mask, whole.texels[0]), (None, [255, 0, 0]));
     }

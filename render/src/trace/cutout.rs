@@ -57,7 +57,7 @@ mod tests {
         assert!(may_pass(&mask, at(10.5, 10.5), sides));
         assert!(may_pass(&mask, at(12.0, 9.0), sides), "within the reach of a filter");
         assert!(!may_pass(&mask, at(15.5, 10.5), sides));
-        assert!(may_pass(&mask, at(15.5, 10.5), sides.map(|sides| sides.map(|side| 5.0 * side))));
+        assert!(may_pass(&mask, at(15.5, 10.5), sides.map(|sides| sides.map(|side| 9.0 * side))));
         assert!(may_pass(&mask, at(15.5, 10.5), None));
         assert!(may_pass(&mask, at(15.5, 10.5), Some([DVec2::NAN; 2])));
     }

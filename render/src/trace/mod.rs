@@ -83,6 +83,10 @@ struct Path {
     depth: u32,
     /// Number of surfaces with masks that the path passed.
     passed: u32,
+    /// True if the path entered a volume by refraction.
+    has_entered: bool,
+    /// True if the ray was mirrored inside of such a volume.
+    is_turned: bool,
     /// Weight in the pixel of the light from this surface, linear RGB.
     weight: Color,
 }
@@ -151,7 +155,8 @@ impl<'a> Tracer<'a> {
         } else {
             media.start_in(&self.around_eye);
         }
-        let path = Path { depth: 0, passed: 0, weight: Color::ONE };
+        let (has_entered, is_turned) = (false, false);
+        let path = Path { depth: 0, passed: 0, has_entered, is_turned, weight: Color::ONE };
         (tree.root, tree.through) = self.follow(carried, &mut media, path, tree, counts);
         tree.media = media;
     }
@@ -261,8 +266,11 @@ impl<'a> Tracer<'a> {
             weights = followed(weights, worth_it);
         }
         let is_last = path.depth >= self.scene.max_depth;
-        if is_last && inside && own.is_some() {
-            // Light that has not found its way out of a volume is not lost: it leaves straight.
+        let is_within = inside && own.is_some();
+        let is_trapped = is_last && is_within && path.is_turned;
+        if is_trapped {
+            // Light that entered a volume leaves it at last, unless interpolated normals turn it round
+            // without end. It is not lost: it leaves straight.
             weights = [Color::ZERO, weights[0] + weights[1]];
             split.refracted = Some(Turned::straight(ray.direction));
         }
@@ -284,17 +292,14 @@ impl<'a> Tracer<'a> {
             reflect_weight,
             refract_weight,
             pass_weight: if passes { Color::ONE } else { Color::ZERO },
-            inside: inside && own.is_some(),
+            inside: is_within,
         });
         if let Some(spreads) = &spreads {
             tree.push_spread(spreads.shading);
         }
         let normals = [normal, geometric_normal];
-        let deeper = |weight: Color| Path {
-            depth: path.depth + 1,
-            passed: path.passed,
-            weight: path.weight * weight,
-        };
+        let deeper =
+            |weight: Color| Path { depth: path.depth + 1, weight: path.weight * weight, ..path };
         if worth_it(reflect_weight) && !is_last {
             counts.reflected += 1;
             let turned = mirror(ray.direction, normal, geometric_normal);
@@ -302,7 +307,8 @@ impl<'a> Tracer<'a> {
             let differential =
                 spreads.as_ref().map(|spreads| spreads.reflected(turned, ray.direction, normals));
             let mirrored = (&mirrored, differential.as_ref());
-            let path = deeper(reflect_weight);
+            let is_turned = path.has_entered && is_within;
+            let path = Path { is_turned, ..deeper(reflect_weight) };
             let (branch, through) = self.follow(mirrored, media, path, tree, counts);
             let node = tree.node_mut(slot);
             node.reflected = branch;
@@ -310,7 +316,7 @@ impl<'a> Tracer<'a> {
         }
         // A mask lets light run straight on, which is no refraction and has no depth of its own.
         let passing = passes.then(|| Turned::straight(ray.direction));
-        let leaves = !is_last || inside && own.is_some();
+        let leaves = !is_last || is_trapped;
         let refracted = split.refracted.filter(|_| leaves && worth_it(refract_weight));
         if let Some(turned) = refracted.or(passing.filter(|_| worth_it(Color::ONE))) {
             counts.refracted += 1;
@@ -323,7 +329,8 @@ impl<'a> Tracer<'a> {
             let path = if passes {
                 Path { passed: path.passed + 1, ..path }
             } else {
-                deeper(refract_weight)
+                let has_entered = path.has_entered || !inside;
+                Path { has_entered, is_turned: false, ..deeper(refract_weight) }
             };
             if let Some(own) = own {
                 media.cross(own, inside, &self.scene.materials);

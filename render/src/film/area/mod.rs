@@ -25,6 +25,7 @@ use super::lattice::Lattice;
 use super::sampling::PixelFilter;
 use super::{Crop, Pattern};
 use crate::color::Color;
+use crate::shade::View;
 use glam::DVec2;
 use sampler::{Sampler, Shot};
 use samples::{Estimate, Samples};
@@ -167,7 +168,10 @@ impl Area {
                 let own = base.colors[index];
                 let mut shots = W::LISTENS.then(Vec::new);
                 let before = sampler.exposed.rays.primary;
-                let splits = self.splits(cell, estimate.error, own);
+                // Pictures of colour and of coverage split alike, whatever their own colours are.
+                let is_whole = shared.settings.view == View::Whole;
+                let seen = if is_whole { own } else { Color::ONE };
+                let splits = self.splits(cell, estimate.error, seen);
                 let left;
                 (*color, left) = match self.threshold.filter(|_| splits) {
                     Some(threshold) => Splitter::new(threshold, &mut sampler, shots.as_mut())

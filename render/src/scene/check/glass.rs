@@ -81,8 +81,8 @@ fn too_deep(subject: &Subject<'_>) -> Option<Finding> {
     let most = looked_at.map(|([low, high], _)| crossed(low.midpoint(*high))).max()?;
     let deepest = subject.scene.max_depth as usize;
     let message = format!(
-        "a line of sight passes through {most} transparent surfaces or more, and rays are followed \
-         through {deepest} only: what lies behind is black"
+        "a line of sight passes through {most} transparent surfaces or more, and rays are bent by \
+         {deepest} only: what lies behind is black, or is not bent"
     );
     (most > deepest).then(|| Finding::new(Severity::Hint, "max_depth", message))
 }

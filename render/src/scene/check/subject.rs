@@ -3,7 +3,7 @@
 use super::skin::Skin;
 use crate::scene::file::{CameraFile, ObjectFile};
 use crate::scene::read::{Draft, SceneText};
-use crate::scene::{Material, Object, Scene, SurfaceTexture};
+use crate::scene::{Background, Material, Object, Scene, SurfaceTexture};
 use crate::shape::Mesh;
 use glam::DVec3;
 use std::collections::HashMap;
@@ -108,11 +108,20 @@ impl<'a> Subject<'a> {
         self.materials.get(material).map_or("of its mtl", |[name, _]| name)
     }
 
-    /// Returns the name of a texture. A texture without a name comes from a material library.
+    /// Returns the name of a texture. A texture without a name comes from a material library, or is that of
+    /// the background.
     #[must_use]
     pub fn texture_name(&self, texture: SurfaceTexture) -> &str {
         let known = self.texture_indices.get(&texture).map(|&index| &self.textures[index]);
-        known.map_or("of its mtl", |(_, [name, _])| name)
+        let is_background = |index: usize| match &self.scene.background {
+            Background::Picture(environment) => environment.texture == index,
+            Background::Uniform(_) | Background::ByElevation(_) => false,
+        };
+        let unnamed = match texture {
+            SurfaceTexture::Picture(index) if is_background(index) => "of the background",
+            SurfaceTexture::Picture(_) | SurfaceTexture::Solid(_) => "of its mtl",
+        };
+        known.map_or(unnamed, |(_, [name, _])| name)
     }
 
     /// Returns the materials of an object.

@@ -115,7 +115,10 @@ impl<'a> Reader<'a> {
                 self.document.fault(at, message).into()
             }
         })?;
-        let unused = picture::unused(&bytes);
+        let mut unused = picture::unused(&bytes);
+        if Texture::is_invisible(&read.0) {
+            unused.push("all texels are transparent, and are taken as opaque");
+        }
         if !unused.is_empty() {
             let finding = Finding::new(Severity::Remark, name(), unused.join("; "));
             self.remarks.borrow_mut().push(finding);
