@@ -17,6 +17,7 @@ mod hostile;
 mod kills;
 #[path = "../triangulate/tests/made/mod.rs"]
 mod made;
+mod mesh_formats;
 mod pages;
 mod pipe;
 mod prose;

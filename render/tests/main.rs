@@ -18,6 +18,7 @@ mod exact_filter;
 mod examples;
 mod foreign;
 mod format_complaints;
+mod format_details;
 mod formats;
 mod groups;
 mod hard_cases;

@@ -26,13 +26,14 @@ impl Merged {
     /// Merges the vertices of a mesh.
     #[must_use]
     pub fn of(mesh: &TriMesh) -> Self {
-        Self::mesh(mesh).1
+        let (_, Topology { vertices, manifold, closed, .. }) = Self::mesh(mesh);
+        Self { vertices, manifold, closed }
     }
 
-    /// Merges the vertices of a mesh. Returns the mesh of positions and triangles too. Positions keep
-    /// their numbers, of which some are not used any more.
+    /// Merges the vertices of a mesh. Returns the mesh of positions and triangles, and its topology.
+    /// Positions keep their numbers, of which some are not used any more.
     #[must_use]
-    pub fn mesh(mesh: &TriMesh) -> (TriMesh, Self) {
+    pub fn mesh(mesh: &TriMesh) -> (TriMesh, Topology) {
         let points: Vec<DVec3> =
             mesh.positions.iter().map(|point| DVec3::from(point.map(f64::from))).collect();
         let (low, high) =
@@ -49,8 +50,8 @@ impl Merged {
                 merged.triangles.push(triangle);
             }
         }
-        let Topology { vertices, manifold, closed, .. } = Topology::of(&merged);
-        (merged, Self { vertices, manifold, closed })
+        let topology = Topology::of(&merged);
+        (merged, topology)
     }
 }
 

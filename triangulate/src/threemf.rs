@@ -7,16 +7,16 @@
 //! | `3D/3dmodel.model` | unit, vertices and triangles of one object |
 //!
 //! A 3MF joins triangles by the numbers of their vertices, so vertices in one place are merged as in
-//! [`crate::merged`], over all patches. An object that is not closed then has the type `surface`, since a
-//! `model` must be a solid. Normals, picture coordinates and ids are left out. Coordinates have the
-//! fewest digits that give their `f32` back.
+//! [`crate::merged`], over all patches. An object that is then not closed, or has one side, has the type
+//! `surface`, since a `model` must be a solid. Normals, picture coordinates and ids are left out.
+//! Coordinates have the fewest digits that give their `f32` back.
 //!
 //! The same mesh gives the same bytes: entries have no time of their own, but that at which ZIP begins.
 //!
 //! Source: "3MF Core Specification" 1.3, 3MF Consortium, 2021.
 
 use crate::merged::Merged;
-use crate::{TriMesh, Unit};
+use crate::{Topology, TriMesh, Unit};
 use std::fmt::Write as _;
 use std::io::{self, Cursor, Write};
 use zip::write::SimpleFileOptions;
@@ -109,7 +109,7 @@ fn pass_on(text: &mut String, out: &mut impl Write, least: usize) -> io::Result<
 
 /// Returns the triangles over merged vertices that triangles use, and whether they enclose a solid.
 fn merged(mesh: &TriMesh) -> (TriMesh, bool) {
-    let (merged, Merged { manifold, closed, .. }) = Merged::mesh(mesh);
+    let (merged, Topology { manifold, closed, oriented, .. }) = Merged::mesh(mesh);
     let mut numbers = vec![None; merged.positions.len()];
     let mut used = TriMesh::default();
     for mut triangle in merged.triangles {
@@ -121,7 +121,7 @@ fn merged(mesh: &TriMesh) -> (TriMesh, bool) {
         });
         used.triangles.push(triangle);
     }
-    (used, manifold && closed)
+    (used, manifold && closed && oriented)
 }
 
 /// Returns a name as the value of an XML attribute.

@@ -174,12 +174,13 @@ pub struct SuperquadricFile {
 pub struct MeshFile {
     /// Name of the mesh, to which `--mesh` and jobs refer.
     pub name: String,
-    /// OBJ file that is read if `--mesh` or a job gives no mesh; relative to this file's folder.
+    /// OBJ, STL, PLY or glTF file that is read if `--mesh` or a job gives no mesh; relative to this file's
+    /// folder.
     pub file: Option<PathBuf>,
     /// Material library (MTL) of another tool, or a list of several, by the names that `usemtl` gives;
     /// relative to this file's folder. The bindings of `materials` and `textures` take precedence. If
-    /// left out, the libraries that the OBJ file names serve the surfaces that nothing else binds.
-    /// `Kd`, `map_Kd`, `Ks`, `Ns`, `d` or `Tr`, and `Ni` of a library are read.
+    /// left out, the libraries that the file names, or its own materials, serve the surfaces that nothing
+    /// else binds. `Kd`, `map_Kd`, `Ks`, `Ns`, `d` or `Tr`, and `Ni` of a library are read.
     pub mtl: Option<OneOrMore>,
     /// Largest angle between two faces, in degrees, that still shade as one: 0 to 180. Corners without
     /// normals get mean normals. If left out, only faces in a smoothing group (`s`) of the OBJ file do.

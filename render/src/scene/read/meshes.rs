@@ -5,7 +5,7 @@ use super::ranges::Ranges;
 use super::stored::{Stored, Taken};
 use super::{Reader, SceneError};
 use crate::scene::file::{MeshFile, OneOrMore};
-use crate::scene::mtl::{Map, counted, plain};
+use crate::scene::mtl::{Entry, Map, counted, plain};
 use crate::scene::obj::{self, ObjFile};
 use crate::scene::text::before_comment;
 use crate::scene::{Material, Object, Scene, Surface, SurfaceTexture};
@@ -154,10 +154,11 @@ impl Reader<'_> {
         let mut own = Own { paths: Vec::new(), named: false, colored };
         let unbound = |name: &String| bindings.material_of(name).is_none();
         let is_unbound = surfaces.iter().any(unbound);
+        let is_plain = |entry: &Entry| entry.material == plain() && entry.picture.is_none();
         if !read.materials.is_empty() {
             if is_unbound {
                 own.paths.push(self.held_materials(read, libraries));
-            } else {
+            } else if !read.materials.iter().all(is_plain) {
                 let sentence =
                     "the materials of the file are not used, since the scene binds all surfaces";
                 scene.remarks.push(remark(&read.file, &[sentence.into()]));

@@ -135,6 +135,8 @@ impl Materials {
             ("normal textures", material.normal_texture().is_some()),
             ("occlusion textures", material.occlusion_texture().is_some()),
             ("emitted light", emits),
+            // The alpha of a picture cuts out in proportion.
+            ("alphaCutoff", material.alpha_mode() == AlphaMode::Mask && picture.is_some()),
         ] {
             if is_there {
                 self.unused.push(what);
