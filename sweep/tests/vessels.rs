@@ -76,7 +76,7 @@ proptest! {
             outline.push(met(sides[i - 1], sides[i], [by(i - 1), by(i)]));
         }
         outline.push(DVec2::new(0.0, bottom));
-        let contour = json!({"polyline": {"points": points.iter().map(|p| p.to_array()).collect::<Vec<_>>()}});
+        let contour = json!({"polyline": {"points": points.iter().map(DVec2::to_array).collect::<Vec<_>>()}});
         let mut wall = json!({"thickness": thickness});
         if let Some(floor) = floor {
             wall["floor"] = json!(floor);

@@ -1,8 +1,7 @@
 //! Volume, area and size of an object, and whether it is watertight.
 //!
 //! The volume is the sum of signed volumes of the tetrahedra from one point to all triangles (the divergence theorem).
-//! Cells are split along one diagonal; `triangulate` may choose the other, which changes the numbers by less than the
-//! distance of the cells from the surface.
+//! A cell counts as the mean of both its splits into triangles, so that the two sides of a thin twisted body fit each other.
 
 use super::{Finding, Severity, short};
 use crate::grid::{End, GridMesh, Lid, Seam, Unit};
@@ -49,8 +48,8 @@ impl Measures {
         let origin = grids.first().and_then(|grid| grid.positions.first()).copied();
         let origin = origin.unwrap_or_default();
         let (mut volume, mut area) = (0.0, 0.0);
-        let mut add = |[a, b, c]: [DVec3; 3]| {
-            let across = (b - a).cross(c - a);
+        let mut add = |[a, b, c]: [DVec3; 3], part: f64| {
+            let across = (b - a).cross(c - a) * part;
             area += 0.5 * across.length();
             volume += (a - origin).dot(across) / 6.0;
         };
@@ -145,8 +144,8 @@ fn kind(sweep: &Sweep, grid: &GridMesh) -> Kind {
     }
 }
 
-/// Passes both triangles of each cell on.
-fn triangles(grid: &GridMesh, add: &mut impl FnMut([DVec3; 3])) {
+/// Passes the triangles of both splits of each cell on, each with the part of a half.
+fn triangles(grid: &GridMesh, add: &mut impl FnMut([DVec3; 3], f64)) {
     let (rows, cols) = (grid.rows(), grid.cols());
     for row in 0..if grid.seam_v.joins() { rows } else { rows - 1 } {
         for col in 0..if grid.seam_u.joins() { cols } else { cols - 1 } {
@@ -157,20 +156,21 @@ fn triangles(grid: &GridMesh, add: &mut impl FnMut([DVec3; 3])) {
             };
             let corners = [row * cols + col, row * cols + next, above(next), above(col)];
             let [a, b, c, d] = corners.map(|corner| grid.positions[corner]);
-            add([a, b, c]);
-            add([a, c, d]);
+            for corners in [[a, b, c], [a, c, d], [a, b, d], [b, c, d]] {
+                add(corners, 0.5);
+            }
         }
     }
 }
 
 /// Passes the triangles of a lid on. Its corners count the points of all loops, one after another.
-fn of_lid(lid: &Lid, group: &[GridMesh], add: &mut impl FnMut([DVec3; 3])) {
+fn of_lid(lid: &Lid, group: &[GridMesh], add: &mut impl FnMut([DVec3; 3], f64)) {
     let ends = group.iter().flat_map(|grid| {
         let row = if lid.end == End::Start { 0 } else { grid.rows() - 1 };
         &grid.positions[row * grid.cols()..(row + 1) * grid.cols()]
     });
     let points: Vec<DVec3> = ends.copied().collect();
     for corners in &lid.triangles {
-        add(corners.map(|corner| points[corner as usize]));
+        add(corners.map(|corner| points[corner as usize]), 1.0);
     }
 }

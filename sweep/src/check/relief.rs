@@ -70,9 +70,9 @@ fn texels(sweep: &Sweep) -> Option<Finding> {
 pub(super) fn scaled(sweep: &Sweep) -> Option<Finding> {
     let modulation = &sweep.shape.modulation;
     let depth = modulation.depth.as_ref()?;
-    let [x, y] = modulation.scale.as_ref()?.each_ref().map(|law| law.range());
+    let [x, y] = modulation.scale.as_ref()?;
     let size = |(low, high): (f64, f64)| (low.abs().min(high.abs()), low.abs().max(high.abs()));
-    let (x, y) = (size(x), size(y));
+    let (x, y) = (size(x.range()), size(y.range()));
     let (low, high) = (x.0.min(y.0), x.1.max(y.1));
     let most = depth.most();
     let message = format!(

@@ -162,13 +162,24 @@ impl Reader<'_> {
                 let message = "found a unit in a part, expected it beside `parts`, for all of them";
                 return Err(reader.fault("unit", message));
             }
-            for spec in reader.loaded(spec)? {
+            let first = object.specs.len();
+            let loaded = reader.loaded(spec)?;
+            let count = spec.copies.as_ref().map_or(1, |copies| copies.count);
+            let each = (loaded.len() / count).max(1);
+            for (k, spec) in loaded.into_iter().enumerate() {
                 if names.contains(&spec.name) {
                     let message =
                         format!("found {:?} twice, expected a name for each part", spec.name);
                     return Err(reader.fault("name", message));
                 }
-                let sweeps = reader.sweeps(&spec)?;
+                let sweeps = match (k >= each)
+                    .then(|| reader.copied_sweeps(&object, &spec, first + k % each))
+                    .transpose()?
+                    .flatten()
+                {
+                    Some(sweeps) => sweeps,
+                    None => reader.sweeps(&spec)?,
+                };
                 names.extend(sweeps.iter().map(|sweep| sweep.name.clone()));
                 object.owners.extend(sweeps.iter().map(|_| object.specs.len()));
                 object.written.push(several.then_some(i));
@@ -177,6 +188,33 @@ impl Reader<'_> {
             }
         }
         Ok(object)
+    }
+
+    /// Returns the sweeps of a copy of the spec with this index, at a place of its own. So copies have the same cells.
+    /// `None` if the cells depend on the place.
+    fn copied_sweeps(
+        &self,
+        object: &Object,
+        spec: &Spec,
+        index: usize,
+    ) -> Result<Option<Vec<Sweep>>, SweepError> {
+        let place = self.placement(&spec.place)?;
+        let parts = object.parts.iter().zip(&object.owners).filter(|(_, owner)| **owner == index);
+        let sweeps: Vec<Sweep> = parts
+            .zip(1..)
+            .map(|((sweep, _), number)| {
+                let name =
+                    if number > 1 { format!("{}-{number}", spec.name) } else { spec.name.clone() };
+                Sweep { name, ..sweep.clone() }
+            })
+            .collect();
+        let by_camera = spec.resolution.pixels.or(self.overrides.pixels).is_some();
+        let same = sweeps.iter().all(|sweep| sweep.shape.place.scale == place.scale);
+        let placed = |mut sweep: Sweep| {
+            sweep.shape.place = place;
+            sweep
+        };
+        Ok((same && !by_camera).then(|| sweeps.into_iter().map(placed).collect()))
     }
 }
 

@@ -76,9 +76,9 @@ pub fn drawing(
                 to_page *= placed(outer)?;
             }
             if node == root {
-                pen.inside(root, page, 0)?
+                pen.inside(root, page, 0)?;
             } else {
-                pen.element(node, to_page, 0, true)?
+                pen.element(node, to_page, 0, true)?;
             }
         }
     }
