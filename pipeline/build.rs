@@ -10,7 +10,7 @@ use std::path::Path;
 const FOLDERS: [&str; 5] = ["curves", "meshes", "pages", "scenes", "textures"];
 
 /// The extensions of embedded files.
-const EXTENSIONS: [&str; 3] = ["json", "obj", "png"];
+const EXTENSIONS: [&str; 6] = ["csv", "json", "obj", "png", "svg", "swc"];
 
 fn main() -> Result<(), Box<dyn Error>> {
     let examples = Path::new(&env::var("CARGO_MANIFEST_DIR")?).join("../examples");

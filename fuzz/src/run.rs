@@ -77,6 +77,9 @@ fn mended(reader: Reader, bytes: &[u8]) -> Vec<u8> {
         Reader::Png | Reader::Depth => png::file(&png::chunks(bytes)),
         Reader::Spec
         | Reader::Svg
+        | Reader::Drawing
+        | Reader::Csv
+        | Reader::Swc
         | Reader::Areas
         | Reader::Obj
         | Reader::Mtl

@@ -53,6 +53,21 @@ pub(crate) fn word(schema: &mut Schema) {
     insert(schema, &json!({ "pattern": pattern }));
 }
 
+/// Allows whole numbers from 1.
+pub(crate) fn from_one(schema: &mut Schema) {
+    insert(schema, &json!({ "minimum": 1 }));
+}
+
+/// Allows the path of a file, which is not empty.
+pub(crate) fn file(schema: &mut Schema) {
+    insert(schema, &json!({ "minLength": 1 }));
+}
+
+/// Requires points or a table of points.
+pub(crate) fn points_or_csv(schema: &mut Schema) {
+    schema.insert("oneOf".into(), json!([{ "required": ["points"] }, { "required": ["csv"] }]));
+}
+
 /// Requires at least `count` elements.
 pub(crate) fn at_least(count: usize) -> impl FnMut(&mut Schema) {
     move |schema| {

@@ -11,14 +11,15 @@
 //! }
 //! ```
 //!
-//! Lengths are in any one unit, angles in degrees. These keys may be left out: `uv`, `areas` ([`Area`]),
-//! `position`, `frame`, `scale`, `twist` and `depth`, and inside the objects `closed` (false), `center` and
+//! Lengths are in any one unit, angles in degrees. `"unit"` states the unit: `um`, `mm`, `cm`, `in`, `ft` or `m`. A grid
+//! keeps it. These keys may be left out: `unit`, `uv`, `areas` ([`Area`]), `place` and `copies` ([`Place`]), `position`, `frame`, `scale`, `twist` and `depth`, and inside the objects `closed` (false), `center` and
 //! `origin` (zero), `axis` (y) and `angle_deg` (360). Unknown keys are errors. A **contour** is one of
 //!
 //! | contour                                         | what                                         |
 //! |-------------------------------------------------|----------------------------------------------|
 //! | `{"circle": r}`                                 | a circle of radius r about the origin        |
 //! | `{"bezier": {"closed": c, "segments": [S, ...]}}` | cubics; `S` is four points `[x, y]`        |
+//! | `{"svg": {"file": F, "id": I}}`                   | outlines of an SVG file; see [`SvgFile`]     |
 //! | `{"svg": "M0 0 C..."}`                          | a path, closed by `Z` or by its end; y is negated, because y points down in SVG. Several closed subpaths are outlines and holes |
 //! | `{"free": {"closed": c, "points": [P, ...]}}`   | a C2 spline through points `[x, y]`, or a curve fitted to them; see [`contour`] |
 //! | `{"polyline": {"closed": c, "points": [P, ...]}}` | straight lines from point to point; see [`contour`] |
@@ -37,6 +38,7 @@
 //! | `{"polyline": {"closed": c, "points": [P, ...], "corners": K}}` | straight lines through points `[x, y, z]` |
 //! | `{"flat": {"curve": C, "z": LAW}}`             | a plane curve drawn like a contour, with z given by a law; see [`Flat`] |
 //! | `{"formula": {"x": F, "y": F, "z": F, "t": [a, b]}}` | formulas of the coordinates; points may have radii, scales and twists of their own: see [`Measured`] |
+//! | `{"swc": {"file": F}}`                          | neurites of an SWC file; see [`Swc`] |
 //! | `{"rotation": {"angle_deg": d, ...}}`             | contour x is the distance from an axis, contour y the height along it |
 //!
 //! `mesh` counts cells, which become quads: `rows` along the trajectory and `cols` along the contour. A
@@ -117,8 +119,13 @@
 //! `depth` is a relief on the contour, made of waves: `delta` is the sum over `terms` of
 //! `amp * along(v) * sin(2 pi (u_count u + v_count v) + phase)`. If `mode` is `factor`, the contour is
 //! multiplied by `1 + delta`, which must stay above 0. If `mode` is `offset`, the contour is moved along its
-//! outer normal by `delta`; such a contour must have no corners. Scale and twist act on the contour with its
-//! relief. Counts are whole numbers along closed curves. All keys of a term except `amp` may be left out.
+//! outer normal by `delta`. Scale and twist act on the contour with its
+//! relief: with a scale of 2, heights are twice as large on the surface, and `--check` states the factor. Without a scale
+//! heights are lengths of the finished surface.
+//!
+//! An offset fades at corners, and any relief fades at the axis of a rotation and at the rim of a wall, where it would
+//! tear the surface. `fade` is the length of the contour along which it fades, a twentieth of the contour if left out;
+//! if given, the relief fades at all corners and ends. See [`fade`](crate::surface::fade) for the rule. Counts are whole numbers along closed curves. All keys of a term except `amp` may be left out.
 //!
 //! ```json
 //! {
@@ -163,9 +170,13 @@ mod helix;
 mod law;
 mod measured;
 mod parts;
+mod pieces;
+mod place;
 pub mod resolution;
 pub mod schema;
 mod seam;
+mod svg;
+mod table;
 mod trajectory;
 mod turn;
 mod wall;
@@ -178,19 +189,21 @@ pub use corners::{Bezier3, Corners};
 pub use deform::{AxisTwist, Bend, Deform, Taper};
 pub use depth::{Depth, DepthImage, DepthMode, DepthTerm};
 pub use flat::Flat;
-pub use frame::{Frame, Frenet};
+pub use frame::{Away, Frame, Frenet};
 pub use helix::Helix;
 pub use law::{Law, Scale};
 pub use measured::{FormulaCurve, Measured};
-
 pub use parts::Parts;
+pub use place::{Copies, Place, PlaceTurn};
 pub use resolution::{Camera, Resolution};
 pub use seam::SeamKind;
+pub use svg::SvgFile;
+pub use table::{Csv, Swc, TableColumn};
 pub use trajectory::Trajectory;
 pub use turn::{Circle, Rotation};
-pub use wall::{Wall, WallKeys, WallSide};
+pub use wall::{Rim, Wall, WallKeys, WallSide};
 
-use crate::grid::UvLayout;
+use crate::grid::{Unit, UvLayout};
 use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -219,6 +232,9 @@ pub struct Spec {
     /// The object's name; one word.
     #[schemars(transform = limits::word)]
     pub name: String,
+    /// The unit of length of all numbers; not in a part of an object.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unit: Option<Unit>,
     /// The curve that is swept.
     pub contour: Contour,
     /// The curve that the contour is swept along, or a rotation.
@@ -267,6 +283,12 @@ pub struct Spec {
     /// Translation of the finished surface, `[x, y, z]` in the unit of length.
     #[serde(default)]
     pub position: [f64; 3],
+    /// Motions of the finished surface after `position`, applied one after another.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub place: Vec<Place>,
+    /// Copies of the finished surface.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub copies: Option<Copies>,
 }
 
 /// Cubic Bezier segments, each of which starts where the one before it ends.
@@ -278,6 +300,7 @@ pub struct Bezier<P> {
     #[serde(default)]
     pub closed: bool,
     /// Four control points for each segment. At least one segment; each starts where the one before it ends.
+    #[serde(deserialize_with = "pieces::read", bound(deserialize = "P: Deserialize<'de>"))]
     #[schemars(transform = limits::at_least(1))]
     pub segments: Vec<[P; 4]>,
 }
@@ -321,7 +344,7 @@ mod tests {
     use std::path::Path;
 
     /// Pages that show specs, with the number of specs on each.
-    const PAGES: [(&str, usize); 13] = [
+    const PAGES: [(&str, usize); 14] = [
         (include_str!("spec.rs"), 4),
         (include_str!("spec/caps.rs"), 1),
         (include_str!("spec/contour.rs"), 4),
@@ -333,8 +356,9 @@ mod tests {
         (include_str!("spec/helix.rs"), 1),
         (include_str!("spec/measured.rs"), 2),
         (include_str!("spec/parts.rs"), 1),
+        (include_str!("spec/place.rs"), 1),
         (include_str!("spec/seam.rs"), 2),
-        (include_str!("spec/wall.rs"), 1),
+        (include_str!("spec/wall.rs"), 2),
     ];
 
     #[test]

@@ -284,8 +284,9 @@ fn a_part_of_an_object_is_named_by_its_path() {
     assert_eq!(run.status.code(), Some(4));
     let words = String::from_utf8(run.stdout).unwrap();
     let lines: Vec<&str> = words.lines().collect();
-    assert!(lines[0].starts_with("a: 48 x 24 cells (rows x cols), closed in both directions, no"));
-    assert!(lines[2].starts_with("wrong: parts[1].trajectory: "), "{words}");
+    assert!(lines[0].starts_with("two: watertight, 2 bodies with volumes of "), "{words}");
+    assert!(lines[1].starts_with("a: 48 x 24 cells (rows x cols), closed in both directions, no"));
+    assert!(lines[3].starts_with("wrong: parts[1].trajectory: "), "{words}");
 }
 
 /// Runs the program with a text on its standard input.
@@ -298,8 +299,11 @@ fn run(arguments: &[&str], text: &str) -> Output {
 fn the_program_ends_with_4_only_when_something_is_wrong() {
     let good = run(&["--check"], &ring(&json!({})));
     assert_eq!(good.status.code(), Some(0));
+    let words = String::from_utf8(good.stdout).unwrap();
+    let (first, rest) = words.split_once('\n').unwrap();
+    assert!(first.starts_with("ring: watertight, volume "), "{first}");
     assert_eq!(
-        String::from_utf8(good.stdout).unwrap(),
+        rest,
         "ring: 48 x 24 cells (rows x cols), closed in both directions, no folds (least stretch \
          0.6667)\n"
     );

@@ -66,7 +66,7 @@ fn distance(cubics: &[Cubic<DVec2>], point: DVec2) -> f64 {
 }
 
 /// Returns the angles, in radians, at the joints of cubics that meet end to end.
-fn angles(fit: &Fit, closed: bool) -> Vec<f64> {
+fn angles(fit: &Fit<DVec2>, closed: bool) -> Vec<f64> {
     let count = fit.cubics.len();
     let joints = if closed { 0..count } else { 1..count };
     joints
@@ -80,7 +80,7 @@ fn angles(fit: &Fit, closed: bool) -> Vec<f64> {
 
 /// Fits points and asserts that every `step`th point is near the fit, since the measurement is
 /// slow.
-fn near(points: &[DVec2], closed: bool, tolerance: f64, step: usize) -> Fit {
+fn near(points: &[DVec2], closed: bool, tolerance: f64, step: usize) -> Fit<DVec2> {
     let fit = within(points, closed, tolerance);
     assert!(fit.reached <= tolerance, "reached {}", fit.reached);
     for &point in points.iter().step_by(step) {
@@ -168,7 +168,7 @@ fn the_curve_grows_with_its_points() {
     let (fit, large) = (within(&points, true, 0.005), within(&grown, true, 0.005 * grow));
     let expected: Vec<_> =
         fit.cubics.iter().map(|cubic| Cubic(cubic.0.map(|p| p * grow))).collect();
-    assert_eq!(large, Fit { cubics: expected, reached: fit.reached * grow });
+    assert_eq!(large, Fit { cubics: expected, reached: fit.reached * grow, places: fit.places });
 }
 
 #[test]
@@ -193,7 +193,7 @@ fn read(contour: &str, trajectory: &str) -> Result<(usize, f64), String> {
 }
 
 #[test]
-fn a_spec_asks_for_a_fit_of_its_contour_only() {
+fn a_spec_asks_for_a_fit_of_free_points_only() {
     let mut points: Vec<[f64; 2]> = circle(60).into_iter().map(DVec2::into).collect();
     points.insert(7, points[7]);
     let free = |keys: &str| format!(r#"{{"free": {{"points": {points:?}, {keys}}}}}"#);
@@ -206,6 +206,10 @@ fn a_spec_asks_for_a_fit_of_its_contour_only() {
         "{message}"
     );
     let trajectory = r#"{"free": {"points": [[0, 0, 0], [0, 0, 1]], "fit": 1}}"#;
-    let message = read(r#"{"circle": 1}"#, trajectory).unwrap_err();
-    assert!(message.contains("trajectory.free.fit: unknown key `fit`"), "{message}");
+    assert!(read(&free(r#""fit": 1e-3"#), trajectory).is_ok());
+    let message = read(r#"{"circle": 1}"#, &trajectory.replace("free", "polyline")).unwrap_err();
+    assert!(
+        message.contains("trajectory.polyline.fit: found a fit of straight lines"),
+        "{message}"
+    );
 }

@@ -101,6 +101,7 @@ fn examples() -> Vec<(String, Vec<u8>)> {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples/curves");
     let mut files: Vec<_> =
         fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.retain(|path| path.extension().is_some_and(|ending| ending == "json"));
     files.sort();
     let named = |path: &std::path::PathBuf| path.file_stem().unwrap().to_str().unwrap().to_owned();
     files.iter().map(|path| (named(path), fs::read(path).unwrap())).collect()

@@ -151,7 +151,7 @@ fn what_the_reader_refuses_for_its_form_or_its_size_the_schema_refuses() {
         ("trajectory", json!({"rotation": {"angle_deg": 0}})),
         ("trajectory", json!({"helix": {"radius": 1, "rise": 1, "turns": 0}})),
         ("trajectory", json!({"helix": {"radius": 1, "turns": 1}})),
-        ("trajectory", json!({"free": {"points": [[0, 0, 0], [0, 0, 1]], "fit": 1}})),
+        ("trajectory", json!({"free": {"points": [[0, 0, 0], [0, 0, 1]], "fit": 0}})),
         ("trajectory", json!({"flat": {"curve": {"circle": 1}, "z": 0}})),
         ("trajectory", json!({"flat": {"curve": {"svg": "M0 0H1"}}})),
         (

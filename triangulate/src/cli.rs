@@ -8,13 +8,14 @@ use clap::Parser;
 use files::exit::say;
 use files::extension::{self, WrongExtension};
 use files::{Batch, Exit, Failure, Ledger, Output, Report, input};
-use grid::Grid;
+use grid::{Grid, Place};
 use std::io::{IsTerminal, Write, stdin, stdout};
 use std::path::{Path, PathBuf};
 use sweep::grid::file::GridReader;
 use thiserror::Error;
 use triangulate::mtl::{is_map_name, mtl};
 use triangulate::obj::object_name;
+use triangulate::up::Up;
 use triangulate::{Format, MeshReport, Options, TriangulateError, Unit};
 use write::Written;
 
@@ -23,7 +24,7 @@ Examples:
   sweep vase.json -o vase.grid            a grid from a curve spec, then
   triangulate vase.grid -o vase.obj       its triangles
   sweep vase.json | triangulate --texture 2 | render scene.json --mesh vase=- -o vase.png
-  triangulate vase.grid -o vase.3mf --unit centimeter             for a printer
+  triangulate vase.grid -o vase.3mf --unit centimeter --up z      for a printer
   triangulate vase.grid -o vase.obj --report -                    is it closed?
   triangulate vase.grid -o vase.obj --mtl --map marble.png        for other renderers
 
@@ -57,6 +58,9 @@ pub struct Arguments {
     /// Surface id, which a scene binds to a material. Replaces the ids in the grid
     #[arg(long, value_name = "ID")]
     surface: Option<u32>,
+    /// Axis that points up in the mesh
+    #[arg(long, value_enum, default_value_t)]
+    up: Up,
     /// Texture areas (tb-areas JSON) that cover the areas of the grid. Keeps the grid in memory
     #[arg(long, value_name = "FILE.json")]
     pub areas: Option<PathBuf>,
@@ -132,10 +136,14 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
     let file = ledger.open(&arguments.grid, "the grid")?;
     let mut reader = GridReader::open(&name, file).map_err(TriangulateError::Grid)?;
     let written = match &arguments.areas {
-        None => write::write(arguments, &mut Grid::File(&mut reader), &mut outputs.mesh),
+        None => {
+            let mut grid = Grid { source: Place::File(&mut reader), up: arguments.up };
+            write::write(arguments, &mut grid, &mut outputs.mesh)
+        }
         Some(areas) => {
             let grids = grid::with_areas(areas, &ledger, &mut reader)?;
-            write::write(arguments, &mut Grid::<&[u8]>::Memory(&grids), &mut outputs.mesh)
+            let source = Place::<&[u8]>::Memory(&grids);
+            write::write(arguments, &mut Grid { source, up: arguments.up }, &mut outputs.mesh)
         }
     };
     let written = written.map_err(|error| outputs.mesh_failure(error))?;

@@ -41,6 +41,7 @@
 //! | [`diagonal`]     | the choice of a cell's diagonal                              |
 //! | [`tri_mesh`]     | the mesh in memory, and its [`TriMesh::validate`]            |
 //! | [`obj`]          | the mesh as OBJ                                              |
+//! | [`up`]           | the axis that points up in the mesh                          |
 //! | [`topology`]     | Euler number, boundary loops, orientability of a mesh        |
 //! | [`merged`]       | the mesh after vertices in one place are merged              |
 //! | [`report`]       | topology and measures of a mesh, as JSON                     |
@@ -80,6 +81,7 @@ pub mod topology;
 pub mod tri_mesh;
 pub mod triangulator;
 pub mod unit;
+pub mod up;
 mod validate;
 
 pub use error::TriangulateError;

@@ -3,6 +3,7 @@
 //! ```text
 //! # topobook triangulate OBJ 1        ours; the last line must be there too
 //! mtllib vase.mtl                     only where a material file was asked for
+//! # unit mm                           the unit of length, if the grid states one
 //! o vase                              an object, or a patch of one
 //! usemtl tex2_surf0                   texture id 2, surface id 0: a scene binds both
 //! v 0.5 0 -1                          a row's new positions,
@@ -81,6 +82,9 @@ impl<W: Write> ObjWriter<W> {
 
 impl<W: Write> Sink for ObjWriter<W> {
     fn patch(&mut self, header: &Header) {
+        if let (Some(unit), 1) = (header.unit, header.patch.number) {
+            self.text.extend_from_slice(format!("# unit {}\n", unit.symbol()).as_bytes());
+        }
         let name = object_name(&header.name);
         self.text.extend_from_slice(format!("o {name}\n").as_bytes());
     }

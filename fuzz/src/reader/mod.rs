@@ -29,6 +29,12 @@ pub enum Reader {
     Spec,
     /// A path of SVG in a spec.
     Svg,
+    /// An SVG file that a spec names.
+    Drawing,
+    /// A table of points that a spec names.
+    Csv,
+    /// A tree of neurites that a spec names.
+    Swc,
     /// A picture of depths that a spec names.
     Depth,
     /// A grid of binary rows.
@@ -70,9 +76,12 @@ pub enum Reader {
 
 impl Reader {
     /// All readers that are tried when none is named.
-    pub const ALL: [Self; 19] = [
+    pub const ALL: [Self; 22] = [
         Self::Spec,
         Self::Svg,
+        Self::Drawing,
+        Self::Csv,
+        Self::Swc,
         Self::Depth,
         Self::Grid,
         Self::GridText,
@@ -98,6 +107,9 @@ impl Reader {
         match self {
             Self::Spec => "spec",
             Self::Svg => "svg",
+            Self::Drawing => "drawing",
+            Self::Csv => "csv",
+            Self::Swc => "swc",
             Self::Depth => "depth",
             Self::Grid => "grid",
             Self::GridText => "grid-text",
@@ -125,6 +137,9 @@ impl Reader {
         match self {
             Self::Spec | Self::Areas | Self::Scene | Self::Part | Self::Job => "json",
             Self::Svg | Self::Words | Self::Trap => "txt",
+            Self::Drawing => "svg",
+            Self::Csv => "csv",
+            Self::Swc => "swc",
             Self::Grid | Self::GridText => "grid",
             Self::Obj => "obj",
             Self::Stl => "stl",
@@ -200,6 +215,9 @@ impl Bench {
         match reader {
             Reader::Spec => spec::read(bytes, &corpus.stored),
             Reader::Svg => spec::read_path(bytes, &corpus.stored),
+            Reader::Drawing => spec::read_drawing(bytes, &corpus.stored),
+            Reader::Csv => spec::read_table(bytes, &corpus.stored),
+            Reader::Swc => spec::read_neurites(bytes, &corpus.stored),
             Reader::Depth => spec::read_depths(bytes, &corpus.stored),
             Reader::Grid | Reader::GridText => grid::read(bytes),
             Reader::Areas => areas::read(bytes, &corpus.grids),

@@ -75,6 +75,37 @@ const SVG: [&str; 22] = [
     "z", ",", "1e",
 ];
 
+/// Words of SVG files.
+const DRAWING: [&str; 20] = [
+    "<g>",
+    "</g>",
+    "<rect width='1' height='2'/>",
+    "<circle r='1'/>",
+    "<use href='#a'/>",
+    "id='a'",
+    " transform='",
+    "scale(",
+    "rotate(",
+    "matrix(",
+    "viewBox='",
+    "width='",
+    "mm",
+    "%",
+    "<defs>",
+    "&lt;",
+    "<!--",
+    "<![CDATA[",
+    "points='",
+    "/>",
+];
+
+/// Words of tables.
+const CSV: [&str; 10] = [",", ";", "\t", "\n", "\"", "#", "x", "1e", "nan", "-"];
+
+/// Words of SWC files.
+const SWC: [&str; 10] =
+    [" ", "\n", "-1", "0", "1", "2", "#", "1e60", "\n1 1 0 0 0 1 -1\n", "\n9 3 1 1 1 1 1\n"];
+
 /// Words of command lines.
 const WORDS: [&str; 16] = [
     "x", "X", ",", ":", "k", "M", "G", "log", "linear", "640x480", "512M", "1e-4", "normal",
@@ -151,6 +182,9 @@ impl Seeds {
             Reader::Gltf => Self::json(seeds::documents("gltf")?, |_| {}),
             Reader::Mtl => text(Vec::new(), &MTL),
             Reader::Svg => text(paths(&corpus.specs), &SVG),
+            Reader::Drawing => text(Vec::new(), &DRAWING),
+            Reader::Csv => text(Vec::new(), &CSV),
+            Reader::Swc => text(Vec::new(), &SWC),
             Reader::Words => text(Vec::new(), &WORDS),
             Reader::Trap => text(vec![b"fine".to_vec()], &[]),
             Reader::Depth => Self::Png(greys()),

@@ -16,6 +16,15 @@ const MOST_CELLS: usize = 20_000;
 /// Largest number of cells among which touching strands are searched.
 const MOST_STRANDS: usize = 1000;
 
+/// The path of the tried SVG file.
+const DRAWING: &str = "examples/curves/tried.svg";
+
+/// The path of the tried table.
+const TABLE: &str = "examples/curves/tried.csv";
+
+/// The path of the tried tree of neurites.
+const TREE: &str = "examples/curves/tried.swc";
+
 /// The path of the tried picture of depths.
 const PICTURE: &str = "examples/textures/tried.png";
 
@@ -69,6 +78,48 @@ pub fn read_path(path: &[u8], source: &dyn Source) -> Tried {
         (Ok(()), _) | (_, Ok(())) => Ok(()),
         (refusal, _) => refusal,
     }
+}
+
+/// Reads an SVG file that a spec names, as a contour with and without a unit.
+///
+/// # Errors
+/// See [`read`].
+pub fn read_drawing(drawing: &[u8], stored: &MemoryFiles) -> Tried {
+    let files = stored.with(DRAWING, drawing);
+    let mut spec = json!({"format": "tb-sweep", "version": 1, "name": "bar",
+        "contour": {"svg": {"file": "tried.svg"}, "center": true},
+        "trajectory": {"line": [[0, 0, 0], [0, 3, 0]]}, "mesh": {"rows": 3, "cols": 24}});
+    read(spec.to_string().as_bytes(), &files)?;
+    spec["unit"] = json!("mm");
+    spec["contour"]["svg"]["id"] = json!("a");
+    read(spec.to_string().as_bytes(), &files)
+}
+
+/// Reads a table of points that a spec names, as a polyline and as a fitted curve.
+///
+/// # Errors
+/// See [`read`].
+pub fn read_table(table: &[u8], stored: &MemoryFiles) -> Tried {
+    let files = stored.with(TABLE, table);
+    let csv = json!({"file": "tried.csv", "columns": [1, 2, 3], "radius": 4});
+    let spec = |trajectory: serde_json::Value| {
+        json!({"format": "tb-sweep", "version": 1, "name": "track", "contour": {"circle": 0.1},
+            "trajectory": trajectory, "mesh": {"rows": 24, "cols": 6}})
+    };
+    let polyline = json!({"polyline": {"csv": csv, "corners": {"round": 0.2}}});
+    read(spec(polyline).to_string().as_bytes(), &files)?;
+    let fitted = json!({"free": {"csv": csv, "fit": 0.1}});
+    read(spec(fitted).to_string().as_bytes(), &files)
+}
+
+/// Reads a tree of neurites that a spec names.
+///
+/// # Errors
+/// See [`read`].
+pub fn read_neurites(tree: &[u8], stored: &MemoryFiles) -> Tried {
+    let spec = json!({"format": "tb-sweep", "version": 1, "name": "cell", "contour": {"circle": 1},
+        "trajectory": {"swc": {"file": "tried.swc"}}, "mesh": {"rows": 16, "cols": 6}});
+    read(spec.to_string().as_bytes(), &stored.with(TREE, tree))
 }
 
 /// Reads a picture of depths that a spec names.

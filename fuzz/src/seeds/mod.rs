@@ -74,6 +74,11 @@ impl Corpus {
             let small = small::picture(&bytes).map_err(|error| wrong(&path, &error))?;
             stored.put(path_from_root("examples/textures", &path), small);
         }
+        for ending in ["svg", "swc", "csv"] {
+            for (path, bytes) in folder(&root().join(CURVES), ending)? {
+                stored.put(path_from_root(CURVES, &path), bytes);
+            }
+        }
         let mut specs = Vec::new();
         for (path, mut spec) in values("examples/curves", "spec")? {
             small::bound(&mut spec);

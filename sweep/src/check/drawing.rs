@@ -41,6 +41,7 @@ pub fn findings(spec: &Spec, sweep: &Sweep) -> Vec<Finding> {
             }
             Contour::Circle(_)
             | Contour::Svg(_)
+            | Contour::SvgFile(_)
             | Contour::Sections(_)
             | Contour::Loops(_)
             | Contour::Moved(_) => {}
@@ -67,6 +68,7 @@ pub fn findings(spec: &Spec, sweep: &Sweep) -> Vec<Finding> {
         | Trajectory::Helix(_)
         | Trajectory::Flat(_)
         | Trajectory::Formula(_)
+        | Trajectory::Swc(_)
         | Trajectory::Rotation(_) => {}
     }
     found.extend(nearly_closed(sweep));
@@ -91,6 +93,7 @@ fn contours(contour: &Contour) -> Vec<(String, &Contour)> {
         Contour::Circle(_)
         | Contour::Bezier(_)
         | Contour::Svg(_)
+        | Contour::SvgFile(_)
         | Contour::Free(_)
         | Contour::Polyline(_) => vec![("contour".into(), contour)],
     }
@@ -120,7 +123,11 @@ fn cubics(contour: &Contour) -> Option<(Vec<Cubic<DVec2>>, bool)> {
             let sides = points.iter().zip(next).map(|(&a, &b)| Cubic::line(a, b));
             Some((sides.collect(), line.closed))
         }
-        Contour::Circle(_) | Contour::Sections(_) | Contour::Loops(_) | Contour::Moved(_) => None,
+        Contour::Circle(_)
+        | Contour::SvgFile(_)
+        | Contour::Sections(_)
+        | Contour::Loops(_)
+        | Contour::Moved(_) => None,
     }
 }
 

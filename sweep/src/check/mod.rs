@@ -3,10 +3,12 @@
 //! | module         | checks                                                             |
 //! |----------------|--------------------------------------------------------------------|
 //! | [`fold`]       | where the surface folds back on itself                             |
+//! | [`measures`]   | volume, area and size of an object; whether it is watertight       |
 //! | [`merging`]    | closed meshes that other programs break by merging vertices         |
 //! | [`neighbors`]  | rows that cross the next row                                       |
 //! | [`patches`]    | a tree over the triangles of a surface, for [`strands`]            |
 //! | [`placing`]    | contours far from their origin, profiles drawn downward, frames that spin |
+//! | `relief`       | reliefs finer than the cells, and reliefs that a scale changes     |
 //! | [`resolution`] | numbers of cells that were raised, and cells that are too coarse   |
 //! | [`chain`]      | crossings of a chain of straight pieces, for [`drawing`]           |
 //! | [`drawing`]    | curves as they were drawn: doubled points, crossings, near misses  |
@@ -19,10 +21,12 @@
 pub mod chain;
 pub mod drawing;
 pub mod fold;
+pub mod measures;
 pub mod merging;
 pub mod neighbors;
 pub mod patches;
 pub mod placing;
+mod relief;
 pub mod resolution;
 pub mod rounding;
 pub mod strands;
@@ -53,9 +57,10 @@ pub fn check(
     for (i, (sweep, grid)) in object.parts().iter().zip(grids).enumerate() {
         let (spec, owner) = object.spec_of(i);
         // An outline and its holes are drawn in one spec.
+        let index = object.owners[i];
         let mut found =
-            if before == Some(owner) { Vec::new() } else { drawing::findings(spec, sweep) };
-        before = Some(owner);
+            if before == Some(index) { Vec::new() } else { drawing::findings(spec, sweep) };
+        before = Some(index);
         found.extend(placing::findings(spec, sweep));
         found.extend(of_sweep(sweep, grid));
         if let Some(tell) = strands {
@@ -71,6 +76,7 @@ pub fn check(
         found.retain(|finding| !all.contains(finding));
         all.extend(found);
     }
+    all.extend(measures::Measures::of(object, grids).findings(object.unit()));
     all
 }
 
@@ -84,6 +90,7 @@ pub fn of_sweep(sweep: &Sweep, grid: &GridMesh) -> Vec<Finding> {
     found.extend(resolution::findings(sweep));
     found.extend(rounding::findings(grid));
     found.extend(merging::findings(grid));
+    found.extend(relief::scaled(sweep));
     found.extend(edges(sweep));
     found.extend(over_the_seam(sweep));
     found

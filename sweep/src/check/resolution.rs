@@ -1,6 +1,6 @@
 //! Numbers of cells that were raised, and cells that are too coarse for the surface.
 
-use super::{Finding, Severity, short};
+use super::{Finding, Severity, relief, short};
 use crate::curve::cut::{self, Stop};
 use crate::curve::vector::angle_between;
 use crate::sampling::Sweep;
@@ -13,9 +13,6 @@ const COARSE_DEG: f64 = 60.0;
 
 /// Angles that differ by less than this, in degrees, are equal. The angles of even steps differ by rounding.
 const ROUNDING: f64 = 1e-6;
-
-/// Smallest number of cells that shows a wave of a relief.
-const CELLS_A_WAVE: f64 = 4.0;
 
 /// Returns the findings about the numbers of cells.
 #[must_use]
@@ -37,7 +34,7 @@ pub fn findings(sweep: &Sweep) -> Vec<Finding> {
 /// Returns findings about twists and waves that rows and columns sample too coarsely, so that they show another surface.
 #[must_use]
 pub fn aliases(sweep: &Sweep) -> Vec<Finding> {
-    let mut found = waves(sweep);
+    let mut found = relief::coarse(sweep);
     found.extend(twist(sweep, &sweep.row_stops(), sweep.shape.closed()));
     found
 }
@@ -145,29 +142,4 @@ fn turns(sweep: &Sweep, columns: &[Column]) -> Option<Finding> {
         enough(sweep.cols(), angle)
     );
     Some(Finding::new(Severity::Hint, "mesh.cols", message))
-}
-
-fn waves(sweep: &Sweep) -> Vec<Finding> {
-    let terms =
-        sweep.shape.modulation.depth.iter().flat_map(|depth| depth.terms.iter().enumerate());
-    let mut found = Vec::new();
-    for (i, term) in terms {
-        for (key, count, made, what) in
-            [("u", term.u, sweep.cols(), "cols"), ("v", term.v, sweep.rows(), "rows")]
-        {
-            let each = made as f64 / count.abs();
-            if each < CELLS_A_WAVE {
-                let message = format!(
-                    "{} waves on {made} {what} have {} cells per wave: {} {what} would have \
-                     {CELLS_A_WAVE}",
-                    short(count.abs()),
-                    short(each),
-                    (CELLS_A_WAVE * count.abs()).ceil()
-                );
-                let path = format!("depth.terms[{i}].{key}");
-                found.push(Finding::new(Severity::Hint, &path, message));
-            }
-        }
-    }
-    found
 }

@@ -5,6 +5,7 @@ use files::exit::say;
 use files::{Output, Report, words};
 use std::num::NonZeroUsize;
 use std::path::Path;
+use sweep::check::measures::Measures;
 use sweep::check::resolution::aliases;
 use sweep::check::{self, Finding, Severity};
 use sweep::{GridMesh, Object, Sweep};
@@ -47,7 +48,7 @@ pub fn stats(sweep: &Sweep) {
     }
 }
 
-/// Prints one line for each part and one for each finding, on standard output.
+/// Prints one line for the object, one for each part and one for each finding, on standard output.
 ///
 /// # Errors
 /// When standard output cannot be written, or when a finding is wrong.
@@ -58,7 +59,8 @@ pub fn print_check(
     findings: &[Finding],
 ) -> Result<(), Report> {
     let parts = object.parts().iter().zip(grids).map(|(part, grid)| check::summary(part, grid));
-    let lines = parts.chain(findings.iter().map(Finding::to_string));
+    let whole = Measures::of(object, grids).line(object.name(), object.unit());
+    let lines = std::iter::once(whole).chain(parts).chain(findings.iter().map(Finding::to_string));
     let text: String = lines.map(|line| format!("{}\n", words::line(&line))).collect();
     Output::create(Path::new("-"), true)?.commit_all(text.as_bytes())?;
     let wrong = findings.iter().filter(|finding| finding.severity == Severity::Wrong).count();

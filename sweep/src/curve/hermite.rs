@@ -22,13 +22,27 @@ const DEEPEST: u32 = 10;
 /// # Errors
 /// The parameter of a point or a derivative that is not finite.
 pub fn along(curve: impl Fn(f64) -> [DVec3; 2], ends: &[f64]) -> Result<Vec<Cubic<DVec3>>, f64> {
+    let pieces = (PIECES / (ends.len() - 1)).max(1);
+    between(curve, ends, pieces, NEAR)
+}
+
+/// Returns cubics along a curve, as [`along`] does: at least `pieces` between two parameters, and no further from the curve
+/// than the fraction `near` of its size.
+///
+/// # Errors
+/// The parameter of a point or a derivative that is not finite.
+pub fn between(
+    curve: impl Fn(f64) -> [DVec3; 2],
+    ends: &[f64],
+    pieces: usize,
+    near: f64,
+) -> Result<Vec<Cubic<DVec3>>, f64> {
     let mut cubics = Vec::new();
     let samples = (0..=PIECES).map(|i| {
         let part = i as f64 / PIECES as f64;
         curve(ends[0] + (ends[ends.len() - 1] - ends[0]) * part)[0]
     });
-    let near = NEAR * extent(samples);
-    let pieces = (PIECES / (ends.len() - 1)).max(1);
+    let near = near * extent(samples);
     for span in ends.windows(2) {
         let width = span[1] - span[0];
         // Derivatives that jump at an end are those of the inside.

@@ -4,12 +4,19 @@
 //! one only. SVG's y axis points down. y is negated here, so that a shape upright in an SVG editor is upright as a contour. A
 //! path is closed by `Z`, or by ending where it began.
 //!
+//! [`drawing()`] reads the paths and basic shapes of a whole file.
+//!
 //! kurbo's own path reader is not used, because it turns arcs into cubics with an absolute
 //! tolerance of 0.1. This tolerance is too coarse for a circle of radius 1, and the conversion
 //! never finishes for a circle of radius 1e300. Here kurbo converts only single arcs, to a
 //! billionth of their radius.
 
+mod basic;
+mod drawing;
 mod lexer;
+mod transform;
+
+pub use drawing::drawing;
 
 use super::cubic::Cubic;
 use super::vector::{Vector, extent};

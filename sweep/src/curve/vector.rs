@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 use std::fmt::Debug;
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Smallest sine between a direction and an axis across which the direction is taken. A double has 16 digits; below
 /// this sine cancellation leaves fewer than 7 of them.
@@ -19,6 +19,7 @@ pub trait Vector:
     + Sub<Output = Self>
     + Neg<Output = Self>
     + Mul<f64, Output = Self>
+    + Div<f64, Output = Self>
 {
     /// The zero vector.
     const ZERO: Self;
@@ -28,6 +29,17 @@ pub trait Vector:
 
     /// Returns the smaller and the larger value of each coordinate.
     fn bounds(self, other: Self) -> (Self, Self);
+
+    /// Returns the part across a unit vector.
+    fn across(self, unit: Self) -> Self {
+        self - unit * self.dot(unit)
+    }
+
+    /// Returns the unit vector in this direction; `None` for a vector without length.
+    fn unit(self) -> Option<Self> {
+        let over = 1.0 / self.length();
+        (over.is_finite() && over > 0.0).then(|| self * over)
+    }
 
     /// Returns the Euclidean length.
     fn length(self) -> f64 {
@@ -49,6 +61,11 @@ impl Vector for f64 {
 
 impl Vector for DVec2 {
     const ZERO: Self = Self::ZERO;
+
+    fn across(self, unit: Self) -> Self {
+        let normal = unit.perp();
+        normal * self.dot(normal)
+    }
 
     fn dot(self, other: Self) -> f64 {
         self.dot(other)

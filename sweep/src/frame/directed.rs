@@ -8,7 +8,8 @@
 //!
 //! with the curvature vector `K = T'`. An upright direction is constant. The direction of Frenet's frame is
 //! `K` itself, and its spin is the torsion. The direction of a guide leads from the trajectory to the guide's
-//! point at the same fraction of its length. `w1 = n`, except for an upright frame, where `w2 = n`; both have
+//! point at the same fraction of its length. The direction away from an axis is the part of `P - O` across that axis, and
+//! changes by the part of `T` across it. `w1 = n`, except for an upright frame, where `w2 = n`; both have
 //! the same spin.
 //!
 //! Where `d` is 0 there is no frame. [`Directed::lack`] searches for such points. It samples the curve
@@ -53,6 +54,13 @@ pub enum Directed<C> {
     Frenet,
     /// `w1` points to the guide's point at the same fraction of the length.
     Guide(Box<C>),
+    /// `w1` points away from the line through `origin` along the unit vector `axis`.
+    Away {
+        /// A point of the line.
+        origin: DVec3,
+        /// Direction of the line, a unit vector.
+        axis: DVec3,
+    },
 }
 
 /// A reason why a curve has no frame at some point.
@@ -78,7 +86,7 @@ impl<C: Curve3> Directed<C> {
         let spin = (change.dot(b) - along * local.curvature.dot(b)) / size;
         Some(match self {
             Self::Up(_) => (Frame { normal: -b, binormal: normal, ..frame }, spin),
-            Self::Guide(_) | Self::Frenet => (frame, spin),
+            Self::Guide(_) | Self::Frenet | Self::Away { .. } => (frame, spin),
         })
     }
 
@@ -131,6 +139,10 @@ impl<C: Curve3> Directed<C> {
     fn direction(&self, s: f64, length: f64, local: &Local3, side: Side) -> (DVec3, DVec3) {
         match self {
             Self::Up(up) => (*up, DVec3::ZERO),
+            Self::Away { origin, axis } => {
+                let across = |v: DVec3| v - *axis * v.dot(*axis);
+                (across(local.position - *origin), across(local.tangent))
+            }
             Self::Frenet => {
                 // A curve that ends straight, as a natural spline does, has a limit of the direction. A cubic
                 // that is straight at one point lies in a plane, and there the limit is the third derivative.
@@ -170,7 +182,7 @@ impl<C: Curve3> Directed<C> {
                 across.normalize_or_zero() * (2.0 * NONE)
             }
             Self::Frenet => across * length,
-            Self::Guide(_) => across / length,
+            Self::Guide(_) | Self::Away { .. } => across / length,
         }
     }
 }

@@ -24,6 +24,7 @@
 //! | `tolerance` | none     | `{"asked": x, "reached": x, ...}`: a [`Tolerance`](crate::grid::Tolerance) |
 //! | `lids`      | `[]`     | flat ends: a [`Lid`](crate::grid::Lid) each, of this patch and of patches before it |
 //! | `pressed`   | `[false, false]` | whether the first and the last row are pressed to a line, where opposite columns meet |
+//! | `unit`      | none     | unit of length: `um`, `mm`, `cm`, `in`, `ft` or `m`            |
 //! | `shift`     | 0        | shift of the seam in columns; see [`Seam`](crate::grid::Seam) |
 //!
 //! A row is `[v, flags, positions, normals]`; each number is written with the fewest digits that read back to
@@ -50,14 +51,16 @@ mod buffer;
 mod edges;
 mod error;
 mod header;
+mod patch;
 mod reader;
 mod stranger;
 mod text;
 mod writer;
 
 pub use error::GridError;
+pub use header::Header;
 pub(crate) use header::MAX_COLS;
-pub use header::{Header, Patch};
+pub use patch::Patch;
 pub use reader::{GridReader, read, read_all};
 pub use writer::Writer;
 

@@ -7,12 +7,14 @@ pub mod near;
 mod quality;
 mod row;
 mod seam;
+mod unit;
 
 pub use area::{Area, PlacedArea};
 pub use lid::{End, Lid};
 pub use quality::{Fold, Tolerance};
 pub use row::Row;
 pub use seam::Seam;
+pub use unit::Unit;
 
 use glam::{DVec3, Vec3};
 use schemars::JsonSchema;
@@ -63,6 +65,8 @@ pub struct GridMesh {
     pub fold: Option<Fold>,
     /// The requested and the measured distance from the surface, if requested.
     pub tolerance: Option<Tolerance>,
+    /// The unit of length, if the spec states one.
+    pub unit: Option<Unit>,
     /// How texture coordinates lie on the surface.
     pub uv: UvLayout,
     /// `u` of each column, not decreasing, from 0; up to 1 if open, below 1 if closed.

@@ -66,6 +66,7 @@ fn one(page: &mut Page, area: Area, sweep: &Sweep, named: bool) {
         inner.center() + DVec2::new(from_middle.x, -from_middle.y)
     };
     axes(page, inner, flat(DVec2::ZERO), sweep.shape.trajectory.is_rotation());
+    origin(page, inner, flat(DVec2::ZERO), 0.5 * (low + high));
     for (one, color) in SHADES.into_iter().enumerate().take(shown) {
         let points: Vec<DVec2> =
             (0..columns.len()).map(|col| flat(point(col, one).point)).collect();
@@ -127,6 +128,26 @@ fn axes(page: &mut Page, inner: Area, origin: DVec2, rotation: bool) {
         page.line(&ends, false, pen);
         page.text(ends[1] + DVec2::new(2.0, -5.0), 10.0, ink::MUTED, Anchor::Middle, "x");
     }
+}
+
+/// Marks the contour's origin, which the trajectory carries. An origin beyond the panel is named with its position from
+/// the middle of the contour.
+fn origin(page: &mut Page, inner: Area, at: DVec2, middle: DVec2) {
+    let Area { x, y, width, height } = inner;
+    let pen = Pen::new(ink::MUTED, 1.4);
+    if (x - 12.0..=x + width + 12.0).contains(&at.x)
+        && (y - 12.0..=y + height + 12.0).contains(&at.y)
+    {
+        for arm in [DVec2::X * 5.0, DVec2::Y * 5.0] {
+            page.line(&[at - arm, at + arm], false, pen);
+        }
+        return;
+    }
+    let ahead = (at - inner.center()).normalize_or_zero();
+    let start = inner.center() + ahead * (0.5 * width.min(height));
+    page.arrow(start + ahead * 10.0, ahead, 12.0, ink::MUTED);
+    let text = format!("origin at {} {}", short(-middle.x), short(-middle.y));
+    page.text(start - DVec2::Y * 8.0, 10.0, ink::MUTED, Anchor::Middle, &text);
 }
 
 /// Draws a scale bar of a round length.

@@ -28,7 +28,9 @@ pub fn draw(page: &mut Page, area: Area, parts: &[Sweep]) {
         _ => String::new(),
     };
     page.panel(area, if parts.len() > 1 { "Trajectories" } else { "Trajectory" }, &note);
-    let courses: Vec<Vec<Frame>> = parts.iter().map(|sweep| frames(sweep, PIECES)).collect();
+    // Many curves share the pieces of four.
+    let pieces = (4 * PIECES / parts.len().max(1)).clamp(STATIONS, PIECES);
+    let courses: Vec<Vec<Frame>> = parts.iter().map(|sweep| frames(sweep, pieces)).collect();
     let origins: Vec<DVec3> = courses.iter().flatten().map(|frame| frame.origin).collect();
     let low = origins.iter().fold(DVec3::INFINITY, |low, &p| low.min(p));
     let high = origins.iter().fold(DVec3::NEG_INFINITY, |high, &p| high.max(p));
@@ -70,7 +72,13 @@ fn frames(sweep: &Sweep, pieces: usize) -> Vec<Frame> {
         let stop = if i == pieces { Stop::before(v) } else { Stop::after(v) };
         let frame = *sweep.shape.modulation.section(&sweep.shape.trajectory, stop).frame();
         let out = frame.normal * radius + frame.binormal * height;
-        Frame { origin: frame.origin + out + sweep.shape.position, ..frame }
+        let place = sweep.shape.place;
+        Frame {
+            origin: place.point(frame.origin + out + sweep.shape.position),
+            tangent: place.direction(frame.tangent),
+            normal: place.direction(frame.normal),
+            binormal: place.direction(frame.binormal),
+        }
     };
     (0..=pieces).map(frame_at).collect()
 }
@@ -106,7 +114,7 @@ fn axis(page: &mut Page, view: &View, sweep: &Sweep) {
     let (radius, height) = widest(sweep);
     let middle = frame.origin + sweep.shape.position + frame.binormal * height;
     let arm = frame.binormal * (0.22 * radius);
-    let ends = [view.page(middle - arm), view.page(middle + arm)];
+    let ends = [middle - arm, middle + arm].map(|p| view.page(sweep.shape.place.point(p)));
     page.line(&ends, false, Pen::new(ink::MUTED, 1.1).dashed("9 3 2 3"));
     page.text(ends[1] + DVec2::new(0.0, -4.0), 10.0, ink::MUTED, Anchor::Middle, "axis");
 }
@@ -151,8 +159,9 @@ fn curve(page: &mut Page, view: &View, sweep: &Sweep, course: &[Frame], arm: f64
         if !closed {
             page.dot(view.page(last.origin), 4.6, ink::END, Pen::new(ink::PANEL, 1.4));
         }
-        let ahead = &course[PIECES / 12];
-        let direction = along(&course[PIECES / 12 - 1], ahead);
+        let part = course.len() / 12;
+        let ahead = &course[part];
+        let direction = along(&course[part - 1], ahead);
         page.arrow(
             view.page(ahead.origin) + direction.normalize_or(DVec2::X) * 5.0,
             direction,

@@ -33,6 +33,10 @@ impl Reader<'_> {
         path: &str,
         line: &Measured,
     ) -> Result<(Course, Vec<[f64; 2]>), SweepError> {
+        if line.fit.is_some() {
+            let message = "found a fit of straight lines, expected none, or a `free` curve";
+            return Err(self.fault(&format!("{path}.fit"), message));
+        }
         let curve = self.polyline(path, &Self::plain(line))?;
         let path_of = |segment| format!("{path}.points[{segment}]");
         self.cornered(path, curve, line.corners, path_of)

@@ -1,13 +1,23 @@
 //! Reads the relief of a spec and checks it against both curves.
 
 use super::Reader;
+use super::profile::Face;
+use crate::curve::cut::Stop;
 use crate::error::SweepError;
 use crate::grid::Across;
 use crate::spec::{self, DepthMode, DepthTerm};
 use crate::surface::depth::{Depth, Mode, Term};
+use crate::surface::fade::Cover;
 use crate::surface::profile::Profile;
+use crate::surface::shape::ON_AXIS;
 use crate::trajectory::Trajectory;
 use std::sync::Arc;
+
+/// Length of the fade of a relief, as a fraction of the contour's, if the spec states none.
+const FADE: f64 = 0.05;
+
+/// Steps along a contour at which its relief is compared with the distance from the axis.
+const SAMPLES: usize = 2048;
 
 /// Largest number of waves along a curve. Even a mesh of the largest number of cells shows fewer.
 const MOST_WAVES: f64 = 1e6;
@@ -18,6 +28,7 @@ impl Reader<'_> {
         depth: &spec::Depth,
         across: Across,
         contour: &Profile,
+        face: Face,
         trajectory: &Trajectory,
     ) -> Result<Depth, SweepError> {
         if depth.terms.is_empty() && depth.image.is_none() {
@@ -27,14 +38,6 @@ impl Reader<'_> {
             DepthMode::Factor => Mode::Factor,
             DepthMode::Offset => Mode::Offset,
         };
-        if mode == Mode::Offset && contour.creases() > 0 {
-            let message = format!(
-                "found an offset of a contour with {} corners, which it would tear, expected a \
-                 smooth contour or a factor",
-                contour.creases()
-            );
-            return Err(self.geometry("depth.mode", message));
-        }
         let terms: Result<Vec<Term>, _> = depth
             .terms
             .iter()
@@ -47,7 +50,8 @@ impl Reader<'_> {
             None => None,
         };
         let path = if terms.is_empty() { "depth.image.amp" } else { "depth.terms" };
-        let depth = Depth { mode, terms, heights };
+        let cover = self.cover(depth, mode, contour, face, trajectory)?;
+        let depth = Depth { mode, terms, heights, cover };
         let most = depth.most();
         if mode == Mode::Factor && most >= 1.0 {
             let message = format!(
@@ -56,18 +60,78 @@ impl Reader<'_> {
             );
             return Err(self.geometry(path, message));
         }
-        if trajectory.is_rotation() {
-            self.off_axis("depth", contour)?;
-            let (low, _) = contour.x_range();
-            if mode == Mode::Offset && most >= low {
+        if trajectory.is_rotation() && mode == Mode::Offset {
+            self.above_axis(path, &depth, contour)?;
+        }
+        if let Face::Part { thickness, .. } = face {
+            let size = if mode == Mode::Offset { 1.0 } else { contour.x_range().1 };
+            let deepest = -depth.range()[0] * size;
+            if deepest >= thickness {
                 let message = format!(
-                    "found heights that add up to {most:?}, expected less than {low:?}, the \
-                     distance from the axis of the rotation"
+                    "found a relief up to {deepest:?} deep in a wall of {thickness:?}, expected less; a `zero` of the \
+                     darkest grey raises the relief above the wall"
                 );
                 return Err(self.geometry(path, message));
             }
         }
         Ok(depth)
+    }
+
+    /// Returns where the relief covers the contour, and where it fades; `None` if it covers all of it evenly.
+    fn cover(
+        &self,
+        depth: &spec::Depth,
+        mode: Mode,
+        contour: &Profile,
+        face: Face,
+        trajectory: &Trajectory,
+    ) -> Result<Option<Arc<Cover>>, SweepError> {
+        if let Some(fade) = depth.fade {
+            self.positive("depth.fade", fade)?;
+        }
+        let length = contour.length();
+        let fade = depth.fade.unwrap_or(FADE * length) / length;
+        let asked = depth.fade.is_some();
+        let (range, rims) = match face {
+            Face::Part { range, .. } => (range, true),
+            Face::Whole | Face::Bare => ([0.0, 1.0], asked && !contour.closed()),
+        };
+        let on_axis = ON_AXIS * contour.x_range().1;
+        let at_axis = |stop: Stop| {
+            let axis = trajectory.is_rotation() && !contour.closed();
+            axis && contour.columns(&[stop])[0].first.point.x <= on_axis
+        };
+        let ends = [rims || at_axis(Stop::after(0.0)), rims || at_axis(Stop::before(1.0))];
+        let corners = if mode == Mode::Offset || asked { contour.breaks() } else { &[] };
+        let cover = Cover::new(range, corners, ends, contour.closed(), fade);
+        Ok((cover.fades() || range != [0.0, 1.0]).then(|| Arc::new(cover)))
+    }
+
+    /// Refuses a relief that reaches the axis of a rotation.
+    fn above_axis(&self, path: &str, depth: &Depth, contour: &Profile) -> Result<(), SweepError> {
+        let [low, high] = depth.range();
+        let stops: Vec<Stop> =
+            (0..=SAMPLES).map(|i| Stop::after(i as f64 / SAMPLES as f64)).collect();
+        let on_axis = ON_AXIS * contour.x_range().1;
+        for column in contour.columns(&stops) {
+            for local in std::iter::once(&column.first).chain(&column.others) {
+                let factor = match &depth.cover {
+                    Some(cover) => cover.at(column.u).map_or(0.0, |covered| covered.factor),
+                    None => 1.0,
+                };
+                let outward = -local.tangent.perp().x * factor;
+                let x = local.point.x;
+                if x > on_axis && x + (low * outward).min(high * outward) <= 0.0 {
+                    let message = format!(
+                        "found heights from {low:?} to {high:?}, expected less than {x:?}, the distance from the axis of the \
+                         rotation at the height {:?}",
+                        local.point.y
+                    );
+                    return Err(self.geometry(path, message));
+                }
+            }
+        }
+        Ok(())
     }
 
     fn term(
@@ -141,17 +205,5 @@ mod tests {
         }
         let (found, _) = complaint("\"mesh\"", "\"depth\": {\"mode\": \"deep\"}, \"mesh\"");
         assert!(found.contains("depth.mode"), "{found}");
-    }
-
-    #[test]
-    fn an_offset_wants_a_smooth_contour() {
-        let square = "{\"svg\": \"M1 1H-1V-1H1Z\"}, \"depth\": \
-                      {\"mode\": \"offset\", \"terms\": [{\"amp\": 0.1}]}";
-        let (found, exit) = complaint("{\"circle\": 0.25}", square);
-        assert!(
-            found.contains("depth.mode: found an offset of a contour with 4 corners"),
-            "{found}"
-        );
-        assert_eq!(exit, Exit::Geometry);
     }
 }

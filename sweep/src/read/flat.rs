@@ -23,6 +23,7 @@ impl Reader<'_> {
             spec::Contour::Circle(_)
             | spec::Contour::Sections(_)
             | spec::Contour::Loops(_)
+            | spec::Contour::SvgFile(_)
             | spec::Contour::Moved(_) => {
                 let message = "found no path, expected one of bezier, svg, free, polyline; an arc of \
                                an SVG path draws a circle";

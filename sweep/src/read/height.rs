@@ -7,8 +7,8 @@ use crate::spec::DepthImage;
 use crate::surface::height::{Axis, HeightMap};
 use crate::surface::profile::Profile;
 use crate::trajectory::Trajectory;
+use files::memory;
 use files::picture::{self, Format, PictureError};
-use files::{Failure, FileError, input, memory};
 use image::ColorType;
 
 /// Largest number of texels of a picture, each of which takes 8 bytes.
@@ -65,15 +65,7 @@ impl Reader<'_> {
     /// Reads the texels of a grey picture, from 0 to 1, row by row from the top.
     fn greys(&self, file: &str) -> Result<([usize; 2], Vec<f64>), SweepError> {
         let key = "depth.image.file";
-        let path = self.folder.join(file);
-        let name = input::name_of(&path);
-        let bytes = self.source.read(&path).map_err(|error| {
-            let fault = self.document.fault(key, error.to_string());
-            match error {
-                FileError::Memory(_) => SweepError::TooLarge(fault),
-                error => SweepError::Named(fault, error.exit()),
-            }
-        })?;
+        let (name, bytes) = self.named_file(key, file)?;
         let broken = |error: PictureError| match error {
             PictureError::Memory(error) => {
                 SweepError::TooLarge(self.document.fault(key, error.to_string()))

@@ -149,6 +149,10 @@ impl Reader<'_> {
                 curve(self.bezier(&format!("{path}.bezier"), bezier)?, None)
             }
             spec::Contour::Svg(text) => self.svg(&format!("{path}.svg"), text)?,
+            spec::Contour::SvgFile(file) => {
+                let read = self.svg_file(&format!("{path}.svg"), file)?;
+                self.drawn(path, &read)?
+            }
             spec::Contour::Free(free) => {
                 let (path, reached) = self.near(&format!("{path}.free"), free)?;
                 curve(path, reached)
@@ -226,13 +230,12 @@ impl Reader<'_> {
 
 /// Returns the rule for the loops of a contour: that of the spec, or even-odd.
 fn rule(contour: &spec::Contour) -> Rule {
-    use spec::Contour::{Bezier, Circle, Free, Loops, Moved, Polyline, Sections, Svg};
+    use spec::Contour::{Bezier, Circle, Free, Loops, Moved, Polyline, Sections, Svg, SvgFile};
     match contour {
         Loops(loops) if loops.rule == Some(spec::contour::Rule::Nonzero) => Rule::Nonzero,
         Moved(moved) => rule(&moved.contour),
-        Circle(_) | Bezier(_) | Svg(_) | Free(_) | Polyline(_) | Sections(_) | Loops(_) => {
-            Rule::EvenOdd
-        }
+        Circle(_) | Bezier(_) | Svg(_) | SvgFile(_) | Free(_) | Polyline(_) | Sections(_)
+        | Loops(_) => Rule::EvenOdd,
     }
 }
 

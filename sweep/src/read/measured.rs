@@ -1,9 +1,10 @@
 //! Reads trajectories through points that have numbers of their own, and trajectories given by formulas.
 
 use super::Reader;
+use crate::curve::arc_length::ArcLength;
 use crate::curve::formula::Formula;
 use crate::curve::vector::extent;
-use crate::curve::{Cubic, Curve3, Path, hermite};
+use crate::curve::{Cubic, Curve3, Path, fit, hermite};
 use crate::error::SweepError;
 use crate::law::{Ease, Law};
 use crate::spec::{self, FormulaCurve, Free, Measured, Spec};
@@ -30,14 +31,27 @@ impl Reader<'_> {
     }
 
     /// Reads a smooth curve through points.
-    pub(super) fn free3(&self, path: &str, measured: &Measured) -> Result<Course, SweepError> {
+    pub(super) fn free3(
+        &self,
+        path: &str,
+        measured: &Measured,
+    ) -> Result<(Course, Vec<[f64; 2]>), SweepError> {
         if measured.corners.is_some() {
             let message = "found corners of a smooth curve, expected none, or a `polyline`";
             return Err(self.fault(&format!("{path}.corners"), message));
         }
-        let curve = self.free(path, &Self::plain(measured))?;
+        let Some(tolerance) = measured.fit else {
+            let curve = self.free(path, &Self::plain(measured))?;
+            self.smooth(&curve, path)?;
+            return Ok((Course::Path(curve), Vec::new()));
+        };
+        self.positive(&format!("{path}.fit"), tolerance)?;
+        let points: Vec<DVec3> = self.distinct(path, &Self::plain(measured))?;
+        let fit = fit::smooth(&points, measured.closed, tolerance);
+        let curve = self.path(path, &fit.cubics, measured.closed)?;
         self.smooth(&curve, path)?;
-        Ok(Course::Path(curve))
+        let marks = passed(&points, measured.closed, &fit);
+        Ok((Course::Path(curve), marks))
     }
 
     /// Reads the numbers at the points of a trajectory, if there are any. `marks` are pairs of arc lengths: of the curve
@@ -204,6 +218,32 @@ impl Reader<'_> {
         self.smooth(&curve, path)?;
         Ok(Course::Path(curve))
     }
+}
+
+/// Returns pairs of arc lengths: of the straight lines through points, and of the curve fitted to them, where it passes
+/// them.
+fn passed(points: &[DVec3], closed: bool, fit: &fit::Fit<DVec3>) -> Vec<[f64; 2]> {
+    let lengths: Vec<ArcLength<DVec3>> =
+        fit.cubics.iter().map(|&cubic| ArcLength::new(cubic)).collect();
+    let mut starts = vec![0.0];
+    for length in &lengths {
+        starts.push(starts[starts.len() - 1] + length.total());
+    }
+    let (mut done, mut furthest) = (0.0, 0.0_f64);
+    let mut marks = Vec::with_capacity(points.len() + 1);
+    for (i, &(cubic, t)) in fit.places.iter().enumerate() {
+        if i > 0 {
+            done += points[i - 1].distance(points[i]);
+        }
+        // Noise may put a point before the one that it follows.
+        furthest = furthest.max(starts[cubic] + lengths[cubic].length_to(t));
+        marks.push([done, furthest]);
+    }
+    if closed {
+        let end = done + points[points.len() - 1].distance(points[0]);
+        marks.push([end, starts[starts.len() - 1]]);
+    }
+    marks
 }
 
 /// Returns the second number of rising pairs, at a first number.

@@ -8,19 +8,26 @@ mod deform;
 mod depth;
 mod flat;
 mod height;
+mod helix;
 mod joints;
 mod law;
+mod loaded;
 mod loops;
 mod measured;
 mod modulation;
 mod object;
+mod place;
 mod profile;
 mod resolution;
 mod seam;
+mod swc;
+mod table;
 mod trajectory;
+mod vessel;
 mod wall;
 
 use crate::error::SweepError;
+use crate::grid::Unit;
 use crate::law::Law;
 use crate::limits::{LARGEST, REPEATS, SMALLEST};
 use crate::sampling::resolution::Tell;
@@ -36,7 +43,7 @@ use files::Source;
 use files::json::Document;
 use glam::{DVec2, DVec3};
 use measured::PointLaws;
-use profile::Loop;
+use profile::{Face, Loop};
 use std::sync::OnceLock;
 use std::time::Duration;
 
@@ -51,6 +58,8 @@ struct Reader<'a> {
     tell: Tell<'a>,
     /// Prefix of all JSON paths.
     prefix: String,
+    /// The unit of length of the object.
+    unit: Option<Unit>,
 }
 
 /// Largest number of bytes of a name.
@@ -99,17 +108,17 @@ impl Reader<'_> {
         spec: &Spec,
         trajectory: Trajectory,
         laws: &PointLaws,
-        Loop { profile: contour, blend, offset }: Loop,
+        Loop { profile: contour, blend, offset, face }: Loop,
         loops: usize,
     ) -> Result<Sweep, SweepError> {
         let hollow = offset.is_some();
-        let (modulation, mirror) = self.modulation(spec, laws, &contour, &trajectory)?;
+        let (modulation, mirror) = self.modulation(spec, laws, &contour, face, &trajectory)?;
         let modulation = Modulation { blend, offset, ..modulation };
         let contour = match mirror {
             Some(factors) => contour.mirrored(factors),
             None => contour,
         };
-        let (caps, lids) = if hollow {
+        let (caps, lids) = if hollow || face != Face::Whole {
             ([None, None], [!trajectory.closed(); 2])
         } else {
             self.caps(spec.caps, loops == 1, &contour, &trajectory, &modulation)?
@@ -128,6 +137,7 @@ impl Reader<'_> {
             deforms: self.deforms(&spec.deform)?,
             edges: Edges::default(),
             position: DVec3::from_array(spec.position),
+            place: self.placement(&spec.place)?,
         };
         let shape = match spec.seam {
             Some(kind) => self.closed(shape, kind)?,
@@ -146,6 +156,7 @@ impl Reader<'_> {
             spent: Duration::ZERO,
             survey: OnceLock::new(),
             uv: spec.uv,
+            unit: self.unit,
             areas: spec.areas.clone(),
             texture: spec.texture,
             surface: spec.surface,

@@ -2,6 +2,7 @@
 
 use super::Reader;
 use super::measured::PointLaws;
+use super::profile::Face;
 use crate::error::SweepError;
 use crate::law::Law;
 use crate::spec::{self, Scale, SeamKind, Spec};
@@ -20,6 +21,7 @@ impl Reader<'_> {
         spec: &Spec,
         laws: &PointLaws,
         contour: &Profile,
+        face: Face,
         trajectory: &Trajectory,
     ) -> Result<(Modulation, Option<DVec2>), SweepError> {
         let (scales, twists) = (laws.scale.clone(), laws.twist.clone());
@@ -57,7 +59,8 @@ impl Reader<'_> {
         let depth = spec
             .depth
             .as_ref()
-            .map(|depth| self.depth(depth, spec.uv.across, contour, trajectory))
+            .filter(|_| face != Face::Bare)
+            .map(|depth| self.depth(depth, spec.uv.across, contour, face, trajectory))
             .transpose()?;
         Ok((
             Modulation { blend: None, scale, poles, twist, depth, offset: None, turn: 0.0 },

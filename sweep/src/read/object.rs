@@ -2,16 +2,23 @@
 
 use super::Reader;
 use crate::error::SweepError;
-use crate::sampling::Object;
-use crate::sampling::Specs;
-use crate::sampling::Sweep;
 use crate::sampling::resolution::Tell;
+use crate::sampling::{Object, Sweep};
 use crate::spec::{FORMAT, Parts, Resolution, Spec, VERSION};
 use files::json::Document;
 use files::{Disk, Source};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
+use std::collections::HashSet;
 use std::path::Path;
+
+/// The text of an object, parsed.
+enum Specs {
+    /// A spec of one sweep.
+    One(Box<Spec>),
+    /// A spec of parts.
+    Several(Parts),
+}
 
 impl Object {
     /// Reads and checks a [`Spec`](crate::spec::Spec), or a spec of [`Parts`](crate::spec::Parts).
@@ -43,9 +50,14 @@ impl Object {
         overrides: &Resolution,
         tell: Tell<'_>,
     ) -> Result<Self, SweepError> {
-        let reader = Reader { document, folder, source, overrides, tell, prefix: String::new() };
         let specs = specs(document)?;
-        match &specs {
+        let unit = match &specs {
+            Specs::One(spec) => Reader::unit_of(spec),
+            Specs::Several(object) => object.unit,
+        };
+        let prefix = String::new();
+        let reader = Reader { document, folder, source, overrides, tell, prefix, unit };
+        match specs {
             Specs::One(spec) => {
                 for (key, missing) in
                     [("format", spec.format.is_none()), ("version", spec.version.is_none())]
@@ -54,13 +66,14 @@ impl Object {
                         return Err(reader.fault("", format!("missing key `{key}`")));
                     }
                 }
-                let parts = reader.sweeps(spec)?;
-                let owners = vec![0; parts.len()];
-                Ok(Object { name: spec.name.clone(), parts, specs, owners })
+                reader.object(spec.name.clone(), &[*spec], false)
             }
             Specs::Several(object) => {
-                let (parts, owners) = reader.parts(object)?;
-                Ok(Object { name: object.name.clone(), parts, specs, owners })
+                reader.name(&object.name)?;
+                if object.parts.is_empty() {
+                    return Err(reader.fault("parts", "found no parts, expected at least one"));
+                }
+                reader.object(object.name, &object.parts, true)
             }
         }
     }
@@ -132,25 +145,76 @@ struct Probe {
 }
 
 impl Reader<'_> {
-    /// Returns the sweeps of all parts, and for each the index of its part.
-    fn parts(&self, object: &Parts) -> Result<(Vec<Sweep>, Vec<usize>), SweepError> {
-        self.name(&object.name)?;
-        if object.parts.is_empty() {
-            return Err(self.fault("parts", "found no parts, expected at least one"));
-        }
-        let mut parts: Vec<Sweep> = Vec::with_capacity(object.parts.len());
-        let mut owners = Vec::with_capacity(object.parts.len());
-        for (i, spec) in object.parts.iter().enumerate() {
-            let reader = Reader { prefix: format!("parts[{i}]."), ..*self };
-            if parts.iter().any(|part| part.name == spec.name) {
-                let message = format!("found {:?} twice, expected a name for each part", spec.name);
-                return Err(reader.fault("name", message));
+    /// Returns the object of one spec, or of several parts.
+    fn object(&self, name: String, given: &[Spec], several: bool) -> Result<Object, SweepError> {
+        let mut object = Object {
+            name,
+            parts: Vec::with_capacity(given.len()),
+            specs: Vec::with_capacity(given.len()),
+            owners: Vec::with_capacity(given.len()),
+            written: Vec::with_capacity(given.len()),
+        };
+        let mut names: HashSet<String> = HashSet::new();
+        for (i, spec) in given.iter().enumerate() {
+            let prefix = if several { format!("parts[{i}].") } else { String::new() };
+            let reader = Reader { prefix, ..*self };
+            if several && spec.unit.is_some() {
+                let message = "found a unit in a part, expected it beside `parts`, for all of them";
+                return Err(reader.fault("unit", message));
             }
-            let sweeps = reader.sweeps(spec)?;
-            owners.extend(sweeps.iter().map(|_| i));
-            parts.extend(sweeps);
+            let first = object.specs.len();
+            let loaded = reader.loaded(spec)?;
+            let count = spec.copies.as_ref().map_or(1, |copies| copies.count);
+            let each = (loaded.len() / count).max(1);
+            for (k, spec) in loaded.into_iter().enumerate() {
+                if names.contains(&spec.name) {
+                    let message =
+                        format!("found {:?} twice, expected a name for each part", spec.name);
+                    return Err(reader.fault("name", message));
+                }
+                let sweeps = match (k >= each)
+                    .then(|| reader.copied_sweeps(&object, &spec, first + k % each))
+                    .transpose()?
+                    .flatten()
+                {
+                    Some(sweeps) => sweeps,
+                    None => reader.sweeps(&spec)?,
+                };
+                names.extend(sweeps.iter().map(|sweep| sweep.name.clone()));
+                object.owners.extend(sweeps.iter().map(|_| object.specs.len()));
+                object.written.push(several.then_some(i));
+                object.specs.push(spec);
+                object.parts.extend(sweeps);
+            }
         }
-        Ok((parts, owners))
+        Ok(object)
+    }
+
+    /// Returns the sweeps of a copy of the spec with this index, at a place of its own. So copies have the same cells.
+    /// `None` if the cells depend on the place.
+    fn copied_sweeps(
+        &self,
+        object: &Object,
+        spec: &Spec,
+        index: usize,
+    ) -> Result<Option<Vec<Sweep>>, SweepError> {
+        let place = self.placement(&spec.place)?;
+        let parts = object.parts.iter().zip(&object.owners).filter(|(_, owner)| **owner == index);
+        let sweeps: Vec<Sweep> = parts
+            .zip(1..)
+            .map(|((sweep, _), number)| {
+                let name =
+                    if number > 1 { format!("{}-{number}", spec.name) } else { spec.name.clone() };
+                Sweep { name, ..sweep.clone() }
+            })
+            .collect();
+        let by_camera = spec.resolution.pixels.or(self.overrides.pixels).is_some();
+        let same = sweeps.iter().all(|sweep| sweep.shape.place.scale == place.scale);
+        let placed = |mut sweep: Sweep| {
+            sweep.shape.place = place;
+            sweep
+        };
+        Ok((same && !by_camera).then(|| sweeps.into_iter().map(placed).collect()))
     }
 }
 

@@ -20,6 +20,19 @@ pub(super) struct Loop {
     pub blend: Option<Blend>,
     /// Distance of the surface from the contour, for a side of a wall.
     pub offset: Option<Law>,
+    /// The part that a relief covers.
+    pub face: Face,
+}
+
+/// The part of a loop that a relief covers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Face {
+    /// All of it.
+    Whole,
+    /// The outer side of a wall of this least thickness, as fractions of the length.
+    Part { range: [f64; 2], thickness: f64 },
+    /// Nothing.
+    Bare,
 }
 
 impl Reader<'_> {
@@ -39,9 +52,16 @@ impl Reader<'_> {
             }
             let hollow = self.hollow(spec, &[], trajectory)?;
             debug_assert!(hollow.is_none(), "sections have no wall");
-            return Ok(vec![Loop { profile, blend: Some(blend), offset: None }]);
+            let blend = Some(blend);
+            return Ok(vec![Loop { profile, blend, offset: None, face: Face::Whole }]);
         }
         let mut contours = self.loops("contour", contour)?;
+        if let (Some(wall), [contour], true) = (&spec.wall, &contours[..], trajectory.is_rotation())
+            && !contour.closed()
+        {
+            let high = self.right_of_axis(&Profile::single(contour.clone()))?;
+            return self.vessel(spec, wall, contour, high);
+        }
         let mut offsets = vec![None; contours.len()];
         if let Some([outer, inner]) = self.hollow(spec, &contours, trajectory)? {
             let contour = contours.remove(0);
@@ -54,7 +74,7 @@ impl Reader<'_> {
                 let high = self.right_of_axis(&profile)?;
                 profile = Profile::single(contour.rotated(ON_AXIS * high));
             }
-            Ok(Loop { profile, blend: None, offset })
+            Ok(Loop { profile, blend: None, offset, face: Face::Whole })
         };
         contours.into_iter().zip(offsets).map(of_loop).collect()
     }

@@ -3,25 +3,16 @@
 use super::Reader;
 use super::joints::described;
 use super::measured::PointLaws;
-use crate::curve::{Curve3, Local3, Path, turn};
+use crate::curve::{Curve3, Local3, Path};
 use crate::error::SweepError;
 use crate::frame::{Directed, Frame, Lack};
-use crate::law::Heights;
 use crate::limits::SMALLEST;
 use crate::spec::{self, Spec};
-use crate::trajectory::Helix;
 use crate::trajectory::{CORNER_DEG, Course, Trajectory};
 use glam::DVec3;
-use std::f64::consts::TAU;
 
 /// A frame that a mitre reflects with an error above this angle, in radians, would tear the surface.
 const MIRRORED: f64 = 1e-9;
-
-/// Largest number of turns of a helix, which leaves enough digits for the position within a turn.
-const MOST_TURNS: f64 = 1e6;
-
-/// Most pieces of a helix whose laws change.
-const MOST_PIECES: f64 = 4096.0;
 
 /// Smallest turn of an arc in degrees. A smaller one is lost in the arithmetic of its length.
 const LEAST_TURN: f64 = SMALLEST;
@@ -38,9 +29,13 @@ impl Reader<'_> {
                 self.point("frame.start", start)?;
                 Some(start)
             }
-            None | Some(spec::Frame::Up(_) | spec::Frame::Guide(_) | spec::Frame::Frenet(_)) => {
-                None
-            }
+            None
+            | Some(
+                spec::Frame::Up(_)
+                | spec::Frame::Guide(_)
+                | spec::Frame::Frenet(_)
+                | spec::Frame::Away(_),
+            ) => None,
         };
         let (course, marks) = self.course_with_marks("trajectory", trajectory, start)?;
         let laws = self.point_laws(spec, &course, &marks)?;
@@ -117,6 +112,11 @@ impl Reader<'_> {
                 Ok(Course::Circle { start, radius: circle.radius, fraction })
             }
             spec::Trajectory::Helix(helix) => self.helix(&format!("{path}.helix"), helix, start),
+            spec::Trajectory::Swc(_) => {
+                let message =
+                    "found neurites, which are no single curve, expected another trajectory";
+                Err(self.geometry(path, message))
+            }
             spec::Trajectory::Rotation(_) => {
                 let message = "found a rotation, which is no curve, expected one of line, circle, \
                                helix, bezier, polyline, free, flat, formula";
@@ -126,7 +126,7 @@ impl Reader<'_> {
             spec::Trajectory::Polyline(line) => {
                 return self.polyline3(&format!("{path}.polyline"), line);
             }
-            spec::Trajectory::Free(free) => self.free3(&format!("{path}.free"), free),
+            spec::Trajectory::Free(free) => return self.free3(&format!("{path}.free"), free),
             spec::Trajectory::Flat(flat) => self.flat(&format!("{path}.flat"), flat),
             spec::Trajectory::Formula(curve) => self.formula(&format!("{path}.formula"), curve),
         };
@@ -147,55 +147,6 @@ impl Reader<'_> {
         };
         let start = self.first_frame(&Local3::straight(from, tangent), start)?;
         Ok(Course::Line { start, end })
-    }
-
-    fn helix(
-        &self,
-        path: &str,
-        helix: &spec::Helix,
-        start: Option<&[f64; 3]>,
-    ) -> Result<Course, SweepError> {
-        let radius = self.law(&format!("{path}.radius"), &helix.radius)?;
-        let rise = self.law(&format!("{path}.rise"), &helix.rise)?;
-        self.positive(&format!("{path}.radius"), radius.range().0)?;
-        self.number(&format!("{path}.start_deg"), helix.start_deg)?;
-        if helix.turns == 0.0 || helix.turns.abs() > MOST_TURNS {
-            let message = format!(
-                "found {:?}, expected turns other than 0 and at most {MOST_TURNS:?}",
-                helix.turns
-            );
-            return Err(self.fault(&format!("{path}.turns"), message));
-        }
-        self.point(&format!("{path}.center"), &helix.center)?;
-        let center = DVec3::from_array(helix.center);
-        let start = self.upright(path, center, helix.axis, start)?;
-        // The frame's own direction about the axis, from w1 toward T, is left-handed.
-        let turned = turn(-helix.start_deg / 360.0);
-        let start = Frame {
-            normal: start.normal * turned.x + start.tangent * turned.y,
-            tangent: start.tangent * turned.x - start.normal * turned.y,
-            ..start
-        };
-        let turns = -helix.turns;
-        if let (spec::Law::Number(radius), spec::Law::Number(rise)) = (&helix.radius, &helix.rise) {
-            return Ok(Course::Helix(Helix { start, radius: *radius, rise: *rise, turns }));
-        }
-        let heights = Heights::new(&rise, turns.abs());
-        let at = |v: f64| {
-            let angle = turn(turns * v);
-            let outward = start.normal * angle.x + start.tangent * angle.y;
-            let around = (start.tangent * angle.x - start.normal * angle.y) * (TAU * turns);
-            let (r, slope) = radius.at(v);
-            let (height, climb) = heights.at(v);
-            let point = center + outward * r + start.binormal * height;
-            [point, outward * slope + around * r + start.binormal * climb]
-        };
-        let pieces = (8.0 * turns.abs()).ceil().min(MOST_PIECES) as usize;
-        let evenly = (0..=pieces).map(|i| i as f64 / pieces as f64);
-        let mut ends: Vec<f64> = evenly.chain(radius.kinks()).chain(rise.kinks()).collect();
-        ends.sort_by(f64::total_cmp);
-        ends.dedup();
-        self.computed(path, at, &ends, false, "a fraction of the turns")
     }
 
     /// Returns a trajectory whose frames are fixed by a direction.
@@ -223,6 +174,16 @@ impl Reader<'_> {
                     return Err(self.geometry(path, message));
                 }
                 (path, Directed::Guide(Box::new(guide)), "the guide lies on the tangent")
+            }
+            spec::Frame::Away(away) => {
+                self.point("frame.away.origin", &away.origin)?;
+                self.point("frame.away.axis", &away.axis)?;
+                let Some(axis) = DVec3::from_array(away.axis).try_normalize() else {
+                    let message = "found a vector without length, expected an axis";
+                    return Err(self.fault("frame.away.axis", message));
+                };
+                let directed = Directed::Away { origin: DVec3::from_array(away.origin), axis };
+                ("frame.away", directed, "the trajectory leads to or from the axis, or meets it")
             }
             spec::Frame::Frenet(_) | spec::Frame::Start(_) => {
                 ("frame.frenet", Directed::Frenet, "the trajectory does not bend")
@@ -269,7 +230,7 @@ impl Reader<'_> {
     }
 
     /// Returns the frame in which a rotation about an axis starts; contour y is along the axis.
-    fn upright(
+    pub(super) fn upright(
         &self,
         path: &str,
         origin: DVec3,

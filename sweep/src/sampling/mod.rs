@@ -19,5 +19,4 @@ pub use rows::Spent;
 pub use survey::Survey;
 pub use sweep::Sweep;
 
-pub(crate) use object::Specs;
 pub(crate) use survey::TOUCHES;

@@ -3,9 +3,9 @@
 use super::Sweep;
 use super::rows::{Rows, Spent};
 use crate::error::SweepError;
-use crate::grid::GridMesh;
 use crate::grid::file::{Encoding, Patch};
-use crate::spec::{Parts, Spec};
+use crate::grid::{GridMesh, Unit};
+use crate::spec::Spec;
 use std::io::{self, Write};
 
 /// One sweep or several, checked.
@@ -13,18 +13,12 @@ use std::io::{self, Write};
 pub struct Object {
     pub(crate) name: String,
     pub(crate) parts: Vec<Sweep>,
-    pub(crate) specs: Specs,
+    /// The specs, with the content of the files that they name.
+    pub(crate) specs: Vec<Spec>,
     /// For each part the index of its spec: an outline and its holes have one spec.
     pub(crate) owners: Vec<usize>,
-}
-
-/// The text of an object, parsed.
-#[derive(Debug, Clone)]
-pub(crate) enum Specs {
-    /// A spec of one sweep.
-    One(Box<Spec>),
-    /// A spec of parts.
-    Several(Parts),
+    /// For each spec its number among the parts as they are written; `None` for a spec of one sweep.
+    pub(crate) written: Vec<Option<usize>>,
 }
 
 impl Object {
@@ -32,6 +26,12 @@ impl Object {
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
+    }
+
+    /// Returns the unit of length, if the spec states one.
+    #[must_use]
+    pub fn unit(&self) -> Option<Unit> {
+        self.parts.first().and_then(|part| part.unit)
     }
 
     /// Returns the object's sweeps, at least one.
@@ -47,13 +47,8 @@ impl Object {
     /// When there is no such part.
     #[must_use]
     pub fn spec_of(&self, part: usize) -> (&Spec, Option<usize>) {
-        match &self.specs {
-            Specs::One(spec) => (spec, None),
-            Specs::Several(object) => {
-                let owner = self.owners[part];
-                (&object.parts[owner], Some(owner))
-            }
-        }
+        let owner = self.owners[part];
+        (&self.specs[owner], self.written[owner])
     }
 
     /// Returns the rows of a part.

@@ -211,6 +211,7 @@ impl<'a> Rows<'a> {
             shift,
             texture: sweep.texture,
             surface: sweep.surface,
+            unit: sweep.unit,
             uv: sweep.uv,
             areas: sweep.areas.clone(),
             lids: self.lids.clone().unwrap_or_default(),

@@ -8,7 +8,7 @@ use crate::curve::cut::{self, Stop};
 use crate::error::SweepError;
 use crate::grid::MOST_CELLS;
 use crate::grid::file::MAX_COLS;
-use crate::grid::{self, Area, GridMesh, UvLayout};
+use crate::grid::{self, Area, GridMesh, Unit, UvLayout};
 use crate::surface::Shape;
 use crate::surface::Surface;
 use crate::surface::profile::{Column, Profile};
@@ -42,6 +42,7 @@ pub struct Sweep {
     /// The survey of the grid of this resolution, once the grid or the survey was made.
     pub(crate) survey: OnceLock<Survey>,
     pub(crate) uv: UvLayout,
+    pub(crate) unit: Option<Unit>,
     pub(crate) areas: Vec<Area>,
     pub(crate) texture: Option<u32>,
     pub(crate) surface: Option<u32>,

@@ -78,7 +78,8 @@
 //! surface. Along a closed trajectory the last section blends into the first; sections at both 0 and 1 must
 //! then have the same contour. The sections of a rotation must not touch the axis.
 
-use super::{Bezier, Ease, Free, only};
+use super::svg::Svg;
+use super::{Bezier, Ease, Free, SvgFile, only};
 use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -93,6 +94,8 @@ pub enum Contour {
     Bezier(Bezier<[f64; 2]>),
     /// The `d` attribute of an SVG path.
     Svg(String),
+    /// Outlines in an SVG file.
+    SvgFile(SvgFile),
     /// Points that a spline passes through, or that a curve is fitted to.
     Free(FreeContour),
     /// Points with straight lines between them.
@@ -194,9 +197,10 @@ struct ContourKeys {
     /// Cubic Bezier segments.
     #[serde(skip_serializing_if = "Option::is_none")]
     bezier: Option<Bezier<[f64; 2]>>,
-    /// The `d` attribute of an SVG path; its y points down. Several closed subpaths are outlines and holes.
+    /// The `d` attribute of an SVG path, whose y points down, or an SVG file. Several closed subpaths are outlines and
+    /// holes.
     #[serde(skip_serializing_if = "Option::is_none")]
-    svg: Option<String>,
+    svg: Option<Svg>,
     /// Points `[x, y]` that a spline passes through, or that a curve is fitted to.
     #[serde(skip_serializing_if = "Option::is_none")]
     free: Option<FreeContour>,
@@ -248,9 +252,15 @@ impl TryFrom<ContourKeys> for Contour {
             );
         }
         let (center, offset) = (keys.center.unwrap_or(false), keys.offset.unwrap_or_default());
-        let ruled = |text: String| match keys.rule {
-            None => Self::Svg(text),
-            rule => Self::Loops(Loops { loops: vec![Self::Svg(text)], named: false, rule }),
+        let ruled = |svg: Svg| {
+            let own = match svg {
+                Svg::Path(text) => Self::Svg(text),
+                Svg::File(file) => Self::SvgFile(file),
+            };
+            match keys.rule {
+                None => own,
+                rule => Self::Loops(Loops { loops: vec![own], named: false, rule }),
+            }
         };
         let loops = |loops| Self::Loops(Loops { loops, named: true, rule: keys.rule });
         let (blend, align) = (keys.blend.unwrap_or_default(), keys.align.unwrap_or(true));
@@ -277,7 +287,8 @@ impl From<Contour> for ContourKeys {
         match contour {
             Contour::Circle(radius) => Self { circle: Some(radius), ..none },
             Contour::Bezier(bezier) => Self { bezier: Some(bezier), ..none },
-            Contour::Svg(text) => Self { svg: Some(text), ..none },
+            Contour::Svg(text) => Self { svg: Some(Svg::Path(text)), ..none },
+            Contour::SvgFile(file) => Self { svg: Some(Svg::File(file)), ..none },
             Contour::Free(free) => Self { free: Some(free), ..none },
             Contour::Polyline(line) => Self { polyline: Some(line), ..none },
             Contour::Sections(Sections { sections, blend, align }) => {
@@ -306,6 +317,8 @@ mod tests {
     fn contours_survive_writing_and_reading() {
         for text in [
             r#"{"circle":2.5}"#,
+            r#"{"svg":"M0 0H1"}"#,
+            r#"{"svg":{"file":"a.svg","id":"b"}}"#,
             r#"{"polyline":{"closed":true,"points":[[0.0,0.0],[1.0,0.0],[1.0,1.0]]}}"#,
             r#"{"sections":[{"at":0.0,"contour":{"circle":1.0}}],"blend":"smooth","align":false}"#,
         ] {

@@ -46,6 +46,7 @@ pub struct Bezier3 {
     #[serde(default)]
     pub closed: bool,
     /// Four control points `[x, y, z]` for each segment, at least one segment.
+    #[serde(deserialize_with = "super::pieces::read")]
     #[schemars(transform = limits::at_least(1))]
     pub segments: Vec<[[f64; 3]; 4]>,
     /// Treatment of corners; if left out, corners are errors.

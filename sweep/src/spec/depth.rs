@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 /// A relief on the contour, from waves, a picture or both.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, expecting = "an object with the key mode, and terms or image")]
+#[serde(deny_unknown_fields, expecting = "an object with the key mode, terms or image, and fade")]
 #[schemars(transform = limits::terms_or_image)]
 pub struct Depth {
     /// How the relief changes the contour.
@@ -18,6 +18,11 @@ pub struct Depth {
     /// Heights from a picture, added to the waves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub image: Option<DepthImage>,
+    /// Length of the contour along which the relief fades at corners and ends, in the unit of length. If left out, the
+    /// relief fades only where the surface would tear, along a twentieth of the contour.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = limits::positive)]
+    pub fade: Option<f64>,
 }
 
 /// Heights from a picture.

@@ -8,6 +8,7 @@
 //! | `{"up": [x, y, z]}`    | `w2` is everywhere as near to that direction as the trajectory allows |
 //! | `{"frenet": {}}`       | `w1` points to the centre of curvature                              |
 //! | `{"guide": CURVE}`     | `w1` points to the point of another curve at the same fraction of its length |
+//! | `{"away": {"axis": [x, y, z]}}` | `w1` points away from the line through `origin` (zero if left out) along `axis` |
 //!
 //! ```json
 //! {
@@ -68,6 +69,22 @@ pub enum Frame {
     Frenet(Frenet),
     /// The contour's x points to the point of this curve at the same fraction of its length.
     Guide(Box<Trajectory>),
+    /// The contour's x points away from an axis.
+    Away(Away),
+}
+
+/// A line that the contour's x points away from.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(
+    deny_unknown_fields,
+    expecting = "an object with the key axis, and origin if it is not zero"
+)]
+pub struct Away {
+    /// A point of the line, `[x, y, z]`.
+    #[serde(default)]
+    pub origin: [f64; 3],
+    /// Direction of the line; of any length above 0.
+    pub axis: [f64; 3],
 }
 
 /// Frenet's frame, which has no settings.
@@ -76,7 +93,10 @@ pub enum Frame {
 pub struct Frenet {}
 
 #[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, expecting = "an object with one of the keys start, up, frenet, guide")]
+#[serde(
+    deny_unknown_fields,
+    expecting = "an object with one of the keys start, up, frenet, guide, away"
+)]
 #[schemars(transform = limits::one_of)]
 struct FrameKeys {
     /// Direction `[x, y, z]` that the contour's x is nearest to at the start.
@@ -86,8 +106,10 @@ struct FrameKeys {
     /// The contour's x points to the centre of curvature.
     frenet: Option<Frenet>,
     /// The contour's x points to the point of this curve at the same fraction of its length; not a rotation.
-    #[schemars(transform = limits::without(&["rotation"]))]
+    #[schemars(transform = limits::without(&["rotation", "swc"]))]
     guide: Option<Box<Trajectory>>,
+    /// The contour's x points away from an axis.
+    away: Option<Away>,
 }
 
 impl TryFrom<FrameKeys> for Frame {
@@ -101,6 +123,7 @@ impl TryFrom<FrameKeys> for Frame {
                 ("up", keys.up.map(Self::Up)),
                 ("frenet", keys.frenet.map(Self::Frenet)),
                 ("guide", keys.guide.map(Self::Guide)),
+                ("away", keys.away.map(Self::Away)),
             ],
         )
     }

@@ -22,6 +22,9 @@
 //! }
 //! ```
 //!
+//! Free points with a `fit` are measured: a curve of few cubics passes within that distance of every point. It has no
+//! corners. Numbers of the points lie where the curve passes the points.
+//!
 //! # Formulas
 //!
 //! `formula` gives x, y and z as formulas of `t`, which runs over an interval. A formula has numbers, `t`, `pi`, `tau`,
@@ -43,7 +46,7 @@
 //! }
 //! ```
 
-use super::Corners;
+use super::{Corners, Csv};
 use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -52,16 +55,25 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(
     deny_unknown_fields,
-    expecting = "an object with the key points, and any of closed, radii, scales, twists, corners"
+    expecting = "an object with the key points or csv, and any of closed, fit, radii, scales, twists, corners"
 )]
-#[schemars(transform = limits::loop_of_three)]
+#[schemars(transform = limits::loop_of_three, transform = limits::points_or_csv)]
 pub struct Measured {
     /// True if the curve returns from the last point to the first, which is not repeated.
     #[serde(default)]
     pub closed: bool,
     /// The points `[x, y, z]`: at least two, or three if closed.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(transform = limits::at_least(2))]
     pub points: Vec<[f64; 3]>,
+    /// A table with the points, in place of `points`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub csv: Option<Csv>,
+    /// Largest distance of a point from the curve, in the unit of length, above 0. If left out, the curve passes through
+    /// all points. Only of a `free` curve.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = limits::positive)]
+    pub fit: Option<f64>,
     /// Factors of the contour, above 0, one for each point.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(transform = limits::positive_items)]

@@ -24,6 +24,7 @@
 //! ```
 
 use super::{FORMAT, Spec, VERSION};
+use crate::grid::Unit;
 use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -44,6 +45,9 @@ pub struct Parts {
     /// The object's name; one word.
     #[schemars(transform = limits::word)]
     pub name: String,
+    /// The unit of length of all parts.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unit: Option<Unit>,
     /// The parts: at least one sweep, each with a name of its own.
     #[schemars(transform = limits::at_least(1))]
     pub parts: Vec<Spec>,

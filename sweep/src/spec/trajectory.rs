@@ -1,6 +1,6 @@
 //! Trajectories as they are written: the curves that a contour is swept along.
 
-use super::{Bezier3, Circle, Flat, FormulaCurve, Helix, Measured, Rotation, only};
+use super::{Bezier3, Circle, Flat, FormulaCurve, Helix, Measured, Rotation, Swc, only};
 use crate::limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -25,6 +25,8 @@ pub enum Trajectory {
     Flat(Flat),
     /// Formulas of the coordinates.
     Formula(FormulaCurve),
+    /// A tree of neurites, which becomes several parts.
+    Swc(Swc),
     /// A rotation of the contour about an axis in its plane.
     Rotation(Rotation),
 }
@@ -34,7 +36,7 @@ pub enum Trajectory {
 #[derive(Deserialize, JsonSchema)]
 #[serde(
     deny_unknown_fields,
-    expecting = "an object with one of the keys line, circle, helix, bezier, polyline, free, flat, formula, rotation"
+    expecting = "an object with one of the keys line, circle, helix, bezier, polyline, free, flat, formula, swc, rotation"
 )]
 #[schemars(transform = limits::one_of)]
 struct TrajectoryKeys {
@@ -54,6 +56,8 @@ struct TrajectoryKeys {
     flat: Option<Flat>,
     /// Formulas of x, y and z.
     formula: Option<FormulaCurve>,
+    /// A tree of neurites, which becomes several parts.
+    swc: Option<Swc>,
     /// A rotation of the contour about an axis in its plane.
     rotation: Option<Rotation>,
 }
@@ -73,6 +77,7 @@ impl TryFrom<TrajectoryKeys> for Trajectory {
                 ("free", keys.free.map(Self::Free)),
                 ("flat", keys.flat.map(Self::Flat)),
                 ("formula", keys.formula.map(Self::Formula)),
+                ("swc", keys.swc.map(Self::Swc)),
                 ("rotation", keys.rotation.map(Self::Rotation)),
             ],
         )

@@ -19,9 +19,31 @@
 //! }
 //! ```
 //!
+//! | `rim`       | of a vessel: `flat` (the default), or `round`, a half circle over the thickness         |
+//! | `floor`     | of a vessel: the thickness from the axis to the first corner; as the rest if left out   |
+//!
+//! # Vessels
+//!
+//! The wall of a rotation whose contour is open makes a vessel: the contour, a rim, and the contour moved by the thickness
+//! become one outline. Its law follows the contour, from its start to its end. A contour that starts on the axis has a
+//! floor. Inside a corner the moved sides meet; around a corner they are joined by an arc. A `depth` lies on the outer
+//! side and fades to the rim.
+//!
+//! ```json
+//! {
+//!   "format": "tb-sweep", "version": 1, "name": "tumbler", "unit": "mm",
+//!   "contour": { "svg": "M0 0H28L36 -90" },
+//!   "trajectory": { "rotation": {} },
+//!   "wall": { "thickness": 2, "rim": "round", "floor": 6 },
+//!   "mesh": { "rows": 64, "cols": 60 }
+//! }
+//! ```
+//!
+//! # Tubes
+//!
 //! The thickness is measured in the plane of the section, after the scale, along the normal of the contour. The contour
 //! is closed. If the contour has corners, its sides are straight, and the wall has corners at the same rows. `caps`,
-//! `depth` and `areas` are not combined with such a wall.
+//! `depth` and `areas` are not combined with the wall of a tube.
 //!
 //! With `"seam": "mirror"` a wall is a number, and surrounds the one-sided surface on both sides.
 
@@ -48,7 +70,7 @@ pub enum Wall {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(
     deny_unknown_fields,
-    expecting = "an object with the key thickness, and side if it is not inward"
+    expecting = "an object with the key thickness, and any of side, rim, floor"
 )]
 pub struct WallKeys {
     /// The thickness, in the unit of length; above 0.
@@ -56,6 +78,24 @@ pub struct WallKeys {
     /// The side of the contour that the wall lies on.
     #[serde(default)]
     pub side: WallSide,
+    /// The shape of the rim of a vessel.
+    #[serde(default)]
+    pub rim: Rim,
+    /// Thickness of a vessel from the axis to the first corner, in the unit of length; above 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = limits::positive)]
+    pub floor: Option<f64>,
+}
+
+/// The shape of the rim of a vessel.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Rim {
+    /// Straight from the outer side to the inner side.
+    #[default]
+    Flat,
+    /// A half circle over the thickness.
+    Round,
 }
 
 /// The side of the contour that a wall lies on.

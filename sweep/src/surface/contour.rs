@@ -84,6 +84,11 @@ impl Contour {
         Self::of(path, reached)
     }
 
+    /// Returns a contour along a path in the direction of the path.
+    pub(crate) fn drawn(path: Path<DVec2>) -> Self {
+        Self::of(path, None)
+    }
+
     /// Returns the contour for a rotation about the y axis. An open contour that starts and ends on the axis
     /// (x of at most `on_axis`) is reversed like a closed one if it runs clockwise.
     pub(crate) fn rotated(self, on_axis: f64) -> Self {
@@ -181,6 +186,16 @@ impl Contour {
             Form::Circle { .. } => Vec::new(),
             Form::Path { path, creases, .. } => {
                 creases.iter().map(|joint| joint.s / path.length()).collect()
+            }
+        }
+    }
+
+    /// Returns the positions of the joints of segments as fractions of the length, rising; none on a circle.
+    pub(crate) fn knots(&self) -> Vec<f64> {
+        match &self.0 {
+            Form::Circle { .. } => Vec::new(),
+            Form::Path { path, .. } => {
+                path.knots().into_iter().map(|s| s / path.length()).collect()
             }
         }
     }

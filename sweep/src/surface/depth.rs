@@ -9,11 +9,13 @@
 //!
 //! and the heights of the picture added to `delta`, a *factor* changes the contour `C` into `(1 + delta) C`.
 //! An *offset* changes it into `C + delta n`, where `n` is its outer normal. The relief belongs to the
-//! contour, so scale and twist act on the contour with its relief.
+//! contour, so scale and twist act on the contour with its relief. Where a relief fades, `delta` is multiplied by a factor
+//! of `u`; see [`fade`](crate::surface::fade).
 
 use crate::curve::turn;
 use crate::law::Law;
 use crate::surface::contour::Local2;
+use crate::surface::fade::{Cover, Covered};
 use crate::surface::height::HeightMap;
 use crate::surface::profile::blend::Moving;
 use glam::DVec2;
@@ -29,6 +31,8 @@ pub struct Depth {
     pub(crate) terms: Vec<Term>,
     /// Heights from a picture, added to the waves.
     pub(crate) heights: Option<Arc<HeightMap>>,
+    /// The covered part of the contour, and where the relief fades; all of it if `None`.
+    pub(crate) cover: Option<Arc<Cover>>,
 }
 
 /// How `delta` changes the contour.
@@ -61,6 +65,7 @@ pub struct Relief {
     mode: Mode,
     waves: Vec<Wave>,
     heights: Option<Arc<HeightMap>>,
+    cover: Option<Arc<Cover>>,
     v: f64,
 }
 
@@ -95,12 +100,24 @@ impl Depth {
     /// Returns an upper bound of `|delta|`.
     #[must_use]
     pub fn most(&self) -> f64 {
+        let heights = self.heights.as_ref().map_or(0.0, |heights| heights.most());
+        self.waves() + heights
+    }
+
+    /// Returns bounds of `delta`.
+    #[must_use]
+    pub fn range(&self) -> [f64; 2] {
+        let [low, high] = self.heights.as_ref().map_or([0.0; 2], |heights| heights.range());
+        [low - self.waves(), high + self.waves()]
+    }
+
+    /// Returns an upper bound of the size of the waves.
+    fn waves(&self) -> f64 {
         let most = |term: &Term| {
             let (low, high) = term.along.range();
             term.amp.abs() * low.abs().max(high.abs())
         };
-        let heights = self.heights.as_ref().map_or(0.0, |heights| heights.most());
-        self.terms.iter().map(most).sum::<f64>() + heights
+        self.terms.iter().map(most).sum::<f64>()
     }
 
     /// Returns the relief at `v`, a fraction of the trajectory's length.
@@ -117,7 +134,8 @@ impl Depth {
             }
         };
         let waves = self.terms.iter().map(wave).collect();
-        Relief { mode: self.mode, waves, heights: self.heights.clone(), v }
+        let (heights, cover) = (self.heights.clone(), self.cover.clone());
+        Relief { mode: self.mode, waves, heights, cover, v }
     }
 }
 
@@ -126,6 +144,12 @@ impl Relief {
     pub(crate) fn on(&self, u: f64, moving: &Moving) -> Raised {
         let Moving { local, across, turning } = *moving;
         let Local2 { point, tangent, curvature, pace } = local;
+        let covered = self.cover.as_ref().map(|cover| cover.at(u));
+        if covered == Some(None) {
+            return Raised { point, along: tangent, across, folds: false };
+        }
+        let covered = covered.flatten();
+        let u = covered.map_or(u, |covered| covered.u);
         let (mut delta, mut delta_u, mut delta_v) = (0.0, 0.0, 0.0);
         for wave in &self.waves {
             let angle = turn(wave.u * u + wave.phase);
@@ -138,6 +162,11 @@ impl Relief {
             delta += height;
             delta_u += by_u;
             delta_v += by_v;
+        }
+        if let Some(Covered { rate, factor, factor_u, .. }) = covered {
+            delta_u = factor * delta_u * rate + factor_u * delta;
+            delta_v *= factor;
+            delta *= factor;
         }
         match self.mode {
             Mode::Factor => Raised {

@@ -68,6 +68,19 @@ impl HeightMap {
         self.amp.abs() * self.coefficients.iter().fold(0.0, |most: f64, c| most.max(c.abs()))
     }
 
+    /// Returns bounds of the heights.
+    pub(crate) fn range(&self) -> [f64; 2] {
+        let heights = self.coefficients.iter().map(|c| self.amp * c);
+        let [low, high] = heights
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], h| [low.min(h), high.max(h)]);
+        [low.min(0.0), high.max(0.0)]
+    }
+
+    /// Returns the numbers of texels along `u` and `v`.
+    pub(crate) fn texels(&self) -> [f64; 2] {
+        self.detail().map(|cells| 0.5 * cells)
+    }
+
     /// Returns the height at (u, v), and its derivatives by `u` and by `v`.
     #[must_use]
     pub fn at(&self, u: f64, v: f64) -> [f64; 3] {

@@ -3,9 +3,11 @@
 //! | module         | what                                                               |
 //! |----------------|--------------------------------------------------------------------|
 //! | [`contour`]    | the curve that is swept; creases                                   |
+//! | [`place`]      | the position of the finished part                                  |
 //! | [`press`]      | an end that is pressed to a line                                    |
 //! | [`profile`]    | one contour, or several that blend into each other; columns        |
 //! | [`depth`]      | relief on the contour, in waves                                    |
+//! | [`fade`]       | where a relief covers the contour, and where it fades              |
 //! | [`height`]     | heights from a picture                                             |
 //! | [`lid`]        | triangles that fill an outline with holes                          |
 //! | [`nest`]       | loops inside each other: outlines and holes                        |
@@ -15,6 +17,7 @@
 //! | [`deform`]     | taper, twist and bend of the finished surface                      |
 //! | [`edges`]      | rows and columns where a deformation makes an edge                 |
 //! | [`shape`]      | all of these together: a point and a normal for each (u, v)        |
+//! | [`vessel`]     | the profile of a rotation given a thickness                        |
 //! | [`wall`]       | a one-sided surface given a thickness                              |
 
 pub mod cap;
@@ -23,13 +26,16 @@ pub mod contour;
 pub mod deform;
 pub mod depth;
 pub mod edges;
+pub mod fade;
 pub mod height;
 pub mod lid;
 pub mod modulation;
 pub mod nest;
+pub mod place;
 pub mod press;
 pub mod profile;
 pub mod shape;
+pub mod vessel;
 pub mod wall;
 
 pub use shape::Shape;

@@ -7,6 +7,7 @@ use crate::surface::closing::Closing;
 use crate::surface::deform::{Deform, Moved};
 use crate::surface::edges::Edges;
 use crate::surface::modulation::{Modulation, Section, SectionPoint};
+use crate::surface::place::Placement;
 use crate::surface::press::Press;
 use crate::surface::profile::{Column, Profile};
 use crate::surface::{Corner, Surface};
@@ -35,6 +36,8 @@ pub struct Shape {
     pub(crate) edges: Edges,
     /// Translation applied after the deformations.
     pub(crate) position: DVec3,
+    /// Motion of the finished surface after the translation.
+    pub(crate) place: Placement,
 }
 
 /// A point of the finished surface, with all results of one evaluation of its section.
@@ -112,8 +115,8 @@ impl Shape {
             };
         }
         SurfacePoint {
-            point: moved.point + self.position,
-            normal: moved.normal,
+            point: self.place.point(moved.point + self.position),
+            normal: self.place.direction(moved.normal),
             stretch,
             contour_folds,
             space_folds: moved.folds,
@@ -155,7 +158,7 @@ impl Shape {
             let next = deform.apply(moved.point, moved.normal);
             Moved { normal: next.normal.try_normalize().unwrap_or(moved.normal), ..next }
         });
-        moved.normal
+        self.place.direction(moved.normal)
     }
 
     /// Returns the point of a section before the deformation with this index.

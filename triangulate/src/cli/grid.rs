@@ -7,6 +7,7 @@ use std::io::BufRead;
 use std::path::Path;
 use sweep::GridMesh;
 use sweep::grid::file::GridReader;
+use triangulate::up::{Turned, Up};
 use triangulate::{Counts, Options, Patches, Sink, TriMesh, TriangulateError, area_file};
 
 /// Reads all patches of a grid, and adds the areas of a file to them.
@@ -23,9 +24,18 @@ pub fn with_areas(
     Ok(grids)
 }
 
-/// The grid of a run.
+/// The grid of a run, and the axis that points up in its mesh.
 #[derive(Debug)]
-pub enum Grid<'a, R> {
+pub struct Grid<'a, R> {
+    /// Where the grid comes from.
+    pub source: Place<'a, R>,
+    /// The axis that points up.
+    pub up: Up,
+}
+
+/// The place of a grid.
+#[derive(Debug)]
+pub enum Place<'a, R> {
     /// A grid file, of which one row at a time is in memory.
     File(&'a mut GridReader<R>),
     /// All patches in memory.
@@ -35,12 +45,12 @@ pub enum Grid<'a, R> {
 impl<R: BufRead> Grid<'_, R> {
     /// Reserves the memory of a mesh of the first patch, or of all patches that are in memory.
     pub fn reserve_mesh(&self) -> Result<Reserved<'static>, MemoryError> {
-        let points = match self {
-            Self::File(reader) => {
+        let points = match &self.source {
+            Place::File(reader) => {
                 let header = reader.header();
                 (header.rows as u64).saturating_mul(header.cols() as u64)
             }
-            Self::Memory(grids) => grids.iter().map(|grid| grid.positions.len() as u64).sum(),
+            Place::Memory(grids) => grids.iter().map(|grid| grid.positions.len() as u64).sum(),
         };
         let what = || format!("a mesh of {points} points");
         of_process().reserve(TriMesh::bytes_for(points), what)
@@ -49,9 +59,11 @@ impl<R: BufRead> Grid<'_, R> {
 
 impl<R: BufRead> Patches for &mut Grid<'_, R> {
     fn run<S: Sink>(self, options: &Options, sink: S) -> Result<(S, Counts), TriangulateError> {
-        match self {
-            Grid::File(reader) => reader.run(options, sink),
-            Grid::Memory(grids) => grids.run(options, sink),
-        }
+        let sink = Turned { sink, up: self.up };
+        let (Turned { sink, .. }, counts) = match &mut self.source {
+            Place::File(reader) => reader.run(options, sink),
+            Place::Memory(grids) => grids.run(options, sink),
+        }?;
+        Ok((sink, counts))
     }
 }

@@ -1,7 +1,8 @@
 //! Joints where two pieces meet: a point and the directions there.
 
 use super::Run;
-use glam::{DMat3, DVec2, DVec3};
+use crate::curve::vector::Vector;
+use glam::DMat3;
 
 /// With at most this many points to a side, noise cannot be judged.
 const FEW: usize = 4;
@@ -11,18 +12,18 @@ const SMALL: f64 = 0.05;
 
 /// An end of a piece.
 #[derive(Debug, Clone, Copy)]
-pub struct Joint {
+pub struct Joint<V> {
     /// Position of the joint.
-    pub point: DVec2,
+    pub point: V,
     /// Unit direction in which the piece before arrives.
-    pub before: DVec2,
+    pub before: V,
     /// Unit direction in which the piece after leaves; equal to `before` unless the joint is a corner.
-    pub after: DVec2,
+    pub after: V,
 }
 
-impl Run<'_> {
+impl<V: Vector> Run<'_, V> {
     /// Returns the joint at point `i`.
-    pub(super) fn joint(&self, i: usize) -> Joint {
+    pub(super) fn joint(&self, i: usize) -> Joint<V> {
         let [before, after] = self.around(i);
         let end = before == 0 || after == 0;
         if end || self.corners.contains(&i) {
@@ -66,8 +67,8 @@ impl Run<'_> {
     /// The reach of the parabola is doubled as long as the result is good; the last good parabola is taken. A
     /// good parabola is within half the tolerance of all its points, and its error is noise, not much larger
     /// than that of the narrower one. A much larger error would mean that the parabola misses the curve.
-    fn parabola(&self, i: usize, most: [usize; 2], fixed: bool) -> (DVec2, DVec2) {
-        let mut best: Option<(f64, DVec2, DVec2)> = None;
+    fn parabola(&self, i: usize, most: [usize; 2], fixed: bool) -> (V, V) {
+        let mut best: Option<(f64, V, V)> = None;
         let mut steps = 1;
         loop {
             // At an end the only side takes one point more, so that the parabola can bend.
@@ -90,7 +91,7 @@ impl Run<'_> {
             let from = self.point(i + count - most[0].min(1));
             let to = self.point(i + most[1].min(1));
             let ahead = if to == from { self.point(i + 1) - self.point(i) } else { to - from };
-            (self.point(i), ahead.normalize_or(DVec2::X))
+            (self.point(i), ahead.unit().unwrap_or(ahead))
         })
     }
 
@@ -103,53 +104,50 @@ impl Run<'_> {
     /// Fits a parabola over chord length to the points around point `i` by least squares. Returns the largest
     /// distance of a point from it, and its point and direction at point `i`. A `fixed` parabola passes
     /// through point `i`.
-    fn through(
-        &self,
-        i: usize,
-        [before, after]: [usize; 2],
-        fixed: bool,
-    ) -> Option<(f64, DVec2, DVec2)> {
+    fn through(&self, i: usize, [before, after]: [usize; 2], fixed: bool) -> Option<(f64, V, V)> {
         if before + after < 2 {
             return None;
         }
         let count = self.points.len();
         let origin = self.point(i);
-        let offsets: Vec<DVec2> =
+        let offsets: Vec<V> =
             (0..=before + after).map(|k| self.point(i + count + k - before) - origin).collect();
         let mut lengths = vec![0.0];
         for ends in offsets.windows(2) {
             let length = lengths.last().copied().unwrap_or(0.0);
-            lengths.push(length + ends[0].distance(ends[1]));
+            lengths.push(length + (ends[0] - ends[1]).length());
         }
         let (middle, whole) = (lengths[before], lengths[before + after]);
         let positions: Vec<f64> = lengths.iter().map(|length| (length - middle) / whole).collect();
-        let (mut sums, mut x, mut y) = ([0.0; 5], DVec3::ZERO, DVec3::ZERO);
+        let (mut sums, mut moments) = ([0.0; 5], [V::ZERO; 3]);
         for (s, offset) in positions.iter().zip(&offsets) {
-            let powers = DVec3::new(1.0, *s, s * s);
-            x += powers * offset.x;
-            y += powers * offset.y;
             let mut power = 1.0;
-            for sum in &mut sums {
+            for (k, sum) in sums.iter_mut().enumerate() {
+                if let Some(moment) = moments.get_mut(k) {
+                    *moment = *moment + *offset * power;
+                }
                 *sum += power;
                 power *= s;
             }
         }
         let [s0, s1, s2, s3, s4] = sums;
-        let [x, y] = if fixed {
+        let [m0, m1, m2] = moments;
+        let [c0, c1, c2] = if fixed {
             let det = s2 * s4 - s3 * s3;
-            [x, y]
-                .map(|v| DVec3::new(0.0, (v.y * s4 - v.z * s3) / det, (v.z * s2 - v.y * s3) / det))
+            [V::ZERO, (m1 * s4 - m2 * s3) / det, (m2 * s2 - m1 * s3) / det]
         } else {
             let inverse = DMat3::from_cols_array(&[s0, s1, s2, s1, s2, s3, s2, s3, s4]).inverse();
-            [inverse * x, inverse * y]
+            [0, 1, 2].map(|k| {
+                let row = inverse.row(k);
+                m0 * row.x + m1 * row.y + m2 * row.z
+            })
         };
-        let [c0, c1, c2] = [0, 1, 2].map(|k| DVec2::new(x[k], y[k]));
-        let direction = c1.try_normalize()?;
+        let direction = c1.unit()?;
         let error = positions
             .iter()
             .zip(&offsets)
-            .map(|(&s, &offset)| (c0 + c1 * s + c2 * (s * s)).distance(offset))
+            .map(|(&s, &offset)| (c0 + c1 * s + c2 * (s * s) - offset).length())
             .fold(0.0, f64::max);
-        (error.is_finite() && c0.is_finite()).then_some((error, origin + c0, direction))
+        (error.is_finite() && c0.length().is_finite()).then_some((error, origin + c0, direction))
     }
 }

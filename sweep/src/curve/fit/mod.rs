@@ -15,6 +15,7 @@ mod joint;
 mod piece;
 
 use super::cubic::Cubic;
+use super::vector::Vector;
 use glam::DVec2;
 use joint::Joint;
 use piece::Piece;
@@ -27,11 +28,13 @@ const FINE: usize = 64;
 
 /// Cubics fitted to points.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Fit {
+pub struct Fit<V> {
     /// The cubics, each starting at the end of the one before it.
-    pub cubics: Vec<Cubic<DVec2>>,
+    pub cubics: Vec<Cubic<V>>,
     /// The largest distance of a point from the cubics, in the unit of the points.
     pub reached: f64,
+    /// For each point the index of its cubic and the parameter there, where the cubic passes the point.
+    pub places: Vec<(usize, f64)>,
 }
 
 /// Fits cubics within `tolerance` of every point, in their order; neighbours must differ.
@@ -40,13 +43,30 @@ pub struct Fit {
 /// turns by 30 degrees more than the points around it is a corner. All other joints are smooth, including the
 /// start of a closed fit.
 #[must_use]
-pub fn within(points: &[DVec2], closed: bool, tolerance: f64) -> Fit {
+pub fn within(points: &[DVec2], closed: bool, tolerance: f64) -> Fit<DVec2> {
+    let enough = points.len() >= if closed { 3 } else { 2 };
+    let corners = if enough { corner::find(points, closed, tolerance) } else { Vec::new() };
+    with_corners(points, closed, tolerance, corners)
+}
+
+/// Fits cubics as [`within`] does, all of whose joints are smooth.
+#[must_use]
+pub fn smooth<V: Vector>(points: &[V], closed: bool, tolerance: f64) -> Fit<V> {
+    with_corners(points, closed, tolerance, Vec::new())
+}
+
+fn with_corners<V: Vector>(
+    points: &[V],
+    closed: bool,
+    tolerance: f64,
+    corners: Vec<usize>,
+) -> Fit<V> {
     let count = points.len();
-    let mut fit = Fit { cubics: Vec::new(), reached: 0.0 };
+    let mut fit = Fit { cubics: Vec::new(), reached: 0.0, places: Vec::new() };
     if count < if closed { 3 } else { 2 } {
         return fit;
     }
-    let run = Run { points, closed, tolerance, corners: corner::find(points, closed, tolerance) };
+    let run = Run { points, closed, tolerance, corners };
     let last = if closed { count } else { count - 1 };
     let mut knots: Vec<usize> = [0, last].into_iter().chain(run.corners.iter().copied()).collect();
     if closed && run.corners.is_empty() {
@@ -62,33 +82,36 @@ pub fn within(points: &[DVec2], closed: bool, tolerance: f64) -> Fit {
         run.fit([span[0], span[1]], [from, to], &mut fit);
         from = to;
     }
+    if !closed {
+        fit.places.push((fit.cubics.len().saturating_sub(1), 1.0));
+    }
     fit
 }
 
 /// Points to be fitted.
-struct Run<'a> {
-    points: &'a [DVec2],
+struct Run<'a, V> {
+    points: &'a [V],
     closed: bool,
     tolerance: f64,
     /// Indices of the points that are corners, rising; the ends of an open sequence are not included.
     corners: Vec<usize>,
 }
 
-impl Run<'_> {
+impl<V: Vector> Run<'_, V> {
     /// Returns point `i`; indices continue after the last point of a closed sequence.
-    fn point(&self, i: usize) -> DVec2 {
+    fn point(&self, i: usize) -> V {
         self.points[i % self.points.len()]
     }
 
     /// Fits cubics between two joints and adds them to `fit`.
-    fn fit(&self, span: [usize; 2], ends: [Joint; 2], fit: &mut Fit) {
+    fn fit(&self, span: [usize; 2], ends: [Joint<V>; 2], fit: &mut Fit<V>) {
         let ([mut from, end], [mut start, last]) = (span, ends);
         let mut steps = end - from;
         while from < end {
             let piece = |steps: usize| {
                 let to = from + steps;
                 let joint = if to == end { last } else { self.joint(to) };
-                let points: Vec<DVec2> = (from..=to).map(|i| self.point(i)).collect();
+                let points: Vec<V> = (from..=to).map(|i| self.point(i)).collect();
                 let piece = Piece::through(&points, [start, joint], self.tolerance);
                 (steps == 1 || piece.error <= self.tolerance).then_some((steps, joint, piece))
             };
@@ -110,6 +133,8 @@ impl Run<'_> {
             }
             let Some((taken, joint, piece)) = found else { return };
             fit.reached = fit.reached.max(piece.error);
+            let number = fit.cubics.len();
+            fit.places.extend(piece.at.iter().take(taken).map(|&t| (number, t)));
             fit.cubics.push(piece.cubic);
             (from, start, steps) = (from + taken, joint, taken);
         }

@@ -2,7 +2,7 @@
 
 use super::joint::Joint;
 use crate::curve::cubic::Cubic;
-use glam::DVec2;
+use crate::curve::vector::Vector;
 
 /// Most rounds that move the parameters of the points to the nearest points of the cubic.
 const ROUNDS: usize = 12;
@@ -17,17 +17,19 @@ const SHORTEST: f64 = 0.01;
 const LONGEST: f64 = 1.0;
 
 /// A cubic and its error.
-pub struct Piece {
-    pub cubic: Cubic<DVec2>,
+pub struct Piece<V> {
+    pub cubic: Cubic<V>,
     /// The largest distance of a point from the cubic at the point's parameter.
     pub error: f64,
+    /// The parameters of the points, from 0 to 1.
+    pub at: Vec<f64>,
 }
 
-impl Piece {
+impl<V: Vector> Piece<V> {
     /// Fits the cubic from one joint to another to the points between.
-    pub fn through(points: &[DVec2], [start, end]: [Joint; 2], tolerance: f64) -> Self {
+    pub fn through(points: &[V], [start, end]: [Joint<V>; 2], tolerance: f64) -> Self {
         let mut at = chord_lengths(points);
-        let length_along: f64 = points.windows(2).map(|ends| ends[0].distance(ends[1])).sum();
+        let length_along: f64 = points.windows(2).map(|ends| (ends[0] - ends[1]).length()).sum();
         let ends = [start.point, end.point];
         let directions = [start.after, -end.before];
         let weights = vec![None; points.len()];
@@ -45,24 +47,24 @@ impl Piece {
             if moved.error < best.error {
                 best = moved;
             }
-            let normals: Vec<_> = at.iter().map(|&t| Some(cubic.tangent(t).perp())).collect();
-            cubic = least_squares(points, &at, &normals, ends, directions, length_along);
+            let tangents: Vec<_> = at.iter().map(|&t| Some(cubic.tangent(t))).collect();
+            cubic = least_squares(points, &at, &tangents, ends, directions, length_along);
         }
         best
     }
 
-    fn measured(cubic: Cubic<DVec2>, points: &[DVec2], at: &[f64]) -> Self {
-        let off = at.iter().zip(points).map(|(&t, point)| cubic.point(t).distance(*point));
-        Self { cubic, error: off.fold(0.0, f64::max) }
+    fn measured(cubic: Cubic<V>, points: &[V], at: &[f64]) -> Self {
+        let off = at.iter().zip(points).map(|(&t, point)| (cubic.point(t) - *point).length());
+        Self { cubic, error: off.fold(0.0, f64::max), at: at.to_vec() }
     }
 }
 
 /// Returns the parameters of points by chord length, from 0 to 1.
-fn chord_lengths(points: &[DVec2]) -> Vec<f64> {
+fn chord_lengths<V: Vector>(points: &[V]) -> Vec<f64> {
     let mut at = vec![0.0];
     let mut length_along = 0.0;
     for ends in points.windows(2) {
-        length_along += ends[0].distance(ends[1]);
+        length_along += (ends[0] - ends[1]).length();
         at.push(length_along);
     }
     at.iter().map(|length| length / length_along).collect()
@@ -74,23 +76,23 @@ fn chord_lengths(points: &[DVec2]) -> Vec<f64> {
 /// If a point has a normal, only the distance along the normal counts, so that points slide along
 /// the curve. Such a step is a Gauss-Newton step for the true distances, where plain steps take
 /// hundreds of rounds.
-fn least_squares(
-    points: &[DVec2],
+fn least_squares<V: Vector>(
+    points: &[V],
     at: &[f64],
-    normals: &[Option<DVec2>],
-    [start, end]: [DVec2; 2],
-    [leaving, reaching]: [DVec2; 2],
+    tangents: &[Option<V>],
+    [start, end]: [V; 2],
+    [leaving, reaching]: [V; 2],
     length_along: f64,
-) -> Cubic<DVec2> {
+) -> Cubic<V> {
     // The equations for the two lengths: [aa ab; ab bb] (a, b) = (ra, rb).
     let (mut aa, mut ab, mut bb, mut ra, mut rb) = (0.0, 0.0, 0.0, 0.0, 0.0);
-    for ((&t, &point), normal) in at.iter().zip(points).zip(normals) {
+    for ((&t, &point), tangent) in at.iter().zip(points).zip(tangents) {
         let s = 1.0 - t;
         let (a, b) = (leaving * (3.0 * s * s * t), reaching * (3.0 * s * t * t));
         let rest =
             (point - start) * (s * s * (s + 3.0 * t)) + (point - end) * (t * t * (t + 3.0 * s));
-        let [a, b, rest] = match normal {
-            Some(n) => [a, b, rest].map(|v| *n * v.dot(*n)),
+        let [a, b, rest] = match tangent {
+            Some(tangent) => [a, b, rest].map(|v| v.across(*tangent)),
             None => [a, b, rest],
         };
         aa += a.dot(a);
@@ -99,7 +101,7 @@ fn least_squares(
         ra += a.dot(rest);
         rb += b.dot(rest);
     }
-    let chord = start.distance(end);
+    let chord = (start - end).length();
     let det = aa * bb - ab * ab;
     let lengths = [(ra * bb - rb * ab) / det, (rb * aa - ra * ab) / det];
     let fits = |&length: &f64| length >= SHORTEST * chord && length <= LONGEST * length_along;
@@ -109,7 +111,7 @@ fn least_squares(
 }
 
 /// Returns a parameter nearer to the point of the cubic closest to `point`, by one step of Newton's method.
-fn nearer(cubic: &Cubic<DVec2>, t: f64, point: DVec2) -> f64 {
+fn nearer<V: Vector>(cubic: &Cubic<V>, t: f64, point: V) -> f64 {
     let off = cubic.point(t) - point;
     let (velocity, acceleration) = (cubic.velocity(t), cubic.acceleration(t));
     let slope = velocity.dot(velocity) + off.dot(acceleration);

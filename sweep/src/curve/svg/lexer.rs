@@ -69,6 +69,20 @@ impl Lexer<'_> {
         Ok(flag)
     }
 
+    /// Returns whether the next character is this one.
+    pub fn is_symbol(&mut self, symbol: char) -> bool {
+        self.skip();
+        self.text[self.at..].starts_with(symbol)
+    }
+
+    pub fn symbol(&mut self, symbol: char) -> Result<(), String> {
+        if !self.is_symbol(symbol) {
+            return Err(self.expected(&format!("`{symbol}`")));
+        }
+        self.at += symbol.len_utf8();
+        Ok(())
+    }
+
     pub fn expected(&self, what: &str) -> String {
         let position = 1 + self.text[..self.at].chars().count();
         match self.text[self.at..].chars().next() {

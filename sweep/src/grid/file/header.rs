@@ -1,9 +1,9 @@
 //! The header line: everything about a grid except its rows.
 
-use super::{Encoding, GridError, stranger};
+use super::{Encoding, GridError, Patch, stranger};
 use crate::grid::GridMesh;
 use crate::grid::row::{self, Fault, check_parameter};
-use crate::grid::{Fold, Lid, PlacedArea, Seam, Tolerance, UvLayout, area, seam};
+use crate::grid::{Fold, Lid, PlacedArea, Seam, Tolerance, Unit, UvLayout, area, seam};
 use files::json::{BYTES_OF_A_BYTE, Document};
 use files::{JsonError, memory};
 use serde::{Deserialize, Serialize};
@@ -22,16 +22,6 @@ pub(crate) const MAX_COLS: usize = 1 << 20;
 const MAX_ROWS: usize = u32::MAX as usize;
 /// Longest header line in bytes: [`MAX_COLS`] numbers of 24 characters, and a name.
 const MAX_LINE: usize = 32 << 20;
-
-/// Number of a patch in its object; `[2, 3]` in a file is the second of three.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(from = "[usize; 2]", into = "[usize; 2]")]
-pub struct Patch {
-    /// Number of the patch, from 1.
-    pub number: usize,
-    /// Number of patches in the object.
-    pub of: usize,
-}
 
 /// Everything about a grid except its rows.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -62,6 +52,8 @@ pub struct Header {
     pub fold: Option<Fold>,
     /// The requested and the measured distance from the surface, if requested.
     pub tolerance: Option<Tolerance>,
+    /// The unit of length, if the spec states one.
+    pub unit: Option<Unit>,
     /// How texture coordinates lie on the surface.
     pub uv: UvLayout,
     /// `u` of each column, not decreasing, in `[0, 1]`.
@@ -99,6 +91,8 @@ struct Line {
     fold: Option<Fold>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     tolerance: Option<Tolerance>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    unit: Option<Unit>,
     uv: UvLayout,
     u: Vec<f64>,
 }
@@ -119,45 +113,6 @@ enum Endian {
     Little,
 }
 
-impl Patch {
-    /// The only patch of an object.
-    pub(super) const WHOLE: Self = Self { number: 1, of: 1 };
-
-    fn is_whole(&self) -> bool {
-        *self == Self::WHOLE
-    }
-
-    /// Returns the next patch of the object; `None` after the last, where only the first patch of another
-    /// object may follow.
-    pub(super) fn next(self) -> Option<Self> {
-        (self.number < self.of).then(|| Self { number: self.number + 1, of: self.of })
-    }
-}
-
-impl Default for Patch {
-    fn default() -> Self {
-        Self::WHOLE
-    }
-}
-
-impl From<[usize; 2]> for Patch {
-    fn from([number, of]: [usize; 2]) -> Self {
-        Self { number, of }
-    }
-}
-
-impl From<Patch> for [usize; 2] {
-    fn from(patch: Patch) -> Self {
-        [patch.number, patch.of]
-    }
-}
-
-impl std::fmt::Display for Patch {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "patch {} of {}", self.number, self.of)
-    }
-}
-
 impl Header {
     /// Returns the header of a grid in memory, as the only patch of its object.
     #[must_use]
@@ -176,6 +131,7 @@ impl Header {
             pressed: grid.pressed,
             fold: grid.fold,
             tolerance: grid.tolerance,
+            unit: grid.unit,
             uv: grid.uv,
             u: grid.u.clone(),
         }
@@ -215,6 +171,7 @@ impl Header {
             pressed: self.pressed,
             fold: self.fold,
             tolerance: self.tolerance,
+            unit: self.unit,
             uv: self.uv,
             u: self.u.clone(),
         };
@@ -371,6 +328,7 @@ pub(super) fn read(
         pressed,
         fold,
         tolerance,
+        unit,
         uv,
         u,
     } = document.parse().map_err(placed)?;
@@ -392,6 +350,7 @@ pub(super) fn read(
         pressed,
         fold,
         tolerance,
+        unit,
         uv,
         u,
     };

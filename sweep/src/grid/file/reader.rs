@@ -81,6 +81,7 @@ fn rest_of(reader: &mut GridReader<impl BufRead>) -> Result<GridMesh, GridError>
         pressed: header.pressed,
         fold: header.fold,
         tolerance: header.tolerance,
+        unit: header.unit,
         uv: header.uv,
         u: header.u,
         v,

@@ -1,7 +1,7 @@
 //! Tests that any grid, written and read back, keeps the same bits.
 
 use super::*;
-use crate::grid::{Across, Area, Fold, Seam, Tolerance, UvLayout, area};
+use crate::grid::{Across, Area, Fold, Seam, Tolerance, Unit, UvLayout, area};
 use glam::{DVec3, Vec3};
 use proptest::prelude::*;
 
@@ -109,6 +109,7 @@ fn grids() -> impl Strategy<Value = GridMesh> {
                 )| {
                     GridMesh {
                         lids: Vec::new(),
+                        unit: ids[0].map(|_| Unit::Cm),
                         pressed: [false; 2],
                         name,
                         seam_u,
