@@ -65,8 +65,25 @@ fn lettering_through_glass_is_nearer_to_the_truth_when_prefiltered() {
 #[test]
 fn the_modes_of_a_page_share_one_structure_and_the_tables_of_each_filter() {
     let folder = tempfile::tempdir().unwrap();
-    let run =
-        run("pipeline", &["run", "frontispiece", "--size", "16x16", "--stats"], folder.path());
+    let run = run(
+        "pipeline",
+        &[
+            "run",
+            "frontispiece",
+            "--size",
+            "16x16",
+            "--stats",
+            "--mode",
+            "point",
+            "--mode",
+            "prefiltered",
+            "--mode",
+            "supersampled",
+            "--mode",
+            "exact",
+        ],
+        folder.path(),
+    );
     assert!(run.status.success(), "{}", said(&run));
     let said = said(&run);
     let built = |what: &str| -> Vec<u64> {

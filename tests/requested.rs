@@ -111,3 +111,23 @@ fn a_page_that_is_named_alone_has_a_picture_of_a_requested_error() {
     let modes = pages::page("solids").unwrap().modes.len() as u32;
     assert_eq!(strip.width(), modes * 24 + (modes - 1) * 8);
 }
+
+#[test]
+fn requests_out_of_range_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    for (error, message) in [
+        ("0", "expected a number above 0 and below 1"),
+        ("-1", "expected a number above 0"),
+        ("NaN", "expected a number above 0"),
+        ("1e-6", "expected at least 0.0000076"),
+        ("much", "expected a number, such as 0.01, or 8bit"),
+    ] {
+        let ran = program("pipeline", &["run", "solids", &format!("--error={error}")], folder.path());
+        assert_eq!(ran.status.code(), Some(2), "{error}");
+        assert!(said(&ran).contains(message), "{error}: {}", said(&ran));
+    }
+    let both = ["run", "solids", "--error", "0.1", "--mode", "exact"];
+    let ran = program("pipeline", &both, folder.path());
+    assert_eq!(ran.status.code(), Some(2));
+    assert!(said(&ran).contains("cannot be used with"), "{}", said(&ran));
+}

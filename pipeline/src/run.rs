@@ -16,6 +16,7 @@ use render::film::encode::{self, Coding, Format};
 use render::film::{BasePicture, PixelFilter, memory};
 use render::stats::Stats;
 use render::{Picture, Prepared, Scene, Settings};
+use requested::Meshes;
 use std::cell::Cell;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -70,7 +71,7 @@ pub enum Event<'a> {
         picture: &'a Picture,
         /// The counts and times of the picture.
         stats: &'a Stats,
-        /// What is known of the error, if the mode requests one.
+        /// The error that was reached, if the mode requests one.
         accuracy: Option<&'a Accuracy>,
     },
     /// A file is written.
@@ -124,12 +125,13 @@ pub fn run_in(
     let _reserved = run.reserve_pictures()?;
     let finer = run.finer()?;
     let (prepared, finer) = (Prepared::new(&scene), finer.as_ref().map(Prepared::new));
+    let meshes = Meshes::Fine(finer.as_ref());
     let mut pictures = Vec::with_capacity(job.modes.len());
     for mode in &job.modes {
-        pictures.push(run.picture(&prepared, finer.as_ref(), mode, read_time)?);
+        pictures.push(run.picture(&prepared, meshes, mode, read_time)?);
     }
     if let Some(mode) = &job.further {
-        run.picture(&prepared, finer.as_ref(), mode, read_time)?;
+        run.picture(&prepared, Meshes::Stated, mode, read_time)?;
     }
     if let Some(strip) = job.strip_file() {
         let started = Instant::now();

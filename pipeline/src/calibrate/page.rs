@@ -1,7 +1,7 @@
 //! The HTML page of a calibration.
 
 use super::measure::{Case, REQUESTS, SceneCases};
-use super::summary::{Summary, by_request, exponent, interval};
+use super::summary::{Summary, by_request, exponent, halvings, interval};
 use crate::html;
 use maud::{Markup, html};
 
@@ -29,6 +29,12 @@ pub fn page(scenes: &[SceneCases], side: u32) -> String {
             p {
                 "Processor time grows as one over the error to the power " (format!("{exponent:.2}"))
                 ": half the error takes " (format!("{:.2}", 2.0_f64.powf(exponent))) " times the time."
+            }
+        }
+        @if let Some(costs) = halvings(scenes) {
+            p {
+                "Half the error takes, scene by scene, " (format!("{:.2}", costs[0])) " times the time in the "
+                "middle, and " (format!("{:.2}", costs[1])) " times at most."
             }
         }
         h2 { "Bounds and true errors" }
@@ -95,6 +101,9 @@ fn plot(scenes: &[SceneCases]) -> Markup {
             aria-label="True errors over stated bounds" style="max-width: 100%" {
             line x1=(at(x(SPAN[0]))) y1=(at(y(SPAN[0]))) x2=(at(x(SPAN[1]))) y2=(at(y(SPAN[1])))
                 stroke="currentColor" stroke-opacity="0.5";
+            text x=(at(width - 10.0)) y=(at(height - 36.0)) text-anchor="end" font-size="12"
+                fill="currentColor" { "stated bound" }
+            text x="46" y="20" font-size="12" fill="currentColor" { "true error" }
             @for mark in REQUESTS.into_iter().chain([0.001]) {
                 text x=(at(x(mark))) y=(at(height - 10.0)) text-anchor="middle" font-size="12"
                     fill="currentColor" { (mark) }
@@ -106,7 +115,7 @@ fn plot(scenes: &[SceneCases]) -> Markup {
                     fill=(if case.requested.is_some() { "#2266cc" } else { "#cc7722" });
             }
         }
-        p { "Blue: requested errors, whose bound is the request. Brown: audits alone." }
+        p { "Blue: requested errors. Brown: audits alone. Smaller true errors than 0.0003 are at the lower edge." }
     }
 }
 

@@ -68,6 +68,21 @@ pub fn exponent(scenes: &[SceneCases]) -> Option<f64> {
     Some((last / first).ln() / (REQUESTS[0] / REQUESTS[REQUESTS.len() - 1]).ln())
 }
 
+/// Returns the median and the largest factor by which the processor time of a scene grows for half the
+/// error, from the largest to the smallest request. `None` without scenes.
+#[must_use]
+pub fn halvings(scenes: &[SceneCases]) -> Option<[f64; 2]> {
+    let last = REQUESTS.len() - 1;
+    let steps = (REQUESTS[0] / REQUESTS[last]).log2();
+    let of_scene = |scene: &SceneCases| {
+        let (first, last) = (scene.cases.first()?, scene.cases.get(last)?);
+        (first.seconds > 0.0).then(|| (last.seconds / first.seconds).powf(1.0 / steps))
+    };
+    let mut all: Vec<f64> = scenes.iter().filter_map(of_scene).collect();
+    all.sort_by(f64::total_cmp);
+    Some([*all.get(all.len() / 2)?, *all.last()?])
+}
+
 /// Returns the interval of chances with which `hits` of `count` trials agree, at 95 % confidence (E.
 /// Wilson, "Probable Inference, the Law of Succession, and Statistical Inference", 1927).
 #[must_use]
@@ -119,6 +134,8 @@ mod tests {
         assert_eq!(Summary::of(&all[4].1), None);
         // A tenth of the error takes ten times the time.
         assert!((exponent(&scenes).unwrap() - 1.0).abs() < 1e-12);
+        let [middle, most] = halvings(&scenes).unwrap();
+        assert!((middle - 2.0).abs() < 1e-12 && (most - 2.0).abs() < 1e-12);
     }
 
     /// Of no hits in n trials, Wilson's upper end is z^2 / (n + z^2).

@@ -33,7 +33,16 @@ const TRIALS: usize = 4;
 /// Part of the allowed error at which the next trial aims.
 const AIM: f64 = 0.7;
 
-/// What is known of the error of a picture.
+/// The meshes of a picture with a requested error.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Meshes<'m, 's> {
+    /// As they are stated. The light on them is true.
+    Stated,
+    /// Those with a tolerance are made anew. Without such meshes, this scene has finer ones.
+    Fine(Option<&'m Prepared<'s>>),
+}
+
+/// The error of a picture, and its sources.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Accuracy {
     /// The result of the audit.
@@ -49,16 +58,16 @@ impl Run<'_> {
     /// it.
     pub(super) fn finer(&self) -> Result<Option<Scene>, PipelineError> {
         let kinds = self.kinds.get();
-        let requested = self.job.all_modes().any(|mode| mode.error.is_some());
+        let requested = self.job.modes.iter().any(|mode| mode.error.is_some());
         let wanted = requested && kinds.counted && !kinds.tolerance;
         wanted.then(|| self.scene(Fineness::Finest(1.0))).transpose()
     }
 
-    /// Makes and writes the picture of a mode. `finer` is the scene with finer meshes, if it is wanted.
+    /// Makes and writes the picture of a mode.
     pub(super) fn picture<'s>(
         &self,
         prepared: &Prepared<'s>,
-        finer: Option<&Prepared<'s>>,
+        meshes: Meshes<'_, 's>,
         mode: &Mode,
         read_time: Duration,
     ) -> Result<Picture, PipelineError> {
@@ -72,11 +81,13 @@ impl Run<'_> {
         let (picture, mut stats, accuracy) = match (mode.error, mode.sampling) {
             (Some(error), Sampling::Area { pixel_filter, .. }) => {
                 let request = Request::new(prepared, &settings, pixel_filter);
-                let request = Request { finer, progress: &told, ..request };
-                let (reached, pixels) = if self.kinds.get().tolerance {
-                    self.with_meshes(&settings, pixel_filter, error, &told)?
-                } else {
-                    (request.reach(error), None)
+                let request = Request { progress: &told, ..request };
+                let (reached, pixels) = match meshes {
+                    Meshes::Fine(_) if self.kinds.get().tolerance => {
+                        self.with_meshes(&settings, pixel_filter, error, &told)?
+                    }
+                    Meshes::Fine(finer) => (Request { finer, ..request }.reach(error), None),
+                    Meshes::Stated => (request.reach(error), None),
                 };
                 let Reached { picture, stats, statement, sources, .. } = reached;
                 (picture, stats, Some(Accuracy { statement, sources, pixels }))

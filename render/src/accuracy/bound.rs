@@ -20,6 +20,14 @@ pub fn mean(values: &[f64]) -> f64 {
     if values.is_empty() { 0.0 } else { values.iter().sum::<f64>() / values.len() as f64 }
 }
 
+/// Returns an estimate of the standard deviation of the mean of values, or 0 without values.
+#[must_use]
+pub fn deviation(values: &[f64]) -> f64 {
+    let (mean, count) = (mean(values), values.len().max(1) as f64);
+    let squares = values.iter().map(|value| (value - mean).powi(2)).sum::<f64>();
+    squares.sqrt() / count
+}
+
 /// Returns an upper bound of the mean of the distribution that `values` were drawn from. The bound
 /// fails with a chance of about `risk`, in (0, 1).
 ///
@@ -70,6 +78,14 @@ mod tests {
     use super::*;
     use crate::film::pattern::{fraction, mixed};
     use proptest::prelude::*;
+
+    /// The variance of 0 and 2 is 1, and the mean of 400 such values has a deviation of 1 / 20.
+    #[test]
+    fn a_mean_deviates_less_than_its_values() {
+        let values: Vec<f64> = (0..400).map(|k| f64::from(2 * (k % 2))).collect();
+        assert!((deviation(&values) - 0.05).abs() < 1e-12);
+        assert_eq!(deviation(&[]), 0.0);
+    }
 
     #[test]
     fn one_value_is_its_own_bound() {

@@ -32,7 +32,7 @@ pub use statement::Statement;
 use crate::film::{Picture, Settings};
 use crate::prepared::Prepared;
 use crate::stats::Stats;
-use bound::{mean, upper};
+use bound::{deviation, mean, upper};
 use chances::Chances;
 use sample::Sample;
 use std::time::Instant;
@@ -124,7 +124,8 @@ fn stated(
 ) -> Statement {
     let per_pixel = |rays: u64| rays as f64 / pixels.max(1) as f64;
     Statement {
-        error: mean(values).max(0.0).sqrt(),
+        // An error that noise hides is not stated as 0.
+        error: mean(values).max(deviation(values)).sqrt().min(bound),
         bound,
         confidence: CONFIDENCE,
         rays: per_pixel(stats.primary_rays),

@@ -205,7 +205,10 @@ impl<'q, 'r, 's> Search<'q, 'r, 's> {
         if !passed && bound < limit {
             self.passed = Some(rung);
         }
-        let prospect = Prospect { mean: mean(&values), bound, rays: self.rays(rung) };
+        let next = RISKS[(look + 1).min(RISKS.len() - 1)];
+        let wider = next.ln() / RISKS[look].ln();
+        let rays = self.rays(rung);
+        let prospect = Prospect { mean: mean(&values), bound, wider, rays };
         let most = SIZES[SIZES.len() - 1] as f64 / SIZES[look] as f64;
         prospect.outlook(limit, self.audit_rays() as f64, most)
     }
