@@ -82,6 +82,10 @@ fn mended(reader: Reader, bytes: &[u8]) -> Vec<u8> {
         | Reader::Swc
         | Reader::Areas
         | Reader::Obj
+        | Reader::Stl
+        | Reader::Ply
+        | Reader::Glb
+        | Reader::Gltf
         | Reader::Mtl
         | Reader::Scene
         | Reader::Part

@@ -48,8 +48,8 @@ pub struct Arguments {
     /// else OBJ]
     #[arg(long, value_enum)]
     format: Option<Format>,
-    /// Unit of the grid's lengths, which a 3MF states and a GLB converts to meters [default: millimeter
-    /// in a 3MF, meter in a GLB]
+    /// Unit of the grid's lengths, which a 3MF states and a GLB converts to meters [default: the unit of
+    /// the spec, or else millimeter in a 3MF and meter in a GLB]
     #[arg(long, value_enum)]
     pub unit: Option<Unit>,
     /// Texture id, which a scene binds to a picture; 0 is none. Replaces the ids in the grid

@@ -20,6 +20,19 @@ pub enum Unit {
     Meter,
 }
 
+impl From<sweep::grid::Unit> for Unit {
+    fn from(unit: sweep::grid::Unit) -> Self {
+        match unit {
+            sweep::grid::Unit::Um => Self::Micron,
+            sweep::grid::Unit::Mm => Self::Millimeter,
+            sweep::grid::Unit::Cm => Self::Centimeter,
+            sweep::grid::Unit::In => Self::Inch,
+            sweep::grid::Unit::Ft => Self::Foot,
+            sweep::grid::Unit::M => Self::Meter,
+        }
+    }
+}
+
 impl Unit {
     /// Returns the name of the unit.
     #[must_use]

@@ -196,6 +196,26 @@ fn the_program_writes_both_and_refuses_a_unit_that_no_file_states() {
     assert_eq!(said(&refused), "triangulate: --unit is for 3MF and GLB, and the format is STL\n");
 }
 
+#[test]
+fn the_unit_of_the_spec_is_that_of_the_file_unless_the_command_line_states_another() {
+    let folder = tempfile::tempdir().unwrap();
+    let grid = GridMesh { unit: Some(sweep::grid::Unit::Cm), ..torus(9, 8) };
+    let mesh = made(&torus(9, 8));
+    let mut bytes = Vec::new();
+    write_all(&[grid], Encoding::Binary, &mut bytes).unwrap();
+    for (name, unit, expected) in [
+        ("a.glb", &[][..], glb_of(&mesh, Some(Unit::Centimeter))),
+        ("a.3mf", &[], threemf_of(&mesh, Unit::Centimeter)),
+        ("b.3mf", &["--unit", "foot"], threemf_of(&mesh, Unit::Foot)),
+    ] {
+        let arguments = [&["-o", name, "--texture", "2", "--surface", "5"], unit].concat();
+        let program = env!("CARGO_BIN_EXE_triangulate").as_ref();
+        let ended = run(program, &arguments, folder.path(), &bytes);
+        assert_eq!(ended.status.code(), Some(0), "{}", said(&ended));
+        assert!(fs::read(folder.path().join(name)).unwrap() == expected, "{name}");
+    }
+}
+
 /// A program of Python that prints for each file whether trimesh finds it watertight, and its volume.
 const TRIMESH: &str = "
 import sys, trimesh

@@ -8,7 +8,7 @@ use std::path::Path;
 use sweep::GridMesh;
 use sweep::grid::file::GridReader;
 use triangulate::up::{Turned, Up};
-use triangulate::{Counts, Options, Patches, Sink, TriMesh, TriangulateError, area_file};
+use triangulate::{Counts, Options, Patches, Sink, TriMesh, TriangulateError, Unit, area_file};
 
 /// Reads all patches of a grid, and adds the areas of a file to them.
 pub fn with_areas(
@@ -43,6 +43,15 @@ pub enum Place<'a, R> {
 }
 
 impl<R: BufRead> Grid<'_, R> {
+    /// Returns the unit of length that the spec states.
+    pub fn unit(&self) -> Option<Unit> {
+        let unit = match &self.source {
+            Place::File(reader) => reader.header().unit,
+            Place::Memory(grids) => grids.first().and_then(|grid| grid.unit),
+        };
+        unit.map(Unit::from)
+    }
+
     /// Reserves the memory of a mesh of the first patch, or of all patches that are in memory.
     pub fn reserve_mesh(&self) -> Result<Reserved<'static>, MemoryError> {
         let points = match &self.source {

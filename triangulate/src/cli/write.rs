@@ -25,13 +25,14 @@ pub fn write(
     grid: &mut Grid<'_, impl BufRead>,
     out: &mut impl Write,
 ) -> Result<Written, TriangulateError> {
+    let unit = arguments.unit.or(grid.unit());
     match arguments.format() {
         Format::Obj => write_obj(arguments, grid, out),
         Format::Stl => write_whole(arguments, grid, |mesh| write_stl(mesh, out)),
         Format::Ply => write_whole(arguments, grid, |mesh| write_ply(mesh, out)),
-        Format::Glb => write_whole(arguments, grid, |mesh| write_glb(mesh, arguments.unit, out)),
+        Format::Glb => write_whole(arguments, grid, |mesh| write_glb(mesh, unit, out)),
         Format::ThreeMf => {
-            let unit = arguments.unit.unwrap_or(Unit::default());
+            let unit = unit.unwrap_or(Unit::default());
             write_whole(arguments, grid, |mesh| write_3mf(mesh, unit, out))
         }
     }
