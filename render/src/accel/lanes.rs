@@ -37,7 +37,8 @@ pub struct Lanes {
     pub origin: [Numbers; 3],
     /// Direction of each ray, along the axes of space.
     pub direction: [Numbers; 3],
-    /// [`ShearedRay::shear`] of each ray.
+    /// Components of the direction of each ray along the first two sheared axes, and 1, over that of the
+    /// last.
     pub shear: [Numbers; 3],
     /// [`SlabRay::inverse`] of each ray.
     pub inverse: [Numbers; 3],

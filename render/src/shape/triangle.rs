@@ -76,25 +76,12 @@ impl ShearedRay {
         Self { origin, order, shear: [direction[x] * over, direction[y] * over, over] }
     }
 
-    /// Returns [`ShearedRay::axes`] of a ray with this direction.
+    /// Returns the axes after shearing of a ray with this direction: the last is that of the largest
+    /// component.
     #[must_use]
     #[inline(always)]
     pub fn axes_of(direction: DVec3) -> [usize; 3] {
         Order::of(direction).axes()
-    }
-
-    /// The axes after shearing: the last is that of the direction's largest component.
-    #[must_use]
-    #[inline(always)]
-    pub fn axes(&self) -> [usize; 3] {
-        self.order.axes()
-    }
-
-    /// The components of the direction along the first two axes, and 1, over that of the last.
-    #[must_use]
-    #[inline(always)]
-    pub fn shear(&self) -> [f64; 3] {
-        self.shear
     }
 
     /// Returns the hit with a distance above 0, from either side, and the sum of the edge functions.
