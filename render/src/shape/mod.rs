@@ -20,6 +20,7 @@ pub mod weld;
 pub use changes::Changes;
 pub use charts::Charts;
 pub use cuboid::Cuboid;
+pub use in_triangle::SmoothPoint;
 pub use mesh::Mesh;
 pub use placed::Placed;
 pub use placement::{Placement, PlacementError};
