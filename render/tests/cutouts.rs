@@ -133,10 +133,11 @@ fn shadows_are_cut_out_too() {
         bench.write("scene.json", scene.replace("[0, -5, 0]", "[0, 0.0005, 0]"));
         let picture = rendered(&bench, &["--size", "8x8"]);
         let at = |x: u32, y: u32| picture.get_pixel(x, y).0[0];
-        // The lid covers the columns 2 to 5; its left half is opaque.
+        // The lid covers the columns 2 to 5; its left half is opaque. Masks are smooth over a texel, and the
+        // parts that pass several of them are multiplied.
         let row = [0, 1, 2, 3, 4, 5, 6, 7].map(|x| at(x, 4));
         let truth = [1.0, 1.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0];
-        let near = row.iter().zip(truth).all(|(found, truth)| (found - truth).abs() < 0.05);
+        let near = row.iter().zip(truth).all(|(found, truth)| (found - truth).abs() < 0.08);
         assert!(near, "{lids}: {row:?}");
     }
 }

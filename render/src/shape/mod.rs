@@ -21,6 +21,7 @@ pub mod weld;
 pub use changes::Changes;
 pub use charts::Charts;
 pub use cuboid::Cuboid;
+pub use in_triangle::SmoothPoint;
 pub use instance::{Instance, SharedMesh};
 pub use mesh::Mesh;
 pub use placed::Placed;
