@@ -372,16 +372,6 @@ mod tests {
     }
 
     #[test]
-    fn lost_parts_and_small_faces_cost_only_themselves() {
-        let text = format!("{SQUARE}f 1/1 2/2 3/5\nf 1//1 2//0 3//1\nf 1 2\nf 1/1 2/2 3/3\n");
-        let read = read_file("a.obj", text.as_bytes()).unwrap();
-        let uvs: Vec<u32> = read.mesh.triangles.iter().map(|triangle| triangle.uv[2]).collect();
-        assert_eq!(uvs, [NONE, NONE, 2]);
-        assert!(read.mesh.triangles.iter().all(|triangle| triangle.normal == [NONE; 3]));
-        assert_eq!(read.unused.iter().map(|(_, count)| count).collect::<Vec<_>>(), [&1, &2]);
-    }
-
-    #[test]
     fn vertices_that_no_face_has_are_left_out() {
         let text = format!("v 9 9 9\n{SQUARE}v 1e30 0 0\nf 2 3 4\n");
         let mesh = read("a.obj", text.as_bytes()).unwrap();
