@@ -140,6 +140,16 @@ fn a_broken_gltf_is_refused_with_its_byte_or_json_path() {
         let parts: Vec<&str> = std::iter::once("a.glb: found").chain(parts).collect();
         refuse("a.glb", &with(path, value), &parts);
     }
+    // Rows without a view cost nothing in the file.
+    let mut huge = whole.clone();
+    huge["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = json!(1);
+    let rows = json!({ "componentType": 5126, "count": 1_000_000_000, "type": "VEC3" });
+    huge["accessors"].as_array_mut().unwrap().push(rows);
+    let parts = [
+        "a.glb: found 1000000000 rows of NORMAL at `meshes[0].primitives[0]`",
+        "expected 3, as of POSITION",
+    ];
+    refuse("a.glb", &glb(&huge, &corners), &parts);
     let mut compressed = whole.clone();
     compressed["extensionsRequired"] = json!(["KHR_draco_mesh_compression"]);
     let parts = ["a.glb: found the required extension KHR_draco_mesh_compression"];

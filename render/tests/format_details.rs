@@ -180,3 +180,19 @@ fn nodes_may_share_a_mesh_and_parts_a_material() {
     let transparencies = found.materials.iter().map(|entry| entry.material.transparency);
     assert_eq!(transparencies.collect::<Vec<_>>(), [0.75, 0.0, 0.0]);
 }
+
+#[test]
+fn lost_parts_and_small_faces_of_an_obj_cost_only_themselves() {
+    let lines = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n\
+        f 1/1 2/2 3/5\nf 1//1 2//0 3//1\nf 1 2\nf 1/1 2/2 3/3\n";
+    let found = read("a.obj", lines.as_bytes());
+    let none = render::shape::mesh::NONE;
+    let uvs: Vec<u32> = found.mesh.triangles.iter().map(|triangle| triangle.uv[2]).collect();
+    assert_eq!(uvs, [none, none, 2]);
+    assert!(found.mesh.triangles.iter().all(|triangle| triangle.normal == [none; 3]));
+    let expected = [
+        ("faces of fewer than three corners", 1),
+        ("indices of vt or vn that the file does not have", 2),
+    ];
+    assert_eq!(unused(&found), expected);
+}

@@ -4,6 +4,7 @@ use super::scene;
 use crate::seeds::SCENES;
 use crate::seeds::memory_files::MemoryFiles;
 use crate::verdict::{Tried, refused};
+use files::Budget;
 use render::scene::mesh_file::{self, Near};
 use render::scene::{mtl, obj};
 use render::shape::mesh::NONE;
@@ -31,6 +32,9 @@ const PATH: &str = "examples/scenes/tried.mtl";
 const MESH: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1\n\
     usemtl clay\nf 1/1 2/2 3/3\nusemtl glass\nf 1/1 3/2 4/3\nusemtl picture\nf 2/1 3/2 4/3\n";
 
+/// Memory for a mesh, in bytes.
+const MEMORY: u64 = 256 << 20;
+
 /// Largest number of vertices, and of triangles, of a mesh that is rendered.
 const MOST: usize = 20_000;
 
@@ -55,7 +59,11 @@ pub fn read_obj(bytes: &[u8], stored: &MemoryFiles) -> Tried {
 /// When the mesh is refused, or its picture is wrong.
 pub fn read_file(ending: &str, bytes: &[u8], stored: &MemoryFiles) -> Tried {
     let name = format!("tried.{ending}");
-    let reserve = &mut |_| Ok(());
+    let (budget, mut kept) = (Budget::new(MEMORY), Vec::new());
+    let reserve = &mut |bytes| {
+        kept.push(budget.reserve(bytes, || name.clone())?);
+        Ok(())
+    };
     let near = Near { folder: SCENES.as_ref(), source: stored, reserve };
     let read = mesh_file::read(&name, bytes, near).map_err(refused)?;
     if read.mesh.triangles.len() > MOST || read.mesh.positions.len() > MOST {

@@ -83,7 +83,7 @@ impl<'a> Reader<'a> {
         let is_lost = |most: &[usize; NUMBERED]| (1..NUMBERED).any(|k| most[k] > counts[k]);
         let lost = self.ahead.iter().filter(|(_, most)| is_lost(most)).count();
         if lost > 0 {
-            self.unused.insert(LOST, lost);
+            *self.unused.entry(LOST).or_default() += lost;
             for triangle in &mut self.mesh.triangles {
                 for (part, count) in
                     [(&mut triangle.uv, counts[1]), (&mut triangle.normal, counts[2])]

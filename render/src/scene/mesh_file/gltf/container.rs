@@ -49,7 +49,10 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Document, Option<&[u8]>), Fault> {
         let path = path().to_string();
         // Bounds of positions help viewers, and are often left out.
         let is_bound = path.ends_with(".min") || path.ends_with(".max");
-        if !(matches!(error, Error::Missing) && (is_bound || path.contains("POSITION"))) {
+        // Rows without a view are zero.
+        let is_view = path.starts_with("accessors[") && path.ends_with("].bufferView");
+        let is_optional = is_bound || is_view || path.contains("POSITION");
+        if !(matches!(error, Error::Missing) && is_optional) {
             first.get_or_insert((path, error));
         }
     });

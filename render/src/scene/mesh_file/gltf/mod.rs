@@ -136,12 +136,11 @@ fn placed(document: &Document) -> Result<Vec<(Node<'_>, DMat4)>, Fault> {
     let roots: Vec<Node<'_>> = match scene {
         Some(scene) => scene.nodes().collect(),
         None => {
-            let children: Vec<usize> = document
-                .nodes()
-                .flat_map(|node| node.children())
-                .map(|node| node.index())
-                .collect();
-            document.nodes().filter(|node| !children.contains(&node.index())).collect()
+            let mut is_child = vec![false; document.nodes().len()];
+            for child in document.nodes().flat_map(|node| node.children()) {
+                is_child[child.index()] = true;
+            }
+            document.nodes().filter(|node| !is_child[node.index()]).collect()
         }
     };
     let mut open: Vec<(Node<'_>, DMat4)> =
@@ -245,22 +244,22 @@ impl Reader<'_> {
         };
         let material = primitive.material();
         let coordinates = Coordinates::of(&material);
-        let attribute = |semantic| primitive.get(&semantic);
-        let normals = attribute(Semantic::Normals).map(|rows| self.numbers.rows::<3>(&rows));
-        let uvs = attribute(Semantic::TexCoords(coordinates.set));
-        let uvs = uvs.map(|rows| self.numbers.rows::<2>(&rows));
-        let colors = attribute(Semantic::Colors(0)).map(|rows| self.numbers.rows::<3>(&rows));
-        let (normals, uvs, colors) = (normals.transpose()?, uvs.transpose()?, colors.transpose()?);
-        for (what, count) in [
-            ("NORMAL", normals.as_ref().map(Vec::len)),
-            ("TEXCOORD", uvs.as_ref().map(Vec::len)),
-            ("COLOR", colors.as_ref().map(Vec::len)),
-        ] {
-            if let Some(count) = count.filter(|&count| count != positions.len()) {
-                let found = format!("{count} rows of {what} at `{at}`");
+        // Counts are compared before any rows are read, since rows without a view cost the file nothing.
+        let attribute = |semantic: Semantic| {
+            let name = semantic.to_string();
+            let Some(accessor) = primitive.get(&semantic) else { return Ok(None) };
+            if accessor.count() != positions.len() {
+                let found = format!("{} rows of {name} at `{at}`", accessor.count());
                 return Err(Fault::part(found, format!("{}, as of POSITION", positions.len())));
             }
-        }
+            Ok(Some(accessor))
+        };
+        let numbers = &self.numbers;
+        let normals = attribute(Semantic::Normals)?.map(|rows| numbers.rows::<3>(&rows));
+        let uvs = attribute(Semantic::TexCoords(coordinates.set))?;
+        let uvs = uvs.map(|rows| numbers.rows::<2>(&rows));
+        let colors = attribute(Semantic::Colors(0))?.map(|rows| numbers.rows::<3>(&rows));
+        let (normals, uvs, colors) = (normals.transpose()?, uvs.transpose()?, colors.transpose()?);
         let surface = self.materials.surface(
             &material,
             colors.is_some(),
