@@ -292,7 +292,7 @@ mod tests {
         assert_eq!(info.utf8_text[0].get_text().unwrap(), "render a.json --size 9x8");
         let gamma = encode(&small(), Format::Png, Encoding::Gamma(2.0)).unwrap();
         let reader = png::Decoder::new(Cursor::new(&gamma)).read_info().unwrap();
-        assert_eq!(reader.info().gama_chunk.map(|gamma| gamma.into_value()), Some(0.5));
+        assert_eq!(reader.info().gama_chunk.map(png::ScaledFloat::into_value), Some(0.5));
         let exr = encode_as(&small(), Format::Exr, &coding).unwrap();
         let meta = exr::meta::MetaData::read_from_buffered(&*exr, false).unwrap();
         let header = &meta.headers[0];

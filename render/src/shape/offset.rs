@@ -19,7 +19,7 @@ pub fn of(positions: impl Iterator<Item = DVec3>) -> DVec3 {
     });
     let (size, far) = ((high - low).max_element(), low.abs().max(high.abs()).max_element());
     // A single point has no size, and nothing to lose.
-    if !is_far(size, far) || !(size > 0.0 && size < f64::INFINITY) {
+    if !(is_far(size, far) && size > 0.0 && size < f64::INFINITY) {
         return DVec3::ZERO;
     }
     let unit = size.max(far * f64::EPSILON).log2().ceil().exp2();
