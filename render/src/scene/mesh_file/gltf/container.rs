@@ -44,6 +44,18 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Document, Option<&[u8]>), Fault> {
         let expected = "a file without it, since it holds the mesh in a form that is not read";
         return Err(Fault::part(found, expected));
     }
+    // The crate's own rules use these indices before they are checked.
+    for (m, mesh) in root.meshes.iter().enumerate() {
+        for (p, primitive) in mesh.primitives.iter().enumerate() {
+            let count = root.accessors.len();
+            if let Some(index) = primitive.attributes.values().find(|index| index.value() >= count)
+            {
+                let found =
+                    format!("index {} at `meshes[{m}].primitives[{p}].attributes`", index.value());
+                return Err(Fault::part(found, format!("one of the {count} accessors")));
+            }
+        }
+    }
     let mut first = None;
     root.validate(&root, Path::new, &mut |path, error| {
         let path = path().to_string();

@@ -61,7 +61,7 @@ impl Coordinates {
     }
 
     /// Returns coordinates from the lower left corner of the picture. Those of the file start at the upper
-    /// left corner, and are scaled, turned and moved there (extension KHR_texture_transform).
+    /// left corner, and are scaled, turned and moved there (extension `KHR_texture_transform`).
     pub(super) fn moved(&self, [u, v]: [f64; 2]) -> [f32; 2] {
         let at = self.scale * dvec2(u, v);
         let (sin, cos) = self.turn.sin_cos();

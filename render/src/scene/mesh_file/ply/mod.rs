@@ -12,8 +12,7 @@
 //! | ids of a file of `triangulate` | surfaces by the names that its OBJ has |
 //! | other elements and properties | counted in [`ObjFile::unused`] |
 //!
-//! Source: G. Turk, "The PLY Polygon File Format", 1994; names of properties as MeshLab and Blender write
-//! them.
+//! Source: G. Turk, "The PLY Polygon File Format", 1994; names of properties as mesh editors write them.
 
 mod body;
 mod faces;
