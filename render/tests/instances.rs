@@ -331,7 +331,12 @@ fn faulty_placements_are_named() {
         ),
     ] {
         assert!(FOREST.contains(from));
-        forest(&FOREST.replacen(from, to, 1)).refuse(&["scene.json"], b"", 3, &[expected]);
+        forest(&FOREST.replacen(from, to, 1)).refuse(
+            &["scene.json"],
+            b"",
+            3,
+            &["scene.json:", expected],
+        );
     }
 }
 
