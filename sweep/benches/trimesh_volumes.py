@@ -4,6 +4,7 @@ For each kind of spec, the programs `sweep` and `triangulate` make an STL, which
 merged. The mesh must be watertight, wound consistently and of the volume that a formula gives, to a thousandth.
 
     python3 sweep/benches/trimesh_volumes.py target/release 200
+    python3 sweep/benches/trimesh_volumes.py target/release 20 cup relief
 
 Needs trimesh (pip install trimesh). Prints one line for each kind, and each spec that fails.
 """
@@ -116,7 +117,10 @@ def table(rng, folder):
 
 
 def fitted(rng, folder):
-    """A tube along noisy points of an arc. Its volume is the area of the section times the length of the arc."""
+    """A tube along noisy points of an arc. Its volume is the area of the section times the length of the arc.
+
+    A fit that is off by 0.004 on one side would change the length by a thousandth; noise averages to less.
+    """
     radius, turn = rng.uniform(4, 8), rng.uniform(1, 4)
     points = []
     for i in range(121):
@@ -124,7 +128,7 @@ def fitted(rng, folder):
         noise = lambda: rng.uniform(-0.002, 0.002) if 0 < i < 120 else 0.0
         a = turn * i / 120
         points.append([radius * math.cos(a) + noise(), radius * math.sin(a) + noise(), noise()])
-    line = {"free": {"points": points, "fit": 0.02}}
+    line = {"free": {"points": points, "fit": 0.004}}
     return spec({"circle": 0.5}, line, caps=FLAT, mesh={"tol": 1e-4}), PI / 4 * radius * turn
 
 
@@ -174,7 +178,10 @@ def made(own, folder):
 
 def main():
     failed = 0
-    for kind in (drawing, cup, relief, table, fitted, neurites, copies, thread):
+    kinds = (drawing, cup, relief, table, fitted, neurites, copies, thread)
+    for kind in kinds:
+        if len(sys.argv) > 3 and kind.__name__ not in sys.argv[3:]:
+            continue
         rng = random.Random(kind.__name__)
         good, worst = 0, 0.0
         for _ in range(COUNT):
