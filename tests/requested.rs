@@ -122,7 +122,8 @@ fn requests_out_of_range_are_refused() {
         ("1e-6", "expected at least 0.0000076"),
         ("much", "expected a number, such as 0.01, or 8bit"),
     ] {
-        let ran = program("pipeline", &["run", "solids", &format!("--error={error}")], folder.path());
+        let ran =
+            program("pipeline", &["run", "solids", &format!("--error={error}")], folder.path());
         assert_eq!(ran.status.code(), Some(2), "{error}");
         assert!(said(&ran).contains(message), "{error}: {}", said(&ran));
     }
