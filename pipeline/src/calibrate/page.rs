@@ -100,7 +100,7 @@ fn plot(scenes: &[SceneCases]) -> Markup {
         svg viewBox={ "0 0 " (width) " " (height) } role="img"
             aria-label="True errors over stated bounds" style="max-width: 100%" {
             line x1=(at(x(SPAN[0]))) y1=(at(y(SPAN[0]))) x2=(at(x(SPAN[1]))) y2=(at(y(SPAN[1])))
-                stroke="currentColor" stroke-opacity="0.5";
+                stroke="currentColor" stroke-opacity="0.5" {}
             text x=(at(width - 10.0)) y=(at(height - 36.0)) text-anchor="end" font-size="12"
                 fill="currentColor" { "stated bound" }
             text x="46" y="20" font-size="12" fill="currentColor" { "true error" }
@@ -112,7 +112,7 @@ fn plot(scenes: &[SceneCases]) -> Markup {
             }
             @for case in cases() {
                 circle cx=(at(x(case.bound))) cy=(at(y(case.truth))) r="3" fill-opacity="0.45"
-                    fill=(if case.requested.is_some() { "#2266cc" } else { "#cc7722" });
+                    fill=(if case.requested.is_some() { "#2266cc" } else { "#cc7722" }) {}
             }
         }
         p { "Blue: requested errors. Brown: audits alone. Smaller true errors than 0.0003 are at the lower edge." }
@@ -146,6 +146,35 @@ fn case_row(case: &Case) -> Markup {
             td { (format!("{:.2}", case.rays[0])) }
             td { (format!("{:.2}", case.rays[1])) }
             td { (format!("{:.2}", case.seconds)) }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A shape that is not closed would contain all that follow, and none of them would be drawn.
+    #[test]
+    fn shapes_of_the_plot_are_closed() {
+        let case = Case {
+            requested: Some(0.01),
+            method: "1 x 1, whole".into(),
+            stated: 0.006,
+            bound: 0.009,
+            missed: false,
+            truth: 0.007,
+            above: false,
+            certainly_above: false,
+            rays: [1.0, 0.2],
+            seconds: 0.5,
+        };
+        let scene = SceneCases { name: "vase".into(), cases: vec![case] };
+        let drawn = page(&[scene], 64);
+        for shape in ["line", "circle", "text"] {
+            let count = |part: &str| drawn.matches(part).count();
+            let (opened, closed) = (count(&format!("<{shape} ")), count(&format!("</{shape}>")));
+            assert!(opened > 0 && opened == closed, "{shape}");
         }
     }
 }

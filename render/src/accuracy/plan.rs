@@ -49,7 +49,7 @@ impl Prospect {
         // The distance from mean to bound falls with the square root of the number of draws.
         let growth = (self.wider * ((self.bound - self.mean) / room).powi(2)).max(1.0);
         (growth <= most)
-            .then(|| Outlook { growth, work: self.rays + POINT * audit * (growth - 1.0) })
+            .then_some(Outlook { growth, work: self.rays + POINT * audit * (growth - 1.0) })
     }
 }
 

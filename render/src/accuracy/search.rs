@@ -41,6 +41,14 @@ const PRINTED: f64 = 2.0 / 3.0;
 /// Draws at each look, in halves of those of the first.
 const SIZES: [usize; RISKS.len()] = [2, 3, 5, 8, 16, 32];
 
+/// Finer rungs that are tried before more pixels are drawn. A few pixels with large errors may spoil the
+/// next rung, and not the one after it.
+const AHEAD: usize = 3;
+
+/// Most times as many draws at the next look, unless no rung suffices with so few. With more, the
+/// audit may take more rays than the picture; on the tube at 0.01 it took up to 8 per pixel.
+const GROWTH: f64 = 3.0;
+
 /// Least printed bound, in requested errors. The number of draws and the noise of true colours suit
 /// the request, and tell little of much smaller errors.
 pub(super) const LEAST_BOUND: f64 = 0.2;
@@ -62,7 +70,10 @@ pub(super) fn by_error(request: &Request<'_, '_>, error: f64) -> Reached {
         if !search.draw(look, error) {
             return search.ended_early();
         }
-        let Some((rung, outlook)) = search.cheapest(at, look, limit) else { break None };
+        let most = SIZES[SIZES.len() - 1] as f64 / SIZES[look] as f64;
+        let few = search.cheapest(at, look, limit, most.min(GROWTH));
+        let best = few.or_else(|| search.cheapest(at, look, limit, most));
+        let Some((rung, outlook)) = best else { break None };
         at = rung;
         if outlook.growth <= 1.0 {
             break Some(rung);
@@ -171,25 +182,32 @@ impl<'q, 'r, 's> Search<'q, 'r, 's> {
         go_on()
     }
 
-    /// Returns the rung with the least predicted work, and its outlook; `None` if no rung suffices.
+    /// Returns the rung with the least predicted work, and its outlook; `None` if no rung suffices with
+    /// at most `most` times as many draws.
     /// The search starts at a rung and goes to finer and coarser ones while these are better.
-    fn cheapest(&mut self, at: usize, look: usize, limit: f64) -> Option<(usize, Outlook)> {
+    fn cheapest(
+        &mut self,
+        at: usize,
+        look: usize,
+        limit: f64,
+        most: f64,
+    ) -> Option<(usize, Outlook)> {
         let last = self.rungs.len() - 1;
-        let (mut rung, mut best) = (at, self.outlook(at, look, limit));
-        while rung < last && best.is_none_or(|best| best.growth > 1.0) {
+        let (mut rung, mut best) = (at, self.outlook(at, look, limit, most));
+        let mut finer = at;
+        while finer < last && finer < rung + AHEAD && best.is_none_or(|best| best.growth > 1.0) {
             // Without an outlook, the rungs in between are looked at on the way back.
             let step = if best.is_some() { 1 } else { jump(mean(&self.values(rung)), limit) };
-            let finer = (rung + step).min(last);
-            let found = self.outlook(finer, look, limit);
-            match (best, found) {
-                (Some(best), Some(found)) if found.work >= best.work => break,
-                (Some(_), None) => break,
-                _ => (rung, best) = (finer, found),
+            finer = (finer + step).min(last);
+            let found = self.outlook(finer, look, limit, most);
+            let cheaper = |found: &Outlook| best.is_none_or(|best| found.work < best.work);
+            if best.is_none() || found.as_ref().is_some_and(cheaper) {
+                (rung, best) = (finer, found);
             }
         }
         let mut best = best?;
         while rung > 0 {
-            let found = self.outlook(rung - 1, look, limit);
+            let found = self.outlook(rung - 1, look, limit, most);
             let Some(found) = found.filter(|found| found.work <= best.work) else { break };
             (rung, best) = (rung - 1, found);
         }
@@ -197,7 +215,7 @@ impl<'q, 'r, 's> Search<'q, 'r, 's> {
     }
 
     /// Tries a rung and predicts the work until its picture is known to suffice.
-    fn outlook(&mut self, rung: usize, look: usize, limit: f64) -> Option<Outlook> {
+    fn outlook(&mut self, rung: usize, look: usize, limit: f64, most: f64) -> Option<Outlook> {
         self.try_out(rung);
         let values = self.values(rung);
         let passed = self.passed.is_some_and(|passed| passed <= rung);
@@ -209,7 +227,6 @@ impl<'q, 'r, 's> Search<'q, 'r, 's> {
         let wider = next.ln() / RISKS[look].ln();
         let rays = self.rays(rung);
         let prospect = Prospect { mean: mean(&values), bound, wider, rays };
-        let most = SIZES[SIZES.len() - 1] as f64 / SIZES[look] as f64;
         prospect.outlook(limit, self.audit_rays() as f64, most)
     }
 
