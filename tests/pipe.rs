@@ -39,6 +39,27 @@ fn the_pipe_in_the_readme_makes_the_picture_that_the_pipeline_makes() {
 }
 
 #[test]
+fn a_transparent_picture_of_a_job_is_that_of_render() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = r#"{ "format": "tb-scene", "version": 1, "background": null,
+        "camera": { "eye": [0, -5, 0], "target": [0, 0, 0], "up": [0, 0, 1], "fov_deg": 30 },
+        "lights": [ { "directional": { "direction": [1, 2, -1], "color": [1, 1, 1] } } ],
+        "materials": { "clay": {} },
+        "objects": [ { "sphere": { "center": [0, 0, 0], "radius": 1 }, "material": "clay" } ] }"#;
+    let job = r#"{ "format": "tb-job", "version": 1, "scene": "ball.json" }"#;
+    fs::write(folder.path().join("ball.json"), scene).unwrap();
+    fs::write(folder.path().join("job.json"), job).unwrap();
+    let line =
+        "render ball.json --size 40x30 -o a.png && pipeline run job.json -q --size 40x30 -o out";
+    let ran = shell(line, folder.path());
+    assert!(ran.status.success(), "{}", said(&ran));
+    let read = |name: &str| fs::read(folder.path().join(name)).unwrap();
+    assert_eq!(read("a.png"), read("out/job-exact.png"));
+    let picture = image::open(folder.path().join("a.png")).unwrap().to_rgba8();
+    assert_eq!((picture.get_pixel(0, 0)[3], picture.get_pixel(20, 15)[3]), (0, 255));
+}
+
+#[test]
 fn the_surface_of_ones_own_in_the_readme_is_swept() {
     let readme = fs::read_to_string(root().join("README.md")).unwrap();
     let spec = readme.split("```json\n").nth(1).and_then(|rest| rest.split("```").next());

@@ -122,7 +122,7 @@ pub fn run_in(
     let scene = run.scene(Fineness::Stated)?;
     // Sweeping and triangulating are stages of their own.
     let read_time = run.stages.get().read;
-    let _reserved = run.reserve_pictures()?;
+    let _reserved = run.reserve_pictures(scene.is_transparent)?;
     let finer = run.finer()?;
     let (prepared, finer) = (Prepared::new(&scene), finer.as_ref().map(Prepared::new));
     let meshes = Meshes::Fine(finer.as_ref());
@@ -187,13 +187,15 @@ impl<'a> Run<'a> {
     }
 
     /// Reserves memory for the pictures of all modes and for the strip of them.
-    fn reserve_pictures(&self) -> Result<Reserved<'static>, MemoryError> {
+    fn reserve_pictures(&self, is_transparent: bool) -> Result<Reserved<'static>, MemoryError> {
         let (width, height) = self.options.size;
         let count = self.job.all_modes().count() as u64;
         let strip = memory::of_pixel(0, Some(Format::Png));
         let searches = self.job.all_modes().any(|mode| mode.error.is_some());
         let first = if searches { BasePicture::of_pixel(PixelFilter::Gaussian) } else { 0 };
-        let pixel = count * (memory::of_pixel(0, None) + strip) + first;
+        // The coverage and its picture.
+        let more = if is_transparent { 16 + 4 } else { 0 };
+        let pixel = count * (memory::of_pixel(0, None) + strip + more) + first;
         let bytes = (u64::from(width) * u64::from(height)).saturating_mul(pixel);
         let what = || format!("{count} pictures of {width}x{height} pixels side by side");
         of_process().reserve(bytes, what)

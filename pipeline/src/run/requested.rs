@@ -12,7 +12,8 @@ use crate::fineness::Fineness;
 use crate::job::Mode;
 use crate::stages::Stages;
 use render::accuracy::{self, Reached, Request, Sources, Statement};
-use render::film::PixelFilter;
+use render::film::{PixelFilter, alpha};
+use render::shade::View;
 use render::stats::Stats;
 use render::{Picture, Prepared, Sampling, Scene, Settings};
 use std::time::{Duration, Instant};
@@ -71,14 +72,18 @@ impl Run<'_> {
         mode: &Mode,
         read_time: Duration,
     ) -> Result<Picture, PipelineError> {
-        let settings = settings(mode, self.options.size);
+        let mut settings = settings(mode, self.options.size);
+        let is_transparent = prepared.scene().is_transparent;
+        if is_transparent {
+            settings.view = View::Foreground;
+        }
         let progress = |done, total| (self.tell)(Event::Progress { mode: &mode.name, done, total });
         let told = |step: &str, done, total| {
             if step == "picture" {
                 progress(done, total);
             }
         };
-        let (picture, mut stats, accuracy) = match (mode.error, mode.sampling) {
+        let (mut picture, mut stats, accuracy) = match (mode.error, mode.sampling) {
             (Some(error), Sampling::Area { pixel_filter, .. }) => {
                 let request = Request::new(prepared, &settings, pixel_filter);
                 let request = Request { progress: &told, ..request };
@@ -97,8 +102,13 @@ impl Run<'_> {
                 (picture, stats, None)
             }
         };
+        if is_transparent {
+            let settings = Settings { view: View::Coverage, ..settings.clone() };
+            let (open, _) = render::render(prepared, &settings, &|_, _| {});
+            alpha::add(&mut picture, &open);
+        }
         let started = Instant::now();
-        let coding = coding::of(self.job, &settings, mode.error);
+        let coding = coding::of(self.job, &settings, mode.error, is_transparent);
         self.write_picture(&self.job.picture_file(mode), &picture, &coding)?;
         stats.read_time = read_time;
         stats.write_time = started.elapsed();

@@ -1,5 +1,6 @@
 //! A finished picture in linear light.
 
+use super::alpha::coverage;
 use super::{Crop, Layer, Settings};
 use crate::color::Color;
 
@@ -83,7 +84,8 @@ impl Picture {
     }
 
     /// Joins pictures from left to right, with `gap` white pixels between neighbours. The pictures
-    /// should have the same height; below a lower picture the result is white.
+    /// should have the same height; below a lower picture the result is white. A picture with coverage is
+    /// shown before white.
     #[must_use]
     pub fn side_by_side(pictures: &[Self], gap: u32) -> Self {
         let height = pictures.iter().map(|picture| picture.height).max().unwrap_or(0);
@@ -96,6 +98,14 @@ impl Picture {
             for (row, pixels) in picture.pixels.chunks_exact(picture.width as usize).enumerate() {
                 let start = row * width as usize + x;
                 strip.pixels[start..start + pixels.len()].copy_from_slice(pixels);
+                if let Some(coverage) = coverage(picture) {
+                    let covered = &coverage[row * picture.width as usize..];
+                    for (pixel, covered) in
+                        strip.pixels[start..].iter_mut().zip(&covered[..pixels.len()])
+                    {
+                        *pixel = pixel.map(|light| light + (1.0 - covered));
+                    }
+                }
             }
             x += (picture.width + gap) as usize;
         }
@@ -106,6 +116,7 @@ impl Picture {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::film::alpha;
 
     #[test]
     fn pictures_stand_side_by_side() {
@@ -115,6 +126,15 @@ mod tests {
         let shown: Vec<f32> = strip.pixels.iter().map(|pixel| pixel[0]).collect();
         assert_eq!((strip.width, strip.height), (4, 2));
         assert_eq!(shown, [0.0, 1.0, 0.0, 0.0, 0.5, 1.0, 0.0, 0.0]);
+    }
+
+    #[test]
+    fn a_picture_with_coverage_stands_before_white() {
+        let mut left = Picture::black(2, 1);
+        left.pixels[1] = [0.25; 3];
+        left.channels.push(Channel { name: alpha::NAME, values: vec![0.0, 0.5] });
+        let strip = Picture::side_by_side(&[left, Picture::black(1, 1)], 0);
+        assert_eq!(strip.pixels, [[1.0; 3], [0.75; 3], [0.0; 3]]);
     }
 
     #[test]
