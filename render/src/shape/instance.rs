@@ -267,25 +267,25 @@ mod tests {
             let [mine, copied] =
                 [instance.uv_gradients(triangle), copy.uv_gradients(triangle)];
             let changes = instance.changes(triangle, own, along);
-            for k in 0..2 {
-                let du = DVec2::from(mine.map(|gradient| gradient.dot(along[k])));
-                let others = DVec2::from(copied.map(|gradient| gradient.dot(along[k])));
+            for (step, change) in along.iter().zip(changes.uv) {
+                let du = DVec2::from(mine.map(|gradient| gradient.dot(*step)));
+                let others = DVec2::from(copied.map(|gradient| gradient.dot(*step)));
                 let size = 1.0 + mine[0].length() + mine[1].length();
                 prop_assert!(du.distance(others) < 1e-3 * size * size, "{du} {others}");
-                prop_assert!(changes.uv[k].distance(du) < 1e-9 * size);
+                prop_assert!(change.distance(du) < 1e-9 * size);
             }
             // The change of the normal is the derivative along the step, by differences.
             let to_own = placement.to_own();
             let corners = mesh().corners(triangle).map(as_dvec3);
             let sides = DMat3::from_cols(
                 corners[1] - corners[0], corners[2] - corners[0], mesh().normal(triangle));
-            for k in 0..2 {
-                let size = to_own.transform_vector3(along[k]).length();
-                let h = 1e-6 / (1.0 + size);
-                let moved = sides.inverse() * (h * to_own.transform_vector3(along[k]));
+            for (step, change) in along.iter().zip(changes.normal) {
+                let own = to_own.transform_vector3(*step);
+                let h = 1e-6 / (1.0 + own.length());
+                let moved = sides.inverse() * (h * own);
                 let there = instance.surface_point(triangle, [b + moved.x, c + moved.y]);
                 let truth = (there.shading_normal - one.shading_normal) / h;
-                prop_assert!(truth.distance(changes.normal[k]) < 1e-3 * (1.0 + truth.length()));
+                prop_assert!(truth.distance(change) < 1e-3 * (1.0 + truth.length()));
             }
         }
     }
