@@ -79,6 +79,10 @@ fn mended(reader: Reader, bytes: &[u8]) -> Vec<u8> {
         | Reader::Svg
         | Reader::Areas
         | Reader::Obj
+        | Reader::Stl
+        | Reader::Ply
+        | Reader::Glb
+        | Reader::Gltf
         | Reader::Mtl
         | Reader::Scene
         | Reader::Part
