@@ -137,7 +137,6 @@ fn tetrahedron(file: &MeshFile) -> Mesh {
     Mesh {
         positions: vec![[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [0., 0., 1.]],
         uvs: vec![[0., 0.], [1., 0.], [0., 1.], [1., 1.]],
-        normals: vec![],
         triangles: [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]].map(corner).to_vec(),
         surfaces: vec![surface(true), surface(false)],
         ..Mesh::default()
