@@ -45,7 +45,7 @@ pub struct RunArguments {
     /// mean square in linear light, or 8bit for half a code of an 8-bit picture
     #[arg(long, value_name = "E|8bit", value_parser = accuracy::error, conflicts_with = "modes")]
     error: Option<f64>,
-    /// Set a value of the job, of its scene or of a spec: -D scene.camera.fov_deg=35, or
+    /// Set a value of the job, of its scene or of a spec: -D scene.ambient=0.5, or
     /// -D specs.MESH.contour.circle=2; may be given several times
     #[arg(short = 'D', value_name = "PATH=VALUE")]
     settings: Vec<Setting>,

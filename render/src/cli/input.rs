@@ -19,7 +19,7 @@ pub struct InputArguments {
     /// A mesh for the scene: its name in the scene, and an OBJ, STL, PLY or glTF file or - for standard input
     #[arg(long = "mesh", value_name = "NAME=FILE", value_parser = mesh_argument)]
     meshes: Vec<MeshArgument>,
-    /// Set a value of the scene: -D camera.fov_deg=35; may be given several times
+    /// Set a value of the scene: -D ambient=0.5; may be given several times
     #[arg(short = 'D', value_name = "PATH=VALUE")]
     settings: Vec<Setting>,
     /// Render nothing: print the contents of the scene, and what is wrong or suspicious, on standard
