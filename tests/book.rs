@@ -109,7 +109,8 @@ fn a_figure_by_its_number_is_the_mode_of_its_page() {
         files
     };
     for job in pages::in_order().unwrap().iter().filter(|job| !job.figures().is_empty()) {
-        let whole = make(&[&job.name], &format!("whole-{}", job.name));
+        // A page that is named once and alone has a picture of a requested error too.
+        let whole = make(&[&job.name, &job.name], &format!("whole-{}", job.name));
         let mut figures: Vec<String> = Vec::new();
         for mode in job.modes.iter().filter(|mode| mode.figure.is_some()) {
             let figure = mode.figure.clone().unwrap();

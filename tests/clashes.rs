@@ -238,7 +238,7 @@ fn a_name_that_belongs_to_another_format_is_refused() {
             ("sweep spec.json -o a.json", "expected .grid"),
             ("sweep spec.json --format json -o a.stl", "expected .grid or .json"),
             ("sweep spec.json --preview a.png", "a.png would hold an SVG drawing"),
-            ("triangulate rod.grid -o a.glb", "a.glb would hold an OBJ mesh"),
+            ("triangulate rod.grid -o a.jpg", "a.jpg would hold an OBJ mesh"),
             ("triangulate rod.grid -o a.png", "expected .obj"),
             ("triangulate rod.grid -o a.grid", "expected .obj"),
             ("triangulate rod.grid -o a.obj --report b.obj", "b.obj would hold a JSON report"),

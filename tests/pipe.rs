@@ -45,7 +45,7 @@ fn a_transparent_picture_of_a_job_is_that_of_render() {
         "camera": { "eye": [0, -5, 0], "target": [0, 0, 0], "up": [0, 0, 1], "fov_deg": 30 },
         "lights": [ { "directional": { "direction": [1, 2, -1], "color": [1, 1, 1] } } ],
         "materials": { "clay": {} },
-        "objects": [ { "sphere": { "center": [0, 0, 0], "radius": 1 }, "material": "clay" } ] }"#;
+        "objects": [ { "sphere": { "center": [0, 0, 0], "radius": 1, "material": "clay" } } ] }"#;
     let job = r#"{ "format": "tb-job", "version": 1, "scene": "ball.json" }"#;
     fs::write(folder.path().join("ball.json"), scene).unwrap();
     fs::write(folder.path().join("job.json"), job).unwrap();

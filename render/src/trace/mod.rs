@@ -103,13 +103,8 @@ fn followed([mirrored, refracted]: [Color; 2], worth_it: impl Fn(Color) -> bool)
     match (worth_it(mirrored), worth_it(refracted)) {
         (true, true) => [mirrored, refracted],
         (false, false) if !worth_it(both) => [mirrored, refracted],
-        (keeps, other) if keeps != other => {
-            if keeps {
-                [both, Color::ZERO]
-            } else {
-                [Color::ZERO, both]
-            }
-        }
+        (true, false) => [both, Color::ZERO],
+        (false, true) => [Color::ZERO, both],
         _ if mirrored.max_element() > refracted.max_element() => [both, Color::ZERO],
         _ => [Color::ZERO, both],
     }
