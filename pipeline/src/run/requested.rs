@@ -138,7 +138,9 @@ impl Run<'_> {
     ) -> Result<(Reached, Option<f64>), PipelineError> {
         let allowed = SHARE * error * error;
         let mut pixels = (FIRST * error).clamp(RANGE[0], RANGE[1]);
-        for trial in 1.. {
+        let mut trials = 0;
+        loop {
+            trials += 1;
             let scenes = [Fineness::Pixels(pixels), Fineness::Truth(pixels)];
             let [scene, truth] = scenes.map(|fineness| self.scene(fineness));
             let (scene, truth) = (scene?, truth?);
@@ -146,7 +148,7 @@ impl Run<'_> {
             let request = Request::new(&prepared, settings, pixel_filter);
             let request = Request { truth: &fine, finer: Some(&fine), progress, ..request };
             let found = accuracy::apart(&request, error);
-            if found <= allowed || trial == TRIALS {
+            if found <= allowed || trials == TRIALS {
                 let counted = self.kinds.get().counted;
                 let finest = counted.then(|| self.scene(Fineness::Finest(pixels))).transpose()?;
                 let finest = finest.as_ref().map(Prepared::new);
@@ -157,6 +159,5 @@ impl Run<'_> {
             // Squared errors grow with the square of the distance.
             pixels *= (AIM * allowed / found).sqrt().clamp(0.125, 0.7);
         }
-        unreachable!("the last trial returns")
     }
 }
