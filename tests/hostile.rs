@@ -218,7 +218,7 @@ fn no_complaint_about_an_example_names_a_type_of_rust() {
                 let Some(said) = complaint(format, &mutant.to_string()) else { return };
                 seen += 1;
                 let expected = said.rsplit_once(", expected ").map_or(said.as_str(), |(_, e)| e);
-                // A key of specs has the name of a type.
+                // `unit` is also a key of specs.
                 let expected = expected.replace("`unit`", "");
                 for rust in rusts {
                     assert!(!expected.contains(rust), "{}: {said}", path.display());

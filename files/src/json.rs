@@ -6,13 +6,11 @@
 //! (a radius must be positive) go through [`Document::fault`], which finds the position from the path.
 
 mod mistakes;
+mod path;
 
 pub use crate::words::nearest;
 
 use crate::{Exit, Failure, words};
-use jsonc_parser::ast::Value;
-use jsonc_parser::common::Ranged;
-use jsonc_parser::{CollectOptions, ParseOptions, parse_to_ast};
 use mistakes::Mistake;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
@@ -131,7 +129,7 @@ impl<'a> Document<'a> {
     /// exists.
     #[must_use]
     pub fn fault(&self, path: &str, message: impl Into<String>) -> JsonError {
-        let offset = offset_of(self.text, path).unwrap_or(0);
+        let offset = path::offset_of(self.text, path).unwrap_or(0);
         let (line, column) = place(&self.text[..offset]);
         JsonError {
             file: self.file.into(),
@@ -159,11 +157,16 @@ impl<'a> Document<'a> {
         let message = match message {
             // serde's message when, for example, a point of three numbers has a fourth.
             "trailing characters" if !path.is_empty() => "found more values than expected".into(),
+            // serde's message for another value in place of a name.
+            "expected value" if !path.is_empty() => match path::kind_at(self.text, &path) {
+                Some(kind) => format!("found {kind}, expected a name in quotes"),
+                None => words::plain(message),
+            },
             _ => words::plain(message),
         };
         // serde's column is where reading stopped. The position of the value itself is better, provided
         // the text is complete enough to find it.
-        if !path.is_empty() && (error.is_data() || message.starts_with("found more")) {
+        if !path.is_empty() && (error.is_data() || message.starts_with("found ")) {
             let fault = self.fault(&path, message.as_str());
             if (fault.line, fault.column) != (1, 1) {
                 return fault;
@@ -228,31 +231,6 @@ fn push_key(text: &mut String, key: &str) {
     text.push_str(key);
 }
 
-/// Returns the byte offset of the value at `path`, or of the deepest value on the path that exists.
-fn offset_of(text: &str, path: &str) -> Option<usize> {
-    let parsed = parse_to_ast(text, &CollectOptions::default(), &ParseOptions::default()).ok()?;
-    let root = parsed.value?;
-    let mut value = &root;
-    for step in path.split(['.', '[']).filter(|step| !step.is_empty()) {
-        let next = match (value, step.strip_suffix(']')) {
-            (Value::Array(array), Some(index)) => {
-                index.parse().ok().and_then(|index: usize| array.elements.get(index))
-            }
-            (Value::Object(object), None) => object
-                .properties
-                .iter()
-                .find(|property| property.name.as_str() == step)
-                .map(|property| &property.value),
-            _ => None,
-        };
-        match next {
-            Some(found) => value = found,
-            None => break,
-        }
-    }
-    Some(value.start())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -287,6 +265,25 @@ mod tests {
             complaint(text),
             "a.json:2:24: contour.free[1][1]: found the string \"x\", expected a number"
         );
+    }
+
+    #[test]
+    fn a_value_in_place_of_a_name_is_named() {
+        #[derive(Debug, Deserialize)]
+        #[serde(rename_all = "snake_case")]
+        enum Side {
+            Left,
+        }
+        for (value, found) in
+            [("-1", "a number"), ("[]", "a list"), ("null", "null"), ("true", "true")]
+        {
+            let text = format!("{{\"side\":\n {value}}}");
+            let document = Document::new("a.json", text.as_bytes()).unwrap();
+            let error = document.parse::<std::collections::BTreeMap<String, Side>>().unwrap_err();
+            let expected = format!("a.json:2:2: side: found {found}, expected a name in quotes");
+            assert_eq!(error.to_string(), expected);
+        }
+        assert!(matches!(serde_json::from_str("\"left\""), Ok(Side::Left)));
     }
 
     #[test]
