@@ -52,7 +52,7 @@
 //! | [`ply`]          | the mesh as binary PLY                                       |
 //! | [`glb`]          | the mesh as binary glTF                                      |
 //! | [`threemf`]      | the mesh as 3MF                                              |
-//! | [`unit`]         | units of length                                              |
+//! | [`mod@unit`]     | units of length                                              |
 
 pub mod area_file;
 mod areas;

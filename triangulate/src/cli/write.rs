@@ -4,8 +4,8 @@ use super::Arguments;
 use super::grid::Grid;
 use std::io::{BufRead, Write};
 use triangulate::{
-    Counts, Format, Material, ObjWriter, Patches, TriMesh, TriangulateError, Unit, write_3mf,
-    write_glb, write_ply, write_stl,
+    Counts, Format, Material, ObjWriter, Patches, TriMesh, TriangulateError, write_3mf, write_glb,
+    write_ply, write_stl,
 };
 
 /// The result of writing a mesh.
@@ -31,7 +31,7 @@ pub fn write(
         Format::Ply => write_whole(arguments, grid, |mesh| write_ply(mesh, out)),
         Format::Glb => write_whole(arguments, grid, |mesh| write_glb(mesh, arguments.unit, out)),
         Format::ThreeMf => {
-            let unit = arguments.unit.unwrap_or(Unit::default());
+            let unit = arguments.unit.unwrap_or_default();
             write_whole(arguments, grid, |mesh| write_3mf(mesh, unit, out))
         }
     }
