@@ -154,19 +154,20 @@ impl<'a> Document<'a> {
     fn serde_error(&self, path: String, error: &serde_json::Error) -> JsonError {
         let message = error.to_string();
         let message = message.rsplit_once(" at line ").map_or(message.as_str(), |(text, _)| text);
-        let message = match message {
+        let of_value = match message {
+            _ if path.is_empty() => None,
             // serde's message when, for example, a point of three numbers has a fourth.
-            "trailing characters" if !path.is_empty() => "found more values than expected".into(),
+            "trailing characters" => Some("found more values than expected".into()),
             // serde's message for another value in place of a name.
-            "expected value" if !path.is_empty() => match path::kind_at(self.text, &path) {
-                Some(kind) => format!("found {kind}, expected a name in quotes"),
-                None => words::plain(message),
-            },
-            _ => words::plain(message),
+            "expected value" => path::kind_at(self.text, &path)
+                .map(|kind| format!("found {kind}, expected a name in quotes")),
+            _ => None,
         };
+        let is_of_value = error.is_data() || of_value.is_some();
+        let message = of_value.unwrap_or_else(|| words::plain(message));
         // serde's column is where reading stopped. The position of the value itself is better, provided
         // the text is complete enough to find it.
-        if !path.is_empty() && (error.is_data() || message.starts_with("found ")) {
+        if !path.is_empty() && is_of_value {
             let fault = self.fault(&path, message.as_str());
             if (fault.line, fault.column) != (1, 1) {
                 return fault;

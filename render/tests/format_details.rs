@@ -196,3 +196,27 @@ fn lost_parts_and_small_faces_of_an_obj_cost_only_themselves() {
     ];
     assert_eq!(unused(&found), expected);
 }
+
+/// Found by the fuzzer: a picture without any data, and colours below 0.
+#[test]
+fn a_picture_without_data_is_remarked_and_colors_are_within_their_range() {
+    let rows = [0., 0., 0., 1., 0., 0., 0., 1., 0., -1., 0.5, 2., 1., 1., 1., 0., 0., 0.0_f32];
+    let bytes: Vec<u8> = rows.iter().flat_map(|x| x.to_le_bytes()).collect();
+    let json = json!({
+        "asset": { "version": "2.0" }, "nodes": [{ "mesh": 0 }],
+        "meshes": [{ "primitives": [
+            { "attributes": { "POSITION": 0, "COLOR_0": 1 }, "material": 0 } ] }],
+        "materials": [{ "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 },
+            "metallicFactor": 0 } }],
+        "textures": [{ "source": 0 }], "images": [{}],
+        "accessors": [
+            { "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3" },
+            { "bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC3" } ],
+        "bufferViews": [
+            { "buffer": 0, "byteLength": 36 }, { "buffer": 0, "byteOffset": 36, "byteLength": 36 } ],
+        "buffers": [{ "byteLength": 72 }],
+    });
+    let found = read("a.glb", &glb(&json, &bytes));
+    assert_eq!(found.mesh.colors[0], [0.0, 0.5, 1.0]);
+    assert_eq!(unused(&found), [("textures without a picture that is read", 1)]);
+}

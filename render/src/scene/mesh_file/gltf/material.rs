@@ -11,8 +11,11 @@ use crate::texture::{Alpha, Wrap};
 use glam::{DVec2, dvec2};
 use gltf::material::AlphaMode;
 use gltf::texture::{Texture, WrappingMode};
-use gltf::{Document, Material, image};
+use gltf::{Document, Material};
 use std::collections::{BTreeMap, HashSet};
+
+/// The remark on textures without a picture.
+const NO_PICTURE: &str = "textures without a picture that is read";
 
 /// The material of surfaces that name none.
 const DEFAULT: &str = "default";
@@ -160,7 +163,7 @@ impl Materials {
             document.images().nth(usize::try_from(source).ok()?)
         };
         let Some(image) = texture.source().or_else(webp) else {
-            self.unused.push("textures without a picture that is read");
+            self.unused.push(NO_PICTURE);
             return Ok(None);
         };
         let wrap = match texture.sampler().wrap_s() {
@@ -169,21 +172,25 @@ impl Materials {
             WrappingMode::MirroredRepeat => Wrap::Mirror,
         };
         let inside = format!("{}#image{}", uri::name(file), image.index());
-        let bytes = match image.source() {
-            image::Source::View { view, .. } => Some(numbers.view(&view)?.to_vec()),
-            image::Source::Uri { uri, .. } if uri::is_data(uri) => {
-                let at = format!("images[{}].uri", image.index());
-                Some(uri::data(uri, &at)?)
+        // The crate's own function asks for a MIME type, which the bytes tell too.
+        let json = &document.as_json().images[image.index()];
+        let view = json.buffer_view.and_then(|view| document.views().nth(view.value()));
+        let bytes = match (view, &json.uri) {
+            (Some(view), _) => numbers.view(&view)?.to_vec(),
+            (None, Some(uri)) if uri::is_data(uri) => {
+                uri::data(uri, &format!("images[{}].uri", image.index()))?
             }
-            image::Source::Uri { uri, .. } => {
+            (None, Some(uri)) => {
                 let map =
                     Map { path: uri::path(uri), scale: DVec2::ONE, offset: DVec2::ZERO, wrap };
                 return Ok(Some(map));
             }
+            (None, None) => {
+                self.unused.push(NO_PICTURE);
+                return Ok(None);
+            }
         };
-        if let Some(bytes) = bytes {
-            self.pictures.entry(inside.clone()).or_insert(bytes);
-        }
+        self.pictures.entry(inside.clone()).or_insert(bytes);
         Ok(Some(Map { path: inside, scale: DVec2::ONE, offset: DVec2::ZERO, wrap }))
     }
 }

@@ -276,7 +276,7 @@ impl Reader<'_> {
         self.colored += if colors.is_some() { count } else { 0 };
         match colors {
             Some(colors) => {
-                let color = |color: [f64; 3]| color.map(|x| x as f32);
+                let color = |color: [f64; 3]| color.map(|x| x.clamp(0.0, 1.0) as f32);
                 mesh.colors.extend(colors.into_iter().map(color));
             }
             None => mesh.colors.extend(std::iter::repeat_n([1.0; 3], positions.len())),
