@@ -275,9 +275,12 @@ mod tests {
         enum Side {
             Left,
         }
-        for (value, found) in
-            [("-1", "a number"), ("[]", "a list"), ("null", "null"), ("true", "true")]
-        {
+        for (value, found) in [
+            ("-1", "a number"),
+            ("[]", "a list"),
+            ("true", "true"),
+            ("{}", "an object without a name"),
+        ] {
             let text = format!("{{\"side\":\n {value}}}");
             let document = Document::new("a.json", text.as_bytes()).unwrap();
             let error = document.parse::<std::collections::BTreeMap<String, Side>>().unwrap_err();

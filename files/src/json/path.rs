@@ -29,7 +29,8 @@ pub(super) fn offset_of(text: &str, path: &str) -> Option<usize> {
     Some(value.start())
 }
 
-/// Returns the kind of the value at a path, if the text is complete and the value is neither text nor an object.
+/// Returns the kind of the value at a path, if the text is complete and the value is not text. An
+/// object is one without keys, since others are names with values.
 pub(super) fn kind_at(text: &str, path: &str) -> Option<&'static str> {
     let offset = offset_of(text, path)?;
     match text[offset..].chars().next()? {
@@ -38,6 +39,7 @@ pub(super) fn kind_at(text: &str, path: &str) -> Option<&'static str> {
         'f' => Some("false"),
         'n' => Some("null"),
         '[' => Some("a list"),
+        '{' => Some("an object without a name"),
         _ => None,
     }
 }
