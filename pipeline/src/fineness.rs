@@ -19,9 +19,9 @@ const FINER: f64 = 8.0;
 pub enum Fineness {
     /// As specs and jobs state it.
     Stated,
-    /// Those with a tolerance within this many pixels.
+    /// Meshes with a tolerance stay within this many pixels of their surface.
     Pixels(f64),
-    /// Those with a tolerance eight times finer than within this many pixels.
+    /// Meshes with a tolerance stay within an eighth of this many pixels.
     Truth(f64),
     /// All of them eight times finer.
     Finest(f64),

@@ -11,7 +11,7 @@
 //! `surface`, since a `model` must be a solid. Normals, picture coordinates and ids are left out.
 //! Coordinates have the fewest digits that give their `f32` back.
 //!
-//! The same mesh gives the same bytes: entries have no time of their own, but that at which ZIP begins.
+//! The same mesh gives the same bytes: every entry of the ZIP has the time 1980-01-01 00:00.
 //!
 //! Source: "3MF Core Specification" 1.3, 3MF Consortium, 2021.
 

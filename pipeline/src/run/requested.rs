@@ -39,7 +39,7 @@ const AIM: f64 = 0.7;
 pub(super) enum Meshes<'m, 's> {
     /// As they are stated. The light on them is true.
     Stated,
-    /// Those with a tolerance are made anew. Without such meshes, this scene has finer ones.
+    /// Meshes with a tolerance are made anew. If no mesh has one, this scene has finer meshes.
     Fine(Option<&'m Prepared<'s>>),
 }
 

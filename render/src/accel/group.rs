@@ -36,7 +36,7 @@ pub struct Group<'a, 'b, F> {
     pub accel: &'a Accel<'b>,
     /// The rays that the caller gave, each with the distance within which its hits count.
     pub rays: &'a [(Ray, f64)],
-    /// Those of the rays that are traced together.
+    /// The rays of `rays` that are traced together.
     pub lanes: Lanes,
     /// Takes the index of a ray among those that the caller gave, and a hit, and returns the next
     /// distance.

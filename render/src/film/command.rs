@@ -1,7 +1,7 @@
 //! The command that makes a picture, for picture files.
 //!
-//! It has the flags on which the picture depends, in one order, so that files of the same picture are
-//! equal. It has no folders, threads, times or names of output files. A mesh that is given is written as
+//! The command lists the flags on which the picture depends, always in the same order, so that files of
+//! the same picture are equal. The command has no folders, threads, times or names of output files. A mesh that is given is written as
 //! a file of its name.
 
 use super::encode::Bits;
