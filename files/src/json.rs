@@ -152,6 +152,19 @@ impl<'a> Document<'a> {
     }
 
     fn serde_error(&self, path: String, error: &serde_json::Error) -> JsonError {
+        let stopped = self.offset_of(error.line(), error.column());
+        if !error.is_data()
+            && let Some(Mistake { offset, message }) = mistakes::find(self.text, stopped)
+        {
+            let (line, column) = place(&self.text[..offset]);
+            return JsonError {
+                file: self.file.into(),
+                line,
+                column,
+                path: String::new(),
+                message,
+            };
+        }
         let message = error.to_string();
         let message = message.rsplit_once(" at line ").map_or(message.as_str(), |(text, _)| text);
         let of_value = match message {
@@ -172,19 +185,6 @@ impl<'a> Document<'a> {
             if (fault.line, fault.column) != (1, 1) {
                 return fault;
             }
-        }
-        let stopped = self.offset_of(error.line(), error.column());
-        if !error.is_data()
-            && let Some(Mistake { offset, message }) = mistakes::find(self.text, stopped)
-        {
-            let (line, column) = place(&self.text[..offset]);
-            return JsonError {
-                file: self.file.into(),
-                line,
-                column,
-                path: String::new(),
-                message,
-            };
         }
         let (line, column) = place(&self.text[..stopped]);
         JsonError {
