@@ -75,12 +75,16 @@ pub enum Values {
 }
 
 /// The use of a picture's alpha channel.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Alpha {
     /// Transparent texels cut out the surface.
     #[default]
     Cut,
+    /// Texels cut out the surface if their code of 16 bits is below this one, and are opaque otherwise. Only
+    /// glTF files ask for this.
+    #[serde(skip)]
+    From(u16),
     /// All texels are opaque.
     Ignore,
 }

@@ -184,7 +184,12 @@ fn vertices_have_their_colours() {
             }
         }
     }
-    let unused = square("{}", r#", "material": "m""#, SQUARE);
+    // A material that states no colour shows them, and one that states a colour does not.
+    let pictures = [vertex, r#"{ "diffuse": 0 }"#].map(|material| {
+        rendered(&square(material, r#", "material": "m""#, SQUARE), &["--size", "32x32"])
+    });
+    assert!(pictures[0] == pictures[1]);
+    let unused = square(r#"{ "color": 1 }"#, r#", "material": "m""#, SQUARE);
     let run = unused.run(&["scene.json", "-o", "out.png", "--size", "4x4"], b"");
     let (_, said) = ending(&run);
     let remark =

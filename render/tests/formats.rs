@@ -331,7 +331,8 @@ fn a_base_color_is_linear_and_what_is_not_shown_is_named() {
     let (mut json, bytes) = square();
     json["materials"][0] = json!({
         "pbrMetallicRoughness": { "baseColorFactor": [1.0, 0.5, 0.0, 0.25] },
-        "normalTexture": { "index": 0 }, "emissiveFactor": [1.0, 0.0, 0.0] });
+        "occlusionTexture": { "index": 0 }, "emissiveFactor": [1.0, 0.0, 0.0],
+        "emissiveTexture": { "index": 0 } });
     json["images"][0] = json!({ "uri": "lost.png" });
     json["extensionsUsed"] = json!(["KHR_lights_punctual"]);
     json["nodes"][0]["skin"] = json!(0);
@@ -339,7 +340,7 @@ fn a_base_color_is_linear_and_what_is_not_shown_is_named() {
     let (found, said) = quarters("a.glb", &glb(&json, &bytes), &[]);
     // Half of the light has the code 188 in sRGB. The alpha counts only in a material that blends.
     assert_eq!(found, [[255, 188, 0]; 4]);
-    let expected = "remark: a.glb: not used: emitted light, extension KHR_lights_punctual, metallic \
-                    and roughness, normal textures, skins";
+    let expected = "remark: a.glb: not used: emitted light with a picture, extension \
+                    KHR_lights_punctual, metallic and roughness, occlusion textures, skins";
     assert!(said.contains(expected), "{said}");
 }

@@ -17,6 +17,7 @@ mod exact;
 mod exact_filter;
 mod examples;
 mod foreign;
+mod foreign_reliefs;
 mod format_complaints;
 mod format_details;
 mod formats;

@@ -28,7 +28,8 @@ mod heights;
 mod snap;
 
 pub use ease::Ease;
-pub(crate) use graph::{is_graph, parameter};
+pub use graph::is_graph;
+pub(crate) use graph::parameter;
 pub(crate) use heights::Heights;
 
 use crate::curve::Cubic;
@@ -62,18 +63,21 @@ impl Law {
     }
 
     /// Returns a law through keys `[at, value]`: at least one, with `at` strictly rising.
-    pub(crate) fn keys(keys: Vec<[f64; 2]>, ease: Ease) -> Self {
+    #[must_use]
+    pub fn keys(keys: Vec<[f64; 2]>, ease: Ease) -> Self {
         Self(Form::Keys { keys, ease })
     }
 
     /// Returns a law with a graph of cubics of points `(at, value)`: at least one, which meet and along which
     /// `at` does not fall.
-    pub(crate) fn bezier(segments: Vec<Cubic<DVec2>>) -> Self {
+    #[must_use]
+    pub fn bezier(segments: Vec<Cubic<DVec2>>) -> Self {
         Self(Form::Bezier(segments))
     }
 
     /// Returns a linear law from 0 at the start to `value` at the end.
-    pub(crate) fn total(value: f64) -> Self {
+    #[must_use]
+    pub fn total(value: f64) -> Self {
         Self::keys(vec![[0.0, 0.0], [1.0, value]], Ease::Linear)
     }
 

@@ -5,6 +5,8 @@
 //! therefore widens highlights and reflections instead of sparkling.
 
 use super::bump::{Bump, Place, Relief};
+use super::moments::SurfaceSlope;
+use super::normal_map::{tangent_changes, tangents};
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
 /// Inverse of the variance of a number that is spread evenly over a range of length 1.
@@ -116,26 +118,20 @@ impl Bump {
             }
             Relief::Picture(heights) => {
                 let slope = heights.slope(place.uv, changes.uv);
-                let [along_u, along_v] = place.uv_gradients;
-                let gradient = slope.mean.x * along_u + slope.mean.y * along_v;
-                let of_relief = changes.uv.map(|step| {
-                    let change = slope.curvature * step;
-                    change.x * along_u + change.y * along_v
-                });
-                let all = [0, 1].map(|k| {
-                    let [of_u, of_v] = changes.uv_gradients[k];
-                    of_relief[k] + slope.mean.x * of_u + slope.mean.y * of_v
-                });
-                let by_uv = [slope.covariance.x_axis, slope.covariance.y_axis];
-                let [by_u, by_v] = by_uv.map(|column| column.x * along_u + column.y * along_v);
-                let covariance = outer(by_u, along_u) + outer(by_v, along_v);
-                return along_surface(
-                    place.normal,
-                    changes.normal,
-                    gradient,
-                    (all, of_relief),
-                    covariance,
+                return over_coordinates(
+                    place,
+                    changes,
+                    &slope,
+                    place.uv_gradients,
+                    changes.uv_gradients,
                 );
+            }
+            Relief::Normals(map) => {
+                let slope = map.slope(place.uv, changes.uv);
+                let along = tangents(place.uv_gradients);
+                let of_along =
+                    changes.uv_gradients.map(|change| tangent_changes(place.uv_gradients, change));
+                return over_coordinates(place, changes, &slope, along, of_along);
             }
         };
         let gradient = self.placement.gradient(slope.mean);
@@ -148,6 +144,31 @@ impl Bump {
         let covariance = DMat3::IDENTITY * (stretch * slope.variance);
         along_surface(place.normal, changes.normal, gradient, (of_relief, of_relief), covariance)
     }
+}
+
+/// Returns the perturbation of a picture with this slope. `along` are the vectors by which slopes
+/// are multiplied, and `of_along` their changes, as `[change][coordinate]`.
+fn over_coordinates(
+    place: &Place,
+    changes: &PlaceChanges,
+    slope: &SurfaceSlope,
+    along: [DVec3; 2],
+    of_along: [[DVec3; 2]; 2],
+) -> Perturbation {
+    let [along_u, along_v] = along;
+    let gradient = slope.mean.x * along_u + slope.mean.y * along_v;
+    let of_relief = changes.uv.map(|step| {
+        let change = slope.curvature * step;
+        change.x * along_u + change.y * along_v
+    });
+    let all = [0, 1].map(|k| {
+        let [of_u, of_v] = of_along[k];
+        of_relief[k] + slope.mean.x * of_u + slope.mean.y * of_v
+    });
+    let by_uv = [slope.covariance.x_axis, slope.covariance.y_axis];
+    let [by_u, by_v] = by_uv.map(|column| column.x * along_u + column.y * along_v);
+    let covariance = outer(by_u, along_u) + outer(by_v, along_v);
+    along_surface(place.normal, changes.normal, gradient, (all, of_relief), covariance)
 }
 
 /// Returns a place and its changes in own space, as [`Bump::normal`] does.
@@ -215,24 +236,31 @@ fn longest([a, b]: [DVec3; 2]) -> f64 {
 mod tests {
     use super::*;
     use crate::procedural::wall::Wall;
-    use crate::procedural::{Heights, Interpolation, Noise, NoiseLattice, Octaves, Placement};
+    use crate::procedural::{
+        Heights, Interpolation, Noise, NoiseLattice, NormalMap, Octaves, Placement,
+    };
     use proptest::prelude::*;
     use std::sync::Arc;
 
     /// A bump of each relief.
-    fn bumps() -> [Bump; 5] {
+    fn bumps() -> [Bump; 6] {
         let noise =
             Noise { lattice: Arc::new(NoiseLattice::new()), interpolation: Interpolation::Smooth };
         let octaves = Octaves { noise: noise.clone(), count: 3 };
         let wall = Wall { clamp: [-0.2, 0.3], rough: 0.2, frequency: 4.0, noise: noise.clone() };
         let values = (0..35).map(|i| f64::from(i * i * 37 % 101) / 100.0).collect();
         let heights = Heights::new(values, 7, DVec2::new(2.0, 3.0), false).unwrap();
+        let code = |k: i32| f64::from(k * k * 37 % 101) / 101.0;
+        let normal = |k: i32| DVec3::new(code(k) - 0.5, code(k + 1) - 0.5, 1.0);
+        let normals = (0..35).map(normal).collect();
+        let normals = NormalMap::new(normals, 7, DVec2::new(2.0, -3.0)).unwrap();
         [
             Relief::Noise(octaves.clone()),
             Relief::Turbulence(octaves),
             Relief::Wall(wall),
             Relief::Dnoise(noise),
             Relief::Picture(heights),
+            Relief::Normals(normals),
         ]
         .map(|relief| {
             let placement = Placement::new(0.3, DVec3::new(0.1, 0.2, 0.3), DVec3::ONE);

@@ -12,6 +12,7 @@
 
 use super::heights::Heights;
 use super::noise::Noise;
+use super::normal_map::{NormalMap, tangents};
 use super::placement::Placement;
 use super::turbulence::Octaves;
 use super::wall::Wall;
@@ -23,7 +24,7 @@ pub struct Bump {
     /// The perturbation.
     pub relief: Relief,
     /// `k`. For heights it is the length of a height of 1, in the object's own space; a negative
-    /// value makes dents. For `dnoise` it is a plain factor.
+    /// value makes dents. For `dnoise` and for the slopes of a normal map it is a plain factor.
     pub strength: f64,
     /// Position of the relief in the object.
     pub placement: Placement,
@@ -50,6 +51,8 @@ pub enum Relief {
     Dnoise(Noise),
     /// A picture as heights over texture coordinates.
     Picture(Heights),
+    /// A picture of normals over texture coordinates.
+    Normals(NormalMap),
 }
 
 /// A point whose normal is perturbed, in scene space.
@@ -70,17 +73,18 @@ impl Bump {
     #[must_use]
     pub fn wants_uv(&self) -> bool {
         match self.relief {
-            Relief::Picture(_) => true,
+            Relief::Picture(_) | Relief::Normals(_) => true,
             Relief::Noise(_) | Relief::Turbulence(_) | Relief::Wall(_) | Relief::Dnoise(_) => false,
         }
     }
 
     /// Memory in bytes that [`Bump::averaged`] adds when it is first called: the moments of a
-    /// picture's slopes, 27 bytes per texel; 0 for other reliefs.
+    /// picture's slopes, 27 bytes per texel; 0 for reliefs that are no picture.
     #[must_use]
     pub fn moments_bytes(&self) -> u64 {
         match &self.relief {
             Relief::Picture(heights) => heights.moments_bytes(),
+            Relief::Normals(map) => map.moments_bytes(),
             Relief::Noise(_) | Relief::Turbulence(_) | Relief::Wall(_) | Relief::Dnoise(_) => 0,
         }
     }
@@ -119,6 +123,12 @@ impl Bump {
             Relief::Picture(heights) => {
                 let slopes = heights.slopes(place.uv);
                 let [along_u, along_v] = place.uv_gradients;
+                let gradient = slopes.x * along_u + slopes.y * along_v;
+                return normal * normal.dot(gradient) - gradient;
+            }
+            Relief::Normals(map) => {
+                let slopes = map.slopes(place.uv);
+                let [along_u, along_v] = tangents(place.uv_gradients);
                 let gradient = slopes.x * along_u + slopes.y * along_v;
                 return normal * normal.dot(gradient) - gradient;
             }

@@ -6,6 +6,7 @@
 //! signal processing: part II" (1993). A depth picture of a swept surface is read by the same rule,
 //! so both reliefs agree.
 
+use super::laid::Laid;
 use super::moments::{self, Moments, SurfaceSlope};
 use glam::{DMat2, DVec2};
 use std::sync::OnceLock;
@@ -22,9 +23,7 @@ const MARGIN: i64 = 40;
 pub struct Heights {
     /// Coefficients of the splines, row by row from the top.
     coefficients: Vec<f64>,
-    width: usize,
-    height: usize,
-    repeat: DVec2,
+    laid: Laid,
     mirror: bool,
     /// Moments of the slopes, built when slopes are first averaged.
     moments: OnceLock<Moments>,
@@ -33,7 +32,7 @@ pub struct Heights {
 impl PartialEq for Heights {
     /// Compares the surfaces. Moments follow from them.
     fn eq(&self, other: &Self) -> bool {
-        let all = |heights: &Self| (heights.width, heights.repeat, heights.mirror);
+        let all = |heights: &Self| (heights.laid, heights.mirror);
         all(self) == all(other) && self.coefficients == other.coefficients
     }
 }
@@ -60,8 +59,15 @@ impl Heights {
                 values[row * width + column] = value;
             }
         }
-        let moments = OnceLock::new();
-        Some(Self { coefficients: values, width, height, repeat, mirror, moments })
+        let laid = Laid::new([width, height], repeat);
+        Some(Self { coefficients: values, laid, mirror, moments: OnceLock::new() })
+    }
+
+    /// Returns the surface moved against texture coordinates by `offset` copies of the picture.
+    #[must_use]
+    pub fn moved(mut self, offset: DVec2) -> Self {
+        self.laid.offset = offset;
+        self
     }
 
     /// Returns the height at texture coordinates, in the units of the values.
@@ -79,36 +85,36 @@ impl Heights {
     /// Returns the slope over the parallelogram of texture coordinates with these two sides.
     #[must_use]
     pub fn slope(&self, uv: DVec2, sides: [DVec2; 2]) -> SurfaceSlope {
-        let rate = self.rate();
+        let rate = self.laid.rate();
         let moments = || self.moments.get_or_init(|| self.moments());
-        let at = DVec2::new(uv.x * rate.x, uv.y * rate.y);
-        moments::averaged(at, sides.map(|side| side * rate), |at| self.spline(at), moments)
-            .stretched(rate)
+        moments::averaged(
+            self.laid.at(uv),
+            sides.map(|side| side * rate),
+            |at| self.spline(at),
+            moments,
+        )
+        .stretched(rate)
     }
 
     /// Memory of the moments, in bytes, which exist once slopes have been averaged.
     #[must_use]
     pub fn moments_bytes(&self) -> u64 {
-        Moments::bytes(self.width, self.height)
+        let [width, height] = self.laid.size;
+        Moments::bytes(width, height)
     }
 
     fn moments(&self) -> Moments {
-        let height = self.height as f64;
+        let [width, height] = self.laid.size;
         // Rows are counted from the top.
-        Moments::new(self.width, self.height, self.mirror, |x, y| {
-            self.spline(DVec2::new(x, height - y)).0
+        Moments::new(width, height, self.mirror, |x, y| {
+            self.spline(DVec2::new(x, height as f64 - y)).0
         })
     }
 
-    /// Number of texels per unit of texture coordinates.
-    fn rate(&self) -> DVec2 {
-        DVec2::new(self.width as f64, self.height as f64) * self.repeat
-    }
-
     fn at(&self, uv: DVec2) -> (f64, DVec2) {
-        let rate = self.rate();
-        let (height, slopes, _) = self.in_texels(uv.x * rate.x, uv.y * rate.y);
-        (height, slopes * rate)
+        let at = self.laid.at(uv);
+        let (height, slopes, _) = self.in_texels(at.x, at.y);
+        (height, slopes * self.laid.rate())
     }
 
     /// Returns slopes and second derivatives by texels, at a position in texels to the right and up.
@@ -119,27 +125,28 @@ impl Heights {
 
     /// Returns the height and its derivatives by texels to the right and up.
     fn in_texels(&self, right: f64, up: f64) -> (f64, DVec2, DMat2) {
+        let [width, height] = self.laid.size;
         let (columns, x) = taps(right - 0.5);
         // Rows are counted from the top, v from the bottom.
-        let (rows, y) = taps(self.height as f64 - up - 0.5);
-        let columns = columns.map(|column| index(column, self.width, self.mirror));
-        let (mut height, mut slopes) = (0.0, DVec2::ZERO);
+        let (rows, y) = taps(height as f64 - up - 0.5);
+        let columns = columns.map(|column| index(column, width, self.mirror));
+        let (mut sum, mut slopes) = (0.0, DVec2::ZERO);
         let (mut across, mut mixed, mut down) = (0.0, 0.0, 0.0);
         for (row, [weight, slope, bend]) in rows.into_iter().zip(y) {
-            let row = index(row, self.height, self.mirror) * self.width;
+            let row = index(row, height, self.mirror) * width;
             let (mut value, mut along, mut curved) = (0.0, 0.0, 0.0);
             for (column, [weight, slope, bend]) in columns.into_iter().zip(x) {
                 value += self.coefficients[row + column] * weight;
                 along += self.coefficients[row + column] * slope;
                 curved += self.coefficients[row + column] * bend;
             }
-            height += value * weight;
+            sum += value * weight;
             slopes += DVec2::new(along * weight, -value * slope);
             across += curved * weight;
             mixed -= along * slope;
             down += value * bend;
         }
-        (height, slopes, DMat2::from_cols_array(&[across, mixed, mixed, down]))
+        (sum, slopes, DMat2::from_cols_array(&[across, mixed, mixed, down]))
     }
 }
 

@@ -7,15 +7,18 @@ use std::sync::Arc;
 /// The reflection and transmission of light by a surface, and the medium inside.
 ///
 /// The local colour is `C * (ambient * La + diffuse * sum F L (N.L)) + specular * sum F L (R.L)^shininess`
-/// where `C` is the material's colour times its texture, `La` the ambient light, and `F` the colour of
+/// plus the emission, where `C` is the material's colour times its texture, `La` the ambient light, and `F` the colour of
 /// [`Material::by_angle`] at the light's angle. Reflected and refracted light are added with the
 /// weights below.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Material {
     /// Colour of the surface, linear RGB, each channel at least 0. A texture is multiplied by it.
     pub color: Color,
-    /// True if the colour is also multiplied by the colours of a mesh's vertices, where it has some.
-    pub vertex_colors: bool,
+    /// The use of the colours of a mesh's vertices.
+    pub vertex_colors: VertexColors,
+    /// Light of its own, linear RGB, each channel at least 0. It is added to the local colour and lights no other
+    /// surface.
+    pub emission: Color,
     /// Share of the ambient light that is reflected, in `[0, 1]`.
     pub ambient: f64,
     /// Share of the light of lights that is reflected diffusely, in `[0, 1]`.
@@ -47,12 +50,38 @@ pub struct Material {
     pub by_angle: Option<Arc<AngleRamp>>,
 }
 
+/// The surfaces of a material whose colour is also multiplied by the colours of a mesh's vertices, where the mesh
+/// has some.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum VertexColors {
+    /// No surface.
+    #[default]
+    Never,
+    /// Surfaces without a texture: the material states no colour.
+    Untextured,
+    /// All surfaces.
+    Always,
+}
+
+impl VertexColors {
+    /// Returns whether a surface shows the colours of vertices. `textured` is true if it has a texture.
+    #[must_use]
+    pub fn show(self, textured: bool) -> bool {
+        match self {
+            Self::Never => false,
+            Self::Untextured => !textured,
+            Self::Always => true,
+        }
+    }
+}
+
 impl Default for Material {
     /// A white, matt and opaque material: the defaults of a scene file.
     fn default() -> Self {
         Self {
             color: Color::ONE,
-            vertex_colors: false,
+            vertex_colors: VertexColors::Never,
+            emission: Color::ZERO,
             ambient: 1.0,
             diffuse: 0.9,
             specular: 0.0,

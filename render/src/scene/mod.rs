@@ -22,7 +22,7 @@ pub mod text;
 pub use background::{Background, Environment};
 pub use camera::Camera;
 pub use light::{DirectionalLight, Falloff, Light, PointLight, SpotLight};
-pub use material::Material;
+pub use material::{Material, VertexColors};
 pub use names::Names;
 pub use ramp::AngleRamp;
 pub use read::{MeshSource, SceneError};

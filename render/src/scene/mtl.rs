@@ -5,28 +5,35 @@
 //! | `Kd` | `color`, taken as linear light; white if it is 0 and there is a `map_Kd` |
 //! | `map_Kd` | a texture, `srgb` and `repeat`, with the options `-s`, `-o` and `-clamp` ([`Map`]) |
 //! | `map_d` | a mask that cuts out surfaces: the alpha of the picture, or its grey if it has none |
+//! | `map_Bump` or `bump` | a bump: the grey of the picture as heights, from 0 to the `-bm` (1 if left out) in the mesh's units |
+//! | `norm` | a bump: the colours of the picture as normals, whose slopes are multiplied by the `-bm` |
 //! | `Ks` | `specular`, the mean of its three numbers |
 //! | `Ns` | `shininess`, 1 if it is less |
 //! | `d`, or without it `Tr` for 1 - d | `ambient` and `diffuse` are d, `transparency` is 1 - d |
 //! | `Ni` | `index_of_refraction`; 1 if left out, so that a `d` alone bends nothing |
-//! | `Ka`, `illum`, `Ke` and `Tf` without effect | nothing |
+//! | `Ke` | `emission`, times d |
+//! | `Ka`, `illum`, `Tf` without effect | nothing |
 //!
 //! A `Tr 1` without `d` is taken as opaque: some programs wrote it for opaque materials, and
 //! none means an invisible object. Tools differ in how they write mirrors, so mirrors are ignored. A
 //! scene binds a material that should mirror.
 //!
+//! Many programs write a normal map as `map_Bump`. A picture of which nearly all colours are unit vectors is
+//! therefore taken as one. Without `Kd` and `map_Kd` a material states no colour, and shows those of
+//! vertices. Keywords may be written in capitals or not.
+//!
 //! A line that is not valid is ignored. [`Library::remarks`] names all that is not used.
 
 mod map;
+mod open;
 
 pub use map::Map;
 
 use super::Material;
-use super::limits::LARGEST;
 use super::obj::{ObjError, shortened};
-use super::text::{self, before_comment, words};
-use crate::color::Color;
+use super::text::{self, before_comment};
 use crate::texture::Alpha;
+use open::Open;
 use std::collections::{BTreeMap, HashMap};
 
 /// Sentences about single lines and materials; further ones are counted.
@@ -45,6 +52,35 @@ pub struct Entry {
     pub mask: Option<Map>,
     /// The use of the alpha of its picture.
     pub alpha: Alpha,
+    /// The picture of its relief.
+    pub relief: Option<ReliefMap>,
+}
+
+/// The picture of a material's relief.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ReliefMap {
+    /// The picture, with its strength.
+    pub map: Map,
+    /// The meaning of its colours.
+    pub colors: ReliefColors,
+}
+
+/// The meaning of the colours of a relief's picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum ReliefColors {
+    /// Heights by the grey, or normals if nearly all colours are unit vectors.
+    Heights,
+    /// Normals.
+    Normals,
+}
+
+impl Entry {
+    /// Returns an entry with a material alone.
+    #[must_use]
+    pub fn new(name: &str, material: Material) -> Self {
+        let (picture, mask, relief) = (None, None, None);
+        Self { name: name.into(), material, picture, mask, alpha: Alpha::Cut, relief }
+    }
 }
 
 /// The contents of an MTL file.
@@ -56,15 +92,6 @@ pub struct Library {
     numbers: HashMap<String, usize>,
     /// Sentences about statements that are not used, or are used with another meaning than they state.
     pub remarks: Vec<String>,
-}
-
-/// The entry that is read, with the statements that are judged at its end.
-#[derive(Debug)]
-struct Open {
-    entry: Entry,
-    /// Opacity by `d` and transparency by `Tr`.
-    opacity: Option<f64>,
-    transparency: Option<f64>,
 }
 
 /// Reads the bytes of an MTL file. `file` is the name of the file in messages. Of entries of one name the
@@ -85,7 +112,7 @@ pub fn read(file: &str, bytes: &[u8]) -> Result<Library, ObjError> {
         if keyword.is_empty() || keyword.starts_with('#') {
             continue;
         }
-        let fault = match (keyword, &mut open) {
+        let fault = match (keyword.to_ascii_lowercase().as_str(), &mut open) {
             ("newmtl", _) if rest.is_empty() => Err("`newmtl` and a name"),
             ("newmtl", _) => {
                 library.close(open.take(), &mut odd);
@@ -93,7 +120,7 @@ pub fn read(file: &str, bytes: &[u8]) -> Result<Library, ObjError> {
                 Ok(())
             }
             (_, None) => Err("`newmtl` before it"),
-            (_, Some(open)) => match open.statement(keyword, rest) {
+            (known, Some(open)) => match open.statement(known, rest) {
                 Ok(true) => Ok(()),
                 Ok(false) => {
                     *unused.entry(keyword).or_default() += 1;
@@ -149,36 +176,14 @@ impl Library {
 
     /// Adds an entry that is complete. Sentences about it are added to `odd`.
     fn close(&mut self, open: Option<Open>, odd: &mut Vec<String>) {
-        let Some(Open { mut entry, opacity, transparency }) = open else { return };
-        let name = shortened(&entry.name);
-        if self
-            .entries
-            .get(*self.numbers.get(&entry.name).unwrap_or(&usize::MAX))
-            .is_some_and(|other| other.name == entry.name)
-        {
-            odd.push(format!("material {name} occurs again; the first counts"));
+        let Some(open) = open else { return };
+        let name = open.name();
+        let is_same = |&number: &usize| self.entries[number].name == name;
+        if self.numbers.get(name).is_some_and(is_same) {
+            odd.push(format!("material {} occurs again; the first counts", shortened(name)));
             return;
         }
-        let opacity = match (opacity, transparency) {
-            (Some(opacity), _) => opacity,
-            (None, Some(1.0)) => {
-                odd.push(format!("`Tr 1` of material {name}, without `d`, is taken as opaque"));
-                1.0
-            }
-            (None, Some(transparency)) => 1.0 - transparency,
-            (None, None) => 1.0,
-        };
-        let material = &mut entry.material;
-        if opacity != 1.0 {
-            (material.ambient, material.diffuse) = (opacity, opacity);
-            material.transparency = 1.0 - opacity;
-        }
-        if entry.picture.is_some() && material.color == Color::ZERO {
-            material.color = Color::ONE;
-            odd.push(format!(
-                "`Kd 0` of material {name} is taken as white, since it has a `map_Kd`"
-            ));
-        }
+        let entry = open.finish(odd);
         let number = self.entries.len();
         self.numbers.insert(entry.name.clone(), number);
         if let Some(short) = before_comment(&entry.name) {
@@ -188,71 +193,17 @@ impl Library {
     }
 }
 
-impl Open {
-    fn new(name: &str) -> Self {
-        let material = plain();
-        let entry =
-            Entry { name: name.into(), material, picture: None, mask: None, alpha: Alpha::Cut };
-        Self { entry, opacity: None, transparency: None }
-    }
-
-    /// Reads a statement. Returns whether it is used or has no effect, or the expected form.
-    fn statement(&mut self, keyword: &str, rest: &str) -> Result<bool, &'static str> {
-        let material = &mut self.entry.material;
-        let within = |low: f64, high: f64, expected: &'static str| {
-            let number = words(rest).next().and_then(|word| word.parse().ok());
-            number.filter(|x| (low..=high).contains(x)).ok_or(expected)
-        };
-        match keyword {
-            "Kd" => material.color = color(rest).ok_or("`Kd` and three numbers of at least 0")?,
-            "Ks" => {
-                let strength = color(rest).ok_or("`Ks` and three numbers of at least 0")?;
-                material.specular = (strength.element_sum() / 3.0).min(1.0);
-            }
-            "Ns" => {
-                let shininess: f64 = within(0.0, 1e6, "`Ns` and a number from 0 to 1e6")?;
-                material.shininess = shininess.max(1.0);
-            }
-            "Ni" => {
-                material.index_of_refraction =
-                    within(0.1, 10.0, "`Ni` and a number from 0.1 to 10")?;
-            }
-            "d" => self.opacity = Some(within(0.0, 1.0, "`d` and a number from 0 to 1")?),
-            "Tr" => self.transparency = Some(within(0.0, 1.0, "`Tr` and a number from 0 to 1")?),
-            "map_Kd" => self.entry.picture = Some(Map::read(rest).ok_or("`map_Kd` and a file")?),
-            "map_d" => self.entry.mask = Some(Map::read(rest).ok_or("`map_d` and a file")?),
-            "Ka" | "illum" => {}
-            // Light of its own, and a filter of what passes.
-            "Ke" => return Ok(color(rest) == Some(Color::ZERO)),
-            "Tf" => return Ok(color(rest) == Some(Color::ONE)),
-            _ => return Ok(false),
-        }
-        Ok(true)
-    }
-}
-
 /// Returns the material of an entry that has a name alone.
 #[must_use]
 pub fn plain() -> Material {
     Material { diffuse: 1.0, index_of_refraction: 1.0, ..Material::default() }
 }
 
-/// Returns three numbers; a single number stands for all three.
-fn color(text: &str) -> Option<Color> {
-    let mut numbers = Vec::new();
-    for word in words(text) {
-        numbers.push(word.parse().ok().filter(|x| (0.0..=LARGEST).contains(x))?);
-    }
-    match numbers[..] {
-        [grey] => Some(Color::splat(grey)),
-        [red, green, blue] => Some(Color::new(red, green, blue)),
-        _ => None,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::color::Color;
+    use crate::scene::VertexColors;
 
     #[test]
     fn what_other_tools_write_becomes_a_material() {
@@ -272,13 +223,10 @@ mod tests {
         };
         assert_eq!(entries[0].material, glass);
         assert!((glass.specular - 0.6).abs() < 1e-15);
-        let wood = Material { shininess: 1.0, ..plain() };
+        let vertex_colors = VertexColors::Untextured;
+        let wood = Material { shininess: 1.0, vertex_colors, ..plain() };
         let picture = Map::read("pictures/oak wood.png");
-        let name = "wood old".into();
-        assert_eq!(
-            entries[1],
-            Entry { name, material: wood, picture, mask: None, alpha: Alpha::Cut }
-        );
+        assert_eq!(entries[1], Entry { picture, ..Entry::new("wood old", wood) });
     }
 
     #[test]
@@ -291,7 +239,7 @@ mod tests {
             ("Ns -1", "0 to 1e6"),
             ("Ni 0", "0.1 to 10"),
             ("d 1.5", "0 to 1"),
-            ("d -halo 0.5", "0 to 1"),
+            ("d -halo 1.5", "0 to 1"),
             ("Tr inf", "0 to 1"),
             ("map_Kd", "a file"),
             ("newmtl", "a name"),
@@ -300,7 +248,9 @@ mod tests {
             let said = read.remarks.join("; ");
             assert!(said.starts_with(&format!("line 2 is ignored: found `{line}`")), "{said}");
             assert!(said.contains(expected), "{said}");
-            assert_eq!(read.entries[0].material, Material { specular: 1.0, ..plain() });
+            let truth =
+                Material { specular: 1.0, vertex_colors: VertexColors::Untextured, ..plain() };
+            assert_eq!(read.entries[0].material, truth);
         }
         let early = read("a.mtl", b"Kd 1 1 1\n").unwrap().remarks;
         assert!(early[0].contains("`newmtl` before it"), "{early:?}");
@@ -313,12 +263,12 @@ mod tests {
 
     #[test]
     fn what_is_not_used_is_named() {
-        let text = "newmtl a\nKe 1 1 1\nrefl a.png\nnewmtl b\nrefl b.png\nnewmtl a\nKd 0 0 0\nKd x\nKd y\nKd z\nKd w\n";
+        let text = "newmtl a\nTf 1 1 0\nrefl a.png\nnewmtl b\nrefl b.png\nnewmtl a\nKd 0 0 0\nKd x\nKd y\nKd z\nKd w\n";
         let Library { entries, remarks, .. } = read("a.mtl", text.as_bytes()).unwrap();
         assert_eq!(entries.len(), 2);
         assert_eq!(entries[0].material.color, Color::ONE, "the first of a name counts");
         assert!(remarks[0].starts_with("line 8 is ignored: found `Kd x`"));
-        assert_eq!(remarks[3..], ["2 more such remarks", "not used: Ke, refl (2 times)"]);
+        assert_eq!(remarks[3..], ["2 more such remarks", "not used: Tf, refl (2 times)"]);
     }
 
     #[test]

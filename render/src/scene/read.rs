@@ -13,6 +13,7 @@ mod meshes;
 mod objects;
 mod place;
 mod ranges;
+mod reliefs;
 mod shapes;
 mod solids;
 mod stored;

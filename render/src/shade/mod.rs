@@ -203,8 +203,8 @@ impl Shader<'_> {
         let variance = sight.spread().map_or(0.0, Spread::normal_variance);
         let Lighting { diffuse, highlight } = self.lighting(node, sight, variance, material, work);
         let counts = &mut work.counts;
-        let mut color = coverage * highlight;
-        let mut plain = coverage * highlight;
+        let mut color = coverage * (highlight + material.emission);
+        let mut plain = color;
         let mut textured = None;
         if material.shows_color() {
             textured = texture.map(|texture| {
@@ -233,7 +233,9 @@ impl Shader<'_> {
                     None => solid.color(&object.to_own_space, node.position),
                 }
             });
-            let own = material.color * self.vertex_color(node, material, sight);
+            let shows = material.vertex_colors.show(surface.texture.is_some());
+            let by_vertex = if shows { self.vertex_color(node, sight) } else { Color::ONE };
+            let own = material.color * by_vertex;
             let light = material.ambient * self.scene.ambient + diffuse;
             color += own * texture * carved * light;
             plain += coverage * own * light;
@@ -243,10 +245,7 @@ impl Shader<'_> {
 
     /// Returns the colour of a mesh's vertices in the middle of the part of the surface that is seen, or
     /// white. Colours are linear on each triangle, so that the middle has their average.
-    fn vertex_color<S: Sight>(&self, node: &Node, material: &Material, sight: &S) -> Color {
-        if !material.vertex_colors {
-            return Color::ONE;
-        }
+    fn vertex_color<S: Sight>(&self, node: &Node, sight: &S) -> Color {
         let shape = &self.scene.objects[node.piece.object as usize].shape;
         shape.vertex_color(node.piece.triangle, sight.middle(node)).unwrap_or(Color::ONE)
     }

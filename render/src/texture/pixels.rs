@@ -19,13 +19,24 @@ impl Texture {
         let (width, height) = (picture.width() as usize, picture.height() as usize);
         let bytes = bytes_per_channel(picture.color());
         let has_alpha =
-            alpha == Alpha::Cut && picture.color().has_alpha() && !Self::is_invisible(picture);
+            alpha != Alpha::Ignore && picture.color().has_alpha() && !Self::is_invisible(picture);
+        let cut = |code: u16| match alpha {
+            Alpha::From(least) => {
+                if code >= least {
+                    MOST
+                } else {
+                    0
+                }
+            }
+            Alpha::Cut | Alpha::Ignore => code,
+        };
         if bytes > 2 {
             let texels = picture.to_rgba32f();
             let light = texels.pixels().map(|pixel| [pixel.0[0], pixel.0[1], pixel.0[2]]);
             let texture = of_floats(&light.collect::<Vec<[f32; 3]>>(), [width, height], wrap);
             let codes = texels.pixels().map(|pixel| (pixel.0[3].clamp(0.0, 1.0) * 65535.0).round());
-            let mask: Vec<u16> = if has_alpha { codes.map(|x| x as u16).collect() } else { vec![] };
+            let mask: Vec<u16> =
+                if has_alpha { codes.map(|x| cut(x as u16)).collect() } else { vec![] };
             return texture.with_mask(mask);
         }
         let wide = bytes == 2;
@@ -51,9 +62,9 @@ impl Texture {
         let mask = if !has_alpha {
             vec![]
         } else if wide {
-            picture.to_rgba16().pixels().map(|pixel| pixel.0[3]).collect()
+            picture.to_rgba16().pixels().map(|pixel| cut(pixel.0[3])).collect()
         } else {
-            picture.to_rgba8().pixels().map(|pixel| u16::from(pixel.0[3]) * 257).collect()
+            picture.to_rgba8().pixels().map(|pixel| cut(u16::from(pixel.0[3]) * 257)).collect()
         };
         texture.multiplied_by(mask)
     }

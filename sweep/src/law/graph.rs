@@ -8,7 +8,8 @@ use kurbo::common::solve_cubic;
 const MOST_STEPS: usize = 80;
 
 /// Returns whether `at` nowhere falls along a segment, and rises from its start to its end.
-pub(crate) fn is_graph(segment: &Cubic<DVec2>) -> bool {
+#[must_use]
+pub fn is_graph(segment: &Cubic<DVec2>) -> bool {
     let [p0, p1, p2, p3] = segment.0.map(|p| p.x);
     let (a, b, c) = (p1 - p0, p2 - p1, p3 - p2);
     // The speed is 3 (a s^2 + 2 b s t + c t^2) with s = 1 - t.

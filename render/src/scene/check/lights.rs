@@ -76,7 +76,8 @@ impl<'a> Enclosures<'a> {
 fn dark(subject: &Subject<'_>) -> Option<Finding> {
     let scene = subject.scene;
     let none = scene.lights.iter().all(|light| light.color() == DVec3::ZERO);
+    let emits = scene.materials.iter().any(|material| material.emission != DVec3::ZERO);
     let message = "there are no lights and no ambient light: all surfaces are black";
-    (none && scene.ambient == DVec3::ZERO && !scene.objects.is_empty())
+    (none && !emits && scene.ambient == DVec3::ZERO && !scene.objects.is_empty())
         .then(|| Finding::new(Severity::Hint, "lights", message))
 }

@@ -7,8 +7,8 @@
 //!
 //! A bump has exactly one relief. `noise` is the fractal sum of octaves. `turbulence` is the sum of
 //! absolute values. `wall` is clamped slow noise plus fast noise. `dnoise` is the vectors of thesis
-//! fig. 2.3. `image` is a grey picture as heights, laid by the surface's texture coordinates. The
-//! noise of a bump is `smooth` unless `interpolation` says otherwise. With `linear`, the thesis's
+//! fig. 2.3. `image` is a grey picture as heights, laid by the surface's texture coordinates. `normals` is a
+//! picture of normals, as other programs bake them. The noise of a bump is `smooth` unless `interpolation` says otherwise. With `linear`, the thesis's
 //! interpolation, the slopes of noise jump at the faces of its cells, and shading shows them as
 //! creases.
 
@@ -32,10 +32,12 @@ pub struct BumpFile {
     pub dnoise: Option<DnoiseFile>,
     /// The grey of a picture, as a height from 0 to 1.
     pub image: Option<ImageReliefFile>,
-    /// Length of a height of 1 in the object's units, negative for dents; for `dnoise` a plain
-    /// factor. -1e6 to 1e6.
+    /// The colours of a picture, as normals.
+    pub normals: Option<NormalsFile>,
+    /// Length of a height of 1 in the object's units, negative for dents; for `dnoise` and `normals` a
+    /// plain factor. -1e6 to 1e6.
     pub strength: f64,
-    /// Position of the relief in the object. Not allowed with `image`, which lies on the surface.
+    /// Position of the relief in the object. Not allowed with `image` and `normals`, which lie on the surface.
     pub place: Option<PlaceFile>,
 }
 
@@ -55,21 +57,24 @@ pub enum ReliefKind<'a> {
     Dnoise(&'a DnoiseFile),
     /// `image`.
     Image(&'a ImageReliefFile),
+    /// `normals`.
+    Normals(&'a NormalsFile),
 }
 
 impl BumpFile {
     /// Returns the key of each relief, with its contents if the file has the key. The order is that of
     /// messages.
     #[must_use]
-    pub fn kinds(&self) -> [(&'static str, Option<ReliefKind<'_>>); 5] {
+    pub fn kinds(&self) -> [(&'static str, Option<ReliefKind<'_>>); 6] {
         // Named one by one, so that a new field does not compile until it has its kind.
-        let Self { noise, turbulence, wall, dnoise, image, strength: _, place: _ } = self;
+        let Self { noise, turbulence, wall, dnoise, image, normals, strength: _, place: _ } = self;
         [
             ("noise", noise.as_ref().map(ReliefKind::Noise)),
             ("turbulence", turbulence.as_ref().map(ReliefKind::Turbulence)),
             ("wall", wall.as_ref().map(ReliefKind::Wall)),
             ("dnoise", dnoise.as_ref().map(ReliefKind::Dnoise)),
             ("image", image.as_ref().map(ReliefKind::Image)),
+            ("normals", normals.as_ref().map(ReliefKind::Normals)),
         ]
     }
 }
@@ -112,6 +117,20 @@ pub struct ImageReliefFile {
     /// True if the picture is mirrored at its edges instead of repeated; default false.
     #[serde(default)]
     pub mirror: bool,
+}
+
+/// A picture whose colours are normals in the space of the texture coordinates: red to the right, green up,
+/// blue outward.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "an object with \"file\"")]
+pub struct NormalsFile {
+    /// Path of a picture in one of the formats of textures, relative to the scene file's folder. The codes
+    /// from black to white of each channel are -1 to 1.
+    pub file: PathBuf,
+    /// Number of repetitions over the unit square of texture coordinates, across and up; 1e-6 to
+    /// 1e6, default once.
+    #[serde(default = "once")]
+    pub repeat: [f64; 2],
 }
 
 fn once() -> [f64; 2] {

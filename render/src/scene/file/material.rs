@@ -1,7 +1,7 @@
 //! The key `materials` of a scene file.
 
 use super::bump::BumpFile;
-use super::color::{ColorFile, SurfaceColorFile, white};
+use super::color::{ColorFile, SurfaceColorFile};
 use super::keywords;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -10,9 +10,13 @@ use serde::Deserialize;
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct MaterialFile {
-    /// Colour of the surface, at least 0, or `"vertex"` for the colours that the vertices of a mesh have;
-    /// 1 if left out. A texture is multiplied by it.
-    pub color: SurfaceColorFile,
+    /// Colour of the surface, at least 0, or `"vertex"` for the colours that the vertices of a mesh have. A
+    /// texture is multiplied by it. If left out, surfaces without a texture show the colours of vertices, and all
+    /// others are 1.
+    pub color: Option<SurfaceColorFile>,
+    /// Light of its own that the surface adds to the light that it reflects, at least 0; 0 if left out. It
+    /// lights no other surface.
+    pub emission: ColorFile,
     /// Share of the ambient light that the surface reflects, 0 to 1; 1 if left out.
     #[schemars(transform = keywords::range(0.0..=1.0))]
     pub ambient: f64,
@@ -85,7 +89,8 @@ fn air() -> f64 {
 impl Default for MaterialFile {
     fn default() -> Self {
         Self {
-            color: SurfaceColorFile::Uniform(white()),
+            color: None,
+            emission: ColorFile([0.0; 3]),
             ambient: 1.0,
             diffuse: 0.9,
             specular: 0.0,

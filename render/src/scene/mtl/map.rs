@@ -1,6 +1,6 @@
 //! A picture that a material library names, with its options.
 
-use super::words;
+use crate::scene::text::words;
 use crate::texture::Wrap;
 use glam::DVec2;
 
@@ -15,19 +15,22 @@ pub struct Map {
     pub offset: DVec2,
     /// Continuation of the picture: `Repeat`, or `Clamp` by `-clamp on`.
     pub wrap: Wrap,
+    /// Strength of a relief, from `-bm`.
+    pub strength: f64,
 }
 
 impl Map {
+    /// Returns a picture that lies once on the unit square.
+    #[must_use]
+    pub fn of(path: String, wrap: Wrap) -> Self {
+        Self { path, scale: DVec2::ONE, offset: DVec2::ZERO, wrap, strength: 1.0 }
+    }
+
     /// Reads the options and the path of a statement. Options without a meaning here are passed over.
     /// Returns `None` if there is no path.
     #[must_use]
     pub fn read(text: &str) -> Option<Self> {
-        let mut map = Self {
-            path: String::new(),
-            scale: DVec2::ONE,
-            offset: DVec2::ZERO,
-            wrap: Wrap::Repeat,
-        };
+        let mut map = Self::of(String::new(), Wrap::Repeat);
         let mut rest = text.trim();
         while let Some((option, after)) = option(rest) {
             rest = match option {
@@ -50,6 +53,12 @@ impl Map {
                 "-clamp" => {
                     let (value, after) = word(after);
                     map.wrap = if value == "on" { Wrap::Clamp } else { Wrap::Repeat };
+                    after
+                }
+                "-bm" => {
+                    let (value, after) = word(after);
+                    let value = value.parse().ok().filter(|x: &f64| (-1e6..=1e6).contains(x));
+                    map.strength = value.unwrap_or(map.strength);
                     after
                 }
                 // All others have one value.
@@ -133,7 +142,9 @@ mod tests {
             ("-x.png", "-x.png", [1.0, 1.0], [0.0, 0.0], Wrap::Repeat),
         ] {
             let found = Map::read(text);
-            let truth = Map { path: path.into(), scale: scale.into(), offset: offset.into(), wrap };
+            let (scale, offset) = (scale.into(), offset.into());
+            let strength = if text.contains("-bm") { 0.5 } else { 1.0 };
+            let truth = Map { scale, offset, strength, ..Map::of(path.into(), wrap) };
             assert_eq!(found, Some(truth), "{text}");
         }
         assert_eq!(Map::read("  "), None);

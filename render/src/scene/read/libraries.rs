@@ -1,5 +1,6 @@
 //! The material libraries that a scene's meshes name, read when a surface needs them.
 
+use super::reliefs::{Carved, CarvedMaterials};
 use super::textures::Kind;
 use super::{Reader, SceneError};
 use crate::scene::mtl::{self, Entry, Library, Map};
@@ -21,16 +22,19 @@ pub(super) struct Libraries {
     materials: BTreeMap<(PathBuf, usize), usize>,
     /// Indices of textures by what they show. Pictures that cannot be read have none.
     textures: BTreeMap<Shown, Option<usize>>,
+    /// Materials with reliefs.
+    pub(super) carved: CarvedMaterials,
 }
 
-/// Paths of a picture and of a mask, each if there is one, and the numbers of its continuation and of its use of alpha.
-type Shown = (Option<PathBuf>, Option<PathBuf>, [u8; 2]);
+/// Paths of a picture and of a mask, each if there is one, the number of its continuation, and its use of alpha.
+type Shown = (Option<PathBuf>, Option<PathBuf>, u8, Alpha);
 
 /// A material of a library, as a surface takes it.
 #[derive(Debug, Clone)]
 pub(super) struct Taken {
     pub(super) material: usize,
     pub(super) picture: Option<Pictured>,
+    pub(super) relief: Option<Carved>,
 }
 
 /// The pictures of a material of a library: its colours, its mask, or both.
@@ -101,7 +105,9 @@ impl Libraries {
             alpha: entry.alpha,
             library: path.clone(),
         });
-        Some(Taken { material, picture })
+        let relief = entry.relief.clone();
+        let relief = relief.map(|relief| Carved { relief, library: path.clone() });
+        Some(Taken { material, picture, relief })
     }
 }
 
@@ -147,8 +153,7 @@ impl Reader<'_> {
         let Some(map) = pictured.map() else { return Ok(None) };
         let folder = pictured.library.parent().unwrap_or(Path::new(""));
         let path = |map: &Option<Map>| map.as_ref().map(|map| folder.join(&map.path));
-        let key =
-            (path(&pictured.colors), path(&pictured.mask), [map.wrap as u8, pictured.alpha as u8]);
+        let key = (path(&pictured.colors), path(&pictured.mask), map.wrap as u8, pictured.alpha);
         if let Some(&known) = libraries.textures.get(&key) {
             return Ok(known.map(SurfaceTexture::Picture));
         }
@@ -193,9 +198,7 @@ impl Reader<'_> {
         Ok(index.map(SurfaceTexture::Picture))
     }
 
-    /// Reads a picture at its path. If there is no file, the path without a comment, the file of that
-    /// name in the library's folder, and one that differs in upper and lower case are tried. Without a
-    /// `kind` the picture becomes a mask.
+    /// Reads the picture that [`Reader::found_path`] finds. Without a `kind` the picture becomes a mask.
     fn found_picture(
         &self,
         at: &str,
@@ -203,6 +206,17 @@ impl Reader<'_> {
         map: &Map,
         kind: Option<Kind>,
     ) -> Result<(Texture, PathBuf), SceneError> {
+        let path = self.found_path(folder, map);
+        let texture = match kind {
+            Some(kind) => self.texels(at, &path, kind)?,
+            None => self.texture_of(at, &path, |file| Texture::mask_of_picture(file, map.wrap))?,
+        };
+        Ok((texture, path))
+    }
+
+    /// Returns the path of a picture. If there is no file, the path without a comment, the file of that
+    /// name in the library's folder, and one that differs in upper and lower case are tried.
+    pub(super) fn found_path(&self, folder: &Path, map: &Map) -> PathBuf {
         let mut paths = vec![folder.join(&map.path)];
         let short = before_comment(&map.path);
         paths.extend(short.map(|path| folder.join(path)));
@@ -216,11 +230,6 @@ impl Reader<'_> {
         let exists = |path: &&PathBuf| {
             is_held(path) || !self.source.read(path).is_err_and(|error| is_missing(&error))
         };
-        let path = paths.iter().find(exists).unwrap_or(&paths[0]);
-        let texture = match kind {
-            Some(kind) => self.texels(at, path, kind)?,
-            None => self.texture_of(at, path, |file| Texture::mask_of_picture(file, map.wrap))?,
-        };
-        Ok((texture, path.clone()))
+        paths.iter().find(exists).unwrap_or(&paths[0]).clone()
     }
 }

@@ -5,7 +5,7 @@ use super::{Reader, SceneError};
 use crate::color::Color;
 use crate::optics::thin_film::ThinFilm;
 use crate::scene::file::{MaterialFile, SurfaceColorFile, ThinFilmFile};
-use crate::scene::{AngleRamp, Material};
+use crate::scene::{AngleRamp, Material, VertexColors};
 use std::sync::Arc;
 
 impl Reader<'_> {
@@ -25,12 +25,16 @@ impl Reader<'_> {
         let at = |key: &str| format!("materials.{name}.{key}");
         let share = |key: &str, value: f64| self.within(&at(key), value, 0.0, 1.0);
         let (color, vertex_colors) = match material.color {
-            SurfaceColorFile::Uniform(color) => (self.color(&at("color"), color)?, false),
-            SurfaceColorFile::Vertex => (Color::ONE, true),
+            None => (Color::ONE, VertexColors::Untextured),
+            Some(SurfaceColorFile::Uniform(color)) => {
+                (self.color(&at("color"), color)?, VertexColors::Never)
+            }
+            Some(SurfaceColorFile::Vertex) => (Color::ONE, VertexColors::Always),
         };
         Ok(Material {
             color,
             vertex_colors,
+            emission: self.color(&at("emission"), material.emission)?,
             ambient: share("ambient", material.ambient)?,
             diffuse: share("diffuse", material.diffuse)?,
             specular: share("specular", material.specular)?,

@@ -2,13 +2,14 @@
 
 use super::libraries::{self, Libraries, Pictured, remark};
 use super::ranges::Ranges;
+use super::reliefs::Carved;
 use super::stored::{Stored, Taken};
 use super::{Reader, SceneError};
 use crate::scene::file::{MeshFile, OneOrMore};
 use crate::scene::mtl::{Entry, Map, counted, plain};
 use crate::scene::obj::{self, ObjFile};
 use crate::scene::text::before_comment;
-use crate::scene::{Material, Object, Scene, Surface, SurfaceTexture};
+use crate::scene::{Material, Object, Scene, Surface, SurfaceTexture, VertexColors};
 use crate::shape::mesh::{NONE, Triangle};
 use crate::shape::{Instance, Mesh, Placement, Shape, SharedMesh};
 use std::collections::BTreeMap;
@@ -33,6 +34,13 @@ pub(super) struct Bindings {
     texture: Option<SurfaceTexture>,
     materials: BTreeMap<String, usize>,
     textures: BTreeMap<String, SurfaceTexture>,
+}
+
+/// The appearance of a surface. The pictures are those of a library.
+struct Bound {
+    surface: Surface,
+    picture: Option<Pictured>,
+    relief: Option<Carved>,
 }
 
 /// The libraries of a mesh.
@@ -71,20 +79,20 @@ impl Reader<'_> {
         let (mut parts, mut maps) = (Vec::new(), Vec::new());
         for (number, name) in surfaces.iter().enumerate() {
             let taken = libraries.take(&own.paths, name, scene);
-            let (surface, picture) = self.bind(&at, file, &bindings, name, taken, &own, scene)?;
-            let mut surface = surface;
-            if let Some(picture) = picture {
-                surface.texture = self.library_picture(
-                    &format!("{at}.mtl"),
-                    own.named,
-                    &picture,
-                    libraries,
-                    scene,
-                )?;
-                if let Some(map) = picture.map().filter(|_| surface.texture.is_some()) {
-                    maps.push((number as u32, map.clone()));
-                }
+            let bound = self.bind(&at, file, &bindings, name, taken, &own, scene)?;
+            let (mut surface, mut under) = (bound.surface, None);
+            let at_library = format!("{at}.mtl");
+            if let Some(picture) = bound.picture {
+                surface.texture =
+                    self.library_picture(&at_library, own.named, &picture, libraries, scene)?;
+                under = picture.map().filter(|_| surface.texture.is_some()).cloned();
             }
+            if let Some(relief) = bound.relief {
+                let at = (at_library.as_str(), own.named);
+                let (bare, under) = (surface.material, under.as_ref());
+                surface.material = self.carved(at, bare, &relief, under, libraries, scene)?;
+            }
+            maps.extend(under.map(|map| (number as u32, map)));
             parts.push(surface);
         }
         if !maps.is_empty() {
@@ -154,7 +162,7 @@ impl Reader<'_> {
         let mut own = Own { paths: Vec::new(), named: false, colored };
         let unbound = |name: &String| bindings.material_of(name).is_none();
         let is_unbound = surfaces.iter().any(unbound);
-        let is_plain = |entry: &Entry| entry.material == plain() && entry.picture.is_none();
+        let is_plain = |entry: &Entry| *entry == Entry::new(&entry.name, plain());
         if !read.materials.is_empty() {
             if is_unbound {
                 own.paths.push(self.held_materials(read, libraries));
@@ -237,8 +245,9 @@ impl Reader<'_> {
         Ok(bindings)
     }
 
-    /// Returns the material and texture of the surface that `usemtl` names `surface`, and the picture of
-    /// a library if the scene binds no texture. `taken` is the entry of the mesh's libraries.
+    /// Returns the material and texture of the surface that `usemtl` names `surface`, the picture of
+    /// a library if the scene binds no texture, and its relief if the scene binds no material. `taken` is the
+    /// entry of the mesh's libraries.
     #[expect(clippy::too_many_arguments, reason = "what a surface may take its appearance from")]
     fn bind(
         &self,
@@ -249,7 +258,7 @@ impl Reader<'_> {
         taken: Option<libraries::Taken>,
         own: &Own,
         scene: &mut Scene,
-    ) -> Result<(Surface, Option<Pictured>), SceneError> {
+    ) -> Result<Bound, SceneError> {
         let ids = obj::ids(surface);
         let [texture_key, material_key] = ids.unwrap_or([surface, surface]);
         let material = match &taken {
@@ -262,7 +271,7 @@ impl Reader<'_> {
         let material = material.or(bindings.material).or_else(|| {
             // Colours of the vertices stand for a material.
             own.colored.then(|| {
-                scene.materials.push(Material { vertex_colors: true, ..plain() });
+                scene.materials.push(Material { vertex_colors: VertexColors::Always, ..plain() });
                 scene.names.materials.push("vertex".into());
                 scene.materials.len() - 1
             })
@@ -287,8 +296,10 @@ impl Reader<'_> {
             return self.fault(at, message);
         };
         let bound = bindings.textures_entry(texture_key);
-        let picture = taken.filter(|taken| taken.material == material || own.named);
-        let picture = picture.and_then(|taken| taken.picture).filter(|_| bound.is_none());
+        let is_taken = taken.as_ref().is_some_and(|taken| taken.material == material);
+        let taken = taken.filter(|_| is_taken || own.named);
+        let (picture, relief) = taken.map_or((None, None), |taken| (taken.picture, taken.relief));
+        let (picture, relief) = (picture.filter(|_| bound.is_none()), relief.filter(|_| is_taken));
         let texture = bound.or(bindings.texture.filter(|_| picture.is_none()));
         // Texture id 0 means no texture; any other id was meant to be seen.
         if texture.is_none() && picture.is_none() && ids.is_some() && texture_key != "0" {
@@ -299,7 +310,7 @@ impl Reader<'_> {
             );
             return self.fault(at, message);
         }
-        Ok((Surface { material, texture }, picture))
+        Ok(Bound { surface: Surface { material, texture }, picture, relief })
     }
 }
 
@@ -331,7 +342,9 @@ fn keep_shown_colors(
     scene: &mut Scene,
 ) {
     if taken.mesh().colors.is_empty()
-        || parts.iter().any(|part| scene.materials[part.material].vertex_colors)
+        || parts
+            .iter()
+            .any(|part| scene.materials[part.material].vertex_colors.show(part.texture.is_some()))
     {
         return;
     }

@@ -22,8 +22,12 @@ const TAKEN: [&str; 5] = [
 ];
 
 /// Extensions whose content is used.
-pub(super) const USED: [&str; 3] =
-    ["KHR_mesh_quantization", "KHR_texture_transform", "EXT_texture_webp"];
+pub(super) const USED: [&str; 4] = [
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
+    "EXT_texture_webp",
+    "KHR_materials_emissive_strength",
+];
 
 /// Reads the JSON of a file and checks it. Returns the document and the binary chunk of a GLB.
 pub(super) fn read(bytes: &[u8]) -> Result<(Document, Option<&[u8]>), Fault> {

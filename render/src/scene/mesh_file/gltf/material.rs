@@ -1,14 +1,19 @@
 //! The materials of a glTF file, as those of a material library.
 //!
 //! The base colour is the colour of a matt surface. An alpha below 1 counts where the material blends or has
-//! a mask: the alpha of a picture cuts out the surface.
+//! a mask. The alpha of a picture cuts out the surface: in proportion where it blends, and wholly below the
+//! `alphaCutoff` of a mask. Emitted light is taken if no picture divides it. A normal texture becomes a bump if it
+//! is laid as the base colour is, or if there is no picture of the base colour.
 
 use super::accessor::Numbers;
 use super::{Fault, uri};
 use crate::color::Color;
-use crate::scene::mtl::{Entry, Map, plain};
+use crate::scene::VertexColors;
+use crate::scene::limits::LARGEST;
+use crate::scene::mtl::{Entry, Map, ReliefColors, ReliefMap, plain};
 use crate::texture::{Alpha, Wrap};
 use glam::{DVec2, dvec2};
+use gltf::json::Value;
 use gltf::material::AlphaMode;
 use gltf::texture::{Texture, WrappingMode};
 use gltf::{Document, Material};
@@ -37,7 +42,7 @@ pub(super) struct Materials {
 pub(super) type Context<'a> = (&'a Document, &'a Numbers<'a>, &'a str);
 
 /// The texture coordinates that a material takes: the set, and their change before the picture is read.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Coordinates {
     pub(super) set: u32,
     scale: DVec2,
@@ -46,13 +51,17 @@ pub(super) struct Coordinates {
 }
 
 impl Coordinates {
-    /// Returns the coordinates of a material. Without a picture they are those of set 0.
+    /// The coordinates of a set, unchanged.
+    fn of_set(set: u32) -> Self {
+        Self { set, scale: DVec2::ONE, turn: 0.0, offset: DVec2::ZERO }
+    }
+
+    /// Returns the coordinates of a material: those of the base colour's picture, or else of the normal texture.
     pub(super) fn of(material: &Material<'_>) -> Self {
-        let plain = Self { set: 0, scale: DVec2::ONE, turn: 0.0, offset: DVec2::ZERO };
         let Some(info) = material.pbr_metallic_roughness().base_color_texture() else {
-            return plain;
+            return Self::of_normals(material).unwrap_or(Self::of_set(0));
         };
-        let own = Self { set: info.tex_coord(), ..plain };
+        let own = Self::of_set(info.tex_coord());
         let Some(transform) = info.texture_transform() else { return own };
         let pair = |[x, y]: [f32; 2]| dvec2(x.into(), y.into());
         Self {
@@ -61,6 +70,28 @@ impl Coordinates {
             turn: transform.rotation().into(),
             offset: pair(transform.offset()),
         }
+    }
+
+    /// Returns the coordinates of the normal texture, if there is one.
+    fn of_normals(material: &Material<'_>) -> Option<Self> {
+        let normals = material.normal_texture()?;
+        let own = Self::of_set(normals.tex_coord());
+        let Some(transform) = normals.extension_value("KHR_texture_transform") else {
+            return Some(own);
+        };
+        // The numbers are of single precision, as those of the base colour are.
+        let number = |value: &Value| value.as_f64().map(|x| f64::from(x as f32));
+        let pair = |key: &str, other: DVec2| {
+            let [x, y] = [0, 1].map(|k| number(transform.get(key)?.get(k)?));
+            x.zip(y).map_or(other, |(x, y)| dvec2(x, y))
+        };
+        let set = transform.get("texCoord").and_then(Value::as_u64);
+        Some(Self {
+            set: set.and_then(|set| u32::try_from(set).ok()).unwrap_or(own.set),
+            scale: pair("scale", DVec2::ONE),
+            turn: transform.get("rotation").and_then(number).unwrap_or(0.0),
+            offset: pair("offset", DVec2::ZERO),
+        })
     }
 
     /// Returns coordinates from the lower left corner of the picture. Those of the file start at the upper
@@ -73,6 +104,19 @@ impl Coordinates {
     }
 }
 
+/// Returns the emitted light of a material: its factor times the strength of an extension.
+fn emitted(material: &Material<'_>) -> Color {
+    let strength = material
+        .extension_value("KHR_materials_emissive_strength")
+        .and_then(|value| value.get("emissiveStrength")?.as_f64())
+        .unwrap_or(1.0);
+    let light = |factor: f32| {
+        let light = f64::from(factor) * strength;
+        if light.is_finite() { light.clamp(0.0, LARGEST) } else { 0.0 }
+    };
+    Color::from(material.emissive_factor().map(light))
+}
+
 impl Materials {
     /// Returns the surface of a material. With `colored` it shows the colours of vertices too.
     pub(super) fn surface(
@@ -82,7 +126,9 @@ impl Materials {
         (document, numbers, file): Context<'_>,
     ) -> Result<u32, Fault> {
         if let Some(&known) = self.numbers.get(&material.index()) {
-            self.entries[known as usize].material.vertex_colors |= colored;
+            if colored {
+                self.entries[known as usize].material.vertex_colors = VertexColors::Always;
+            }
             return Ok(known);
         }
         let name = match (material.name(), material.index()) {
@@ -97,7 +143,9 @@ impl Materials {
             again += 1;
         }
         let mut entry = self.entry(own, material, (document, numbers, file))?;
-        entry.material.vertex_colors = colored;
+        if colored {
+            entry.material.vertex_colors = VertexColors::Always;
+        }
         self.entries.push(entry);
         let surface = self.entries.len() as u32 - 1;
         self.numbers.insert(material.index(), surface);
@@ -115,41 +163,61 @@ impl Materials {
         let channel = |x: f64| if x.is_finite() { x.clamp(0.0, 1.0) } else { 1.0 };
         let mut own = plain();
         own.color = Color::new(channel(red), channel(green), channel(blue));
-        let opacity = match material.alpha_mode() {
-            AlphaMode::Opaque => 1.0,
-            AlphaMode::Blend => channel(alpha),
+        let picture = match pbr.base_color_texture() {
+            Some(info) => self.picture(&info.texture(), context)?,
+            None => None,
+        };
+        let cutoff = f64::from(material.alpha_cutoff().unwrap_or(0.5));
+        let (opacity, cut) = match material.alpha_mode() {
+            AlphaMode::Opaque => (1.0, Alpha::Ignore),
+            AlphaMode::Blend => (channel(alpha), Alpha::Cut),
             AlphaMode::Mask => {
-                let cutoff = material.alpha_cutoff().unwrap_or(0.5);
-                f64::from(u8::from(channel(alpha) >= f64::from(cutoff)))
+                // The factor is multiplied by the alpha of each texel, which is at most 1.
+                let shows = channel(alpha) >= cutoff;
+                let least = (cutoff / channel(alpha) * f64::from(u16::MAX)).ceil();
+                (f64::from(u8::from(shows)), Alpha::From(least as u16))
             }
         };
         if opacity != 1.0 {
             (own.ambient, own.diffuse) = (opacity, opacity);
             own.transparency = 1.0 - opacity;
         }
-        let picture = match pbr.base_color_texture() {
-            Some(info) => self.picture(&info.texture(), context)?,
-            None => None,
-        };
-        let is_rough = pbr.metallic_factor() == 0.0 && pbr.roughness_factor() == 1.0;
         let emits = material.emissive_factor() != [0.0; 3];
+        let lit_picture = material.emissive_texture().is_some();
+        if emits && !lit_picture {
+            own.emission = opacity * emitted(material);
+        }
+        let relief = self.relief(material, context)?;
+        let is_rough = pbr.metallic_factor() == 0.0 && pbr.roughness_factor() == 1.0;
         for (what, is_there) in [
             ("metallic and roughness", !is_rough && material.index().is_some()),
-            ("normal textures", material.normal_texture().is_some()),
             ("occlusion textures", material.occlusion_texture().is_some()),
-            ("emitted light", emits),
-            // The alpha of a picture cuts out in proportion.
-            ("alphaCutoff", material.alpha_mode() == AlphaMode::Mask && picture.is_some()),
+            ("emitted light with a picture", emits && lit_picture),
         ] {
             if is_there {
                 self.unused.push(what);
             }
         }
-        let alpha = match material.alpha_mode() {
-            AlphaMode::Opaque => Alpha::Ignore,
-            AlphaMode::Mask | AlphaMode::Blend => Alpha::Cut,
-        };
-        Ok(Entry { name, material: own, picture, mask: None, alpha })
+        Ok(Entry { picture, alpha: cut, relief, ..Entry::new(&name, own) })
+    }
+
+    /// Returns the relief of a normal texture that is laid as the base colour is.
+    fn relief(
+        &mut self,
+        material: &Material<'_>,
+        context: Context<'_>,
+    ) -> Result<Option<ReliefMap>, Fault> {
+        let Some(normals) = material.normal_texture() else { return Ok(None) };
+        if Coordinates::of_normals(material) != Some(Coordinates::of(material)) {
+            self.unused.push("normal textures with coordinates of their own");
+            return Ok(None);
+        }
+        let map = self.picture(&normals.texture(), context)?;
+        let strength = f64::from(normals.scale());
+        let strength = if strength.is_finite() { strength.clamp(-1e6, 1e6) } else { 1.0 };
+        let relief =
+            |map| ReliefMap { map: Map { strength, ..map }, colors: ReliefColors::Normals };
+        Ok(map.map(relief))
     }
 
     /// Returns the picture of a texture. A picture inside the file gets a name, and its bytes are kept.
@@ -181,9 +249,7 @@ impl Materials {
                 uri::data(uri, &format!("images[{}].uri", image.index()))?
             }
             (None, Some(uri)) => {
-                let map =
-                    Map { path: uri::path(uri), scale: DVec2::ONE, offset: DVec2::ZERO, wrap };
-                return Ok(Some(map));
+                return Ok(Some(Map::of(uri::path(uri), wrap)));
             }
             (None, None) => {
                 self.unused.push(NO_PICTURE);
@@ -191,6 +257,6 @@ impl Materials {
             }
         };
         self.pictures.entry(inside.clone()).or_insert(bytes);
-        Ok(Some(Map { path: inside, scale: DVec2::ONE, offset: DVec2::ZERO, wrap }))
+        Ok(Some(Map::of(inside, wrap)))
     }
 }

@@ -7,7 +7,7 @@
 //! | `TEXCOORD_n` of the base colour | texture coordinates |
 //! | `COLOR_0` | colours of vertices, linear |
 //! | triangles, strips and fans | triangles; a node that mirrors turns them over |
-//! | `baseColorFactor`, `baseColorTexture`, `alphaMode` | a material ([`material`]) |
+//! | `baseColorFactor`, `baseColorTexture`, `alphaMode`, `normalTexture`, `emissiveFactor` | a material ([`material`]) |
 //! | points and lines, skins, targets of morphing, other extensions | counted in [`ObjFile::unused`] |
 //!
 //! Buffers and pictures may be in the file, in data URIs, or in files beside it. Compressed meshes are

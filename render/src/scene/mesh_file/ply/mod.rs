@@ -25,7 +25,6 @@ use crate::scene::mtl::{Entry, Map, plain};
 use crate::scene::obj::ObjFile;
 use crate::shape::Mesh;
 use crate::shape::mesh::Triangle;
-use crate::texture::Alpha;
 use body::{Body, Fault, Position};
 use faces::Faces;
 use files::MemoryError;
@@ -252,13 +251,7 @@ impl Reader {
             header.comments.iter().find_map(|comment| comment.strip_prefix("TextureFile "));
         let material = picture.and_then(Map::read).map(|picture| {
             let [name] = &self.mesh.surfaces[..] else { return Vec::new() };
-            vec![Entry {
-                name: name.clone(),
-                material: plain(),
-                picture: Some(picture),
-                mask: None,
-                alpha: Alpha::Cut,
-            }]
+            vec![Entry { picture: Some(picture), ..Entry::new(name, plain()) }]
         });
         let read = ObjFile {
             file: file.into(),
