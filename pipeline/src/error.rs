@@ -117,6 +117,32 @@ pub enum PipelineError {
         /// The names of the job's meshes.
         known: String,
     },
+    /// Frames or a film are wanted of a job without an animation.
+    #[error(
+        "job {} has no animation: add \"animate\" or \"turntable\" to it, or leave out --frames, --film and --again",
+        shown(.0)
+    )]
+    NoAnimation(String),
+    /// The animation has not all frames that are wanted.
+    #[error("--frames of job {}: {message}", shown(job))]
+    Frames {
+        /// The job.
+        job: String,
+        /// What is wrong.
+        message: String,
+    },
+    /// A film is wanted of a job with several modes.
+    #[error(
+        "--film needs one mode, and job {} has {}: add --mode and one of them",
+        shown(job),
+        cut(modes, LONGEST_LIST)
+    )]
+    FilmOfModes {
+        /// The job.
+        job: String,
+        /// Its modes.
+        modes: String,
+    },
     /// No page shows that figure of the thesis.
     #[error("there is no figure A.{number}; there are {known}")]
     UnknownFigure {
@@ -154,6 +180,9 @@ impl Failure for PipelineError {
             | Self::MissingMesh { .. }
             | Self::UnknownMode { .. }
             | Self::UnknownSpec { .. }
+            | Self::NoAnimation(_)
+            | Self::Frames { .. }
+            | Self::FilmOfModes { .. }
             | Self::UnknownFigure { .. }
             | Self::UnknownPage { .. } => Exit::Use,
         }

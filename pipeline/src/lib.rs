@@ -6,6 +6,7 @@
 //! [`pages`] are built into the program, and [`mod@book`] shows them. [`mod@report`] measures what
 //! each method of rendering a page costs, and how far its picture is from the truth.
 
+pub mod animation;
 pub mod book;
 pub mod calibrate;
 pub mod cli;

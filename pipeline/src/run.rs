@@ -1,10 +1,12 @@
 //! Runs a job: from specs to grids, meshes and pictures.
 
+pub mod frames;
 mod requested;
 mod scene;
 
 pub use requested::Accuracy;
 
+use crate::animation::digest::Digest;
 use crate::fineness::{Fineness, Kinds};
 use crate::job::Mode;
 use crate::stages::Stages;
@@ -76,6 +78,8 @@ pub enum Event<'a> {
     },
     /// A file is written.
     Written(&'a Path),
+    /// A file of these inputs exists and is kept.
+    Kept(&'a Path),
 }
 
 /// Runs a job, whose files are read from `source`.
@@ -173,6 +177,8 @@ struct Run<'a> {
     stages: Cell<Stages>,
     /// The kinds of resolution of the job's meshes, once they were made.
     kinds: Cell<Kinds>,
+    /// The digest of the inputs of all pictures, if it is known.
+    inputs: Option<Digest>,
 }
 
 impl<'a> Run<'a> {
@@ -183,7 +189,7 @@ impl<'a> Run<'a> {
         tell: &'a (dyn Fn(Event<'_>) + Sync),
     ) -> Self {
         let (stages, kinds) = (Cell::default(), Cell::default());
-        Self { job, source, options, tell, batch: None, stages, kinds }
+        Self { job, source, options, tell, batch: None, stages, kinds, inputs: None }
     }
 
     /// Reserves memory for the pictures of all modes and for the strip of them.

@@ -72,6 +72,8 @@ enum UseError {
     PixelAndPicture,
     #[error("--crop {0} reaches out of the picture of {1}x{2} pixels")]
     CropOutside(String, u32, u32),
+    #[error("--tile {0}/{1} has no rows: the picture has {2}, so ask for at most {2} parts")]
+    ThinTiles(u32, u32, u32),
     #[error("--pixel {0},{1} is not in the picture of {2}x{3} pixels, whose first is 0,0")]
     PixelOutside(u32, u32, u32, u32),
     #[error("--seed chooses a jitter: add --pattern jitter, or leave it out")]
@@ -109,6 +111,7 @@ impl Failure for UseError {
             | Self::BinaryToTerminal
             | Self::PixelAndPicture
             | Self::CropOutside(..)
+            | Self::ThinTiles(..)
             | Self::PixelOutside(..)
             | Self::SeedOfNothing
             | Self::WideFilterOfOne(_)
@@ -151,7 +154,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
     let (width, height) = sampling.size;
     let mut settings = Settings {
         sampling: sampling.sampling()?,
-        crop: sampling.crop,
+        crop: sampling.crop(),
         layers: output.layers(),
         accel: work.accel,
         ..Settings::new(width, height, textures.filter)

@@ -67,6 +67,20 @@ fn the_library_that_a_mesh_names_is_found_as_other_programs_find_it() {
     let (found, said) = halves(&two);
     assert_eq!(found, [RED, BLUE]);
     assert!(said.starts_with("render: remark: halves.obj: mtllib: cannot read b.mtl"), "{said}");
+    for names in ["my a.mtl my b.mtl", "\"my a.mtl\" \"my b.mtl\"", "\\old\\my a.mtl MY B.mtl"] {
+        let spaces = folder("", &format!("mtllib {names}\n{HALVES}"));
+        spaces.write("my a.mtl", "newmtl left\nKd 1 0 0\n");
+        spaces.write("my b.mtl", "newmtl right\nKd 0 0 1\n");
+        assert_eq!(halves(&spaces), ([RED, BLUE], String::new()), "{names}");
+    }
+    let lost = folder("", &format!("mtllib lost.mtl\n{HALVES}"));
+    let (found, said) = halves(&lost);
+    assert_eq!(found, [WHITE; 2]);
+    for part in
+        ["mtllib: cannot read lost.mtl", "no library has material left, which is plain white"]
+    {
+        assert!(said.contains(part), "{said}");
+    }
     let listed = folder(r#", "mtl": ["a.mtl", "c.mtl"]"#, HALVES);
     listed.write("a.mtl", "newmtl left # first\nKd 1 0 0\n");
     listed.write("c.mtl", "newmtl right\nKd 0 0 1\n");

@@ -11,7 +11,8 @@ impl FromStr for Frames {
 
     fn from_str(text: &str) -> Result<Self, String> {
         let expected = "expected frames from 1 on, such as 7, 1-240 or 1-240x10";
-        let number = |text: &str| text.parse().ok().filter(|&number: &u32| number > 0).ok_or(expected);
+        let number =
+            |text: &str| text.parse().ok().filter(|&number: &u32| number > 0).ok_or(expected);
         let mut ranges = Vec::new();
         for part in text.split(',') {
             let (range, step) = match part.split_once('x') {

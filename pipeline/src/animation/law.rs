@@ -129,7 +129,9 @@ fn number(value: &Value) -> Result<sweep::law::Law, String> {
             keys.iter().try_for_each(|&[at, value]| point(at, value))?;
             if let Some(two) = keys.windows(2).find(|two| two[1][0] <= two[0][0]) {
                 let [[before, _], [at, _]] = [two[0], two[1]];
-                return Err(format!("found a key at {at:?} behind {before:?}, expected rising times"));
+                return Err(format!(
+                    "found a key at {at:?} behind {before:?}, expected rising times"
+                ));
             }
             Ok(sweep::law::Law::keys(keys, ease))
         }
@@ -139,12 +141,16 @@ fn number(value: &Value) -> Result<sweep::law::Law, String> {
             }
             bezier.iter().flatten().try_for_each(|&[at, value]| point(at, value))?;
             if bezier.windows(2).any(|two| two[1][0] != two[0][3]) {
-                return Err("found segments apart, expected each to start where another ends".into());
+                return Err(
+                    "found segments apart, expected each to start where another ends".into()
+                );
             }
             let cubics: Vec<_> =
                 bezier.into_iter().map(|points| Cubic(points.map(Into::into))).collect();
             if !cubics.iter().all(is_graph) {
-                return Err("found a segment that turns back, expected times to rise along it".into());
+                return Err(
+                    "found a segment that turns back, expected times to rise along it".into()
+                );
             }
             Ok(sweep::law::Law::bezier(cubics))
         }
@@ -189,8 +195,14 @@ mod tests {
             (json!({"key": [[0, 1]]}), "key"),
             (json!({"keys": [[0, 1], [0, 2]]}), "a key at 0.0 behind 0.0"),
             (json!({"keys": [[0, 1], [1.5, 2]]}), "a key at 1.5, expected a time"),
-            (json!({"keys": [[0, [1, 2]], [1, [1]]]}), "found a list of 1 at keys[1], expected a list of 2"),
-            (json!({"keys": [[0, 1], [1, [1]]]}), "found a list of 1 at keys[1], expected a number"),
+            (
+                json!({"keys": [[0, [1, 2]], [1, [1]]]}),
+                "found a list of 1 at keys[1], expected a list of 2",
+            ),
+            (
+                json!({"keys": [[0, 1], [1, [1]]]}),
+                "found a list of 1 at keys[1], expected a number",
+            ),
             (json!({"bezier": [[[0, 0], [1, 0], [0, 1], [0.5, 1]]]}), "turns back"),
             (json!({"total": 1, "keys": [[0, 1]]}), "expected a law"),
             (json!([[1, 2], 3]), "expected a law"),

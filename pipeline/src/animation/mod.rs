@@ -28,6 +28,7 @@
 //! Each frame is a job of its own, whose values are set: it has the same picture wherever and whenever it is made.
 
 pub mod digest;
+pub mod film;
 pub mod frames;
 pub mod law;
 pub mod turntable;
@@ -96,9 +97,7 @@ impl Animation {
                 let message = format!("found {key} beside `animate`, expected it only there");
                 return Err(document.fault(&format!("turntable.{key}"), message));
             }
-            (None, Some(file)) => {
-                ("turntable", file.frames.unwrap_or(turntable::FRAMES), file.fps)
-            }
+            (None, Some(file)) => ("turntable", file.frames.unwrap_or(turntable::FRAMES), file.fps),
         };
         if !(1..=MOST_FRAMES).contains(&frames) {
             let message = format!("found {frames}, expected 1 to {MOST_FRAMES}");
@@ -190,9 +189,8 @@ fn check_path(path: &str, meshes: &[&str]) -> Result<(), String> {
         let near = near.map(|near| format!(" (did you mean `{near}`?)")).unwrap_or_default();
         return Err(format!("found {first:?}{near}, {EXPECTED}"));
     }
-    let of_mesh = |name: &&str| {
-        setting.below("specs").is_some_and(|setting| setting.below(name).is_some())
-    };
+    let of_mesh =
+        |name: &&str| setting.below("specs").is_some_and(|setting| setting.below(name).is_some());
     if meshes.iter().any(of_mesh) {
         return Ok(());
     }
@@ -268,7 +266,8 @@ mod tests {
 
     #[test]
     fn a_loop_ends_before_its_start() {
-        let text = r#"{"animate": {"frames": 4, "set": {"scene.ambient": {"total": 1}}, "loop": LOOP}}"#;
+        let text =
+            r#"{"animate": {"frames": 4, "set": {"scene.ambient": {"total": 1}}, "loop": LOOP}}"#;
         let at = |loops: &str, frame: u32| {
             texts(&read(&text.replace("LOOP", loops)).unwrap(), frame).remove(0)
         };
@@ -282,8 +281,14 @@ mod tests {
     fn what_is_wrong_has_its_place() {
         let set = |set: &str| format!(r#"{{"animate": {{"frames": 2, "set": {{{set}}}}}}}"#);
         for (text, parts) in [
-            (r#"{"animate": {"frames": 0}}"#.to_string(), ["animate.frames: found 0", "1 to 1000000"]),
-            (r#"{"animate": {"frames": 2, "fps": 0}}"#.into(), ["animate.fps: found 0", "0.001 to"]),
+            (
+                r#"{"animate": {"frames": 0}}"#.to_string(),
+                ["animate.frames: found 0", "1 to 1000000"],
+            ),
+            (
+                r#"{"animate": {"frames": 2, "fps": 0}}"#.into(),
+                ["animate.fps: found 0", "0.001 to"],
+            ),
             (r#"{"animate": {"frame": 2}}"#.into(), ["frame", "did you mean `frames`?"]),
             (
                 r#"{"animate": {"frames": 2}, "turntable": {"fps": 25}}"#.into(),
@@ -298,7 +303,10 @@ mod tests {
             (set(r#""scene.ambient": "x""#), ["animate.set.scene.ambient: found \"x\"", "a law"]),
         ] {
             let said = read(&text).unwrap_err();
-            assert!(said.starts_with("a.json:1:") && parts.iter().all(|part| said.contains(part)), "{said}");
+            assert!(
+                said.starts_with("a.json:1:") && parts.iter().all(|part| said.contains(part)),
+                "{said}"
+            );
         }
     }
 }

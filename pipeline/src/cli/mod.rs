@@ -6,6 +6,8 @@ mod calibrate;
 mod common;
 mod compare;
 mod export;
+mod frames;
+mod join;
 mod list;
 mod named;
 mod report;
@@ -28,9 +30,11 @@ Examples:
   pipeline run vase -D scene.camera.fov_deg=30 -D specs.vase.mesh.cols=40 -o out
   pipeline run vase --error 0.005 -o out
   pipeline run frontispiece --mode exact --size 4096x4096 -o poster
+  pipeline run turntable.json --frames 1-24 --film turntable.gif -o frames
   pipeline report glass-sphere -o report --quick
   pipeline report --calibrate --scenes 50 -o report
   pipeline book -o book
+  pipeline join part-1.exr part-2.exr -o whole.exr
   pipeline compare a.png b.png --map difference.png --rmse 0.01
 
 No output replaces an input: a job, a scene and its parts, a spec, a mesh, a picture.
@@ -58,6 +62,8 @@ enum Command {
     Export(export::ExportArguments),
     /// Make the pictures of built-in pages or of your own jobs
     Run(run::RunArguments),
+    /// Put the parts of a picture together, which `render --tile` made
+    Join(join::JoinArguments),
     /// Measure the cost of each rendering method and the error of its pictures
     Report(report::ReportArguments),
     /// Make the picture book: pages with their modes, costs and errors, as one file of HTML
@@ -81,6 +87,7 @@ fn run(command: &Command, memory: Option<&dyn Memory>) -> Result<(), Report> {
         Command::List => list::list(),
         Command::Export(arguments) => export::export(arguments),
         Command::Run(arguments) => run::run(arguments),
+        Command::Join(arguments) => join::join(arguments),
         Command::Report(arguments) if arguments.calibrate => report::calibrate(arguments),
         Command::Report(arguments) => match memory {
             Some(memory) => report::report(arguments, memory),

@@ -2,6 +2,7 @@
 
 use super::bar::Bar;
 use super::common::CommonArguments;
+use super::frames::FrameArguments;
 use super::named::{self, NamedJob};
 use super::{OTHER_FOLDER, make_folder};
 use crate::contact_sheet::ContactSheet;
@@ -59,6 +60,8 @@ pub struct RunArguments {
     #[arg(long)]
     stats: bool,
     #[command(flatten)]
+    frames: FrameArguments,
+    #[command(flatten)]
     common: CommonArguments,
 }
 
@@ -70,7 +73,12 @@ pub fn run(arguments: &RunArguments) -> Result<(), Report> {
     let jobs = jobs(arguments, &ledger)?;
     make_folder(&arguments.output)?;
     let sheet_path = arguments.sheet.then(|| arguments.output.join(ContactSheet::FILE));
-    let names = jobs.iter().flat_map(|named| named.job.files(arguments.keep));
+    let chosen = jobs.iter().map(|named| arguments.frames.of(&named.job, &ledger));
+    let chosen = chosen.collect::<Result<Vec<_>, _>>()?;
+    let names = jobs.iter().zip(&chosen).flat_map(|(named, chosen)| match chosen {
+        Some(chosen) => chosen.files(&named.job),
+        None => named.job.files(arguments.keep),
+    });
     let files: Vec<PathBuf> =
         names.map(|name| arguments.output.join(name)).chain(sheet_path.clone()).collect();
     for file in &files {
@@ -94,18 +102,28 @@ pub fn run(arguments: &RunArguments) -> Result<(), Report> {
     let mut all = Stages::default();
     let mut sheet = ContactSheet::default();
     let mut missed = 0;
-    for (NamedJob { job, .. }, source) in jobs.iter().zip(&sources) {
+    for ((named, chosen), source) in jobs.iter().zip(&chosen).zip(&sources) {
+        let job = &named.job;
         let listener = Listener::new(job, arguments);
-        let batch = of_job::batch(job, &options)?;
-        arguments.remark(&batch);
-        let batch = match &together {
-            Some(together) => batch.within(together),
-            None => batch,
+        let hear = |event: Event<'_>| listener.hear(&event);
+        let stages = if let Some(chosen) = chosen {
+            let stages =
+                pool.install(|| chosen.run(named, &arguments.settings, &options, &hear))?;
+            if let Some(film) = chosen.film(job, &options, &ledger)? {
+                hear(Event::Written(&film));
+            }
+            stages
+        } else {
+            let batch = of_job::batch(job, &options)?;
+            arguments.remark(&batch);
+            let batch = match &together {
+                Some(together) => batch.within(together),
+                None => batch,
+            };
+            let stages = pool.install(|| of_job::run_in(&batch, job, source, &options, &hear))?;
+            batch.finish()?;
+            stages
         };
-        let stages = pool.install(|| {
-            of_job::run_in(&batch, job, source, &options, &|event| listener.hear(&event))
-        })?;
-        batch.finish()?;
         rows.push((job.name.clone(), stages));
         let (modes, last, misses) = listener.finish();
         missed += misses;
@@ -281,6 +299,12 @@ impl<'a> Listener<'a> {
                 self.bar.clear();
                 let seconds = self.started.elapsed().as_secs_f64();
                 self.say(&format!("{}  {seconds:.2} s", input::name_of(path)));
+            }
+            Event::Kept(path) => {
+                self.say(&format!(
+                    "{}  kept: it is whole and has these inputs",
+                    input::name_of(path)
+                ));
             }
         }
     }

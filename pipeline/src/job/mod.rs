@@ -45,9 +45,13 @@
 //! the mode by this figure, which no other mode has. `thesis_minutes` is the time of that figure in
 //! the thesis, in minutes.
 //!
+//! `animate` and `turntable` make a picture for each of many frames ([`crate::animation`]).
+//!
 //! `caption` and `crops` are for the book. Crops are positions, as fractions of width and height,
 //! whose pixels are worth a close look.
 
+use crate::animation::turntable::TurntableFile;
+use crate::animation::{AnimateFile, Animation};
 use files::json::Document;
 use files::names::each_name_once;
 use files::{JsonError, Source};
@@ -93,6 +97,10 @@ pub struct Job {
     pub whole: bool,
     /// A further mode, whose picture is not put beside the others.
     pub further: Option<Mode>,
+    /// The animation, if the job has one.
+    pub animation: Option<Animation>,
+    /// The frame of the animation whose pictures are made, from 1; `None` for the pictures without it.
+    pub frame: Option<u32>,
 }
 
 /// A mesh to make.
@@ -160,6 +168,10 @@ struct JobFile {
     scene: PathBuf,
     #[serde(default)]
     modes: Option<Vec<ModeFile>>,
+    #[serde(default)]
+    animate: Option<AnimateFile>,
+    #[serde(default)]
+    turntable: Option<TurntableFile>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -212,14 +224,16 @@ impl Job {
             .collect()
     }
 
-    /// Returns the file name of a mode's picture.
+    /// Returns the file name of a mode's picture; with a frame its number stands before the extension.
     pub(crate) fn picture_file(&self, mode: &Mode) -> String {
-        format!("{}-{}.png", self.name, mode.name)
+        let frame = self.frame.map(|frame| format!(".{frame:04}")).unwrap_or_default();
+        format!("{}-{}{frame}.png", self.name, mode.name)
     }
 
     /// Returns the file name of all pictures side by side, if there are several.
     pub(crate) fn strip_file(&self) -> Option<String> {
-        (self.whole && self.modes.len() > 1).then(|| format!("{}.png", self.name))
+        (self.whole && self.modes.len() > 1 && self.frame.is_none())
+            .then(|| format!("{}.png", self.name))
     }
 
     /// Returns the file name of a mesh's grid.
@@ -247,6 +261,8 @@ impl Job {
                 return Err(document.fault(&format!("crops[{k}].at"), message));
             }
         }
+        let names: Vec<&str> = file.meshes.keys().map(String::as_str).collect();
+        let animation = Animation::read(document, file.animate, file.turntable, &names)?;
         let meshes = file.meshes.into_iter().map(|(name, mesh)| MeshJob {
             text: Arc::clone(&text),
             name,
@@ -265,6 +281,8 @@ impl Job {
             modes: mode::modes(document, file.modes)?,
             whole: true,
             further: None,
+            animation,
+            frame: None,
         })
     }
 }

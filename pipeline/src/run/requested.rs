@@ -12,6 +12,7 @@ use crate::fineness::Fineness;
 use crate::job::Mode;
 use crate::stages::Stages;
 use render::accuracy::{self, Reached, Request, Sources, Statement};
+use render::film::encode::Coding;
 use render::film::{PixelFilter, alpha};
 use render::shade::View;
 use render::stats::Stats;
@@ -108,7 +109,10 @@ impl Run<'_> {
             alpha::add(&mut picture, &open);
         }
         let started = Instant::now();
-        let coding = coding::of(self.job, &settings, mode.error, is_transparent);
+        let coding = Coding {
+            inputs: self.inputs.map(|inputs| inputs.of_picture(self.job, mode, &settings)),
+            ..coding::of(self.job, &settings, mode.error, is_transparent)
+        };
         self.write_picture(&self.job.picture_file(mode), &picture, &coding)?;
         stats.read_time = read_time;
         stats.write_time = started.elapsed();

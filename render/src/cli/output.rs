@@ -107,6 +107,7 @@ impl OutputArguments {
             bits: self.bits,
             part: settings.crop.map(|crop| (crop, [settings.width, settings.height])),
             command: Some(command(named, settings)),
+            inputs: None,
         };
         let bytes = encode::encode_as(picture, target.format, &coding).map_err(EncodeError)?;
         Ok(ledger.create(target.path)?.commit_all(&bytes)?)

@@ -3,6 +3,7 @@
 use super::UseError;
 use clap::{Args, ValueEnum};
 use render::Sampling;
+use render::film::crop::Tile;
 use render::film::{
     Crop, MOST_SAMPLES, PatternName, PixelFilter, SPLITS, SamplingMethod, Supersample, THRESHOLD,
     crop,
@@ -16,7 +17,11 @@ pub struct SamplingArguments {
     /// Make only this part of the picture: column and row of its upper left pixel, from 0, and its
     /// size
     #[arg(long, value_name = "X,Y,WxH", value_parser = Crop::parse)]
-    pub crop: Option<Crop>,
+    crop: Option<Crop>,
+    /// Make only part K of N: the picture is cut into N bands of about equally many rows, from the top. `pipeline
+    /// join` puts the parts together. With --error each part reaches the error, and so does the whole
+    #[arg(long, value_name = "K/N", value_parser = Tile::parse, conflicts_with_all = ["crop", "pixel"])]
+    tile: Option<Tile>,
     /// Method of choosing rays and the areas that they stand for
     #[arg(long, value_name = "METHOD", default_value = "area")]
     sampling: SamplingMethod,
@@ -56,6 +61,9 @@ impl SamplingArguments {
     /// Checks that the crop and the pixel lie in the picture.
     pub fn check(&self) -> Result<(), UseError> {
         let (width, height) = self.size;
+        if let Some(tile) = self.tile.filter(|tile| tile.count > height) {
+            return Err(UseError::ThinTiles(tile.number, tile.count, height));
+        }
         match (self.crop, self.pixel) {
             (Some(crop), _) if !crop.fits(width, height) => {
                 let Crop { x, y, width: across, height: down } = crop;
@@ -66,6 +74,12 @@ impl SamplingArguments {
             }
             _ => Ok(()),
         }
+    }
+
+    /// Returns the part of the picture that is made; `None` for all of it.
+    pub fn crop(&self) -> Option<Crop> {
+        let (width, height) = self.size;
+        self.tile.map(|tile| tile.crop(width, height)).or(self.crop)
     }
 
     /// Returns a flag that was given and that chooses the number or the position of the rays, if any.

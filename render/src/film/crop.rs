@@ -81,6 +81,39 @@ impl Crop {
     }
 }
 
+/// One of several bands of rows into which a picture is cut.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Tile {
+    /// Number of the band, from 1 at the top.
+    pub number: u32,
+    /// Number of all bands, at least 1.
+    pub count: u32,
+}
+
+impl Tile {
+    /// Reads a band such as `2/4`.
+    ///
+    /// # Errors
+    /// If the text is not two numbers of which the first is 1 to the second.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        let both = text.split_once('/').and_then(|(number, count)| {
+            Some(Self { number: number.parse().ok()?, count: count.parse().ok()? })
+        });
+        let fits = |tile: &Self| (1..=tile.count).contains(&tile.number) && tile.count <= 65536;
+        both.filter(fits).ok_or("expected K/N with K from 1 to N, such as 2/4".into())
+    }
+
+    /// Returns the band of a picture of this size, in pixels. There is at least one row for each band if the
+    /// picture is as high as there are bands.
+    #[must_use]
+    pub fn crop(&self, width: u32, height: u32) -> Crop {
+        let start =
+            |number: u32| (u64::from(number) * u64::from(height) / u64::from(self.count)) as u32;
+        let y = start(self.number - 1);
+        Crop { x: 0, y, width, height: start(self.number) - y }
+    }
+}
+
 /// Reads the coordinates of a pixel, such as `320,240`: column and row, counted from 0 at the upper
 /// left.
 ///
@@ -121,6 +154,25 @@ mod tests {
             covered.sort_unstable();
             let all: Vec<_> = (5..9).flat_map(|y| (3..10).map(move |x| (y, x))).collect();
             assert_eq!(covered, all);
+        }
+    }
+
+    /// Bands follow one another, cover all rows, and differ by at most one row.
+    #[test]
+    fn tiles_are_bands_of_all_rows() {
+        for (count, height) in [(1, 1), (3, 10), (7, 7), (5, 512)] {
+            let mut next = 0;
+            for number in 1..=count {
+                let tile = Tile::parse(&format!("{number}/{count}")).unwrap();
+                let crop = tile.crop(8, height);
+                assert_eq!((crop.x, crop.y, crop.width), (0, next, 8));
+                assert!(crop.height.abs_diff(height / count) <= 1 && crop.height > 0);
+                next = crop.rows().end;
+            }
+            assert_eq!(next, height);
+        }
+        for text in ["", "1", "0/2", "3/2", "1/0", "a/2", "1/2/3", "1/99999"] {
+            assert!(Tile::parse(text).is_err(), "{text}");
         }
     }
 }

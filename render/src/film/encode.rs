@@ -47,6 +47,16 @@ impl Format {
     pub fn of(path: &Path) -> Option<Self> {
         Self::from_str(path.extension()?.to_str()?, true).ok()
     }
+
+    /// Returns the format of a file by its first bytes.
+    #[must_use]
+    pub fn of_contents(bytes: &[u8]) -> Option<Self> {
+        if bytes.starts_with(b"\x89PNG") {
+            Some(Self::Png)
+        } else {
+            bytes.starts_with(b"v/1\x01").then_some(Self::Exr)
+        }
+    }
 }
 
 /// The number of bits of each channel of a PNG.
@@ -73,18 +83,23 @@ pub struct Coding {
     pub part: Option<(Crop, [u32; 2])>,
     /// The command that makes the picture ([`super::command`]), if it is known.
     pub command: Option<String>,
+    /// The digest of all inputs of the picture, if it is known. Only a PNG states it.
+    pub inputs: Option<String>,
 }
+
+/// Keyword of the text of a PNG that holds [`Coding::inputs`].
+pub const INPUTS: &str = "Inputs";
 
 impl Coding {
     /// The coding of a whole picture with 8 bits in each channel of a PNG.
     #[must_use]
     pub fn new(encoding: Encoding) -> Self {
-        Self { encoding, bits: Bits::Eight, part: None, command: None }
+        Self { encoding, bits: Bits::Eight, part: None, command: None, inputs: None }
     }
 }
 
 /// The program that writes files, with its version.
-const SOFTWARE: &str = concat!("topobook render ", env!("CARGO_PKG_VERSION"));
+pub(crate) const SOFTWARE: &str = concat!("topobook render ", env!("CARGO_PKG_VERSION"));
 
 /// Returns the bytes of the file. `encoding` turns linear values into the codes of a PNG. An EXR
 /// stays linear.
@@ -127,10 +142,52 @@ fn write_png(
     coding: &Coding,
     bytes: &mut Cursor<Vec<u8>>,
 ) -> Result<(), png::EncodingError> {
-    let Coding { encoding, bits, command, .. } = coding;
+    let Coding { encoding, bits, .. } = coding;
     let coverage = alpha::coverage(picture);
-    let mut encoder = png::Encoder::new(bytes, picture.width, picture.height);
-    encoder.set_color(if coverage.is_some() { png::ColorType::Rgba } else { png::ColorType::Rgb });
+    let alpha = |k: usize| coverage.map(|coverage| coverage[k]);
+    let straight = |k: usize| alpha::straight(picture.pixels[k], alpha(k));
+    let count = 0..picture.pixels.len();
+    let channels = if coverage.is_some() { 4 } else { 3 };
+    let mut data =
+        Vec::with_capacity(count.len() * channels * (1 + usize::from(*bits == Bits::Sixteen)));
+    match bits {
+        Bits::Eight => {
+            let bytes_of = Bytes::of(*encoding);
+            for k in count {
+                data.extend(straight(k).map(|light| bytes_of.at(light)));
+                data.extend(alpha(k).map(|a| (a.clamp(0.0, 1.0) * 255.0).round() as u8));
+            }
+        }
+        Bits::Sixteen => {
+            let code = |part: f64| ((part * 65535.0).round() as u16).to_be_bytes();
+            for k in count {
+                data.extend(straight(k).into_iter().flat_map(|light| {
+                    // NaN becomes 0, as in a cast to a whole number.
+                    code(encoding.encode(f64::from(light)))
+                }));
+                data.extend(alpha(k).into_iter().flat_map(|a| code(f64::from(a).clamp(0.0, 1.0))));
+            }
+        }
+    }
+    let size = [picture.width, picture.height];
+    write_codes(size, coverage.is_some(), &data, coding, bytes)
+}
+
+/// Writes a PNG file of these codes, row by row, with a coverage or without.
+pub(super) fn write_codes(
+    [width, height]: [u32; 2],
+    has_coverage: bool,
+    codes: &[u8],
+    coding: &Coding,
+    bytes: &mut Cursor<Vec<u8>>,
+) -> Result<(), png::EncodingError> {
+    let Coding { encoding, bits, command, inputs, .. } = coding;
+    let mut encoder = png::Encoder::new(bytes, width, height);
+    encoder.set_color(if has_coverage { png::ColorType::Rgba } else { png::ColorType::Rgb });
+    encoder.set_depth(match bits {
+        Bits::Eight => png::BitDepth::Eight,
+        Bits::Sixteen => png::BitDepth::Sixteen,
+    });
     encoder.set_compression(png::Compression::Fast);
     encoder.set_filter(png::Filter::Adaptive);
     match *encoding {
@@ -143,35 +200,11 @@ fn write_png(
     if let Some(command) = command {
         encoder.add_itxt_chunk("Command".into(), command.clone())?;
     }
-    let alpha = |k: usize| coverage.map(|coverage| coverage[k]);
-    let straight = |k: usize| alpha::straight(picture.pixels[k], alpha(k));
-    let count = 0..picture.pixels.len();
-    let channels = if coverage.is_some() { 4 } else { 3 };
-    let mut data =
-        Vec::with_capacity(count.len() * channels * (1 + usize::from(*bits == Bits::Sixteen)));
-    match bits {
-        Bits::Eight => {
-            encoder.set_depth(png::BitDepth::Eight);
-            let bytes_of = Bytes::of(*encoding);
-            for k in count {
-                data.extend(straight(k).map(|light| bytes_of.at(light)));
-                data.extend(alpha(k).map(|a| (a.clamp(0.0, 1.0) * 255.0).round() as u8));
-            }
-        }
-        Bits::Sixteen => {
-            encoder.set_depth(png::BitDepth::Sixteen);
-            let code = |part: f64| ((part * 65535.0).round() as u16).to_be_bytes();
-            for k in count {
-                data.extend(straight(k).into_iter().flat_map(|light| {
-                    // NaN becomes 0, as in a cast to a whole number.
-                    code(encoding.encode(f64::from(light)))
-                }));
-                data.extend(alpha(k).into_iter().flat_map(|a| code(f64::from(a).clamp(0.0, 1.0))));
-            }
-        }
+    if let Some(inputs) = inputs {
+        encoder.add_text_chunk(INPUTS.into(), inputs.clone())?;
     }
     let mut writer = encoder.write_header()?;
-    writer.write_image_data(&data)?;
+    writer.write_image_data(codes)?;
     writer.finish()
 }
 
@@ -182,7 +215,7 @@ fn write_exr(
     bytes: &mut Cursor<Vec<u8>>,
 ) -> Result<(), ImageError> {
     let light = |k: usize| FlatSamples::F32(picture.pixels.iter().map(|pixel| pixel[k]).collect());
-    let mut channels: SmallVec<[AnyChannel<FlatSamples>; 4]> = ["R", "G", "B"]
+    let mut channels: Channels = ["R", "G", "B"]
         .into_iter()
         .enumerate()
         .map(|(k, name)| AnyChannel::new(name, light(k)))
@@ -190,7 +223,20 @@ fn write_exr(
     for channel in &picture.channels {
         channels.push(AnyChannel::new(channel.name, FlatSamples::F32(channel.values.clone())));
     }
-    let size = (picture.width as usize, picture.height as usize);
+    write_channels([picture.width, picture.height], channels, coding, bytes)
+}
+
+/// The channels of an EXR file.
+pub(super) type Channels = SmallVec<[AnyChannel<FlatSamples>; 4]>;
+
+/// Writes an EXR file of these channels.
+pub(super) fn write_channels(
+    [width, height]: [u32; 2],
+    channels: Channels,
+    coding: &Coding,
+    bytes: &mut Cursor<Vec<u8>>,
+) -> Result<(), ImageError> {
+    let size = (width as usize, height as usize);
     let mut image = Image::from_channels(size, AnyChannels::sort(channels));
     let attributes = &mut image.layer_data.attributes;
     attributes.software_name = Text::new_or_none(SOFTWARE);

@@ -99,7 +99,7 @@ impl Layer {
         match self {
             Self::Normal => node.normal.as_vec3().to_array(),
             Self::Depth => {
-                let depth = shader.scene.camera.distance(node.position);
+                let depth = shader.camera.distance(node.position);
                 [depth as f32, 0.0, 0.0]
             }
             Self::Uv => node.uv.as_vec2().extend(0.0).to_array(),

@@ -14,6 +14,7 @@ pub mod command;
 pub mod crop;
 pub mod encode;
 mod exposure;
+pub mod join;
 mod lattice;
 pub mod layer;
 pub mod memory;
@@ -210,7 +211,7 @@ fn with_exposure<T>(
         lattice_bytes: scene.procedural.lattice_bytes(),
         ..Stats::default()
     };
-    let mut tracer = Tracer::new(scene, shader.accel, shader.volumes);
+    let mut tracer = Tracer::new(scene, shader.accel, shader.volumes).seen_by(prepared.camera());
     let least = settings.least_weight.unwrap_or(settings.sampling.least_weight());
     tracer.min_weight = tracer.min_weight.max(least);
     work(&Exposure { tracer, shader, settings }, stats)

@@ -16,9 +16,8 @@ pub mod volume;
 use crate::accel::Accel;
 use crate::color::Color;
 use crate::differential::RayDifferential;
-use crate::procedural::{Bump, Place};
 use crate::ray::{Hit, Ray};
-use crate::scene::{Material, Scene};
+use crate::scene::{Camera, Scene};
 use crate::shape::SurfacePoint;
 use glam::DVec3;
 use medium::{Boundary, Media};
@@ -35,6 +34,8 @@ const MOST_HIDDEN: usize = 1 << 12;
 pub struct Tracer<'a> {
     /// The scene.
     pub scene: &'a Scene,
+    /// The camera, that of the scene unless [`Tracer::seen_by`] replaced it.
+    pub camera: Camera,
     /// Structure that finds the hits.
     pub accel: &'a Accel<'a>,
     /// The volumes of the scene.
@@ -114,8 +115,19 @@ impl<'a> Tracer<'a> {
     /// Creates a tracer for the scene's camera and the least weight that the scene states.
     #[must_use]
     pub fn new(scene: &'a Scene, accel: &'a Accel<'a>, volumes: &'a Volumes) -> Self {
-        let around_eye = volumes.around(scene, accel, scene.camera.eye());
-        Self { scene, accel, volumes, around_eye, min_weight: scene.min_weight }
+        let (camera, min_weight) = (scene.camera, scene.min_weight);
+        let around_eye = volumes.around(scene, accel, camera.eye());
+        Self { scene, camera, accel, volumes, around_eye, min_weight }
+    }
+
+    /// Returns the tracer with another camera than that of the scene.
+    #[must_use]
+    pub fn seen_by(self, camera: Camera) -> Self {
+        if camera == self.camera {
+            return self;
+        }
+        let around_eye = self.volumes.around(self.scene, self.accel, camera.eye());
+        Self { camera, around_eye, ..self }
     }
 
     /// Traces a ray from the eye and fills its intersection tree.
@@ -156,7 +168,7 @@ impl<'a> Tracer<'a> {
         tree.clear();
         counts.primary += 1;
         let mut media = std::mem::take(&mut tree.media);
-        if self.scene.camera.is_orthographic() && self.volumes.any() {
+        if self.camera.is_orthographic() && self.volumes.any() {
             // Each ray starts at a place of its own.
             let (ray, _, _) = carried;
             media = self.volumes.around(self.scene, self.accel, ray.origin);
@@ -202,27 +214,6 @@ impl<'a> Tracer<'a> {
         };
         media.back_to(start);
         (branch, through)
-    }
-
-    /// Returns the unit normal for shading, perturbed by the material's bump if it has one.
-    fn bumped(&self, material: &Material, hit: &Hit, point: &SurfacePoint) -> DVec3 {
-        let Some(bump) = material.bump.map(|bump| &self.scene.procedural.bumps[bump]) else {
-            return point.shading_normal;
-        };
-        let object = &self.scene.objects[hit.piece.object as usize];
-        bump.normal(&object.to_own_space, &self.place(bump, hit, point))
-    }
-
-    /// Returns a hit as the place of a bump.
-    fn place(&self, bump: &Bump, hit: &Hit, point: &SurfacePoint) -> Place {
-        let shape = &self.scene.objects[hit.piece.object as usize].shape;
-        let uv_gradients = if bump.wants_uv() {
-            shape.uv_gradients(hit.piece.triangle, point.position)
-        } else {
-            [DVec3::ZERO; 2]
-        };
-        let (position, normal) = (point.position, point.shading_normal);
-        Place { point: position, normal, uv: point.uv, uv_gradients }
     }
 
     /// Adds a visible surface to the tree, and follows its mirrored and refracted rays.

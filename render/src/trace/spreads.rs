@@ -3,10 +3,10 @@
 use super::split::Turned;
 use super::{Seen, Tracer};
 use crate::differential::{RayDifferential, Spread};
-use crate::procedural::PlaceChanges;
-use crate::ray::Ray;
+use crate::procedural::{Bump, Place, PlaceChanges};
+use crate::ray::{Hit, Ray};
 use crate::scene::Material;
-use crate::shape::Changes;
+use crate::shape::{Changes, SurfacePoint};
 use glam::DVec3;
 
 /// The spreads of a hit, which differ in the changes of the normal.
@@ -103,5 +103,26 @@ impl Tracer<'_> {
         let averaged = bump.averaged(&object.to_own_space, &place, &changes);
         let shading = Spread { normal: averaged.changes, roughness: averaged.roughness, ..smooth };
         (averaged.normal, Spreads { facet, shading })
+    }
+
+    /// Returns the unit normal for shading, perturbed by the material's bump if it has one.
+    pub(super) fn bumped(&self, material: &Material, hit: &Hit, point: &SurfacePoint) -> DVec3 {
+        let Some(bump) = material.bump.map(|bump| &self.scene.procedural.bumps[bump]) else {
+            return point.shading_normal;
+        };
+        let object = &self.scene.objects[hit.piece.object as usize];
+        bump.normal(&object.to_own_space, &self.place(bump, hit, point))
+    }
+
+    /// Returns a hit as the place of a bump.
+    fn place(&self, bump: &Bump, hit: &Hit, point: &SurfacePoint) -> Place {
+        let shape = &self.scene.objects[hit.piece.object as usize].shape;
+        let uv_gradients = if bump.wants_uv() {
+            shape.uv_gradients(hit.piece.triangle, point.position)
+        } else {
+            [DVec3::ZERO; 2]
+        };
+        let (position, normal) = (point.position, point.shading_normal);
+        Place { point: position, normal, uv: point.uv, uv_gradients }
     }
 }

@@ -31,11 +31,29 @@ impl Map {
     #[must_use]
     pub fn read(text: &str) -> Option<Self> {
         let mut map = Self::of(String::new(), Wrap::Repeat);
-        let mut rest = text.trim();
+        let rest = map.options(text.trim(), true);
+        // Some programs write options behind the path.
+        let starts = rest.match_indices(char::is_whitespace).map(|(at, _)| at);
+        let path = starts
+            .filter(|&at| option(rest[at..].trim_start()).is_some())
+            .find(|&at| map.clone().options(rest[at..].trim_start(), false).is_empty())
+            .map_or(rest, |at| {
+                map.options(rest[at..].trim_start(), false);
+                rest[..at].trim_end()
+            });
+        let path = path.strip_prefix('"').and_then(|path| path.strip_suffix('"')).unwrap_or(path);
+        map.path = path.replace('\\', "/");
+        (!map.path.is_empty()).then_some(map)
+    }
+
+    /// Reads the options with which a text begins. Returns the rest of the text, which is a path if the options
+    /// stand before one.
+    fn options<'t>(&mut self, text: &'t str, before_path: bool) -> &'t str {
+        let mut rest = text;
         while let Some((option, after)) = option(rest) {
             rest = match option {
                 "-s" | "-o" | "-t" => {
-                    let (numbers, after) = numbers(after);
+                    let (numbers, after) = numbers(after, before_path);
                     let vector = |other: f64| {
                         DVec2::new(
                             *numbers.first().unwrap_or(&other),
@@ -43,30 +61,29 @@ impl Map {
                         )
                     };
                     match option {
-                        "-s" => map.scale = vector(1.0),
-                        "-o" => map.offset = vector(0.0),
+                        "-s" => self.scale = vector(1.0),
+                        "-o" => self.offset = vector(0.0),
                         _ => {}
                     }
                     after
                 }
-                "-mm" => numbers(after).1,
+                "-mm" => numbers(after, before_path).1,
                 "-clamp" => {
                     let (value, after) = word(after);
-                    map.wrap = if value == "on" { Wrap::Clamp } else { Wrap::Repeat };
+                    self.wrap = if value == "on" { Wrap::Clamp } else { Wrap::Repeat };
                     after
                 }
                 "-bm" => {
                     let (value, after) = word(after);
                     let value = value.parse().ok().filter(|x: &f64| (-1e6..=1e6).contains(x));
-                    map.strength = value.unwrap_or(map.strength);
+                    self.strength = value.unwrap_or(self.strength);
                     after
                 }
                 // All others have one value.
                 _ => word(after).1,
             };
         }
-        map.path = rest.replace('\\', "/");
-        (!map.path.is_empty()).then_some(map)
+        rest
     }
 
     /// Returns texture coordinates of a corner as the picture is to be read there.
@@ -99,13 +116,14 @@ fn word(text: &str) -> (&str, &str) {
     (first, rest.trim_start())
 }
 
-/// Splits up to three numbers from the text behind them. The last word is a path and never a number.
-fn numbers(mut text: &str) -> (Vec<f64>, &str) {
+/// Splits up to three numbers from the text behind them. Before the path, the last word is a path and never a
+/// number.
+fn numbers(mut text: &str, before_path: bool) -> (Vec<f64>, &str) {
     let mut found = Vec::new();
     while found.len() < 3 {
         let (first, rest) = word(text);
         let Some(number) = first.parse().ok().filter(|x: &f64| x.is_finite()) else { break };
-        if words(rest).next().is_none() {
+        if before_path && words(rest).next().is_none() {
             break;
         }
         found.push(number);
@@ -139,6 +157,9 @@ mod tests {
             ),
             ("-clamp off -s 2 2 2 7", "7", [2.0, 2.0], [0.0, 0.0], Wrap::Repeat),
             ("-o 1 2 3", "3", [1.0, 1.0], [1.0, 2.0], Wrap::Repeat),
+            ("\"a b.png\"", "a b.png", [1.0, 1.0], [0.0, 0.0], Wrap::Repeat),
+            ("a b.png -bm 0.5 -s 2 3 1", "a b.png", [2.0, 3.0], [0.0, 0.0], Wrap::Repeat),
+            ("a -s b.png", "a -s b.png", [1.0, 1.0], [0.0, 0.0], Wrap::Repeat),
             ("-x.png", "-x.png", [1.0, 1.0], [0.0, 0.0], Wrap::Repeat),
         ] {
             let found = Map::read(text);

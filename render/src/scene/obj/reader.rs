@@ -238,8 +238,8 @@ impl<'a> Reader<'a> {
                     Some(group) => group.parse().unwrap_or(1),
                 };
             }
-            "mtllib" => self.libraries.push(rest),
-            "" | "o" | "g" => {}
+            "mtllib" if !rest.is_empty() => self.libraries.push(rest),
+            "" | "o" | "g" | "mtllib" => {}
             _ if keyword.starts_with('#') => {}
             _ => self.pass_over(keyword),
         }

@@ -51,7 +51,8 @@ impl Reader<'_> {
         path
     }
 
-    /// Returns the files that a text behind `mtllib` means: the whole text, or one file for each word.
+    /// Returns the files that a text behind `mtllib` means: the whole text, one file for each part that ends in
+    /// `.mtl` or stands in quotation marks, or one for each word.
     pub(super) fn library_paths(&self, folder: &Path, text: &str) -> Vec<PathBuf> {
         let text = text.replace('\\', "/");
         let near = |name: &str| {
@@ -63,8 +64,41 @@ impl Reader<'_> {
         if let Some(path) = near(&text).or_else(|| near(before_comment(&text)?)) {
             return vec![path];
         }
-        text.split_whitespace()
-            .map(|name| near(name).unwrap_or_else(|| folder.join(name)))
-            .collect()
+        let mut paths = Vec::new();
+        for part in parts(&text) {
+            let found = |name: &str| near(name).unwrap_or_else(|| folder.join(name));
+            let words: Vec<&str> = part.split_whitespace().collect();
+            if words.len() > 1
+                && near(&part).is_none()
+                && words.iter().any(|word| near(word).is_some())
+            {
+                paths.extend(words.into_iter().map(found));
+            } else {
+                paths.push(found(&part));
+            }
+        }
+        paths
     }
+}
+
+/// Divides the text behind `mtllib` into names that may have spaces: parts in quotation marks, parts that end in
+/// `.mtl`, and the rest.
+fn parts(text: &str) -> Vec<String> {
+    if text.contains('"') {
+        let quoted = text.split('"').map(str::trim).filter(|part| !part.is_empty());
+        return quoted.map(Into::into).collect();
+    }
+    let mut parts = Vec::new();
+    let mut open = String::new();
+    for word in text.split_whitespace() {
+        if !open.is_empty() {
+            open.push(' ');
+        }
+        open.push_str(word);
+        if word.to_ascii_lowercase().ends_with(".mtl") {
+            parts.push(std::mem::take(&mut open));
+        }
+    }
+    parts.extend(Some(open).filter(|open| !open.is_empty()));
+    parts
 }

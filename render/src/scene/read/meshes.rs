@@ -51,6 +51,8 @@ struct Own {
     named: bool,
     /// True if the vertices of the mesh have colours.
     colored: bool,
+    /// True if the OBJ file names libraries, found or not.
+    has_names: bool,
 }
 
 impl Reader<'_> {
@@ -157,9 +159,10 @@ impl Reader<'_> {
                 };
                 libraries.add(path, || self.named_file(&at, path), scene)?;
             }
-            return Ok(Own { paths, named: true, colored });
+            return Ok(Own { paths, named: true, colored, has_names: false });
         }
-        let mut own = Own { paths: Vec::new(), named: false, colored };
+        let has_names = !read.libraries.is_empty();
+        let mut own = Own { paths: Vec::new(), named: false, colored, has_names };
         let unbound = |name: &String| bindings.material_of(name).is_none();
         let is_unbound = surfaces.iter().any(unbound);
         let is_plain = |entry: &Entry| *entry == Entry::new(&entry.name, plain());
@@ -278,7 +281,7 @@ impl Reader<'_> {
         });
         let material = material.or_else(|| {
             // The OBJ names libraries, and none of them has the material.
-            (!own.named && !own.paths.is_empty()).then(|| {
+            (!own.named && (own.has_names || !own.paths.is_empty())).then(|| {
                 let name = obj::shortened(surface);
                 let sentence = format!("no library has material {name}, which is plain white");
                 scene.remarks.push(remark(&file.name, &[sentence]));
