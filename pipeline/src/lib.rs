@@ -14,6 +14,7 @@ mod coding;
 pub mod collected;
 pub mod contact_sheet;
 pub mod error;
+pub mod farm;
 pub mod fineness;
 pub mod html;
 pub mod job;

@@ -6,10 +6,12 @@ mod calibrate;
 mod common;
 mod compare;
 mod export;
+mod farm;
 mod frames;
 mod join;
 mod list;
 mod named;
+mod pack;
 mod report;
 mod run;
 
@@ -34,6 +36,8 @@ Examples:
   pipeline report glass-sphere -o report --quick
   pipeline report --calibrate --scenes 50 -o report
   pipeline book -o book
+  pipeline farm turntable.json --engine slurm --chunk 10 --film turntable.mp4 --script frames.sh
+  pipeline pack my-vase/pages/vase.json -o for-cluster
   pipeline join part-1.exr part-2.exr -o whole.exr
   pipeline compare a.png b.png --map difference.png --rmse 0.01
 
@@ -62,6 +66,10 @@ enum Command {
     Export(export::ExportArguments),
     /// Make the pictures of built-in pages or of your own jobs
     Run(run::RunArguments),
+    /// Write a script for Slurm, GNU parallel or make, by which many machines make the frames of an animation
+    Farm(farm::FarmArguments),
+    /// Collect all files that a job reads in a folder, for another machine
+    Pack(pack::PackArguments),
     /// Put the parts of a picture together, which `render --tile` made
     Join(join::JoinArguments),
     /// Measure the cost of each rendering method and the error of its pictures
@@ -87,6 +95,8 @@ fn run(command: &Command, memory: Option<&dyn Memory>) -> Result<(), Report> {
         Command::List => list::list(),
         Command::Export(arguments) => export::export(arguments),
         Command::Run(arguments) => run::run(arguments),
+        Command::Farm(arguments) => farm::farm(arguments),
+        Command::Pack(arguments) => pack::pack(arguments),
         Command::Join(arguments) => join::join(arguments),
         Command::Report(arguments) if arguments.calibrate => report::calibrate(arguments),
         Command::Report(arguments) => match memory {
