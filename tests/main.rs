@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+mod animation;
 mod architecture;
 mod area_limits;
 mod area_pictures;

@@ -103,7 +103,7 @@ impl Animation {
             let message = format!("found {frames}, expected 1 to {MOST_FRAMES}");
             return Err(document.fault(&format!("{at}.frames"), message));
         }
-        let fps = document.within(&format!("{at}.fps"), fps.unwrap_or(FPS), 1e-3, 1e3)?;
+        let fps = within(document, &format!("{at}.fps"), fps.unwrap_or(FPS), [1e-3, 1e3])?;
         let mut set = Vec::new();
         let loops = animate.as_ref().is_some_and(|animate| animate.loops);
         for (path, value) in animate.map(|animate| animate.set).unwrap_or_default() {
@@ -166,6 +166,19 @@ impl Animation {
             ..job.clone()
         }
     }
+}
+
+/// Checks that a number is in a range. Returns the number.
+fn within(
+    document: &Document<'_>,
+    path: &str,
+    number: f64,
+    [low, high]: [f64; 2],
+) -> Result<f64, JsonError> {
+    if (low..=high).contains(&number) {
+        return Ok(number);
+    }
+    Err(document.fault(path, format!("found {number}, expected {low} to {high}")))
 }
 
 /// Returns the setting of a value.

@@ -4,6 +4,7 @@
 //! axis, and the lights stay with the objects. Nothing but the camera changes, so that meshes, trees and tables are
 //! made once.
 
+use super::within;
 use files::JsonError;
 use files::json::Document;
 use glam::{DQuat, DVec3};
@@ -62,7 +63,7 @@ impl Turntable {
     pub fn read(document: &Document<'_>, file: TurntableFile) -> Result<Self, JsonError> {
         let vector = |key: &str, vector: [f64; 3]| {
             for (k, x) in vector.into_iter().enumerate() {
-                document.within(&format!("turntable.{key}[{k}]"), x, -LARGEST, LARGEST)?;
+                within(document, &format!("turntable.{key}[{k}]"), x, [-LARGEST, LARGEST])?;
             }
             Ok(DVec3::from(vector))
         };
@@ -71,7 +72,7 @@ impl Turntable {
             let message = "found an axis without a length, expected a direction such as [0, 1, 0]";
             return Err(document.fault("turntable.axis", message));
         };
-        let turns = document.within("turntable.turns", file.turns, -LARGEST, LARGEST)?;
+        let turns = within(document, "turntable.turns", file.turns, [-LARGEST, LARGEST])?;
         Ok(Self { about, axis, turns })
     }
 

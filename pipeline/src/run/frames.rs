@@ -63,7 +63,6 @@ pub fn run_frames(
     let finer = if once { run.finer()? } else { None };
     let mut prepared = Prepared::new(&scene);
     let mut finer = finer.as_ref().map(Prepared::new);
-    let read_time = run.stages.get().read;
     let kinds = run.kinds.get();
     let _reserved = run.reserve_pictures(scene.is_transparent)?;
     stages += run.stages.get();
@@ -79,22 +78,20 @@ pub fn run_frames(
         let run = Run::new(&frame.job, &frame.source, options, tell);
         run.kinds.set(kinds);
         let run = Run { batch: Some(&batch), inputs: Some(inputs), ..run };
-        let own = if once { None } else { Some(run.scene(Fineness::Stated)?) };
-        let own_finer = if once { None } else { run.finer()? };
-        let own = own.as_ref().map(Prepared::new);
-        let own_finer = own_finer.as_ref().map(Prepared::new);
         if once {
             let camera = camera(&frame)?;
             prepared.set_camera(camera);
             finer.iter_mut().for_each(|finer| finer.set_camera(camera));
-        }
-        let (seen, finer) = match &own {
-            Some(own) => (own, own_finer.as_ref()),
-            None => (&prepared, finer.as_ref()),
-        };
-        let read_time = if once { Duration::ZERO } else { read_time };
-        for mode in &frame.job.modes {
-            run.picture(seen, Meshes::Fine(finer), mode, read_time)?;
+            for mode in &frame.job.modes {
+                run.picture(&prepared, Meshes::Fine(finer.as_ref()), mode, Duration::ZERO)?;
+            }
+        } else {
+            let scene = run.scene(Fineness::Stated)?;
+            let finer = run.finer()?;
+            let (prepared, finer) = (Prepared::new(&scene), finer.as_ref().map(Prepared::new));
+            for mode in &frame.job.modes {
+                run.picture(&prepared, Meshes::Fine(finer.as_ref()), mode, Duration::ZERO)?;
+            }
         }
         stages += run.stages.get();
         batch.finish()?;
