@@ -2,8 +2,8 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use files::json::Document;
-use files::{Disk, Exit, Failure};
+use crate::made::{measured, read};
+use files::{Exit, Failure};
 use glam::DVec3;
 use proptest::prelude::*;
 use serde_json::{Value, json};
@@ -12,18 +12,6 @@ use std::path::Path;
 use sweep::check::measures::{Kind, Measures};
 use sweep::grid::Unit;
 use sweep::grid::file::{Encoding, GridReader};
-use sweep::{Object, SweepError};
-
-fn read(folder: &Path, spec: &Value) -> Result<Object, SweepError> {
-    let text = spec.to_string();
-    let document = Document::new("test", text.as_bytes()).unwrap();
-    Object::read(&document, folder, &Disk, &sweep::spec::Resolution::default())
-}
-
-fn measured(folder: &Path, spec: &Value) -> Measures {
-    let object = read(folder, spec).unwrap_or_else(|error| panic!("{error}\n{spec}"));
-    Measures::of(&object, &object.grids().unwrap())
-}
 
 /// Returns a straight bar of a contour, closed at both ends.
 fn bar(contour: &Value) -> Value {

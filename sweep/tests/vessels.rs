@@ -2,8 +2,8 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use files::json::Document;
-use files::{Disk, Exit, Failure};
+use crate::made::read;
+use files::{Exit, Failure};
 use glam::{DVec2, DVec3};
 use image::{ImageBuffer, Luma};
 use proptest::prelude::*;
@@ -12,13 +12,6 @@ use std::f64::consts::{PI, TAU};
 use std::path::Path;
 use sweep::check::measures::{Kind, Measures};
 use sweep::check::merging;
-use sweep::{Object, SweepError};
-
-fn read(folder: &Path, spec: &Value) -> Result<Object, SweepError> {
-    let text = spec.to_string();
-    let document = Document::new("test", text.as_bytes()).unwrap();
-    Object::read(&document, folder, &Disk, &sweep::spec::Resolution::default())
-}
 
 fn measured(folder: &Path, spec: &Value) -> Measures {
     let object = read(folder, spec).unwrap_or_else(|error| panic!("{error}\n{spec}"));

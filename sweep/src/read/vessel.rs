@@ -78,6 +78,7 @@ impl Reader<'_> {
             };
             self.geometry("wall", message)
         })?;
+        let bend = wall.tightest();
         let one = |outline: vessel::Outline| Loop {
             // A hollow keeps its direction, in which the wall lies to the left.
             profile: Profile::single(Contour::drawn(outline.path)),
@@ -87,6 +88,7 @@ impl Reader<'_> {
                 Some(range) => Face::Part { range, thickness: low },
                 None => Face::Bare,
             },
+            bend,
         };
         Ok(outlines.into_iter().map(one).collect())
     }
