@@ -164,7 +164,7 @@ fn normals_on_both_sides_of_a_wall_agree_with_differences() {
                     "contour": contour, "scale": [smooth, narrow], "twist": {"total": 60},
                     "trajectory": {"circle": {"radius": 9, "angle_deg": 80}},
                     "wall": {"thickness": {"keys": [[0, 0.05], [1, 0.08]], "ease": "smooth"}, "side": side},
-                    "depth": {"mode": mode.unwrap_or("offset"), "terms": [{"amp": 0.05, "u": 4, "v": 2}]},
+                    "depth": {"mode": mode.unwrap_or("offset"), "terms": [{"amp": 0.02, "u": 4, "v": 2}]},
                 }));
                 if mode.is_none() {
                     spec.as_object_mut().unwrap().remove("depth");

@@ -61,13 +61,14 @@ pub fn check(
         // An outline and its holes are drawn in one spec.
         let index = object.owners[i];
         let mut found = Vec::new();
-        if before != Some(index) {
+        let first = before != Some(index);
+        if first {
             let rest = object.owners[i..].iter().take_while(|owner| **owner == index).count();
             found.extend(drawing::findings(spec, sweep));
             found.extend(vessel::findings(spec, &object.parts()[i..i + rest]));
         }
         before = Some(index);
-        found.extend(placing::findings(spec, sweep));
+        found.extend(placing::findings(spec, sweep, first));
         found.extend(of_sweep(sweep, grid));
         if let Some(tell) = strands {
             found.extend(strands::findings(grid, tell));

@@ -30,14 +30,22 @@ pub fn findings(spec: &Spec, outlines: &[Sweep]) -> Vec<Finding> {
     let mut found = Vec::new();
     let crossed = crossed(outlines);
     if let Some(place) = crossed.first {
-        let more = if crossed.more { "at least " } else { "" };
-        let remedy = match thickest(spec) {
-            Some(part) => format!("a wall of {} of this thickness does not", short(part)),
-            None => "so does the thinnest one, since the profile crosses or touches itself".into(),
+        let places = match (crossed.count, crossed.more) {
+            (1, false) => "one place".to_owned(),
+            (count, false) => format!("{count} places"),
+            (count, true) => format!("at least {count} places"),
+        };
+        let remedy = match (thickest(spec), constant(spec)) {
+            (Some(part), Some(whole)) => {
+                format!("a wall of {} does not", short(part * whole))
+            }
+            (Some(part), None) => format!("a wall of {} of this thickness does not", short(part)),
+            (None, _) => {
+                "so does the thinnest one, since the profile crosses or touches itself".into()
+            }
         };
         let message = format!(
-            "the wall crosses itself in {more}{} places, the first {} from the axis at the height {}: {remedy}",
-            crossed.count,
+            "the wall crosses itself in {places}, the first {} from the axis at the height {}: {remedy}",
             short(place.x),
             short(place.y)
         );
@@ -84,6 +92,17 @@ fn crossed(outlines: &[Sweep]) -> Crossings {
         chain.push(first);
     }
     crossings(&chain, closed)
+}
+
+/// Returns the thickness of a wall that has one thickness.
+fn constant(spec: &Spec) -> Option<f64> {
+    match spec.wall.as_ref()? {
+        Wall::Thickness(thickness) => Some(*thickness),
+        Wall::Keys(keys) => match keys.thickness {
+            Law::Number(number) if keys.floor.is_none() => Some(number),
+            _ => None,
+        },
+    }
 }
 
 /// Returns the largest part of the thickness whose wall does not cross itself; `None` if every wall does.
