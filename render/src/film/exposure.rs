@@ -196,12 +196,12 @@ impl Exposure<'_> {
 
     /// Traces the ray through a position on the film, in pixels from the upper left corner.
     pub fn trace(&self, position: DVec2, tree: &mut IntersectionTree, rays: &mut RayCounts) {
-        self.tracer.trace(&self.tracer.scene.camera.ray(position, self.size()), tree, rays);
+        self.tracer.trace(&self.tracer.camera.ray(position, self.size()), tree, rays);
     }
 
     /// Returns the ray through a position on the film.
     pub fn ray(&self, position: DVec2) -> Ray {
-        self.tracer.scene.camera.ray(position, self.size())
+        self.tracer.camera.ray(position, self.size())
     }
 
     /// Traces the ray through a position on the film, with its differential for a step of `side`
@@ -215,7 +215,7 @@ impl Exposure<'_> {
         rays: &mut RayCounts,
     ) {
         let ray = self.ray(position);
-        let differential = self.tracer.scene.camera.differential(position, self.size(), side);
+        let differential = self.tracer.camera.differential(position, self.size(), side);
         match first {
             Some(first) => {
                 self.tracer.trace_spread_from(&ray, &differential, first, tree, rays);
@@ -237,7 +237,8 @@ impl Exposed {
         let sight = &shared.shader.behind_cutouts(*sight);
         let mut rest = &mut self.layers[pixel * self.channels..][..self.channels];
         for layer in &shared.settings.layers {
-            let values: [f32; MOST_CHANNELS] = layer.values(sight, &shared.shader);
+            let values: [f32; MOST_CHANNELS] =
+                layer.values(sight, (&shared.shader, &shared.tracer.camera));
             let count = layer.channels().len();
             let (own, others) = rest.split_at_mut(count);
             own.copy_from_slice(&values[..count]);

@@ -24,7 +24,7 @@ use super::file::{BackgroundFile, FORMAT, Lists, SceneFile, VERSION};
 use super::limits::DEEPEST;
 use super::mesh_file::MeshFileError;
 use super::obj::{ObjError, ObjFile};
-use super::{Names, Scene};
+use super::{Camera, Names, Scene};
 use crate::procedural::{NoiseLattice, Procedural};
 use crate::shape::mesh::MeshError;
 use draft::Indices;
@@ -126,6 +126,14 @@ pub type MeshSource = BTreeMap<String, ObjFile>;
 pub fn parse(document: &Document<'_>) -> Result<SceneFile, SceneError> {
     document.expect(FORMAT, u64::from(VERSION))?;
     Ok(document.parse()?)
+}
+
+/// Reads the camera of a scene file alone.
+///
+/// # Errors
+/// If the camera has no view.
+pub fn camera_of(document: &Document<'_>, file: &SceneFile) -> Result<Camera, SceneError> {
+    camera::read(document, &file.camera)
 }
 
 /// Reads the scene of a file and of the files that it includes. Paths are relative to `folder` and are

@@ -18,7 +18,7 @@ use crate::color::Color;
 use crate::differential::RayDifferential;
 use crate::procedural::{Bump, Place};
 use crate::ray::{Hit, Ray};
-use crate::scene::{Material, Scene};
+use crate::scene::{Camera, Material, Scene};
 use crate::shape::SurfacePoint;
 use glam::DVec3;
 use medium::{Boundary, Media};
@@ -35,6 +35,8 @@ const MOST_HIDDEN: usize = 1 << 12;
 pub struct Tracer<'a> {
     /// The scene.
     pub scene: &'a Scene,
+    /// The camera, most often that of the scene.
+    pub camera: Camera,
     /// Structure that finds the hits.
     pub accel: &'a Accel<'a>,
     /// The volumes of the scene.
@@ -115,7 +117,16 @@ impl<'a> Tracer<'a> {
     #[must_use]
     pub fn new(scene: &'a Scene, accel: &'a Accel<'a>, volumes: &'a Volumes) -> Self {
         let around_eye = volumes.around(scene, accel, scene.camera.eye());
-        Self { scene, accel, volumes, around_eye, min_weight: scene.min_weight }
+        let (camera, min_weight) = (scene.camera, scene.min_weight);
+        Self { scene, camera, accel, volumes, around_eye, min_weight }
+    }
+
+    /// Returns the tracer with another camera than that of the scene, if there is one.
+    #[must_use]
+    pub fn seen_by(self, camera: Option<Camera>) -> Self {
+        let Some(camera) = camera else { return self };
+        let around_eye = self.volumes.around(self.scene, self.accel, camera.eye());
+        Self { camera, around_eye, ..self }
     }
 
     /// Traces a ray from the eye and fills its intersection tree.
@@ -156,7 +167,7 @@ impl<'a> Tracer<'a> {
         tree.clear();
         counts.primary += 1;
         let mut media = std::mem::take(&mut tree.media);
-        if self.scene.camera.is_orthographic() && self.volumes.any() {
+        if self.camera.is_orthographic() && self.volumes.any() {
             // Each ray starts at a place of its own.
             let (ray, _, _) = carried;
             media = self.volumes.around(self.scene, self.accel, ray.origin);
