@@ -10,6 +10,8 @@ mod list;
 mod named;
 mod report;
 mod run;
+#[cfg(feature = "studio")]
+mod studio;
 
 use crate::report::measure::Memory;
 use clap::{Parser, Subcommand};
@@ -31,6 +33,7 @@ Examples:
   pipeline report glass-sphere -o report --quick
   pipeline report --calibrate --scenes 50 -o report
   pipeline book -o book
+  pipeline studio vase
   pipeline compare a.png b.png --map difference.png --rmse 0.01
 
 No output replaces an input: a job, a scene and its parts, a spec, a mesh, a picture.
@@ -64,6 +67,9 @@ enum Command {
     Book(book::BookArguments),
     /// Measure the differences between two pictures, in linear light
     Compare(compare::CompareArguments),
+    /// Edit curves and scenes beside their picture, on a page of a local address
+    #[cfg(feature = "studio")]
+    Studio(studio::StudioArguments),
 }
 
 /// Runs the program with the arguments of the process, and prints an error if there is one.
@@ -88,6 +94,8 @@ fn run(command: &Command, memory: Option<&dyn Memory>) -> Result<(), Report> {
         },
         Command::Book(arguments) => book::book(arguments),
         Command::Compare(arguments) => compare::compare(arguments),
+        #[cfg(feature = "studio")]
+        Command::Studio(arguments) => studio::studio(arguments),
     }
 }
 
