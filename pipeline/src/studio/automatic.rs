@@ -54,8 +54,8 @@ pub fn scene(mesh: &str, [low, high]: [DVec3; 2]) -> String {
   ],
   "textures": {{}},
   "materials": {{
-    "body": {{ "diffuse": 0.85, "specular": 0.2, "shininess": 40 }},
-    "floor": {{ "diffuse": 0.7 }}
+    "body": {{ "color": [0.94, 0.9, 0.84], "diffuse": 0.85, "specular": 0.2, "shininess": 40 }},
+    "floor": {{ "color": [0.6, 0.66, 0.72], "diffuse": 0.75 }}
   }},
   "objects": [
     {{ "mesh": {{ "name": "{mesh}", "material": "body" }} }},

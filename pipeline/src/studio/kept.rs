@@ -135,7 +135,11 @@ impl Kept {
         Ok(())
     }
 
-    fn whole(files: &Files, source: &Edited, finish: Finish) -> Result<Self, PipelineError> {
+    /// Makes the whole scene of the files.
+    ///
+    /// # Errors
+    /// When a file is wrong.
+    pub fn whole(files: &Files, source: &Edited, finish: Finish) -> Result<Self, PipelineError> {
         let document = Document::new(&files.name, &files.bytes)?;
         let folder = files.job.scene.parent().unwrap_or(Path::new(""));
         let draft = Draft::gather(&document, &files.file, folder, source)?;

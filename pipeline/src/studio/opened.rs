@@ -87,9 +87,8 @@ impl Opened {
             }),
         };
         if kind == Kind::Spec {
-            let sight = automatic::bounds(folder, &path, &text);
             Self::beside(folder, &path, texts, "scene", &|stem, _| {
-                automatic::scene(&mesh_name(stem), sight)
+                automatic::scene(&mesh_name(stem), automatic::bounds(folder, &path, &text))
             });
         }
         let edited = Edited { texts: texts.snapshot(), folder: folder.clone() };
@@ -117,7 +116,7 @@ impl Opened {
         let stem = whole.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let name = whole.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let own = slashed(&whole.with_file_name(format!("{stem}-{what}.json")));
-        if folder.read(Path::new(&own)).is_err() || texts.read(folder, &own).is_err() {
+        if texts.get(&own).is_none() && texts.read(folder, &own).is_err() {
             texts.add(&own, &make(&stem, &name));
         }
         own

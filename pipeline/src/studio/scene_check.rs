@@ -1,6 +1,8 @@
-//! The findings of `render --check` about the scene that is shown.
+//! The findings of `render --check` about the opened scene.
 
 use super::board::{Board, Snapshot};
+use super::kept::{Files, Kept};
+use super::mesh::Finish;
 use super::spec_check::listed;
 use files::json::Document;
 use files::{Source, input};
@@ -11,11 +13,14 @@ use render::scene::read::{Draft, SceneError, parse};
 use serde_json::json;
 use std::path::Path;
 
-/// Tells the windows the findings about a scene.
-pub fn tell(board: &Board, snapshot: &Snapshot, scene: &Scene) {
+/// Reads the scene and tells the windows the findings about it.
+pub fn tell(board: &Board, snapshot: &Snapshot) {
     let path = &snapshot.opened.scene;
-    // A fault of the files was told before.
-    if let Ok(report) = report(snapshot, scene) {
+    let files = Files::read(&snapshot.opened.job, &snapshot.source, snapshot.view.pixels());
+    let made = files.and_then(|files| Kept::whole(&files, &snapshot.source, Finish::Stated));
+    // The thread of pictures tells a fault of the files.
+    let Ok(kept) = made else { return };
+    if let Ok(report) = report(snapshot, &kept.scene) {
         let findings = listed(path, &report.findings);
         let facts = json!({ "revision": snapshot.revision, "findings": findings,
             "inventory": report.inventory });

@@ -1,7 +1,8 @@
-//! The thread that checks specs: findings of `sweep --check`, measures and the topology of each mesh.
+//! The thread of checks: findings of `sweep --check`, measures and the topology of each mesh.
 
 use super::board::{Board, Snapshot, Task};
 use super::mesh::{self, Finish};
+use super::scene_check;
 use crate::job::MeshJob;
 use crate::{Job, PipelineError};
 use files::Source;
@@ -17,7 +18,10 @@ use triangulate::{MeshReport, Patches, TriMesh};
 /// Time without changes after which a check starts.
 const QUIET: Duration = Duration::from_millis(150);
 
-/// Checks specs until the board ends.
+/// Time without changes after which the check of the scene starts.
+const REST: Duration = Duration::from_millis(1500);
+
+/// Checks specs and scenes until the board ends.
 pub fn run(board: &Board) {
     let mut seen = 0;
     loop {
@@ -37,6 +41,12 @@ pub fn run(board: &Board) {
         if let Ok(Ok(specs)) = catch_unwind(work) {
             let facts = json!({ "revision": snapshot.revision, "specs": specs });
             board.tell("spec-check", &facts);
+        }
+        // The check of a scene takes longer, and waits until the user rests.
+        board.linger(seen, REST);
+        if board.now().is_some_and(|now| now.revision == seen) {
+            let work = AssertUnwindSafe(|| scene_check::tell(board, &snapshot));
+            let _ = catch_unwind(work);
         }
     }
 }

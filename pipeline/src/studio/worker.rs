@@ -4,9 +4,10 @@
 //! Later steps stop as soon as the state changes. A scene and its structures stay while only the camera moves.
 
 use super::board::{Board, Question, Snapshot, Task};
+use super::folder::slashed;
 use super::kept::{Files, Kept, position};
 use super::mesh::Finish;
-use super::{curves, png, scene_check};
+use super::{curves, png};
 use crate::PipelineError;
 use files::memory::of_process;
 use rayon::ThreadPool;
@@ -17,14 +18,15 @@ use render::filter::Filter;
 use render::{Picture, Prepared, Sampling, Settings, inspect};
 use serde_json::{Value, json};
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 /// Time that a draft should take, in seconds.
-const DRAFT: f64 = 0.035;
+const DRAFT: f64 = 0.03;
 
 /// Fewest pixels of a draft.
-const FEWEST: f64 = 64.0 * 64.0;
+const FEWEST: f64 = 96.0 * 96.0;
 
 /// Time for which a moving handle is awaited before finer work starts.
 const PATIENCE: Duration = Duration::from_millis(220);
@@ -128,9 +130,6 @@ impl Worker<'_> {
                             }
                         } else if !is_refined {
                             is_refined = self.refine(&prepared, &files, &snapshot);
-                            if is_refined {
-                                scene_check::tell(board, &snapshot, &kept.scene);
-                            }
                             continue;
                         }
                     }
@@ -193,10 +192,8 @@ impl Worker<'_> {
         let part = ((DRAFT / *known).max(FEWEST) / all).sqrt().min(1.0);
         let side = |side: u32| ((f64::from(side) * part).round() as u32).max(1);
         let (width, height) = (side(width), side(height));
-        let settings = Settings {
-            camera: Some(files.camera),
-            ..Settings::new(width, height, Filter::Bilinear)
-        };
+        let settings =
+            Settings { camera: Some(files.camera), ..Settings::new(width, height, Filter::Mip) };
         let started = Instant::now();
         let (picture, _) = render_while(prepared, &settings, &|_, _| {}, &|| true);
         let spent = started.elapsed().as_secs_f64() / f64::from(width * height);
@@ -275,8 +272,11 @@ impl Worker<'_> {
 #[must_use]
 pub fn fault(error: &PipelineError) -> Value {
     match position(error) {
-        Some(at) => json!({ "file": at.file, "line": at.line, "column": at.column,
-            "path": at.path, "message": at.message }),
+        // Paths of a job start at its folder: `pages/../curves/vase.json`.
+        Some(at) => {
+            json!({ "file": slashed(Path::new(&at.file)), "line": at.line, "column": at.column,
+            "path": at.path, "message": at.message })
+        }
         None => json!({ "message": error.to_string() }),
     }
 }

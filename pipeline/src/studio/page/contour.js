@@ -95,7 +95,7 @@ export function contourEditor(root, chosen) {
     }
     which.hidden = all.length < 2;
     const one = place();
-    if (one.value === undefined) return;
+    if (one.value === undefined || !root.offsetParent) return;
     const model = modelOf(one.value, one.path);
     kinds.value = [...kinds.options].some((option) => option.value === model.kind) ? model.kind : "other";
     if (!planar.drag) planar.model = model;

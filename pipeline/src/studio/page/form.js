@@ -24,7 +24,11 @@ export function schemaForm(root, chosen, schema, hidden = []) {
       const { $ref, ...rest } = own;
       own = { ...whole.$defs[$ref.split("/").pop()], ...rest };
     }
-    if (own.allOf) for (const part of own.allOf) own = { ...resolved(part), ...own, properties: { ...resolved(part).properties, ...own.properties } };
+    for (const part of own.allOf || []) {
+      const below = resolved(part);
+      const required = [...(below.required || []), ...(own.required || [])];
+      own = { ...below, ...own, required, properties: { ...below.properties, ...own.properties } };
+    }
     return own;
   }
 
@@ -89,9 +93,33 @@ export function schemaForm(root, chosen, schema, hidden = []) {
   filter.addEventListener("input", search);
 
   function object(schema, path, value, depth) {
-    const keys = Object.keys(schema.properties || {});
-    return keys.filter((key) => !(depth === 0 && (ELSEWHERE.has(key) || hidden.includes(key))))
-      .map((key) => field(key, resolved(schema.properties[key]), [...path, key], value?.[key], depth, !(schema.required || []).includes(key)));
+    const others = formsOf(schema), required = schema.required || [];
+    const keys = Object.keys(schema.properties || {})
+      .filter((key) => !(depth === 0 && (ELSEWHERE.has(key) || hidden.includes(key))))
+      .filter((key) => !others.includes(key) || value?.[key] !== undefined);
+    const rows = keys.map((key) =>
+      field(key, resolved(schema.properties[key]), [...path, key], value?.[key], depth, !required.includes(key) && !others.includes(key)));
+    return others.length ? [formChoice(schema, others, path, value), ...rows] : rows;
+  }
+
+  /** Returns the keys of an object of which exactly one is given, such as the kinds of a trajectory. */
+  function formsOf(schema) {
+    const all = schema.properties ? schema.oneOf || [] : [];
+    return all.every((one) => one.required?.length === 1) ? all.map((one) => one.required[0]) : [];
+  }
+
+  function formChoice(schema, others, path, value) {
+    const now = others.find((key) => value?.[key] !== undefined);
+    const choose = make("select", { onchange: () => {
+      const next = { ...value };
+      delete next[now];
+      next[choose.value] = starting(schema.properties[choose.value]);
+      edit(chosen(), [set(path, next)]);
+    } });
+    choose.setAttribute("aria-label", `Form of ${written(path)}`);
+    if (!now) choose.append(make("option", { value: "", textContent: "left out", disabled: true, selected: true }));
+    choose.append(...others.map((key) => make("option", { value: key, textContent: key, selected: key === now })));
+    return make("div", { className: "field" }, make("span", { className: "name", textContent: "form" }), make("div", { className: "value" }, choose));
   }
 
   function field(name, schema, path, value, depth, optional) {
@@ -133,6 +161,7 @@ export function schemaForm(root, chosen, schema, hidden = []) {
 
   function kindOf(schema, value) {
     if (schema.enum || schema.const !== undefined) return "choice";
+    if (schema.properties) return "object";
     const all = variants(schema);
     if (all.length) {
       if (all.every((one) => one.const !== undefined || one.enum)) return "choice";
@@ -212,7 +241,8 @@ export function schemaForm(root, chosen, schema, hidden = []) {
     if (all.length && depth < 6) return starting(all[0], depth + 1);
     if (schema.type === "array") return Array.from({ length: Math.min(4, schema.minItems || 0) }, (_, k) => starting(schema.prefixItems?.[k] || schema.items, depth + 1));
     if (schema.type === "object") {
-      const keys = depth < 6 ? schema.required || [] : [];
+      const others = formsOf(schema);
+      const keys = depth < 6 ? [...(schema.required || []), ...others.slice(0, 1)] : [];
       return Object.fromEntries(keys.map((key) => [key, starting(schema.properties[key], depth + 1)]));
     }
     if (schema.type === "boolean") return true;

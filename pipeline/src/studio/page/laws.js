@@ -132,7 +132,9 @@ export function lawsEditor(root, chosen) {
 
     function fit() {
       const values = graph.line.map((p) => p[1]);
-      const low = Math.min(0, ...values), high = Math.max(...values, low + 1e-6);
+      const low = Math.min(0, ...values);
+      let high = Math.max(0, ...values);
+      if (high - low < 1e-9) high = low + 1;
       plane.isMoved = false;
       plane.fit([[0, low], [1, high + 0.05 * (high - low)]], true);
     }

@@ -89,6 +89,11 @@ function conflicts(files) {
 element("undo").addEventListener("click", () => ask("step", "undo"));
 element("redo").addEventListener("click", () => ask("step", "redo"));
 element("save").addEventListener("click", () => ask("save", {}));
+element("save-as").addEventListener("click", () => {
+  const file = known.state.main;
+  const to = prompt(`A copy of ${file}, which is opened then. Its path in the folder:`, file.replace(/\.json$/, "-2.json"));
+  if (to && to !== file) ask("save", { file, to });
+});
 element("home").addEventListener("click", () => {
   const lost = known.state.files.some((file) => file.changed && !file.new);
   if (!lost || confirm("Changes that are not saved are lost. Go to the start page?")) ask("close", {});
@@ -106,7 +111,7 @@ addEventListener("beforeunload", (event) => {
 });
 
 const notice = element("notice");
-let noticeEnds = 0, isLost = false, instance = null, before = null;
+let noticeEnds = 0, isLost = false, instance = null;
 function say(words, lasts = 6000) {
   clearTimeout(noticeEnds);
   notice.textContent = words;
@@ -114,6 +119,9 @@ function say(words, lasts = 6000) {
   if (words && lasts) noticeEnds = setTimeout(() => { notice.hidden = true; }, lasts);
 }
 on("refused", (words) => say(words));
+
+/** Time after which a file that was opened anew is announced, in milliseconds. */
+const RESTORED = 400;
 
 /** Gives a program that was started anew the texts that only this window still has. */
 async function restore(files) {
@@ -129,16 +137,16 @@ const NAMES = ["hello", "state", "picture", "beside", "progress", "fault", "curv
 listen(NAMES, async (name, value) => {
   if (name !== "hello") {
     announce(name, value);
-    if (name === "state" && before?.wanted && value.main) { const { files } = before; before = null; await restore(files); }
     return;
   }
-  if (!instance) before = null;
-  else if (instance !== value.instance && known.state.main) {
-    // The program was killed and started again: its files are whole, and its memory is empty.
-    before = { wanted: true, files: known.state.files };
-    await ask("open", { name: known.state.main });
-  }
+  const isNew = instance && instance !== value.instance;
   instance = value.instance;
+  if (isNew && known.state.main) {
+    // The program was killed and started again: its files are whole, and its memory is empty.
+    const { files, main } = known.state;
+    await ask("open", { name: main });
+    setTimeout(() => restore(files), RESTORED);
+  }
 }, (connected) => {
   if (!connected && !isLost) say("The program does not answer. All files are whole; the texts of this page stay here until it runs again.", 0);
   if (connected && isLost) say("The program answers again.");

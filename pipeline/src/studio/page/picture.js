@@ -127,5 +127,6 @@ export function picture() {
     element("pixel-text").textContent = "…";
     const answer = await ask("pixel", at);
     element("pixel-text").textContent = answer?.text ?? "The picture has changed.";
+    element("pixel").scrollIntoView({ block: "nearest" });
   }
 }

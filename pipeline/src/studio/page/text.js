@@ -33,10 +33,17 @@ export function textEditor(root) {
   function drawTabs() {
     tabs.replaceChildren(...known.state.files.map((file) => {
       const own = make("button", { type: "button", onclick: () => open(file.path), title: file.path });
-      own.textContent = file.path.split("/").pop() + (file.changed ? " •" : "");
+      own.textContent = shortest(file.path) + (file.changed ? " •" : "");
       own.setAttribute("aria-pressed", file.path === path);
       return own;
     }));
+  }
+
+  /** The name of a file, with its folder if another file has the same name. */
+  function shortest(name) {
+    const last = name.split("/").pop();
+    const same = known.state.files.filter((file) => file.path.split("/").pop() === last);
+    return same.length > 1 ? name.split("/").slice(-2).join("/") : last;
   }
 
   /** Numbers the lines and marks the one with the error. */

@@ -89,15 +89,20 @@ export function trajectoryEditor(root, chosen) {
     follow();
   }
 
+  let fitted = "";
+
   function show() {
     const one = place();
-    if (one.value === undefined) return;
+    if (one.value === undefined || !root.offsetParent) return;
     const model = modelOf(one.value, one.path);
     kinds.value = [...kinds.options].some((option) => option.value === model.kind) ? model.kind : "other";
     for (const view of views) {
       if (!view.drag) view.model = model;
       view.show(chosen(), model, boxOf(space().map(view.flat)), () => under(view));
     }
+    // The sampled curves come after the text, and only then the size is known.
+    const key = chosen() + model.kind + (parts().length > 0);
+    if (key !== fitted) { fitted = key; fit(); }
     follow();
   }
 
