@@ -3,7 +3,7 @@
 use crate::pages;
 use crate::studio::board::Board;
 use crate::studio::folder::Folder;
-use crate::studio::{routes, server, start};
+use crate::studio::{routes, server, start, token};
 use clap::Args;
 use clap::builder::TypedValueParser;
 use files::words::shown;
@@ -45,9 +45,6 @@ impl Failure for OpenError {
     }
 }
 
-/// The name of the file that keeps the token of a fixed port.
-const TOKEN: &str = ".topobook-studio";
-
 /// Opens the file, prints the address of the page on standard output, and serves the page until the program is ended.
 pub fn studio(arguments: &StudioArguments) -> Result<(), Report> {
     files::memory::allow(arguments.max_memory);
@@ -68,8 +65,8 @@ pub fn studio(arguments: &StudioArguments) -> Result<(), Report> {
         .build()
         .map_err(|error| server::ServerError::System(error.to_string()))?;
     let token = match arguments.port {
-        0 => server::token()?,
-        _ => fixed_token(&board.folder)?,
+        0 => token::drawn()?,
+        _ => token::kept(&board.folder)?,
     };
     let announce = |address: &str| {
         Output::create(Path::new("-"), true)?.commit_all(format!("{address}\n").as_bytes())
@@ -113,25 +110,4 @@ fn copy(folder: &Folder, page: &str) -> Result<String, Report> {
     }
     let copied = start::copy(folder, page).map_err(OpenError);
     copied.map_err(|error| -> Report { error.into() })
-}
-
-/// Returns the token of a fixed port, by which a page finds the program again after a new start. A file that only the
-/// user can read keeps it.
-fn fixed_token(folder: &Folder) -> Result<String, Report> {
-    let path = folder.inside(Path::new(TOKEN))?;
-    if let Ok(text) = std::fs::read_to_string(&path)
-        && text.len() == 32
-        && text.bytes().all(|byte| byte.is_ascii_hexdigit())
-    {
-        return Ok(text);
-    }
-    let token = server::token()?;
-    let failed = |source| FileError::Write { name: TOKEN.into(), source };
-    let mut options = std::fs::File::options();
-    options.write(true).create(true).truncate(true);
-    #[cfg(unix)]
-    std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
-    let mut file = options.open(&path).map_err(failed)?;
-    std::io::Write::write_all(&mut file, token.as_bytes()).map_err(failed)?;
-    Ok(token)
 }

@@ -150,6 +150,12 @@ impl Board {
         (state.latest.clone(), self.events.subscribe())
     }
 
+    /// Returns the number of windows that listen.
+    #[must_use]
+    pub fn windows(&self) -> usize {
+        self.events.receiver_count()
+    }
+
     /// Keeps a picture for the windows, and tells them of it with `facts`.
     pub fn show(&self, png: Vec<u8>, mut facts: Value, name: &'static str) {
         let mut state = self.state();

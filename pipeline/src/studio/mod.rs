@@ -19,7 +19,7 @@
 //! | [`mesh`], [`kept`], [`worker`], [`png`] | meshes; the scene that pictures share; the thread of pictures; their encoding |
 //! | [`curves`], [`spec_check`], [`scene_check`] | curves as points; findings and measures |
 //! | [`export`], [`start`] | files with their commands; the start page |
-//! | [`guard`], [`routes`], [`assets`], [`server`] | refused requests; requests; files of the page; address and threads |
+//! | [`token`], [`guard`], [`routes`], [`assets`], [`server`] | the word in the address; refused requests; requests; files of the page; address and threads |
 //!
 //! Limits: a picture has at most 2048 pixels across. Files that a scene includes are read again only with the scene.
 
@@ -43,5 +43,6 @@ pub mod source;
 pub mod spec_check;
 pub mod start;
 pub mod texts;
+pub mod token;
 pub mod view;
 pub mod worker;

@@ -1,4 +1,4 @@
-//! What is opened: a job, or a spec or scene with the job and the scene that it lacks.
+//! The opened files: a job, or a spec or scene with the job and the scene that it lacks.
 //!
 //! A spec gets a scene and a job of its own, which exist only as texts until they are saved: `vase-scene.json` and
 //! `vase-job.json` beside `vase.json`. If these files exist, they are opened instead.

@@ -28,6 +28,9 @@ use tokio::sync::oneshot;
 /// The largest request, in bytes.
 pub const LARGEST: usize = 8 << 20;
 
+/// Windows that are open at the same time.
+const WINDOWS: usize = 16;
+
 /// Time between signs of life to a window.
 const BEAT: Duration = Duration::from_secs(4);
 
@@ -92,7 +95,12 @@ async fn listed(Shared(studio): Own) -> Answer {
 }
 
 /// The events of a window: those that a new window needs, then all that follow.
-async fn events(Shared(studio): Own) -> Sse<impl Stream<Item = Result<sse::Event, Infallible>>> {
+async fn events(
+    Shared(studio): Own,
+) -> Result<Sse<impl Stream<Item = Result<sse::Event, Infallible>>>, Refusal> {
+    if studio.board.windows() >= WINDOWS {
+        return Err(Refusal(format!("{WINDOWS} windows are open already: close one of them")));
+    }
     let (before, receiver) = studio.board.listen();
     let hello: (_, Arc<str>) = ("hello", json!({ "instance": studio.instance }).to_string().into());
     let known: Vec<_> = std::iter::once(hello).chain(before).collect();
@@ -107,7 +115,7 @@ async fn events(Shared(studio): Own) -> Sse<impl Stream<Item = Result<sse::Event
             Err(RecvError::Closed) => None,
         }
     });
-    Sse::new(follow).keep_alive(sse::KeepAlive::new().interval(BEAT).text("alive"))
+    Ok(Sse::new(follow).keep_alive(sse::KeepAlive::new().interval(BEAT).text("alive")))
 }
 
 fn event(name: &str, data: &str) -> Result<sse::Event, Infallible> {

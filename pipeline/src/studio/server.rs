@@ -46,16 +46,6 @@ impl Failure for ServerError {
     }
 }
 
-/// Returns a random word of 32 hexadecimal digits.
-///
-/// # Errors
-/// When the system gives no random bytes.
-pub fn token() -> Result<String, ServerError> {
-    let mut bytes = [0; 16];
-    getrandom::fill(&mut bytes).map_err(|error| ServerError::System(error.to_string()))?;
-    Ok(bytes.iter().map(|byte| format!("{byte:02x}")).collect())
-}
-
 /// Serves the page until the program ends. `announce` gets the address.
 ///
 /// The server listens on the loopback address only. A `port` of 0 lets the system choose one.
@@ -79,7 +69,7 @@ pub fn serve(
     for (name, work) in threads(board, pool) {
         std::thread::Builder::new().name(name.into()).spawn(work).map_err(system)?;
     }
-    let instance = self::token()?;
+    let instance = super::token::drawn()?;
     let studio = Studio { board: board.clone(), pool: pool.clone(), instance };
     let router = Router::new()
         .route(&format!("/{token}/"), get(|| async { assets::serve("index.html") }))
