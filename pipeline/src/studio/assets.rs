@@ -28,6 +28,7 @@ const FILES: &[(&str, &str)] = assets![
     "layout.css",
     "main.js",
     "model.js",
+    "parts.js",
     "picture.js",
     "planar.js",
     "plane.js",

@@ -6,6 +6,7 @@ import { contourEditor } from "./contour.js";
 import { exportsPanel } from "./exports.js";
 import { findingsList } from "./findings.js";
 import { lawsEditor } from "./laws.js";
+import { addPart } from "./parts.js";
 import { picture } from "./picture.js";
 import { schemaForm } from "./form.js";
 import { showStart } from "./start.js";
@@ -41,6 +42,7 @@ findingsList(element("findings"), element("tab-findings"), go, control);
 
 function showSpec() { for (const one of [contour, trajectory, laws, specForm]) one.show(); }
 spec.addEventListener("change", showSpec);
+element("add-part").addEventListener("click", () => addPart(chosenSpec()));
 
 let isOpen = null;
 on("state", (state) => {

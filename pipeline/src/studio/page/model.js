@@ -17,7 +17,7 @@ export function curvesOf(spec, key) {
       });
       return;
     }
-    found.push({ value, path, name: name || key });
+    found.push({ value, path, name: name.replace(/: $/, "") || key });
   };
   if (Array.isArray(spec?.parts)) {
     spec.parts.forEach((part, k) => look(part[key], ["parts", k, key], `${part.name || k + 1}: `));

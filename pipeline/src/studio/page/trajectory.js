@@ -14,6 +14,9 @@ const VIEWS = [
 /** Makes the editor in an element. `chosen` returns the path of the shown spec. */
 export function trajectoryEditor(root, chosen) {
   const orbit = { turn: -0.6, lift: 0.45 };
+  let index = 0;
+  const which = make("select", { onchange: () => { index = which.selectedIndex; fitted = ""; show(); } });
+  which.setAttribute("aria-label", "Part whose trajectory is shown");
   let selected = null;
   const numbers = fields(["x", "y", "z"], (at) => {
     const handle = current();
@@ -63,7 +66,7 @@ export function trajectoryEditor(root, chosen) {
     kinds.append(make("option", { value: kind, textContent: { bezier: "Bezier", free: "free points" }[kind] || kind }));
   }
   root.append(make("div", { className: "editor" },
-    make("div", { className: "tools" }, kinds, insertButton, deleteButton, smoothButton,
+    make("div", { className: "tools" }, kinds, which, insertButton, deleteButton, smoothButton,
       toggle("Snap", "Snap to the grid and to other handles", "snap"),
       button("Fit", "Show the whole trajectory", fit), ...numbers.labels, note),
     make("div", { className: "four" }, ...views.map((view) => {
@@ -72,7 +75,8 @@ export function trajectoryEditor(root, chosen) {
       return holder;
     }))));
 
-  const place = () => curvesOf(valueOf(chosen()), "trajectory")[0] || { path: ["trajectory"] };
+  const places = () => curvesOf(valueOf(chosen()), "trajectory");
+  const place = () => places()[Math.min(index, places().length - 1)] || { path: ["trajectory"] };
   const parts = () => known.curves.specs[chosen()] || [];
   const space = () => {
     const points = parts().flatMap((part) => [...part.course, ...part.stations.flat()]);
@@ -94,6 +98,13 @@ export function trajectoryEditor(root, chosen) {
   function show() {
     const one = place();
     if (one.value === undefined || !root.offsetParent) return;
+    const all = places();
+    if ([...which.options].map((option) => option.textContent).join() !== all.map((other) => other.name).join()) {
+      which.replaceChildren(...all.map((other) => make("option", { textContent: other.name })));
+      index = Math.min(index, all.length - 1);
+      which.selectedIndex = index;
+    }
+    which.hidden = all.length < 2;
     const model = modelOf(one.value, one.path);
     kinds.value = [...kinds.options].some((option) => option.value === model.kind) ? model.kind : "other";
     for (const view of views) {
