@@ -24,7 +24,7 @@ pub enum JoinError {
     Part {
         /// The file.
         file: String,
-        /// What it is instead.
+        /// A description of the file.
         found: String,
     },
     /// Two files are parts of different pictures.
@@ -32,9 +32,9 @@ pub enum JoinError {
     Other {
         /// The file.
         file: String,
-        /// What it states.
+        /// The statement of this file.
         found: String,
-        /// What the first file states.
+        /// The statement of the first file.
         expected: String,
         /// The first file.
         first: String,

@@ -19,7 +19,6 @@ use crate::differential::RayDifferential;
 use crate::ray::{Hit, Ray};
 use crate::scene::{Camera, Scene};
 use crate::shape::SurfacePoint;
-use glam::DVec3;
 use medium::{Boundary, Media};
 use split::{Split, Turned, mirror};
 use tree::{Away, Branch, IntersectionTree, Node};
