@@ -30,4 +30,10 @@ mod still_lifes;
 mod structures;
 #[path = "../render/tests/studio/mod.rs"]
 mod studio;
+#[cfg(feature = "studio")]
+mod studio_browser;
+#[cfg(feature = "studio")]
+mod studio_exports;
+#[cfg(feature = "studio")]
+mod studio_server;
 mod support;

@@ -25,6 +25,8 @@ pub mod report;
 pub mod run;
 pub mod settings;
 pub mod stages;
+#[cfg(feature = "studio")]
+pub mod studio;
 pub mod truth;
 
 pub use error::PipelineError;

@@ -17,6 +17,7 @@ use render::color::Encoding;
 use render::film::encode::{self, Coding, Format};
 use render::film::{BasePicture, PixelFilter, memory};
 use render::stats::Stats;
+use render::scene::Camera;
 use render::{Picture, Prepared, Scene, Settings};
 use requested::Meshes;
 use std::cell::Cell;
@@ -179,6 +180,8 @@ struct Run<'a> {
     kinds: Cell<Kinds>,
     /// The digest of the inputs of all pictures, if it is known.
     inputs: Option<Digest>,
+    /// The camera, if it is not that of the scene.
+    camera: Option<Camera>,
 }
 
 impl<'a> Run<'a> {
@@ -189,7 +192,7 @@ impl<'a> Run<'a> {
         tell: &'a (dyn Fn(Event<'_>) + Sync),
     ) -> Self {
         let (stages, kinds) = (Cell::default(), Cell::default());
-        Self { job, source, options, tell, batch: None, stages, kinds, inputs: None }
+        Self { job, source, options, tell, batch: None, stages, kinds, inputs: None, camera: None }
     }
 
     /// Reserves memory for the pictures of all modes and for the strip of them.

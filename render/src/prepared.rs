@@ -8,7 +8,7 @@
 
 use crate::accel::{Accel, Structure};
 use crate::filter::{Filter, FilteredTexture};
-use crate::scene::{Camera, Scene};
+use crate::scene::Scene;
 use crate::shade::{Shader, View};
 use crate::shape::Charts;
 use crate::trace::medium::Media;
@@ -25,8 +25,6 @@ use std::time::{Duration, Instant};
 #[derive(Debug)]
 pub struct Prepared<'a> {
     scene: &'a Scene,
-    /// The camera, that of the scene unless another one was set.
-    camera: Camera,
     volumes: Volumes,
     /// One structure for each of [`Structure::ALL`].
     structures: [OnceLock<Accel<'a>>; Structure::ALL.len()],
@@ -60,7 +58,6 @@ impl<'a> Prepared<'a> {
     pub fn new(scene: &'a Scene) -> Self {
         Self {
             scene,
-            camera: scene.camera,
             volumes: Volumes::of(scene),
             structures: std::array::from_fn(|_| OnceLock::new()),
             textures: std::array::from_fn(|_| OnceLock::new()),
@@ -74,18 +71,6 @@ impl<'a> Prepared<'a> {
     #[must_use]
     pub fn scene(&self) -> &'a Scene {
         self.scene
-    }
-
-    /// The camera of the pictures.
-    #[must_use]
-    pub fn camera(&self) -> Camera {
-        self.camera
-    }
-
-    /// Replaces the camera for the pictures that follow. Everything that was built stays, since nothing of it depends
-    /// on the camera.
-    pub fn set_camera(&mut self, camera: Camera) {
-        self.camera = camera;
     }
 
     /// The volumes of the scene.
@@ -126,7 +111,6 @@ impl<'a> Prepared<'a> {
         let view = View::Whole;
         let shader = Shader {
             scene,
-            camera: self.camera,
             accel,
             textures,
             charts,

@@ -119,16 +119,16 @@ def table(rng, folder):
 def fitted(rng, folder):
     """A tube along noisy points of an arc. Its volume is the area of the section times the length of the arc.
 
-    A fit that is off by 0.004 on one side would change the length by a thousandth; noise averages to less.
+    A fit that is off by 0.002 on one side changes the length by half a thousandth at most; noise averages to less.
     """
     radius, turn = rng.uniform(4, 8), rng.uniform(1, 4)
     points = []
     for i in range(121):
         # The ends stay, because noise along the arc would change its length.
-        noise = lambda: rng.uniform(-0.002, 0.002) if 0 < i < 120 else 0.0
+        noise = lambda: rng.uniform(-0.001, 0.001) if 0 < i < 120 else 0.0
         a = turn * i / 120
         points.append([radius * math.cos(a) + noise(), radius * math.sin(a) + noise(), noise()])
-    line = {"free": {"points": points, "fit": 0.004}}
+    line = {"free": {"points": points, "fit": 0.002}}
     return spec({"circle": 0.5}, line, caps=FLAT, mesh={"tol": 1e-4}), PI / 4 * radius * turn
 
 
@@ -166,6 +166,57 @@ def thread(rng, folder):
     return own, 4 * half * half * length
 
 
+def grip(rng, folder):
+    """A straight tube with a wall on any side, scaled evenly along it, with waves on its outer side."""
+    r, t, high = rng.uniform(1, 2), rng.uniform(0.2, 0.4), rng.uniform(1, 4)
+    amp, waves, end = rng.uniform(0.02, 0.1), rng.randint(3, 9), rng.uniform(0.7, 1.4)
+    side = rng.choice(["inward", "outward", "center"])
+    outer = {"inward": 0, "outward": t, "center": t / 2}[side]
+    area = lambda s: PI * ((s * r + outer) ** 2 + (s * amp) ** 2 / 2 - (s * r + outer - t) ** 2)
+    volume = high / 6 * (area(1) + 4 * area((1 + end) / 2) + area(end))
+    depth = {"mode": "offset", "terms": [{"amp": amp, "u": waves, "v": rng.randint(0, 3)}]}
+    line = {"line": [[0, 0, 0], [0, high, 0]]}
+    wall = {"thickness": t, "side": side}
+    scale = {"keys": [[0, 1], [1, end]]}
+    mesh = {"rows": 64, "cols": 64 * waves}
+    return spec({"circle": r}, line, wall=wall, depth=depth, scale=scale, mesh=mesh), volume
+
+
+def letter(rng, folder):
+    """An SVG path of squares inside each other in random directions, with a random fill rule and a mirror."""
+    halves = sorted((rng.uniform(1, 20) for _ in range(rng.randint(1, 5))), reverse=True)
+    for i in range(1, len(halves)):
+        halves[i] = min(halves[i], 0.9 * halves[i - 1])
+    turns = [rng.choice([-1, 1]) for _ in halves]
+    even = rng.choice([False, True])
+    one = lambda a, turn: f"M-{a} -{a}" + (f"H{a}V{a}H-{a}" if turn > 0 else f"V{a}H{a}V-{a}") + "Z"
+    path = "".join(one(a, turn) for a, turn in zip(halves, turns))
+    rule = "style='fill-rule:evenodd'" if even else rng.choice(["", "fill-rule='nonzero'"])
+    mirror = rng.choice(["scale(-1 1)", "matrix(0 1 1 0 3 4)", f"rotate({rng.uniform(0, 360)})"])
+    with open(os.path.join(folder, "a.svg"), "w") as file:
+        file.write(f"<svg viewBox='-50 -50 100 100'><g {rule}><path d='{path}' transform='{mirror}'/></g></svg>")
+    area, winding = 0.0, 0
+    for i, (a, turn) in enumerate(zip(halves, turns)):
+        winding += turn
+        filled = winding % 2 if even else winding != 0
+        inner = halves[i + 1] if i + 1 < len(halves) else 0
+        area += 4 * (a * a - inner * inner) * bool(filled)
+    return spec({"svg": {"file": "a.svg"}}, BAR, caps=FLAT, mesh={"tol": 1e-3}), 3 * area
+
+
+def formula(rng, folder):
+    """A tube along a torus knot by formula. Its volume is the area of the section times the length."""
+    p, q = rng.choice([(2, 3), (3, 2), (2, 5), (3, 4), (3, 5)])
+    big, small, r = rng.uniform(3, 5), rng.uniform(1, 1.5), rng.uniform(0.1, 0.25)
+    rho = f"({big} + {small} * cos({q} * t))"
+    line = {"formula": {"x": f"{rho} * cos({p} * t)", "y": f"{rho} * sin({p} * t)", "z": f"{small} * sin({q} * t)",
+                        "t": [0, 2 * PI], "closed": True}}
+    steps = 20000
+    speed = lambda t: math.hypot(p * (big + small * math.cos(q * t)), small * q)
+    length = sum(speed(2 * PI * (i + 0.5) / steps) for i in range(steps)) * 2 * PI / steps
+    return spec({"circle": r}, line, mesh={"tol": 1e-4 * r}), PI * r * r * length
+
+
 def made(own, folder):
     path = os.path.join(folder, "a.json")
     with open(path, "w") as file:
@@ -178,7 +229,7 @@ def made(own, folder):
 
 def main():
     failed = 0
-    kinds = (drawing, cup, relief, table, fitted, neurites, copies, thread)
+    kinds = (drawing, cup, relief, table, fitted, neurites, copies, thread, grip, letter, formula)
     for kind in kinds:
         if len(sys.argv) > 3 and kind.__name__ not in sys.argv[3:]:
             continue

@@ -254,7 +254,7 @@ pub struct Spec {
     /// How the end of the surface meets its start, if columns do not meet themselves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub seam: Option<SeamKind>,
-    /// Wall of a hollow sweep with a closed contour; with `"seam": "mirror"` the thickness of a wall around the sheet.
+    /// Wall of a hollow sweep or of a vessel; with `"seam": "mirror"` the thickness of a wall around the sheet.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub wall: Option<Wall>,
     /// The closures of the two ends.

@@ -2,8 +2,8 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use files::json::Document;
-use files::{Disk, Exit, Failure};
+use crate::made::{measured, read};
+use files::{Exit, Failure};
 use glam::DVec3;
 use proptest::prelude::*;
 use serde_json::{Value, json};
@@ -12,18 +12,6 @@ use std::path::Path;
 use sweep::check::measures::{Kind, Measures};
 use sweep::grid::Unit;
 use sweep::grid::file::{Encoding, GridReader};
-use sweep::{Object, SweepError};
-
-fn read(folder: &Path, spec: &Value) -> Result<Object, SweepError> {
-    let text = spec.to_string();
-    let document = Document::new("test", text.as_bytes()).unwrap();
-    Object::read(&document, folder, &Disk, &sweep::spec::Resolution::default())
-}
-
-fn measured(folder: &Path, spec: &Value) -> Measures {
-    let object = read(folder, spec).unwrap_or_else(|error| panic!("{error}\n{spec}"));
-    Measures::of(&object, &object.grids().unwrap())
-}
 
 /// Returns a straight bar of a contour, closed at both ends.
 fn bar(contour: &Value) -> Value {
@@ -266,5 +254,102 @@ fn files_have_their_complaints() {
         let text = error.to_string().replace(&format!("{}/", folder.path().display()), "");
         assert!(text.contains(message), "{text}");
         assert_eq!(error.exit(), exit, "{text}");
+    }
+}
+
+/// Returns the area of the section that the shapes of a drawing bound.
+fn area_of(shapes: &str) -> f64 {
+    let text = format!(
+        "<svg xmlns='http://www.w3.org/2000/svg' width='100mm' height='100mm' viewBox='-50 -50 100 100'>{shapes}</svg>"
+    );
+    let folder = with_file("a.svg", &text);
+    let found = measured(folder.path(), &bar(&json!({"svg": {"file": "a.svg"}})));
+    assert_eq!(found.kind, Kind::Watertight, "{shapes}");
+    found.volume / 3.0
+}
+
+/// Squares of 10, 8, 6 and 4, one inside the other. `backward` ones run in the other direction.
+fn squares(backward: [bool; 4]) -> String {
+    let one = |(half, backward): (i32, bool)| {
+        let (x, y) = if backward { ('V', 'H') } else { ('H', 'V') };
+        format!("M-{half} -{half}{x}{half}{y}{half}{x}-{half}Z")
+    };
+    [5, 4, 3, 2].into_iter().zip(backward).map(one).collect()
+}
+
+#[test]
+fn the_fill_rule_decides_which_subpaths_are_holes() {
+    let (all, none) = (100.0, [false; 4]);
+    let evenly = 100.0 - 64.0 + 36.0 - 16.0;
+    let holes = [false, true, false, true];
+    let mirrored = |inside: &str| format!("<g transform='translate(3 2) scale(-1 1)'>{inside}</g>");
+    let path =
+        |backward: [bool; 4], keys: &str| format!("<path d='{}' {keys}/>", squares(backward));
+    for (shape, expected) in [
+        (path(none, ""), all),
+        (path([true; 4], ""), all),
+        (path(none, "fill-rule='evenodd'"), evenly),
+        (path(none, "style='fill-rule:evenodd'"), evenly),
+        (path(holes, ""), evenly),
+        (path(holes, "fill-rule='evenodd'"), evenly),
+        // Winding numbers of 1, 2, 1, 0: only the innermost square is a hole.
+        (path([false, false, true, true], ""), 100.0 - 16.0),
+        (path([false, true, true, true], ""), 100.0 - 64.0 + 36.0),
+    ] {
+        for shape in [shape.clone(), mirrored(&shape)] {
+            let found = area_of(&shape);
+            assert!((found / expected - 1.0).abs() < 1e-9, "{shape}: {found} for {expected}");
+        }
+    }
+    let group = |rule: &str, inside: &str| format!("<g fill-rule='{rule}'>{inside}</g>");
+    let inherited = group("evenodd", &mirrored(&path(none, "")));
+    assert!((area_of(&inherited) - evenly).abs() < 1e-9);
+    let stated = group("evenodd", &path(none, "fill-rule='nonzero'"));
+    assert!((area_of(&stated) - all).abs() < 1e-9);
+}
+
+/// An `a` in an `O`, drawn as letters of a font are: the outer outlines run in one direction and the counters in the
+/// other. A mirror reverses all of them.
+#[test]
+fn letters_inside_letters_keep_their_counters() {
+    let ring = |r: f64, hole: f64| {
+        let circle = |r: f64, sweep: i32| {
+            format!("M{r} 0A{r} {r} 0 0 {sweep} -{r} 0A{r} {r} 0 0 {sweep} {r} 0Z")
+        };
+        format!("{}{}", circle(r, 1), circle(hole, 0))
+    };
+    let expected = PI * (400.0 - 225.0 + 64.0 - 25.0);
+    let (o, a) = (ring(20.0, 15.0), ring(8.0, 5.0));
+    for keys in
+        ["", "transform='scale(1 -1)'", "fill-rule='evenodd' transform='matrix(-1 0 0 1 4 0)'"]
+    {
+        // Both letters in one path, and each in its own.
+        for shapes in [
+            format!("<path d='{o}{a}' {keys}/>"),
+            format!("<g {keys}><path d='{o}'/><path d='{a}'/></g>"),
+        ] {
+            let found = area_of(&shapes);
+            assert!((found / expected - 1.0).abs() < 1e-4, "{shapes}: {found} for {expected}");
+        }
+    }
+}
+
+#[test]
+fn a_rule_beside_a_drawing_replaces_those_of_its_elements() {
+    let text = format!("<svg><path d='{}'/><circle r='1'/></svg>", squares([false; 4]));
+    let folder = with_file("a.svg", &text);
+    for (rule, expected) in [
+        (None, 100.0 - PI),
+        (Some("nonzero"), 100.0),
+        (Some("even_odd"), 100.0 - 64.0 + 36.0 - 16.0 + PI),
+    ] {
+        let mut contour = json!({"svg": {"file": "a.svg"}});
+        if let Some(rule) = rule {
+            contour["rule"] = json!(rule);
+        }
+        let found = measured(folder.path(), &bar(&contour)).volume / 3.0;
+        // In inches a user unit is a pixel; the bar is in millimetres.
+        let expected = expected * (25.4_f64 / 96.0).powi(2);
+        assert!((found / expected - 1.0).abs() < 1e-3, "{rule:?}: {found} for {expected}");
     }
 }

@@ -2,8 +2,8 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use files::json::Document;
-use files::{Disk, Exit, Failure};
+use crate::made::read;
+use files::{Exit, Failure};
 use glam::{DVec2, DVec3};
 use image::{ImageBuffer, Luma};
 use proptest::prelude::*;
@@ -11,14 +11,7 @@ use serde_json::{Value, json};
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 use sweep::check::measures::{Kind, Measures};
-use sweep::check::merging;
-use sweep::{Object, SweepError};
-
-fn read(folder: &Path, spec: &Value) -> Result<Object, SweepError> {
-    let text = spec.to_string();
-    let document = Document::new("test", text.as_bytes()).unwrap();
-    Object::read(&document, folder, &Disk, &sweep::spec::Resolution::default())
-}
+use sweep::check::{Finding, Severity, merging};
 
 fn measured(folder: &Path, spec: &Value) -> Measures {
     let object = read(folder, spec).unwrap_or_else(|error| panic!("{error}\n{spec}"));
@@ -268,4 +261,57 @@ fn walls_have_their_complaints() {
     deep["depth"]["image"]["zero"] = json!(1);
     let error = read(folder.path(), &deep).unwrap_err().to_string();
     assert!(error.contains("deep in a wall of 0.05"), "{error}");
+}
+
+/// Returns the findings about the wall of a vessel.
+fn about_wall(contour: &str, wall: &Value) -> Vec<Finding> {
+    let spec = vessel(&json!({"svg": contour}), wall, &json!({"rows": 12, "cols": 200}));
+    let object = read(Path::new(""), &spec).unwrap();
+    let mut found = sweep::check::check(&object, &object.grids().unwrap(), None);
+    found.retain(|finding| finding.path == "wall");
+    found
+}
+
+/// A rim turned down beside the vessel, at a distance of 1.2: walls of more than half of it, on the outer sides, cross.
+#[test]
+fn a_wall_that_crosses_itself_is_found_with_the_thickest_one_that_does_not() {
+    let lip = "M0 0H2V-4H3.2V-2";
+    let outward = |thickness: f64| json!({"thickness": thickness, "side": "outward"});
+    let found = about_wall(lip, &outward(0.8));
+    let [wrong] = &found[..] else { panic!("{found:?}") };
+    assert_eq!(wrong.severity, Severity::Wrong);
+    let (_, remedy) = wrong.message.split_once("a wall of ").unwrap();
+    let thickest: f64 = remedy.split(' ').next().unwrap().parse().unwrap();
+    assert!(thickest > 0.599 && thickest <= 0.6, "{wrong}");
+    assert!(wrong.message.contains("from the axis at the height 2"), "{wrong}");
+    assert_eq!(about_wall(lip, &outward(thickest)), []);
+    assert_eq!(about_wall(lip, &json!(0.3)), []);
+    // A law has no one thickness, and the part of it is stated.
+    let law = json!({"thickness": {"keys": [[0, 0.8], [1, 0.9]]}, "side": "outward"});
+    let found = about_wall(lip, &law);
+    assert!(found[0].message.contains(" of this thickness does not"), "{found:?}");
+}
+
+#[test]
+fn a_bend_tighter_than_its_wall_is_named_with_its_radius() {
+    let rounded = "M0 0H1A0.5 0.5 0 0 0 1.5 -0.5V-3";
+    let found = about_wall(rounded, &json!(0.6));
+    let [hint] = &found[..] else { panic!("{found:?}") };
+    assert_eq!(hint.severity, Severity::Hint);
+    assert!(
+        hint.message.contains("0.6 thick where the profile bends with a radius of 0.5,"),
+        "{hint}"
+    );
+    for fitting in [json!(0.49), json!({"thickness": 2, "side": "outward"})] {
+        assert_eq!(about_wall(rounded, &fitting), []);
+    }
+    // The hollow of a ball is drawn downward, which is no fault.
+    let ball = vessel(
+        &json!({"svg": "M0 2A2 2 0 0 0 0 -2"}),
+        &json!(0.5),
+        &json!({"rows": 12, "cols": 40}),
+    );
+    let object = read(Path::new(""), &ball).unwrap();
+    let found = sweep::check::check(&object, &object.grids().unwrap(), None);
+    assert!(!found.iter().any(|finding| finding.message.contains("downward")), "{found:?}");
 }

@@ -3,6 +3,11 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+#[cfg(feature = "studio")]
+pub mod http;
+#[cfg(feature = "studio")]
+pub mod webdriver;
+
 pub use fixtures::program::said;
 
 /// Returns the root of the project.

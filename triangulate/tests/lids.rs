@@ -111,6 +111,26 @@ fn a_wall_has_its_thickness_in_every_section() {
     }
 }
 
+/// The mean of a squared sine is a half.
+#[test]
+fn a_wall_with_a_relief_is_one_closed_body() {
+    for side in ["inward", "outward", "center"] {
+        let (volume, euler) = solid(&json!({
+            "contour": { "circle": 2 }, "trajectory": { "line": [[0, 0, 0], [0, 0, 5]] },
+            "wall": { "thickness": 0.4, "side": side },
+            "depth": { "mode": "offset", "terms": [{ "amp": 0.2, "u": 5 }] },
+            "mesh": { "rows": 4, "cols": 400 },
+        }));
+        let outer: f64 = match side {
+            "inward" => 2.0,
+            "outward" => 2.4,
+            _ => 2.2,
+        };
+        let expected = 5.0 * PI * (outer * outer + 0.02 - (outer - 0.4).powi(2));
+        assert!((volume / expected - 1.0).abs() < 1e-3 && euler == 0, "{side} {volume} {expected}");
+    }
+}
+
 #[test]
 fn a_wall_of_a_square_has_the_volume_of_the_difference() {
     for (side, area) in

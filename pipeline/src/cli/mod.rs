@@ -14,6 +14,8 @@ mod named;
 mod pack;
 mod report;
 mod run;
+#[cfg(feature = "studio")]
+mod studio;
 
 use crate::report::measure::Memory;
 use clap::{Parser, Subcommand};
@@ -39,6 +41,7 @@ Examples:
   pipeline farm turntable.json --engine slurm --chunk 10 --film turntable.mp4 --script frames.sh
   pipeline pack my-vase/pages/vase.json -o for-cluster
   pipeline join part-1.exr part-2.exr -o whole.exr
+  pipeline studio vase
   pipeline compare a.png b.png --map difference.png --rmse 0.01
 
 No output replaces an input: a job, a scene and its parts, a spec, a mesh, a picture.
@@ -78,6 +81,9 @@ enum Command {
     Book(book::BookArguments),
     /// Measure the differences between two pictures, in linear light
     Compare(compare::CompareArguments),
+    /// Edit curves and scenes beside their picture, on a page of a local address
+    #[cfg(feature = "studio")]
+    Studio(studio::StudioArguments),
 }
 
 /// Runs the program with the arguments of the process, and prints an error if there is one.
@@ -105,6 +111,8 @@ fn run(command: &Command, memory: Option<&dyn Memory>) -> Result<(), Report> {
         },
         Command::Book(arguments) => book::book(arguments),
         Command::Compare(arguments) => compare::compare(arguments),
+        #[cfg(feature = "studio")]
+        Command::Studio(arguments) => studio::studio(arguments),
     }
 }
 

@@ -59,8 +59,8 @@ pub fn run_frames(
     let inputs = recorded.digest();
     let once = animation.moves_camera_only();
     let finer = if once { run.finer()? } else { None };
-    let mut prepared = Prepared::new(&scene);
-    let mut finer = finer.as_ref().map(Prepared::new);
+    let prepared = Prepared::new(&scene);
+    let finer = finer.as_ref().map(Prepared::new);
     let kinds = run.kinds.get();
     let _reserved = run.reserve_pictures(scene.is_transparent)?;
     stages += run.stages.get();
@@ -77,9 +77,7 @@ pub fn run_frames(
         run.kinds.set(kinds);
         let run = Run { batch: Some(&batch), inputs: Some(inputs), ..run };
         if once {
-            let camera = camera(&frame)?;
-            prepared.set_camera(camera);
-            finer.iter_mut().for_each(|finer| finer.set_camera(camera));
+            let run = Run { camera: Some(camera(&frame)?), ..run };
             for mode in &frame.job.modes {
                 run.picture(&prepared, Meshes::Fine(finer.as_ref()), mode, Duration::ZERO)?;
             }
@@ -140,5 +138,5 @@ fn camera(frame: &Frame<'_>) -> Result<render::scene::Camera, PipelineError> {
     let bytes = scene_text(&frame.job, &frame.source)?;
     let name = input::name_of(&frame.job.scene);
     let document = Document::new(&name, &bytes)?;
-    Ok(read::camera(&document, &read::parse(&document)?)?)
+    Ok(read::camera_of(&document, &read::parse(&document)?)?)
 }

@@ -74,6 +74,7 @@ impl Run<'_> {
         read_time: Duration,
     ) -> Result<Picture, PipelineError> {
         let mut settings = settings(mode, self.options.size);
+        settings.camera = self.camera;
         let is_transparent = prepared.scene().is_transparent;
         if is_transparent {
             settings.view = View::Foreground;

@@ -237,7 +237,8 @@ impl Exposed {
         let sight = &shared.shader.behind_cutouts(*sight);
         let mut rest = &mut self.layers[pixel * self.channels..][..self.channels];
         for layer in &shared.settings.layers {
-            let values: [f32; MOST_CHANNELS] = layer.values(sight, &shared.shader);
+            let values: [f32; MOST_CHANNELS] =
+                layer.values(sight, (&shared.shader, &shared.tracer.camera));
             let count = layer.channels().len();
             let (own, others) = rest.split_at_mut(count);
             own.copy_from_slice(&values[..count]);

@@ -1,6 +1,7 @@
 //! Layers of an EXR file: values of a pixel besides its colour.
 
 use crate::footprint::Sight;
+use crate::scene::Camera;
 use crate::shade::Shader;
 use std::str::FromStr;
 
@@ -86,7 +87,11 @@ impl Layer {
 
     /// Returns the values of the layer's channels for the root of a sight, followed by zeros. A layer
     /// of the pixel's work gives zeros.
-    pub(super) fn values<S: Sight>(self, sight: &S, shader: &Shader<'_>) -> [f32; MOST_CHANNELS] {
+    pub(super) fn values<S: Sight>(
+        self,
+        sight: &S,
+        (shader, camera): (&Shader<'_>, &Camera),
+    ) -> [f32; MOST_CHANNELS] {
         let Some(node) = sight.node() else {
             return match self {
                 Self::Depth => [f32::INFINITY, 0.0, 0.0],
@@ -99,7 +104,7 @@ impl Layer {
         match self {
             Self::Normal => node.normal.as_vec3().to_array(),
             Self::Depth => {
-                let depth = shader.camera.distance(node.position);
+                let depth = camera.distance(node.position);
                 [depth as f32, 0.0, 0.0]
             }
             Self::Uv => node.uv.as_vec2().extend(0.0).to_array(),

@@ -37,6 +37,7 @@ pub use sampling::{
 use crate::accel::Structure;
 use crate::filter::Filter;
 use crate::prepared::Prepared;
+use crate::scene::Camera;
 use crate::shade::View;
 use crate::stats::Stats;
 use crate::trace::Tracer;
@@ -74,6 +75,8 @@ pub struct Settings {
     pub least_weight: Option<f64>,
     /// The part of the light that the picture shows.
     pub view: View,
+    /// Another camera than that of the scene. The data that a [`Prepared`] scene keeps do not depend on it.
+    pub camera: Option<Camera>,
 }
 
 impl Settings {
@@ -83,8 +86,9 @@ impl Settings {
     pub fn new(width: u32, height: u32, filter: Filter) -> Self {
         let sampling = Sampling::regular(1);
         let accel = Structure::default();
-        let (crop, layers, least_weight, view) = (None, Vec::new(), None, View::Whole);
-        Self { width, height, sampling, filter, crop, layers, accel, least_weight, view }
+        let (crop, layers, least_weight, view, camera) =
+            (None, Vec::new(), None, View::Whole, None);
+        Self { width, height, sampling, filter, crop, layers, accel, least_weight, view, camera }
     }
 
     /// Returns these settings with `samples * samples` rays in each pixel, evenly spread and of
@@ -211,7 +215,8 @@ fn with_exposure<T>(
         lattice_bytes: scene.procedural.lattice_bytes(),
         ..Stats::default()
     };
-    let mut tracer = Tracer::new(scene, shader.accel, shader.volumes).seen_by(prepared.camera());
+    let tracer = Tracer::new(scene, shader.accel, shader.volumes);
+    let mut tracer = tracer.seen_by(settings.camera);
     let least = settings.least_weight.unwrap_or(settings.sampling.least_weight());
     tracer.min_weight = tracer.min_weight.max(least);
     work(&Exposure { tracer, shader, settings }, stats)

@@ -39,7 +39,7 @@ impl<'a> Points<'a> {
     pub fn new(prepared: &'a Prepared<'_>, settings: &'a Settings) -> Self {
         let (shader, _) = prepared.shader(settings.accel, Filter::Bilinear);
         let tracer = Tracer::new(prepared.scene(), shader.accel, shader.volumes);
-        let tracer = tracer.seen_by(prepared.camera());
+        let tracer = tracer.seen_by(settings.camera);
         Self { exposure: Exposure { tracer, shader, settings } }
     }
 

@@ -132,8 +132,8 @@ pub fn parse(document: &Document<'_>) -> Result<SceneFile, SceneError> {
 /// Reads the camera of a scene file alone.
 ///
 /// # Errors
-/// If a number of the camera is out of its range, or the camera sees nothing.
-pub fn camera(document: &Document<'_>, file: &SceneFile) -> Result<Camera, SceneError> {
+/// If the camera has no view.
+pub fn camera_of(document: &Document<'_>, file: &SceneFile) -> Result<Camera, SceneError> {
     camera::read(document, &file.camera)
 }
 

@@ -18,7 +18,7 @@ use crate::differential::Spread;
 use crate::filter::FilteredTexture;
 use crate::footprint::{Footprint, Sight};
 use crate::optics;
-use crate::scene::{Camera, Material, Scene};
+use crate::scene::{Material, Scene};
 use crate::shape::Charts;
 use crate::trace::medium::Media;
 use crate::trace::tree::{Child, Node};
@@ -34,8 +34,6 @@ pub use start::ShadowStart;
 pub struct Shader<'a> {
     /// The scene whose trees are shaded.
     pub scene: &'a Scene,
-    /// The camera that sees the scene.
-    pub camera: Camera,
     /// Structure that finds the hits of shadow rays.
     pub accel: &'a Accel<'a>,
     /// The scene's textures prepared for filtering, by texture index. A texture that no surface

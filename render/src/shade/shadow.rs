@@ -343,7 +343,6 @@ mod tests {
         let volumes = Volumes::of(&scene);
         let shader = Shader {
             scene: &scene,
-            camera: scene.camera,
             accel: &accel,
             textures: &[],
             charts: &[],

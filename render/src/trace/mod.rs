@@ -1,8 +1,7 @@
 //! Follows rays through the scene and stores their hits (thesis 4.5.1, fig. 4.3).
 //!
-//! Tracing is classic: one ray at a time, mirrored and refracted at surfaces. Nothing is shaded
-//! during tracing, which is unusual. Each sample on the film gets an [`tree::IntersectionTree`].
-//! The sample is shaded only when its neighbours have trees too.
+//! Tracing is classic: one ray at a time, mirrored and refracted at surfaces. Nothing is shaded during tracing. Each
+//! sample on the film gets an [`tree::IntersectionTree`], and is shaded only when its neighbours have trees too.
 
 mod cutout;
 pub mod medium;
@@ -11,6 +10,7 @@ pub mod rows;
 mod split;
 mod spreads;
 pub mod tree;
+mod viewpoint;
 pub mod volume;
 
 use crate::accel::Accel;
@@ -33,7 +33,7 @@ const MOST_HIDDEN: usize = 1 << 12;
 pub struct Tracer<'a> {
     /// The scene.
     pub scene: &'a Scene,
-    /// The camera, that of the scene unless [`Tracer::seen_by`] replaced it.
+    /// The camera, most often that of the scene.
     pub camera: Camera,
     /// Structure that finds the hits.
     pub accel: &'a Accel<'a>,
@@ -117,16 +117,6 @@ impl<'a> Tracer<'a> {
         let (camera, min_weight) = (scene.camera, scene.min_weight);
         let around_eye = volumes.around(scene, accel, camera.eye());
         Self { scene, camera, accel, volumes, around_eye, min_weight }
-    }
-
-    /// Returns the tracer with another camera than that of the scene.
-    #[must_use]
-    pub fn seen_by(self, camera: Camera) -> Self {
-        if camera == self.camera {
-            return self;
-        }
-        let around_eye = self.volumes.around(self.scene, self.accel, camera.eye());
-        Self { camera, around_eye, ..self }
     }
 
     /// Traces a ray from the eye and fills its intersection tree.

@@ -83,9 +83,7 @@ fn contours(contour: &Contour) -> Vec<(String, &Contour)> {
             sections.sections.iter().enumerate().map(|(i, s)| (path(i), &s.contour)).collect()
         }
         Contour::Moved(moved) => contours(&moved.contour),
-        Contour::Loops(loops) if !loops.named => {
-            loops.loops.iter().map(|one| ("contour".into(), one)).collect()
-        }
+        Contour::Loops(loops) if !loops.named => loops.loops.iter().flat_map(contours).collect(),
         Contour::Loops(loops) => {
             let path = |i: usize| format!("contour.loops[{i}]");
             loops.loops.iter().enumerate().map(|(i, one)| (path(i), one)).collect()

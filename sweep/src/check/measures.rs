@@ -146,19 +146,10 @@ fn kind(sweep: &Sweep, grid: &GridMesh) -> Kind {
 
 /// Passes the triangles of both splits of each cell on, each with the part of a half.
 fn triangles(grid: &GridMesh, add: &mut impl FnMut([DVec3; 3], f64)) {
-    let (rows, cols) = (grid.rows(), grid.cols());
-    for row in 0..if grid.seam_v.joins() { rows } else { rows - 1 } {
-        for col in 0..if grid.seam_u.joins() { cols } else { cols - 1 } {
-            let next = (col + 1) % cols;
-            let above = |col: usize| match row + 1 == rows {
-                true => grid.seam_v.leads_to(col, grid.shift, cols),
-                false => (row + 1) * cols + col,
-            };
-            let corners = [row * cols + col, row * cols + next, above(next), above(col)];
-            let [a, b, c, d] = corners.map(|corner| grid.positions[corner]);
-            for corners in [[a, b, c], [a, c, d], [a, b, d], [b, c, d]] {
-                add(corners, 0.5);
-            }
+    for cell in grid.quads() {
+        let [a, b, c, d] = cell.corners.map(|corner| grid.positions[corner]);
+        for corners in [[a, b, c], [a, c, d], [a, b, d], [b, c, d]] {
+            add(corners, 0.5);
         }
     }
 }

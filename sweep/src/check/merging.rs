@@ -69,21 +69,12 @@ struct Odd {
 }
 
 fn odd_edges(grid: &GridMesh, ids: &[usize]) -> Odd {
-    let (rows, cols) = (grid.rows(), grid.cols());
-    let mut sides: Vec<[usize; 2]> = Vec::with_capacity(6 * rows * cols);
-    for row in 0..if grid.seam_v.joins() { rows } else { rows - 1 } {
-        for col in 0..if grid.seam_u.joins() { cols } else { cols - 1 } {
-            let next = (col + 1) % cols;
-            let above = |col: usize| match row + 1 == rows {
-                true => grid.seam_v.leads_to(col, grid.shift, cols),
-                false => (row + 1) * cols + col,
-            };
-            let corners = [row * cols + col, row * cols + next, above(next), above(col)];
-            let [a, b, c, d] = corners.map(|corner| ids[corner]);
-            for [a, b, c] in [[a, b, c], [a, c, d]] {
-                if a != b && b != c && c != a {
-                    sides.extend([[a, b], [b, c], [c, a]].map(|[a, b]| [a.min(b), a.max(b)]));
-                }
+    let mut sides: Vec<[usize; 2]> = Vec::with_capacity(6 * grid.positions.len());
+    for cell in grid.quads() {
+        let [a, b, c, d] = cell.corners.map(|corner| ids[corner]);
+        for [a, b, c] in [[a, b, c], [a, c, d]] {
+            if a != b && b != c && c != a {
+                sides.extend([[a, b], [b, c], [c, a]].map(|[a, b]| [a.min(b), a.max(b)]));
             }
         }
     }

@@ -14,6 +14,7 @@
 //! | [`drawing`]    | curves as they were drawn: doubled points, crossings, near misses  |
 //! | [`rounding`]   | rounding of coordinates to f32                                     |
 //! | [`strands`]    | parts of the surface that meet far from each other                 |
+//! | [`vessel`]     | walls of vessels that cross themselves                             |
 //! | [`wall`]       | walls that are thicker than the radius of curvature                |
 //!
 //! A finding states a number to act on, and its JSON path in the spec.
@@ -30,6 +31,7 @@ mod relief;
 pub mod resolution;
 pub mod rounding;
 pub mod strands;
+pub mod vessel;
 pub mod wall;
 
 use crate::curve::cut::Stop;
@@ -58,10 +60,15 @@ pub fn check(
         let (spec, owner) = object.spec_of(i);
         // An outline and its holes are drawn in one spec.
         let index = object.owners[i];
-        let mut found =
-            if before == Some(index) { Vec::new() } else { drawing::findings(spec, sweep) };
+        let mut found = Vec::new();
+        let first = before != Some(index);
+        if first {
+            let rest = object.owners[i..].iter().take_while(|owner| **owner == index).count();
+            found.extend(drawing::findings(spec, sweep));
+            found.extend(vessel::findings(spec, &object.parts()[i..i + rest]));
+        }
         before = Some(index);
-        found.extend(placing::findings(spec, sweep));
+        found.extend(placing::findings(spec, sweep, first));
         found.extend(of_sweep(sweep, grid));
         if let Some(tell) = strands {
             found.extend(strands::findings(grid, tell));

@@ -22,16 +22,17 @@ const COLUMNS: usize = 256;
 /// A profile whose distance from the axis is below this fraction of its largest one was meant to meet the axis.
 const NEARLY: f64 = 1e-2;
 
-/// Returns the findings about the position of a contour, and about the frames.
+/// Returns the findings about the position of a contour, and about the frames. A hollow or a hole is not the `first` loop
+/// of its spec, and its outside may face the axis.
 #[must_use]
-pub fn findings(spec: &Spec, sweep: &Sweep) -> Vec<Finding> {
+pub fn findings(spec: &Spec, sweep: &Sweep, first: bool) -> Vec<Finding> {
     let stops: Vec<Stop> = (0..=COLUMNS).map(|i| Stop::after(i as f64 / COLUMNS as f64)).collect();
     let columns = sweep.shape.columns_at(&stops);
     let points: Vec<DVec2> = columns.iter().map(|column| column.first.point).collect();
     let rotation = sweep.shape.trajectory.is_rotation();
     let mut found = Vec::new();
     if rotation {
-        found.extend(downward(sweep, &points));
+        found.extend(downward(sweep, &points).filter(|_| first));
         found.extend(almost_on_axis(sweep, &points));
     } else {
         found.extend(far(&points));

@@ -5,7 +5,7 @@
 
 use super::patches::Patches;
 use super::{Finding, Severity, short};
-use crate::grid::GridMesh;
+use crate::grid::{Cell, GridMesh};
 use glam::DVec3;
 use rayon::prelude::*;
 use std::collections::HashMap;
@@ -77,7 +77,6 @@ pub fn findings(grid: &GridMesh, tell: Tell<'_>) -> Option<Finding> {
 
 /// Returns the triangles of all cells except those with two equal corners. Corners with equal positions have one id.
 fn triangles(grid: &GridMesh) -> Vec<Triangle> {
-    let (rows, cols) = (grid.rows(), grid.cols());
     let mut ids: HashMap<[u64; 3], u32> = HashMap::with_capacity(grid.positions.len());
     let welded: Vec<u32> = grid
         .positions
@@ -88,22 +87,14 @@ fn triangles(grid: &GridMesh) -> Vec<Triangle> {
             *ids.entry(p.to_array().map(|x| (x + 0.0).to_bits())).or_insert(next)
         })
         .collect();
-    let mut triangles = Vec::with_capacity(2 * rows * cols);
-    for row in 0..if grid.seam_v.joins() { rows } else { rows - 1 } {
-        for col in 0..if grid.seam_u.joins() { cols } else { cols - 1 } {
-            let next = (col + 1) % cols;
-            let above = |col: usize| match row + 1 == rows {
-                true => grid.seam_v.leads_to(col, grid.shift, cols),
-                false => (row + 1) * cols + col,
-            };
-            let [a, b, c, d] = [row * cols + col, row * cols + next, above(next), above(col)];
-            for (corners, upper) in [([a, b, c], false), ([a, c, d], true)] {
-                let ids = corners.map(|i| welded[i]);
-                if ids[0] != ids[1] && ids[1] != ids[2] && ids[2] != ids[0] {
-                    let corners = corners.map(|i| grid.positions[i]);
-                    let cell = [row as u32, col as u32];
-                    triangles.push(Triangle { corners, ids, cell, upper });
-                }
+    let mut triangles = Vec::with_capacity(2 * grid.positions.len());
+    for Cell { row, col, corners: [a, b, c, d] } in grid.quads() {
+        for (corners, upper) in [([a, b, c], false), ([a, c, d], true)] {
+            let ids = corners.map(|i| welded[i]);
+            if ids[0] != ids[1] && ids[1] != ids[2] && ids[2] != ids[0] {
+                let corners = corners.map(|i| grid.positions[i]);
+                let cell = [row as u32, col as u32];
+                triangles.push(Triangle { corners, ids, cell, upper });
             }
         }
     }

@@ -12,12 +12,9 @@ pub fn findings(sweep: &Sweep, grid: &GridMesh) -> Option<Finding> {
     let wall = sweep.wall?;
     let (rows, cols) = (grid.rows(), grid.cols());
     let turned = |row: usize| {
-        let above = (row + 1) % rows;
-        (0..cols).filter(move |&col| {
-            let next = (col + 1) % cols;
-            let at = [row * cols + col, row * cols + next, above * cols + next, above * cols + col];
-            let [a, b, c, d] = at.map(|i| grid.positions[i]);
-            (c - a).cross(d - b).dot(grid.normals[at[0]].as_dvec3()) <= 0.0
+        grid.quads_of(row).filter(|cell| {
+            let [a, b, c, d] = cell.corners.map(|i| grid.positions[i]);
+            (c - a).cross(d - b).dot(grid.normals[cell.corners[0]].as_dvec3()) <= 0.0
         })
     };
     let count: usize = (0..rows).into_par_iter().map(|row| turned(row).count()).sum();

@@ -16,7 +16,7 @@ mod drawing;
 mod lexer;
 mod transform;
 
-pub use drawing::drawing;
+pub use drawing::{Filled, drawing};
 
 use super::cubic::Cubic;
 use super::vector::{Vector, extent};

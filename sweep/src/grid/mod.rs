@@ -1,6 +1,7 @@
 //! The contour x trajectory grid, which `sweep` makes and `triangulate` reads.
 
 pub mod area;
+mod cells;
 pub mod file;
 mod lid;
 pub mod near;
@@ -10,6 +11,7 @@ mod seam;
 mod unit;
 
 pub use area::{Area, PlacedArea};
+pub use cells::Cell;
 pub use lid::{End, Lid};
 pub use quality::{Fold, Tolerance};
 pub use row::Row;

@@ -65,7 +65,7 @@ pub fn draw(page: &mut Page, area: Area, parts: &[Sweep]) {
 
 /// Returns frames along a trajectory, with its twist. The frames of a rotation are on the circle of its
 /// widest point.
-fn frames(sweep: &Sweep, pieces: usize) -> Vec<Frame> {
+pub fn frames(sweep: &Sweep, pieces: usize) -> Vec<Frame> {
     let (radius, height) = widest(sweep);
     let frame_at = |i: usize| {
         let v = i as f64 / pieces as f64;

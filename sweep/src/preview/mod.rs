@@ -17,6 +17,7 @@
 
 mod contour;
 mod course;
+pub mod drawn;
 mod laws;
 mod page;
 mod surface;
@@ -24,6 +25,7 @@ mod surface;
 use crate::check::{Finding, Severity, short, summary};
 use crate::grid::GridMesh;
 use crate::sampling::Object;
+pub use drawn::Drawn;
 use glam::DVec2;
 use page::{Anchor, Area, HEIGHT, Page, WIDTH, ink};
 

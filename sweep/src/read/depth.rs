@@ -28,7 +28,7 @@ impl Reader<'_> {
         depth: &spec::Depth,
         across: Across,
         contour: &Profile,
-        face: Face,
+        face: &Face,
         trajectory: &Trajectory,
     ) -> Result<Depth, SweepError> {
         if depth.terms.is_empty() && depth.image.is_none() {
@@ -63,7 +63,7 @@ impl Reader<'_> {
         if trajectory.is_rotation() && mode == Mode::Offset {
             self.above_axis(path, &depth, contour)?;
         }
-        if let Face::Part { thickness, .. } = face {
+        if let Face::Part { thickness, .. } = *face {
             let size = if mode == Mode::Offset { 1.0 } else { contour.x_range().1 };
             let deepest = -depth.range()[0] * size;
             if deepest >= thickness {
@@ -83,7 +83,7 @@ impl Reader<'_> {
         depth: &spec::Depth,
         mode: Mode,
         contour: &Profile,
-        face: Face,
+        face: &Face,
         trajectory: &Trajectory,
     ) -> Result<Option<Arc<Cover>>, SweepError> {
         if let Some(fade) = depth.fade {
@@ -92,9 +92,9 @@ impl Reader<'_> {
         let length = contour.length();
         let fade = depth.fade.unwrap_or(FADE * length) / length;
         let asked = depth.fade.is_some();
-        let (range, rims) = match face {
+        let (range, rims) = match *face {
             Face::Part { range, .. } => (range, true),
-            Face::Whole | Face::Bare => ([0.0, 1.0], asked && !contour.closed()),
+            Face::Whole | Face::Skin(_) | Face::Bare => ([0.0, 1.0], asked && !contour.closed()),
         };
         let on_axis = ON_AXIS * contour.x_range().1;
         let at_axis = |stop: Stop| {

@@ -5,7 +5,7 @@
 use super::Reader;
 use crate::curve::svg;
 use crate::error::SweepError;
-use crate::spec::contour::{Loops, Section, Sections};
+use crate::spec::contour::{Loops, Rule, Section, Sections};
 use crate::spec::{self, Bezier, Contour, Copies, Spec, SvgFile, Trajectory};
 use files::{Failure, FileError, input, memory};
 
@@ -104,7 +104,7 @@ impl Reader<'_> {
         let key = format!("{path}.file");
         let (name, text) = self.text_file(&key, &given.file, BYTES_OF_XML)?;
         let millimetres = self.unit.map(crate::grid::Unit::millimetres);
-        let outlines =
+        let elements =
             svg::drawing(&text, given.id.as_deref(), millimetres).map_err(|message| {
                 let key = if message.contains(" id ") { format!("{path}.id") } else { key.clone() };
                 self.fault(&key, format!("{name}: {message}"))
@@ -115,14 +115,11 @@ impl Reader<'_> {
                 segments: outline.segments.iter().map(|cubic| cubic.0.map(Into::into)).collect(),
             })
         };
-        let mut loops: Vec<Contour> = outlines.into_iter().map(curve).collect();
-        Ok(match (loops.pop(), loops.len()) {
-            (Some(only), 0) => only,
-            (last, _) => {
-                loops.extend(last);
-                Contour::Loops(Loops { loops, named: false, rule: None })
-            }
-        })
+        let element = |svg::Filled { outlines, nonzero }: svg::Filled| {
+            let rule = if nonzero { Rule::Nonzero } else { Rule::EvenOdd };
+            one_or_loops(outlines.into_iter().map(curve).collect(), Some(rule))
+        };
+        Ok(one_or_loops(elements.into_iter().map(element).collect(), None))
     }
 
     /// Returns the name of a file that the spec names, for messages, and its text. `each` is the memory that its content
@@ -161,5 +158,16 @@ impl Reader<'_> {
             }
         })?;
         Ok((name, bytes))
+    }
+}
+
+/// Returns the only contour of a list, or all of them as loops.
+fn one_or_loops(mut loops: Vec<Contour>, rule: Option<Rule>) -> Contour {
+    match (loops.pop(), loops.len()) {
+        (Some(only), 0) => only,
+        (last, _) => {
+            loops.extend(last);
+            Contour::Loops(Loops { loops, named: false, rule })
+        }
     }
 }

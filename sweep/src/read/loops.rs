@@ -1,85 +1,15 @@
 //! Reads contours of one loop or several: outlines and holes.
 
 use super::Reader;
+use super::drawn::Drawn;
 use crate::curve::vector::extent;
-use crate::curve::{Cubic, Path, svg};
+use crate::curve::{Path, svg};
 use crate::error::SweepError;
 use crate::limits::LARGEST;
 use crate::spec;
 use crate::surface::contour::Contour;
-use crate::surface::nest::{self, Role, Rule};
+use crate::surface::nest::{self, Group, Role, Rule};
 use glam::DVec2;
-use kurbo::{CubicBez, Point, Shape};
-
-/// Straight pieces of a polygon that stands for a loop, for each of its cubics.
-const PIECES: usize = 16;
-
-/// A loop, or an open curve, as it is drawn.
-#[derive(Debug, Clone)]
-pub(super) enum Drawn {
-    Circle { center: DVec2, radius: f64 },
-    Curve { path: Path<DVec2>, reached: Option<f64> },
-}
-
-impl Drawn {
-    fn closed(&self) -> bool {
-        match self {
-            Self::Circle { .. } => true,
-            Self::Curve { path, .. } => path.closed(),
-        }
-    }
-
-    fn contour(self) -> Contour {
-        match self {
-            Self::Circle { center, radius } => Contour::circle(center, radius),
-            Self::Curve { path, reached } => Contour::fitted(path, reached),
-        }
-    }
-
-    /// Returns the corners of the box around the curve.
-    fn bounds(&self) -> [DVec2; 2] {
-        match self {
-            Self::Circle { center, radius } => [*center - *radius, *center + *radius],
-            Self::Curve { path, .. } => path
-                .cubics()
-                .map(|cubic| {
-                    let [p0, p1, p2, p3] = cubic.0.map(|p| Point::new(p.x, p.y));
-                    CubicBez::new(p0, p1, p2, p3).bounding_box()
-                })
-                .fold([DVec2::INFINITY, DVec2::NEG_INFINITY], |[low, high], bounds| {
-                    [
-                        low.min(DVec2::new(bounds.x0, bounds.y0)),
-                        high.max(DVec2::new(bounds.x1, bounds.y1)),
-                    ]
-                }),
-        }
-    }
-
-    fn moved(self, by: DVec2) -> Option<Self> {
-        Some(match self {
-            Self::Circle { center, radius } => Self::Circle { center: center + by, radius },
-            Self::Curve { path, reached } => {
-                let cubics: Vec<_> =
-                    path.cubics().map(|cubic| Cubic(cubic.0.map(|p| p + by))).collect();
-                Self::Curve { path: Path::new(&cubics, path.closed())?, reached }
-            }
-        })
-    }
-
-    fn polygon(&self) -> Vec<DVec2> {
-        match self {
-            Self::Circle { center, radius } => (0..4 * PIECES)
-                .map(|i| crate::curve::turn(i as f64 / (4 * PIECES) as f64) * *radius + *center)
-                .collect(),
-            Self::Curve { path, .. } => {
-                let part = |i: usize| i as f64 / PIECES as f64;
-                path.cubics()
-                    .flat_map(|cubic| (0..PIECES).map(move |i| cubic.point(part(i))))
-                    .collect()
-            }
-        }
-    }
-}
 
 impl Reader<'_> {
     /// Reads a contour that is one curve; `path` is its JSON path in the spec.
@@ -90,7 +20,7 @@ impl Reader<'_> {
     ) -> Result<Contour, SweepError> {
         let mut drawn = self.drawn(path, contour)?;
         match (drawn.pop(), drawn.len()) {
-            (Some(only), 0) => Ok(only.contour()),
+            (Some((only, _)), 0) => Ok(only.contour()),
             (_, more) => {
                 let message = format!("found {} loops, expected one contour here", more + 1);
                 Err(self.geometry(path, message))
@@ -104,7 +34,8 @@ impl Reader<'_> {
         path: &str,
         contour: &spec::Contour,
     ) -> Result<Vec<Contour>, SweepError> {
-        let drawn = self.drawn(path, contour)?;
+        let (drawn, groups): (Vec<Drawn>, Vec<Option<Group>>) =
+            self.drawn(path, contour)?.into_iter().unzip();
         if drawn.len() == 1 {
             return Ok(drawn.into_iter().map(Drawn::contour).collect());
         }
@@ -121,7 +52,9 @@ impl Reader<'_> {
             );
             return Err(self.geometry(path, message));
         }
-        let roles = nest::roles(&polygons, rule(contour));
+        let rest = Group { number: usize::MAX, rule: Rule::EvenOdd };
+        let groups: Vec<Group> = groups.into_iter().map(|group| group.unwrap_or(rest)).collect();
+        let roles = nest::roles(&polygons, &groups);
         let contours: Vec<Contour> = drawn
             .into_iter()
             .zip(roles)
@@ -137,13 +70,17 @@ impl Reader<'_> {
         Ok(contours)
     }
 
-    /// Reads the curves of a contour, as they are drawn.
-    fn drawn(&self, path: &str, contour: &spec::Contour) -> Result<Vec<Drawn>, SweepError> {
-        let curve = |path, reached| vec![Drawn::Curve { path, reached }];
+    /// Reads the curves of a contour, as they are drawn. Each has the group of the outermost contour that states a rule.
+    fn drawn(
+        &self,
+        path: &str,
+        contour: &spec::Contour,
+    ) -> Result<Vec<(Drawn, Option<Group>)>, SweepError> {
+        let curve = |path, reached| vec![(Drawn::Curve { path, reached }, None)];
         Ok(match contour {
             spec::Contour::Circle(radius) => {
                 self.positive(&format!("{path}.circle"), *radius)?;
-                vec![Drawn::Circle { center: DVec2::ZERO, radius: *radius }]
+                vec![(Drawn::Circle { center: DVec2::ZERO, radius: *radius }, None)]
             }
             spec::Contour::Bezier(bezier) => {
                 curve(self.bezier(&format!("{path}.bezier"), bezier)?, None)
@@ -165,25 +102,33 @@ impl Reader<'_> {
                     return Err(self
                         .fault(&format!("{path}.loops"), "found no loops, expected at least one"));
                 }
-                let mut all = Vec::new();
+                let mut all: Vec<(Drawn, Option<Group>)> = Vec::new();
                 for (i, one) in loops.loops.iter().enumerate() {
                     let path =
                         if loops.named { format!("{path}.loops[{i}]") } else { path.to_owned() };
-                    all.extend(self.drawn(&path, one)?);
+                    let groups = all.iter().filter_map(|(_, group)| *group);
+                    let next = groups.map(|group| group.number + 1).max().unwrap_or(0);
+                    all.extend(self.drawn(&path, one)?.into_iter().map(|(drawn, group)| {
+                        (drawn, group.map(|group| Group { number: group.number + next, ..group }))
+                    }));
                 }
+                let own = loops.rule.map(|rule| Group { number: 0, rule: rule_of(rule) });
+                all.iter_mut().for_each(|(_, group)| *group = own.or(*group));
                 all
             }
             spec::Contour::Moved(moved) => {
                 self.point(&format!("{path}.offset"), &moved.offset)?;
                 let drawn = self.drawn(path, &moved.contour)?;
-                let bounds =
-                    drawn.iter().map(Drawn::bounds).reduce(|[a, b], [c, d]| [a.min(c), b.max(d)]);
+                let bounds = drawn
+                    .iter()
+                    .map(|one| one.0.bounds())
+                    .reduce(|[a, b], [c, d]| [a.min(c), b.max(d)]);
                 let middle = bounds
                     .filter(|_| moved.center)
                     .map_or(DVec2::ZERO, |[low, high]| 0.5 * (low + high));
                 let by = DVec2::from_array(moved.offset) - middle;
-                let moved: Option<Vec<Drawn>> =
-                    drawn.into_iter().map(|one| one.moved(by)).collect();
+                let moved: Option<Vec<_>> =
+                    drawn.into_iter().map(|(one, group)| Some((one.moved(by)?, group))).collect();
                 moved.ok_or_else(|| {
                     self.geometry(path, "found an offset beside which the contour has no size, expected a smaller one")
                 })?
@@ -198,11 +143,11 @@ impl Reader<'_> {
     }
 
     /// Reads the subpaths of an SVG path.
-    fn svg(&self, path: &str, text: &str) -> Result<Vec<Drawn>, SweepError> {
+    fn svg(&self, path: &str, text: &str) -> Result<Vec<(Drawn, Option<Group>)>, SweepError> {
         let outlines = svg::outlines(text).map_err(|message| self.fault(path, message))?;
         let curve = |outline: &svg::Outline| {
             let curve = self.outlined(path, outline, outline.closed)?;
-            Ok(Drawn::Curve { path: curve, reached: None })
+            Ok((Drawn::Curve { path: curve, reached: None }, None))
         };
         outlines.iter().map(curve).collect()
     }
@@ -228,14 +173,10 @@ impl Reader<'_> {
     }
 }
 
-/// Returns the rule for the loops of a contour: that of the spec, or even-odd.
-fn rule(contour: &spec::Contour) -> Rule {
-    use spec::Contour::{Bezier, Circle, Free, Loops, Moved, Polyline, Sections, Svg, SvgFile};
-    match contour {
-        Loops(loops) if loops.rule == Some(spec::contour::Rule::Nonzero) => Rule::Nonzero,
-        Moved(moved) => rule(&moved.contour),
-        Circle(_) | Bezier(_) | Svg(_) | SvgFile(_) | Free(_) | Polyline(_) | Sections(_)
-        | Loops(_) => Rule::EvenOdd,
+fn rule_of(rule: spec::contour::Rule) -> Rule {
+    match rule {
+        spec::contour::Rule::Nonzero => Rule::Nonzero,
+        spec::contour::Rule::EvenOdd => Rule::EvenOdd,
     }
 }
 

@@ -6,6 +6,7 @@ mod corners;
 mod curve;
 mod deform;
 mod depth;
+mod drawn;
 mod flat;
 mod height;
 mod helix;
@@ -108,17 +109,17 @@ impl Reader<'_> {
         spec: &Spec,
         trajectory: Trajectory,
         laws: &PointLaws,
-        Loop { profile: contour, blend, offset, face }: Loop,
+        Loop { profile: contour, blend, offset, face, bend }: Loop,
         loops: usize,
     ) -> Result<Sweep, SweepError> {
         let hollow = offset.is_some();
-        let (modulation, mirror) = self.modulation(spec, laws, &contour, face, &trajectory)?;
+        let (modulation, mirror) = self.modulation(spec, laws, &contour, &face, &trajectory)?;
         let modulation = Modulation { blend, offset, ..modulation };
         let contour = match mirror {
             Some(factors) => contour.mirrored(factors),
             None => contour,
         };
-        let (caps, lids) = if hollow || face != Face::Whole {
+        let (caps, lids) = if hollow || !matches!(face, Face::Whole) {
             ([None, None], [!trajectory.closed(); 2])
         } else {
             self.caps(spec.caps, loops == 1, &contour, &trajectory, &modulation)?
@@ -149,6 +150,7 @@ impl Reader<'_> {
             name: spec.name.clone(),
             shape,
             wall,
+            bend,
             lids,
             group: 1,
             resolution: self.resolution(&spec.resolution)?,

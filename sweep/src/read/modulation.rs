@@ -21,7 +21,7 @@ impl Reader<'_> {
         spec: &Spec,
         laws: &PointLaws,
         contour: &Profile,
-        face: Face,
+        face: &Face,
         trajectory: &Trajectory,
     ) -> Result<(Modulation, Option<DVec2>), SweepError> {
         let (scales, twists) = (laws.scale.clone(), laws.twist.clone());
@@ -59,9 +59,12 @@ impl Reader<'_> {
         let depth = spec
             .depth
             .as_ref()
-            .filter(|_| face != Face::Bare)
+            .filter(|_| !matches!(face, Face::Bare))
             .map(|depth| self.depth(depth, spec.uv.across, contour, face, trajectory))
             .transpose()?;
+        if let (Some(depth), Face::Skin(thickness)) = (&depth, face) {
+            self.relief_in_wall("depth", depth, contour, scale.as_ref(), thickness)?;
+        }
         Ok((
             Modulation { blend: None, scale, poles, twist, depth, offset: None, turn: 0.0 },
             mirror,

@@ -1,6 +1,7 @@
 //! Reads the profile of a spec: one contour, or sections.
 
 use super::Reader;
+use super::wall::Hollow;
 use crate::error::SweepError;
 use crate::law::Law;
 use crate::spec::contour::Sections;
@@ -8,6 +9,7 @@ use crate::spec::{self, Spec};
 use crate::surface::contour::Contour;
 use crate::surface::profile::{Blend, Profile};
 use crate::surface::shape::ON_AXIS;
+use crate::surface::vessel::TightBend;
 use crate::trajectory::Trajectory;
 
 /// Largest number of sections. Each column of the grid stores a point on every section.
@@ -22,15 +24,19 @@ pub(super) struct Loop {
     pub offset: Option<Law>,
     /// The part that a relief covers.
     pub face: Face,
+    /// The bend of the profile that is tighter than the wall of a vessel.
+    pub bend: Option<TightBend>,
 }
 
 /// The part of a loop that a relief covers.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone)]
 pub(super) enum Face {
     /// All of it.
     Whole,
     /// The outer side of a wall of this least thickness, as fractions of the length.
     Part { range: [f64; 2], thickness: f64 },
+    /// All of it, as the outer side of a tube whose wall has this thickness along the trajectory.
+    Skin(Law),
     /// Nothing.
     Bare,
 }
@@ -53,7 +59,7 @@ impl Reader<'_> {
             let hollow = self.hollow(spec, &[], trajectory)?;
             debug_assert!(hollow.is_none(), "sections have no wall");
             let blend = Some(blend);
-            return Ok(vec![Loop { profile, blend, offset: None, face: Face::Whole }]);
+            return Ok(vec![Loop { profile, blend, offset: None, face: Face::Whole, bend: None }]);
         }
         let mut contours = self.loops("contour", contour)?;
         if let (Some(wall), [contour], true) = (&spec.wall, &contours[..], trajectory.is_rotation())
@@ -62,21 +68,23 @@ impl Reader<'_> {
             let high = self.right_of_axis(&Profile::single(contour.clone()))?;
             return self.vessel(spec, wall, contour, high);
         }
-        let mut offsets = vec![None; contours.len()];
-        if let Some([outer, inner]) = self.hollow(spec, &contours, trajectory)? {
+        let mut sides = vec![(None, Face::Whole); contours.len()];
+        if let Some(Hollow { outer, inner, thickness }) =
+            self.hollow(spec, &contours, trajectory)?
+        {
             let contour = contours.remove(0);
             contours.extend([contour.clone(), contour.backward()]);
-            offsets = vec![Some(outer), Some(inner)];
+            sides = vec![(Some(outer), Face::Skin(thickness)), (Some(inner), Face::Bare)];
         }
-        let of_loop = |(contour, offset): (Contour, Option<Law>)| {
+        let of_loop = |(contour, (offset, face)): (Contour, (Option<Law>, Face))| {
             let mut profile = Profile::single(contour.clone());
             if trajectory.is_rotation() {
                 let high = self.right_of_axis(&profile)?;
                 profile = Profile::single(contour.rotated(ON_AXIS * high));
             }
-            Ok(Loop { profile, blend: None, offset, face: Face::Whole })
+            Ok(Loop { profile, blend: None, offset, face, bend: None })
         };
-        contours.into_iter().zip(offsets).map(of_loop).collect()
+        contours.into_iter().zip(sides).map(of_loop).collect()
     }
 
     /// Returns the largest distance from the axis of a rotation; refuses a profile that crosses the axis.

@@ -9,6 +9,7 @@ use crate::surface::contour::Contour;
 use crate::surface::profile::Profile;
 use crate::surface::shape::ON_AXIS;
 use crate::surface::vessel::{self, Fault, Vessel};
+use files::check::short;
 
 impl Reader<'_> {
     /// Returns the outlines of the wall of a vessel. `high` is the largest distance of its profile from the axis.
@@ -69,7 +70,8 @@ impl Reader<'_> {
         let outlines = wall.outlines().map_err(|fault| {
             let message = match fault {
                 Fault::Fills(height) => format!(
-                    "found a wall that reaches the axis at the height {height:?}, expected a thinner one, or a wider profile"
+                    "found a wall that reaches the axis at the height {}, expected a thinner one, or a wider profile",
+                    short(height)
                 ),
                 Fault::Long(count) => format!(
                     "found a profile of {count} pieces, expected at most 6000 for a wall; `free` with `fit` takes fewer"
@@ -78,6 +80,7 @@ impl Reader<'_> {
             };
             self.geometry("wall", message)
         })?;
+        let bend = wall.tightest();
         let one = |outline: vessel::Outline| Loop {
             // A hollow keeps its direction, in which the wall lies to the left.
             profile: Profile::single(Contour::drawn(outline.path)),
@@ -87,6 +90,7 @@ impl Reader<'_> {
                 Some(range) => Face::Part { range, thickness: low },
                 None => Face::Bare,
             },
+            bend,
         };
         Ok(outlines.into_iter().map(one).collect())
     }

@@ -1,13 +1,30 @@
 //! Reads the wall of a spec.
 
 use super::Reader;
+use crate::curve::cut::Stop;
 use crate::error::SweepError;
 use crate::law::Law;
 use crate::spec::{self, SeamKind, Spec, WallSide};
 use crate::surface::Shape;
 use crate::surface::contour::Contour;
+use crate::surface::depth::{Depth, Mode};
+use crate::surface::profile::{Column, Profile};
 use crate::surface::wall::Wall;
 use crate::trajectory::Trajectory;
+use files::check::short;
+
+/// Steps along the contour and along the trajectory at which a relief is compared with its wall.
+const SAMPLES: usize = 1024;
+
+/// The sides of a hollow sweep.
+pub(super) struct Hollow {
+    /// Distance of the outer side from the contour, along the outer normal.
+    pub outer: Law,
+    /// Distance of the inner side from the contour, against the outer normal.
+    pub inner: Law,
+    /// Thickness of the wall: the sum of both.
+    pub thickness: Law,
+}
 
 impl Reader<'_> {
     /// Returns the wall of a spec; `shape` is the sheet in the middle of the wall.
@@ -34,14 +51,13 @@ impl Reader<'_> {
         Ok(Some(Wall { half: 0.5 * thickness }))
     }
 
-    /// Returns the distances of the outer and of the inner surface of a hollow sweep from its contour, each along the
-    /// normal that points out of the wall; `None` for a sweep that is not hollow.
+    /// Returns the sides of a hollow sweep; `None` for a sweep that is not hollow.
     pub(super) fn hollow(
         &self,
         spec: &Spec,
         contours: &[Contour],
         trajectory: &Trajectory,
-    ) -> Result<Option<[Law; 2]>, SweepError> {
+    ) -> Result<Option<Hollow>, SweepError> {
         let Some(wall) = spec.wall.as_ref().filter(|_| spec.seam != Some(SeamKind::Mirror)) else {
             return Ok(None);
         };
@@ -79,7 +95,6 @@ impl Reader<'_> {
         }
         for (key, given) in [
             ("caps", spec.caps.is_some()),
-            ("depth", spec.depth.is_some()),
             ("areas", !spec.areas.is_empty()),
             ("seam", spec.seam.is_some()),
         ] {
@@ -90,11 +105,50 @@ impl Reader<'_> {
         }
         let thickness = thickness.snapped(trajectory.breaks());
         let nothing = Law::constant(0.0);
-        Ok(Some(match side {
-            WallSide::Inward => [nothing, thickness],
-            WallSide::Outward => [thickness, nothing],
-            WallSide::Center => [thickness.clone().halved(), thickness.halved()],
-        }))
+        let [outer, inner] = match side {
+            WallSide::Inward => [nothing, thickness.clone()],
+            WallSide::Outward => [thickness.clone(), nothing],
+            WallSide::Center => [thickness.clone().halved(), thickness.clone().halved()],
+        };
+        Ok(Some(Hollow { outer, inner, thickness }))
+    }
+
+    /// Refuses a relief on the outer side of a wall that reaches the inner side.
+    pub(super) fn relief_in_wall(
+        &self,
+        path: &str,
+        depth: &Depth,
+        contour: &Profile,
+        scale: Option<&[Law; 2]>,
+        thickness: &Law,
+    ) -> Result<(), SweepError> {
+        let [low, high] = depth.range();
+        // A factor moves a point along the normal by the distance of its tangent from the origin.
+        let inward = match depth.mode {
+            Mode::Offset => -low,
+            Mode::Factor => {
+                let stops: Vec<Stop> =
+                    (0..SAMPLES).map(|i| Stop::after(i as f64 / SAMPLES as f64)).collect();
+                let out = |column: &Column| -column.first.tangent.perp().dot(column.first.point);
+                let moved = contour.columns(&stops).into_iter().map(|column| out(&column));
+                moved.fold(0.0, |most: f64, out| most.max((-low * out).max(-high * out)))
+            }
+        };
+        for i in 0..=SAMPLES {
+            let v = i as f64 / SAMPLES as f64;
+            let factor = scale
+                .map_or(1.0, |laws| laws.iter().map(|law| law.at(v).0.abs()).fold(0.0, f64::max));
+            let (deepest, wall) = (inward * factor, thickness.at(v).0);
+            if deepest >= wall {
+                let [deepest, wall, v] = [deepest, wall, v].map(short);
+                let message = format!(
+                    "found a relief up to {deepest} deep in a wall of {wall} at {v} of the trajectory, expected \
+                     less; a `zero` of the darkest grey, or a thicker wall, keeps the relief above the inner side"
+                );
+                return Err(self.geometry(path, message));
+            }
+        }
+        Ok(())
     }
 }
 

@@ -12,6 +12,7 @@ use crate::grid::{self, Area, GridMesh, Unit, UvLayout};
 use crate::surface::Shape;
 use crate::surface::Surface;
 use crate::surface::profile::{Column, Profile};
+use crate::surface::vessel::TightBend;
 use crate::surface::wall::{self, Wall};
 use crate::trajectory::Trajectory;
 use files::{memory, words};
@@ -30,6 +31,8 @@ pub struct Sweep {
     pub(crate) shape: Shape,
     /// The wall around the surface, if it is given a thickness.
     pub(crate) wall: Option<Wall>,
+    /// The bend of a vessel's profile that is tighter than its wall, if there is one.
+    pub(crate) bend: Option<TightBend>,
     /// True for an end that a lid closes, with the other sweeps of the group.
     pub(crate) lids: [bool; 2],
     /// Number of sweeps of the group, an outline and its holes, if the sweep is the last of the group; otherwise 0.

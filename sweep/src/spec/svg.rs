@@ -9,7 +9,9 @@
 //!
 //! Paths, rectangles, circles, ellipses, lines, polylines and polygons are read, with their transforms, `viewBox` and
 //! `use`. Texts must be turned into paths by the drawing program. Style sheets, hidden elements and `defs` are ignored.
-//! Outlines inside each other are outlines and holes, as for a path of several subpaths. y points up, and the origin is
+//! The subpaths of an element are outlines and holes by its `fill-rule`, which is `nonzero` unless the element or one around
+//! it says `evenodd`. Elements inside each other are outlines and holes, too: a circle drawn on a plate is a hole. A
+//! `rule` beside `svg` replaces both. y points up, and the origin is
 //! the lower left corner of the page; `"center": true` moves the middle of the contour there.
 //!
 //! If the spec has a `unit`, the drawing has its physical size in this unit: a page of `width="210mm"` is 210 wide with

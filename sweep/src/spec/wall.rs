@@ -27,7 +27,8 @@
 //! The wall of a rotation whose contour is open makes a vessel: the contour, a rim, and the contour moved by the thickness
 //! become one outline. Its law follows the contour, from its start to its end. A contour that starts on the axis has a
 //! floor. Inside a corner the moved sides meet; around a corner they are joined by an arc. A `depth` lies on the outer
-//! side and fades to the rim.
+//! side and fades to the rim. `--check` finds a wall that crosses itself, and names bends that are tighter than the wall
+//! is thick.
 //!
 //! ```json
 //! {
@@ -42,8 +43,20 @@
 //! # Tubes
 //!
 //! The thickness is measured in the plane of the section, after the scale, along the normal of the contour. The contour
-//! is closed. If the contour has corners, its sides are straight, and the wall has corners at the same rows. `caps`,
-//! `depth` and `areas` are not combined with the wall of a tube.
+//! is closed. If the contour has corners, its sides are straight, and the wall has corners at the same rows. A `depth` lies
+//! on the outer side, with the heights that it has without a wall, and does not show on the inner side. `caps` and `areas`
+//! are not combined with the wall of a tube.
+//!
+//! ```json
+//! {
+//!   "format": "tb-sweep", "version": 1, "name": "grip", "unit": "mm",
+//!   "contour": { "circle": 14 },
+//!   "trajectory": { "line": [[0, 0, 0], [0, 90, 0]] },
+//!   "wall": 2,
+//!   "depth": { "mode": "offset", "terms": [{ "amp": 0.6, "u": 9, "v": 6 }, { "amp": 0.6, "u": -9, "v": 6 }] },
+//!   "mesh": { "rows": 60, "cols": 96 }
+//! }
+//! ```
 //!
 //! With `"seam": "mirror"` a wall is a number, and surrounds the one-sided surface on both sides.
 

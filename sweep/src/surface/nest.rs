@@ -3,8 +3,12 @@
 //! A point is inside if the loops around it wind about it a number of times that is not 0 (the nonzero rule of SVG), or
 //! an odd number of times (the even-odd rule). A loop bounds the area if one of its sides is inside and the other is
 //! not. Loops do not cross, so one point of a loop tells which loops are around it.
+//!
+//! Loops may come in groups, each with its own rule, as the elements of a drawing do. A point inside an odd number of
+//! groups is inside. So a circle drawn on a plate is a hole, whatever their rules are.
 
 use glam::DVec2;
+use std::collections::BTreeMap;
 
 /// The rule that says which points are inside several loops.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -26,20 +30,44 @@ pub enum Role {
     None,
 }
 
-/// Returns the role of each loop, given as a polygon.
+/// The loops that one rule decides about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Group {
+    /// Number of the group.
+    pub number: usize,
+    /// The rule of the group; all loops of a group have the same.
+    pub rule: Rule,
+}
+
+impl Group {
+    fn filled(self, times: i32) -> bool {
+        match self.rule {
+            Rule::Nonzero => times != 0,
+            Rule::EvenOdd => times % 2 != 0,
+        }
+    }
+}
+
+/// Returns the role of each loop, given as a polygon with its group.
+///
+/// # Panics
+/// If there are fewer groups than loops.
 #[must_use]
-pub fn roles(loops: &[Vec<DVec2>], rule: Rule) -> Vec<Role> {
-    let filled = |times: i32| match rule {
-        Rule::Nonzero => times != 0,
-        Rule::EvenOdd => times % 2 != 0,
-    };
+pub fn roles(loops: &[Vec<DVec2>], groups: &[Group]) -> Vec<Role> {
     let own: Vec<i32> =
         loops.iter().map(|points| if area(points) < 0.0 { -1 } else { 1 }).collect();
     (0..loops.len())
         .map(|i| {
+            let mut times: BTreeMap<usize, (Group, i32)> = BTreeMap::new();
             let around = (0..loops.len()).filter(|&j| j != i && contains(&loops[j], loops[i][0]));
-            let outside: i32 = around.map(|j| own[j]).sum();
-            match (filled(outside), filled(outside + own[i])) {
+            for j in around {
+                times.entry(groups[j].number).or_insert((groups[j], 0)).1 += own[j];
+            }
+            let here = groups[i];
+            let outside = times.remove(&here.number).map_or(0, |(_, times)| times);
+            let others = times.values().filter(|(group, times)| group.filled(*times)).count();
+            let inside = |times: i32| here.filled(times) != (others % 2 != 0);
+            match (inside(outside), inside(outside + own[i])) {
                 (false, true) => Role::Outline,
                 (true, false) => Role::Hole,
                 _ => Role::None,
@@ -80,14 +108,30 @@ mod tests {
             .to_vec()
     }
 
+    fn roles_by(loops: &[Vec<DVec2>], rule: Rule) -> Vec<Role> {
+        roles(loops, &vec![Group { number: 0, rule }; loops.len()])
+    }
+
     #[test]
     fn rules_differ_where_loops_wind_the_same_direction() {
         let backward: Vec<DVec2> = square(1.0).into_iter().rev().collect();
         let same = [square(3.0), square(2.0), square(1.0)];
-        assert_eq!(roles(&same, Rule::EvenOdd), [Role::Outline, Role::Hole, Role::Outline]);
-        assert_eq!(roles(&same, Rule::Nonzero), [Role::Outline, Role::None, Role::None]);
+        assert_eq!(roles_by(&same, Rule::EvenOdd), [Role::Outline, Role::Hole, Role::Outline]);
+        assert_eq!(roles_by(&same, Rule::Nonzero), [Role::Outline, Role::None, Role::None]);
         let turned = [square(3.0), backward];
-        assert_eq!(roles(&turned, Rule::Nonzero), [Role::Outline, Role::Hole]);
-        assert_eq!(roles(&turned, Rule::EvenOdd), [Role::Outline, Role::Hole]);
+        assert_eq!(roles_by(&turned, Rule::Nonzero), [Role::Outline, Role::Hole]);
+        assert_eq!(roles_by(&turned, Rule::EvenOdd), [Role::Outline, Role::Hole]);
+    }
+
+    #[test]
+    fn a_group_on_another_is_a_hole_of_it() {
+        let group = |number: usize, rule: Rule| Group { number, rule };
+        let (a, b) = (group(0, Rule::Nonzero), group(1, Rule::Nonzero));
+        let loops = [square(4.0), square(3.0), square(2.0), square(1.0)];
+        let (outline, hole, none) = (Role::Outline, Role::Hole, Role::None);
+        assert_eq!(roles(&loops, &[a, a, b, b]), [outline, none, hole, none]);
+        let b = group(1, Rule::EvenOdd);
+        assert_eq!(roles(&loops, &[a, a, b, b]), [outline, none, hole, outline]);
+        assert_eq!(roles(&loops, &[b, b, a, a]), [outline, hole, outline, none]);
     }
 }

@@ -69,8 +69,7 @@ impl Shape {
     /// caps. At a crease the normal is that of the side after.
     #[must_use]
     pub fn at(&self, u: f64, v: f64) -> (DVec3, DVec3) {
-        let mut column = self.contour.at(u);
-        self.snap_to_axis(std::slice::from_mut(&mut column));
+        let column = self.columns(&[Stop::after(u)]).remove(0);
         let point = self.evaluate(&self.section(Stop::after(v)), &column);
         (point.point, point.normal)
     }

@@ -2,7 +2,8 @@
 //!
 //! Paths and basic shapes are read with the transforms of all elements around them, `viewBox` and units. `use` draws the
 //! element that it names. Elements that only other elements refer to (`defs`, `symbol`, `clipPath`, masks, markers,
-//! patterns) and hidden elements draw nothing. Texts and pictures have no outlines. Style sheets are not read.
+//! patterns) and hidden elements draw nothing. Texts and pictures have no outlines. Style sheets are not read. The
+//! property `fill-rule` is read from attributes and from `style`, and elements inherit it.
 //!
 //! The result has y pointing up, and its origin in the lower left corner of the page.
 
@@ -35,7 +36,16 @@ const UNDRAWN: [&str; 9] = [
     "style",
 ];
 
-/// Returns the outlines of a file: of the element with an id, or of all shapes.
+/// The outlines of one element.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Filled {
+    /// The subpaths, at least one.
+    pub outlines: Vec<Outline>,
+    /// True if the nonzero rule says which points are inside, false for the even-odd rule: the property `fill-rule`.
+    pub nonzero: bool,
+}
+
+/// Returns the outlines of a file, element by element: of the element with an id, or of all shapes.
 ///
 /// `millimetres` is the length of a unit of the result. Without it, a unit of the result is a user unit of the file.
 ///
@@ -45,7 +55,7 @@ pub fn drawing(
     text: &str,
     id: Option<&str>,
     millimetres: Option<f64>,
-) -> Result<Vec<Outline>, String> {
+) -> Result<Vec<Filled>, String> {
     let options =
         ParsingOptions { allow_dtd: true, nodes_limit: 4_000_000, ..ParsingOptions::default() };
     let document = Document::parse_with_options(text, options)
@@ -62,23 +72,24 @@ pub fn drawing(
     for (id, node) in named {
         ids.entry(id).or_insert(node);
     }
-    let mut pen = Pen { ids: &ids, elements: 0, found: Vec::new() };
+    let mut pen = Pen { ids: &ids, elements: 0, outlines: 0, found: Vec::new() };
     match id {
-        None => pen.inside(root, page, 0)?,
+        None => pen.inside(root, Around { to_page: page, nonzero: nonzero(root, true) }, 0)?,
         Some(id) => {
             let node = ids.get(id).copied();
             let node =
                 node.ok_or_else(|| format!("found no element with the id {id:?}{}", known(root)))?;
             let around: Vec<Node<'_, '_>> =
                 node.ancestors().skip(1).filter(Node::is_element).collect();
-            let mut to_page = page;
+            let mut context = Around { to_page: page, nonzero: nonzero(root, true) };
             for outer in around.into_iter().rev().filter(|outer| *outer != root) {
-                to_page *= placed(outer)?;
+                context.to_page *= placed(outer)?;
+                context.nonzero = nonzero(outer, context.nonzero);
             }
             if node == root {
-                pen.inside(root, page, 0)?;
+                pen.inside(root, context, 0)?;
             } else {
-                pen.element(node, to_page, 0, true)?;
+                pen.element(node, context, 0, true)?;
             }
         }
     }
@@ -172,31 +183,64 @@ fn at(node: Node<'_, '_>, message: &str) -> String {
     format!("`{}` in line {line}: {message}", node.tag_name().name())
 }
 
+/// Returns the value of a property of an element: of its `style`, or of the attribute.
+fn property<'a>(node: Node<'a, '_>, key: &str) -> Option<&'a str> {
+    let declared = |style: &'a str| {
+        let pairs = style.split(';').filter_map(|part| part.split_once(':'));
+        pairs.filter(|(name, _)| name.trim() == key).last()
+    };
+    let value = match node.attribute("style").and_then(declared) {
+        Some((_, value)) => value,
+        None => node.attribute(key)?,
+    };
+    Some(value.trim().trim_end_matches("!important").trim_end())
+}
+
+/// Returns whether the nonzero rule fills an element, as its `fill-rule` says, or else that of the element around it.
+fn nonzero(node: Node<'_, '_>, around: bool) -> bool {
+    match property(node, "fill-rule") {
+        Some("nonzero") => true,
+        Some("evenodd") => false,
+        // Other values are not valid, and count as left out.
+        _ => around,
+    }
+}
+
+/// What an element takes from the elements around it.
+#[derive(Debug, Clone, Copy)]
+struct Around {
+    to_page: DAffine2,
+    /// True if the nonzero rule fills elements that do not say otherwise.
+    nonzero: bool,
+}
+
 /// Collects the outlines of elements.
 struct Pen<'a, 'input> {
     /// The elements with an id; of two with one id the first.
     ids: &'a HashMap<&'a str, Node<'a, 'input>>,
     elements: usize,
-    found: Vec<Outline>,
+    /// Number of outlines in `found`.
+    outlines: usize,
+    found: Vec<Filled>,
 }
 
 impl<'a, 'input> Pen<'a, 'input> {
     fn inside(
         &mut self,
         node: Node<'a, 'input>,
-        to_page: DAffine2,
+        around: Around,
         depth: usize,
     ) -> Result<(), String> {
         node.children()
             .filter(Node::is_element)
-            .try_for_each(|child| self.element(child, to_page, depth + 1, false))
+            .try_for_each(|child| self.element(child, around, depth + 1, false))
     }
 
     /// Draws an element. One that is `asked` for is drawn although only other elements refer to it.
     fn element(
         &mut self,
         node: Node<'a, 'input>,
-        to_page: DAffine2,
+        around: Around,
         depth: usize,
         asked: bool,
     ) -> Result<(), String> {
@@ -210,43 +254,41 @@ impl<'a, 'input> Pen<'a, 'input> {
             ));
         }
         let name = node.tag_name().name();
-        let hidden = node.attribute("display") == Some("none")
-            || node.attribute("style").is_some_and(|style| {
-                style.split(';').any(|part| {
-                    part.split_once(':').is_some_and(|(key, value)| {
-                        key.trim() == "display" && value.trim() == "none"
-                    })
-                })
-            });
+        let hidden = property(node, "display") == Some("none");
         if !asked && (hidden || UNDRAWN.contains(&name)) {
             return Ok(());
         }
-        let to_page = to_page * placed(node)?;
+        let own = Around {
+            to_page: around.to_page * placed(node)?,
+            nonzero: nonzero(node, around.nonzero),
+        };
         match name {
-            "g" | "a" | "svg" | "switch" | "symbol" | "defs" => self.inside(node, to_page, depth),
+            "g" | "a" | "svg" | "switch" | "symbol" | "defs" => self.inside(node, own, depth),
             "use" => {
                 let names = node.attributes().find(|one| one.name() == "href");
                 let id = names.and_then(|one| one.value().strip_prefix('#')).ok_or_else(|| {
                     at(node, "found no reference to an element of this file, expected one")
                 })?;
                 match self.ids.get(id) {
-                    Some(other) => self.element(*other, to_page, depth + 1, true),
+                    Some(other) => self.element(*other, own, depth + 1, true),
                     None => Err(at(node, &format!("found no element with the id {id:?}"))),
                 }
             }
-            _ => self.shape(node, to_page),
+            _ => self.shape(node, own),
         }
     }
 
-    fn shape(&mut self, node: Node<'a, 'input>, to_page: DAffine2) -> Result<(), String> {
+    fn shape(&mut self, node: Node<'a, 'input>, own: Around) -> Result<(), String> {
         let Some(text) = basic::path(node).map_err(|message| at(node, &message))? else {
             return Ok(());
         };
         let read = outlines(&text).map_err(|message| at(node, &message))?;
         // The outlines have y pointing up already.
-        let moved = |p: DVec2| to_page.transform_point2(DVec2::new(p.x, -p.y)) + DVec2::ZERO;
+        let moved = |p: DVec2| own.to_page.transform_point2(DVec2::new(p.x, -p.y)) + DVec2::ZERO;
+        let mut outlines = Vec::new();
         for mut outline in read.into_iter().filter(|outline| !outline.segments.is_empty()) {
-            if self.found.len() == MOST_OUTLINES {
+            self.outlines += 1;
+            if self.outlines > MOST_OUTLINES {
                 return Err(at(
                     node,
                     &format!(
@@ -255,7 +297,10 @@ impl<'a, 'input> Pen<'a, 'input> {
                 ));
             }
             outline.segments.iter_mut().for_each(|cubic| cubic.0 = cubic.0.map(moved));
-            self.found.push(outline);
+            outlines.push(outline);
+        }
+        if !outlines.is_empty() {
+            self.found.push(Filled { outlines, nonzero: own.nonzero });
         }
         Ok(())
     }
@@ -274,7 +319,12 @@ mod tests {
 
     fn box_of(text: &str, id: Option<&str>, mm: Option<f64>) -> [DVec2; 2] {
         let found = drawing(text, id, mm).unwrap();
-        found.iter().map(bounds).reduce(|[a, b], [c, d]| [a.min(c), b.max(d)]).unwrap()
+        found
+            .iter()
+            .flat_map(|one| &one.outlines)
+            .map(bounds)
+            .reduce(|[a, b], [c, d]| [a.min(c), b.max(d)])
+            .unwrap()
     }
 
     const PAGE: &str = "<svg xmlns='http://www.w3.org/2000/svg' width='210mm' height='297mm' viewBox='0 0 420 594'>\
@@ -336,5 +386,35 @@ mod tests {
             text += &format!("<g id='r{i}'>{uses}</g>");
         }
         assert!(drawing(&(text + "</svg>"), None, None).unwrap_err().contains("expected fewer"));
+    }
+
+    #[test]
+    fn the_rule_is_that_of_the_style_then_of_the_attribute_then_of_the_elements_around() {
+        let rules = |text: &str, id: Option<&str>| -> Vec<bool> {
+            drawing(text, id, None).unwrap().iter().map(|one| one.nonzero).collect()
+        };
+        let path = |keys: &str| format!("<path id='p' d='M0 0H1V1Z' {keys}/>");
+        let even = |inside: String| format!("<svg><g fill-rule='evenodd'>{inside}</g></svg>");
+        for (keys, expected) in [
+            ("", false),
+            ("fill-rule='nonzero'", true),
+            ("fill-rule='nonzero' style='fill:red; fill-rule: evenodd'", false),
+            ("fill-rule='evenodd' style='fill-rule:nonzero !important'", true),
+            ("fill-rule='inherit'", false),
+            ("style='clip-rule:nonzero'", false),
+        ] {
+            let text = even(path(keys));
+            assert_eq!(rules(&text, None), [expected], "{keys}");
+            assert_eq!(rules(&text, Some("p")), [expected], "{keys}");
+        }
+        assert_eq!(rules(&format!("<svg>{}</svg>", path("")), None), [true]);
+        let root = format!("<svg style='fill-rule:evenodd'>{}</svg>", path(""));
+        assert_eq!((rules(&root, None), rules(&root, Some("p"))), (vec![false], vec![false]));
+        // An element that is used inherits from `use`, not from its own surroundings.
+        let used = format!(
+            "<svg><defs fill-rule='evenodd'>{}</defs><use href='#p' fill-rule='nonzero'/><use href='#p'/></svg>",
+            path("")
+        );
+        assert_eq!(rules(&used, None), [true, true]);
     }
 }

@@ -17,6 +17,7 @@
 //! there is the limit along the column: that of a cone, or `-T` or `T` on a cap whose scale ends vertically.
 
 mod pole;
+mod side;
 
 pub use pole::Pole;
 pub(crate) use pole::Signs;
@@ -276,7 +277,7 @@ impl Section {
         }
         let mut local = Local { q: self.scale * point, q_u, q_s, folds };
         if let Some(offset) = self.offset {
-            self.move_out(&mut local, offset, column, moving.local.curvature);
+            self.move_out(&mut local, offset, column, axes);
         }
         match self.gathered {
             None => local,
@@ -286,39 +287,6 @@ impl Section {
                 Local { q, q_s: (local.q - center) * part_t, ..local }
             }
         }
-    }
-
-    /// Moves a point of the section along its outer normal by an offset. Between two corners the point slides along its
-    /// side, so that the offset side ends where the offset sides meet.
-    fn move_out(
-        &self,
-        local: &mut Local,
-        [offset, slope]: [f64; 2],
-        column: &Column,
-        curvature: f64,
-    ) {
-        let Some(tangent) = local.q_u.try_normalize() else { return };
-        let normal = -tangent.perp();
-        let Some(side) = column.side else {
-            // The scale turns the tangent as it changes, and stretches the curve.
-            let own = column.first.tangent;
-            let turned = tangent.perp_dot(self.scale_s * own) / (self.scale * own).length();
-            let bend =
-                curvature * self.scale.x * self.scale.y / (self.scale * own).length().powi(3);
-            local.q += normal * offset;
-            local.q_s += normal * slope + tangent * (offset * turned);
-            local.folds |= 1.0 + offset * bend < 0.0;
-            return;
-        };
-        let mitre = |other: DVec2| {
-            let other =
-                (self.scale * other).try_normalize().map_or(normal, |tangent| -tangent.perp());
-            (other + normal) / (1.0 + other.dot(normal))
-        };
-        let [start, end] = side.around.map(mitre);
-        let out = start * (1.0 - side.part) + end * side.part;
-        local.q += out * offset;
-        local.q_s += out * slope;
     }
 
     /// Returns the speed of the point along the tangent, by length of the trajectory: see

@@ -62,6 +62,8 @@ pub struct Column {
 pub struct Side2 {
     /// Position on the side, from 0 at its start to 1.
     pub part: f64,
+    /// Length of the side, as a fraction of the contour's.
+    pub length: f64,
     /// Unit tangents of the side before and of the side after; the side's own at an end that is no corner.
     pub around: [DVec2; 2],
 }
@@ -261,7 +263,8 @@ impl Profile {
         let at_end = stop.side == Side::Before && stop.at == end;
         let part = if at_end { 1.0 } else { (done / length).min(1.0) };
         let tangent = |stop: Stop| self.column(stop).first.tangent;
-        Some(Side2 { part, around: [tangent(Stop::before(start)), tangent(Stop::after(end))] })
+        let around = [tangent(Stop::before(start)), tangent(Stop::after(end))];
+        Some(Side2 { part, length, around })
     }
 
     /// Returns the columns at stops of a contour with straight sides, each with its side.

@@ -13,11 +13,18 @@
 pub mod offset;
 pub mod trim;
 
+use crate::curve::cut::Stop;
 use crate::curve::{Cubic, Path, hermite, turn};
 use crate::law::Law;
 use crate::surface::contour::Contour;
 use glam::DVec2;
 use std::f64::consts::PI;
+
+/// Samples of each piece of a profile for its curvature.
+const SAMPLES: usize = 16;
+
+/// A wall up to this multiple of the radius counts as thin enough: rounding of drawn arcs is smaller.
+const TIGHT: f64 = 1.001;
 
 /// Shape of a rim.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -52,6 +59,17 @@ pub struct Outline {
     pub path: Path<DVec2>,
     /// The part that is the outer side, as fractions of the length; `None` for a hollow.
     pub face: Option<[f64; 2]>,
+}
+
+/// A bend of a profile that is tighter than the wall on its inner side is thick.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TightBend {
+    /// The point of the profile.
+    pub point: DVec2,
+    /// Radius of curvature there.
+    pub radius: f64,
+    /// Thickness of the wall on the inner side of the bend, more than the radius.
+    pub thickness: f64,
 }
 
 /// A reason why a profile has no wall.
@@ -115,9 +133,33 @@ impl Vessel<'_> {
     /// Returns whether the start and the end of the profile lie on the axis.
     #[must_use]
     pub fn on_axis(&self) -> [bool; 2] {
-        use crate::curve::cut::Stop;
         [Stop::after(0.0), Stop::before(1.0)]
             .map(|stop| self.profile.at(stop).point.x <= self.on_axis)
+    }
+
+    /// Returns the bend that is tightest in proportion to the wall, if one is tighter than the wall is thick. There, a
+    /// side of the wall crosses itself, and its loop is cut off.
+    #[must_use]
+    pub fn tightest(&self) -> Option<TightBend> {
+        let breaks = self.profile.breaks();
+        let [starts, ends] = self.on_axis();
+        let knots = [0.0].into_iter().chain(self.profile.knots()).chain([1.0]).collect::<Vec<_>>();
+        let parts = (0..=SAMPLES).map(|i| i as f64 / SAMPLES as f64);
+        let stops = knots.windows(2).flat_map(|span| {
+            parts.clone().map(|part| span[0] + (span[1] - span[0]) * part).collect::<Vec<_>>()
+        });
+        let bend = |u: f64| {
+            let here = self.profile.at(Stop::after(u));
+            let in_floor = breaks.first().is_some_and(|at| starts && u < *at)
+                || breaks.last().is_some_and(|at| ends && u > *at);
+            let whole = self.floor.filter(|_| in_floor).unwrap_or_else(|| self.thickness.at(u).0);
+            // A profile that turns to the left is hollow on its inner side.
+            let part = if here.curvature > 0.0 { self.parts[1] } else { self.parts[0] };
+            let (thickness, radius) = (part * whole, 1.0 / here.curvature.abs());
+            TightBend { point: here.point, radius, thickness }
+        };
+        let tight = stops.map(bend).filter(|bend| bend.thickness > bend.radius * TIGHT);
+        tight.max_by(|a, b| (a.thickness / a.radius).total_cmp(&(b.thickness / b.radius)))
     }
 
     /// Returns a side of the wall, at a part of the thickness from the profile.
