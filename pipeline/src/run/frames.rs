@@ -75,9 +75,9 @@ pub fn run_frames(
         let batch = Batch::new(&options.folder, &format!("{}.{number:04}", job.name), &[])?;
         let run = Run::new(&frame.job, &frame.source, options, tell);
         run.kinds.set(kinds);
-        let run = Run { batch: Some(&batch), inputs: Some(inputs), ..run };
+        let camera = if once { Some(camera(&frame)?) } else { None };
+        let run = Run { batch: Some(&batch), inputs: Some(inputs), camera, ..run };
         if once {
-            let run = Run { camera: Some(camera(&frame)?), ..run };
             for mode in &frame.job.modes {
                 run.picture(&prepared, Meshes::Fine(finer.as_ref()), mode, Duration::ZERO)?;
             }

@@ -85,7 +85,8 @@ pub fn join(files: &[(String, Vec<u8>)]) -> Result<Vec<u8>, JoinError> {
     let mut whole: Option<(&str, Part)> = None;
     let mut covered: Vec<bool> = Vec::new();
     for (file, bytes) in files {
-        let part = Part::read(bytes).map_err(|found| JoinError::Part { file: file.clone(), found })?;
+        let part =
+            Part::read(bytes).map_err(|found| JoinError::Part { file: file.clone(), found })?;
         if whole.is_none() {
             covered = vec![false; part.whole.0 as usize * part.whole.1 as usize];
             whole = Some((file, part.empty_whole()));
