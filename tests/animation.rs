@@ -170,7 +170,8 @@ fn a_film_has_the_frames() {
     let frames = decoder.unwrap().apng().unwrap().into_frames().collect_frames().unwrap();
     assert_eq!(frames.len(), 3);
     for (k, frame) in frames.into_iter().enumerate() {
-        assert_eq!(frame.delay().numer_denom_ms(), (100, 1));
+        let delay = std::time::Duration::from(frame.delay());
+        assert_eq!(delay, std::time::Duration::from_millis(100));
         let own = pixels(&path.join(format!("out/job-exact.000{}.png", k + 1)));
         let shown = image::DynamicImage::ImageRgba8(frame.into_buffer()).to_rgb8();
         assert!(own == shown, "{k}");

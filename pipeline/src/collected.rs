@@ -2,7 +2,7 @@
 
 use crate::run::{self, Options};
 use crate::{Job, PipelineError};
-use files::{FileError, Source, input};
+use files::{Disk, FileError, Source, input};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
@@ -43,6 +43,28 @@ pub fn files(path: &Path, source: &dyn Source) -> Result<Files, PipelineError> {
     Ok(keeper.files.into_inner().unwrap_or_else(PoisonError::into_inner))
 }
 
+/// Returns paths relative to the deepest folder that contains them all.
+#[must_use]
+pub fn placed<'p>(paths: impl Iterator<Item = &'p PathBuf>) -> Vec<PathBuf> {
+    let here = std::env::current_dir().unwrap_or_default();
+    let whole: Vec<PathBuf> = paths.map(|path| input::normalized(&here.join(path))).collect();
+    let mut common = whole.first().and_then(|path| path.parent()).unwrap_or(Path::new(""));
+    while !whole.iter().all(|path| path.starts_with(common)) {
+        common = common.parent().unwrap_or(Path::new(""));
+    }
+    whole.iter().map(|path| path.strip_prefix(common).unwrap_or(path).to_path_buf()).collect()
+}
+
+/// Returns a file outside of `folder` that the job at `path` reads, if there is one.
+///
+/// # Errors
+/// When a file cannot be read or is wrong.
+pub fn outside(path: &Path, folder: &Path) -> Result<Option<PathBuf>, PipelineError> {
+    let folder = input::normalized(folder);
+    let mut all = files(path, &Disk)?.into_keys();
+    Ok(all.find(|path| !path.starts_with(&folder)))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -61,5 +83,17 @@ mod tests {
         for (path, bytes) in &files {
             assert_eq!(&pages::FILES.read(path).unwrap(), bytes);
         }
+    }
+
+    #[test]
+    fn files_keep_the_folders_between_them() {
+        let of = |paths: &[&str]| -> Vec<String> {
+            let paths: Vec<PathBuf> = paths.iter().map(PathBuf::from).collect();
+            placed(paths.iter()).iter().map(|path| path.display().to_string()).collect()
+        };
+        assert_eq!(of(&["a/jobs/b.json", "a/scenes/c.json"]), ["jobs/b.json", "scenes/c.json"]);
+        assert_eq!(of(&["../x/b.json", "a.json"]).len(), 2);
+        assert_eq!(of(&["/q/b.json", "/q/c/d.json"]), ["b.json", "c/d.json"]);
+        assert_eq!(of(&["b.json"]), ["b.json"]);
     }
 }

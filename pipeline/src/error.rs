@@ -128,7 +128,7 @@ pub enum PipelineError {
     Frames {
         /// The job.
         job: String,
-        /// What is wrong.
+        /// The fault of the list of frames.
         message: String,
     },
     /// A film is wanted of a job with several modes.

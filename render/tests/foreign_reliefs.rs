@@ -77,7 +77,7 @@ fn a_normal_map_of_one_colour_turns_the_surface() {
     // Coordinates that are turned by a quarter turn the normal, and mirrored ones mirror it.
     let turned = SQUARE.replace("f 1/1 2/2 3/3 4/4", "f 1/2 2/3 3/4 4/1");
     let mirrored = SQUARE.replace("f 1/1 2/2 3/3 4/4", "f 1/2 2/1 3/4 4/3");
-    for (obj, slopes) in [(turned, [y, -x]), (mirrored, [x, -y])] {
+    for (obj, slopes) in [(turned, [-y, x]), (mirrored, [x, -y])] {
         let bench = Bench::with_scene(&scene(r#""file": "a.obj""#, ""));
         bench.write("a.obj", obj);
         bench.write("a.mtl", "newmtl m\nKd 1 1 1\nnorm n.png\n");

@@ -37,8 +37,7 @@ use crate::curve::cut::{Side, Stop};
 use glam::DVec2;
 use kurbo::{CubicBez, Point, Shape};
 
-/// Largest absolute value of a derivative. A surface this steep is level to all 16 digits, and far
-/// larger derivatives would overflow when squared.
+/// Largest absolute value of a derivative. Far larger ones would overflow when squared.
 pub const STEEPEST: f64 = 1e30;
 
 /// Two pieces of a graph that meet with a smaller sine of their angle have one derivative there.

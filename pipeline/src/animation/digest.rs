@@ -1,6 +1,6 @@
 //! Digests of the inputs of a frame, by which a frame that exists is known to be up to date.
 //!
-//! The digest of a picture contains all files that its job reads, by names relative to the job, the values
+//! The digest of a picture contains all files that its job reads, by names relative to one another, the values
 //! that are set, the mode, the size, and the version of the program. A picture file states it (the text `Inputs` of
 //! a PNG), so that no list of frames is kept anywhere. It does not contain the number of threads nor the place of the
 //! files.
@@ -9,6 +9,7 @@
 //! accident, and is no protection against forgery.
 
 use crate::Job;
+use crate::collected::placed;
 use crate::job::Mode;
 use files::{FileError, Source};
 use render::Settings;
@@ -71,20 +72,14 @@ impl<'a> Recorded<'a> {
         read.insert(path.into(), Digest::default().and(bytes));
     }
 
-    /// Returns the paths of all files that were read, in ascending order.
+    /// Returns the digest of all files that were read. Their names are relative to the deepest folder that contains
+    /// them all.
     #[must_use]
-    pub fn paths(&self) -> Vec<PathBuf> {
+    pub fn digest(&self) -> Digest {
         let read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
-        read.keys().cloned().collect()
-    }
-
-    /// Returns the digest of all files that were read. Their names are relative to `folder`.
-    #[must_use]
-    pub fn digest(&self, folder: &Path) -> Digest {
-        let read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
-        read.iter().fold(Digest::default(), |all, (path, digest)| {
-            let name =
-                path.strip_prefix(folder).unwrap_or(path).to_string_lossy().replace('\\', "/");
+        let names = placed(read.keys());
+        names.iter().zip(read.values()).fold(Digest::default(), |all, (name, digest)| {
+            let name = name.to_string_lossy().replace('\\', "/");
             all.and(name.as_bytes()).and(&digest.0.to_le_bytes())
         })
     }

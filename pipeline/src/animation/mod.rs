@@ -198,7 +198,7 @@ fn check_path(path: &str, meshes: &[&str]) -> Result<(), String> {
     }
     let (first, rest) = path.split_once('.').unwrap_or((path, ""));
     if first != "specs" {
-        let near = files::json::nearest(first, ["scene", "specs"]);
+        let near = files::json::nearest(first, ["scene", "specs"].into_iter());
         let near = near.map(|near| format!(" (did you mean `{near}`?)")).unwrap_or_default();
         return Err(format!("found {first:?}{near}, {EXPECTED}"));
     }

@@ -61,7 +61,7 @@ impl Turntable {
     /// # Errors
     /// When a number is out of its range, or the axis has no length.
     pub fn read(document: &Document<'_>, file: TurntableFile) -> Result<Self, JsonError> {
-        let vector = |key: &str, vector: [f64; 3]| {
+        let vector = |key: &str, vector: [f64; 3]| -> Result<DVec3, JsonError> {
             for (k, x) in vector.into_iter().enumerate() {
                 within(document, &format!("turntable.{key}[{k}]"), x, [-LARGEST, LARGEST])?;
             }

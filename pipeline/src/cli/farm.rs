@@ -4,8 +4,8 @@ use super::named;
 use crate::PipelineError;
 use crate::farm::{Engine, MOST_TASKS, Plan};
 use clap::Args;
-use files::{Ledger, Output, Report, Setting};
-use std::path::{Path, PathBuf};
+use files::{Ledger, Report, Setting};
+use std::path::PathBuf;
 
 /// Arguments of `pipeline farm`.
 #[derive(Debug, Args)]
@@ -72,9 +72,6 @@ pub fn farm(arguments: &FarmArguments) -> Result<(), Report> {
         film: arguments.film.clone(),
         hosts: arguments.sshlogin.clone(),
     };
-    write(&arguments.script, &plan.script(arguments.engine))
-}
-
-fn write(path: &Path, text: &str) -> Result<(), Report> {
-    Ok(Output::create(path, true)?.commit_all(text.as_bytes())?)
+    let script = plan.script(arguments.engine);
+    Ok(ledger.create(&arguments.script)?.commit_all(script.as_bytes())?)
 }

@@ -2,10 +2,10 @@
 
 use super::named;
 use super::{OTHER_FOLDER, make_folder};
-use crate::collected::{self, Files};
+use crate::collected;
 use clap::Args;
 use files::exit::say;
-use files::{Batch, Disk, Exit, Failure, Ledger, Report, input};
+use files::{Batch, Exit, Failure, Ledger, Report, input};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -52,7 +52,7 @@ pub fn pack(arguments: &PackArguments) -> Result<(), Report> {
     let files = collected::files(&named.path, named.source)?;
     let (folder, count) = (&arguments.output, files.len());
     let below = |path: &Path| folder.join(path);
-    let placed = placed(&files);
+    let placed = collected::placed(files.keys());
     let mut outputs = Vec::with_capacity(count);
     for (path, bytes) in placed.iter().zip(files.values()) {
         let target = below(path);
@@ -65,44 +65,12 @@ pub fn pack(arguments: &PackArguments) -> Result<(), Report> {
     let job = input::normalized(&named.path);
     let job = files.keys().zip(&placed).find(|(path, _)| **path == job);
     let job = job.map_or_else(PathBuf::new, |(_, path)| below(path));
-    let again = collected::files(&job, &Disk)?;
-    let root = input::normalized(folder);
-    if let Some(outside) = again.keys().find(|path| !path.starts_with(&root)) {
-        return Err(PackError::FromRoot(input::name_of(outside)).into());
+    if let Some(outside) = collected::outside(&job, folder)? {
+        return Err(PackError::FromRoot(input::name_of(&outside)).into());
     }
     if !arguments.quiet {
         say(format_args!("{count} files in {}", folder.display()));
         say(format_args!("make its pictures: pipeline run {} -o out", job.display()));
     }
     Ok(())
-}
-
-/// Returns where files are put: below the deepest folder that contains them all.
-fn placed(files: &Files) -> Vec<PathBuf> {
-    let here = std::env::current_dir().unwrap_or_default();
-    let whole: Vec<PathBuf> =
-        files.keys().map(|path| input::normalized(&here.join(path))).collect();
-    let mut common = whole.first().and_then(|path| path.parent()).unwrap_or(Path::new(""));
-    while !whole.iter().all(|path| path.starts_with(common)) {
-        common = common.parent().unwrap_or(Path::new(""));
-    }
-    whole.iter().map(|path| path.strip_prefix(common).unwrap_or(path).to_path_buf()).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn files_keep_the_folders_between_them() {
-        let files =
-            |paths: &[&str]| paths.iter().map(|path| (PathBuf::from(path), vec![])).collect();
-        let of = |paths: &[&str]| -> Vec<String> {
-            placed(&files(paths)).iter().map(|path| path.display().to_string()).collect()
-        };
-        assert_eq!(of(&["a/jobs/b.json", "a/scenes/c.json"]), ["jobs/b.json", "scenes/c.json"]);
-        assert_eq!(of(&["../x/b.json", "a.json"]).len(), 2);
-        assert_eq!(of(&["/q/b.json", "/q/c/d.json"]), ["b.json", "c/d.json"]);
-        assert_eq!(of(&["b.json"]), ["b.json"]);
-    }
 }

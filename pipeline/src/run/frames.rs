@@ -17,7 +17,6 @@ use files::json::Document;
 use files::{Batch, Setting, Source, input};
 use render::Prepared;
 use render::scene::read;
-use std::path::Path;
 use std::time::Duration;
 
 /// The frames to be made.
@@ -57,8 +56,7 @@ pub fn run_frames(
     let run = Run::new(&first.job, &recorded, options, tell);
     // The scene of the first frame shows which files are read.
     let scene = run.scene(Fineness::Stated)?;
-    let folder = job.scene.parent().unwrap_or(Path::new(""));
-    let inputs = recorded.digest(folder);
+    let inputs = recorded.digest();
     let once = animation.moves_camera_only();
     let finer = if once { run.finer()? } else { None };
     let prepared = Prepared::new(&scene);
@@ -77,9 +75,9 @@ pub fn run_frames(
         let batch = Batch::new(&options.folder, &format!("{}.{number:04}", job.name), &[])?;
         let run = Run::new(&frame.job, &frame.source, options, tell);
         run.kinds.set(kinds);
-        let mut run = Run { batch: Some(&batch), inputs: Some(inputs), ..run };
+        let camera = if once { Some(camera(&frame)?) } else { None };
+        let run = Run { batch: Some(&batch), inputs: Some(inputs), camera, ..run };
         if once {
-            run.camera = Some(camera(&frame)?);
             for mode in &frame.job.modes {
                 run.picture(&prepared, Meshes::Fine(finer.as_ref()), mode, Duration::ZERO)?;
             }

@@ -24,7 +24,7 @@ pub enum JoinError {
     Part {
         /// The file.
         file: String,
-        /// What it is instead.
+        /// A description of the file.
         found: String,
     },
     /// Two files are parts of different pictures.
@@ -32,9 +32,9 @@ pub enum JoinError {
     Other {
         /// The file.
         file: String,
-        /// What it states.
+        /// The statement of this file.
         found: String,
-        /// What the first file states.
+        /// The statement of the first file.
         expected: String,
         /// The first file.
         first: String,
@@ -85,7 +85,8 @@ pub fn join(files: &[(String, Vec<u8>)]) -> Result<Vec<u8>, JoinError> {
     let mut whole: Option<(&str, Part)> = None;
     let mut covered: Vec<bool> = Vec::new();
     for (file, bytes) in files {
-        let part = Part::read(bytes).map_err(|found| JoinError::Part { file: file.clone(), found })?;
+        let part =
+            Part::read(bytes).map_err(|found| JoinError::Part { file: file.clone(), found })?;
         if whole.is_none() {
             covered = vec![false; part.whole.0 as usize * part.whole.1 as usize];
             whole = Some((file, part.empty_whole()));

@@ -75,6 +75,12 @@ impl<'de> Deserialize<'de> for Svg {
             }
 
             fn visit_str<E: Error>(self, text: &str) -> Result<Svg, E> {
+                if is_name(text) {
+                    let whole = serde_json::json!({ "svg": { "file": text } });
+                    return Err(E::custom(format!(
+                        "found the name of a file, {text:?}, expected the text of an SVG path; write {whole} for a file"
+                    )));
+                }
                 Ok(Svg::Path(text.into()))
             }
 
@@ -83,5 +89,26 @@ impl<'de> Deserialize<'de> for Svg {
             }
         }
         reader.deserialize_any(Visit)
+    }
+}
+
+/// Returns whether a text is the name of an SVG file. No path ends in this letter.
+fn is_name(text: &str) -> bool {
+    let text = text.trim().to_ascii_lowercase();
+    text.ends_with(".svg") || text.ends_with(".svgz")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_name_of_a_file_is_no_path() {
+        for name in ["profile.svg", "my drawings/a b.SVG "] {
+            let said = serde_json::from_value::<Svg>(name.into()).unwrap_err().to_string();
+            let parts = [format!("{name:?}"), "write {\"svg\":{\"file\":".into()];
+            assert!(parts.iter().all(|part| said.contains(part)), "{said}");
+        }
+        assert!(matches!(serde_json::from_value("M0 0H1".into()), Ok(Svg::Path(_))));
     }
 }
