@@ -7,7 +7,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 /// The folders of `examples/` whose files are embedded. Their own folders are not.
-const FOLDERS: [&str; 5] = ["curves", "meshes", "pages", "scenes", "textures"];
+const FOLDERS: [&str; 6] = ["curves", "meshes", "pages", "scenes", "start", "textures"];
 
 /// The extensions of embedded files.
 const EXTENSIONS: [&str; 6] = ["csv", "json", "obj", "png", "svg", "swc"];

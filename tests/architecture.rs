@@ -32,6 +32,7 @@ const RENDER: Layers = &[
     ("texture", &["color"]),
     ("procedural", &["color"]),
     ("scene", &["color", "differential", "optics", "procedural", "ray", "shape", "texture"]),
+    ("showcase", &["color", "scene", "shape"]),
     ("accel", &["ray", "shape"]),
     (
         "trace",

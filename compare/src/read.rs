@@ -4,8 +4,10 @@
 //! is three equal channels. An EXR file is read as it is: its channels `R`, `G` and `B`, and no layers. A
 //! picture with an alpha channel must be opaque, since what lies behind it is not known.
 
+use crate::layer;
 use files::memory::of_process;
 use files::picture::{self, Format, PictureError};
+use files::words::shown;
 use files::{Exit, Failure, FileError, Ledger, MemoryError, input};
 use image::{ColorType, DynamicImage};
 use render::Picture;
@@ -59,6 +61,16 @@ pub enum ReadError {
         /// Pixels across and down of both.
         sizes: [(u32, u32); 2],
     },
+    /// The file has no such layer, or one of more than three channels.
+    #[error("{name}: found no layer and no channel {}, expected one of: {known}", shown(layer))]
+    Layer {
+        /// The file.
+        name: String,
+        /// The layer or channel that was requested.
+        layer: String,
+        /// The channels of the file.
+        known: String,
+    },
     /// The requested part does not lie in the picture.
     #[error("the crop {},{},{}x{} does not lie in {name}, which is {}x{} pixels", crop.x, crop.y, crop.width, crop.height, size.0, size.1)]
     Crop {
@@ -77,7 +89,7 @@ impl Failure for ReadError {
             Self::File(error) => error.exit(),
             Self::NoPicture { .. } | Self::Pixel { .. } => Exit::Malformed,
             Self::Memory(error) => error.exit(),
-            Self::Sizes { .. } | Self::Crop { .. } => Exit::Use,
+            Self::Sizes { .. } | Self::Crop { .. } | Self::Layer { .. } => Exit::Use,
         }
     }
 }
@@ -93,7 +105,8 @@ pub fn read(ledger: &Ledger, argument: &Path) -> Result<Picture, ReadError> {
     decode(&name, &ledger.argument(argument, "a picture")?)
 }
 
-/// Reads two pictures of the same size, or the same part of both, from the files that arguments name.
+/// Reads two pictures of the same size, or the same part of both, from the files that arguments name. With `layer` they
+/// are this layer or channel of two EXR files.
 ///
 /// # Errors
 /// When a file cannot be read, the sizes differ, or the part does not lie in the pictures.
@@ -102,8 +115,20 @@ pub fn pair(
     first: &Path,
     second: &Path,
     crop: Option<Crop>,
+    layer: Option<&str>,
 ) -> Result<[Picture; 2], ReadError> {
-    let pictures = [read(ledger, first)?, read(ledger, second)?];
+    let pictures = match layer {
+        None => [read(ledger, first)?, read(ledger, second)?],
+        Some(layer) => {
+            let read = |path: &Path| {
+                let bytes = ledger.argument(path, "a picture")?;
+                layer::decode(&input::name_of(path), &bytes, layer)
+            };
+            let mut pictures = [read(first)?, read(second)?];
+            layer::level(&mut pictures);
+            pictures
+        }
+    };
     let sizes = pictures.each_ref().map(|picture| (picture.width, picture.height));
     let [first, second] = [first, second].map(input::name_of);
     if sizes[0] != sizes[1] {

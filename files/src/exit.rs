@@ -5,7 +5,9 @@ use std::error::Error;
 use std::fmt::Display;
 use std::io::{self, Write};
 use std::panic::{self, AssertUnwindSafe};
+use std::path::Path;
 use std::process::ExitCode;
+use std::time::Duration;
 
 /// The exit codes of all four programs. 0 is success.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -95,6 +97,14 @@ pub fn say(words: impl Display) {
     // One write, so that programs that share a terminal do not mix their lines.
     let text = words::printed(&format!("{words}\n")).into_owned();
     let _ = io::stderr().write_all(text.as_bytes());
+}
+
+/// Prints the line about a picture or another file that was written: `wrote x.png (512 x 512, 1.2 s)`. `size` is the
+/// size of a picture in pixels.
+pub fn wrote(path: &Path, size: Option<(u32, u32)>, time: Duration) {
+    let seconds = time.as_secs_f64();
+    let size = size.map_or_else(String::new, |(width, height)| format!("{width} x {height}, "));
+    say(format_args!("wrote {} ({size}{seconds:.1} s)", words::shown(&path.to_string_lossy())));
 }
 
 /// Returns a message on one line of bounded length, whatever the message quotes.

@@ -105,7 +105,11 @@ pub(crate) fn read_json(argument: &Path) -> Result<Vec<u8>, FileError> {
     room_for_values(read(argument)?, || name_of(argument))
 }
 
-fn room_for_values(text: Vec<u8>, name: impl Fn() -> String) -> Result<Vec<u8>, FileError> {
+/// Returns the text of a JSON file, if there is memory for its parsed values. `name` is the file's name in messages.
+///
+/// # Errors
+/// When the memory budget of the process is too small.
+pub fn room_for_values(text: Vec<u8>, name: impl Fn() -> String) -> Result<Vec<u8>, FileError> {
     let bytes = BYTES_OF_A_BYTE.saturating_mul(text.len() as u64);
     memory::of_process().check(bytes, || format!("{}: its values", name()))?;
     Ok(text)

@@ -6,22 +6,36 @@
 //! | [`input`]     | bytes from a file, from standard input, or from pages built in        |
 //! | [`ledger`]    | inputs and outputs of a program: no output replaces an input          |
 //! | [`names`]     | JSON objects of names that a user chose, each once                    |
+//! | [`note`]      | the key for sentences that the readers ignore                         |
 //! | [`output`]    | a file that is replaced only when it is whole, or standard output     |
 //! | [`batch`]     | files that belong together, and a marker while some are old           |
 //! | [`extension`] | names of outputs that contradict the content of the file              |
-//! | [`progress`]  | a bar on standard error, for work that takes longer than a second     |
+//! | [`progress`]  | a bar or lines on standard error, for work that takes longer than a second |
+//! | [`shell`]     | completions for shells, and pages for `man`                           |
 //! | [`stop`]      | no temporary file stays when a program is interrupted                 |
 //! | [`exit`]      | the exit codes, and the only function that prints an error            |
 //! | [`memory`]    | a budget of bytes, which are reserved before they are allocated       |
 //! | [`picture`]   | the bytes of a picture file into a picture, without a panic           |
 //! | [`words`]     | names and values in messages: cut, and without invisible characters   |
 //! | [`setting`]   | values of a JSON file that the command line sets                      |
+//! | [`variants`]  | rows of a table, each with values that the command line would set    |
 //! | [`check`]     | the findings of `--check`, and the weight of each                     |
 //! | [`schema`]    | JSON Schema of the file formats                                       |
 //! | [`svg`]       | drawings as SVG                                                       |
 //!
 //! The crate contains no curves and no meshes, and of pictures only their decoding. The libraries
 //! above this crate never print.
+//!
+//! A complaint about a value in a JSON text has its position:
+//!
+//! ```
+//! use files::json::Document;
+//!
+//! let document = Document::new("ball.json", b"{ \"radius\": -2 }")?;
+//! let fault = document.fault("radius", "found -2, expected a number above 0");
+//! assert_eq!(fault.to_string(), "ball.json:1:13: radius: found -2, expected a number above 0");
+//! # Ok::<(), files::JsonError>(())
+//! ```
 
 pub mod batch;
 pub mod check;
@@ -33,16 +47,19 @@ pub mod json;
 pub mod ledger;
 pub mod memory;
 pub mod names;
+pub mod note;
 pub mod output;
 pub mod picture;
 pub mod progress;
 pub mod schema;
 pub mod setting;
+pub mod shell;
 #[cfg(target_os = "linux")]
 mod stdout;
 pub mod stop;
 pub mod svg;
 mod target;
+pub mod variants;
 pub mod words;
 
 pub use batch::Batch;
@@ -53,6 +70,7 @@ pub use ledger::Ledger;
 pub use memory::{Budget, MemoryError};
 pub use output::Output;
 pub use setting::Setting;
+pub use variants::Variant;
 
 use std::io;
 use thiserror::Error;

@@ -16,6 +16,7 @@
 mod exr;
 mod guard;
 mod jpeg;
+pub mod layers;
 mod unused;
 
 pub use unused::unused;

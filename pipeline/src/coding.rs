@@ -19,6 +19,7 @@ pub fn of(job: &Job, settings: &Settings, error: Option<f64>, alpha: bool) -> Co
         scene: &scene,
         meshes: &meshes,
         set: &job.set,
+        look: &[],
         error: error.as_deref(),
         alpha,
         encoding: Encoding::Srgb,

@@ -1,9 +1,11 @@
 //! Reasons why a job fails.
 
 use compare::CompareError;
+use files::variants::VariantsError;
 use files::words::{LONGEST_LIST, cut, shown};
 use files::{Exit, Failure, FileError, JsonError, MemoryError};
 use render::scene::SceneError;
+use render::showcase::ShowcaseError;
 use sweep::SweepError;
 use thiserror::Error;
 use triangulate::TriangulateError;
@@ -143,6 +145,30 @@ pub enum PipelineError {
         /// Its modes.
         modes: String,
     },
+    /// A table of variants is wrong.
+    #[error(transparent)]
+    Variants(#[from] VariantsError),
+    /// A mesh cannot be shown.
+    #[error(transparent)]
+    Showcase(#[from] ShowcaseError),
+    /// The file to show is one of another kind.
+    #[error("{name}: found {found}, expected a spec, a grid or a mesh; {hint}")]
+    NotShown {
+        /// The file.
+        name: String,
+        /// The kind of the file.
+        found: &'static str,
+        /// The command that takes the file.
+        hint: &'static str,
+    },
+    /// The command line sets a value of a spec, and the file is none.
+    #[error("-D {setting}: expected scene and a path in the scene, since {name} is no spec")]
+    NoSpec {
+        /// The argument.
+        setting: String,
+        /// The file.
+        name: String,
+    },
     /// No page shows that figure of the thesis.
     #[error("there is no figure A.{number}; there are {known}")]
     UnknownFigure {
@@ -173,6 +199,8 @@ impl Failure for PipelineError {
             Self::Triangulate(error) => error.exit(),
             Self::Scene(error) => error.exit(),
             Self::Compare(error) => error.exit(),
+            Self::Showcase(error) => error.exit(),
+            Self::Variants(error) => error.exit(),
             Self::Memory(_) | Self::Encode { .. } => Exit::Resource,
             Self::ErrorMissed(_) => Exit::Inaccurate,
             Self::SameFile { .. }
@@ -183,6 +211,8 @@ impl Failure for PipelineError {
             | Self::NoAnimation(_)
             | Self::Frames { .. }
             | Self::FilmOfModes { .. }
+            | Self::NotShown { .. }
+            | Self::NoSpec { .. }
             | Self::UnknownFigure { .. }
             | Self::UnknownPage { .. } => Exit::Use,
         }

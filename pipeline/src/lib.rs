@@ -5,6 +5,16 @@
 //! the three programs pass through pipes, so the pictures are equal byte for byte. The jobs in
 //! [`pages`] are built into the program, and [`mod@book`] shows them. [`mod@report`] measures what
 //! each method of rendering a page costs, and how far its picture is from the truth.
+//!
+//! A built-in page, and the meshes that its job makes:
+//!
+//! ```
+//! let job = pipeline::pages::page("vase")?;
+//! assert_eq!(job.meshes[0].name, "vase");
+//! let last = job.modes.last().expect("a job has a mode");
+//! assert_eq!(last.name, "exact");
+//! # Ok::<(), pipeline::PipelineError>(())
+//! ```
 
 pub mod animation;
 pub mod book;
@@ -24,7 +34,9 @@ pub mod pages;
 pub mod report;
 pub mod run;
 pub mod settings;
+pub mod show;
 pub mod stages;
+pub mod start;
 #[cfg(feature = "studio")]
 pub mod studio;
 pub mod truth;

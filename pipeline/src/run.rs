@@ -3,8 +3,10 @@
 pub mod frames;
 mod requested;
 mod scene;
+mod shared;
 
 pub use requested::Accuracy;
+pub use shared::Shared;
 
 use crate::animation::digest::Digest;
 use crate::fineness::{Fineness, Kinds};
@@ -124,7 +126,22 @@ pub fn run_in(
     options: &Options,
     tell: &(dyn Fn(Event<'_>) + Sync),
 ) -> Result<Stages, PipelineError> {
-    let run = Run { batch: Some(batch), ..Run::new(job, source, options, tell) };
+    run_sharing(batch, job, source, options, None, tell)
+}
+
+/// Runs a job as [`run_in`] does, with the meshes that `shared` has. It keeps the others for the jobs that follow.
+///
+/// # Errors
+/// See [`run()`].
+pub fn run_sharing(
+    batch: &Batch<'_>,
+    job: &Job,
+    source: &dyn Source,
+    options: &Options,
+    shared: Option<&Shared>,
+    tell: &(dyn Fn(Event<'_>) + Sync),
+) -> Result<Stages, PipelineError> {
+    let run = Run { batch: Some(batch), shared, ..Run::new(job, source, options, tell) };
     let scene = run.scene(Fineness::Stated)?;
     // Sweeping and triangulating are stages of their own.
     let read_time = run.stages.get().read;
@@ -176,6 +193,8 @@ struct Run<'a> {
     tell: &'a (dyn Fn(Event<'_>) + Sync),
     /// The batch of the job's files; `None` if nothing is written.
     batch: Option<&'a Batch<'a>>,
+    /// Meshes that several jobs have in common.
+    shared: Option<&'a Shared>,
     stages: Cell<Stages>,
     /// The kinds of resolution of the job's meshes, once they were made.
     kinds: Cell<Kinds>,
@@ -193,7 +212,8 @@ impl<'a> Run<'a> {
         tell: &'a (dyn Fn(Event<'_>) + Sync),
     ) -> Self {
         let (stages, kinds) = (Cell::default(), Cell::default());
-        Self { job, source, options, tell, batch: None, stages, kinds, inputs: None, camera: None }
+        let (shared, inputs, camera) = (None, None, None);
+        Self { job, source, options, tell, batch: None, shared, stages, kinds, inputs, camera }
     }
 
     /// Reserves memory for the pictures of all modes and for the strip of them.

@@ -2,6 +2,8 @@
 
 mod accuracy;
 mod input;
+mod loaded;
+mod mesh;
 mod output;
 mod sampling;
 mod textures;
@@ -10,7 +12,7 @@ mod work;
 use clap::Parser;
 use files::memory::of_process;
 use files::progress::Progress;
-use files::{Exit, Failure, Report};
+use files::{Exit, Failure, Report, Setting};
 use render::film::{self, BasePicture, Crop, Layer, alpha, memory};
 use render::scene::{self, schema};
 use render::shade::View;
@@ -19,27 +21,34 @@ use std::time::Instant;
 use thiserror::Error;
 
 const EXAMPLES: &str = "\
-Examples:
-  render examples/scenes/glass-sphere.json -o glass.png
-  render scene.json --mesh vase=vase.obj --size 1024x768 --samples 3 -o vase.png
-  sweep vase.json | triangulate --texture 2 | render scene.json --mesh vase=- -o vase.png
+Examples, of a scene that `pipeline new scene -o scene.json` writes, and of a mesh of yours (OBJ, STL, PLY or glTF):
+  render scene.json -o scene.png
+  render mesh.ply -o mesh.png
+  render mesh.stl --color '#b8352d' --view 30,20 --size 1920x1080 --alpha -o mesh.png
+  render mesh.ply --view front --scene-out mine.json -o mesh.png
+  render mine.json --mesh mesh=other.ply --size 1024x768 --samples 3 -o other.png
+  sweep vase.json | triangulate | render - -o vase.png
   render scene.json --error 0.01 -o scene.png
-  render scene.json -D camera.fov_deg=35 -D objects[0].sphere.radius=2 -o variant.png
+  render scene.json --jobs-from variants.csv -o variant.png
+  render scene.json -D camera.fov_deg=35 -D objects[1].sphere.radius=0.7 -o variant.png
   render scene.json --sampling thesis --filter tent --audit -o scene.png
   render scene.json --filter point --stats -o - --format exr > picture.exr
   render scene.json --pixel 256,300
-  render --check scene.json --mesh vase=vase.obj
+  render --check scene.json
   render --emit-schema > tb-scene.schema.json
   render scene.json --crop 200,250,100x100 --layers normal,depth -o part.exr
 
 The picture never replaces an input (the scene, its parts, meshes, materials, pictures).
 
+render completions SHELL prints completions for bash, elvish, fish, powershell or zsh; render man prints
+a page for man.
+
 Exit codes: 2 bad use, 3 malformed input, 4 --check found something wrong, 5 cannot read or write,
 6 too large, 7 --error was not reached, 70 a bug, 130 interrupted, 141 closed pipe.";
 
-/// Renders a JSON scene with area sampled textures.
+/// Renders a JSON scene, or a mesh alone, with area sampled textures.
 #[derive(Debug, Parser)]
-#[command(version, after_help = EXAMPLES)]
+#[command(name = "render", version, after_help = EXAMPLES)]
 pub struct Arguments {
     #[command(flatten)]
     input: input::InputArguments,
@@ -64,6 +73,12 @@ enum UseError {
     LayersInPng(String),
     #[error("standard input (-) can be read once: found - for {0} and {1}")]
     TwoFromStdin(String, String),
+    #[error(
+        "{0} is for a mesh without a scene, and {1} is a scene: change the scene, or set its values with -D"
+    )]
+    LookOfScene(String, String),
+    #[error("--jobs-from makes several pictures, and -o is standard output: name a file with -o")]
+    VariantsToStdout,
     #[error("--mesh {0} was given twice")]
     SameMesh(String),
     #[error("a picture is binary and standard output is a terminal: add -o FILE or pipe it on")]
@@ -107,6 +122,8 @@ impl Failure for UseError {
             Self::UnknownFormat(_)
             | Self::LayersInPng(_)
             | Self::TwoFromStdin(..)
+            | Self::LookOfScene(..)
+            | Self::VariantsToStdout
             | Self::SameMesh(_)
             | Self::BinaryToTerminal
             | Self::PixelAndPicture
@@ -142,6 +159,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
         return Ok(output::print(&format!("{:#}\n", schema::of_scene()))?);
     }
     files::memory::allow(work.max_memory);
+    files::progress::choose(work.progress);
     input.check()?;
     if input.check {
         return check(arguments);
@@ -151,23 +169,56 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
     let ledger = output.ledger();
     let target = output.target(sampling.pixel.is_some(), &ledger)?;
     input.expect(&ledger)?;
+    let variants = input.variants(&ledger)?;
+    let targets = match (&variants, &target) {
+        (Some(variants), Some(target)) => target.of_variants(variants, &ledger)?,
+        _ => Vec::new(),
+    };
     let (width, height) = sampling.size;
-    let mut settings = Settings {
+    let settings = Settings {
         sampling: sampling.sampling()?,
         crop: sampling.crop(),
         layers: output.layers(),
         accel: work.accel,
         ..Settings::new(width, height, textures.filter)
     };
-
     if settings.layers.contains(&Layer::Error)
         && !matches!(settings.sampling, Sampling::Area { .. })
     {
         return Err(UseError::ErrorOfThesis.into());
     }
+    let begun = Instant::now();
+    let mut loaded = input.load(&ledger, &staging(sampling.size, output))?;
+    let Some(variants) = variants else {
+        return picture(
+            arguments,
+            &mut loaded,
+            input.settings(),
+            (target, true),
+            (settings, begun),
+        );
+    };
+    for (k, (variant, target)) in variants.iter().zip(targets).enumerate() {
+        let begun = if k == 0 { begun } else { Instant::now() };
+        let (target, last) = (Some(target), k + 1 == variants.len());
+        let timed = (settings.clone(), begun);
+        picture(arguments, &mut loaded, &variant.settings, (target, last), timed)?;
+    }
+    Ok(())
+}
 
-    let started = Instant::now();
-    let scene = input.read_scene(&ledger, |_, scene| Ok(scene))?;
+/// Makes the picture of the scene with these values, or prints a pixel of it. No further picture follows if `last`.
+fn picture(
+    arguments: &Arguments,
+    loaded: &mut loaded::Loaded<'_>,
+    set: &[Setting],
+    (target, last): (Option<output::Target>, bool),
+    (mut settings, begun): (Settings, Instant),
+) -> Result<(), Report> {
+    let Arguments { input, output, sampling, accuracy, work, .. } = arguments;
+    let (width, height) = sampling.size;
+    let ledger = loaded.ledger;
+    let scene = loaded.scene(set, last, |_, scene| Ok(scene))?;
     work.print_remarks(&scene);
     let is_transparent = target.is_some() && (output.alpha || scene.is_transparent);
     if is_transparent {
@@ -190,7 +241,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
     let more = if is_transparent { 16 + 4 } else { 0 } + output.more_bytes();
     let _more = of_process().reserve(pixels.saturating_mul(more), || "the picture".into())?;
     let _first = of_process().reserve(first, || "the first rays of all pixels".into())?;
-    let read_time = started.elapsed();
+    let read_time = begun.elapsed();
 
     accuracy.hold_signals();
     let pool = work.pool()?;
@@ -209,12 +260,16 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
         }
         let started = Instant::now();
         let (scene, meshes) = (input.file_name(), input.mesh_names());
-        let set = input.set();
-        let named = output.named(&scene, (&meshes, &set), accuracy.error(), is_transparent);
-        output.write(&target, &picture, &settings, &named, &ledger)?;
+        let set: Vec<String> = set.iter().map(Setting::text).collect();
+        let look = input.look.flags();
+        let named = output.named(&scene, (&meshes, &set, &look), accuracy.error(), is_transparent);
+        output.write(&target, &picture, &settings, &named, ledger)?;
         stats.read_time = read_time;
         stats.write_time = started.elapsed();
         work.print_stats(&stats);
+        if work.tells() {
+            target.wrote((picture.width, picture.height), begun.elapsed());
+        }
         accuracy.state_unfinished(&stats, &picture);
         accuracy.state(statement, work.quiet)?;
     }
@@ -226,6 +281,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
     Ok(())
 }
 
+/// Returns what the scene of a mesh without one depends on besides its own flags.
+fn staging((width, height): (u32, u32), output: &output::OutputArguments) -> mesh::Staging {
+    mesh::Staging { aspect: f64::from(width) / f64::from(height), alone: output.alpha }
+}
+
 /// Prints the inventory and the findings of `--check`.
 fn check(arguments: &Arguments) -> Result<(), Report> {
     let Arguments { input, output, sampling, textures, .. } = arguments;
@@ -233,7 +293,10 @@ fn check(arguments: &Arguments) -> Result<(), Report> {
     let aspect = f64::from(width) / f64::from(height);
     let filter = textures.filter;
     let tables = |texture: &_| filter.bytes_for(texture);
-    let report = input.read_scene(&output.ledger(), |draft, scene| {
+    let staging = staging(sampling.size, output);
+    let ledger = output.ledger();
+    let mut loaded = input.load(&ledger, &staging)?;
+    let report = loaded.scene(input.settings(), true, |draft, scene| {
         Ok(scene::check::check(draft, &scene, aspect, &tables)?)
     })?;
     output::print(&report.to_string())?;

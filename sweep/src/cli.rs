@@ -5,7 +5,7 @@ mod report;
 mod resolution;
 
 use clap::Parser;
-use files::exit::{Exit, Failure, Report, say};
+use files::exit::{Exit, Failure, Report, say, wrote};
 use files::json::Document;
 use files::progress::Progress;
 use files::{Batch, Ledger, Output, Setting, extension, input, memory, setting};
@@ -20,20 +20,22 @@ use sweep::{Object, Spent, Sweep, check, preview, schema};
 use thiserror::Error;
 
 const EXAMPLES: &str = "\
-Examples:
-  sweep examples/curves/vase.json -o vase.grid
-  sweep examples/curves/trefoil.json --rows 1000 --cols 64 --stats -o trefoil.grid
-  sweep examples/curves/vase.json --tol 1e-3 --angle 5 --stats -o vase.grid
-  sweep examples/curves/vase.json -D trajectory.rotation.angle_deg=270 -o part.grid
+Examples, of specs that `pipeline new vase` and `pipeline new knot` write:
+  sweep vase.json -o vase.grid
+  sweep knot.json --rows 1000 --cols 64 --stats -o knot.grid
+  sweep vase.json --tol 1e-3 --angle 5 --stats -o vase.grid
+  sweep vase.json -D trajectory.rotation.angle_deg=270 -o part.grid
   sweep --emit-schema > tb-sweep.schema.json
-  sweep --format json < examples/curves/cup-handle.json | head -3
-  sweep examples/curves/vase.json | triangulate --texture 2 > vase.obj
-  sweep --check examples/curves/klein-bottle.json
-  sweep --preview trefoil.svg examples/curves/trefoil.json
+  sweep --format json < knot.json | head -3
+  sweep vase.json | triangulate > vase.obj
+  sweep --check vase.json
+  sweep --preview knot.svg knot.json
 
 No output replaces an input. The extension of an output must not belong to another format: a grid is
 .grid (or .json with --format json), a preview .svg; unknown extensions are allowed.
-The grid and the preview are replaced together.";
+The grid and the preview are replaced together.
+
+sweep completions SHELL prints completions for bash, elvish, fish, powershell or zsh; sweep man prints a page for man.";
 
 /// Sweep a contour along a trajectory: a JSON spec in, a grid of points and normals out.
 #[derive(Debug, Parser)]
@@ -82,7 +84,17 @@ pub struct Arguments {
     #[arg(long, exclusive = true)]
     emit_schema: bool,
 
-    /// Print no notes
+    /// Progress on standard error
+    #[arg(
+        long,
+        value_enum,
+        default_value_t,
+        hide_possible_values = true,
+        value_name = "bar|plain|json|none"
+    )]
+    progress: files::progress::Mode,
+
+    /// Print no notes, no progress and no lines about written files
     #[arg(short, long)]
     quiet: bool,
 
@@ -152,6 +164,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
 
     let start = Instant::now();
     memory::allow(arguments.max_memory);
+    files::progress::choose(arguments.progress);
     let ledger = Ledger::new(!arguments.no_clobber);
     let file = output.map(|path| ledger.output(path, "name another file with -o")).transpose()?;
     let draw_to = |path| ledger.output(path, "name another file with --preview");
@@ -198,6 +211,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
     let remark = Batch::commit(outputs)?;
     if let Some(remark) = remark.filter(|_| !arguments.quiet) {
         say(format_args!("sweep: note: {remark}"));
+    }
+    if !arguments.quiet {
+        let files = [output, arguments.preview.as_deref()].into_iter().flatten();
+        files
+            .filter(|file| !input::is_stdin(file))
+            .for_each(|file| wrote(file, None, start.elapsed()));
     }
     if !arguments.quiet && !checks {
         object.parts().iter().for_each(report::note);

@@ -2,10 +2,13 @@
 
 mod cli;
 
-use clap::Parser;
+use clap::{CommandFactory, Parser};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
+    if let Some(code) = files::shell::answer(cli::Arguments::command()) {
+        return code;
+    }
     let arguments = cli::Arguments::parse();
     files::exit::run("sweep", || cli::run(&arguments))
 }

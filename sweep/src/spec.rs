@@ -205,6 +205,7 @@ pub use wall::{Rim, Wall, WallKeys, WallSide};
 
 use crate::grid::{Unit, UvLayout};
 use crate::limits;
+use files::note::Note;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -232,6 +233,9 @@ pub struct Spec {
     /// The object's name; one word.
     #[schemars(transform = limits::word)]
     pub name: String,
+    /// Sentences for people; ignored by the reader.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub note: Option<Note>,
     /// The unit of length of all numbers; not in a part of an object.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unit: Option<Unit>,

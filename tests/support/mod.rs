@@ -32,15 +32,20 @@ pub fn run(program: &str, arguments: &[&str], folder: &Path) -> Output {
     fixtures::program::run(&programs().join(program), arguments, folder, b"")
 }
 
+/// Returns the path of programs with the project's programs in front.
+pub fn path_with_programs() -> std::ffi::OsString {
+    let old = std::env::var_os("PATH").unwrap_or_default();
+    let folders = [programs()].into_iter().chain(std::env::split_paths(&old));
+    std::env::join_paths(folders).expect("no folder's name has a colon")
+}
+
 /// Runs a command line of the shell in `folder`, with the project's programs on the path. The shell
 /// stays the parent of the programs, as an interactive shell does.
 #[cfg(unix)]
 pub fn shell(line: &str, folder: &Path) -> Output {
-    let old = std::env::var_os("PATH").unwrap_or_default();
-    let folders = [programs()].into_iter().chain(std::env::split_paths(&old));
     Command::new("sh")
         .args(["-c", &format!("{line}\nexit $?")])
-        .env("PATH", std::env::join_paths(folders).expect("no folder's name has a colon"))
+        .env("PATH", path_with_programs())
         .current_dir(folder)
         .output()
         .expect("the shell starts")

@@ -5,12 +5,13 @@ mod note;
 mod write;
 
 use clap::Parser;
-use files::exit::say;
+use files::exit::{say, wrote};
 use files::extension::{self, WrongExtension};
-use files::{Batch, Exit, Failure, Ledger, Output, Report, input};
+use files::{Batch, Exit, Failure, Ledger, Output, Report, Setting, input};
 use grid::{Grid, Place};
 use std::io::{IsTerminal, Write, stdin, stdout};
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 use sweep::grid::file::GridReader;
 use thiserror::Error;
 use triangulate::mtl::{is_map_name, mtl};
@@ -21,9 +22,10 @@ use write::Written;
 
 const EXAMPLES: &str = "\
 Examples:
-  sweep vase.json -o vase.grid            a grid from a curve spec, then
-  triangulate vase.grid -o vase.obj       its triangles
-  sweep vase.json | triangulate --texture 2 | render scene.json --mesh vase=- -o vase.png
+  pipeline new vase -o vase.json          a curve spec,
+  sweep vase.json -o vase.grid            its grid,
+  triangulate vase.grid -o vase.obj       and its triangles
+  sweep vase.json | triangulate | render - -o vase.png
   triangulate vase.grid -o vase.3mf --unit centimeter --up z      for a printer
   triangulate vase.grid -o vase.obj --report -                    is it closed?
   triangulate vase.grid -o vase.obj --mtl --map marble.png        for other renderers
@@ -32,7 +34,10 @@ An output file is replaced only when the whole grid was read and found undamaged
 standard output is whole when its last line is `# end V F` (numbers of v and f lines).
 Mesh, material file and report are replaced together. No output replaces an input.
 The extension of an output must not belong to another format (a.fbx), unless --format is given;
-unknown extensions are allowed.";
+unknown extensions are allowed.
+
+triangulate completions SHELL prints completions for bash, elvish, fish, powershell or zsh; triangulate
+man prints a page for man.";
 
 /// Makes triangles of a grid that `sweep` wrote, as OBJ, STL, PLY, GLB or 3MF.
 #[derive(Debug, Parser)]
@@ -64,6 +69,9 @@ pub struct Arguments {
     /// Texture areas (tb-areas JSON) that cover the areas of the grid. Keeps the grid in memory
     #[arg(long, value_name = "FILE.json")]
     pub areas: Option<PathBuf>,
+    /// Set a value of the areas: -D areas[0].texture=2; may be given several times
+    #[arg(short = 'D', value_name = "PATH=VALUE", requires = "areas")]
+    pub settings: Vec<Setting>,
     /// Write a material file beside the OBJ, under its name with .mtl
     #[arg(long)]
     mtl: bool,
@@ -78,6 +86,18 @@ pub struct Arguments {
     /// starts [default: 90 % of the free memory]
     #[arg(long, value_name = "BYTES", value_parser = files::memory::bytes)]
     pub max_memory: Option<u64>,
+    /// Threads that may be used, 1 to 1024. The work takes one
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+    /// Progress on standard error
+    #[arg(
+        long,
+        value_enum,
+        default_value_t,
+        hide_possible_values = true,
+        value_name = "bar|plain|json|none"
+    )]
+    progress: files::progress::Mode,
     /// Print only errors
     #[arg(short, long)]
     pub quiet: bool,
@@ -120,7 +140,9 @@ impl Failure for UseError {
 
 /// Reads the grid, writes its triangles, and replaces all outputs together.
 pub fn run(arguments: &Arguments) -> Result<(), Report> {
+    let start = Instant::now();
     files::memory::allow(arguments.max_memory);
+    files::progress::choose(arguments.progress);
     arguments.check(stdout().is_terminal())?;
     if input::is_stdin(&arguments.grid) && stdin().is_terminal() {
         return Err(TriangulateError::Terminal.into());
@@ -141,7 +163,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
             write::write(arguments, &mut grid, &mut outputs.mesh)
         }
         Some(areas) => {
-            let grids = grid::with_areas(areas, &ledger, &mut reader)?;
+            let grids = grid::with_areas((areas, &arguments.settings), &ledger, &mut reader)?;
             let source = Place::<&[u8]>::Memory(&grids);
             write::write(arguments, &mut Grid { source, up: arguments.up }, &mut outputs.mesh)
         }
@@ -151,6 +173,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
     let remark = outputs.commit(arguments, written)?;
     if let Some(remark) = remark.filter(|_| !arguments.quiet) {
         say(format_args!("triangulate: note: {remark}"));
+    }
+    if !arguments.quiet {
+        let files = [Some(arguments.output.clone()), arguments.mtl(), arguments.report.clone()];
+        let files = files.iter().flatten().filter(|file| !is_stdout(file));
+        files.for_each(|file| wrote(file, None, start.elapsed()));
     }
     note::print(arguments, &name, &counts);
     Ok(())

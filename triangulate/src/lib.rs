@@ -54,6 +54,25 @@
 //! | [`glb`]          | the mesh as binary glTF                                      |
 //! | [`threemf`]      | the mesh as 3MF                                              |
 //! | [`mod@unit`]     | units of length                                              |
+//!
+//! A torus has 2 triangles in each cell of its grid, and Euler's number 0:
+//!
+//! ```
+//! use files::json::Document;
+//! use sweep::Sweep;
+//! use triangulate::{Options, Topology};
+//!
+//! let text = br#"{"format": "tb-sweep", "version": 1, "name": "ring",
+//!     "contour": {"circle": 0.3}, "trajectory": {"circle": {"radius": 1}},
+//!     "mesh": {"rows": 24, "cols": 12}}"#;
+//! let document = Document::new("ring.json", text).expect("the text is JSON");
+//! let grid = Sweep::read(&document).expect("the spec is valid").grid();
+//! let mesh = triangulate::mesh([grid].as_slice(), &Options::default())?;
+//! let Topology { vertices, edges, faces, closed, .. } = Topology::of(&mesh);
+//! assert_eq!((faces, closed), (2 * 24 * 12, true));
+//! assert_eq!(vertices + faces, edges);
+//! # Ok::<(), triangulate::TriangulateError>(())
+//! ```
 
 pub mod area_file;
 mod areas;

@@ -30,6 +30,15 @@ pub struct CommonArguments {
     /// Worker threads [default: one for each core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024).map(usize::from))]
     threads: Option<usize>,
+    /// Progress on standard error
+    #[arg(
+        long,
+        value_enum,
+        default_value_t,
+        hide_possible_values = true,
+        value_name = "bar|plain|json|none"
+    )]
+    progress: files::progress::Mode,
     /// Print only errors
     #[arg(short, long)]
     pub quiet: bool,
@@ -39,8 +48,9 @@ pub struct CommonArguments {
 }
 
 impl CommonArguments {
-    /// Sets the memory limit of this process. Call this function before any file is read.
+    /// Sets the memory limit and the form of progress of this process. Call this function before any file is read.
     pub fn limit_memory(&self) {
+        files::progress::choose(self.progress);
         files::memory::allow(self.max_memory);
     }
 

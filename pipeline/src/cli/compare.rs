@@ -20,7 +20,7 @@ Measures, in linear light where white is 1:
   ssim  structural similarity of luma as a screen shows it (Wang and others 2004); 1 if equal
 
 The exit code is 1 if a measure exceeds its limit, or ssim is below its limit. A PNG is read as
-sRGB, an EXR as linear.";
+sRGB, an EXR as linear. A layer is read as it is.";
 
 /// Arguments of `pipeline compare`.
 #[derive(Debug, Args)]
@@ -53,6 +53,9 @@ pub struct CompareArguments {
     /// Compare only this part: column and row of its upper left pixel, and its size
     #[arg(long, value_name = "X,Y,WxH", value_parser = Crop::parse)]
     crop: Option<Crop>,
+    /// Compare this layer or channel of two EXR files, such as normal or depth.Z, instead of their colours
+    #[arg(long, value_name = "NAME")]
+    layer: Option<String>,
     /// Print the numbers as JSON
     #[arg(long)]
     json: bool,
@@ -134,7 +137,7 @@ pub fn compare(arguments: &CompareArguments) -> Result<(), Report> {
         }
         ledger.claim(path, "name another file with --map")?;
     }
-    let [a, b] = read::pair(&ledger, first, second, arguments.crop)?;
+    let [a, b] = read::pair(&ledger, first, second, arguments.crop, arguments.layer.as_deref())?;
     let pixels = a.pixels.len() as u64;
     let (width, height) = (a.width, a.height);
     let what = || format!("comparing pictures of {width}x{height} pixels");

@@ -11,14 +11,16 @@ mod frames;
 mod join;
 mod list;
 mod named;
+mod new;
 mod pack;
 mod report;
 mod run;
+mod show;
 #[cfg(feature = "studio")]
 mod studio;
 
 use crate::report::measure::Memory;
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use files::{FileError, Report};
 use std::path::Path;
 use std::process::ExitCode;
@@ -29,6 +31,9 @@ Examples:
   pipeline run glass-sphere vase -o out
   pipeline run A.11 -o out
   pipeline run all -o out --size 1024x1024 --keep
+  pipeline new vase -o vase.json
+  pipeline show vase.json -o vase.png
+  pipeline show vase.json --view front --color teal -D scene.camera.fov_deg=20 -o front.png
   pipeline export vase -o my-vase
   pipeline run my-vase/pages/vase.json -o out --stats
   pipeline run vase -D scene.camera.fov_deg=30 -D specs.vase.mesh.cols=40 -o out
@@ -43,6 +48,9 @@ Examples:
   pipeline join part-1.exr part-2.exr -o whole.exr
   pipeline studio vase
   pipeline compare a.png b.png --map difference.png --rmse 0.01
+
+pipeline completions SHELL prints completions for bash, elvish, fish, powershell or zsh; pipeline man
+prints a page for man.
 
 No output replaces an input: a job, a scene and its parts, a spec, a mesh, a picture.
 Files that belong together (those of a job; with --sheet of all jobs; those of a report; textures)
@@ -65,8 +73,12 @@ struct Arguments {
 enum Command {
     /// List the built-in pages, and the figures of the thesis that each page shows
     List,
+    /// Write an example of a curve spec or a scene, with notes on its keys, as a starting point
+    New(new::NewArguments),
     /// Write the files of a built-in page into a folder, as a starting point for your own job
     Export(export::ExportArguments),
+    /// Make a picture of a curve spec, a grid or a mesh, without a scene and a job
+    Show(show::ShowArguments),
     /// Make the pictures of built-in pages or of your own jobs
     Run(run::RunArguments),
     /// Write a script for Slurm, GNU parallel or make, by which many machines make the frames of an animation
@@ -92,6 +104,9 @@ enum Command {
 /// process continues a report as the program that counts.
 #[must_use]
 pub fn main(memory: Option<&dyn Memory>) -> ExitCode {
+    if let Some(code) = files::shell::answer(Arguments::command()) {
+        return code;
+    }
     let arguments = Arguments::parse();
     files::exit::run("pipeline", || run(&arguments.command, memory))
 }
@@ -99,7 +114,9 @@ pub fn main(memory: Option<&dyn Memory>) -> ExitCode {
 fn run(command: &Command, memory: Option<&dyn Memory>) -> Result<(), Report> {
     match command {
         Command::List => list::list(),
+        Command::New(arguments) => new::new(arguments),
         Command::Export(arguments) => export::export(arguments),
+        Command::Show(arguments) => show::show(arguments),
         Command::Run(arguments) => run::run(arguments),
         Command::Farm(arguments) => farm::farm(arguments),
         Command::Pack(arguments) => pack::pack(arguments),

@@ -21,6 +21,8 @@ pub struct NamedJob<'a> {
     pub figures: Vec<u8>,
     /// The first argument that names the job.
     pub argument: String,
+    /// The values that are set in the job, its scene and its specs.
+    pub settings: Vec<Setting>,
 }
 
 impl NamedJob<'_> {
@@ -61,6 +63,7 @@ pub fn jobs<'a>(
                     built_in: false,
                     figures: Vec::new(),
                     argument,
+                    settings: settings.to_vec(),
                 },
             );
         } else if let Some(number) = figure::number(argument) {
@@ -89,6 +92,7 @@ fn page<'a>(
         built_in: true,
         figures,
         argument: argument.into(),
+        settings: settings.to_vec(),
     })
 }
 

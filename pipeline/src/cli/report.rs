@@ -16,6 +16,7 @@ use files::exit::say;
 use files::memory::of_process;
 use files::{Batch, Exit, Failure, Ledger, Report};
 use render::film::{MOST_SAMPLES, memory as film_memory};
+use render::filter::Filter;
 use render::{Scene, Settings};
 use std::env;
 use std::io;
@@ -51,6 +52,18 @@ pub struct ReportArguments {
     /// [default: 256, with --quick 64]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(32..=MOST_SAMPLES.into()))]
     truth: Option<u32>,
+    /// Measure only these texture filters, with commas between them, such as exact,tent,bilinear. Advice is given
+    /// relative to bilinear
+    #[arg(long, value_name = "LIST", value_delimiter = ',', conflicts_with = "calibrate")]
+    methods: Vec<Filter>,
+    /// Measure only these numbers of rays or areas along each side of a pixel, with commas between them
+    #[arg(long, value_name = "LIST", value_delimiter = ',', conflicts_with = "calibrate",
+        value_parser = clap::value_parser!(u32).range(1..=MOST_SAMPLES.into()))]
+    samples: Vec<u32>,
+    /// Take this picture for the truth of the only page, instead of pictures of many rays. Its size is that
+    /// of all pictures
+    #[arg(long, value_name = "FILE.exr", conflicts_with_all = ["truth", "calibrate", "size"])]
+    reference: Option<PathBuf>,
     /// Instead of the report, compare requested and stated errors with true ones, on the pages [default:
     /// all] and on random scenes, and write calibration.html
     #[arg(long, conflicts_with_all = ["quick", "truth"])]
@@ -77,6 +90,17 @@ pub struct CountingError(io::Error);
 impl Failure for CountingError {
     fn exit(&self) -> Exit {
         Exit::ReadWrite
+    }
+}
+
+/// A reference was given for several pages, or for none.
+#[derive(Debug, Error)]
+#[error("--reference is the truth of one page: found {0} pages, expected one")]
+pub struct OnePage(usize);
+
+impl Failure for OnePage {
+    fn exit(&self) -> Exit {
+        Exit::Use
     }
 }
 
@@ -107,6 +131,16 @@ pub fn report(arguments: &ReportArguments, memory: &dyn Memory) -> Result<(), Re
     let mut plan = if arguments.quick { Plan::quick() } else { Plan::full() };
     plan.size = arguments.size.unwrap_or(plan.size);
     plan.most_truth_samples = arguments.truth.unwrap_or(plan.most_truth_samples);
+    plan.keep_filters(&arguments.methods);
+    plan.set_samples(&arguments.samples);
+    if let Some(path) = &arguments.reference {
+        if jobs.len() != 1 {
+            return Err(OnePage(jobs.len()).into());
+        }
+        let picture = compare::read::read(&ledger, path)?;
+        plan.size = (picture.width, picture.height);
+        plan.reference = Some(picture);
+    }
     let options = Options {
         folder: arguments.output.clone(),
         size: plan.size,
@@ -181,9 +215,12 @@ fn check_files(
 
 /// Returns a line about the measurements of a page, which took `seconds`.
 fn summary(page: &PageMeasured, seconds: f64) -> String {
-    let Truth { samples, most_samples, noise, .. } = page.truth;
-    let truth = format!("truth of {samples} x {samples} to {most_samples} x {most_samples} rays");
+    let Truth { samples, most_samples, noise, given, .. } = page.truth;
     let (name, methods) = (&page.name, page.trials.len());
+    if given {
+        return format!("{name}: {methods} methods, truth given  {seconds:.1} s");
+    }
+    let truth = format!("truth of {samples} x {samples} to {most_samples} x {most_samples} rays");
     format!("{name}: {methods} methods, {truth} twice, noise {noise:.5}  {seconds:.1} s")
 }
 

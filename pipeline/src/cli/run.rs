@@ -7,13 +7,13 @@ use super::named::{self, NamedJob};
 use super::{OTHER_FOLDER, make_folder};
 use crate::contact_sheet::ContactSheet;
 use crate::run as of_job;
-use crate::run::{Event, Options};
+use crate::run::{Event, Options, Shared};
 use crate::settings::Changed;
 use crate::stages::Stages;
 use crate::{Job, PipelineError};
 use clap::Args;
 use files::exit::say;
-use files::{Batch, Ledger, Report, Setting, input};
+use files::{Batch, Ledger, Report, Setting, Variant, input};
 use render::Picture;
 use render::accuracy;
 use std::collections::BTreeMap;
@@ -50,6 +50,11 @@ pub struct RunArguments {
     /// -D specs.MESH.contour.circle=2; may be given several times
     #[arg(short = 'D', value_name = "PATH=VALUE")]
     settings: Vec<Setting>,
+    /// Run the jobs once for each row of a table: a column is a path as in -D, and a cell its value. The
+    /// column name is added to the names of the files; without it a number is. Meshes that variants have in
+    /// common are made once
+    #[arg(long, value_name = "FILE.csv")]
+    jobs_from: Option<PathBuf>,
     /// Also write the grids and OBJ files, as the three programs would pipe them
     #[arg(long)]
     keep: bool,
@@ -71,6 +76,7 @@ pub fn run(arguments: &RunArguments) -> Result<(), Report> {
     // Every job is read before the first is run, so that an error in a name is reported at once.
     let ledger = arguments.common.ledger();
     let jobs = jobs(arguments, &ledger)?;
+    let shared = arguments.jobs_from.as_ref().map(|_| Shared::default());
     make_folder(&arguments.output)?;
     let sheet_path = arguments.sheet.then(|| arguments.output.join(ContactSheet::FILE));
     let chosen = jobs.iter().map(|named| arguments.frames.of(&named.job, &ledger));
@@ -92,7 +98,7 @@ pub fn run(arguments: &RunArguments) -> Result<(), Report> {
         clobber: arguments.common.clobber(),
     };
     let sources =
-        jobs.iter().map(|named| Changed::parts(named.source, &named.job, &arguments.settings));
+        jobs.iter().map(|named| Changed::parts(named.source, &named.job, &named.settings));
     let sources = sources.collect::<Result<Vec<_>, _>>()?;
     pool.install(|| read_first(&jobs, &sources, &files, &options))?;
     let together = arguments.sheet.then(|| Batch::new(&options.folder, "sheet", &files));
@@ -120,7 +126,9 @@ pub fn run(arguments: &RunArguments) -> Result<(), Report> {
                 Some(together) => batch.within(together),
                 None => batch,
             };
-            let stages = pool.install(|| of_job::run_in(&batch, job, source, &options, &hear))?;
+            let stages = pool.install(|| {
+                of_job::run_sharing(&batch, job, source, &options, shared.as_ref(), &hear)
+            })?;
             batch.finish()?;
             stages
         };
@@ -188,14 +196,19 @@ fn jobs<'a>(
     if arguments.sheet {
         written.insert(ContactSheet::FILE.into(), "--sheet".into());
     }
-    for NamedJob { job, path, source, built_in, figures, argument } in
-        named::jobs(&arguments.jobs, &arguments.settings, ledger)?
-    {
+    let mut named = Vec::new();
+    for (variant, settings) in variants(arguments, ledger)? {
+        let of_variant = named::jobs(&arguments.jobs, &settings, ledger)?;
+        named.extend(of_variant.into_iter().map(|mut named| {
+            named.job.name.push_str(&variant);
+            named
+        }));
+    }
+    for NamedJob { job, path, source, built_in, figures, argument, settings } in named {
         let job = if figures.is_empty() { job } else { job.only(&figures) };
         let job = job.with_modes(&arguments.modes)?;
         let page_alone = built_in && figures.is_empty() && argument == job.name;
-        let set =
-            arguments.settings.iter().filter_map(|setting| Some(setting.below("scene")?.text()));
+        let set = settings.iter().filter_map(|setting| Some(setting.below("scene")?.text()));
         let job = Job { set: set.collect(), ..job };
         let job = match arguments.error {
             Some(error) => job.with_error(error),
@@ -214,9 +227,27 @@ fn jobs<'a>(
             }
             written.insert(file, argument.clone());
         }
-        jobs.push(NamedJob { job, path, source, built_in, figures, argument });
+        jobs.push(NamedJob { job, path, source, built_in, figures, argument, settings });
     }
     Ok(jobs)
+}
+
+/// Returns the ends of the names of all variants, and the values that are set in them. Without a table there is one
+/// variant, whose name has no end.
+fn variants(
+    arguments: &RunArguments,
+    ledger: &Ledger,
+) -> Result<Vec<(String, Vec<Setting>)>, PipelineError> {
+    let Some(path) = &arguments.jobs_from else {
+        return Ok(vec![(String::new(), arguments.settings.clone())]);
+    };
+    let bytes = ledger.argument(path, "the variants")?;
+    let variants = files::variants::read(&input::name_of(path), &bytes)?;
+    let with_given = |variant: Variant| {
+        let settings = arguments.settings.iter().cloned().chain(variant.settings).collect();
+        (format!("-{}", variant.name), settings)
+    };
+    Ok(variants.into_iter().map(with_given).collect())
 }
 
 /// Prints a job's events on standard error, and keeps the results that the command prints at the

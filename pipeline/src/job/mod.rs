@@ -54,6 +54,7 @@ use crate::animation::turntable::TurntableFile;
 use crate::animation::{AnimateFile, Animation};
 use files::json::Document;
 use files::names::each_name_once;
+use files::note::Note;
 use files::{JsonError, Source};
 use mode::ModeFile;
 use serde::Deserialize;
@@ -157,6 +158,8 @@ struct JobFile {
     format: String,
     #[expect(dead_code, reason = "looked at by Document::expect, and must be there")]
     version: u32,
+    #[expect(dead_code, reason = "for people")]
+    note: Option<Note>,
     #[serde(default)]
     title: String,
     #[serde(default)]

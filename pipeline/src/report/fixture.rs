@@ -89,7 +89,10 @@ fn measured_by(
             cost: Cost {
                 wall: 0.5 * cpu,
                 cpu,
+                once_wall: 0.0,
+                once_cpu: 0.0,
                 tables: 0.01,
+                primary_rays: (n * n * pixels as f64) as u64,
                 rays: (n * n * pixels as f64) as u64,
                 texels: (4.0 * n * n * pixels as f64) as u64,
                 peak_bytes: (1 << 20) + bytes,
@@ -113,6 +116,7 @@ fn measured_by(
             noise: 0.0005,
             noise_by_region: vec![0.0005; regions.len()],
             settled: true,
+            given: false,
         },
         regions: regions
             .iter()

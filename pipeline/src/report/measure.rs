@@ -53,15 +53,14 @@ pub fn page(
     let prepared = Prepared::new(scene);
     let regions = regions::regions(&prepared, plan.size);
     let measured = take_turns(scene, plan, memory, tell);
-    let (pair, settled) = settle(&prepared, plan, &measured, tell)?;
-    let truth = pair.mean();
-    let (samples, most_samples) = pair.samples();
-    let noise = pair.noise(None);
-    let noise_by_region: Vec<f64> =
-        regions.iter().map(|region| pair.noise(Some(&region.mask))).collect();
+    let truth = match &plan.reference {
+        Some(picture) => Truth::given(picture.clone(), regions.len()),
+        None => made(&prepared, plan, &regions, &measured, tell)?,
+    };
+    let (noise, noise_by_region) = (truth.noise, truth.noise_by_region.clone());
     let trials = measured.into_iter().map(|rounds| {
         let against = |mask, noise: f64| {
-            let difference = Difference::between(&rounds.picture, &truth, mask)?;
+            let difference = Difference::between(&rounds.picture, &truth.picture, mask)?;
             Ok::<_, CompareError>(without_noise(difference, noise))
         };
         let by_region = regions.iter().zip(&noise_by_region);
@@ -77,8 +76,37 @@ pub fn page(
     });
     let trials: Vec<Trial> = trials.collect::<Result<_, CompareError>>()?;
     let (name, title) = (name.into(), title.into());
-    let truth = Truth { picture: truth, samples, most_samples, noise, noise_by_region, settled };
     Ok(PageMeasured { name, title, size: plan.size, truth, regions, trials })
+}
+
+/// Makes the truth of a page by many rays.
+fn made(
+    prepared: &Prepared<'_>,
+    plan: &Plan,
+    regions: &[Region],
+    measured: &[Rounds],
+    tell: Tell<'_>,
+) -> Result<Truth, CompareError> {
+    let (pair, settled) = settle(prepared, plan, measured, tell)?;
+    let (samples, most_samples) = pair.samples();
+    Ok(Truth {
+        picture: pair.mean(),
+        samples,
+        most_samples,
+        noise: pair.noise(None),
+        noise_by_region: regions.iter().map(|region| pair.noise(Some(&region.mask))).collect(),
+        settled,
+        given: false,
+    })
+}
+
+impl Truth {
+    /// Returns the truth that is a given picture, for a page with this number of regions.
+    fn given(picture: Picture, regions: usize) -> Self {
+        let noise_by_region = vec![0.0; regions];
+        let (samples, most_samples, noise) = (0, 0, 0.0);
+        Self { picture, samples, most_samples, noise, noise_by_region, settled: true, given: true }
+    }
 }
 
 /// Returns the difference from the truth with the truth's own noise subtracted from the mean square.
@@ -104,6 +132,8 @@ impl Rounds {
         Cost {
             wall: median(|cost| cost.wall),
             cpu: median(|cost| cost.cpu),
+            once_wall: median(|cost| cost.once_wall),
+            once_cpu: median(|cost| cost.once_cpu),
             tables: median(|cost| cost.tables),
             peak_bytes: median(|cost| cost.peak_bytes as f64) as usize,
             // Counts are equal in all rounds.
@@ -151,11 +181,23 @@ fn measure(scene: &Scene, plan: &Plan, method: &Method, memory: &dyn Memory) -> 
     let (cpu, started) = (ProcessTime::try_now(), Instant::now());
     // The scene is prepared anew each time, since tables and acceleration structure are part of a
     // method's cost.
-    let (picture, stats) = render::render(&Prepared::new(scene), &settings, &|_, _| {});
+    let spent = || {
+        let cpu = cpu.as_ref().ok().and_then(|start| start.try_elapsed().ok());
+        let cpu = cpu.unwrap_or_default();
+        [started.elapsed(), cpu].map(|time| time.as_secs_f64())
+    };
+    let prepared = Prepared::new(scene);
+    let (_, built) = prepared.shader(settings.accel, method.filter);
+    let [once_wall, once_cpu] = spent();
+    let (picture, stats) = render::render(&prepared, &settings, &|_, _| {});
+    let [wall, cpu] = spent();
     let cost = Cost {
-        wall: started.elapsed().as_secs_f64(),
-        cpu: cpu.and_then(|start| start.try_elapsed()).unwrap_or_default().as_secs_f64(),
-        tables: stats.table_time.as_secs_f64(),
+        wall,
+        cpu,
+        once_wall,
+        once_cpu,
+        tables: built.table_time.as_secs_f64(),
+        primary_rays: stats.primary_rays,
         rays: stats.primary_rays + stats.reflected_rays + stats.refracted_rays + stats.shadow_rays,
         texels: stats.texels,
         peak_bytes: memory.peak().saturating_sub(held),
@@ -229,6 +271,7 @@ mod tests {
             most_truth_samples: 64,
             patience: std::time::Duration::ZERO,
             quick: true,
+            reference: None,
         }
     }
 
@@ -271,6 +314,34 @@ mod tests {
             let counts = |cost: &Cost| (cost.rays, cost.texels, cost.peak_bytes);
             assert_eq!(counts(&one.cost), counts(&three.cost));
             assert_eq!(one.cost.peak_bytes, 3, "beyond what was held before");
+        }
+    }
+
+    #[test]
+    fn the_costs_of_a_scene_are_a_part_of_all_costs() {
+        for trial in measured(1).trials {
+            let Cost { wall, cpu, once_wall, once_cpu, tables, primary_rays, .. } = trial.cost;
+            assert!(
+                once_wall <= wall && once_cpu <= cpu && tables <= once_wall,
+                "{:?}",
+                trial.cost
+            );
+            assert_eq!(trial.cost.cpu_at(1.0), cpu.max(once_cpu));
+            assert!(trial.cost.cpu_at(4.0) >= cpu && primary_rays >= 400);
+        }
+    }
+
+    #[test]
+    fn a_given_truth_is_compared_with_as_it_is() {
+        let scene = board::scene();
+        let exact = board::exact(20);
+        let plan = Plan { reference: Some(exact.clone()), ..plan() };
+        let page = page("board", "Checks", &scene, &plan, &Fixed, &|_, _, _| {}).unwrap();
+        assert!(page.truth.given && page.truth.noise == 0.0);
+        for trial in &page.trials {
+            let picture = trial.picture.as_ref().unwrap();
+            let right = Difference::between(picture, &exact, None).unwrap();
+            assert_eq!(trial.whole, right, "{:?}", trial.method);
         }
     }
 

@@ -51,6 +51,8 @@ pub struct Truth {
     /// True if the pictures of the two seeds differ by at most a fifth of the smallest error
     /// reported for the whole picture.
     pub settled: bool,
+    /// True if the picture was given. It has no noise then, and the numbers of its rays are 0.
+    pub given: bool,
 }
 
 /// A set of pixels with a common property.
@@ -87,6 +89,15 @@ pub struct Trial {
     pub picture: Option<Picture>,
 }
 
+impl Cost {
+    /// Returns the processor time of the first picture with `scale` times as many pixels, in seconds. What is spent
+    /// once stays, and the rest grows with the pixels.
+    #[must_use]
+    pub fn cpu_at(&self, scale: f64) -> f64 {
+        self.once_cpu + scale * (self.cpu - self.once_cpu).max(0.0)
+    }
+}
+
 /// The cost of a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Cost {
@@ -94,8 +105,15 @@ pub struct Cost {
     pub wall: f64,
     /// Processor time of the same work over all threads, in seconds.
     pub cpu: f64,
-    /// The part of `wall` that texture tables and pyramids took, in seconds.
+    /// The part of `wall` that is spent once for a scene and a method, however large its pictures are and however
+    /// many: tables, structure and charts; in seconds.
+    pub once_wall: f64,
+    /// The part of `cpu` that is spent once, in seconds.
+    pub once_cpu: f64,
+    /// The part of `once_wall` that texture tables and pyramids took, in seconds.
     pub tables: f64,
+    /// Number of rays from the eye.
+    pub primary_rays: u64,
     /// Number of rays of all kinds, including shadow rays.
     pub rays: u64,
     /// Number of texels or table entries read.

@@ -1,9 +1,9 @@
 //! Plans the measurements of a report and their duration.
 
 use super::measured::Method;
-use render::Sampling;
 use render::film::{MOST_SAMPLES, Supersample, THRESHOLD};
 use render::filter::Filter;
+use render::{Picture, Sampling};
 use std::time::Duration;
 
 /// The measurements to make of each page.
@@ -25,6 +25,8 @@ pub struct Plan {
     pub patience: Duration,
     /// True if the report is made quickly, with small pictures and few methods.
     pub quick: bool,
+    /// The truth, if it is given.
+    pub reference: Option<Picture>,
 }
 
 /// Filters that are measured over the same areas as the exact average.
@@ -56,6 +58,7 @@ impl Plan {
             most_truth_samples: MOST_SAMPLES,
             patience: Duration::from_millis(200),
             quick: false,
+            reference: None,
         }
     }
 
@@ -77,6 +80,34 @@ impl Plan {
             quick: true,
             ..Self::full()
         }
+    }
+
+    /// Keeps the methods of these filters alone, in the order of the plan. Nothing is left out if there are none.
+    pub fn keep_filters(&mut self, filters: &[Filter]) {
+        if !filters.is_empty() {
+            self.filters.retain(|filter| filters.contains(filter));
+            self.areas.retain(|method| filters.contains(&method.filter));
+        }
+    }
+
+    /// Replaces the numbers of rays and of areas along each side of a pixel. Areas keep the thresholds of the plan.
+    /// The thesis's supersampling, whose number is fixed, is left out.
+    pub fn set_samples(&mut self, samples: &[u32]) {
+        if samples.is_empty() {
+            return;
+        }
+        self.lattices = samples.iter().map(|&samples| Sampling::regular(samples)).collect();
+        let mut areas: Vec<Method> = Vec::new();
+        for &samples in samples {
+            for method in &self.areas {
+                let Some((_, threshold)) = method.areas() else { continue };
+                let method = Method::area(method.filter, samples, threshold);
+                if !areas.contains(&method) {
+                    areas.push(method);
+                }
+            }
+        }
+        self.areas = areas;
     }
 
     /// Returns every method that makes a picture of its own. For filters that do not average over
@@ -120,6 +151,25 @@ mod tests {
         for (k, method) in methods.iter().enumerate() {
             assert!(!methods[..k].contains(method), "twice: {method:?}");
         }
+    }
+
+    #[test]
+    fn methods_and_rays_may_be_chosen() {
+        let mut plan = Plan::quick();
+        plan.keep_filters(&[Filter::Exact, Filter::Tent]);
+        plan.set_samples(&[1, 3]);
+        let methods = plan.methods();
+        // The tent with 1 and 9 rays; exact whole and split, with 1 and 9 areas.
+        let exact = |samples, threshold| Method::area(Filter::Exact, samples, threshold);
+        let tent = |samples| Method { filter: Filter::Tent, sampling: Sampling::regular(samples) };
+        let split = Some(THRESHOLD);
+        let expected =
+            [tent(1), tent(3), exact(1, None), exact(1, split), exact(3, None), exact(3, split)];
+        assert_eq!(methods, expected);
+        let (mut same, all) = (Plan::full(), Plan::full().methods());
+        same.keep_filters(&[]);
+        same.set_samples(&[]);
+        assert_eq!(same.methods(), all);
     }
 
     #[test]

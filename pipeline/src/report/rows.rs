@@ -3,7 +3,7 @@
 use super::measured::{Measured, PageMeasured, Trial};
 use compare::Difference;
 use render::Sampling;
-use render::film::{Pattern, PixelFilter, Supersample};
+use render::film::Supersample;
 use serde::{Serialize, Serializer};
 
 /// One method on one page in one region. The names of the fields are those of the columns.
@@ -14,8 +14,10 @@ struct Row<'a> {
     height: u32,
     filter: String,
     sampling: &'static str,
-    rays_in_a_pixel: String,
-    split: String,
+    samples: Option<u32>,
+    split: Option<f64>,
+    #[serde(serialize_with = "light")]
+    rays_per_pixel: f64,
     region: &'a str,
     pixels: usize,
     #[serde(serialize_with = "light")]
@@ -33,6 +35,10 @@ struct Row<'a> {
     wall_s: f64,
     #[serde(serialize_with = "seconds")]
     cpu_s: f64,
+    #[serde(serialize_with = "seconds")]
+    once_wall_s: f64,
+    #[serde(serialize_with = "seconds")]
+    once_cpu_s: f64,
     #[serde(serialize_with = "seconds")]
     tables_s: f64,
     rays: u64,
@@ -85,11 +91,11 @@ impl<'a> Row<'a> {
             width: page.size.0,
             height: page.size.1,
             filter: trial.method.filter.to_string(),
-            sampling: if areas.is_some() { "area" } else { "thesis" },
-            rays_in_a_pixel: rays(trial.method.sampling),
-            split: areas.map_or(String::new(), |(_, threshold)| {
-                threshold.map_or("none".into(), |threshold| threshold.to_string())
-            }),
+            sampling: sampling(trial.method.sampling),
+            samples: samples(trial.method.sampling),
+            split: areas.and_then(|(_, threshold)| threshold),
+            rays_per_pixel: cost.primary_rays as f64
+                / (f64::from(page.size.0) * f64::from(page.size.1)),
             region,
             pixels: error.pixels,
             rmse: error.rmse,
@@ -100,6 +106,8 @@ impl<'a> Row<'a> {
             settled: error.rmse >= 10.0 * noise,
             wall_s: cost.wall,
             cpu_s: cost.cpu,
+            once_wall_s: cost.once_wall,
+            once_cpu_s: cost.once_cpu,
             tables_s: cost.tables,
             rays: cost.rays,
             texels: cost.texels,
@@ -119,29 +127,74 @@ fn seconds<S: Serializer>(seconds: &f64, serializer: S) -> Result<S::Ok, S::Erro
     serializer.collect_str(&format_args!("{seconds:.6}"))
 }
 
-/// Returns the rays of a pixel in the words of the flags of `render`: `3` for `--samples 3`, or the
-/// name of the thesis's supersampling. Other weights than equal ones are named after the number.
-fn rays(sampling: Sampling) -> String {
+/// Returns the name of a method of choosing rays: `area`, `thesis`, or a form of the thesis's supersampling.
+fn sampling(sampling: Sampling) -> &'static str {
     match sampling {
-        Sampling::Supersample(Supersample::Image) => "supersample=image".into(),
-        Sampling::Supersample(Supersample::Rays) => "supersample=rays".into(),
-        Sampling::Grid { samples, pattern, pixel_filter } => {
-            let mut text = samples.to_string();
-            if let Pattern::Jitter { seed } = pattern {
-                text += &format!(" jitter {seed}");
-            }
-            text + weights(pixel_filter)
-        }
-        Sampling::Area { samples, pixel_filter, .. } => samples.to_string() + weights(pixel_filter),
+        Sampling::Supersample(Supersample::Image) => "supersample-image",
+        Sampling::Supersample(Supersample::Rays) => "supersample-rays",
+        Sampling::Grid { .. } => "thesis",
+        Sampling::Area { .. } => "area",
     }
 }
 
-fn weights(pixel_filter: PixelFilter) -> &'static str {
-    match pixel_filter {
-        PixelFilter::Box => "",
-        PixelFilter::Tent => " tent",
-        PixelFilter::Gaussian => " gaussian",
+/// Returns the rays or areas along each side of a pixel; `None` if the method fixes them.
+fn samples(sampling: Sampling) -> Option<u32> {
+    match sampling {
+        Sampling::Supersample(_) => None,
+        Sampling::Grid { samples, .. } | Sampling::Area { samples, .. } => Some(samples),
     }
+}
+
+/// The columns in their order, each with its unit and its meaning. `columns.csv` beside a report holds this table.
+pub const COLUMNS: [(&str, &str, &str); 25] = [
+    ("page", "", "name of the page"),
+    ("width", "pixels", "width of the picture"),
+    ("height", "pixels", "height of the picture"),
+    ("filter", "", "texture filter, as --filter of render names it"),
+    (
+        "sampling",
+        "",
+        "area: areas around single rays; thesis: rays on a lattice; supersample-image and supersample-rays: the \
+         thesis's nine weights",
+    ),
+    ("samples", "", "rays or areas along each side of a pixel; empty if the method fixes them"),
+    ("split", "linear light", "threshold above which pixels split; empty if they do not"),
+    ("rays_per_pixel", "", "rays from the eye, in the mean of the pixels"),
+    ("region", "", "whole: the picture; otherwise the part of it that the errors are about"),
+    ("pixels", "pixels", "pixels of the region"),
+    ("rmse", "linear light", "root mean square error, without the noise of the truth"),
+    ("max", "linear light", "largest error of a channel"),
+    ("p999", "linear light", "error that 99.9 % of the pixels do not exceed"),
+    ("bias", "linear light", "mean of picture minus truth"),
+    (
+        "truth_noise",
+        "linear light",
+        "estimated error of the truth in the region; 0 for a given truth",
+    ),
+    ("settled", "true or false", "true if truth_noise is at most a tenth of rmse"),
+    ("wall_s", "seconds", "time of the first picture"),
+    ("cpu_s", "seconds", "processor time of the first picture, over all threads"),
+    ("once_wall_s", "seconds", "part of wall_s that further pictures of the scene do not need"),
+    ("once_cpu_s", "seconds", "part of cpu_s that further pictures of the scene do not need"),
+    ("tables_s", "seconds", "part of once_wall_s for tables and pyramids of textures"),
+    ("rays", "", "rays of all kinds, with shadow rays"),
+    ("texels", "", "texels and table entries that were read"),
+    ("peak_bytes", "bytes", "most memory held at once beyond that of the scene"),
+    ("threads", "", "threads that made the picture"),
+];
+
+/// Returns the table of the columns.
+///
+/// # Panics
+/// Never: every value is a word, and a text in memory takes all of them.
+#[must_use]
+pub fn columns() -> Vec<u8> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let rows = [("column", "unit", "meaning")].into_iter().chain(COLUMNS);
+    for row in rows {
+        writer.serialize(row).expect("a row has no nested values");
+    }
+    writer.into_inner().expect("memory takes every byte")
 }
 
 #[cfg(test)]
@@ -158,7 +211,8 @@ mod tests {
         let mut reader = csv::Reader::from_reader(text.as_slice());
         let columns = reader.headers().unwrap().clone();
         let records: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
-        assert_eq!((columns.len(), records.len()), (22, rows));
+        assert_eq!((columns.len(), records.len()), (COLUMNS.len(), rows));
+        assert!(columns.iter().eq(COLUMNS.iter().map(|column| column.0)), "{columns:?}");
         let expected = [
             "a, b",
             "96",
@@ -167,6 +221,7 @@ mod tests {
             "thesis",
             "1",
             "",
+            "1.0000e0",
             "far floor",
             "1536",
             "2.1200e-1",
@@ -177,6 +232,8 @@ mod tests {
             "true",
             "0.009000",
             "0.018000",
+            "0.000000",
+            "0.000000",
             "0.010000",
             "6144",
             "24576",
@@ -190,24 +247,23 @@ mod tests {
             [3, 4, 5, 6].map(|column| record[column].to_string())
         });
         assert_eq!(ends[0], ["exact", "area", "1", "0.01"]);
-        assert_eq!(ends[1], ["exact", "area", "2", "none"]);
+        assert_eq!(ends[1], ["exact", "area", "2", ""]);
         assert_eq!(ends[2], ["exact", "area", "2", "0.1"]);
     }
 
     #[test]
-    fn rays_are_called_as_flags_call_them() {
-        let jittered = Sampling::Grid {
-            samples: 4,
-            pattern: Pattern::Jitter { seed: 7 },
-            pixel_filter: PixelFilter::Tent,
-        };
-        assert_eq!(rays(Sampling::regular(3)), "3");
-        let pixel_filter = PixelFilter::Gaussian;
-        assert_eq!(
-            rays(Sampling::Area { samples: 2, pixel_filter, threshold: None }),
-            "2 gaussian"
-        );
-        assert_eq!(rays(jittered), "4 jitter 7 tent");
-        assert_eq!(rays(Sampling::Supersample(Supersample::Rays)), "supersample=rays");
+    fn numbers_are_numbers() {
+        let text = csv(&fixture::measured(vec![fixture::page("a", &fixture::floor, &[])]));
+        let mut reader = csv::Reader::from_reader(text.as_slice());
+        let columns = reader.headers().unwrap().clone();
+        let words = ["page", "filter", "sampling", "region", "settled"];
+        for record in reader.records().map(Result::unwrap) {
+            for (column, value) in columns.iter().zip(&record) {
+                let is_number = value.is_empty() || value.parse::<f64>().is_ok();
+                assert!(is_number != words.contains(&column), "{column}: {value}");
+            }
+        }
+        let table = String::from_utf8(super::columns()).unwrap();
+        assert!(table.starts_with("column,unit,meaning\npage,,name of the page\n"), "{table}");
     }
 }

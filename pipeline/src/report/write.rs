@@ -14,14 +14,17 @@ use std::path::{Path, PathBuf};
 /// The file name of the HTML page.
 const DOCUMENT: &str = "report.html";
 
+/// The file name of the table of columns.
+const COLUMNS: &str = "columns.csv";
+
 /// The file name of the numbers of all pages.
 const NUMBERS: &str = "report.csv";
 
-/// Returns the file names of a report of these pages: the numbers, the accompanying tables, the HTML
+/// Returns the file names of a report of these pages: the numbers, their columns, the accompanying tables, the HTML
 /// page, and the plot of each page.
 pub fn files<'a>(pages: impl Iterator<Item = &'a str>) -> Vec<String> {
     let tables = accompanying::ALL.iter().map(Accompanying::file);
-    let fixed = std::iter::once(NUMBERS.into()).chain(tables).chain([DOCUMENT.into()]);
+    let fixed = [NUMBERS.into(), COLUMNS.into()].into_iter().chain(tables).chain([DOCUMENT.into()]);
     fixed.chain(pages.map(|page| format!("{page}.svg"))).collect()
 }
 
@@ -50,8 +53,9 @@ pub fn write(
     batch: &Batch<'_>,
 ) -> Result<Vec<PathBuf>, PipelineError> {
     let advice = advice::sentences(measured);
-    let mut contents: Vec<String> =
-        accompanying::ALL.iter().map(|own| own.table.to_owned()).collect();
+    let columns = String::from_utf8_lossy(&rows::columns()).into_owned();
+    let tables = accompanying::ALL.iter().map(|own| own.table.to_owned());
+    let mut contents: Vec<String> = std::iter::once(columns).chain(tables).collect();
     contents.push(document::document(measured, &advice)?);
     contents.extend(measured.pages.iter().map(|page| {
         let chart = plot::trials::whole(page);
@@ -112,6 +116,7 @@ mod tests {
         let names: Vec<_> = paths.iter().map(|path| path.file_name().unwrap()).collect();
         let expected = [
             "report.csv",
+            "columns.csv",
             "filters.csv",
             "tessellation.csv",
             "mapping.csv",
@@ -121,7 +126,7 @@ mod tests {
         ];
         assert_eq!(names, expected);
         assert!(paths.iter().all(|path| path.is_file()));
-        let text = fs::read_to_string(&paths[4]).unwrap();
+        let text = fs::read_to_string(&paths[5]).unwrap();
         for outside in ["<script", "<link", "@import", "src=\"http", "href=\"http", "url("] {
             assert!(!text.contains(outside), "{outside}");
         }

@@ -1,6 +1,6 @@
 //! Makes the scene of a job with its meshes.
 
-use super::{Event, Run, settings};
+use super::{Event, Run, Shared, settings};
 use crate::fineness::Fineness;
 use crate::job::MeshJob;
 use crate::stages::Stages;
@@ -95,6 +95,14 @@ impl Run<'_> {
             Some(made) => (made, spec::Resolution::default()),
             None => (bytes, seen),
         };
+        let keep = self.batch.filter(|_| self.options.keep && fineness == Fineness::Stated);
+        let shared = self.shared.filter(|_| keep.is_none());
+        let key = shared.map(|_| Shared::key(mesh, &bytes, &seen));
+        if let (Some(shared), Some(key)) = (shared, &key)
+            && let Some(made) = shared.get(key)
+        {
+            return Ok(made);
+        }
         let document = Document::new(&name, &bytes)?;
         let object =
             Object::read(&document, folder, self.source, &seen).map_err(|error| match error {
@@ -113,7 +121,6 @@ impl Run<'_> {
         let grids = object.grids()?;
         let sweep = started.elapsed();
         let stated = fineness == Fineness::Stated;
-        let keep = self.batch.filter(|_| self.options.keep && stated);
         if let Some(batch) = keep {
             self.write(batch, &self.job.grid_file(mesh), |out| {
                 grid_file::write_all(&grids, grid_file::Encoding::Binary, out)
@@ -142,6 +149,9 @@ impl Run<'_> {
                 triangulate,
                 missed: object.missed(),
             });
+        }
+        if let (Some(shared), Some(key)) = (shared, key) {
+            shared.keep(key, &triangles);
         }
         Ok(triangles)
     }

@@ -2,7 +2,7 @@
 
 use super::{EncodeError, UseError};
 use clap::Args;
-use files::{FileError, Ledger, Output, Report, input, words};
+use files::{FileError, Ledger, Output, Report, Variant, exit, input, words};
 use render::color::Encoding;
 use render::film::Layer;
 use render::film::command::{Named, command};
@@ -10,6 +10,7 @@ use render::film::encode::{self, Bits, Coding, Format};
 use render::{Picture, Settings};
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 #[derive(Debug, Args)]
 pub struct OutputArguments {
@@ -41,22 +42,45 @@ pub struct OutputArguments {
 
 /// A picture file that the run may write.
 #[derive(Debug)]
-pub struct Target<'a> {
-    path: &'a Path,
+pub struct Target {
+    path: PathBuf,
     format: Format,
 }
 
-impl Target<'_> {
+impl Target {
+    /// Returns the targets of variants: the name of this one, a dash and the name of the variant. Each is checked.
+    pub fn of_variants(&self, variants: &[Variant], ledger: &Ledger) -> Result<Vec<Self>, Report> {
+        if input::is_stdin(&self.path) {
+            return Err(UseError::VariantsToStdout.into());
+        }
+        let stem = self.path.file_stem().unwrap_or_default().to_string_lossy();
+        let end = self.path.extension().map(|end| format!(".{}", end.to_string_lossy()));
+        let end = end.unwrap_or_default();
+        let targets = variants.iter().map(|variant| {
+            let path = self.path.with_file_name(format!("{stem}-{}{end}", variant.name));
+            ledger.claim(&path, "name another file with -o")?;
+            Ok(Self { path, format: self.format })
+        });
+        targets.collect()
+    }
+
     /// Format of the file.
     pub fn format(&self) -> Format {
         self.format
+    }
+
+    /// Prints the line about the written picture, unless the picture went to standard output.
+    pub fn wrote(&self, (width, height): (u32, u32), time: Duration) {
+        if !input::is_stdin(&self.path) {
+            exit::wrote(&self.path, Some((width, height)), time);
+        }
     }
 }
 
 impl OutputArguments {
     /// Returns the target of the picture, if there is one, after a check that the file can be written.
     /// `prints` tells whether text goes to standard output.
-    pub fn target(&self, prints: bool, ledger: &Ledger) -> Result<Option<Target<'_>>, Report> {
+    pub fn target(&self, prints: bool, ledger: &Ledger) -> Result<Option<Target>, Report> {
         let Some(path) = &self.output else { return Ok(None) };
         let to_stdout = input::is_stdin(path);
         if to_stdout && prints {
@@ -73,7 +97,7 @@ impl OutputArguments {
             return Err(UseError::LayersInPng(path.display().to_string()).into());
         }
         ledger.claim(path, "name another file with -o")?;
-        Ok(Some(Target { path, format }))
+        Ok(Some(Target { path: path.clone(), format }))
     }
 
     /// Returns the bytes per pixel that a PNG of 16 bits takes beyond those of one of 8 bits.
@@ -96,7 +120,7 @@ impl OutputArguments {
 
     pub fn write(
         &self,
-        target: &Target<'_>,
+        target: &Target,
         picture: &Picture,
         settings: &Settings,
         named: &Named<'_>,
@@ -110,19 +134,19 @@ impl OutputArguments {
             inputs: None,
         };
         let bytes = encode::encode_as(picture, target.format, &coding).map_err(EncodeError)?;
-        Ok(ledger.create(target.path)?.commit_all(&bytes)?)
+        Ok(ledger.create(&target.path)?.commit_all(&bytes)?)
     }
 
-    /// Returns what the command in a file names, for a scene with this file name, these given meshes and
-    /// these values that are set.
+    /// Returns what the command in a file names, for a scene with this file name, these given meshes,
+    /// these values that are set and these flags of a mesh without a scene.
     pub fn named<'a>(
         &self,
         scene: &'a str,
-        (meshes, set): (&'a [&'a str], &'a [String]),
+        (meshes, set, look): (&'a [&'a str], &'a [String], &'a [String]),
         error: Option<&'a str>,
         alpha: bool,
     ) -> Named<'a> {
-        Named { scene, meshes, set, error, alpha, encoding: self.gamma, bits: self.bits }
+        Named { scene, meshes, set, look, error, alpha, encoding: self.gamma, bits: self.bits }
     }
 }
 

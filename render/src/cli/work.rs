@@ -23,7 +23,16 @@ pub struct WorkArguments {
     /// Print counts of rays, hits and texels and the time of each stage on standard error
     #[arg(long, value_name = "AS", num_args = 0..=1, require_equals = true, default_missing_value = "text")]
     stats: Option<StatsForm>,
-    /// No progress bar, and no remarks on what the input files hold that is not used
+    /// Progress on standard error
+    #[arg(
+        long,
+        value_enum,
+        default_value_t,
+        hide_possible_values = true,
+        value_name = "bar|plain|json|none"
+    )]
+    pub progress: files::progress::Mode,
+    /// No progress bar, no line about the written file, and no remarks on what the input files hold that is not used
     #[arg(short, long)]
     pub quiet: bool,
 }
@@ -49,6 +58,11 @@ impl WorkArguments {
         if !self.quiet {
             scene.remarks.iter().for_each(|remark| say(format_args!("render: {remark}")));
         }
+    }
+
+    /// Returns whether a line tells of the written picture. The line would not be JSON.
+    pub fn tells(&self) -> bool {
+        !self.quiet && !matches!(self.stats, Some(StatsForm::Json))
     }
 
     /// Prints the statistics that `--stats` requests, and warns of pixels that are not finite.

@@ -19,6 +19,8 @@ pub struct Named<'a> {
     pub meshes: &'a [&'a str],
     /// Values of the scene that the command line sets, each as `PATH=VALUE`.
     pub set: &'a [String],
+    /// Flags that change how a mesh without a scene is shown.
+    pub look: &'a [String],
     /// The requested error, which chooses the rays.
     pub error: Option<&'a str>,
     /// True if the background is transparent.
@@ -39,6 +41,7 @@ pub fn command(named: &Named<'_>, settings: &Settings) -> String {
     for value in named.set {
         words.push(format!("-D {}", quoted(value)));
     }
+    words.extend_from_slice(named.look);
     words.push(format!("--size {}x{}", settings.width, settings.height));
     if let Some(crop) = settings.crop {
         words.push(format!("--crop {},{},{}x{}", crop.x, crop.y, crop.width, crop.height));
@@ -128,6 +131,7 @@ mod tests {
             scene: "my scene.json",
             meshes: &["vase"],
             set: &["camera.up=[0, 0, 1]".into(), "camera.fov_deg=35".into()],
+            look: &["--view 0,90".into()],
             error: None,
             alpha: true,
             encoding: Encoding::Gamma(2.2),
@@ -138,13 +142,14 @@ mod tests {
         assert_eq!(
             command(&named, &settings),
             "render 'my scene.json' --mesh vase=vase.obj -D 'camera.up=[0, 0, 1]' \
-             -D camera.fov_deg=35 --size 64x48 --crop 1,2,3x4 --sampling thesis \
+             -D camera.fov_deg=35 --view 0,90 --size 64x48 --crop 1,2,3x4 --sampling thesis \
              --filter tent --gamma 2.2 --bits 16 --alpha"
         );
         let plain = Named {
             scene: "a.json",
             meshes: &[],
             set: &[],
+            look: &[],
             alpha: false,
             encoding: Encoding::Srgb,
             bits: Bits::Eight,

@@ -143,6 +143,7 @@ pub use texture::{TextureFile, TextureKind};
 
 use super::limits;
 use files::names::each_name_once;
+use files::note::Note;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -167,6 +168,8 @@ pub struct SceneFile {
     /// Version of the format: 1.
     #[schemars(extend("const" = VERSION))]
     pub version: u32,
+    /// Sentences for people; ignored by the program.
+    pub note: Option<Note>,
     /// Files of format `tb-scene-part` whose lights, textures, materials and objects are added, in
     /// this order and before the scene's own. Paths are relative to this file's folder.
     #[serde(default)]

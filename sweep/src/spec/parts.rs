@@ -26,6 +26,7 @@
 use super::{FORMAT, Spec, VERSION};
 use crate::grid::Unit;
 use crate::limits;
+use files::note::Note;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -45,6 +46,9 @@ pub struct Parts {
     /// The object's name; one word.
     #[schemars(transform = limits::word)]
     pub name: String,
+    /// Sentences for people; ignored by the reader.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub note: Option<Note>,
     /// The unit of length of all parts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unit: Option<Unit>,

@@ -2,7 +2,7 @@
 
 use files::json::Document;
 use files::memory::{Reserved, of_process};
-use files::{Ledger, MemoryError, Report, input};
+use files::{FileError, Ledger, MemoryError, Report, Setting, input, setting};
 use std::io::BufRead;
 use std::path::Path;
 use sweep::GridMesh;
@@ -10,14 +10,16 @@ use sweep::grid::file::GridReader;
 use triangulate::up::{Turned, Up};
 use triangulate::{Counts, Options, Patches, Sink, TriMesh, TriangulateError, Unit, area_file};
 
-/// Reads all patches of a grid, and adds the areas of a file to them.
+/// Reads all patches of a grid, and adds the areas of a file, with the values that are set in it, to them.
 pub fn with_areas(
-    areas: &Path,
+    (areas, settings): (&Path, &[Setting]),
     ledger: &Ledger,
     reader: &mut GridReader<impl BufRead>,
 ) -> Result<Vec<GridMesh>, Report> {
     let bytes = ledger.argument_json(areas, "the areas")?;
     let name = input::name_of(areas);
+    let bytes = setting::apply(&name, bytes, settings).map_err(FileError::from)?;
+    let name = setting::name(name, settings);
     let document = Document::new(&name, &bytes)?;
     let mut grids = reader.read_rest().map_err(TriangulateError::Grid)?;
     area_file::add(&document, &mut grids)?;

@@ -2,24 +2,22 @@
 //!
 //! Each sentence has one form, which is filled with numbers, and is left out where the numbers are
 //! missing. The tent with one ray stands for the thesis's method, and one bilinear ray in each pixel is
-//! the unit of time. `areas.rs` holds the sentences on area sampling.
+//! the unit of time. `budget.rs` holds the advice for a time and a size, and `areas.rs` the sentences on area sampling.
 
 mod areas;
+mod budget;
 mod sentence;
 
 pub use sentence::{AS_NEAR, Question, Sentence};
 
-use super::measured::{Measured, Method, PageMeasured};
-use super::pool::{counts, evenly, in_region, mean, time_ratio, trial, whole};
+use super::measured::{Measured, PageMeasured};
+use super::pool::{counts, evenly, in_region, time_ratio, trial, whole};
 use crate::number::{bytes, error, times};
 use render::filter::Filter;
 
 /// No filter helps where even the best leaves more than this fraction of the error of bilinear
 /// interpolation.
 const NO_HELP: f64 = 0.9;
-
-/// Times that may be spent, as multiples of the time of one bilinear ray in each pixel.
-const BUDGETS: [u32; 5] = [2, 5, 20, 80, 300];
 
 /// Largest difference between the truth's two pictures, as a fraction of the smallest error, that
 /// causes no doubt. Both are root mean squares.
@@ -29,48 +27,13 @@ const NOISE: f64 = 0.2;
 #[must_use]
 pub fn sentences(measured: &Measured) -> Vec<Sentence> {
     let pages = &measured.pages;
-    let mut all = budgets(pages);
+    let mut all = budget::sentences(pages);
     all.extend(areas::sentences(pages));
     all.extend(cost(pages));
     all.extend(many_rays(pages));
     all.extend(regions(pages));
     all.extend(pages.iter().flat_map(|page| [worth(page), doubt(page)]).flatten());
     all
-}
-
-/// Returns for each budget the method that is nearest to the truth. A method is rated on each page by
-/// its error over the least error within the budget. The best has the smallest geometric mean of these
-/// ratios, and keeps the budget on every page. Of equal advice for several budgets the last is kept.
-fn budgets(pages: &[PageMeasured]) -> Vec<Sentence> {
-    let one = evenly(Filter::Bilinear, 1);
-    let best = |budget: u32| {
-        let error = |page: &PageMeasured, method: &Method| {
-            let (own, one) = (trial(page, method)?, trial(page, &one)?);
-            (own.cost.cpu <= f64::from(budget) * one.cost.cpu).then_some(own.whole.rmse)
-        };
-        let least = |page: &PageMeasured| {
-            let errors = page.trials.iter().filter_map(|own| error(page, &own.method));
-            errors.min_by(f64::total_cmp)
-        };
-        let methods = pages.first()?.trials.iter().map(|own| &own.method);
-        let rated = methods.filter_map(|method| {
-            let rating = mean(pages, |page| Some(error(page, method)? / least(page)?))?;
-            Some((method, rating))
-        });
-        rated.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(method, _)| method)
-    };
-    let advice: Vec<_> = BUDGETS.iter().filter_map(|&k| Some((k, best(k)?))).collect();
-    let changes = advice
-        .iter()
-        .enumerate()
-        .filter(|(k, (_, method))| advice.get(k + 1).is_none_or(|(_, next)| next != method));
-    let text = |(_, (budget, method)): (usize, &(u32, &Method))| {
-        format!(
-            "Use {} where up to {budget} times the time of one bilinear ray in each pixel may be spent.",
-            method.name()
-        )
-    };
-    changes.map(|change| Sentence::general(Question::Use, text(change))).collect()
 }
 
 /// Returns the time and the memory of one ray with the tent.
@@ -211,26 +174,6 @@ mod tests {
 
     fn expected(question: Question, text: &str) -> Option<(Question, String)> {
         Some((question, text.into()))
-    }
-
-    #[test]
-    fn what_is_advised_keeps_the_time_and_is_nearest() {
-        // One ray with the tent costs two bilinear rays, 3 x 3 with the tent 18.
-        let found = said(vec![fixture::page("floor", &floor, &[])]);
-        let uses: Vec<_> =
-            found.iter().filter(|(question, _)| *question == Question::Use).collect();
-        let of = |method: &str, budget: u32| {
-            format!(
-                "Use {method} where up to {budget} times the time of one bilinear ray in each pixel \
-                 may be spent."
-            )
-        };
-        // The advice for five times the time equals that for twice the time.
-        let advised = [of("tent, 1 ray", 5), of("tent, 3 x 3 rays", 20)];
-        assert_eq!([&uses[0].1, &uses[1].1], [&advised[0], &advised[1]]);
-        // Where filters have no effect, cheaper rays are advised.
-        let (_, first) = &said(vec![fixture::page("edges", &edges, &[])])[0];
-        assert!(first.starts_with("Use point") || first.starts_with("Use bilinear"), "{first}");
     }
 
     #[test]

@@ -26,8 +26,13 @@ pub fn section(page: &PageMeasured, advice: &[Sentence]) -> Result<Markup, Pipel
             p.eyebrow { (page.name) }
             h2 { (page.title) }
             p.faint {
-                (width) " \u{d7} " (height) " pixels; the truth has two times " (rays)
-                " rays in a pixel; its noise is " (error(truth.noise)) "."
+                (width) " \u{d7} " (height) " pixels; "
+                @if truth.given {
+                    "the truth is a picture that was given."
+                } @else {
+                    "the truth has two times " (rays) " rays in a pixel; its noise is "
+                    (error(truth.noise)) "."
+                }
             }
             @if !own.is_empty() { ul { @for sentence in own { li { (super::set(&sentence.text)) } } } }
             (pictures)

@@ -84,8 +84,12 @@ const LINE: f64 = 17.0;
 /// Least distance between labels of the horizontal axis, in pixels.
 const LABEL: f64 = 48.0;
 
-/// Width of the column of curve names, in pixels.
+/// Least width of the column of curve names, in pixels.
 const NAMES: f64 = 104.0;
+
+/// Width of a mark before a name with the gaps around it, and of a letter of a name, in pixels.
+const MARK: f64 = 30.0;
+const LETTER: f64 = 7.6;
 
 impl Size {
     fn pixels(self) -> (f64, f64) {
@@ -118,8 +122,13 @@ impl Chart {
     fn drawn(&self, size: Size, about: &str, style_sheet: Option<&str>) -> String {
         let (width, height) = size.pixels();
         let top = if self.title.is_some() { 52.0 } else { 32.0 };
-        let named = self.series.iter().any(|series| !series.name.is_empty());
-        let right = width - if named || !self.key.is_empty() { NAMES } else { 16.0 };
+        let names = self.series.iter().map(|series| &series.name);
+        let words = names.chain(self.key.iter().map(|(_, words)| words));
+        let longest = words.map(|word| word.chars().count()).max().unwrap_or(0);
+        let right = match longest {
+            0 => width - 16.0,
+            letters => width - NAMES.max(MARK + LETTER * letters as f64),
+        };
         let frame = Frame { left: 56.0, top, right, bottom: height - 46.0 };
         let mut svg = Svg::new(width, height, "class=\"plot\" role=\"img\"");
         if let Some(rules) = style_sheet {

@@ -2,6 +2,7 @@
 
 use super::{LightFile, MaterialFile, ObjectFile, SceneFile, TextureFile, VERSION};
 use files::names::each_name_once;
+use files::note::Note;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -23,6 +24,8 @@ pub struct PartFile {
     /// Version of the format: 1.
     #[schemars(extend("const" = VERSION))]
     pub version: u32,
+    /// Sentences for people; ignored by the program.
+    pub note: Option<Note>,
     /// Other parts, added before the contents of this one; relative to this file's folder.
     #[serde(default)]
     pub include: Vec<PathBuf>,

@@ -101,6 +101,15 @@ const OTHERS: [(&[u8], &str); 7] = [
     (b"#VRML", "a VRML scene"),
 ];
 
+/// Returns whether a file is a mesh rather than a scene: by its contents, or else by its name. JSON is a scene unless it
+/// is a glTF.
+#[must_use]
+pub fn is_mesh(file: &str, bytes: &[u8]) -> bool {
+    let start = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
+    let is_named = || !start.starts_with(b"{") && Format::of_name(file).is_some();
+    Format::of_contents(bytes).is_some() || is_obj(bytes) || is_named()
+}
+
 /// Reads the bytes of a mesh file. `file` is the name of the file in messages.
 ///
 /// # Errors
