@@ -8,7 +8,7 @@ use files::memory::of_process;
 use files::words::shown;
 use files::{Source, input};
 use render::scene::file::CameraFile;
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::path::Path;
 use sweep::spec::{self, Resolution};
 use sweep::{Object, SweepError};
@@ -51,8 +51,9 @@ pub fn object(
     let read = |seen: &Resolution| Object::read(&document, folder, source, seen);
     if finish == Finish::Draft
         && let Some(draft) = draft(&bytes, &mesh.resolution)
-        // Areas and corners may need the cells that are stated.
-        && let Ok(object) = read(&draft)
+        && let Ok(document) = Document::new(&name, &draft)
+        // Corners and loops may need the cells that are stated.
+        && let Ok(object) = Object::read(&document, folder, source, &Resolution::default())
     {
         return Ok(object);
     }
@@ -62,22 +63,46 @@ pub fn object(
     })
 }
 
-/// Returns the resolution of a draft, or `None` if the stated one has no more cells.
-fn draft(bytes: &[u8], of_job: &Resolution) -> Option<Resolution> {
-    let spec: Value = serde_json::from_slice(bytes).ok()?;
-    let own = |key: &str| spec["mesh"].get(key).and_then(Value::as_u64).map(|count| count as usize);
-    let rows = of_job.rows.or(own("rows"));
-    let cols = of_job.cols.or(own("cols"));
-    let few = |count: Option<usize>, most: usize| count.is_some_and(|count| count <= most);
-    if few(rows, DRAFT[0]) && few(cols, DRAFT[1]) {
-        return None;
+/// Returns the text of a spec with the cells of a draft, or `None` if the stated ones are no more. Texture areas, which
+/// count cells, shrink with them.
+fn draft(bytes: &[u8], of_job: &Resolution) -> Option<Vec<u8>> {
+    let mut spec: Value = serde_json::from_slice(bytes).ok()?;
+    let changed = match spec.get_mut("parts").and_then(Value::as_array_mut) {
+        Some(parts) => parts.iter_mut().filter(|part| shrink(part, of_job)).count(),
+        None => usize::from(shrink(&mut spec, of_job)),
+    };
+    (changed > 0).then(|| spec.to_string().into_bytes())
+}
+
+/// Gives one sweep the cells of a draft. Returns whether they are fewer.
+fn shrink(sweep: &mut Value, of_job: &Resolution) -> bool {
+    let own =
+        |key: &str| sweep["mesh"].get(key).and_then(Value::as_u64).map(|count| count as usize);
+    let stated = [of_job.rows.or(own("rows")), of_job.cols.or(own("cols"))];
+    let fits = |k: usize| stated[k].is_some_and(|count| count <= DRAFT[k]);
+    if fits(0) && fits(1) {
+        return false;
     }
-    let least = |count: Option<usize>, most: usize| Some(count.map_or(most, |own| own.min(most)));
-    Some(Resolution {
-        rows: least(rows, DRAFT[0]),
-        cols: least(cols, DRAFT[1]),
-        ..Resolution::default()
-    })
+    let made = [0, 1].map(|k| stated[k].map_or(DRAFT[k], |count| count.min(DRAFT[k])));
+    let areas = sweep.get_mut("areas").and_then(Value::as_array_mut);
+    for area in areas.into_iter().flatten() {
+        for (k, key) in ["rows", "cols"].into_iter().enumerate() {
+            let Some(stated) = stated[k].filter(|count| *count > 0) else { continue };
+            let ends = area.get(key).and_then(Value::as_array);
+            let ends: Vec<usize> = ends
+                .into_iter()
+                .flatten()
+                .filter_map(Value::as_u64)
+                .map(|end| (end as f64 * made[k] as f64 / stated as f64).round() as usize)
+                .collect();
+            if let [from, to] = ends[..] {
+                let from = from.min(made[k].saturating_sub(1));
+                area[key] = json!([from, to.max(from + 1)]);
+            }
+        }
+    }
+    sweep["mesh"] = json!({ "rows": made[0], "cols": made[1] });
+    true
 }
 
 /// Makes the triangles of an object.
@@ -95,4 +120,23 @@ pub fn triangles(mesh: &MeshJob, object: &Object) -> Result<render::shape::Mesh,
     of_process().check(bytes, || format!("mesh {} of {points} points", shown(&mesh.name)))?;
     let grids = object.grids()?;
     Ok(for_render(triangulate::mesh(grids.as_slice(), &mesh.options)?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_draft_has_fewer_cells_and_areas_shrink_with_them() {
+        let spec = json!({ "mesh": { "rows": 640, "cols": 36 },
+            "areas": [{ "rows": [0, 320], "cols": [0, 3] }, { "rows": [637, 640], "cols": [3, 36] }] });
+        let draft = draft(spec.to_string().as_bytes(), &Resolution::default()).unwrap();
+        let expected = json!({ "mesh": { "rows": 64, "cols": 36 },
+            "areas": [{ "rows": [0, 32], "cols": [0, 3] }, { "rows": [63, 64], "cols": [3, 36] }] });
+        assert_eq!(serde_json::from_slice::<Value>(&draft).unwrap(), expected);
+        let small = json!({ "parts": [{ "mesh": { "rows": 9, "cols": 9 } }] }).to_string();
+        assert_eq!(super::draft(small.as_bytes(), &Resolution::default()), None);
+        let tolerance = json!({ "mesh": { "tol": 0.01 } }).to_string();
+        assert!(super::draft(tolerance.as_bytes(), &Resolution::default()).is_some());
+    }
 }

@@ -8,7 +8,6 @@ use super::folder::{Folder, slashed};
 use super::source::Edited;
 use super::texts::Texts;
 use crate::Job;
-use files::Source;
 use files::words::shown;
 use serde_json::Value;
 use std::path::{Path, PathBuf};

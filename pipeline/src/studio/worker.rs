@@ -25,6 +25,9 @@ use std::time::{Duration, Instant};
 /// Time that a draft should take, in seconds.
 const DRAFT: f64 = 0.03;
 
+/// Least weight of a ray in a draft. Mirrors in mirrors and the faint rays of glass are left out.
+const FOLLOWED: f64 = 0.1;
+
 /// Fewest pixels of a draft.
 const FEWEST: f64 = 96.0 * 96.0;
 
@@ -104,7 +107,9 @@ impl Worker<'_> {
             _ if is_drawn => Finish::Stated,
             _ => Finish::Draft,
         };
+        let started = Instant::now();
         let made = Kept::make(&mut self.kept, &files, &snapshot.source, finish);
+        let mut making = started.elapsed();
         if !self.judge(made) {
             return Served::Done;
         }
@@ -114,7 +119,8 @@ impl Worker<'_> {
             let prepared = Prepared::new(&kept.scene);
             loop {
                 if self.drawn != snapshot.revision {
-                    self.draft(&prepared, &files, &snapshot, is_stated);
+                    self.draft(&prepared, &files, &snapshot, (is_stated, making));
+                    making = Duration::ZERO;
                     self.drawn = snapshot.revision;
                     curves::tell(board, &snapshot, &kept.objects);
                 }
@@ -140,7 +146,7 @@ impl Worker<'_> {
                     }
                 };
                 let Some(next) = next else { break Served::Again(Box::new(snapshot)) };
-                let Some(new) = self.read(&next) else { break Served::Done };
+                let Some(new) = self.read(&next) else { break Served::Next(next) };
                 let finish = if is_stated { Finish::Stated } else { Finish::Draft };
                 if !kept.shows(&new, finish) {
                     break Served::Next(next);
@@ -184,7 +190,7 @@ impl Worker<'_> {
         prepared: &Prepared<'_>,
         files: &Files,
         snapshot: &Snapshot,
-        is_stated: bool,
+        (is_stated, making): (bool, Duration),
     ) {
         let (width, height) = snapshot.view.pixels();
         let all = f64::from(width) * f64::from(height);
@@ -192,14 +198,18 @@ impl Worker<'_> {
         let part = ((DRAFT / *known).max(FEWEST) / all).sqrt().min(1.0);
         let side = |side: u32| ((f64::from(side) * part).round() as u32).max(1);
         let (width, height) = (side(width), side(height));
-        let settings =
-            Settings { camera: Some(files.camera), ..Settings::new(width, height, Filter::Mip) };
+        let settings = Settings {
+            camera: Some(files.camera),
+            least_weight: Some(FOLLOWED),
+            ..Settings::new(width, height, Filter::Mip)
+        };
         let started = Instant::now();
         let (picture, _) = render_while(prepared, &settings, &|_, _| {}, &|| true);
         let spent = started.elapsed().as_secs_f64() / f64::from(width * height);
         // A slow draft shrinks the next one at once, and a fast one lets it grow slowly.
         *known = if spent > *known { spent } else { 0.7 * *known + 0.3 * spent };
-        self.show("draft", &picture, snapshot, None);
+        let times = json!({ "meshes": making.as_millis() as u64, "picture": started.elapsed().as_millis() as u64 });
+        self.show("draft", &picture, snapshot, (None, times));
     }
 
     /// Shows the whole picture, then that of the requested error, then that of the method beside it. Returns false if
@@ -223,7 +233,7 @@ impl Worker<'_> {
         if stats.unfinished > 0 || !go_on() {
             return false;
         }
-        self.show("whole", &picture, snapshot, None);
+        self.show("whole", &picture, snapshot, (None, Value::Null));
         if let Some(error) = snapshot.view.error {
             let tell = |step: &str, done, total| progress.tell(step, done, total);
             let request = Request::new(prepared, &settings, PixelFilter::Box);
@@ -231,7 +241,7 @@ impl Worker<'_> {
             if !go_on() {
                 return false;
             }
-            self.show("exact", &reached.picture, snapshot, Some(&reached.statement));
+            self.show("exact", &reached.picture, snapshot, (Some(&reached.statement), Value::Null));
         }
         if let Some(method) = snapshot.view.beside {
             let settings = Settings { camera, ..method.settings(snapshot.view.pixels()) };
@@ -240,7 +250,7 @@ impl Worker<'_> {
             if stats.unfinished > 0 {
                 return false;
             }
-            self.show("beside", &picture, snapshot, None);
+            self.show("beside", &picture, snapshot, (None, Value::Null));
         }
         board.tell("progress", &json!({ "revision": snapshot.revision, "step": "done" }));
         true
@@ -251,7 +261,7 @@ impl Worker<'_> {
         step: &str,
         picture: &Picture,
         snapshot: &Snapshot,
-        statement: Option<&Statement>,
+        (statement, times): (Option<&Statement>, Value),
     ) {
         let png = png::encoded(picture);
         let statement = statement.map(|statement| {
@@ -263,6 +273,7 @@ impl Worker<'_> {
             "size": [picture.width, picture.height],
             "milliseconds": snapshot.since.elapsed().as_millis() as u64,
             "statement": statement,
+            "times": times,
         });
         self.board.show(png, facts, if step == "beside" { "beside" } else { "picture" });
     }
