@@ -171,6 +171,7 @@ fn picture(
         scene: &file_name,
         meshes: &meshes,
         set: &[],
+        look: &[],
         error: error.as_deref(),
         alpha: is_transparent,
         encoding: Encoding::Srgb,

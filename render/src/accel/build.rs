@@ -25,8 +25,8 @@ const PARALLEL: usize = 8192;
 
 /// A box along the axes, with the number of what it surrounds.
 ///
-/// The fourth component of `low` holds the number as bits, at most 2^30, so that the bits are those
-/// of a finite number. The fourth component of other boxes has no meaning.
+/// The fourth component of `low` holds the number as bits, below 2^26, so that the bits are those of a
+/// finite number. The fourth component of other boxes has no meaning.
 #[derive(Debug, Clone, Copy)]
 pub struct Numbered {
     low: Vec4,
@@ -34,13 +34,10 @@ pub struct Numbered {
 }
 
 impl Numbered {
-    /// The largest number.
-    pub const MOST: u32 = 1 << 30;
-
     /// A box around the origin, with the number 0.
     pub const NONE: Self = Self { low: Vec4::ZERO, high: Vec4::ZERO };
 
-    /// A box with a number up to [`Numbered::MOST`].
+    /// A box with a number below [`super::node::Child::MOST`].
     #[must_use]
     pub fn new(number: u32, low: [f32; 3], high: [f32; 3]) -> Self {
         let [x, y, z] = low;

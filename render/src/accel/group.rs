@@ -13,9 +13,10 @@ use super::kernel::{Kernel, Tolerance};
 use super::lanes::{FOUR, Lanes, Target};
 use super::leaf::Probe;
 use super::mesh_tree::{Blocks, MeshTree};
-use super::node::{Child, WIDTH};
+use super::node::Child;
 use super::simd::Task;
 use super::tree::{Leaves, Tree};
+use super::waiting::Waiting;
 use crate::ray::{Hit, Piece, Ray};
 use crate::shape::triangle::START_OFF;
 use glam::DVec4;
@@ -26,9 +27,6 @@ pub const LEAST: usize = 6;
 /// Number of leaves without a hit after which the rays of a group go on one by one. If larger, rays that
 /// go apart test the triangles of the others. If smaller, groups that pass an edge are given up.
 const IN_VAIN: usize = 12;
-
-/// Capacity of the stack of nodes. Beyond it the rays go on one by one.
-const STACK: usize = 64;
 
 /// A group of rays, and the state of its walk.
 pub struct Group<'a, 'b, F> {
@@ -95,40 +93,26 @@ impl<F: FnMut(usize, Hit) -> f64> Task for Walk<'_, '_, '_, F> {
     #[inline(always)]
     fn run<K: Kernel>(&mut self, kernel: K) {
         let tree = self.mesh.tree();
-        let (mut waiting, mut enters) = ([Child::NONE; STACK], [0.0f32; STACK]);
-        let mut count = 0;
+        let mut waiting = Waiting::none();
         let mut in_vain = 0;
         let mut current = tree.root();
-        'nodes: loop {
-            if in_vain > IN_VAIN || count + WIDTH > STACK {
+        loop {
+            if in_vain > IN_VAIN || waiting.is_full() {
                 self.one_by_one(kernel, current);
             } else if current.is_leaf() {
                 in_vain += usize::from(!self.visit(kernel, current));
             } else {
                 let node = tree.node(current);
-                let (enter, mut met) = kernel.boxes_of_all(node, &self.bundle);
-                let first = count;
-                while met != 0 {
-                    let child = met.trailing_zeros() as usize & (WIDTH - 1);
-                    met &= met - 1;
-                    // The nearer nodes leave the stack first.
-                    let mut at = count;
-                    while at > first && enters[at - 1] < enter[child] {
-                        (waiting[at], enters[at]) = (waiting[at - 1], enters[at - 1]);
-                        at -= 1;
-                    }
-                    (waiting[at], enters[at]) = (node.children[child], enter[child]);
-                    count += 1;
+                let (enter, met) = kernel.boxes_of_all(node, &self.bundle);
+                if met != 0 {
+                    current = waiting.nearest(node, &enter, met);
+                    continue;
                 }
             }
-            while count > 0 {
-                count -= 1;
-                if enters[count] <= self.bundle.farthest {
-                    current = waiting[count];
-                    continue 'nodes;
-                }
+            match waiting.next(self.bundle.farthest) {
+                Some(next) => current = next,
+                None => return,
             }
-            return;
         }
     }
 }

@@ -88,12 +88,14 @@ impl<'a> Probe<'a> {
     /// Returns the distance from the start within which a surface of this object coincides with
     /// the start.
     #[must_use]
+    #[inline(always)]
     pub fn skin(&self, accel: &Accel<'_>, object: u32) -> f64 {
         self.whole_skin.unwrap_or_else(|| Self::skin_of(accel, self.ray, object))
     }
 
     /// Returns the distance as [`Probe::skin`] does, for a ray in scene space.
     #[must_use]
+    #[inline(always)]
     pub fn skin_of(accel: &Accel<'_>, ray: &Ray, object: u32) -> f64 {
         match ray.leaving {
             Some(from) => {

@@ -8,6 +8,7 @@ use super::kernel::Kernel;
 use super::leaf::Probe;
 use super::node::Child;
 use super::own_ray::OwnRay;
+use super::pages;
 use super::simd::Task;
 use super::tree::{Leaves, Tree};
 use crate::ray::{Hit, Piece, Ray};
@@ -17,7 +18,7 @@ use rayon::prelude::*;
 use std::ops::Range;
 
 /// Largest number of triangles of a tree; a larger mesh has several trees.
-pub const MOST: u32 = Numbered::MOST;
+pub const MOST: u32 = Child::MOST;
 
 /// A tree over triangles of a mesh.
 #[derive(Debug)]
@@ -67,7 +68,8 @@ impl MeshTree {
             }
             Block::new(&triangles[..leaf.len()])
         };
-        let blocks: Vec<Block> = leaves.par_iter().map(block).collect();
+        let mut blocks = pages::vector(leaves.len());
+        leaves.par_iter().map(block).collect_into_vec(&mut blocks);
         let is_exact = |block: &Block| {
             (0..LANES).filter(|&lane| block.numbers[lane] != ABSENT).all(|lane| {
                 let scene = frame.scene(block.corners(lane));

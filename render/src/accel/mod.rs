@@ -40,11 +40,13 @@ mod leaf;
 mod mesh_tree;
 mod node;
 mod own_ray;
+mod pages;
 mod parts;
 mod simd;
 mod slabs;
 mod top;
 mod tree;
+mod waiting;
 
 use crate::ray::{Hit, Piece, Ray};
 use crate::shape::{Shape, SurfacePoint};
@@ -251,6 +253,7 @@ impl<'a> Accel<'a> {
     /// Returns a bound on the distance of a computed point of this object from its surface, in
     /// scene units.
     #[must_use]
+    #[inline]
     pub fn rounding(&self, object: u32, point: DVec3) -> f64 {
         let largest = self.extents[object as usize] + point.abs().max_element();
         ROUNDINGS * f64::EPSILON * largest

@@ -8,16 +8,12 @@ use super::build::{self, Numbered};
 use super::collapse::{self, Wide};
 use super::frame::{Frame, TreeRay};
 use super::kernel::Kernel;
-use super::node::{Child, Node, WIDTH};
+use super::node::{Child, Node};
+use super::pages;
+use super::waiting::Waiting;
 use crate::ray::Ray;
 use glam::DVec3;
 use std::ops::Range;
-
-/// Capacity of the walk's stack of nodes, at least [`WIDTH`]. Beyond it the walk recurses.
-///
-/// If larger, every ray clears memory that it does not use. If smaller, rays recurse in large
-/// meshes. Tests use the smallest capacity, so that they recurse.
-const STACK: usize = if cfg!(test) { WIDTH } else { 40 };
 
 /// A tree over boxes.
 #[derive(Debug)]
@@ -57,7 +53,9 @@ impl Tree {
         in_leaf: usize,
     ) -> (Self, Vec<Range<usize>>) {
         let grove = build::grow(boxes, in_leaf);
-        let Wide { root, nodes, leaves } = collapse::collapse(&grove, boxes);
+        let Wide { root, nodes: grown, leaves } = collapse::collapse(&grove, boxes);
+        let mut nodes = pages::vector(grown.len());
+        nodes.extend_from_slice(&grown);
         (Self { bounds, frame, root, nodes, looks: grove.looks }, leaves)
     }
 
@@ -129,17 +127,16 @@ impl Tree {
         leaves: &mut impl Leaves,
     ) -> f64 {
         let mut limit = ray.distance(t_max);
-        let (mut waiting, mut enters) = ([Child::NONE; STACK], [0.0f32; STACK]);
-        let mut count = 0;
+        let mut waiting = Waiting::none();
         let mut current = start;
-        'nodes: loop {
+        loop {
             if current.is_leaf() {
                 let next = leaves.visit(kernel, current, ray, limit, t_max);
                 if next != t_max {
                     t_max = next;
                     limit = ray.distance(t_max);
                 }
-            } else if count + WIDTH > STACK {
+            } else if waiting.is_full() {
                 // The tree is deeper than the stack.
                 // A copy keeps the ray itself in registers.
                 let copy = *ray;
@@ -147,44 +144,16 @@ impl Tree {
                 limit = ray.distance(t_max);
             } else {
                 let node = &self.nodes[current.number()];
-                let (enter, mut met) = kernel.boxes(node, ray, limit);
+                let (enter, met) = kernel.boxes(node, ray, limit);
                 if met != 0 {
-                    let mut nearest = met.trailing_zeros() as usize & (WIDTH - 1);
-                    met &= met - 1;
-                    if met != 0 {
-                        let first = count;
-                        let mut near = enter[nearest];
-                        while met != 0 {
-                            let mut other = met.trailing_zeros() as usize & (WIDTH - 1);
-                            let mut far = enter[other];
-                            met &= met - 1;
-                            if far < near {
-                                std::mem::swap(&mut nearest, &mut other);
-                                std::mem::swap(&mut near, &mut far);
-                            }
-                            // The nearer nodes leave the stack first.
-                            let mut at = count;
-                            while at > first && enters[at - 1] < far {
-                                (waiting[at], enters[at]) = (waiting[at - 1], enters[at - 1]);
-                                at -= 1;
-                            }
-                            (waiting[at], enters[at]) = (node.children[other], far);
-                            count += 1;
-                        }
-                    }
-                    current = node.children[nearest];
+                    current = waiting.nearest(node, &enter, met);
                     continue;
                 }
             }
-            // Takes the nearest node that begins within `t_max`.
-            while count > 0 {
-                count -= 1;
-                if enters[count] <= limit {
-                    current = waiting[count];
-                    continue 'nodes;
-                }
+            match waiting.next(limit) {
+                Some(next) => current = next,
+                None => return t_max,
             }
-            return t_max;
         }
     }
 }
