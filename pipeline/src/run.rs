@@ -17,7 +17,6 @@ use render::color::Encoding;
 use render::film::encode::{self, Coding, Format};
 use render::film::{BasePicture, PixelFilter, memory};
 use render::scene::Camera;
-use render::scene::Camera;
 use render::stats::Stats;
 use render::{Picture, Prepared, Scene, Settings};
 use requested::Meshes;
