@@ -16,6 +16,7 @@ use render::film::{BasePicture, MOST_SAMPLES, PixelFilter, THRESHOLD, alpha, mem
 use render::filter::Filter;
 use render::shade::View;
 use render::showcase::Look;
+use render::showcase::look::HEADING;
 use render::{Picture, Prepared, Sampling, Settings};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -50,7 +51,7 @@ pub struct ShowArguments {
     #[command(flatten)]
     look: Look,
     /// Write the scene that shows the mesh, as a starting point for a scene of your own
-    #[arg(long, value_name = "FILE.json")]
+    #[arg(long, value_name = "FILE.json", help_heading = HEADING)]
     scene_out: Option<PathBuf>,
     #[command(flatten)]
     common: CommonArguments,

@@ -8,7 +8,7 @@ use files::{FileError, Ledger, Report, Setting, Variant, input, variants};
 use render::scene::MeshSource;
 use render::scene::mesh_file;
 use render::scene::obj::ObjFile;
-use render::showcase::{self, Look, Subject};
+use render::showcase::{self, Look, Subject, look};
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
@@ -29,7 +29,7 @@ pub struct InputArguments {
     #[command(flatten)]
     pub look: Look,
     /// Write the scene that shows the mesh, as a starting point for a scene of your own
-    #[arg(long, value_name = "FILE.json", help_heading = "Pictures of a mesh without a scene")]
+    #[arg(long, value_name = "FILE.json", help_heading = look::HEADING)]
     scene_out: Option<PathBuf>,
     /// Render nothing: print the contents of the scene, and what is wrong or suspicious, on standard
     /// output; the exit code is 4 if something is wrong

@@ -4,26 +4,28 @@ use super::{Paint, Up, View};
 use clap::Args;
 use std::path::PathBuf;
 
+/// Heading of the flags in help texts.
+pub const HEADING: &str = "Pictures of a mesh without a scene";
+
 /// The flags that change how a mesh is shown without a scene of its own.
 #[derive(Debug, Clone, Default, Args)]
-#[command(next_help_heading = "Pictures of a mesh without a scene")]
 pub struct Look {
     /// Colour of the mesh: a name such as red, #RRGGBB in sRGB, or R,G,B from 0 to 1 in linear light [default: the
     /// colours of the file, or else a warm grey]
-    #[arg(long, value_name = "COLOR")]
+    #[arg(help_heading = HEADING, long, value_name = "COLOR")]
     pub color: Option<Paint>,
     /// Picture on the mesh, by its texture coordinates
-    #[arg(long = "picture", value_name = "FILE")]
+    #[arg(help_heading = HEADING, long = "picture", value_name = "FILE")]
     pub texture: Option<PathBuf>,
     /// Direction of the camera: front, right, back, left, top, bottom, or the angles AZ,EL in degrees, from the front
     /// towards the right and above the horizon
-    #[arg(long, value_name = "VIEW", default_value = "30,20", allow_hyphen_values = true)]
+    #[arg(help_heading = HEADING, long, value_name = "VIEW", default_value = "30,20", allow_hyphen_values = true)]
     pub view: View,
     /// Axis of the mesh that points up [default: z for STL files of other programs, and y for all others]
-    #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
+    #[arg(help_heading = HEADING, long, value_name = "AXIS", allow_hyphen_values = true)]
     pub up: Option<Up>,
     /// Show the mesh without a ground
-    #[arg(long)]
+    #[arg(help_heading = HEADING, long)]
     pub no_ground: bool,
 }
 
