@@ -141,6 +141,9 @@ export function schemaForm(root, chosen, schema, hidden = []) {
       box.append(make("summary", {}, name, make("span", { className: "hint", textContent: brief })));
       const inside = () => {
         if (help) box.append(make("p", { className: "help hint", textContent: help }));
+        if (value === undefined && kind === "object") {
+          box.append(button(`Use ${name}`, `Add ${name} with the values that it needs`, () => edit(chosen(), [set(path, starting(schema))])));
+        }
         box.append(...compoundParts(kind, schema, path, value, depth));
         if (clear) box.append(clear);
       };
