@@ -23,7 +23,7 @@ fn the_pipe_in_the_readme_makes_the_picture_that_the_pipeline_makes() {
     let folder = tempfile::tempdir().unwrap();
     let line = readme_line().replace("-o vase.png", "--size 160x120 -o vase.png");
     let piped = shell(&line, folder.path());
-    assert!(piped.status.success() && piped.stderr.is_empty(), "{}", said(&piped));
+    assert!(piped.status.success() && said(&piped).is_empty(), "{}", said(&piped));
 
     let arguments = ["run", "vase", "-o", "out", "--size", "160x120", "--keep"];
     let ran = run("pipeline", &arguments, folder.path());
@@ -132,7 +132,7 @@ fn an_object_with_two_pictures_is_the_same_through_pipes_and_in_memory() {
     let line = "sweep vase.json | triangulate --texture 2 | tee a.obj | \
                 render scene.json --mesh vase=- --size 160x120 -o piped.png";
     let piped = shell(line, folder.path());
-    assert!(piped.status.success() && piped.stderr.is_empty(), "{}", said(&piped));
+    assert!(piped.status.success() && said(&piped).is_empty(), "{}", said(&piped));
     let arguments = ["run", "job.json", "-o", "out", "--size", "160x120", "--keep"];
     let ran = run("pipeline", &arguments, folder.path());
     assert!(ran.status.success(), "{}", said(&ran));

@@ -231,7 +231,7 @@ fn bad_flags_end_with_2_and_name_the_flag() {
 #[test]
 fn help_has_examples_and_names_the_exit_codes() {
     let help = String::from_utf8(Bench::new().make(&["--help"], b"").stdout).unwrap();
-    assert!(help.contains("render examples/scenes/glass-sphere.json -o glass.png"), "{help}");
+    assert!(help.contains("render scene.json -o scene.png"), "{help}");
     assert!(help.contains("141 closed pipe"), "{help}");
 }
 
