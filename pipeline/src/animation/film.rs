@@ -241,7 +241,7 @@ fn by_program(path: &Path, frames: &[PathBuf], fps: f64) -> Result<Vec<u8>, Film
     if !status.success() {
         let text = fs::read_to_string(&errors).unwrap_or_default();
         let last = text.lines().rfind(|line| !line.trim().is_empty()).unwrap_or("no message");
-        return Err(said(files::words::shortened(last)));
+        return Err(said(files::words::shown(last).to_string()));
     }
     fed.map_err(|source| said(source.to_string()))?;
     fs::read(&film).map_err(|source| said(source.to_string()))

@@ -111,7 +111,7 @@ fn number(value: &Value) -> Result<sweep::law::Law, String> {
             let why = if value.is_object() { format!(" ({error})") } else { String::new() };
             return Err(format!(
                 "found {}{why}, expected a law: a number, a list, or an object with keys, bezier or total",
-                files::words::shortened(&value.to_string())
+                files::words::shown(&value.to_string())
             ));
         }
     };
