@@ -9,7 +9,7 @@ use std::path::Path;
 use std::time::SystemTime;
 
 const SPEC: &str = r#"{ "format": "tb-sweep", "version": 1, "name": "rod",
-"contour": { "svg": "M.5 .2H-.5V-.2H.5Z" }, "trajectory": { "line": [[0, -1, 0], [0, 1, 0]], "twist": 0 },
+"contour": { "svg": "M.5 .2H-.5V-.2H.5Z" }, "trajectory": { "line": [[0, -1, 0], [0, 1, 0]] },
 "mesh": { "rows": 12, "cols": 8 } }"#;
 
 const SCENE: &str = r#"{ "format": "tb-scene", "version": 1, "ambient": 0.3,
@@ -72,18 +72,10 @@ fn a_frame_is_the_picture_with_its_values() {
         "scene.camera.eye": { "keys": [[0, [0, 1, 6]], [1, [4, 3, 2]]] } } }"#;
     let all = r#""animate": { "frames": 5, "set": {
         "scene.camera.eye": { "keys": [[0, [0, 1, 6]], [1, [4, 3, 2]]] },
-        "scene.materials.clay.color": { "total": [0, 1, 2] }, "specs.rod.trajectory.twist": { "total": 240 } } }"#;
+        "scene.materials.clay.color": { "total": [0, 1, 2] }, "specs.rod.twist": { "total": 240 } } }"#;
     for (keys, more) in [
         (camera, vec![]),
-        (
-            all,
-            vec![
-                "-D",
-                "scene.materials.clay.color=[0, 0.5, 1]",
-                "-D",
-                "specs.rod.trajectory.twist=120",
-            ],
-        ),
+        (all, vec!["-D", "scene.materials.clay.color=[0, 0.5, 1]", "-D", "specs.rod.twist=120"]),
     ] {
         let folder = folder(keys);
         let path = folder.path();

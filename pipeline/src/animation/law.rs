@@ -54,12 +54,22 @@ impl Law {
     /// Returns the value at a time from 0 to 1.
     #[must_use]
     pub fn at(&self, time: f64) -> Value {
-        let mut values = self.numbers.iter().map(|law| law.at(time).0);
+        let mut values = self.numbers.iter().map(|law| whole(law.at(time).0));
         if self.is_list {
-            Value::from(values.collect::<Vec<f64>>())
+            Value::from(values.collect::<Vec<Value>>())
         } else {
-            Value::from(values.next().unwrap_or_default())
+            values.next().unwrap_or_default()
         }
+    }
+}
+
+/// Returns a number as JSON. Whole numbers have no fraction, so that counts may follow a law.
+fn whole(number: f64) -> Value {
+    const EXACT: f64 = (1_u64 << 53) as f64;
+    if number.fract() == 0.0 && number.abs() < EXACT {
+        Value::from(number as i64)
+    } else {
+        Value::from(number)
     }
 }
 
@@ -167,21 +177,21 @@ mod tests {
 
     #[test]
     fn numbers_and_lists_follow_their_laws() {
-        assert_eq!(at(&json!(2), 0.3), json!(2.0));
-        assert_eq!(at(&json!([1, 2]), 0.3), json!([1.0, 2.0]));
-        assert_eq!(at(&json!({"total": 8}), 0.25), json!(2.0));
-        assert_eq!(at(&json!({"total": [8, -4]}), 0.25), json!([2.0, -1.0]));
+        assert_eq!(at(&json!(2), 0.3), json!(2));
+        assert_eq!(at(&json!([1, 2]), 0.3), json!([1, 2]));
+        assert_eq!(at(&json!({"total": 8}), 0.25), json!(2));
+        assert_eq!(at(&json!({"total": [8, -4]}), 0.25), json!([2, -1]));
         let keys = json!({"keys": [[0, [0, 10]], [0.5, [4, 10]], [1, [4, 0]]]});
-        assert_eq!(at(&keys, 0.25), json!([2.0, 10.0]));
-        assert_eq!(at(&keys, 0.75), json!([4.0, 5.0]));
+        assert_eq!(at(&keys, 0.25), json!([2, 10]));
+        assert_eq!(at(&keys, 0.75), json!([4, 5]));
         let smooth = json!({"keys": [[0, 0], [1, 32]], "ease": "smooth"});
         // 3 x^2 - 2 x^3 of a quarter is 5 / 32.
-        assert_eq!(at(&smooth, 0.25), json!(5.0));
+        assert_eq!(at(&smooth, 0.25), json!(5));
         // The same curve as a Bezier.
         let third = 1.0 / 3.0;
         let bezier = json!({"bezier": [[[0, 0], [third, 0], [2.0 * third, 32], [1, 32]]]});
         assert!((at(&bezier, 0.25).as_f64().unwrap() - 5.0).abs() < 1e-9);
-        assert_eq!(at(&json!([1, {"total": 2}]), 0.5), json!([1.0, 1.0]));
+        assert_eq!(at(&json!([1, {"total": 2}]), 0.5), json!([1, 1]));
     }
 
     #[test]

@@ -6,7 +6,7 @@
 //!   "set": {
 //!     "scene.camera.eye": { "keys": [[0, [4, 2, 5]], [1, [-4, 2, 5]]], "ease": "smooth" },
 //!     "scene.lights[0].point.color": { "bezier": [[[0, 0], [0.5, 0], [0.5, 1], [1, 1]]] },
-//!     "specs.knot.trajectory.twist": { "total": 360 },
+//!     "specs.knot.twist": { "total": 360 },
 //!     "scene.camera.target": [0, { "total": 1 }, 0]
 //!   },
 //!   "loop": false
@@ -189,7 +189,7 @@ fn setting(path: &str, value: &Value) -> Option<Setting> {
 /// Checks that a path names a value of the scene or of a spec.
 fn check_path(path: &str, meshes: &[&str]) -> Result<(), String> {
     const EXPECTED: &str = "expected a path in the scene, such as scene.camera.eye, or in the spec of a \
-                            mesh, such as specs.NAME.trajectory.twist";
+                            mesh, such as specs.NAME.twist";
     let Ok(setting) = format!("{path}=0").parse::<Setting>() else {
         return Err(format!("found {path:?}, {EXPECTED}"));
     };
@@ -262,12 +262,12 @@ mod tests {
         let animation = read(&format!("{{\"animate\": {animate}}}")).unwrap();
         assert_eq!((animation.frames, animation.fps), (240, 24.0));
         let ends = [
-            ["scene.camera.eye=[4.0,2.0,5.0]", "scene.camera.target=[0.0,0.0,0.0]"],
-            ["scene.camera.eye=[-4.0,2.0,5.0]", "scene.camera.target=[0.0,1.0,0.0]"],
+            ["scene.camera.eye=[4,2,5]", "scene.camera.target=[0,0,0]"],
+            ["scene.camera.eye=[-4,2,5]", "scene.camera.target=[0,1,0]"],
         ];
         let others = [
-            ["scene.lights[0].point.color=0.0", "specs.knot.trajectory.twist=0.0"],
-            ["scene.lights[0].point.color=1.0", "specs.knot.trajectory.twist=360.0"],
+            ["scene.lights[0].point.color=0", "specs.knot.twist=0"],
+            ["scene.lights[0].point.color=1", "specs.knot.twist=360"],
         ];
         for (k, frame) in [1, 240].into_iter().enumerate() {
             assert_eq!(texts(&animation, frame), [ends[k], others[k]].concat());
@@ -284,10 +284,10 @@ mod tests {
         let at = |loops: &str, frame: u32| {
             texts(&read(&text.replace("LOOP", loops)).unwrap(), frame).remove(0)
         };
-        assert_eq!([at("true", 1), at("true", 4)], ["scene.ambient=0.0", "scene.ambient=0.75"]);
-        assert_eq!([at("false", 1), at("false", 4)], ["scene.ambient=0.0", "scene.ambient=1.0"]);
+        assert_eq!([at("true", 1), at("true", 4)], ["scene.ambient=0", "scene.ambient=0.75"]);
+        assert_eq!([at("false", 1), at("false", 4)], ["scene.ambient=0", "scene.ambient=1"]);
         let one = read(r#"{"animate": {"frames": 1, "set": {"scene.ambient": {"total": 1}}}}"#);
-        assert_eq!(texts(&one.unwrap(), 1), ["scene.ambient=0.0"]);
+        assert_eq!(texts(&one.unwrap(), 1), ["scene.ambient=0"]);
     }
 
     #[test]
