@@ -14,6 +14,7 @@
 mod basic;
 mod drawing;
 mod lexer;
+mod style;
 mod transform;
 
 pub use drawing::{Filled, drawing};

@@ -8,6 +8,7 @@
 //! The result has y pointing up, and its origin in the lower left corner of the page.
 
 use super::basic::{self, PIXELS_OF_A_MM};
+use super::style::{nonzero, property};
 use super::transform::{self, ViewBox};
 use super::{Outline, outlines};
 use glam::{DAffine2, DVec2};
@@ -183,30 +184,7 @@ fn at(node: Node<'_, '_>, message: &str) -> String {
     format!("`{}` in line {line}: {message}", node.tag_name().name())
 }
 
-/// Returns the value of a property of an element: of its `style`, or of the attribute.
-fn property<'a>(node: Node<'a, '_>, key: &str) -> Option<&'a str> {
-    let declared = |style: &'a str| {
-        let pairs = style.split(';').filter_map(|part| part.split_once(':'));
-        pairs.filter(|(name, _)| name.trim() == key).last()
-    };
-    let value = match node.attribute("style").and_then(declared) {
-        Some((_, value)) => value,
-        None => node.attribute(key)?,
-    };
-    Some(value.trim().trim_end_matches("!important").trim_end())
-}
-
-/// Returns whether the nonzero rule fills an element, as its `fill-rule` says, or else that of the element around it.
-fn nonzero(node: Node<'_, '_>, around: bool) -> bool {
-    match property(node, "fill-rule") {
-        Some("nonzero") => true,
-        Some("evenodd") => false,
-        // Other values are not valid, and count as left out.
-        _ => around,
-    }
-}
-
-/// What an element takes from the elements around it.
+/// The placement and the rule that an element takes from the elements around it.
 #[derive(Debug, Clone, Copy)]
 struct Around {
     to_page: DAffine2,
