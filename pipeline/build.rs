@@ -13,7 +13,7 @@ const FOLDERS: [&str; 6] = ["curves", "meshes", "pages", "scenes", "start", "tex
 const EXTENSIONS: [&str; 6] = ["csv", "json", "obj", "png", "svg", "swc"];
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let examples = Path::new(&env::var("CARGO_MANIFEST_DIR")?).join("../examples");
+    let examples = Path::new(&env::var("CARGO_MANIFEST_DIR")?).join("examples");
     let mut list = String::from("&[\n");
     for folder in FOLDERS {
         let path = examples.join(folder);

@@ -24,7 +24,7 @@ pub struct Accompanying {
 
 macro_rules! measured {
     ($file:literal) => {
-        include_str!(concat!("../../../docs/measured/", $file))
+        include_str!(concat!("../../measured/", $file))
     };
 }
 
