@@ -68,7 +68,9 @@ pub fn object(
 fn draft(bytes: &[u8], of_job: &Resolution) -> Option<Vec<u8>> {
     let mut spec: Value = serde_json::from_slice(bytes).ok()?;
     let changed = match spec.get_mut("parts").and_then(Value::as_array_mut) {
-        Some(parts) => parts.iter_mut().map(|part| usize::from(shrink(part, of_job))).sum(),
+        Some(parts) => {
+            parts.iter_mut().map(|part| shrink(part, of_job)).filter(|is_shrunk| *is_shrunk).count()
+        }
         None => usize::from(shrink(&mut spec, of_job)),
     };
     (changed > 0).then(|| spec.to_string().into_bytes())
