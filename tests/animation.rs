@@ -316,3 +316,23 @@ fn a_makefile_makes_the_frames_and_the_film() {
     assert!(files(&path.join("out")) == files(&path.join("alone")));
     assert!(path.join("film.gif").exists());
 }
+
+/// GNU parallel makes the same frames, also again after one is lost; where there is no parallel, the test says so.
+#[test]
+fn parallel_makes_the_frames_and_the_film() {
+    let folder = folder(r#""turntable": { "frames": 5 }"#);
+    let path = folder.path();
+    let flags = ["--chunk", "2", "--size", "24x18", "--film", "film.gif", "-o", "out"];
+    let start = ["farm", "jobs/job.json", "--engine", "parallel", "--script", "tasks.sh"];
+    let ran = run("pipeline", &[&start[..], &flags].concat(), path);
+    assert!(ran.status.success(), "{}", said(&ran));
+    if !shell("parallel --version | grep -q GNU", path).status.success() {
+        println!("not tested: there is no GNU parallel");
+        return;
+    }
+    let ran = shell("sh tasks.sh && rm out/job-exact.0002.png && sh tasks.sh", path);
+    assert!(ran.status.success(), "{}", said(&ran));
+    make(path, &["-o", "alone", "-q"]);
+    assert!(files(&path.join("out")) == files(&path.join("alone")));
+    assert!(path.join("film.gif").exists());
+}
