@@ -9,6 +9,7 @@ use super::{Finding, Severity, short};
 use crate::curve::cut::Stop;
 use crate::sampling::{Object, Sweep};
 use crate::spec::{FORMAT, Law, Resolution, Spec, Trajectory, VERSION, Wall};
+use crate::surface::contour::Contour;
 use files::json::Document;
 use glam::DVec2;
 
@@ -74,7 +75,7 @@ fn crossed(outlines: &[Sweep]) -> Crossings {
     for sweep in outlines {
         let contour = &sweep.shape.contour;
         closed = contour.closed();
-        let mut ends = contour.as_contour().map(|one| one.knots()).unwrap_or_default();
+        let mut ends = contour.as_contour().map(Contour::knots).unwrap_or_default();
         ends.extend([0.0, 1.0]);
         ends.sort_by(f64::total_cmp);
         ends.dedup();

@@ -59,7 +59,7 @@ impl Open {
                 material.specular = (strength.element_sum() / 3.0).min(1.0);
             }
             "ke" => {
-                material.emission = color(rest).ok_or("`Ke` and three numbers of at least 0")?
+                material.emission = color(rest).ok_or("`Ke` and three numbers of at least 0")?;
             }
             "ns" => {
                 let shininess: f64 = within(0.0, 1e6, "`Ns` and a number from 0 to 1e6")?;

@@ -5,8 +5,8 @@ use roxmltree::Node;
 /// Returns the value of a property of an element: of its `style`, or of the attribute.
 pub(super) fn property<'a>(node: Node<'a, '_>, key: &str) -> Option<&'a str> {
     let declared = |style: &'a str| {
-        let pairs = style.split(';').filter_map(|part| part.split_once(':'));
-        pairs.filter(|(name, _)| name.trim() == key).last()
+        let mut pairs = style.split(';').filter_map(|part| part.split_once(':'));
+        pairs.rfind(|(name, _)| name.trim() == key)
     };
     let value = match node.attribute("style").and_then(declared) {
         Some((_, value)) => value,
