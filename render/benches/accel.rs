@@ -1,6 +1,6 @@
 //! Measures how fast a tree, the grids and brute force find hits.
 //!
-//! Run it with `cargo bench -p render --bench accel`. The scene is a torus of about 10 000 or about
+//! Run it with `cargo bench -p topobook-render --bench accel`. The scene is a torus of about 10 000 or about
 //! 100 000 triangles over a floor, which stands apart. Each round times all structures on the same
 //! rays, one after the other, on one thread and in small batches. The fastest round of each batch
 //! counts, so that other work on the machine has little influence. docs/acceleration.md has a run.

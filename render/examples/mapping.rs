@@ -1,7 +1,7 @@
 //! Compares the map of texture coordinates on a triangle, in the thesis's form and in the form in
 //! use, with exact fractions.
 //!
-//! `cargo run --release -p render --example mapping -- FOLDER` writes `mapping.csv` and
+//! `cargo run --release -p topobook-render --example mapping -- FOLDER` writes `mapping.csv` and
 //! `mapping.svg` to that folder and prints the table of `docs/mapping.md`.
 
 #![expect(clippy::print_stdout, reason = "it is a program")]

@@ -1,6 +1,6 @@
 //! A closed tube along a trefoil, 4000 x 250 cells: frames, points, exact normals, and its file.
 //!
-//! `cargo bench -p sweep`. Times are those of this machine and this moment; docs/speed.md has ratios.
+//! `cargo bench -p topobook-sweep`. Times are those of this machine and this moment; docs/speed.md has ratios.
 
 use divan::Bencher;
 use divan::counter::ItemsCount;

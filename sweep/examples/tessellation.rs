@@ -1,7 +1,7 @@
 //! Speed against error: how many quads, and how much time, uniform and adaptive cells need to come
 //! as near to a surface as is asked.
 //!
-//! `cargo run --release -p sweep --example tessellation -- FOLDER` writes `tessellation.csv` and
+//! `cargo run --release -p topobook-sweep --example tessellation -- FOLDER` writes `tessellation.csv` and
 //! `tessellation.svg` there. Uniform grids get the proportion of rows to columns that needs the fewest
 //! quads for each shape and tolerance; both are measured by the same rule.
 

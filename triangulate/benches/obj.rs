@@ -1,6 +1,6 @@
 //! Two million triangles of a tube along a trefoil: in memory, as OBJ, and from a grid file to OBJ.
 //!
-//! `cargo bench -p triangulate`. Times are those of this machine and this moment.
+//! `cargo bench -p topobook-triangulate`. Times are those of this machine and this moment.
 
 use divan::Bencher;
 use divan::counter::ItemsCount;

@@ -36,7 +36,7 @@ pub const ALL: [Accompanying; 3] = [
         about: "Averages of four textures over 9216 footprints of a floor in perspective: nanoseconds, their \
                 ratio to bilinear interpolation, and root mean square errors for a texture from black (0) to white \
                 (1), also by texture and by the angle between view and texture.",
-        command: "cargo bench -p render --bench filters -- docs/measured",
+        command: "cargo bench -p topobook-render --bench filters -- docs/measured",
         table: measured!("filters.csv"),
         drawing: measured!("filters.svg"),
     },
@@ -45,7 +45,7 @@ pub const ALL: [Accompanying; 3] = [
         title: "Quads and seconds against the distance to the surface",
         about: "Rows and columns placed where the surface bends, against evenly spaced rows and \
                 columns in the proportion that needs the fewest quads, both measured by one rule.",
-        command: "cargo run --release -p sweep --example tessellation -- docs/measured",
+        command: "cargo run --release -p topobook-sweep --example tessellation -- docs/measured",
         table: measured!("tessellation.csv"),
         drawing: measured!("tessellation.svg"),
     },
@@ -55,7 +55,7 @@ pub const ALL: [Accompanying; 3] = [
         about: "Errors against exact fractions, 1000 hits in each class of triangles, as \
                 fractions of the texture: median and largest, and the number of hits without a \
                 result. The renderer uses the weights.",
-        command: "cargo run --release -p render --example mapping -- docs/measured",
+        command: "cargo run --release -p topobook-render --example mapping -- docs/measured",
         table: measured!("mapping.csv"),
         drawing: measured!("mapping.svg"),
     },

@@ -1,6 +1,6 @@
 //! Speed of each filter as a ratio to bilinear interpolation, and its error, on one set of footprints.
 //!
-//! `cargo bench -p render --bench filters -- docs/measured` writes `filters.csv` and `filters.svg`
+//! `cargo bench -p topobook-render --bench filters -- docs/measured` writes `filters.csv` and `filters.svg`
 //! to that folder. Without a folder it only prints. docs/filters.md describes the measurement. With
 //! `--full` it prints the errors against the box over 110 592 footprints instead of 9216, without times. With
 //! `--only=exact` only methods whose names begin so are measured, beside bilinear interpolation.
