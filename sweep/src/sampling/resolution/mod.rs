@@ -9,7 +9,7 @@
 //!    The product of two integrals is minimized under a bound on every cell, which is a convex problem in the
 //!    logarithms. `stops` puts the stops accordingly.
 //! 3. The result is measured again, and the steps are repeated until the tolerance is kept. Then columns and
-//!    rows are removed until one less would break it, and exchanged for each other where that takes fewer cells (`trim`).
+//!    rows are removed until one less would break it.
 //! 4. `stall` ends the search where finer cells do not come nearer to an angle. Then the coarsest cells that come as
 //!    near are made.
 //!
@@ -23,7 +23,6 @@ mod search;
 mod stall;
 pub(crate) mod stops;
 mod triangle;
-mod trim;
 mod view;
 
 pub use search::{Cells, Search, Tell};

@@ -30,7 +30,7 @@ const MOST_ROUNDS: usize = 40;
 const TRIALS: usize = 20;
 
 /// Factor by which a trial after a failed one is finer than expected to be necessary.
-pub(super) const SAFETY: f64 = 1.003;
+const SAFETY: f64 = 1.003;
 
 /// If a trial fails with a load above this, new densities are found instead of refining all cells.
 const UNEVEN: f64 = 1.1;
@@ -40,6 +40,12 @@ const RESHAPED: usize = 3;
 
 /// Least factor by which all cells are refined if some fail.
 const LEAST_STEP: f64 = 1.01;
+
+/// Cells that thinning may measure, in addition to `TRIMMED_TIMES` times the number of cells.
+const TRIMMED: usize = 150_000;
+
+/// Multiple of the number of cells that thinning may measure.
+const TRIMMED_TIMES: usize = 2;
 
 /// Largest angle of a tolerance, in radians.
 const MOST_ANGLE: f64 = 3.1;
@@ -75,23 +81,23 @@ pub struct Cells {
 
 /// Densities along the trajectory and the contour, with a factor for each.
 #[derive(Debug, Clone)]
-pub(super) struct Plan {
-    pub densities: [Density; 2],
-    pub factors: [f64; 2],
+struct Plan {
+    densities: [Density; 2],
+    factors: [f64; 2],
 }
 
 /// The number of cuts that were measured, and the receiver of the progress.
-pub(super) struct Rounds<'a> {
+struct Rounds<'a> {
     count: usize,
     tell: Tell<'a>,
 }
 
 /// A plan that has been cut and measured.
-pub(super) struct Tried {
-    pub plan: Plan,
+struct Tried {
+    plan: Plan,
     stops: [Vec<Stop>; 2],
-    pub field: Field,
-    pub worst: f64,
+    field: Field,
+    worst: f64,
     /// True if finer cells were not nearer to the tolerance.
     stalled: bool,
 }
@@ -130,7 +136,6 @@ impl Search<'_> {
                 best = again;
             }
             best = self.thinned(best, &mut rounds);
-            best = self.evened(best, &mut rounds);
         }
         let Tried { stops: [rows, cols], field, .. } = best;
         let reached = self.reached(&field, rounds.count);
@@ -260,6 +265,39 @@ impl Search<'_> {
         }
     }
 
+    /// Removes columns and rows from a cut as long as the tolerance is kept.
+    fn thinned(&self, mut best: Tried, rounds: &mut Rounds<'_>) -> Tried {
+        let mut left = TRIMMED + TRIMMED_TIMES * best.field.quads();
+        let mut steps = [0.06; 2];
+        let mut stuck = [false; 2];
+        while !(stuck[0] && stuck[1]) {
+            for at in 0..2 {
+                if stuck[at] || best.field.quads() > left {
+                    stuck[at] = true;
+                    continue;
+                }
+                let (density, factor) = (&best.plan.densities[at], best.plan.factors[at]);
+                let Some(fewer) = self.directions[at].fewer(density, factor) else {
+                    stuck[at] = true;
+                    continue;
+                };
+                let single = factor * (1.0 - steps[at]) >= fewer;
+                let mut plan = best.plan.clone();
+                plan.factors[at] = fewer.min(factor * (1.0 - steps[at]));
+                let tried = self.tried(plan, rounds);
+                left = left.saturating_sub(tried.field.quads());
+                if tried.worst <= 1.0 {
+                    best = tried;
+                } else if single {
+                    stuck[at] = true;
+                } else {
+                    steps[at] *= 0.4;
+                }
+            }
+        }
+        best
+    }
+
     /// Makes a plan coarser until it has at most `most` cells, or one cell for each piece. Returns whether
     /// the plan was within the limits before.
     fn fit(&self, plan: &mut Plan, most: usize) -> bool {
@@ -286,7 +324,7 @@ impl Search<'_> {
         false
     }
 
-    pub(super) fn counts(&self, plan: &Plan) -> [usize; 2] {
+    fn counts(&self, plan: &Plan) -> [usize; 2] {
         [0, 1].map(|at| self.directions[at].count(&plan.densities[at], plan.factors[at]))
     }
 
@@ -303,7 +341,7 @@ impl Search<'_> {
         demand::fewest(field, self.directions[1].even.is_some(), count)
     }
 
-    pub(super) fn tried(&self, plan: Plan, rounds: &mut Rounds<'_>) -> Tried {
+    fn tried(&self, plan: Plan, rounds: &mut Rounds<'_>) -> Tried {
         rounds.count += 1;
         (rounds.tell)(rounds.count.min(MOST_ROUNDS - 1), MOST_ROUNDS);
         let stops =
