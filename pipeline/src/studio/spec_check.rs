@@ -81,7 +81,7 @@ fn specs(snapshot: &Snapshot) -> Result<Vec<Value>, PipelineError> {
                 "area": measures.area,
                 "size": (high - low).to_array(),
                 "low": low.to_array(),
-                "unit": object.unit().map(|unit| unit.symbol()),
+                "unit": object.unit().map(sweep::grid::Unit::symbol),
                 "euler": report.euler, "rims": report.boundary_loops,
                 "sides": if report.orientable { 2 } else { 1 },
                 "vertices": report.vertices, "triangles": report.faces,
