@@ -1,4 +1,4 @@
-//! A browser, driven over WebDriver (W3C Recommendation of 2018).
+//! A browser, driven over `WebDriver` (W3C Recommendation of 2018).
 //!
 //! Few commands are needed, and a server on this machine needs no TLS. So this file takes the place of a crate that would
 //! add an HTTP client to the build of all tests.
