@@ -34,12 +34,16 @@ const FEWEST: f64 = 96.0 * 96.0;
 /// Time for which a moving handle is awaited before finer work starts.
 const PATIENCE: Duration = Duration::from_millis(220);
 
+/// Time between two tellings of the curves while a handle moves.
+const CURVES: Duration = Duration::from_millis(120);
+
 /// Time between two reports of progress.
 const REPORTS: Duration = Duration::from_millis(80);
 
 /// Makes pictures until the board ends.
 pub fn run(board: &Board, pool: &ThreadPool) {
-    let mut worker = Worker { board, kept: None, seconds_per_pixel: [2e-6; 2], drawn: 0 };
+    let mut worker =
+        Worker { board, kept: None, seconds_per_pixel: [2e-6; 2], drawn: 0, told: Instant::now() };
     let mut carried: Option<Snapshot> = None;
     let mut seen = 0;
     loop {
@@ -93,6 +97,8 @@ struct Worker<'b> {
     seconds_per_pixel: [f64; 2],
     /// The last revision whose draft is done.
     drawn: u64,
+    /// The time when the curves were told last.
+    told: Instant,
 }
 
 impl Worker<'_> {
@@ -122,7 +128,11 @@ impl Worker<'_> {
                     self.draft(&prepared, &files, &snapshot, (is_stated, making));
                     making = Duration::ZERO;
                     self.drawn = snapshot.revision;
-                    curves::tell(board, &snapshot, &kept.objects);
+                    // The editors draw the moving handle themselves, so their curves may come less often.
+                    if !snapshot.is_moving || self.told.elapsed() >= CURVES {
+                        curves::tell(board, &snapshot, &kept.objects);
+                        self.told = Instant::now();
+                    }
                 }
                 let mut is_refined = false;
                 let next = loop {

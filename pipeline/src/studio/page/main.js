@@ -53,6 +53,7 @@ on("state", (state) => {
     element("start").hidden = true;
     element("studio").hidden = false;
     element("curves").hidden = !state.specs.length;
+    element("tab-spec-form").hidden = !state.specs.length;
     queueMicrotask(showSpec);
   }
   const paths = [...new Set(state.specs.map((one) => one.path))];
