@@ -7,7 +7,7 @@
 
 use crate::identity::{Identity, Number, folder_of, folds_case};
 use crate::{Disk, Exit, Failure, FileError, Output, Source, input};
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::io::BufRead;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -24,6 +24,8 @@ pub struct Ledger {
 struct Entries {
     /// The names of inputs in messages.
     inputs: HashMap<Identity, String>,
+    /// The paths of inputs.
+    paths: BTreeSet<PathBuf>,
     outputs: HashMap<Identity, Claim>,
     /// Lowercase names of outputs in their folders, with the claim of the spelling used.
     spellings: HashMap<(Number, String), Claim>,
@@ -145,6 +147,12 @@ impl Ledger {
         input::open(argument)
     }
 
+    /// Returns the paths of the files that were read or looked for.
+    #[must_use]
+    pub fn inputs(&self) -> Vec<PathBuf> {
+        self.entries().paths.iter().cloned().collect()
+    }
+
     fn entries(&self) -> MutexGuard<'_, Entries> {
         self.entries.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -195,6 +203,9 @@ impl Ledger {
         }
         for key in keys {
             entries.inputs.entry(key).or_insert_with(|| input.clone());
+        }
+        if !input::is_stdin(argument) {
+            entries.paths.insert(argument.to_path_buf());
         }
         Ok(())
     }

@@ -60,6 +60,7 @@ pub mod stop;
 pub mod svg;
 mod target;
 pub mod variants;
+pub mod watch;
 pub mod words;
 
 pub use batch::Batch;

@@ -12,7 +12,8 @@ mod work;
 use clap::Parser;
 use files::memory::of_process;
 use files::progress::Progress;
-use files::{Exit, Failure, Report, Setting};
+use files::watch::PipeError;
+use files::{Exit, Failure, Ledger, Report, Setting};
 use render::film::{self, BasePicture, Crop, Layer, alpha, memory};
 use render::scene::{self, schema};
 use render::shade::View;
@@ -152,8 +153,20 @@ impl Failure for EncodeError {
     }
 }
 
+impl Arguments {
+    /// Returns whether the picture is made again after each change of an input.
+    pub fn watches(&self) -> bool {
+        self.output.watch
+    }
+
+    /// Returns the ledger of the files of one run.
+    pub fn ledger(&self) -> Ledger {
+        self.output.ledger()
+    }
+}
+
 /// Renders or checks the scene, or prints the text that the arguments request.
-pub fn run(arguments: &Arguments) -> Result<(), Report> {
+pub fn run(arguments: &Arguments, ledger: &Ledger) -> Result<(), Report> {
     let Arguments { input, output, sampling, accuracy, textures, work } = arguments;
     if input.emit_schema {
         return Ok(output::print(&format!("{:#}\n", schema::of_scene()))?);
@@ -161,17 +174,19 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
     files::memory::allow(work.max_memory);
     files::progress::choose(work.progress);
     input.check()?;
+    if output.watch && (input.reads_stdin() || output.is_stdout()) {
+        return Err(PipeError("name them, and the picture with -o FILE").into());
+    }
     if input.check {
-        return check(arguments);
+        return check(arguments, ledger);
     }
     sampling.check()?;
     accuracy.check(sampling)?;
-    let ledger = output.ledger();
-    let target = output.target(sampling.pixel.is_some(), &ledger)?;
-    input.expect(&ledger)?;
-    let variants = input.variants(&ledger)?;
+    let target = output.target(sampling.pixel.is_some(), ledger)?;
+    input.expect(ledger)?;
+    let variants = input.variants(ledger)?;
     let targets = match (&variants, &target) {
-        (Some(variants), Some(target)) => target.of_variants(variants, &ledger)?,
+        (Some(variants), Some(target)) => target.of_variants(variants, ledger)?,
         _ => Vec::new(),
     };
     let (width, height) = sampling.size;
@@ -188,7 +203,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
         return Err(UseError::ErrorOfThesis.into());
     }
     let begun = Instant::now();
-    let mut loaded = input.load(&ledger, &staging(sampling.size, output))?;
+    let mut loaded = input.load(ledger, &staging(sampling.size, output))?;
     let Some(variants) = variants else {
         return picture(
             arguments,
@@ -287,15 +302,14 @@ fn staging((width, height): (u32, u32), output: &output::OutputArguments) -> mes
 }
 
 /// Prints the inventory and the findings of `--check`.
-fn check(arguments: &Arguments) -> Result<(), Report> {
+fn check(arguments: &Arguments, ledger: &Ledger) -> Result<(), Report> {
     let Arguments { input, output, sampling, textures, .. } = arguments;
     let (width, height) = sampling.size;
     let aspect = f64::from(width) / f64::from(height);
     let filter = textures.filter;
     let tables = |texture: &_| filter.bytes_for(texture);
     let staging = staging(sampling.size, output);
-    let ledger = output.ledger();
-    let mut loaded = input.load(&ledger, &staging)?;
+    let mut loaded = input.load(ledger, &staging)?;
     let report = loaded.scene(input.settings(), true, |draft, scene| {
         Ok(scene::check::check(draft, &scene, aspect, &tables)?)
     })?;

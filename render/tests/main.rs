@@ -58,3 +58,4 @@ mod studio;
 mod textures;
 mod transparent;
 mod views;
+mod watched;

@@ -8,12 +8,14 @@ use clap::Parser;
 use files::exit::{Exit, Failure, Report, say, wrote};
 use files::json::Document;
 use files::progress::Progress;
+use files::watch::PipeError;
 use files::{Batch, Ledger, Output, Setting, extension, input, memory, setting};
 use format::Format;
 use resolution::ResolutionArguments;
 use std::io::{self, IsTerminal, Write};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 use sweep::grid::file::Encoding;
 use sweep::{Object, Spent, Sweep, check, preview, schema};
@@ -105,7 +107,14 @@ pub struct Arguments {
     /// Fail if the output file exists
     #[arg(long)]
     no_clobber: bool,
+
+    /// Do the work again whenever the spec or a file that it names changes, until Ctrl-C
+    #[arg(long, conflicts_with = "no_clobber")]
+    watch: bool,
 }
+
+/// Whether the threads of the process have started.
+static THREADS: AtomicBool = AtomicBool::new(false);
 
 #[derive(Debug, Error)]
 enum UseError {
@@ -131,12 +140,24 @@ impl Failure for UseError {
     }
 }
 
+impl Arguments {
+    /// Returns whether the work is done again after each change of an input.
+    pub fn watches(&self) -> bool {
+        self.watch
+    }
+
+    /// Returns the ledger of the files of one run.
+    pub fn ledger(&self) -> Ledger {
+        Ledger::new(!self.no_clobber)
+    }
+}
+
 /// Sweeps, checks or draws an object as the arguments request.
 ///
 /// # Errors
 /// When the arguments contradict each other, a file cannot be read or written, the spec is refused, or `--check`
 /// finds something wrong.
-pub fn run(arguments: &Arguments) -> Result<(), Report> {
+pub fn run(arguments: &Arguments, ledger: &Ledger) -> Result<(), Report> {
     if arguments.emit_schema {
         return emit_schema();
     }
@@ -155,7 +176,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
     if to_stdout && encoding == Encoding::Binary && io::stdout().is_terminal() {
         return Err(UseError::Terminal.into());
     }
-    if let Some(threads) = arguments.threads {
+    let is_pipe = input::is_stdin(&arguments.spec) || to_stdout || drawn_to_stdout;
+    if arguments.watch && is_pipe {
+        return Err(PipeError("name the spec, and its outputs with -o or --preview").into());
+    }
+    // The threads are those of the first run.
+    if let Some(threads) = arguments.threads.filter(|_| !THREADS.swap(true, Ordering::Relaxed)) {
         rayon::ThreadPoolBuilder::new()
             .num_threads(threads.into())
             .build_global()
@@ -165,7 +191,6 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
     let start = Instant::now();
     memory::allow(arguments.max_memory);
     files::progress::choose(arguments.progress);
-    let ledger = Ledger::new(!arguments.no_clobber);
     let file = output.map(|path| ledger.output(path, "name another file with -o")).transpose()?;
     let draw_to = |path| ledger.output(path, "name another file with --preview");
     let preview = arguments.preview.as_deref().map(draw_to).transpose()?;
@@ -185,7 +210,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
     let fitting = Progress::new("cells", arguments.quiet);
     let tell = |done, most| fitting.tell(done, most);
     let overrides = arguments.resolution.overrides();
-    let object = Object::read_telling(&document, folder, &ledger, &overrides, &tell)?;
+    let object = Object::read_telling(&document, folder, ledger, &overrides, &tell)?;
     drop(fitting);
     let read = Instant::now();
     let mut spent = Spent::default();

@@ -10,5 +10,12 @@ fn main() -> ExitCode {
         return code;
     }
     let arguments = cli::Arguments::parse();
-    files::exit::run("sweep", || cli::run(&arguments))
+    if arguments.watches() {
+        return files::watch::repeat(
+            "sweep",
+            || arguments.ledger(),
+            |ledger| cli::run(&arguments, ledger),
+        );
+    }
+    files::exit::run("sweep", || cli::run(&arguments, &arguments.ledger()))
 }

@@ -66,6 +66,13 @@ impl InputArguments {
         Ok(())
     }
 
+    /// Returns whether an input is standard input.
+    pub fn reads_stdin(&self) -> bool {
+        let meshes = self.meshes.iter().map(|mesh| mesh.file.as_path());
+        let files = meshes.chain(self.jobs_from.as_deref()).chain([self.scene()]);
+        files.into_iter().any(input::is_stdin)
+    }
+
     /// Enters the files that will be read into the ledger, so that no output replaces them.
     pub fn expect(&self, ledger: &Ledger) -> Result<(), FileError> {
         ledger.expect(self.scene(), "the scene")?;

@@ -38,6 +38,9 @@ pub struct OutputArguments {
     /// Fail if the picture file exists
     #[arg(long)]
     no_clobber: bool,
+    /// Make the picture again whenever the scene or a file that it names changes, until Ctrl-C
+    #[arg(long, conflicts_with_all = ["no_clobber", "partial"])]
+    pub watch: bool,
 }
 
 /// A picture file that the run may write.
@@ -103,6 +106,11 @@ impl OutputArguments {
     /// Returns the bytes per pixel that a PNG of 16 bits takes beyond those of one of 8 bits.
     pub fn more_bytes(&self) -> u64 {
         if self.bits == Bits::Sixteen { 3 * 4 } else { 0 }
+    }
+
+    /// Returns whether the picture goes to standard output.
+    pub fn is_stdout(&self) -> bool {
+        self.output.as_deref().is_some_and(input::is_stdin)
     }
 
     /// Returns the ledger of the run's files, which may or may not replace an existing output.
