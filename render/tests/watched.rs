@@ -72,7 +72,8 @@ fn a_picture_follows_its_scene_and_its_textures() {
 #[test]
 fn pipes_are_not_watched() {
     let bench = Bench::with_scene(WALL);
-    for arguments in [&["-", "-o", "out.png", "--watch"][..], &["scene.json", "-o", "-", "--watch"]] {
+    for arguments in [&["-", "-o", "out.png", "--watch"][..], &["scene.json", "-o", "-", "--watch"]]
+    {
         let run = bench.run(arguments, WALL.as_bytes());
         assert_eq!(run.status.code(), Some(2));
         let said = fixtures::program::said(&run);
