@@ -23,6 +23,7 @@ mod pages;
 mod pipe;
 mod prose;
 mod python;
+mod reference;
 mod reliefs;
 mod report;
 mod requested;

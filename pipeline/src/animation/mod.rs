@@ -31,16 +31,20 @@ pub mod digest;
 pub mod film;
 pub mod frames;
 pub mod law;
+mod schema;
 pub mod turntable;
 
 use crate::{Job, PipelineError};
 use files::json::Document;
 use files::names::each_name_once;
+use files::schema::range;
 use files::{JsonError, Setting, Source};
 use law::Law;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
 use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
 use turntable::{Turntable, TurntableFile};
 
 /// Most frames of an animation.
@@ -48,6 +52,9 @@ pub const MOST_FRAMES: u32 = 1_000_000;
 
 /// Frames per second unless a job states them.
 const FPS: f64 = 24.0;
+
+/// Range of frames per second.
+const FPS_RANGE: RangeInclusive<f64> = 1e-3..=1e3;
 
 /// The animation of a job, checked.
 #[derive(Debug, Clone, PartialEq)]
@@ -63,15 +70,24 @@ pub struct Animation {
     turntable: Option<Turntable>,
 }
 
-/// The key `animate` as it is read.
-#[derive(Debug, Deserialize)]
+/// Values of the scene and of specs that change from frame to frame.
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "Animation")]
 pub struct AnimateFile {
+    /// Number of frames.
+    #[schemars(transform = range(1..=MOST_FRAMES))]
     frames: u32,
+    /// Frames per second; 24 if left out.
     #[serde(default)]
+    #[schemars(transform = range(FPS_RANGE))]
     fps: Option<f64>,
+    /// Values by their paths, which are `scene.` and a path in the scene, or `specs.NAME.` and a path in the spec of
+    /// a mesh, as `-D` takes them.
     #[serde(default, deserialize_with = "each_name_once")]
+    #[schemars(with = "BTreeMap<String, schema::OverTime>")]
     set: BTreeMap<String, Value>,
+    /// True if the first frame follows the last, which is then a step before the end.
     #[serde(default, rename = "loop")]
     loops: bool,
 }
@@ -103,7 +119,7 @@ impl Animation {
             let message = format!("found {frames}, expected 1 to {MOST_FRAMES}");
             return Err(document.fault(&format!("{at}.frames"), message));
         }
-        let fps = within(document, &format!("{at}.fps"), fps.unwrap_or(FPS), [1e-3, 1e3])?;
+        let fps = within(document, &format!("{at}.fps"), fps.unwrap_or(FPS), FPS_RANGE)?;
         let mut set = Vec::new();
         let loops = animate.as_ref().is_some_and(|animate| animate.loops);
         for (path, value) in animate.map(|animate| animate.set).unwrap_or_default() {
@@ -173,11 +189,12 @@ fn within(
     document: &Document<'_>,
     path: &str,
     number: f64,
-    [low, high]: [f64; 2],
+    range: RangeInclusive<f64>,
 ) -> Result<f64, JsonError> {
-    if (low..=high).contains(&number) {
+    if range.contains(&number) {
         return Ok(number);
     }
+    let (low, high) = range.into_inner();
     Err(document.fault(path, format!("found {number}, expected {low} to {high}")))
 }
 

@@ -4,34 +4,42 @@
 //! axis, and the lights stay with the objects. Nothing but the camera changes, so that meshes, trees and tables are
 //! made once.
 
-use super::within;
+use super::{FPS_RANGE, MOST_FRAMES, within};
 use files::JsonError;
 use files::json::Document;
+use files::schema::range;
 use glam::{DQuat, DVec3};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
 
 /// Frames of a turntable unless a job states them.
 pub const FRAMES: u32 = 48;
 
-/// The key `turntable` as it is read.
-#[derive(Debug, Deserialize)]
+/// A turn of the camera about the objects of the scene. Nothing but the camera changes.
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "Turntable")]
 pub struct TurntableFile {
     /// Number of frames, without `animate`; 48 if left out.
     #[serde(default)]
+    #[schemars(transform = range(1..=MOST_FRAMES))]
     pub frames: Option<u32>,
     /// Frames per second, without `animate`; 24 if left out.
     #[serde(default)]
+    #[schemars(transform = range(FPS_RANGE))]
     pub fps: Option<f64>,
     /// A point of the axis; the camera's target if left out.
     #[serde(default)]
+    #[schemars(transform = range(-LARGEST..=LARGEST))]
     about: Option<[f64; 3]>,
     /// Direction of the axis; up if left out.
     #[serde(default = "up")]
+    #[schemars(transform = range(-LARGEST..=LARGEST))]
     axis: [f64; 3],
     /// Number of turns over all frames, negative for clockwise; 1 if left out.
     #[serde(default = "once")]
+    #[schemars(transform = range(-LARGEST..=LARGEST))]
     turns: f64,
 }
 
@@ -63,7 +71,7 @@ impl Turntable {
     pub fn read(document: &Document<'_>, file: TurntableFile) -> Result<Self, JsonError> {
         let vector = |key: &str, vector: [f64; 3]| -> Result<DVec3, JsonError> {
             for (k, x) in vector.into_iter().enumerate() {
-                within(document, &format!("turntable.{key}[{k}]"), x, [-LARGEST, LARGEST])?;
+                within(document, &format!("turntable.{key}[{k}]"), x, -LARGEST..=LARGEST)?;
             }
             Ok(DVec3::from(vector))
         };
@@ -72,7 +80,7 @@ impl Turntable {
             let message = "found an axis without a length, expected a direction such as [0, 1, 0]";
             return Err(document.fault("turntable.axis", message));
         };
-        let turns = within(document, "turntable.turns", file.turns, [-LARGEST, LARGEST])?;
+        let turns = within(document, "turntable.turns", file.turns, -LARGEST..=LARGEST)?;
         Ok(Self { about, axis, turns })
     }
 

@@ -15,6 +15,7 @@ mod new;
 mod pack;
 mod report;
 mod run;
+mod schema;
 mod show;
 #[cfg(feature = "studio")]
 mod studio;
@@ -48,6 +49,7 @@ Examples:
   pipeline join part-1.exr part-2.exr -o whole.exr
   pipeline studio vase
   pipeline compare a.png b.png --map difference.png --rmse 0.01
+  pipeline --emit-schema job > tb-job.schema.json
 
 pipeline completions SHELL prints completions for bash, elvish, fish, powershell or zsh; pipeline man
 prints a page for man.
@@ -63,10 +65,13 @@ Exit codes: 1 pictures that differ by more than is allowed, 2 bad use, 3 malform
 
 /// From curves to pictures: sweep, triangulate and render in one process.
 #[derive(Debug, Parser)]
-#[command(name = "pipeline", version, after_help = EXAMPLES)]
+#[command(name = "pipeline", version, after_help = EXAMPLES, arg_required_else_help = true)]
 struct Arguments {
+    /// Print the JSON Schema of a file format and do nothing else
+    #[arg(long, value_name = "FORMAT", num_args = 0..=1, default_missing_value = "job")]
+    emit_schema: Option<schema::Format>,
     #[command(subcommand)]
-    command: Command,
+    command: Option<Command>,
 }
 
 #[derive(Debug, Subcommand)]
@@ -108,7 +113,11 @@ pub fn main(memory: Option<&dyn Memory>) -> ExitCode {
         return code;
     }
     let arguments = Arguments::parse();
-    files::exit::run("pipeline", || run(&arguments.command, memory))
+    files::exit::run("pipeline", || match (&arguments.command, arguments.emit_schema) {
+        (_, Some(format)) => schema::emit(format),
+        (Some(command), None) => run(command, memory),
+        (None, None) => Ok(()),
+    })
 }
 
 fn run(command: &Command, memory: Option<&dyn Memory>) -> Result<(), Report> {

@@ -50,26 +50,23 @@
 //! `caption` and `crops` are for the book. Crops are positions, as fractions of width and height,
 //! whose pixels are worth a close look.
 
-use crate::animation::turntable::TurntableFile;
-use crate::animation::{AnimateFile, Animation};
+use crate::animation::Animation;
+use file::JobFile;
 use files::json::Document;
-use files::names::each_name_once;
-use files::note::Note;
 use files::{JsonError, Source};
-use mode::ModeFile;
-use serde::Deserialize;
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use sweep::spec;
 use triangulate::Options;
 
 pub mod figure;
+mod file;
 pub mod mode;
 mod requested;
 mod sampling;
 mod select;
 
+pub use file::{Place, schema};
 pub use mode::Mode;
 
 use crate::PipelineError;
@@ -138,55 +135,6 @@ impl MeshJob {
             Err(error) => error,
         }
     }
-}
-
-/// A position in a picture.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Place {
-    /// Description of the picture at this position.
-    pub title: String,
-    /// The middle, as fractions of the width from the left and of the height from the top, both in
-    /// [0, 1].
-    pub at: [f64; 2],
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct JobFile {
-    #[expect(dead_code, reason = "looked at by Document::expect, and must be there")]
-    format: String,
-    #[expect(dead_code, reason = "looked at by Document::expect, and must be there")]
-    version: u32,
-    #[expect(dead_code, reason = "for people")]
-    note: Option<Note>,
-    #[serde(default)]
-    title: String,
-    #[serde(default)]
-    caption: String,
-    #[serde(default)]
-    crops: Vec<Place>,
-    #[serde(default, deserialize_with = "each_name_once")]
-    meshes: BTreeMap<String, MeshFile>,
-    scene: PathBuf,
-    #[serde(default)]
-    modes: Option<Vec<ModeFile>>,
-    #[serde(default)]
-    animate: Option<AnimateFile>,
-    #[serde(default)]
-    turntable: Option<TurntableFile>,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct MeshFile {
-    spec: PathBuf,
-    #[serde(default)]
-    texture: Option<u32>,
-    #[serde(default)]
-    surface: Option<u32>,
-    #[serde(default)]
-    mesh: spec::Resolution,
 }
 
 impl Job {

@@ -1,15 +1,15 @@
 //! The modes in which a scene is rendered, and the thesis's figures that they reproduce.
 
+use super::file::ModeFile;
 use super::requested::Requested;
-use super::sampling::{SamplingKeys, Split};
+use super::sampling::SamplingKeys;
 use super::{check_word, figure};
 use files::JsonError;
 use files::json::Document;
 use render::Sampling;
 use render::accel::Structure;
-use render::film::{PatternName, PixelFilter, SamplingMethod, Supersample, THRESHOLD};
+use render::film::{PixelFilter, THRESHOLD};
 use render::filter::Filter;
-use serde::Deserialize;
 use std::collections::HashSet;
 
 /// The settings of one rendering of a scene.
@@ -65,36 +65,6 @@ impl Mode {
     pub fn figure_number(&self) -> Option<u8> {
         figure::number(self.figure.as_deref()?)
     }
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct ModeFile {
-    name: String,
-    #[serde(default)]
-    filter: Option<Filter>,
-    #[serde(default)]
-    accel: Structure,
-    #[serde(default)]
-    sampling: Option<SamplingMethod>,
-    #[serde(default)]
-    error: Option<Requested>,
-    #[serde(default)]
-    samples: Option<u32>,
-    #[serde(default)]
-    split: Option<Split>,
-    #[serde(default)]
-    pattern: Option<PatternName>,
-    #[serde(default)]
-    seed: Option<u64>,
-    #[serde(default)]
-    pixel_filter: Option<PixelFilter>,
-    #[serde(default)]
-    supersample: Option<Supersample>,
-    #[serde(default)]
-    figure: Option<String>,
-    #[serde(default)]
-    thesis_minutes: Option<u32>,
 }
 
 impl ModeFile {

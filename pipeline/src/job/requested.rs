@@ -1,7 +1,9 @@
 //! The value of the key `error`: a number, or `"8bit"`.
 
 use render::accuracy::OF_8BIT;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserialize, Deserializer, Visitor};
+use std::borrow::Cow;
 use std::fmt;
 
 /// A requested error, which may be out of range.
@@ -13,6 +15,22 @@ impl Requested {
     #[must_use]
     pub fn number(self) -> f64 {
         self.0
+    }
+}
+
+impl JsonSchema for Requested {
+    fn schema_name() -> Cow<'static, str> {
+        "Requested".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "description": "An error in linear light, or `8bit` for half a step of an 8-bit picture.",
+            "anyOf": [
+                { "type": "number", "exclusiveMinimum": 0, "exclusiveMaximum": 1 },
+                { "const": "8bit" },
+            ],
+        })
     }
 }
 

@@ -8,7 +8,9 @@ use render::accuracy;
 use render::film::{
     MOST_SAMPLES, PatternName, PixelFilter, SPLITS, SamplingMethod, Supersample, THRESHOLD,
 };
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserialize, Deserializer, Visitor};
+use std::borrow::Cow;
 use std::fmt;
 
 /// The keys of a mode that choose the rays of a pixel. Keys that are left out are `None`.
@@ -130,6 +132,20 @@ impl SamplingKeys {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Split(Option<f64>);
 
+impl JsonSchema for Split {
+    fn schema_name() -> Cow<'static, str> {
+        "Split".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        let (least, most) = (SPLITS.start(), SPLITS.end());
+        json_schema!({
+            "description": "A threshold, or `none`.",
+            "anyOf": [{ "type": "number", "minimum": least, "maximum": most }, { "const": "none" }],
+        })
+    }
+}
+
 impl<'de> Deserialize<'de> for Split {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_any(SplitVisitor)
@@ -167,7 +183,7 @@ impl Visitor<'_> for SplitVisitor {
 
 #[cfg(test)]
 mod tests {
-    use super::super::mode::ModeFile;
+    use super::super::file::ModeFile;
     use super::*;
     use render::film::Pattern;
 

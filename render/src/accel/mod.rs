@@ -57,6 +57,7 @@ use group::Group;
 use kernel::Kernel;
 use lanes::Lanes;
 use leaf::{Leaf, Probe};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use simd::{Instructions, Task};
 use top::Trees;
@@ -86,8 +87,11 @@ const EYE_ROUNDINGS: f64 = 4.0;
 /// A structure that finds the pieces which a ray may meet. All structures give the same picture,
 /// byte for byte. The name of a structure on the command line and in JSON is that of the variant;
 /// the attribute `help` is the text of `--help`.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, ValueEnum)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, ValueEnum, JsonSchema)]
 #[serde(rename_all = "lowercase")]
+#[schemars(
+    description = "A structure that finds the pieces which a ray may meet. All structures give the same picture."
+)]
 pub enum Structure {
     /// Trees of boxes, bounding volume hierarchies: one over the objects, and one for each mesh.
     #[default]

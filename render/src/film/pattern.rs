@@ -2,6 +2,7 @@
 
 use clap::ValueEnum;
 use glam::DVec2;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// Position of a sample within its cell of the sampling lattice.
@@ -24,15 +25,20 @@ pub enum Pattern {
 
 /// The name of a [`Pattern`], on the command line and in JSON. The attribute `help` is the text of
 /// `--help`.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, ValueEnum)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, ValueEnum, JsonSchema)]
 #[serde(rename_all = "snake_case")]
+#[schemars(description = "Positions of rays in their cells.")]
 pub enum PatternName {
     /// The name of [`Pattern::Regular`].
     #[default]
     #[value(help = "The middle of the cell")]
+    #[schemars(description = "The middle of the cell.")]
     Regular,
     /// The name of [`Pattern::Jitter`].
     #[value(help = "A pseudo-random position, from a hash of the ray's number and --seed")]
+    #[schemars(
+        description = "A pseudo-random position, from a hash of the ray's number and the seed."
+    )]
     Jitter,
 }
 

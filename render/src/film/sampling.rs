@@ -2,6 +2,7 @@
 
 use super::pattern::Pattern;
 use clap::ValueEnum;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::ops::RangeInclusive;
 
@@ -73,16 +74,23 @@ impl Sampling {
 
 /// The name of a sampling method on the command line and in JSON. The attribute `help` is the text
 /// of `--help`.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, ValueEnum)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, ValueEnum, JsonSchema)]
 #[serde(rename_all = "snake_case")]
+#[schemars(description = "A method of choosing the rays of a pixel.")]
 pub enum SamplingMethod {
     /// The name of [`Sampling::Area`].
     #[default]
+    #[schemars(
+        description = "One ray for each pixel, with the area that it stands for; pixels split at edges."
+    )]
     #[value(
         help = "One ray for each pixel, with the area that it stands for; pixels split at edges"
     )]
     Area,
     /// The name of [`Sampling::Grid`] and [`Sampling::Supersample`].
+    #[schemars(
+        description = "The thesis's lattice of rays; areas are boxes around a ray's eight neighbours."
+    )]
     #[value(help = "The thesis's lattice of rays; areas are boxes around a ray's eight neighbours")]
     Thesis,
 }
@@ -98,8 +106,9 @@ pub enum SamplingMethod {
 /// - a weight in a mirrored column that equals the weight in the column itself;
 /// - if it needs more than one sample, a complaint in `cli/sampling.rs` and in pipeline's `job/sampling.rs`;
 /// - tests: an entry in `all()` of the tests of `lattice/mod.rs`; a constant picture stays constant.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, ValueEnum)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, ValueEnum, JsonSchema)]
 #[serde(rename_all = "snake_case")]
+#[schemars(description = "Weights of the rays in a pixel.")]
 pub enum PixelFilter {
     /// Equal weights for the samples in the pixel, and none for others.
     #[default]
@@ -126,12 +135,16 @@ pub enum PixelFilter {
 ///
 /// With a filter that averages over points only, both choices give the same picture to the last
 /// bit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, ValueEnum, JsonSchema)]
 #[serde(rename_all = "snake_case")]
+#[schemars(description = "The neighbours that span the footprints of a pixel's nine rays.")]
 pub enum Supersample {
     /// The picture of twice the size is rendered like any other (thesis 4.5.4). Each of its samples
     /// is averaged over the box of its own eight neighbours, half a pixel away.
     #[value(help = None::<&'static str>)]
+    #[schemars(
+        description = "The picture of twice the size is rendered, each of whose rays has its own eight neighbours."
+    )]
     Image,
     /// The nine rays of a pixel are each other's neighbours (thesis 4.5.1: "row 1 and row 2 must be
     /// cleared and row 3 must be shifted to the place of row 1"). All nine are averaged over the
@@ -139,6 +152,7 @@ pub enum Supersample {
     /// [`Supersample::Image`]. Every pixel shades nine trees and shares none of their colours with its
     /// neighbours.
     #[value(help = None::<&'static str>)]
+    #[schemars(description = "The nine rays of a pixel are each other's neighbours.")]
     Rays,
 }
 

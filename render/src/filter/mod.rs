@@ -42,6 +42,7 @@ use crate::texture::Texture;
 use clap::ValueEnum;
 use glam::{DVec2, DVec3};
 use outline::Outline;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::fmt;
 
@@ -56,8 +57,9 @@ use std::fmt;
 /// - the data and the average, in a file of this folder;
 /// - tests: a constant texture stays constant; the average equals a direct sum over the texels; it
 ///   does not depend on whole periods of a texture that repeats (tests below and in `table`).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, ValueEnum, JsonSchema)]
 #[serde(rename_all = "snake_case")]
+#[schemars(description = "A method of averaging a texture over the area that a ray sees.")]
 pub enum Filter {
     /// The texel at the middle of the footprint.
     #[value(help = "The texel at the point")]

@@ -40,12 +40,13 @@ pub struct Area {
 }
 
 /// An area as a header stores it. A reader of single rows needs to know where the area ends.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PlacedArea {
     /// The area.
     pub area: Area,
     /// `v` at the first and the last row of the area, in `[0, 1]`.
+    #[schemars(transform = limits::range(0.0..=1.0))]
     pub v: [f64; 2],
 }
 

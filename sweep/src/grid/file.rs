@@ -51,6 +51,7 @@ mod buffer;
 mod edges;
 mod error;
 mod header;
+mod line;
 mod patch;
 mod reader;
 mod stranger;
@@ -60,6 +61,7 @@ mod writer;
 pub use error::GridError;
 pub use header::Header;
 pub(crate) use header::MAX_COLS;
+pub use line::schema;
 pub use patch::Patch;
 pub use reader::{GridReader, read, read_all};
 pub use writer::Writer;
@@ -68,7 +70,9 @@ use crate::grid::GridMesh;
 use std::io::{self, Write};
 
 /// Encoding of the rows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
+)]
 #[serde(rename_all = "snake_case")]
 pub enum Encoding {
     /// Little-endian binary numbers: small and fast.

@@ -2,10 +2,11 @@
 
 use crate::grid::row::{self, Fault};
 use glam::Vec3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// An end of the trajectory.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum End {
     /// The first row.
@@ -18,7 +19,7 @@ pub enum End {
 ///
 /// A corner is a number that counts the columns of these patches one after another. Its point is that of the column in
 /// the first or the last row. Lids belong to the last of their patches.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Lid {
     /// The end that the lid closes.

@@ -1,5 +1,6 @@
 //! Quality of a grid, as far as the program that made it knows it.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Folds of a surface: parts that run backward because the trajectory bends more sharply than the contour is
@@ -7,7 +8,7 @@ use serde::{Deserialize, Serialize};
 ///
 /// At a point `q` of the contour the surface is stretched along the trajectory by `1 - k.q`, where `k` is the
 /// trajectory's curvature. Where this is below 0 the surface runs backward.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Fold {
     /// The smallest stretch of all points.
@@ -20,7 +21,7 @@ pub struct Fold {
 }
 
 /// Requested and measured accuracy of a grid. A value that was not requested, or not measured, is `None`.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Tolerance {
     /// Requested largest distance between surface and mesh, in the grid's unit.

@@ -1,6 +1,7 @@
 //! Seams: the continuation after the last row or column of a grid.
 
 use super::row::Fault;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// How a direction of the grid leads back to its start, if it does.
@@ -17,7 +18,7 @@ use serde::{Deserialize, Serialize};
 /// A mirrored surface returns with its other side out, so the normals at its two ends are opposite.
 /// An open contour cannot turn within itself, and a mirrored seam joins it end to end. The shift of
 /// an open contour is 0 if closed, and `cols - 1` if mirrored.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Seam {
     /// The last row or column is an edge of the surface.

@@ -1,12 +1,13 @@
 //! The header line: everything about a grid except its rows.
 
+use super::line::{Endian, Line};
 use super::{Encoding, GridError, Patch, stranger};
 use crate::grid::GridMesh;
 use crate::grid::row::{self, Fault, check_parameter};
 use crate::grid::{Fold, Lid, PlacedArea, Seam, Tolerance, Unit, UvLayout, area, seam};
 use files::json::{BYTES_OF_A_BYTE, Document};
 use files::{JsonError, memory};
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 use serde_json::Value;
 use std::io::{self, BufRead, Read};
 
@@ -60,43 +61,6 @@ pub struct Header {
     pub u: Vec<f64>,
 }
 
-/// The header as its JSON line stores it.
-#[derive(Debug, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Line {
-    format: String,
-    version: u64,
-    encoding: Encoding,
-    endian: Endian,
-    name: String,
-    #[serde(default, skip_serializing_if = "Patch::is_whole")]
-    patch: Patch,
-    rows: usize,
-    cols: usize,
-    seam_u: Seam,
-    seam_v: Seam,
-    #[serde(default, skip_serializing_if = "is_zero")]
-    shift: usize,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    texture: Option<u32>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    surface: Option<u32>,
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    areas: Vec<PlacedArea>,
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    lids: Vec<Lid>,
-    #[serde(default, skip_serializing_if = "is_none_of")]
-    pressed: [bool; 2],
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    fold: Option<Fold>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    tolerance: Option<Tolerance>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    unit: Option<Unit>,
-    uv: UvLayout,
-    u: Vec<f64>,
-}
-
 /// The format and version that a JSON text states; everything else in it is ignored.
 #[derive(Debug, Deserialize)]
 struct Claim {
@@ -104,13 +68,6 @@ struct Claim {
     format: Value,
     #[serde(default)]
     version: Value,
-}
-
-/// Byte order of binary rows. Only one exists, and the file states it.
-#[derive(Debug, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-enum Endian {
-    Little,
 }
 
 impl Header {
@@ -153,6 +110,7 @@ impl Header {
     /// Returns the header line with its newline.
     pub(super) fn line(&self, encoding: Encoding) -> io::Result<Vec<u8>> {
         let line = Line {
+            schema: None,
             format: FORMAT.into(),
             version: VERSION,
             encoding,
@@ -247,14 +205,6 @@ impl Header {
     }
 }
 
-fn is_none_of(ends: &[bool; 2]) -> bool {
-    *ends == [false; 2]
-}
-
-fn is_zero(number: &usize) -> bool {
-    *number == 0
-}
-
 /// Reads and checks the header line, which follows `lines` other lines. Also returns the line's bytes with
 /// the newline, for the checksum.
 pub(super) fn read(
@@ -310,6 +260,7 @@ pub(super) fn read(
     let placed = |error: JsonError| JsonError { line: lines + error.line, ..error };
     let document = Document::new(name, &bytes).map_err(placed)?;
     let Line {
+        schema: _,
         format: _,
         version: _,
         encoding,
