@@ -113,7 +113,7 @@ pub struct Arguments {
     watch: bool,
 }
 
-/// Whether the threads of the process have started.
+/// True once the threads of the process have started.
 static THREADS: AtomicBool = AtomicBool::new(false);
 
 #[derive(Debug, Error)]
