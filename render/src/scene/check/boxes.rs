@@ -16,8 +16,17 @@ pub struct Boxes {
     /// Indices of the boxes, in the order of the tree.
     order: Vec<u32>,
     boxes: Vec<Bounds>,
-    /// The box around each node of the tree, in preorder.
-    parts: Vec<Bounds>,
+    /// The nodes of the tree, in preorder.
+    parts: Vec<Part>,
+}
+
+/// A node of the tree.
+#[derive(Debug)]
+struct Part {
+    /// The box around all boxes of the node.
+    bounds: Bounds,
+    /// Index of the second half; 0 for a leaf. The first half follows its node.
+    second: usize,
 }
 
 /// Largest number of boxes in a leaf. A larger leaf costs more tests for each search, and a smaller leaf
@@ -46,13 +55,12 @@ impl Boxes {
         let mut open = vec![(0..self.order.len(), 0)];
         while let Some((range, part)) = open.pop() {
             looks += 1;
-            if range.is_empty() || !meets(&self.parts[part]) {
+            if range.is_empty() || !meets(&self.parts[part].bounds) {
                 continue;
             }
             if range.len() > LEAF {
                 let half = range.start + range.len() / 2;
-                let second = part + 1 + parts_of(half - range.start);
-                open.push((half..range.end, second));
+                open.push((half..range.end, self.parts[part].second));
                 open.push((range.start..half, part + 1));
                 continue;
             }
@@ -67,16 +75,12 @@ impl Boxes {
     }
 }
 
-/// Returns the number of nodes of a tree over `count` boxes.
-fn parts_of(count: usize) -> usize {
-    if count <= LEAF { 1 } else { 1 + parts_of(count / 2) + parts_of(count - count / 2) }
-}
-
-fn divide(boxes: &[Bounds], order: &mut [u32], parts: &mut Vec<Bounds>) {
+fn divide(boxes: &[Bounds], order: &mut [u32], parts: &mut Vec<Part>) {
     let around = |all: Bounds, other: Bounds| [all[0].min(other[0]), all[1].max(other[1])];
     let none = [DVec3::INFINITY, DVec3::NEG_INFINITY];
     let own = order.iter().map(|&k| boxes[k as usize]);
-    parts.push(own.clone().fold(none, around));
+    let part = parts.len();
+    parts.push(Part { bounds: own.clone().fold(none, around), second: 0 });
     if order.len() <= LEAF {
         return;
     }
@@ -89,6 +93,7 @@ fn divide(boxes: &[Bounds], order: &mut [u32], parts: &mut Vec<Bounds>) {
     order.select_nth_unstable_by(half, |a, b| key(a).total_cmp(&key(b)).then(a.cmp(b)));
     let (first, second) = order.split_at_mut(half);
     divide(boxes, first, parts);
+    parts[part].second = parts.len();
     divide(boxes, second, parts);
 }
 
