@@ -16,6 +16,10 @@ use thiserror::Error;
 /// Time without a change after which the work starts, so that several saved files cause one run.
 const QUIET: Duration = Duration::from_millis(60);
 
+/// The clock of files may lag behind that of programs by this time. It is less than [`QUIET`], so that a change is
+/// seen once.
+const LAG: Duration = Duration::from_millis(30);
+
 /// Folders cannot be watched.
 #[derive(Debug, Error)]
 #[error("cannot watch {folder}: {source}; leave out --watch", folder = words::shown(folder))]
@@ -84,7 +88,7 @@ fn wait(inputs: &[PathBuf], started: SystemTime) -> Result<(), WatchError> {
             .map_err(|source| failed(folder, source))?;
     }
     let is_younger = |input: &PathBuf| {
-        input.metadata().and_then(|found| found.modified()).is_ok_and(|time| time > started)
+        input.metadata().and_then(|found| found.modified()).is_ok_and(|time| time + LAG > started)
     };
     if !inputs.iter().any(is_younger) {
         let names: BTreeSet<_> = inputs.iter().filter_map(|input| input.file_name()).collect();
@@ -139,6 +143,7 @@ mod tests {
         for change in changes {
             let inputs = [path("a.json"), path("missing.png")];
             thread::scope(|scope| {
+                thread::sleep(2 * LAG);
                 let waiting = scope.spawn(|| wait(&inputs, SystemTime::now()));
                 thread::sleep(Duration::from_millis(50));
                 // Another file is no change.
@@ -153,7 +158,8 @@ mod tests {
     fn a_file_that_changed_during_the_work_is_a_change() {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("a.json");
-        let started = SystemTime::now() - Duration::from_secs(1);
+        // A file that is written at once may look older than the work.
+        let started = SystemTime::now();
         fs::write(&file, "1").unwrap();
         wait(&[file], started).unwrap();
     }

@@ -200,8 +200,12 @@ fn what_the_page_shows_is_read() {
         .map(|rest| rest.split("\n}\n```").next().unwrap())
         .collect();
     assert_eq!(blocks.len(), 2);
-    for block in blocks {
-        let drawn = scene(&format!("{block}, \"objects\": []"), &[]);
-        assert_eq!(drawn.procedural.solids.len() + drawn.procedural.bumps.len(), 3);
+    let map = image::RgbImage::from_pixel(2, 2, image::Rgb([128, 128, 255]));
+    let mut normals = std::io::Cursor::new(Vec::new());
+    map.write_to(&mut normals, image::ImageFormat::Png).unwrap();
+    let files = [("normals.png", normals.into_inner())];
+    for (block, count) in blocks.into_iter().zip([3, 4]) {
+        let drawn = scene(&format!("{block}, \"objects\": []"), &files);
+        assert_eq!(drawn.procedural.solids.len() + drawn.procedural.bumps.len(), count);
     }
 }

@@ -362,7 +362,7 @@ mod tests {
         (include_str!("spec/parts.rs"), 1),
         (include_str!("spec/place.rs"), 1),
         (include_str!("spec/seam.rs"), 2),
-        (include_str!("spec/wall.rs"), 2),
+        (include_str!("spec/wall.rs"), 3),
     ];
 
     #[test]

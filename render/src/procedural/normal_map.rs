@@ -221,8 +221,10 @@ mod tests {
                     found.covariance.abs_diff_eq(truth.covariance, 5e-4),
                     "{side}: {found:?} {truth:?}"
                 );
+                // The curvature of the map is constant between texels: off by up to half a texel times the third
+                // derivative, 0.02 (4 pi)^3 / 128.
                 assert!(
-                    found.curvature.abs_diff_eq(truth.curvature, 0.2),
+                    found.curvature.abs_diff_eq(truth.curvature, 0.32),
                     "{side}: {found:?} {truth:?}"
                 );
             }

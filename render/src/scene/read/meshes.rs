@@ -165,7 +165,10 @@ impl Reader<'_> {
         let mut own = Own { paths: Vec::new(), named: false, colored, has_names };
         let unbound = |name: &String| bindings.material_of(name).is_none();
         let is_unbound = surfaces.iter().any(unbound);
-        let is_plain = |entry: &Entry| *entry == Entry::new(&entry.name, plain());
+        // How an alpha is used does not matter without a picture.
+        let is_plain = |entry: &Entry| {
+            *entry == Entry { alpha: entry.alpha, ..Entry::new(&entry.name, plain()) }
+        };
         if !read.materials.is_empty() {
             if is_unbound {
                 own.paths.push(self.held_materials(read, libraries));
