@@ -201,8 +201,8 @@ fn what_the_page_shows_is_read() {
         .collect();
     assert_eq!(blocks.len(), 2);
     let map = image::RgbImage::from_pixel(2, 2, image::Rgb([128, 128, 255]));
-    let mut normals = std::io::Cursor::new(Vec::new());
-    map.write_to(&mut normals, image::ImageFormat::Png).unwrap();
+    let mut normals = Cursor::new(Vec::new());
+    map.write_to(&mut normals, ImageFormat::Png).unwrap();
     let files = [("normals.png", normals.into_inner())];
     for (block, count) in blocks.into_iter().zip([3, 4]) {
         let drawn = scene(&format!("{block}, \"objects\": []"), &files);
