@@ -9,8 +9,8 @@ use notify::{EventKind, RecursiveMode, Watcher};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
-use std::time::{Duration, SystemTime};
+use std::sync::mpsc::{Receiver, channel};
+use std::time::{Duration, Instant, SystemTime};
 use thiserror::Error;
 
 /// Time without a change after which the work starts, so that several saved files cause one run.
@@ -90,27 +90,29 @@ fn wait(inputs: &[PathBuf], started: SystemTime) -> Result<(), WatchError> {
     let is_younger = |input: &PathBuf| {
         input.metadata().and_then(|found| found.modified()).is_ok_and(|time| time + LAG > started)
     };
-    if !inputs.iter().any(is_younger) {
-        let names: BTreeSet<_> = inputs.iter().filter_map(|input| input.file_name()).collect();
-        while let Ok(change) = changes.recv() {
-            let Ok(event) = change else { break };
-            let concerns =
+    let names: BTreeSet<_> = inputs.iter().filter_map(|input| input.file_name()).collect();
+    let concerns = |change: &notify::Result<notify::Event>| {
+        change.as_ref().map_or(true, |event| {
+            let is_input =
                 |path: &PathBuf| path.file_name().is_some_and(|name| names.contains(name));
-            if !matches!(event.kind, EventKind::Access(_)) && event.paths.iter().any(concerns) {
-                break;
-            }
-        }
+            !matches!(event.kind, EventKind::Access(_)) && event.paths.iter().any(is_input)
+        })
+    };
+    if !inputs.iter().any(is_younger) {
+        while changes.recv().is_ok_and(|change| !concerns(&change)) {}
     }
-    settle(&changes);
+    settle(&changes, concerns);
     Ok(())
 }
 
-/// Waits until nothing has changed for a moment.
-fn settle<T>(changes: &Receiver<T>) {
-    while !matches!(
-        changes.recv_timeout(QUIET),
-        Err(RecvTimeoutError::Timeout | RecvTimeoutError::Disconnected)
-    ) {}
+/// Waits until nothing that concerns the work has changed for a moment. Reading of other files is no change.
+fn settle<T>(changes: &Receiver<T>, concerns: impl Fn(&T) -> bool) {
+    let mut end = Instant::now() + QUIET;
+    while let Ok(change) = changes.recv_timeout(end.saturating_duration_since(Instant::now())) {
+        if concerns(&change) {
+            end = Instant::now() + QUIET;
+        }
+    }
 }
 
 fn folder_of(input: &Path) -> &Path {
