@@ -221,10 +221,10 @@ mod tests {
                     found.covariance.abs_diff_eq(truth.covariance, 5e-4),
                     "{side}: {found:?} {truth:?}"
                 );
-                // The curvature of the map is constant between texels: off by up to half a texel times the third
-                // derivative, 0.02 (4 pi)^3 / 128.
+                // Curvatures are up to 3.2. Between texels each of both is off by up to half a texel times the third
+                // derivative, 0.02 (4 pi)^3 / 128 = 0.31.
                 assert!(
-                    found.curvature.abs_diff_eq(truth.curvature, 0.32),
+                    found.curvature.abs_diff_eq(truth.curvature, 0.62),
                     "{side}: {found:?} {truth:?}"
                 );
             }
