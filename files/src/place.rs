@@ -109,7 +109,7 @@ pub struct Map {
 pub struct PlaceFault {
     /// Path of the value from the place, such as `[1].scale[0]` or `.rotate_deg.axis`.
     pub path: String,
-    /// What was found, and what was expected.
+    /// A sentence about the found and the expected value.
     pub message: String,
 }
 
