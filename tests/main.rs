@@ -21,6 +21,7 @@ mod made;
 mod mesh_formats;
 mod pages;
 mod pipe;
+mod programs;
 mod prose;
 mod python;
 mod reference;

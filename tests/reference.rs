@@ -51,24 +51,25 @@ const PICTURES: [(&str, &str); 16] = [
     ("Area", "globe"),
 ];
 
-/// Files of the library whose documentation tells more about a type of specs.
-const ABOUT: [(&str, &str); 16] = [
-    ("Contour", "contour"),
-    ("Measured", "measured"),
-    ("Corners", "corners"),
-    ("Flat", "flat"),
-    ("Helix", "helix"),
-    ("Frame", "frame"),
-    ("Mesh", "resolution"),
-    ("WallKeys", "wall"),
-    ("Caps", "caps"),
-    ("Deform", "deform"),
-    ("SeamKind", "seam"),
-    ("SvgFile", "svg"),
-    ("Csv", "table"),
-    ("Place", "place"),
-    ("Parts", "parts"),
-    ("Area", "areas"),
+/// Files whose documentation tells more about a type of specs or of scenes.
+const ABOUT: [(&str, &str); 17] = [
+    ("Contour", "sweep/src/spec/contour.rs"),
+    ("Measured", "sweep/src/spec/measured.rs"),
+    ("Corners", "sweep/src/spec/corners.rs"),
+    ("Flat", "sweep/src/spec/flat.rs"),
+    ("Helix", "sweep/src/spec/helix.rs"),
+    ("Frame", "sweep/src/spec/frame.rs"),
+    ("Mesh", "sweep/src/spec/resolution.rs"),
+    ("WallKeys", "sweep/src/spec/wall.rs"),
+    ("Caps", "sweep/src/spec/caps.rs"),
+    ("Deform", "sweep/src/spec/deform.rs"),
+    ("SeamKind", "sweep/src/spec/seam.rs"),
+    ("SvgFile", "sweep/src/spec/svg.rs"),
+    ("Csv", "sweep/src/spec/table.rs"),
+    ("Copies", "sweep/src/spec/copies.rs"),
+    ("Parts", "sweep/src/spec/parts.rs"),
+    ("Area", "sweep/src/spec/areas.rs"),
+    ("Step", "files/src/place.rs"),
 ];
 
 fn read(path: &str) -> String {
@@ -151,7 +152,7 @@ fn about(name: &str) -> String {
         .find(|(section, _)| *section == name)
         .map(|(_, page)| format!("[![{page}](../pictures/{page}.png)](../gallery.md)\n"));
     let more = ABOUT.iter().find(|(section, _)| *section == name);
-    let more = more.map(|(_, file)| beyond_the_first(&read(&format!("sweep/src/spec/{file}.rs"))));
+    let more = more.map(|(_, file)| beyond_the_first(&read(file)));
     [picture, more].into_iter().flatten().collect::<Vec<_>>().join("\n")
 }
 
@@ -213,8 +214,11 @@ fn examples_of(format: &Format) -> Examples {
 /// Returns all pages with their names.
 fn pages() -> Vec<(String, String)> {
     let of = |format: &Format| {
-        let about: &dyn Fn(&str) -> String =
-            if format.file == "spec.md" { &about } else { &|_| String::new() };
+        let about: &dyn Fn(&str) -> String = if ["spec.md", "scene.md"].contains(&format.file) {
+            &about
+        } else {
+            &|_| String::new()
+        };
         let page_of = Page { title: format.title, intro: format.intro.clone(), about };
         (format.file.to_owned(), page(&page_of, Schema(&format.schema), &examples_of(format)))
     };
@@ -269,6 +273,33 @@ fn every_key_has_an_example() {
             .map(|(section, key)| format!("{} {}", section.name, key.name))
             .collect();
         assert_eq!(lacking, Vec::<String>::new(), "{}", format.file);
+    }
+}
+
+#[test]
+fn every_key_has_a_meaning() {
+    for format in formats() {
+        let schema = Schema(&format.schema);
+        for section in schema.sections() {
+            for key in &section.keys {
+                assert_ne!(
+                    page::meaning(key, schema),
+                    "",
+                    "{}: {} {}",
+                    format.file,
+                    section.name,
+                    key.name
+                );
+                assert_ne!(
+                    schema.values(key.schema, "place"),
+                    "",
+                    "{}: {} {}",
+                    format.file,
+                    section.name,
+                    key.name
+                );
+            }
+        }
     }
 }
 

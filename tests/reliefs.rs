@@ -2,7 +2,7 @@
 
 use files::Disk;
 use files::json::Document;
-use glam::{DAffine3, DVec2, DVec3};
+use glam::{DAffine3, DVec2};
 use render::procedural::{Bump, Heights, Place, Placement, Relief};
 use std::path::Path;
 use sweep::Sweep;
@@ -25,7 +25,7 @@ fn apart(strength: f64) -> f64 {
     let grey = picture.pixels().map(|pixel| f64::from(pixel.0[0]) / 65535.0).collect();
     let width = picture.width() as usize;
     let heights = Heights::new(grey, width, DVec2::new(10.0, 14.0), false).expect("whole rows");
-    let placement = Placement::new(1.0, DVec3::ZERO, DVec3::ZERO);
+    let placement = Placement::default();
     let bump = Bump { relief: Relief::Picture(heights), strength, placement };
     let mut apart: f64 = 0.0;
     for k in 0..300 {

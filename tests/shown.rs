@@ -202,3 +202,56 @@ fn a_written_picture_is_told_and_progress_has_its_form() {
     let line: serde_json::Value = serde_json::from_str(told.lines().next().unwrap()).unwrap();
     assert_eq!((&line["progress"], &line["done"]), (&"render".into(), &line["total"]));
 }
+
+#[test]
+fn a_job_that_show_writes_and_a_scene_make_the_same_picture() {
+    let folder = tempfile::tempdir().unwrap();
+    let size = ["--size", "60x40"];
+    done("pipeline", &["new", "knot", "-o", "knot.json"], folder.path());
+    for (scene, job) in [("s.json", "j.json"), ("a/s.json", "b/j.json")] {
+        for file in [scene, job] {
+            let parent = folder.path().join(file);
+            fs::create_dir_all(parent.parent().unwrap()).unwrap();
+        }
+        let words = ["show", "knot.json", "-o", "a.png", "--scene-out", scene, "--job-out", job];
+        let told = done("pipeline", &[&words[..], &size].concat(), folder.path());
+        assert!(told.contains(&format!("pipeline run {job} -o out")), "{told}");
+        done("pipeline", &[&["run", job, "-o", "out"], &size[..]].concat(), folder.path());
+        let read = |name: &str| pixels(&folder.path().join(name));
+        assert_eq!(read("a.png"), read("out/j-exact.png"));
+    }
+    // A scene without meshes is a job by itself, and its values and its frames may be set.
+    done("pipeline", &["new", "scene", "-o", "scene.json"], folder.path());
+    let set = ["-D", "scene.camera.fov_deg=30"];
+    let words = ["run", "scene.json", "-o", "out", "-D", "turntable.frames=2", "--frames", "1"];
+    done("pipeline", &[&words[..], &set, &size].concat(), folder.path());
+    let own = ["scene.json", "-o", "own.png", "-D", "camera.fov_deg=30"];
+    done("render", &[&own[..], &size].concat(), folder.path());
+    let read = |name: &str| pixels(&folder.path().join(name));
+    assert_eq!(read("own.png"), read("out/scene-exact.0001.png"));
+}
+
+#[test]
+fn files_of_another_kind_are_refused_with_the_program_for_them() {
+    let folder = tempfile::tempdir().unwrap();
+    done("pipeline", &["new", "knot", "-o", "knot.json"], folder.path());
+    done("pipeline", &["new", "scene", "-o", "scene.json"], folder.path());
+    for (program, words, hint) in [
+        ("pipeline", &["run", "knot.json"][..], "`pipeline show` makes a picture of a spec"),
+        ("sweep", &["scene.json", "-o", "a.grid"], "`render` makes a picture of a scene"),
+        (
+            "pipeline",
+            &["show", "scene.json", "-o", "a.png", "--scene-out", "s.json", "--job-out", "j.json"],
+            "render",
+        ),
+    ] {
+        let ran = run(program, words, folder.path());
+        assert_eq!(ran.status.code(), Some(3), "{}", said(&ran));
+        assert!(said(&ran).contains(hint), "{}", said(&ran));
+    }
+    let words =
+        ["show", "knot.json", "-o", "a.png", "--scene-out", "s.json", "--job-out", "j.json"];
+    let ran = run("pipeline", &[&words[..], &["-D", "contour.circle=0.2"]].concat(), folder.path());
+    assert_eq!(ran.status.code(), Some(2), "{}", said(&ran));
+    assert!(said(&ran).contains("leave -D contour.circle=0.2 out"), "{}", said(&ran));
+}

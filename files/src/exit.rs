@@ -102,9 +102,16 @@ pub fn say(words: impl Display) {
 /// Prints the line about a picture or another file that was written: `wrote x.png (512 x 512, 1.2 s)`. `size` is the
 /// size of a picture in pixels.
 pub fn wrote(path: &Path, size: Option<(u32, u32)>, time: Duration) {
+    let size = size.map_or_else(String::new, |(width, height)| format!("{width} x {height}"));
+    wrote_about(path, &size, time);
+}
+
+/// Prints the line about a file that was written, with words about its content: `wrote book.html (28 pages, 62.0 s)`.
+pub fn wrote_about(path: &Path, content: &str, time: Duration) {
     let seconds = time.as_secs_f64();
-    let size = size.map_or_else(String::new, |(width, height)| format!("{width} x {height}, "));
-    say(format_args!("wrote {} ({size}{seconds:.1} s)", words::shown(&path.to_string_lossy())));
+    let comma = if content.is_empty() { "" } else { ", " };
+    let path = path.to_string_lossy();
+    say(format_args!("wrote {} ({content}{comma}{seconds:.1} s)", words::shown(&path)));
 }
 
 /// Returns a message on one line of bounded length, whatever the message quotes.

@@ -113,7 +113,9 @@ impl<'a> Document<'a> {
         };
         if let Some(found) = found_format.filter(|found| found != format) {
             let found = words::shortened(&found.to_string());
-            return Err(self.fault("format", format!("found {found}, expected \"{format}\"")));
+            let hint = reader_of(&found).map_or_else(String::new, |reader| format!(": {reader}"));
+            let message = format!("found {found}, expected \"{format}\"{hint}");
+            return Err(self.fault("format", message));
         }
         if let Some(found) = found_version.filter(|found| *found != version) {
             let found = words::shortened(&found.to_string());
@@ -230,6 +232,19 @@ fn push_key(text: &mut String, key: &str) {
         text.push('.');
     }
     text.push_str(key);
+}
+
+/// Returns words on which program reads a format, whose name is given with its quotes.
+fn reader_of(format: &str) -> Option<&'static str> {
+    match format.trim_matches('"') {
+        "tb-sweep" => Some("`pipeline show` makes a picture of a spec, and `sweep` its grid"),
+        "tb-scene" => Some("`render` makes a picture of a scene"),
+        "tb-scene-part" => Some("a scene takes its parts with the key `include`"),
+        "tb-job" => Some("`pipeline run` makes the pictures of a job"),
+        "tb-grid" => Some("`triangulate` makes the triangles of a grid"),
+        "tb-areas" => Some("`triangulate --areas` reads areas"),
+        _ => None,
+    }
 }
 
 #[cfg(test)]

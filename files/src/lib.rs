@@ -7,6 +7,8 @@
 //! | [`ledger`]    | inputs and outputs of a program: no output replaces an input          |
 //! | [`names`]     | JSON objects of names that a user chose, each once                    |
 //! | [`note`]      | the key for sentences that the readers ignore                         |
+//! | [`arguments`] | arguments that all programs have: memory, threads, progress           |
+//! | [`place`]     | places in JSON: steps that move, turn and stretch                     |
 //! | [`output`]    | a file that is replaced only when it is whole, or standard output     |
 //! | [`batch`]     | files that belong together, and a marker while some are old           |
 //! | [`extension`] | names of outputs that contradict the content of the file              |
@@ -37,6 +39,7 @@
 //! # Ok::<(), files::JsonError>(())
 //! ```
 
+pub mod arguments;
 pub mod batch;
 pub mod check;
 pub mod exit;
@@ -50,6 +53,7 @@ pub mod names;
 pub mod note;
 pub mod output;
 pub mod picture;
+pub mod place;
 pub mod progress;
 pub mod schema;
 pub mod setting;
@@ -63,6 +67,7 @@ pub mod variants;
 pub mod watch;
 pub mod words;
 
+pub use arguments::{CommonArguments, ThreadsError};
 pub use batch::Batch;
 pub use exit::{Exit, Failure, Report};
 pub use input::{Disk, Embedded, Source};
@@ -70,6 +75,7 @@ pub use json::JsonError;
 pub use ledger::Ledger;
 pub use memory::{Budget, MemoryError};
 pub use output::Output;
+pub use place::Place;
 pub use setting::Setting;
 pub use variants::Variant;
 
@@ -102,7 +108,7 @@ pub enum FileError {
     #[error(transparent)]
     Memory(#[from] MemoryError),
     /// The file, or standard output, could not be written.
-    #[error("cannot write {}: {source}", words::shown(name))]
+    #[error("cannot write {}: {source}{}", words::shown(name), remedy(source))]
     Write {
         /// The file as the user named it, or `<stdout>`.
         name: String,
@@ -127,6 +133,11 @@ pub enum FileError {
     /// The program that read our standard output has closed it.
     #[error("the reader of standard output closed it")]
     ClosedPipe,
+}
+
+/// Returns what to do about a file that cannot be written, if it is known.
+fn remedy(error: &io::Error) -> &'static str {
+    if error.kind() == io::ErrorKind::NotFound { ": make its folder first" } else { "" }
 }
 
 impl Failure for FileError {

@@ -40,7 +40,10 @@ fn plain(schema: &mut Schema, largest: f64) {
         if let [Value::Object(only)] = &mut kinds[..] {
             let only = std::mem::take(only);
             object.remove("anyOf");
-            object.extend(only);
+            // What the key itself says takes precedence over what its type says.
+            for (word, value) in only {
+                object.entry(word).or_insert(value);
+            }
         }
     }
     let bounded = ["minimum", "maximum", "exclusiveMinimum", "exclusiveMaximum", "const"];
@@ -81,6 +84,16 @@ mod tests {
         plain(&mut schema, 1e30);
         let bounded = json!({ "type": "number", "minimum": -1e30, "maximum": 1e30 });
         assert_eq!(schema.to_value(), bounded);
+    }
+
+    #[test]
+    fn a_key_that_may_be_missing_keeps_its_own_description() {
+        let inner = json!({ "type": "string", "description": "of the type" });
+        let key = json!({ "description": "of the key", "anyOf": [inner, { "type": "null" }] });
+        let mut schema = Schema::try_from(key).unwrap();
+        plain(&mut schema, 1e30);
+        let expected = json!({ "type": "string", "description": "of the key" });
+        assert_eq!(schema.to_value(), expected);
     }
 
     #[test]

@@ -38,15 +38,33 @@ impl ContactSheet {
             .map_err(|source| PipelineError::Encode { name: Self::FILE.into(), source })
     }
 
+    /// Returns width and height of the sheet in pixels.
+    #[must_use]
+    pub fn size(&self) -> (u32, u32) {
+        let [column, row] = self.cell();
+        let down = self.pictures.len().div_ceil(ROW) as u32;
+        (self.across() * column + GAP, down * row + GAP)
+    }
+
+    /// Returns the number of pictures in a row.
+    fn across(&self) -> u32 {
+        self.pictures.len().clamp(1, ROW) as u32
+    }
+
+    /// Returns width and height of a picture with the gap before it.
+    fn cell(&self) -> [u32; 2] {
+        let widest = self.pictures.iter().map(|picture| picture.width).max().unwrap_or(0);
+        let highest = self.pictures.iter().map(|picture| picture.height).max().unwrap_or(0);
+        [widest + GAP, highest + GAP]
+    }
+
     /// Returns the sheet: pictures row by row from the upper left, on white, in linear RGB.
     #[must_use]
     pub fn picture(&self) -> Picture {
-        let across = self.pictures.len().clamp(1, ROW) as u32;
-        let down = self.pictures.len().div_ceil(ROW) as u32;
-        let widest = self.pictures.iter().map(|picture| picture.width).max().unwrap_or(0);
-        let highest = self.pictures.iter().map(|picture| picture.height).max().unwrap_or(0);
-        let [column, row] = [widest + GAP, highest + GAP];
-        let mut sheet = Picture::black(across * column + GAP, down * row + GAP);
+        let across = self.across();
+        let [column, row] = self.cell();
+        let (width, height) = self.size();
+        let mut sheet = Picture::black(width, height);
         sheet.pixels.fill([1.0; 3]);
         for (k, picture) in (0..).zip(&self.pictures) {
             let [x, y] = [GAP + k % across * column, GAP + k / across * row];

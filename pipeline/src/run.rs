@@ -80,7 +80,12 @@ pub enum Event<'a> {
         accuracy: Option<&'a Accuracy>,
     },
     /// A file is written.
-    Written(&'a Path),
+    Written {
+        /// Its path.
+        path: &'a Path,
+        /// Width and height in pixels, if the file is a picture.
+        size: Option<(u32, u32)>,
+    },
     /// A file of these inputs exists and is kept.
     Kept(&'a Path),
 }
@@ -245,23 +250,23 @@ impl<'a> Run<'a> {
         let Some(batch) = self.batch else { return Ok(()) };
         let bytes = encode::encode_as(picture, Format::Png, coding)
             .map_err(|source| PipelineError::Encode { name: name.into(), source })?;
-        self.write(batch, name, |out| {
+        let size = Some((picture.width, picture.height));
+        self.write((batch, name, size), |out| {
             out.write_all(&bytes).map_err(|source| out.failed(source).into())
         })
     }
 
-    /// Replaces a file of the batch by what `fill` writes, and returns what `fill` returns.
+    /// Replaces a file of the batch by what `fill` writes, and returns what `fill` returns. A picture has a size.
     fn write<T>(
         &self,
-        batch: &Batch<'_>,
-        name: &str,
+        (batch, name, size): (&Batch<'_>, &str, Option<(u32, u32)>),
         fill: impl FnOnce(&mut Output) -> Result<T, PipelineError>,
     ) -> Result<T, PipelineError> {
         let path = self.options.folder.join(name);
         let mut output = Output::create(&path, self.options.clobber)?;
         let filled = fill(&mut output)?;
         batch.replace(output)?;
-        (self.tell)(Event::Written(&path));
+        (self.tell)(Event::Written { path: &path, size });
         Ok(filled)
     }
 }

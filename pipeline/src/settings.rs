@@ -3,7 +3,7 @@
 //! A path that starts with `scene` is a path in the scene, and one that starts with `specs.NAME` a path in the spec of
 //! the job's mesh of that name. Any other path is one in the job file.
 
-use crate::{Job, PipelineError};
+use crate::{Job, PipelineError, job};
 use files::{FileError, Setting, Source, input, setting};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -13,6 +13,8 @@ use std::path::{Path, PathBuf};
 pub struct Changed<'a> {
     source: &'a dyn Source,
     settings: BTreeMap<PathBuf, Vec<Setting>>,
+    /// The path of the job file, if settings are those of a job.
+    job: Option<PathBuf>,
 }
 
 impl<'a> Changed<'a> {
@@ -20,7 +22,8 @@ impl<'a> Changed<'a> {
     #[must_use]
     pub fn job(source: &'a dyn Source, path: &Path, settings: &[Setting]) -> Self {
         let own = settings.iter().filter(|one| !elsewhere(one)).cloned().collect();
-        Self { source, settings: BTreeMap::from([(path.to_path_buf(), own)]) }
+        let job = Some(path.to_path_buf());
+        Self { source, settings: BTreeMap::from([(path.to_path_buf(), own)]), job }
     }
 
     /// Returns the source with the settings of the files that a job names. Meshes that are made of the same spec have
@@ -52,7 +55,7 @@ impl<'a> Changed<'a> {
                 by_file.entry(mesh.spec.clone()).or_default().push(own);
             }
         }
-        Ok(Self { source, settings: by_file })
+        Ok(Self { source, settings: by_file, job: None })
     }
 }
 
@@ -62,7 +65,10 @@ impl Source for Changed<'_> {
     }
 
     fn read_json(&self, path: &Path) -> Result<Vec<u8>, FileError> {
-        let text = self.source.read_json(path)?;
+        let mut text = self.source.read_json(path)?;
+        if self.job.as_deref() == Some(path) {
+            text = job::of_scene(path, text);
+        }
         match self.settings.get(path) {
             Some(settings) => Ok(setting::apply(&input::name_of(path), text, settings)?),
             None => Ok(text),

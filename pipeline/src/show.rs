@@ -49,6 +49,8 @@ pub struct Shown {
     pub scene: Scene,
     /// True if the scene names the file of its mesh. The scene of a spec or a grid is given its mesh.
     pub names_mesh: bool,
+    /// True if the file is a spec.
+    pub is_spec: bool,
     /// Sentences about the file.
     pub notes: Vec<String>,
 }
@@ -113,7 +115,7 @@ impl Showing<'_> {
         let draft = Draft::gather(&document, &file, self.folder, self.source)?;
         let given = MeshSource::from([(showcase::MESH.to_string(), read)]);
         let scene = draft.resolve(self.source, given)?;
-        Ok(Shown { text, scene, names_mesh, notes })
+        Ok(Shown { text, scene, names_mesh, is_spec: kind == Kind::Spec, notes })
     }
 
     /// Sweeps and triangulates a spec.

@@ -111,14 +111,11 @@ enum UseError {
     ErrorOfThesis,
     #[error("{0}: number of findings marked `wrong`: {1}")]
     Wrong(String, usize),
-    #[error("cannot start {0} threads: {1}")]
-    Threads(usize, rayon::ThreadPoolBuildError),
 }
 
 impl Failure for UseError {
     fn exit(&self) -> Exit {
         match self {
-            Self::Threads(..) => Exit::Resource,
             Self::Wrong(..) => Exit::Geometry,
             Self::UnknownFormat(_)
             | Self::LayersInPng(_)
@@ -161,7 +158,7 @@ impl Arguments {
 
     /// Returns the ledger of the files of one run.
     pub fn ledger(&self) -> Ledger {
-        self.output.ledger()
+        self.work.common.ledger()
     }
 }
 
@@ -171,8 +168,7 @@ pub fn run(arguments: &Arguments, ledger: &Ledger) -> Result<(), Report> {
     if input.emit_schema {
         return Ok(output::print(&format!("{:#}\n", schema::of_scene()))?);
     }
-    files::memory::allow(work.max_memory);
-    files::progress::choose(work.progress);
+    work.common.begin();
     input.check()?;
     if output.watch && (input.reads_stdin() || output.is_stdout()) {
         return Err(PipeError("name them, and the picture with -o FILE").into());
@@ -259,10 +255,10 @@ fn picture(
     let read_time = begun.elapsed();
 
     accuracy.hold_signals();
-    let pool = work.pool()?;
+    let pool = work.common.pool()?;
     let prepared = Prepared::new(&scene);
     if let Some(target) = target {
-        let progress = Progress::new("render", work.quiet);
+        let progress = Progress::new("render", work.common.quiet);
         let (mut picture, mut stats, statement) = pool.install(|| {
             accuracy.render(&prepared, &mut settings, sampling.pixel_filter, &progress)
         });
@@ -286,7 +282,7 @@ fn picture(
             target.wrote((picture.width, picture.height), begun.elapsed());
         }
         accuracy.state_unfinished(&stats, &picture);
-        accuracy.state(statement, work.quiet)?;
+        accuracy.state(statement, work.common.quiet)?;
     }
     if let Some(pixel) = sampling.pixel {
         let (encoding, all) = (output.gamma, sampling.all_samples);

@@ -40,7 +40,7 @@ impl Numbers {
 }
 
 fn solid(pattern: Pattern) -> Solid {
-    Solid { pattern, placement: Placement::new(1.0, DVec3::ZERO, DVec3::ZERO) }
+    Solid { pattern, placement: Placement::default() }
 }
 
 fn average(solid: &Solid, (point, steps): (DVec3, [DVec3; 2])) -> Color {

@@ -9,13 +9,12 @@ use files::exit::{Exit, Failure, Report, say, wrote};
 use files::json::Document;
 use files::progress::Progress;
 use files::watch::PipeError;
-use files::{Batch, Ledger, Output, Setting, extension, input, memory, setting};
+use files::{Batch, CommonArguments, Ledger, Output, Setting, extension, input, setting};
 use format::Format;
 use resolution::ResolutionArguments;
 use std::io::{self, IsTerminal, Write};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 use sweep::grid::file::Encoding;
 use sweep::{Object, Spent, Sweep, check, preview, schema};
@@ -74,54 +73,26 @@ pub struct Arguments {
     #[command(flatten)]
     resolution: ResolutionArguments,
 
-    /// Most memory to use, in bytes or with k, M or G. A larger request is refused before the work
-    /// starts [default: 90 % of the free memory]
-    #[arg(long, value_name = "BYTES", value_parser = files::memory::bytes)]
-    max_memory: Option<u64>,
-    /// Threads to use, up to 1024; all cores by default
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    threads: Option<u16>,
-
     /// Print the JSON Schema of specs and do nothing else
     #[arg(long, exclusive = true)]
     emit_schema: bool,
-
-    /// Progress on standard error
-    #[arg(
-        long,
-        value_enum,
-        default_value_t,
-        hide_possible_values = true,
-        value_name = "bar|plain|json|none"
-    )]
-    progress: files::progress::Mode,
-
-    /// Print no notes, no progress and no lines about written files
-    #[arg(short, long)]
-    quiet: bool,
 
     /// Print sizes and times on standard error
     #[arg(long)]
     stats: bool,
 
-    /// Fail if the output file exists
-    #[arg(long)]
-    no_clobber: bool,
-
     /// Do the work again whenever the spec or a file that it names changes, until Ctrl-C
     #[arg(long, conflicts_with = "no_clobber")]
     watch: bool,
-}
 
-/// True once the threads of the process have started.
-static THREADS: AtomicBool = AtomicBool::new(false);
+    #[command(flatten)]
+    common: CommonArguments,
+}
 
 #[derive(Debug, Error)]
 enum UseError {
     #[error("the binary grid is not for a terminal: name a file with -o, or use --format json")]
     Terminal,
-    #[error("cannot start {threads} threads: {source}")]
-    Threads { threads: u16, source: rayon::ThreadPoolBuildError },
     #[error(
         "found two outputs for standard output, expected one: name files with -o and --preview"
     )]
@@ -135,7 +106,6 @@ impl Failure for UseError {
         match self {
             Self::Terminal | Self::Crowded => Exit::Use,
             Self::Wrong { .. } => Exit::Geometry,
-            Self::Threads { .. } => Exit::Resource,
         }
     }
 }
@@ -148,7 +118,7 @@ impl Arguments {
 
     /// Returns the ledger of the files of one run.
     pub fn ledger(&self) -> Ledger {
-        Ledger::new(!self.no_clobber)
+        self.common.ledger()
     }
 }
 
@@ -180,17 +150,10 @@ pub fn run(arguments: &Arguments, ledger: &Ledger) -> Result<(), Report> {
     if arguments.watch && is_pipe {
         return Err(PipeError("name the spec, and its outputs with -o or --preview").into());
     }
-    // The threads are those of the first run.
-    if let Some(threads) = arguments.threads.filter(|_| !THREADS.swap(true, Ordering::Relaxed)) {
-        rayon::ThreadPoolBuilder::new()
-            .num_threads(threads.into())
-            .build_global()
-            .map_err(|source| UseError::Threads { threads, source })?;
-    }
+    arguments.common.start_threads()?;
 
     let start = Instant::now();
-    memory::allow(arguments.max_memory);
-    files::progress::choose(arguments.progress);
+    arguments.common.begin();
     let file = output.map(|path| ledger.output(path, "name another file with -o")).transpose()?;
     let draw_to = |path| ledger.output(path, "name another file with --preview");
     let preview = arguments.preview.as_deref().map(draw_to).transpose()?;
@@ -207,7 +170,7 @@ pub fn run(arguments: &Arguments, ledger: &Ledger) -> Result<(), Report> {
     let name = setting::name(name, &arguments.settings);
     let folder = arguments.spec.parent().unwrap_or(Path::new(""));
     let document = Document::new(&name, &bytes)?;
-    let fitting = Progress::new("cells", arguments.quiet);
+    let fitting = Progress::new("cells", arguments.common.quiet);
     let tell = |done, most| fitting.tell(done, most);
     let overrides = arguments.resolution.overrides();
     let object = Object::read_telling(&document, folder, ledger, &overrides, &tell)?;
@@ -224,7 +187,7 @@ pub fn run(arguments: &Arguments, ledger: &Ledger) -> Result<(), Report> {
     let findings = if grids.is_empty() {
         Vec::new()
     } else {
-        let progress = Progress::new("check", arguments.quiet);
+        let progress = Progress::new("check", arguments.common.quiet);
         let tell = |done, total| progress.tell(done, total);
         check::check(&object, &grids, arguments.check_self.then_some(&tell))
     };
@@ -234,16 +197,16 @@ pub fn run(arguments: &Arguments, ledger: &Ledger) -> Result<(), Report> {
         outputs.push(file);
     }
     let remark = Batch::commit(outputs)?;
-    if let Some(remark) = remark.filter(|_| !arguments.quiet) {
+    if let Some(remark) = remark.filter(|_| !arguments.common.quiet) {
         say(format_args!("sweep: note: {remark}"));
     }
-    if !arguments.quiet {
+    if !arguments.common.quiet {
         let files = [output, arguments.preview.as_deref()].into_iter().flatten();
         files
             .filter(|file| !input::is_stdin(file))
             .for_each(|file| wrote(file, None, start.elapsed()));
     }
-    if !arguments.quiet && !checks {
+    if !arguments.common.quiet && !checks {
         object.parts().iter().for_each(report::note);
     }
     if arguments.stats {

@@ -12,7 +12,7 @@
 //! ```
 //!
 //! Lengths are in any one unit, angles in degrees. `"unit"` states the unit: `um`, `mm`, `cm`, `in`, `ft` or `m`. A grid
-//! keeps it. These keys may be left out: `unit`, `uv`, `areas` ([`Area`]), `place` and `copies` ([`Place`]), `position`, `frame`, `scale`, `twist` and `depth`, and inside the objects `closed` (false), `center` and
+//! keeps it. These keys may be left out: `unit`, `uv`, `areas` ([`Area`]), `place` ([`Step`](files::place::Step)) and `copies` ([`Copies`]), `position`, `frame`, `scale`, `twist` and `depth`, and inside the objects `closed` (false), `center` and
 //! `origin` (zero), `axis` (y) and `angle_deg` (360). Unknown keys are errors. A **contour** is one of
 //!
 //! | contour                                         | what                                         |
@@ -161,6 +161,7 @@
 mod areas;
 mod caps;
 pub mod contour;
+mod copies;
 mod corners;
 mod deform;
 mod depth;
@@ -171,7 +172,6 @@ mod law;
 mod measured;
 mod parts;
 mod pieces;
-mod place;
 pub mod resolution;
 pub mod schema;
 mod seam;
@@ -185,6 +185,7 @@ pub use crate::law::Ease;
 pub use areas::Area;
 pub use caps::{Cap, Caps};
 pub use contour::{Contour, FreeContour};
+pub use copies::Copies;
 pub use corners::{Bezier3, Corners};
 pub use deform::{AxisTwist, Bend, Deform, Taper};
 pub use depth::{Depth, DepthImage, DepthMode, DepthTerm};
@@ -194,7 +195,6 @@ pub use helix::Helix;
 pub use law::{Law, Scale};
 pub use measured::{FormulaCurve, Measured};
 pub use parts::Parts;
-pub use place::{Copies, Place, PlaceTurn};
 pub use resolution::{Camera, Resolution};
 pub use seam::SeamKind;
 pub use svg::SvgFile;
@@ -205,6 +205,7 @@ pub use wall::{Rim, Wall, WallKeys, WallSide};
 
 use crate::grid::{Unit, UvLayout};
 use crate::limits;
+use files::Place;
 use files::note::Note;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -287,9 +288,10 @@ pub struct Spec {
     /// Translation of the finished surface, `[x, y, z]` in the unit of length.
     #[serde(default)]
     pub position: [f64; 3],
-    /// Motions of the finished surface after `position`, applied one after another.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub place: Vec<Place>,
+    /// Place of the finished surface after `position`: a step, or a list of steps, that scale all directions alike and
+    /// do not mirror.
+    #[serde(default, skip_serializing_if = "Place::is_empty")]
+    pub place: Place,
     /// Copies of the finished surface.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub copies: Option<Copies>,
@@ -360,7 +362,7 @@ mod tests {
         (include_str!("spec/helix.rs"), 1),
         (include_str!("spec/measured.rs"), 2),
         (include_str!("spec/parts.rs"), 1),
-        (include_str!("spec/place.rs"), 1),
+        (include_str!("spec/copies.rs"), 1),
         (include_str!("spec/seam.rs"), 2),
         (include_str!("spec/wall.rs"), 3),
     ];

@@ -177,13 +177,46 @@ fn copies_are_moved_once_more_each() {
     let near = |a: DVec3, b: [f64; 3]| assert!((a - DVec3::from_array(b)).length() < 1e-12, "{a}");
     near(all.bounds[0], [-2.0, -6.0, -2.0]);
     near(all.bounds[1], [22.0, 0.0, 2.0]);
-    let axis = json!([{"rotate_deg": {"axis": [0, 0, 0], "angle": 1}}]);
-    spec["place"] = axis;
-    let error = read(Path::new(""), &spec).unwrap_err();
-    assert!(
-        error.to_string().contains("place[0].rotate_deg.axis: found a vector without length"),
-        "{error}"
-    );
+    // One step with several keys and a matrix mean the same.
+    spec["place"] = json!({"rotate_deg": [90, 0, 0], "scale": 2});
+    spec["copies"] =
+        json!({"count": 3, "step": {"matrix": [[1, 0, 0, 10], [0, 1, 0, 0], [0, 0, 1, 0]]}});
+    let again = read(Path::new(""), &spec).unwrap();
+    assert_eq!(Measures::of(&again, &again.grids().unwrap()).bounds, all.bounds);
+}
+
+#[test]
+fn places_that_a_sweep_cannot_have_are_refused() {
+    for (key, place, message) in [
+        (
+            "place",
+            json!([{"rotate_deg": {"axis": [0, 0, 0], "angle": 1}}]),
+            "place[0].rotate_deg.axis: found an axis without length",
+        ),
+        ("place", json!({"scale": 0}), "place.scale: found 0, expected any other number"),
+        (
+            "place",
+            json!({"scale": [1, 2, 1]}),
+            "place: found a place that stretches directions differently",
+        ),
+        ("place", json!({"scale": [1, 1, -1]}), "place: found a place that mirrors"),
+        ("place", json!({"scale": 1e200}), "place: found"),
+        (
+            "place",
+            json!({"matrix": [[1, 0, 0, 0], [1, 0, 0, 0], [0, 0, 1, 0]]}),
+            "place: found a place that stretches",
+        ),
+        (
+            "copies",
+            json!({"count": 2, "step": [{"scale": [1, 0, 1]}]}),
+            "copies.step[0].scale[1]: found 0",
+        ),
+    ] {
+        let mut spec = bar(&json!({"circle": 1}));
+        spec[key] = place;
+        let error = read(Path::new(""), &spec).unwrap_err().to_string();
+        assert!(error.contains(message), "{error}");
+    }
 }
 
 /// The contour's x points away from the axis everywhere, for a right-handed and a left-handed helix.

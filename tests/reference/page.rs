@@ -85,7 +85,8 @@ fn keys(out: &mut String, section: &Section<'_>, schema: Schema<'_>, examples: &
     }
 }
 
-fn meaning<'a>(key: &Key<'a>, schema: Schema<'a>) -> &'a str {
+/// Returns what a key means, by its own description or by that of its type.
+pub fn meaning<'a>(key: &Key<'a>, schema: Schema<'a>) -> &'a str {
     let own = text(key.schema, "description");
     if own.is_empty() { text(schema.resolved(key.schema).0, "description") } else { own }
 }

@@ -7,7 +7,7 @@ mod write;
 use clap::Parser;
 use files::exit::{say, wrote};
 use files::extension::{self, WrongExtension};
-use files::{Batch, Exit, Failure, Ledger, Output, Report, Setting, input};
+use files::{Batch, CommonArguments, Exit, Failure, Ledger, Output, Report, Setting, input};
 use grid::{Grid, Place};
 use std::io::{IsTerminal, Write, stdin, stdout};
 use std::path::{Path, PathBuf};
@@ -82,31 +82,11 @@ pub struct Arguments {
     /// output. Keeps the mesh in memory
     #[arg(long, value_name = "FILE.json")]
     pub report: Option<PathBuf>,
-    /// Most memory to use, in bytes or with k, M or G. A larger request is refused before the work
-    /// starts [default: 90 % of the free memory]
-    #[arg(long, value_name = "BYTES", value_parser = files::memory::bytes)]
-    pub max_memory: Option<u64>,
-    /// Threads that may be used, 1 to 1024. The work takes one
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    threads: Option<u16>,
-    /// Progress on standard error
-    #[arg(
-        long,
-        value_enum,
-        default_value_t,
-        hide_possible_values = true,
-        value_name = "bar|plain|json|none"
-    )]
-    progress: files::progress::Mode,
-    /// Print only errors
-    #[arg(short, long)]
-    pub quiet: bool,
     /// Print the numbers of vertices and triangles on standard error
     #[arg(long)]
     pub stats: bool,
-    /// Do not replace an existing output file
-    #[arg(long)]
-    pub no_clobber: bool,
+    #[command(flatten)]
+    pub common: CommonArguments,
 }
 
 /// Arguments that contradict each other, or that do not suit the terminal.
@@ -141,13 +121,12 @@ impl Failure for UseError {
 /// Reads the grid, writes its triangles, and replaces all outputs together.
 pub fn run(arguments: &Arguments) -> Result<(), Report> {
     let start = Instant::now();
-    files::memory::allow(arguments.max_memory);
-    files::progress::choose(arguments.progress);
+    arguments.common.begin();
     arguments.check(stdout().is_terminal())?;
     if input::is_stdin(&arguments.grid) && stdin().is_terminal() {
         return Err(TriangulateError::Terminal.into());
     }
-    let ledger = Ledger::new(!arguments.no_clobber);
+    let ledger = arguments.common.ledger();
     let mut outputs = Outputs::create(arguments, &ledger)?;
     ledger.expect(&arguments.grid, "the grid")?;
     if let Some(areas) = &arguments.areas {
@@ -171,10 +150,10 @@ pub fn run(arguments: &Arguments) -> Result<(), Report> {
     let written = written.map_err(|error| outputs.mesh_failure(error))?;
     let counts = written.counts;
     let remark = outputs.commit(arguments, written)?;
-    if let Some(remark) = remark.filter(|_| !arguments.quiet) {
+    if let Some(remark) = remark.filter(|_| !arguments.common.quiet) {
         say(format_args!("triangulate: note: {remark}"));
     }
-    if !arguments.quiet {
+    if !arguments.common.quiet {
         let files = [Some(arguments.output.clone()), arguments.mtl(), arguments.report.clone()];
         let files = files.iter().flatten().filter(|file| !is_stdout(file));
         files.for_each(|file| wrote(file, None, start.elapsed()));
@@ -223,7 +202,7 @@ impl Outputs {
         }
         if let (Some(mut output), Some(mesh)) = (self.report, written.mesh) {
             let report = MeshReport::of(&mesh, &written.counts);
-            if !arguments.quiet {
+            if !arguments.common.quiet {
                 note::merged(&mesh.name, &report);
             }
             report.write(&mut output).map_err(|source| output.failed(source))?;

@@ -1,13 +1,13 @@
 //! `pipeline book`: the picture book.
 
-use super::common::CommonArguments;
 use super::named::{self, NamedJob};
 use super::{OTHER_FOLDER, make_folder};
 use crate::book::{self, Entry, Options};
 use clap::Args;
+use files::CommonArguments;
 use files::MemoryError;
 use files::Report;
-use files::exit::say;
+use files::exit::wrote_about;
 use files::memory::{Reserved, of_process};
 use files::progress::Progress;
 use std::path::PathBuf;
@@ -46,7 +46,7 @@ fn reserve_page(jobs: &[NamedJob], size: (u32, u32)) -> Result<Reserved<'static>
 
 /// Makes the book.
 pub fn book(arguments: &BookArguments) -> Result<(), Report> {
-    arguments.common.limit_memory();
+    arguments.common.begin();
     let ledger = arguments.common.ledger();
     let jobs = if arguments.jobs.is_empty() {
         named::jobs(&["all".to_owned()], &[], &ledger)?
@@ -81,10 +81,10 @@ pub fn book(arguments: &BookArguments) -> Result<(), Report> {
     drop(progress);
     ledger.create(&path)?.commit_all(text.as_bytes())?;
     if !arguments.common.quiet {
-        let seconds = started.elapsed().as_secs_f64();
         let megabytes = text.len() as f64 / 1e6;
         let pages = entries.len();
-        say(format_args!("{}: {pages} pages, {megabytes:.1} MB, {seconds:.1} s", path.display()));
+        let content = format!("{pages} pages, {megabytes:.1} MB");
+        wrote_about(&path, &content, started.elapsed());
     }
     Ok(())
 }

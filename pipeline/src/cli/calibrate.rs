@@ -1,16 +1,16 @@
 //! `pipeline report --calibrate`: compares requested and stated errors with true ones.
 
 use super::bar::Bar;
-use super::common::CommonArguments;
 use super::named::{self, NamedJob};
 use super::{OTHER_FOLDER, make_folder};
 use crate::PipelineError;
 use crate::calibrate::{self, Summary, by_request, interval, measure, scenes};
 use crate::run::{self, Options};
-use files::Report;
-use files::exit::say;
+use files::exit::{say, wrote};
+use files::{CommonArguments, Report};
 use std::io::Write;
 use std::path::Path;
+use std::time::Instant;
 
 /// The file of the page.
 const FILE: &str = "calibration.html";
@@ -43,7 +43,7 @@ pub fn calibrate(
     let path = folder.join(FILE);
     ledger.claim(&path, OTHER_FOLDER)?;
     let pool = common.pool()?;
-    let bar = Bar::new(common.quiet);
+    let (bar, began) = (Bar::new(common.quiet), Instant::now());
     let total = jobs.len() + count;
     let mut measured = Vec::with_capacity(total);
     pool.install(|| -> Result<(), PipelineError> {
@@ -68,7 +68,7 @@ pub fn calibrate(
         for (request, cases) in by_request(&measured) {
             say(line(request, Summary::of(&cases)));
         }
-        say(path.display());
+        wrote(&path, None, began.elapsed());
     }
     Ok(())
 }

@@ -2,13 +2,15 @@
 
 use clap::Args;
 use compare::{CompareError, Difference, Scale, difference, map, read, ssim};
-use files::{Exit, Failure, Ledger, Output, Report, input};
+use files::exit::wrote;
+use files::{CommonArguments, Exit, Failure, Output, Report, input};
 use render::Picture;
 use render::film::Crop;
 use render::film::encode::Format;
 use serde::Serialize;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 use thiserror::Error;
 
 const MEASURES: &str = "\
@@ -59,13 +61,8 @@ pub struct CompareArguments {
     /// Print the numbers as JSON
     #[arg(long)]
     json: bool,
-    /// Most memory to use, in bytes or with k, M or G. A larger request is refused before the work
-    /// starts [default: 90 % of the free memory]
-    #[arg(long, value_name = "BYTES", value_parser = files::memory::bytes)]
-    max_memory: Option<u64>,
-    /// Fail if the map exists
-    #[arg(long)]
-    no_clobber: bool,
+    #[command(flatten)]
+    common: CommonArguments,
 }
 
 /// Reads a limit of a difference: a finite number of at least 0.
@@ -125,12 +122,13 @@ struct Measures {
 
 /// Compares two pictures, draws the map, prints the measures and checks the limits.
 pub fn compare(arguments: &CompareArguments) -> Result<(), Report> {
-    files::memory::allow(arguments.max_memory);
+    let start = Instant::now();
+    arguments.common.begin();
     let (first, second) = (&arguments.first, &arguments.second);
     if input::is_stdin(first) && input::is_stdin(second) {
         return Err(Unequal::TwiceStdin.into());
     }
-    let ledger = Ledger::new(!arguments.no_clobber);
+    let ledger = arguments.common.ledger();
     if let Some(path) = &arguments.map {
         if Format::of(path) != Some(Format::Png) {
             return Err(Unequal::MapName(path.display().to_string()).into());
@@ -151,6 +149,9 @@ pub fn compare(arguments: &CompareArguments) -> Result<(), Report> {
         let bytes = map::png(&map::map(&a, &b, arguments.map_scale)?)
             .map_err(|source| Unequal::Encode { name, source })?;
         ledger.create(path)?.commit_all(&bytes)?;
+        if !arguments.common.quiet && !input::is_stdin(path) {
+            wrote(path, Some((width, height)), start.elapsed());
+        }
     }
     let mut out = Output::create(Path::new("-"), true)?;
     measures.write(arguments.json, &mut out).map_err(|source| out.failed(source))?;

@@ -46,7 +46,7 @@ pub fn export(arguments: &ExportArguments) -> Result<(), Report> {
             say(format_args!("pipeline: note: {remark}"));
         }
         for path in files.keys() {
-            say(folder.join(below_examples(path)).display());
+            say(format_args!("wrote {}", folder.join(below_examples(path)).display()));
         }
         let own = folder.join(below_examples(&pages::path(&job.name)));
         say(format_args!("make its pictures: pipeline run {} -o out", own.display()));

@@ -1,9 +1,11 @@
 //! `pipeline join`: puts the parts of a picture together.
 
 use clap::Args;
-use files::{Ledger, Report, Source, input};
+use files::exit::wrote;
+use files::{CommonArguments, Report, Source, input};
 use render::film::join::join as joined;
 use std::path::PathBuf;
+use std::time::Instant;
 
 /// Arguments of `pipeline join`.
 #[derive(Debug, Args)]
@@ -14,17 +16,22 @@ pub struct JoinArguments {
     /// The whole picture, in the format of the parts
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
-    /// Fail if the picture file exists
-    #[arg(long)]
-    no_clobber: bool,
+    #[command(flatten)]
+    common: CommonArguments,
 }
 
 /// Joins the parts that the arguments name.
 pub fn join(arguments: &JoinArguments) -> Result<(), Report> {
-    let ledger = Ledger::new(!arguments.no_clobber);
+    let began = Instant::now();
+    arguments.common.begin();
+    let ledger = arguments.common.ledger();
     ledger.claim(&arguments.output, "name another file with -o")?;
     let read = |path: &PathBuf| Ok((input::name_of(path), ledger.read(path)?));
     let parts = arguments.parts.iter().map(read).collect::<Result<Vec<_>, Report>>()?;
     let bytes = joined(&parts)?;
-    Ok(ledger.create(&arguments.output)?.commit_all(&bytes)?)
+    ledger.create(&arguments.output)?.commit_all(&bytes)?;
+    if !arguments.common.quiet && !input::is_stdin(&arguments.output) {
+        wrote(&arguments.output, None, began.elapsed());
+    }
+    Ok(())
 }

@@ -3,7 +3,6 @@
 mod bar;
 mod book;
 mod calibrate;
-mod common;
 mod compare;
 mod export;
 mod farm;

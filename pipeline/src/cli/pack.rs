@@ -69,7 +69,7 @@ pub fn pack(arguments: &PackArguments) -> Result<(), Report> {
         return Err(PackError::FromRoot(input::name_of(&outside)).into());
     }
     if !arguments.quiet {
-        say(format_args!("{count} files in {}", folder.display()));
+        say(format_args!("wrote {count} files to {}", folder.display()));
         say(format_args!("make its pictures: pipeline run {} -o out", job.display()));
     }
     Ok(())

@@ -3,7 +3,6 @@
 
 use super::bar::Bar;
 use super::calibrate;
-use super::common::CommonArguments;
 use super::named::{self, NamedJob};
 use super::{OTHER_FOLDER, make_folder};
 use crate::report::measure::{self, Memory};
@@ -12,9 +11,9 @@ use crate::report::{self, Measured, Plan};
 use crate::run::Options;
 use crate::{Job, PipelineError};
 use clap::Args;
-use files::exit::say;
+use files::exit::{say, wrote};
 use files::memory::of_process;
-use files::{Batch, Exit, Failure, Ledger, Report};
+use files::{Batch, CommonArguments, Exit, Failure, Ledger, Report};
 use render::film::{MOST_SAMPLES, memory as film_memory};
 use render::filter::Filter;
 use render::{Scene, Settings};
@@ -78,7 +77,7 @@ pub struct ReportArguments {
 /// Compares requested and stated errors with true ones.
 pub fn calibrate(arguments: &ReportArguments) -> Result<(), Report> {
     let ReportArguments { pages, output, size, scenes, common, .. } = arguments;
-    common.limit_memory();
+    common.begin();
     calibrate::calibrate(pages, scenes.unwrap_or(calibrate::SCENES), *size, output, common)
 }
 
@@ -124,7 +123,7 @@ pub fn hand_over() -> Result<(), CountingError> {
 
 /// Measures the pages that the arguments name, and writes the report.
 pub fn report(arguments: &ReportArguments, memory: &dyn Memory) -> Result<(), Report> {
-    arguments.common.limit_memory();
+    arguments.common.begin();
     let quiet = arguments.common.quiet;
     let ledger = arguments.common.ledger();
     let jobs = jobs(&arguments.pages, &ledger)?;
@@ -165,6 +164,7 @@ pub fn report(arguments: &ReportArguments, memory: &dyn Memory) -> Result<(), Re
     if let Some(remark) = batch.remark().filter(|_| !quiet) {
         say(format_args!("pipeline: note: {remark}"));
     }
+    let began = Instant::now();
     let pool = arguments.common.pool()?;
     let threads = pool.current_num_threads();
     let mut measured = Measured { pages: Vec::new(), threads, quick: arguments.quick };
@@ -187,7 +187,7 @@ pub fn report(arguments: &ReportArguments, memory: &dyn Memory) -> Result<(), Re
     let written = report::write(&measured, &options.folder, options.clobber, &batch)?;
     batch.finish()?;
     if !quiet {
-        written.iter().for_each(|path| say(path.display()));
+        written.iter().for_each(|path| wrote(path, None, began.elapsed()));
     }
     Ok(())
 }

@@ -1,7 +1,6 @@
 //! `pipeline run`: makes the pictures of pages and jobs.
 
 use super::bar::Bar;
-use super::common::CommonArguments;
 use super::frames::FrameArguments;
 use super::named::{self, NamedJob};
 use super::{OTHER_FOLDER, make_folder};
@@ -12,15 +11,18 @@ use crate::settings::Changed;
 use crate::stages::Stages;
 use crate::{Job, PipelineError};
 use clap::Args;
-use files::exit::say;
-use files::{Batch, Ledger, Report, Setting, Variant, input};
+use files::exit::{say, wrote};
+use files::{
+    Batch, CommonArguments, Exit, Failure, Ledger, Output, Report, Setting, Variant, input,
+};
 use render::Picture;
 use render::accuracy;
 use std::collections::BTreeMap;
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
+use thiserror::Error;
 
 /// Error of the further picture of a page that is named alone.
 const PAGE_ERROR: f64 = 0.005;
@@ -28,8 +30,8 @@ const PAGE_ERROR: f64 = 0.005;
 /// Arguments of `pipeline run`.
 #[derive(Debug, Args)]
 pub struct RunArguments {
-    /// Pages by name, all of them, figures of the thesis by number, or job files, whose names end in
-    /// .json. A page that is named alone also gets a picture whose error is below 0.005, unless --mode or
+    /// Pages by name, all of them, figures of the thesis by number, or files of jobs or scenes, whose names
+    /// end in .json. A page that is named alone also gets a picture whose error is below 0.005, unless --mode or
     /// --error is given
     #[arg(required = true, value_name = "NAME|all|A.N|FILE.json")]
     jobs: Vec<String>,
@@ -61,6 +63,9 @@ pub struct RunArguments {
     /// Also write sheet.png, which shows the last picture of each job, reduced
     #[arg(long)]
     sheet: bool,
+    /// Print the names of the files that would be written, and make none. The jobs are read and checked
+    #[arg(long)]
+    dry_run: bool,
     /// Print counts of rays, hits and texels and the time of each stage on standard error
     #[arg(long)]
     stats: bool,
@@ -70,14 +75,34 @@ pub struct RunArguments {
     common: CommonArguments,
 }
 
+/// The output is no folder.
+#[derive(Debug, Error)]
+enum UseError {
+    #[error(
+        "-o names a folder, and - is standard output: `pipeline show` and `render` write a picture there"
+    )]
+    Stdout,
+}
+
+impl Failure for UseError {
+    fn exit(&self) -> Exit {
+        Exit::Use
+    }
+}
+
 /// Runs the jobs that the arguments name.
 pub fn run(arguments: &RunArguments) -> Result<(), Report> {
-    arguments.common.limit_memory();
+    arguments.common.begin();
     // Every job is read before the first is run, so that an error in a name is reported at once.
     let ledger = arguments.common.ledger();
     let jobs = jobs(arguments, &ledger)?;
     let shared = arguments.jobs_from.as_ref().map(|_| Shared::default());
-    make_folder(&arguments.output)?;
+    if input::is_stdin(&arguments.output) {
+        return Err(UseError::Stdout.into());
+    }
+    if !arguments.dry_run {
+        make_folder(&arguments.output)?;
+    }
     let sheet_path = arguments.sheet.then(|| arguments.output.join(ContactSheet::FILE));
     let chosen = jobs.iter().map(|named| arguments.frames.of(&named.job, &ledger));
     let chosen = chosen.collect::<Result<Vec<_>, _>>()?;
@@ -89,6 +114,11 @@ pub fn run(arguments: &RunArguments) -> Result<(), Report> {
         names.map(|name| arguments.output.join(name)).chain(sheet_path.clone()).collect();
     for file in &files {
         ledger.claim(file, OTHER_FOLDER)?;
+    }
+    if arguments.dry_run {
+        let lines: String = files.iter().map(|file| format!("{}\n", file.display())).collect();
+        let lines = files::words::printed(&lines);
+        return Ok(Output::create(Path::new("-"), true)?.commit_all(lines.as_bytes())?);
     }
     let pool = arguments.common.pool()?;
     let options = Options {
@@ -116,7 +146,7 @@ pub fn run(arguments: &RunArguments) -> Result<(), Report> {
             let stages =
                 pool.install(|| chosen.run(named, &arguments.settings, &options, &hear))?;
             if let Some(film) = chosen.film(job, &options, &ledger)? {
-                hear(Event::Written(&film));
+                hear(Event::Written { path: &film, size: None });
             }
             stages
         } else {
@@ -142,10 +172,14 @@ pub fn run(arguments: &RunArguments) -> Result<(), Report> {
         all += stages;
     }
     if let (Some(path), Some(together)) = (&sheet_path, together) {
+        let drawn = Instant::now();
         let mut output = ledger.create(path)?;
         output.write_all(&sheet.png()?).map_err(|source| output.failed(source))?;
         together.replace(output)?;
         together.finish()?;
+        if !arguments.common.quiet {
+            wrote(path, Some(sheet.size()), drawn.elapsed());
+        }
     }
     if jobs.len() > 1 {
         rows.push(("all".into(), all));
@@ -257,7 +291,8 @@ struct Listener<'a> {
     /// Name of the mode of the further picture.
     further: Option<String>,
     arguments: &'a RunArguments,
-    started: Instant,
+    /// The time at which the file before was written, or the job began.
+    before: Mutex<Instant>,
     bar: Bar,
     heard: Mutex<Heard>,
 }
@@ -274,7 +309,7 @@ impl<'a> Listener<'a> {
             job: &job.name,
             further,
             arguments,
-            started: Instant::now(),
+            before: Mutex::new(Instant::now()),
             bar,
             heard: Mutex::default(),
         }
@@ -326,10 +361,13 @@ impl<'a> Listener<'a> {
                     heard.0.push((format!("  {mode}"), Stages::of_mode(stats)));
                 }
             }
-            Event::Written(path) => {
+            Event::Written { path, size } => {
                 self.bar.clear();
-                let seconds = self.started.elapsed().as_secs_f64();
-                self.say(&format!("{}  {seconds:.2} s", input::name_of(path)));
+                let mut before = self.before.lock().unwrap_or_else(PoisonError::into_inner);
+                if !self.arguments.common.quiet {
+                    wrote(path, *size, before.elapsed());
+                }
+                *before = Instant::now();
             }
             Event::Kept(path) => {
                 self.say(&format!(

@@ -1,13 +1,12 @@
 //! `pipeline show`: makes a picture of a spec, a grid or a mesh.
 
-use super::common::CommonArguments;
 use crate::PipelineError;
 use crate::show::Showing;
 use clap::Args;
-use files::exit::say;
+use files::exit::{say, wrote};
 use files::memory::of_process;
 use files::progress::Progress;
-use files::{Exit, Failure, Report, Setting, input};
+use files::{CommonArguments, Exit, Failure, Report, Setting, input};
 use render::accuracy::{self, Request};
 use render::color::Encoding;
 use render::film::command::{Named, command};
@@ -15,9 +14,10 @@ use render::film::encode::{self, Bits, Coding, Format};
 use render::film::{BasePicture, MOST_SAMPLES, PixelFilter, THRESHOLD, alpha, memory};
 use render::filter::Filter;
 use render::shade::View;
-use render::showcase::Look;
 use render::showcase::look::HEADING;
+use render::showcase::{self, Look};
 use render::{Picture, Prepared, Sampling, Settings};
+use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use thiserror::Error;
@@ -53,6 +53,10 @@ pub struct ShowArguments {
     /// Write the scene that shows the mesh, as a starting point for a scene of your own
     #[arg(long, value_name = "FILE.json", help_heading = HEADING)]
     scene_out: Option<PathBuf>,
+    /// Write a job of the spec and of the scene of --scene-out, as a starting point for modes, variants and
+    /// frames
+    #[arg(long, value_name = "FILE.json", requires = "scene_out", help_heading = HEADING)]
+    job_out: Option<PathBuf>,
     #[command(flatten)]
     common: CommonArguments,
 }
@@ -61,6 +65,14 @@ pub struct ShowArguments {
 enum UseError {
     #[error("cannot tell the kind of picture from {0}: name it .png or .exr")]
     Format(String),
+    #[error(
+        "--job-out names a spec, and {0} is none: `pipeline run` takes the scene of --scene-out as a job"
+    )]
+    JobOfNoSpec(String),
+    #[error(
+        "--job-out names {0} as it is: set its values with -D specs.mesh... of `pipeline run`, and leave {1} out"
+    )]
+    JobOfValues(String, String),
 }
 
 impl Failure for UseError {
@@ -72,7 +84,7 @@ impl Failure for UseError {
 /// Makes the picture.
 pub fn show(arguments: &ShowArguments) -> Result<(), Report> {
     let ShowArguments { file, output, size: (width, height), look, common, .. } = arguments;
-    common.limit_memory();
+    common.begin();
     let to_stdout = input::is_stdin(output);
     let format = if to_stdout { Some(Format::Png) } else { Format::of(output) };
     let format = format.ok_or_else(|| UseError::Format(output.display().to_string()))?;
@@ -81,6 +93,14 @@ pub fn show(arguments: &ShowArguments) -> Result<(), Report> {
     ledger.claim(output, "name another file with -o")?;
     if let Some(path) = &arguments.scene_out {
         ledger.claim(path, "name another file with --scene-out")?;
+    }
+    if let Some(path) = &arguments.job_out {
+        ledger.claim(path, "name another file with --job-out")?;
+        let own = arguments.settings.iter().find(|setting| setting.below("scene").is_none());
+        if let Some(setting) = own {
+            let setting = format!("-D {}", setting.argument());
+            return Err(UseError::JobOfValues(input::name_of(file), setting).into());
+        }
     }
     let bytes = ledger.argument(file, "the file to show")?;
     let folder = arguments.scene_out.as_deref().and_then(Path::parent).unwrap_or(Path::new(""));
@@ -96,6 +116,9 @@ pub fn show(arguments: &ShowArguments) -> Result<(), Report> {
     };
     let pool = common.pool()?;
     let shown = pool.install(|| showing.scene())?;
+    if arguments.job_out.is_some() && !(shown.is_spec && file != Path::new("-")) {
+        return Err(UseError::JobOfNoSpec(input::name_of(file)).into());
+    }
     if !common.quiet {
         shown.scene.remarks.iter().for_each(|remark| say(format_args!("pipeline: {remark}")));
         shown.notes.iter().for_each(|note| say(format_args!("pipeline: note: {note}")));
@@ -119,9 +142,16 @@ pub fn show(arguments: &ShowArguments) -> Result<(), Report> {
     ledger.create(output)?.commit_all(&bytes)?;
     if let Some(path) = &arguments.scene_out {
         ledger.create(path)?.commit_all(&shown.text)?;
+        if let Some(job) = &arguments.job_out {
+            ledger.create(job)?.commit_all(job_text(job, file, path).as_bytes())?;
+        }
     }
     if !common.quiet {
-        if let (Some(path), false) = (&arguments.scene_out, shown.names_mesh) {
+        let made = [&arguments.scene_out, &arguments.job_out];
+        made.into_iter().flatten().for_each(|path| wrote(path, None, started.elapsed()));
+        if let Some(job) = &arguments.job_out {
+            say(format_args!("make its pictures: pipeline run {} -o out", job.display()));
+        } else if let (Some(path), false) = (&arguments.scene_out, shown.names_mesh) {
             say(format_args!(
                 "pipeline: {} takes its mesh with --mesh mesh=FILE, which sweep and triangulate make",
                 path.display()
@@ -131,13 +161,23 @@ pub fn show(arguments: &ShowArguments) -> Result<(), Report> {
             say(statement);
         }
         if !to_stdout {
-            files::exit::wrote(output, Some((*width, *height)), started.elapsed());
+            wrote(output, Some((*width, *height)), started.elapsed());
         }
     }
     match statement {
         Some(statement) if statement.missed.is_some() => Err(PipelineError::ErrorMissed(1).into()),
         _ => Ok(()),
     }
+}
+
+/// Returns the text of a job file that makes a mesh of a spec for its scene.
+fn job_text(job: &Path, spec: &Path, scene: &Path) -> String {
+    let folder = job.parent().unwrap_or(Path::new(""));
+    let named = |path: &Path| json!(showcase::seen_from(folder, path).to_string_lossy());
+    let (spec, scene, mesh) = (named(spec), named(scene), showcase::MESH);
+    format!(
+        "{{\n  \"format\": \"tb-job\", \"version\": 1,\n  \"meshes\": {{ \"{mesh}\": {{ \"spec\": {spec} }} }},\n  \"scene\": {scene}\n}}\n"
+    )
 }
 
 impl ShowArguments {

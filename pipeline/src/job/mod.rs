@@ -54,6 +54,8 @@ use crate::animation::Animation;
 use file::JobFile;
 use files::json::Document;
 use files::{JsonError, Source};
+use serde::Deserialize;
+use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use sweep::spec;
@@ -138,12 +140,12 @@ impl MeshJob {
 }
 
 impl Job {
-    /// Reads the job file at `path` in `source`.
+    /// Reads the job file at `path` in `source`. A scene file stands for the job of that scene alone.
     ///
     /// # Errors
     /// When the file cannot be read or is not a job of this version.
     pub fn read(path: &Path, source: &dyn Source) -> Result<Self, PipelineError> {
-        let bytes = source.read_json(path)?;
+        let bytes = of_scene(path, source.read_json(path)?);
         let name = path.display().to_string();
         let folder = path.parent().unwrap_or(Path::new(""));
         let stem = path.file_stem().unwrap_or_default().to_string_lossy();
@@ -236,6 +238,21 @@ impl Job {
             frame: None,
         })
     }
+}
+
+/// Returns the text of the job of a scene alone, if the text at `path` is that of a scene, or else the text itself.
+pub(crate) fn of_scene(path: &Path, text: Vec<u8>) -> Vec<u8> {
+    #[derive(Deserialize)]
+    struct Head {
+        format: String,
+    }
+    let head: Option<Head> = serde_json::from_slice(&text).ok();
+    let (Some(_), Some(name)) = (head.filter(|head| head.format == "tb-scene"), path.file_name())
+    else {
+        return text;
+    };
+    let job = json!({ "format": "tb-job", "version": 1, "scene": name.to_string_lossy() });
+    job.to_string().into_bytes()
 }
 
 /// Checks a name that becomes part of file names.

@@ -122,7 +122,7 @@ impl Run<'_> {
         let sweep = started.elapsed();
         let stated = fineness == Fineness::Stated;
         if let Some(batch) = keep {
-            self.write(batch, &self.job.grid_file(mesh), |out| {
+            self.write((batch, &self.job.grid_file(mesh), None), |out| {
                 grid_file::write_all(&grids, grid_file::Encoding::Binary, out)
                     .map_err(|source| out.failed(source).into())
             })?;
@@ -130,7 +130,7 @@ impl Run<'_> {
         let write = started.elapsed() - sweep;
         let started = Instant::now();
         let triangles = match keep {
-            Some(batch) => self.write(batch, &self.job.obj_file(mesh), |out| {
+            Some(batch) => self.write((batch, &self.job.obj_file(mesh), None), |out| {
                 mesh_and_obj(&grids, &mesh.options, out).map_err(|error| match error {
                     TriangulateError::Write(source) => out.failed(source).into(),
                     error => error.into(),

@@ -35,9 +35,6 @@ pub struct OutputArguments {
     /// picture shows it beside objects, through glass and through cut-outs; mirrors show it as it is
     #[arg(long)]
     pub alpha: bool,
-    /// Fail if the picture file exists
-    #[arg(long)]
-    no_clobber: bool,
     /// Make the picture again whenever the scene or a file that it names changes, until Ctrl-C
     #[arg(long, conflicts_with_all = ["no_clobber", "partial"])]
     pub watch: bool,
@@ -111,11 +108,6 @@ impl OutputArguments {
     /// Returns whether the picture goes to standard output.
     pub fn is_stdout(&self) -> bool {
         self.output.as_deref().is_some_and(input::is_stdin)
-    }
-
-    /// Returns the ledger of the run's files, which may or may not replace an existing output.
-    pub fn ledger(&self) -> Ledger {
-        Ledger::new(!self.no_clobber)
     }
 
     /// Returns the layers, each once, in the order of the help text.

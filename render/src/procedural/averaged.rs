@@ -140,8 +140,9 @@ impl Bump {
             // A horizon has steps without bound, over which nothing is left of the mean.
             if change.is_finite() { change } else { DVec3::ZERO }
         });
-        let stretch = self.placement.gradient(DVec3::X).length_squared();
-        let covariance = DMat3::IDENTITY * (stretch * slope.variance);
+        // The slopes of the relief vary alike in all directions of its own space.
+        let stretch = self.placement.map().matrix3;
+        let covariance = stretch.transpose() * stretch * slope.variance;
         along_surface(place.normal, changes.normal, gradient, (of_relief, of_relief), covariance)
     }
 }
@@ -239,6 +240,7 @@ mod tests {
     use crate::procedural::{
         Heights, Interpolation, Noise, NoiseLattice, NormalMap, Octaves, Placement,
     };
+    use glam::{DQuat, EulerRot};
     use proptest::prelude::*;
     use std::sync::Arc;
 
@@ -263,7 +265,12 @@ mod tests {
             Relief::Normals(normals),
         ]
         .map(|relief| {
-            let placement = Placement::new(0.3, DVec3::new(0.1, 0.2, 0.3), DVec3::ONE);
+            let placement = {
+                let turn = DQuat::from_euler(EulerRot::XYZ, 0.1, 0.2, 0.3);
+                let scale = DVec3::new(0.3, 0.25, 0.35);
+                let to_own = DAffine3::from_scale_rotation_translation(scale, turn, DVec3::ONE);
+                Placement::new(to_own.inverse())
+            };
             Bump { relief, strength: 0.1, placement }
         })
     }

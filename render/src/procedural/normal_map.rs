@@ -180,7 +180,7 @@ mod tests {
             })
             .collect();
         let relief = Relief::Normals(NormalMap::new(normals.clone(), 4, DVec2::ONE).unwrap());
-        let placement = Placement::new(1.0, DVec3::ZERO, DVec3::ZERO);
+        let placement = Placement::default();
         let bump = Bump { relief, strength: 1.0, placement };
         // The coordinates rise along y and along -x, on a plane of any size.
         let (tangent, other, normal) = (DVec3::Y, DVec3::NEG_X, DVec3::Z);

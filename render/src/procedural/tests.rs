@@ -2,7 +2,7 @@
 
 use super::lattice::{Cell, MAXNOISE};
 use super::*;
-use glam::{DMat3, DVec2};
+use glam::{DAffine3, DMat3, DQuat, DVec2, EulerRot};
 use proptest::prelude::*;
 
 const INTERPOLATIONS: [Interpolation; 3] =
@@ -226,7 +226,11 @@ fn far_places_have_finite_noise() {
 #[test]
 fn a_bump_is_the_normal_of_the_displaced_surface() {
     let octaves = Octaves { noise: noise(Interpolation::Smoother), count: 2 };
-    let placement = Placement::new(0.7, DVec3::new(0.3, 1.0, -0.2), DVec3::new(0.1, 0.2, 0.3));
+    // A place that also stretches directions differently.
+    let turn = DQuat::from_euler(EulerRot::XYZ, 0.3, 1.0, -0.2);
+    let shift = DVec3::new(0.1, 0.2, 0.3);
+    let to_own = DAffine3::from_scale_rotation_translation(DVec3::new(0.7, 0.5, 0.9), turn, shift);
+    let placement = Placement::new(to_own.inverse());
     let height = |p: DVec3| octaves.fractal(placement.to_texture(p));
     let worst = |k: f64| {
         let bump = Bump { relief: Relief::Noise(octaves.clone()), strength: k, placement };
@@ -261,7 +265,7 @@ fn worst_of_none(octaves: &Octaves, placement: Placement) -> f64 {
 #[test]
 fn dnoise_is_added_to_the_normal_as_it_is() {
     let noise = noise(Interpolation::Linear);
-    let placement = Placement::new(1.0, DVec3::ZERO, DVec3::ZERO);
+    let placement = Placement::default();
     let bump = Bump { relief: Relief::Dnoise(noise.clone()), strength: 0.4, placement };
     let point = DVec3::new(0.3, 5.1, -2.2);
     let expected = (DVec3::Z + 0.4 * noise.dnoise(point)).normalize();
@@ -273,7 +277,7 @@ fn dnoise_is_added_to_the_normal_as_it_is() {
 #[test]
 fn textures_move_with_their_object() {
     let octaves = Octaves { noise: noise(Interpolation::Smooth), count: 3 };
-    let placement = Placement::new(0.5, DVec3::ZERO, DVec3::ZERO);
+    let placement = Placement::new(DAffine3::from_scale(DVec3::splat(2.0)));
     let bump = Bump { relief: Relief::Noise(octaves), strength: 0.2, placement };
     let to_scene = DAffine3::from_translation(DVec3::new(3.0, -1.0, 2.0))
         * DAffine3::from_axis_angle(DVec3::new(1.0, 2.0, 3.0).normalize(), 0.8)
@@ -294,7 +298,7 @@ fn a_picture_bumps_as_its_heights_say() {
         |k: usize| 0.5 + 0.5 * ((k as f64 + 0.5) / size as f64 * std::f64::consts::TAU).sin();
     let values = (0..size * size).map(|k| wave(k % size) * wave(k / size)).collect();
     let heights = Heights::new(values, size, DVec2::ONE, false).unwrap();
-    let placement = Placement::new(1.0, DVec3::ZERO, DVec3::ZERO);
+    let placement = Placement::default();
     let bump = Bump { relief: Relief::Picture(heights.clone()), strength: 0.3, placement };
     // A plane of 4 by 2 that the picture fills once.
     let uv_gradients = [DVec3::X / 4.0, DVec3::Y / 2.0];
@@ -372,7 +376,7 @@ fn every_solid_is_finite_and_has_the_colours_of_its_ramp() {
         Pattern::Clouds(clouds(clouds::Sum::Fractal)),
         Pattern::Clouds(clouds(clouds::Sum::Turbulence)),
     ];
-    let placement = Placement::new(1.0, DVec3::ZERO, DVec3::ZERO);
+    let placement = Placement::default();
     for pattern in patterns {
         let solid = Solid { pattern, placement };
         let (mut low, mut high) = (1.0f64, 0.0f64);

@@ -24,8 +24,7 @@
 //!     { "plane": { "point": [0, -1, 0], "edge_u": [1, 0, 0], "edge_v": [0, 0, -1],
 //!                  "material": "floor" } },
 //!     { "box": { "low": [-1, 0, -1], "high": [1, 0.2, 1], "material": "floor", "texture": "checks",
-//!                "place": [ { "rotate_deg": { "axis": [0, 1, 0], "angle": 30 } },
-//!                           { "translate": [0, 0, -3] } ] } },
+//!                "place": { "rotate_deg": [0, 30, 0], "translate": [0, 0, -3] } } },
 //!     { "superquadric": { "center": [2, 0.5, 0], "radii": [0.5, 0.5, 0.5], "exponents": [0.3, 1],
 //!                         "material": "floor" } },
 //!     { "mesh": { "name": "vase", "material": "floor", "textures": { "2": "checks" } } }
@@ -81,13 +80,8 @@
 //! `radii` are the radii of its tube, and the middle of the tube is `ring` times as far from the
 //! axis.
 //!
-//! Any object may have a `"place"`, a list of steps that are applied in order:
-//! `{ "scale": [x, y, z] }`, `{ "rotate_deg": { "axis": [x, y, z], "angle": a } }`
-//! (counter-clockwise as seen from the direction in which the axis points),
-//! `{ "translate": [x, y, z] }` and `{ "matrix": [[...], [...], [...]] }` with three rows of four
-//! numbers. All steps are about the origin of the scene. Mirroring is allowed, and the outside
-//! stays the outside. Flat maps are refused: the product of the Frobenius norms of the whole matrix
-//! and of its inverse may be at most a million (a rotation has 3).
+//! Any object may have a `"place"`: a step or a list of steps, in the syntax that specs and textures have too
+//! ([`Step`](files::place::Step)). Its origin is that of the scene. Mirroring is allowed, and the outside stays the outside.
 //!
 //! # Meshes
 //!
@@ -98,10 +92,9 @@
 //! gives. `mtl` names the material library that the tool wrote with it ([what is
 //! read](super::mtl)).
 //!
-//! `instances` shows a mesh several times: `"instances": [ [ { "translate": [-3, 0, 0] } ], [ {
-//! "rotate_deg": { "axis": [0, 1, 0], "angle": 40 } }, { "translate": [3, 0, 0] } ] ]`. Each placement is
-//! a list of steps, which follow those of `place`, and is an object of its own. The mesh is read, stored
-//! and prepared for rays once. This also holds for objects that name the same file. Corners of such a mesh
+//! `instances` shows a mesh several times: `"instances": [ { "translate": [-3, 0, 0] }, { "rotate_deg": [0, 40, 0],
+//! "translate": [3, 0, 0] } ]`. Each is a place, which follows `place`, and an object of its own. The mesh is read,
+//! stored and prepared for rays once. This also holds for objects that name the same file. Corners of such a mesh
 //! are placed in double precision, where those of a single mesh are rounded to single precision.
 //!
 //! # Parts
@@ -136,8 +129,10 @@ pub use background::{BackgroundFile, EnvironmentFile, SkyFile};
 pub use color::{ColorFile, SurfaceColorFile};
 pub use light::{DirectionalLightFile, FalloffFile, LightFile, PointLightFile, SpotLightFile};
 pub use material::{MaterialFile, ThinFilmFile};
-pub use object::{BoxFile, MeshFile, ObjectFile, OneOrMore, PlaneFile, RectangleFile};
-pub use object::{RotateDegFile, SphereFile, StepFile, SuperquadricFile};
+pub use object::{
+    BoxFile, MeshFile, ObjectFile, OneOrMore, PlaneFile, RectangleFile, SphereFile,
+    SuperquadricFile,
+};
 pub use part::{FORMAT as PART_FORMAT, Lists, PartFile};
 pub use texture::{TextureFile, TextureKind};
 

@@ -7,7 +7,7 @@ use crate::curve::svg;
 use crate::error::SweepError;
 use crate::spec::contour::{Loops, Rule, Section, Sections};
 use crate::spec::{self, Bezier, Contour, Copies, Spec, SvgFile, Trajectory};
-use files::{Failure, FileError, input, memory};
+use files::{Failure, FileError, Place, input, memory};
 
 /// Bytes of memory that the tree of an SVG file takes for each byte of the file.
 const BYTES_OF_XML: u64 = 48;
@@ -42,11 +42,15 @@ impl Reader<'_> {
                 format!("found {}, expected from 1 to {} copies", copies.count, most.min(1000));
             return Err(self.fault("copies.count", message));
         }
+        self.placement("copies.step", &copies.step)?;
+        if let Some(spec) = specs.first() {
+            self.placement("place", &spec.place)?;
+        }
         let mut all = Vec::with_capacity(copies.count * specs.len());
         for copy in 0..copies.count {
             for spec in specs {
-                let steps = (0..copy).flat_map(|_| &copies.step).copied();
-                let place = spec.place.iter().copied().chain(steps).collect();
+                let steps = (0..copy).flat_map(|_| copies.step.steps());
+                let place = Place::List(spec.place.steps().iter().chain(steps).copied().collect());
                 let name = match copy {
                     0 => spec.name.clone(),
                     _ => format!("{}-copy{}", spec.name, copy + 1),

@@ -138,7 +138,7 @@ impl Reader<'_> {
             deforms: self.deforms(&spec.deform)?,
             edges: Edges::default(),
             position: DVec3::from_array(spec.position),
-            place: self.placement(&spec.place)?,
+            place: self.placement("place", &spec.place)?,
         };
         let shape = match spec.seam {
             Some(kind) => self.closed(shape, kind)?,

@@ -198,7 +198,7 @@ impl Reader<'_> {
         spec: &Spec,
         index: usize,
     ) -> Result<Option<Vec<Sweep>>, SweepError> {
-        let place = self.placement(&spec.place)?;
+        let place = self.placement("place", &spec.place)?;
         let parts = object.parts.iter().zip(&object.owners).filter(|(_, owner)| **owner == index);
         let sweeps: Vec<Sweep> = parts
             .zip(1..)

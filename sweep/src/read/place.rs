@@ -1,44 +1,35 @@
-//! Reads the motions of a whole part.
+//! Reads the place of a whole part.
 
 use super::Reader;
 use crate::error::SweepError;
-use crate::spec::Place;
 use crate::surface::place::Placement;
-use glam::{DQuat, DVec3};
+use files::Place;
+use glam::DMat3;
+
+/// Largest difference between a placement and one that scales all directions alike, relative to its factor. A larger
+/// one would tilt normals visibly. A smaller one would refuse matrices that are written with ten digits.
+const UNEQUAL: f64 = 1e-9;
 
 impl Reader<'_> {
-    /// Returns the motions of a part as one.
-    pub(super) fn placement(&self, place: &[Place]) -> Result<Placement, SweepError> {
-        let mut all = Placement::default();
-        for (i, motion) in place.iter().enumerate() {
-            let path = format!("place[{i}]");
-            let next = match motion {
-                Place::Translate(by) => {
-                    self.point(&format!("{path}.translate"), by)?;
-                    Placement { translation: DVec3::from_array(*by), ..Placement::default() }
-                }
-                Place::RotateDeg(turn) => {
-                    let key = format!("{path}.rotate_deg");
-                    self.point(&format!("{key}.axis"), &turn.axis)?;
-                    self.number(&format!("{key}.angle"), turn.angle)?;
-                    let Some(axis) = DVec3::from_array(turn.axis).try_normalize() else {
-                        let message = "found a vector without length, expected an axis";
-                        return Err(self.fault(&format!("{key}.axis"), message));
-                    };
-                    // The remainder keeps the digits of an angle of many turns.
-                    let angle = (turn.angle % 360.0).to_radians();
-                    let rotation = DQuat::from_axis_angle(axis, angle);
-                    Placement { rotation, ..Placement::default() }
-                }
-                Place::Scale(factor) => {
-                    self.positive(&format!("{path}.scale"), *factor)?;
-                    Placement { scale: *factor, ..Placement::default() }
-                }
-            };
-            all = all.then(next);
+    /// Returns the placement of a part at the path `path`.
+    pub(super) fn placement(&self, path: &str, place: &Place) -> Result<Placement, SweepError> {
+        let map = match place.map() {
+            Ok(map) => map.there,
+            Err(fault) => return Err(self.fault(&format!("{path}{}", fault.path), fault.message)),
+        };
+        self.point(path, &map.translation.to_array())?;
+        let scale = map.matrix3.x_axis.length();
+        self.positive(path, scale)?;
+        let rotation = map.matrix3 * (1.0 / scale);
+        if rotation.determinant() < 0.0 {
+            let message = "found a place that mirrors, expected one that does not: `place` in a scene mirrors the object";
+            return Err(self.fault(path, message));
         }
-        self.positive("place", all.scale)?;
-        self.point("place", &all.translation.to_array())?;
-        Ok(all)
+        let difference = rotation.transpose() * rotation - DMat3::IDENTITY;
+        if difference.to_cols_array().iter().any(|x| x.is_nan() || x.abs() > UNEQUAL) {
+            let message = "found a place that stretches directions differently, expected the same factor for all: `place` in a scene stretches the object";
+            return Err(self.fault(path, message));
+        }
+        Ok(Placement { rotation, scale, translation: map.translation })
     }
 }

@@ -21,7 +21,7 @@ pub fn print(arguments: &Arguments, grid: &str, counts: &Counts) {
              left_out_slivers {slivers}\nmoved_by_rounding {moved:.1e}"
         ));
     }
-    if arguments.quiet {
+    if arguments.common.quiet {
         return;
     }
     if *triangles == 0 {

@@ -12,8 +12,9 @@
 //! interpolation, the slopes of noise jump at the faces of its cells, and shading shows them as
 //! creases.
 
-use super::solid::{PlaceFile, WallFile};
+use super::solid::WallFile;
 use crate::procedural::Interpolation;
+use files::Place;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::PathBuf;
@@ -37,8 +38,8 @@ pub struct BumpFile {
     /// Length of a height of 1 in the object's units, negative for dents; for `dnoise` and `normals` a
     /// plain factor. -1e6 to 1e6.
     pub strength: f64,
-    /// Position of the relief in the object. Not allowed with `image` and `normals`, which lie on the surface.
-    pub place: Option<PlaceFile>,
+    /// Place of the relief in the object: a step, or a list of steps. Not allowed with `image` and `normals`, which lie on the surface.
+    pub place: Option<Place>,
 }
 
 /// The relief of a bump with its keys. Exactly one relief is given for each bump.

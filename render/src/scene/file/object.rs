@@ -1,6 +1,7 @@
 //! The key `objects` of a scene file.
 
 use super::keywords;
+use files::Place;
 use files::names::each_name_once;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -75,9 +76,9 @@ pub struct SphereFile {
     pub material: String,
     /// Name of the texture, which covers the sphere once; none if left out.
     pub texture: Option<String>,
-    /// Steps that place the object, in order; none if left out.
+    /// Place of the object: a step, or a list of steps; where it is defined if left out.
     #[serde(default)]
-    pub place: Vec<StepFile>,
+    pub place: Place,
 }
 
 /// A parallelogram. Its outside is the side to which `edge_u` x `edge_v` points.
@@ -99,9 +100,9 @@ pub struct RectangleFile {
     #[serde(default = "once")]
     #[schemars(transform = keywords::positive)]
     pub repeat: [f64; 2],
-    /// Steps that place the object, in order; none if left out.
+    /// Place of the object: a step, or a list of steps; where it is defined if left out.
     #[serde(default)]
-    pub place: Vec<StepFile>,
+    pub place: Place,
 }
 
 /// An infinite plane. Its texture fills the parallelogram at `point` and continues over the plane.
@@ -118,9 +119,9 @@ pub struct PlaneFile {
     pub material: String,
     /// Name of the texture; none if left out.
     pub texture: Option<String>,
-    /// Steps that place the object, in order; none if left out.
+    /// Place of the object: a step, or a list of steps; where it is defined if left out.
     #[serde(default)]
-    pub place: Vec<StepFile>,
+    pub place: Place,
 }
 
 /// A box. Its texture fills each of its faces and is upright on the four sides.
@@ -135,9 +136,9 @@ pub struct BoxFile {
     pub material: String,
     /// Name of the texture; none if left out.
     pub texture: Option<String>,
-    /// Steps that place the object, in order; none if left out.
+    /// Place of the object: a step, or a list of steps; where it is defined if left out.
     #[serde(default)]
-    pub place: Vec<StepFile>,
+    pub place: Place,
 }
 
 /// A superellipsoid or, with `ring`, a supertoroid about the axis y. Its texture covers it as on a
@@ -163,9 +164,9 @@ pub struct SuperquadricFile {
     pub material: String,
     /// Name of the texture; none if left out.
     pub texture: Option<String>,
-    /// Steps that place the object, in order; none if left out.
+    /// Place of the object: a step, or a list of steps; where it is defined if left out.
     #[serde(default)]
-    pub place: Vec<StepFile>,
+    pub place: Place,
 }
 
 /// A mesh of triangles.
@@ -197,13 +198,13 @@ pub struct MeshFile {
     /// Names of textures by texture ids, or by the names that `usemtl` gives; none if left out.
     #[serde(default, deserialize_with = "each_name_once")]
     pub textures: BTreeMap<String, String>,
-    /// Steps that place the object, in order; none if left out.
+    /// Place of the object: a step, or a list of steps; where it is defined if left out.
     #[serde(default)]
-    pub place: Vec<StepFile>,
-    /// Placements of the mesh, each a list of steps that follow those of `place`. Every placement is an
-    /// object of its own, and the mesh is stored once. One object if left out.
+    pub place: Place,
+    /// Places of copies of the mesh, each a step or a list of steps that follow those of `place`. Every copy is
+    /// an object of its own, and the mesh is stored once. One object if left out.
     #[schemars(length(min = 1))]
-    pub instances: Option<Vec<Vec<StepFile>>>,
+    pub instances: Option<Vec<Place>>,
 }
 
 impl MeshFile {
@@ -233,30 +234,6 @@ impl OneOrMore {
             Self::More(paths) => paths,
         }
     }
-}
-
-/// A step of `place`.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum StepFile {
-    /// Factors along the axes, about the origin; negative factors mirror.
-    Scale([f64; 3]),
-    /// A rotation about an axis through the origin.
-    RotateDeg(RotateDegFile),
-    /// A translation, in the unit of length.
-    Translate([f64; 3]),
-    /// Any affine map: three rows of four numbers, of which the last is the translation.
-    Matrix([[f64; 4]; 3]),
-}
-
-/// A rotation about an axis through the origin.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct RotateDegFile {
-    /// Direction of the axis, of any length but 0.
-    pub axis: [f64; 3],
-    /// Angle in degrees, counter-clockwise as seen from the direction in which the axis points.
-    pub angle: f64,
 }
 
 fn once() -> [f64; 2] {

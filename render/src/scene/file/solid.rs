@@ -10,7 +10,7 @@
 //!
 //! A solid is defined in a space of its own, whose unit depends on the pattern: the distance of
 //! marble's veins, a crystal of granite, a ring of wood, a cell of noise, a side of a checker.
-//! `place` maps this space to the object's own space. Colours are linear. A list of
+//! `place` ([`Step`](files::place::Step)) maps this space to the object's own space. Colours are linear. A list of
 //! `[position, colour]` is a ramp: positions rise, and colours between them are interpolated.
 //!
 //! | kind | keys | range | default |
@@ -34,24 +34,6 @@ use serde::Deserialize;
 
 /// Stops of a ramp: position and colour, positions rising.
 pub type RampFile = Vec<(f64, ColorFile)>;
-
-/// The key `place`: map from the texture's space to the object's own space.
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct PlaceFile {
-    /// Length of one unit of the texture, in the object's units; 1e-6 to 1e6, default 1.
-    pub scale: f64,
-    /// Rotations about the fixed axes x, then y, then z, in degrees; default none.
-    pub rotate_deg: [f64; 3],
-    /// Position of the texture's origin, in the object's units; default the object's origin.
-    pub translate: [f64; 3],
-}
-
-impl Default for PlaceFile {
-    fn default() -> Self {
-        Self { scale: 1.0, rotate_deg: [0.0; 3], translate: [0.0; 3] }
-    }
-}
 
 /// The keys of `marble`, whose veins lie one unit apart along x.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]

@@ -1,10 +1,10 @@
 //! The key `textures` of a scene file.
 
 use super::solid::{
-    BrickFile, CheckerFile, CloudsFile, GraniteFile, MarbleFile, PlaceFile, StripesFile, WallFile,
-    WoodFile,
+    BrickFile, CheckerFile, CloudsFile, GraniteFile, MarbleFile, StripesFile, WallFile, WoodFile,
 };
 use crate::texture::{Alpha, Values, Wrap};
+use files::Place;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
@@ -42,8 +42,8 @@ pub struct TextureFile {
     pub stripes: Option<StripesFile>,
     /// Brickwork.
     pub brick: Option<BrickFile>,
-    /// Position of a solid in the object. For solids only.
-    pub place: Option<PlaceFile>,
+    /// Place of a solid in the object: a step, or a list of steps. For solids only.
+    pub place: Option<Place>,
 }
 
 /// The kind of a texture with its keys. Exactly one kind is given for each texture.

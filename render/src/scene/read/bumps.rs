@@ -23,8 +23,7 @@ impl Reader<'_> {
     fn bump(&self, at: &str, file: &BumpFile) -> Result<Bump, SceneError> {
         let kind = self.one_of(at, &file.kinds())?;
         let strength = self.within(&format!("{at}.strength"), file.strength, -1e6, 1e6)?;
-        let place = file.place.unwrap_or_default();
-        let placement = self.texture_place(&format!("{at}.place"), &place)?;
+        let placement = self.texture_place(&format!("{at}.place"), file.place.as_ref())?;
         let relief = match kind {
             ReliefKind::Noise(noise) => {
                 let at = format!("{at}.noise");

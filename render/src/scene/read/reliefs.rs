@@ -6,7 +6,7 @@ use crate::procedural::{Bump, Placement, Relief};
 use crate::scene::mtl::{Map, ReliefColors, ReliefMap};
 use crate::scene::{Material, Scene};
 use crate::texture::Wrap;
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -71,7 +71,7 @@ impl Reader<'_> {
                 if map.wrap == Wrap::Clamp {
                     say(format!("the bump {} repeats beyond its edges", map.path));
                 }
-                let placement = Placement::new(1.0, DVec3::ZERO, DVec3::ZERO);
+                let placement = Placement::default();
                 scene.procedural.bumps.push(Bump { relief, strength: map.strength, placement });
                 let bump = Some(scene.procedural.bumps.len() - 1);
                 let own = Material { bump, ..scene.materials[material].clone() };

@@ -10,9 +10,9 @@ use crate::procedural::marble::Marble;
 use crate::procedural::turbulence::MOST_OCTAVES;
 use crate::procedural::wall::{Wall, WallPaint};
 use crate::procedural::wood::Wood;
-use crate::procedural::{Interpolation, Noise, Octaves, Pattern, Placement, Ramp, Solid};
+use crate::procedural::{Interpolation, Noise, Octaves, Pattern, Ramp, Solid};
 use crate::scene::file::solid::{
-    BrickFile, CloudsFile, GraniteFile, MarbleFile, PlaceFile, StripesFile, WallFile, WoodFile,
+    BrickFile, CloudsFile, GraniteFile, MarbleFile, StripesFile, WallFile, WoodFile,
 };
 use crate::scene::file::{ColorFile, TextureFile, TextureKind};
 use glam::DVec3;
@@ -28,8 +28,7 @@ impl Reader<'_> {
         let mut solids = Vec::new();
         for (name, file) in self.file.textures {
             let at = format!("textures.{name}");
-            let place = file.place.unwrap_or_default();
-            let placement = self.texture_place(&format!("{at}.place"), &place)?;
+            let placement = self.texture_place(&format!("{at}.place"), file.place.as_ref())?;
             if let Some(pattern) = self.pattern(&at, file)? {
                 solids.push(Solid { pattern, placement });
             }
@@ -190,18 +189,6 @@ impl Reader<'_> {
             colors: self.two(&format!("{at}.colors"), file.colors)?,
             vary: self.within(&format!("{at}.vary"), file.vary, 0.0, 1.0)?,
         }))
-    }
-
-    pub(super) fn texture_place(
-        &self,
-        at: &str,
-        file: &PlaceFile,
-    ) -> Result<Placement, SceneError> {
-        let scale = self.within(&format!("{at}.scale"), file.scale, 1e-6, 1e6)?;
-        let rotate = self.vector(&format!("{at}.rotate_deg"), file.rotate_deg)?;
-        let rotate = rotate.to_array().map(f64::to_radians);
-        let translate = self.vector(&format!("{at}.translate"), file.translate)?;
-        Ok(Placement::new(scale, rotate.into(), translate))
     }
 
     pub(super) fn octaves(
