@@ -1,6 +1,7 @@
 //! The arguments of the program `render`, and its run. Each group of flags has its own file.
 
 mod accuracy;
+mod display;
 mod input;
 mod loaded;
 mod mesh;
@@ -10,10 +11,12 @@ mod textures;
 mod work;
 
 use clap::Parser;
+use display::Display;
 use files::memory::of_process;
 use files::progress::Progress;
 use files::watch::PipeError;
 use files::{Exit, Failure, Ledger, Report, Setting};
+use render::film::course::Shown;
 use render::film::{self, BasePicture, Crop, Layer, alpha, memory};
 use render::scene::{self, schema};
 use render::shade::View;
@@ -37,6 +40,7 @@ Examples, of a scene that `pipeline new scene -o scene.json` writes, and of a me
   render scene.json --pixel 256,300
   render --check scene.json
   render --emit-schema > tb-scene.schema.json
+  render scene.json --error 0.01 --display 127.0.0.1:14158
   render scene.json --crop 200,250,100x100 --layers normal,depth -o part.exr
 
 The picture never replaces an input (the scene, its parts, meshes, materials, pictures).
@@ -44,8 +48,8 @@ The picture never replaces an input (the scene, its parts, meshes, materials, pi
 render completions SHELL prints completions for bash, elvish, fish, powershell or zsh; render man prints
 a page for man.
 
-Exit codes: 2 bad use, 3 malformed input, 4 --check found something wrong, 5 cannot read or write,
-6 too large, 7 --error was not reached, 70 a bug, 130 interrupted, 141 closed pipe.";
+Exit codes: 2 bad use, 3 malformed input, 4 --check found something wrong, 5 cannot read or write, or no
+viewer listens for --display, 6 too large, 7 --error was not reached, 70 a bug, 130 interrupted, 141 closed pipe.";
 
 /// Renders a JSON scene, or a mesh alone, with area sampled textures.
 #[derive(Debug, Parser)]
@@ -198,6 +202,7 @@ pub fn run(arguments: &Arguments, ledger: &Ledger) -> Result<(), Report> {
     {
         return Err(UseError::ErrorOfThesis.into());
     }
+    let display = output.display.as_deref().map(Display::connect).transpose()?;
     let begun = Instant::now();
     let mut loaded = input.load(ledger, &staging(sampling.size, output))?;
     let Some(variants) = variants else {
@@ -205,15 +210,16 @@ pub fn run(arguments: &Arguments, ledger: &Ledger) -> Result<(), Report> {
             arguments,
             &mut loaded,
             input.settings(),
-            (target, true),
+            (target, display.as_ref(), true),
             (settings, begun),
         );
     };
     for (k, (variant, target)) in variants.iter().zip(targets).enumerate() {
         let begun = if k == 0 { begun } else { Instant::now() };
         let (target, last) = (Some(target), k + 1 == variants.len());
+        let target = (target, display.as_ref(), last);
         let timed = (settings.clone(), begun);
-        picture(arguments, &mut loaded, &variant.settings, (target, last), timed)?;
+        picture(arguments, &mut loaded, &variant.settings, target, timed)?;
     }
     Ok(())
 }
@@ -223,7 +229,7 @@ fn picture(
     arguments: &Arguments,
     loaded: &mut loaded::Loaded<'_>,
     set: &[Setting],
-    (target, last): (Option<output::Target>, bool),
+    (target, display, last): (Option<output::Target>, Option<&Display>, bool),
     (mut settings, begun): (Settings, Instant),
 ) -> Result<(), Report> {
     let Arguments { input, output, sampling, accuracy, work, .. } = arguments;
@@ -231,7 +237,8 @@ fn picture(
     let ledger = loaded.ledger;
     let scene = loaded.scene(set, last, |_, scene| Ok(scene))?;
     work.print_remarks(&scene);
-    let is_transparent = target.is_some() && (output.alpha || scene.is_transparent);
+    let is_made = target.is_some() || display.is_some();
+    let is_transparent = is_made && (output.alpha || scene.is_transparent);
     if is_transparent {
         settings.view = View::Foreground;
     }
@@ -239,7 +246,9 @@ fn picture(
     let of_pixel =
         |(x, y)| Settings { crop: Some(Crop { x, y, width: 1, height: 1 }), ..settings.clone() };
     let _memory = match (&target, sampling.pixel) {
-        (None, Some(pixel)) => memory::reserve(&scene, &of_pixel(pixel), None, of_process())?,
+        (None, Some(pixel)) if !is_made => {
+            memory::reserve(&scene, &of_pixel(pixel), None, of_process())?
+        }
         (target, _) => {
             let format = target.as_ref().map(output::Target::format);
             memory::reserve(&scene, &settings, format, of_process())?
@@ -257,10 +266,15 @@ fn picture(
     accuracy.hold_signals();
     let pool = work.common.pool()?;
     let prepared = Prepared::new(&scene);
-    if let Some(target) = target {
+    if is_made {
         let progress = Progress::new("render", work.common.quiet);
+        let name = target.as_ref().map_or_else(|| input.file_name(), output::Target::name);
+        let image = display.map(|display| display.begin(&name, &settings, is_transparent));
+        let shown =
+            image.as_ref().map(|image| |tile: &Crop, pixels: &[[f32; 3]]| image.show(tile, pixels));
+        let shown = shown.as_ref().map(|shown| shown as &Shown<'_>);
         let (mut picture, mut stats, statement) = pool.install(|| {
-            accuracy.render(&prepared, &mut settings, sampling.pixel_filter, &progress)
+            accuracy.render(&prepared, &mut settings, sampling.pixel_filter, &progress, shown)
         });
         drop(progress);
         if is_transparent {
@@ -269,16 +283,21 @@ fn picture(
             let (open, _) = pool.install(|| film::render(&prepared, &settings, &|_, _| {}));
             alpha::add(&mut picture, &open);
         }
+        if let Some(image) = &image {
+            image.complete(&picture);
+        }
         let started = Instant::now();
         let (scene, meshes) = (input.file_name(), input.mesh_names());
         let set: Vec<String> = set.iter().map(Setting::text).collect();
         let look = input.look.flags();
         let named = output.named(&scene, (&meshes, &set, &look), accuracy.error(), is_transparent);
-        output.write(&target, &picture, &settings, &named, ledger)?;
+        if let Some(target) = &target {
+            output.write(target, &picture, &settings, &named, ledger)?;
+        }
         stats.read_time = read_time;
         stats.write_time = started.elapsed();
         work.print_stats(&stats);
-        if work.tells() {
+        if let Some(target) = target.filter(|_| work.tells()) {
             target.wrote((picture.width, picture.height), begun.elapsed());
         }
         accuracy.state_unfinished(&stats, &picture);

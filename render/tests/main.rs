@@ -12,6 +12,7 @@ mod coarse_meshes;
 mod complaints;
 mod cutouts;
 mod differentials;
+mod display;
 mod environment;
 mod exact;
 mod exact_filter;

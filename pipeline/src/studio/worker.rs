@@ -13,7 +13,7 @@ use files::memory::of_process;
 use rayon::ThreadPool;
 use render::accuracy::{Request, Statement};
 use render::color::Encoding;
-use render::film::{PixelFilter, memory, render_while};
+use render::film::{Course, PixelFilter, memory, render_while};
 use render::filter::Filter;
 use render::{Picture, Prepared, Sampling, Settings, inspect};
 use serde_json::{Value, json};
@@ -214,7 +214,7 @@ impl Worker<'_> {
             ..Settings::new(width, height, Filter::Mip)
         };
         let started = Instant::now();
-        let (picture, _) = render_while(prepared, &settings, &|_, _| {}, &|| true);
+        let (picture, _) = render_while(prepared, &settings, &Course::told(&|_, _| {}));
         let spent = started.elapsed().as_secs_f64() / f64::from(width * height);
         // A slow draft shrinks the next one at once, and a fast one lets it grow slowly.
         *known = if spent > *known { spent } else { 0.7 * *known + 0.3 * spent };
@@ -239,7 +239,8 @@ impl Worker<'_> {
         };
         let progress = Progress::new(board, snapshot.revision);
         let tell = |done, total| progress.tell("picture", done, total);
-        let (picture, stats) = render_while(prepared, &settings, &tell, &go_on);
+        let (picture, stats) =
+            render_while(prepared, &settings, &Course { go_on: &go_on, ..Course::told(&tell) });
         if stats.unfinished > 0 || !go_on() {
             return false;
         }
@@ -256,7 +257,8 @@ impl Worker<'_> {
         if let Some(method) = snapshot.view.beside {
             let settings = Settings { camera, ..method.settings(snapshot.view.pixels()) };
             let tell = |done, total| progress.tell("beside", done, total);
-            let (picture, stats) = render_while(prepared, &settings, &tell, &go_on);
+            let (picture, stats) =
+                render_while(prepared, &settings, &Course { go_on: &go_on, ..Course::told(&tell) });
             if stats.unfinished > 0 {
                 return false;
             }

@@ -4,7 +4,7 @@ use super::bound::mean;
 use super::chances::{Chances, Estimates};
 use super::request::Request;
 use super::sample::Sample;
-use crate::film::BasePicture;
+use crate::film::{BasePicture, Course};
 
 /// Draws by which two scenes are compared.
 const DRAWS: usize = 1000;
@@ -18,7 +18,8 @@ const DRAWS: usize = 1000;
 #[must_use]
 pub fn apart(request: &Request<'_, '_>, error: f64) -> f64 {
     let &Request { prepared, truth, settings, pixel_filter, go_on, .. } = request;
-    let base = BasePicture::new(prepared, settings, pixel_filter, &|_, _| {}, go_on);
+    let course = Course { go_on, ..Course::told(&|_, _| {}) };
+    let base = BasePicture::new(prepared, settings, pixel_filter, &course);
     let estimates = Estimates { errors: &base.errors, requested: error };
     let chances = Chances::new(&base.picture, Some(estimates));
     let sample = Sample::take(truth, base.settings(), &chances, (DRAWS, 0), error);

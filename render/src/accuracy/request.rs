@@ -2,7 +2,8 @@
 
 use super::search::{by_error, by_time};
 use super::{Sources, Statement};
-use crate::film::{GoOn, Picture, PixelFilter, Settings};
+use crate::film::course::{Shown, Told};
+use crate::film::{Course, GoOn, Picture, PixelFilter, Settings};
 use crate::prepared::Prepared;
 use crate::stats::Stats;
 use std::fmt;
@@ -27,6 +28,8 @@ pub struct Request<'r, 's> {
     pub progress: &'r Progress<'r>,
     /// Returns false once the picture should be ended early.
     pub go_on: &'r GoOn<'r>,
+    /// Shown each tile of the first rays and of the picture, if somebody watches.
+    pub tile: Option<&'r Shown<'r>>,
 }
 
 /// A picture and what is known of its error.
@@ -66,7 +69,16 @@ impl<'r, 's> Request<'r, 's> {
     ) -> Self {
         let (truth, finer) = (prepared, None);
         let progress: &Progress<'_> = &|_, _, _| {};
-        Self { prepared, truth, finer, settings, pixel_filter, progress, go_on: &|| true }
+        let (go_on, tile) = (&|| true, None);
+        Self { prepared, truth, finer, settings, pixel_filter, progress, go_on, tile }
+    }
+
+    /// Returns the course of a picture of the request.
+    pub(super) fn course<'c>(&self, progress: &'c Told<'c>) -> Course<'c>
+    where
+        'r: 'c,
+    {
+        Course { progress, go_on: self.go_on, tile: self.tile }
     }
 
     /// Makes the cheapest picture whose error is below `error`, in linear light. If no sampling

@@ -150,10 +150,10 @@ struct Search<'q, 'r, 's> {
 
 impl<'q, 'r, 's> Search<'q, 'r, 's> {
     fn start(request: &'q Request<'r, 's>, error: f64) -> Self {
-        let &Request { prepared, settings, pixel_filter, progress, go_on, .. } = request;
+        let &Request { prepared, settings, pixel_filter, progress, .. } = request;
         let tell = |done, total| progress("first rays", done, total);
         let settings = Settings { least_weight: Some(FOLLOWED * error), ..settings.clone() };
-        let base = BasePicture::new(prepared, &settings, pixel_filter, &tell, go_on);
+        let base = BasePicture::new(prepared, &settings, pixel_filter, &request.course(&tell));
         let estimates = Estimates { errors: &base.errors, requested: error };
         let chances = Chances::new(&base.picture, Some(estimates));
         Self {
@@ -267,9 +267,9 @@ impl<'q, 'r, 's> Search<'q, 'r, 's> {
 
     /// Makes the whole picture with the chosen rung.
     fn finish(self, rung: usize, values: &[f64], bound: f64, missed: Option<f64>) -> Reached {
-        let &Request { progress, go_on, .. } = self.request;
+        let &Request { progress, .. } = self.request;
         let tell = |done, total| progress("picture", done, total);
-        let (picture, mut stats) = self.base.finish(self.rungs[rung], &tell, go_on);
+        let (picture, mut stats) = self.base.finish(self.rungs[rung], &self.request.course(&tell));
         if stats.unfinished > 0 {
             return self.with_audit(picture, stats);
         }

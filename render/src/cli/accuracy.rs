@@ -7,7 +7,8 @@ use files::exit::say;
 use files::progress::Progress;
 use files::{Exit, Failure, stop};
 use render::accuracy::{self, Request, Statement};
-use render::film::{PixelFilter, render_while};
+use render::film::course::Shown;
+use render::film::{Course, PixelFilter, render_while};
 use render::stats::Stats;
 use render::{Picture, Prepared, Settings};
 use thiserror::Error;
@@ -86,13 +87,14 @@ impl AccuracyArguments {
     }
 
     /// Renders the picture that the flags request, and audits it if they request that. The settings become
-    /// those that were chosen. The flags must have been checked.
+    /// those that were chosen. Finished tiles are shown to `tile`. The flags must have been checked.
     pub fn render(
         &self,
         prepared: &Prepared<'_>,
         settings: &mut Settings,
         pixel_filter: PixelFilter,
         progress: &Progress,
+        tile: Option<&Shown<'_>>,
     ) -> (Picture, Stats, Option<Statement>) {
         let tell = |step: &str, done, total| {
             if step == "picture" {
@@ -101,13 +103,14 @@ impl AccuracyArguments {
         };
         let go_on = || !(self.partial && stop::is_stopped());
         let request = Request::new(prepared, settings, pixel_filter);
-        let request = Request { progress: &tell, go_on: &go_on, ..request };
+        let request = Request { progress: &tell, go_on: &go_on, tile, ..request };
         let reached = match (self.requested().ok().flatten(), self.time) {
             (Some(error), _) => request.reach(error),
             (None, Some(seconds)) => request.within(seconds),
             (None, None) => {
                 let tell = |done, total| progress.tell(done, total);
-                let (picture, mut stats) = render_while(prepared, settings, &tell, &go_on);
+                let course = Course { progress: &tell, go_on: &go_on, tile };
+                let (picture, mut stats) = render_while(prepared, settings, &course);
                 let audits = self.audit || stats.unfinished > 0;
                 let statement =
                     audits.then(|| accuracy::audit(prepared, settings, &picture, &mut stats));

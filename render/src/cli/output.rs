@@ -1,5 +1,6 @@
 //! The flags for the file that is written, and its writing.
 
+use super::display::address;
 use super::{EncodeError, UseError};
 use clap::Args;
 use files::{FileError, Ledger, Output, Report, Variant, exit, input, words};
@@ -15,7 +16,7 @@ use std::time::Duration;
 #[derive(Debug, Args)]
 pub struct OutputArguments {
     /// The picture: a .png or .exr file, or - for standard output
-    #[arg(short, long, value_name = "FILE", required_unless_present_any = ["pixel", "check", "emit_schema"])]
+    #[arg(short, long, value_name = "FILE", required_unless_present_any = ["pixel", "check", "display", "emit_schema"])]
     output: Option<PathBuf>,
     /// Format of the file, if its extension is not .png or .exr
     #[arg(long)]
@@ -38,6 +39,10 @@ pub struct OutputArguments {
     /// Make the picture again whenever the scene or a file that it names changes, until Ctrl-C
     #[arg(long, conflicts_with_all = ["no_clobber", "partial"])]
     pub watch: bool,
+    /// Show each tile as it is finished in an image viewer that listens there: tev, or another with its protocol.
+    /// tev listens on 127.0.0.1:14158
+    #[arg(long, value_name = "HOST:PORT", value_parser = address, conflicts_with_all = ["check", "emit_schema"])]
+    pub display: Option<String>,
 }
 
 /// A picture file that the run may write.
@@ -62,6 +67,11 @@ impl Target {
             Ok(Self { path, format: self.format })
         });
         targets.collect()
+    }
+
+    /// Name of the file without its folder.
+    pub fn name(&self) -> String {
+        self.path.file_name().unwrap_or(self.path.as_os_str()).to_string_lossy().into_owned()
     }
 
     /// Format of the file.

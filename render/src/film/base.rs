@@ -8,7 +8,7 @@ use super::area::{Area, Base};
 use super::exposure::{Exposed, Exposure, Film};
 use super::lattice::Lattice;
 use super::{
-    Crop, GoOn, Picture, PixelFilter, Sampling, Settings, TILE_SAMPLES, render_in_tiles,
+    Course, Crop, Picture, PixelFilter, Sampling, Settings, TILE_SAMPLES, render_in_tiles,
     with_exposure,
 };
 use crate::prepared::Prepared;
@@ -54,15 +54,13 @@ impl<'p, 's> BasePicture<'p, 's> {
 
     /// Traces and shades one ray for each cell: one in each pixel, or four under a pixel filter that
     /// reaches beyond the pixel. The sampling of `settings` is not used, and without a least weight
-    /// all rays are followed. Calls `progress` after each tile with the number of finished tiles and
-    /// the number of all tiles. Once `go_on` returns false, the tiles that follow are left out, and the
+    /// all rays are followed. Once the course does not go on, the tiles that follow are left out, and the
     /// result is of no use but for its picture.
     pub fn new(
         prepared: &'p Prepared<'s>,
         settings: &Settings,
         pixel_filter: PixelFilter,
-        progress: &(dyn Fn(usize, usize) + Sync),
-        go_on: &GoOn<'_>,
+        course: &Course<'_>,
     ) -> Self {
         let sampling = Sampling::Area { samples: 1, pixel_filter, threshold: None };
         let least_weight = Some(settings.least_weight.unwrap_or(0.0));
@@ -74,15 +72,17 @@ impl<'p, 's> BasePicture<'p, 's> {
                 let crop = Crop::of(&settings);
                 let tiles = crop.tiles(shared.tile_side(TILE_SAMPLES));
                 let film = Mutex::new(Film::new(crop, Picture::of(&settings), stats));
-                let bases = tiles.par_iter().with_max_len(1).filter(|_| go_on()).map(|tile| {
-                    let mut exposed = shared.unexposed(tile);
-                    let base = area.base(shared, tile, &mut exposed, true);
-                    area.develop(shared, &base, tile, &mut exposed, &mut ());
-                    exposed.keep_work(&settings);
-                    let mut film = film.lock().unwrap_or_else(PoisonError::into_inner);
-                    progress(film.take(tile, &exposed), tiles.len());
-                    (*tile, base, exposed.work)
-                });
+                let bases =
+                    tiles.par_iter().with_max_len(1).filter(|_| (course.go_on)()).map(|tile| {
+                        let mut exposed = shared.unexposed(tile);
+                        let base = area.base(shared, tile, &mut exposed, true);
+                        area.develop(shared, &base, tile, &mut exposed, &mut ());
+                        exposed.keep_work(&settings);
+                        course.show(tile, &exposed);
+                        let mut film = film.lock().unwrap_or_else(PoisonError::into_inner);
+                        (course.progress)(film.take(tile, &exposed), tiles.len());
+                        (*tile, base, exposed.work)
+                    });
                 let bases: Vec<_> = bases.collect();
                 let (mut picture, mut stats) =
                     film.into_inner().unwrap_or_else(PoisonError::into_inner).developed();
@@ -175,20 +175,14 @@ impl<'p, 's> BasePicture<'p, 's> {
     /// Makes the whole picture with a sampling. It equals the picture that [`super::render`] makes with
     /// [`BasePicture::with`], to the last bit. The counts are those of all work on both pictures.
     ///
-    /// Once `go_on` returns false, the tiles that follow are left out. Their pixels are those of
+    /// Once the course does not go on, the tiles that follow are left out. Their pixels are those of
     /// [`BasePicture::picture`], and [`Stats::unfinished`] is their number.
     #[must_use]
-    pub fn finish(
-        &self,
-        sampling: Sampling,
-        progress: &(dyn Fn(usize, usize) + Sync),
-        go_on: &GoOn<'_>,
-    ) -> (Picture, Stats) {
+    pub fn finish(&self, sampling: Sampling, course: &Course<'_>) -> (Picture, Stats) {
         let settings = self.with(sampling);
         let Some(area) = self.shares(sampling) else {
             let over = (TILE_SAMPLES, self.picture.clone());
-            let (picture, mut stats) =
-                render_in_tiles(self.prepared, &settings, over, progress, go_on);
+            let (picture, mut stats) = render_in_tiles(self.prepared, &settings, over, course);
             stats.include(&self.stats);
             return (picture, stats);
         };
@@ -196,10 +190,12 @@ impl<'p, 's> BasePicture<'p, 's> {
             let started = Instant::now();
             let crop = Crop::of(&settings);
             let film = Mutex::new(Film::new(crop, self.picture.clone(), Stats::default()));
-            self.tiles.par_iter().with_max_len(1).filter(|_| go_on()).for_each(|(tile, base)| {
+            let tiles = self.tiles.par_iter().with_max_len(1).filter(|_| (course.go_on)());
+            tiles.for_each(|(tile, base)| {
                 let exposed = self.developed(shared, area, tile, base);
+                course.show(tile, &exposed);
                 let done = film.lock().unwrap_or_else(PoisonError::into_inner).take(tile, &exposed);
-                progress(done, self.tiles.len());
+                (course.progress)(done, self.tiles.len());
             });
             let (mut picture, mut stats) =
                 film.into_inner().unwrap_or_else(PoisonError::into_inner).developed();
@@ -278,6 +274,10 @@ mod tests {
         Settings { crop, layers: Layer::ALL.into(), ..Settings::new(77, 70, Filter::Exact) }
     }
 
+    fn silent() -> Course<'static> {
+        Course::told(&|_, _| {})
+    }
+
     /// One sampling that has the first rays of the base, and one that has not.
     fn samplings(pixel_filter: PixelFilter) -> [Sampling; 3] {
         [(1, Some(0.02)), (1, None), (2, Some(0.1))].map(|(samples, threshold)| Sampling::Area {
@@ -292,10 +292,10 @@ mod tests {
         let scene = scene();
         let prepared = Prepared::new(&scene);
         for pixel_filter in [PixelFilter::Box, PixelFilter::Tent] {
-            let base = BasePicture::new(&prepared, &settings(), pixel_filter, &|_, _| {}, &|| true);
+            let base = BasePicture::new(&prepared, &settings(), pixel_filter, &silent());
             for sampling in samplings(pixel_filter) {
                 let expected = render(&prepared, &base.with(sampling), &|_, _| {}).0;
-                let finished = base.finish(sampling, &|_, _| {}, &|| true).0;
+                let finished = base.finish(sampling, &silent()).0;
                 // The layer of estimated errors is empty in a picture that compares no neighbours.
                 let unsplit = matches!(sampling, Sampling::Area { threshold: None, .. });
                 assert!(finished.pixels == expected.pixels, "{sampling:?}");
@@ -310,9 +310,9 @@ mod tests {
         let prepared = Prepared::new(&scene);
         let places: Vec<(u32, u32)> = (2..69).flat_map(|y| [(3, y), (40, y), (72, y)]).collect();
         for pixel_filter in [PixelFilter::Box, PixelFilter::Gaussian] {
-            let base = BasePicture::new(&prepared, &settings(), pixel_filter, &|_, _| {}, &|| true);
+            let base = BasePicture::new(&prepared, &settings(), pixel_filter, &silent());
             for sampling in samplings(pixel_filter) {
-                let (picture, _) = base.finish(sampling, &|_, _| {}, &|| true);
+                let (picture, _) = base.finish(sampling, &silent());
                 let rays = picture.channels.iter().find(|channel| channel.name == "rays.N");
                 let pixels = base.pixels(sampling, &places);
                 for (&(x, y), pixel) in places.iter().zip(&pixels) {

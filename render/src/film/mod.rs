@@ -11,6 +11,7 @@ mod area;
 mod base;
 mod bytes;
 pub mod command;
+pub mod course;
 pub mod crop;
 pub mod encode;
 mod exposure;
@@ -24,6 +25,7 @@ mod points;
 pub mod sampling;
 
 pub use base::{BasePicture, Pixel, aperture};
+pub use course::{Course, GoOn};
 pub use crop::Crop;
 pub use exposure::{Sample, Witness};
 pub use layer::Layer;
@@ -99,9 +101,6 @@ impl Settings {
     }
 }
 
-/// Asked before each tile: false once the picture should be ended early. After false it stays false.
-pub type GoOn<'p> = dyn Fn() -> bool + Sync + 'p;
-
 /// Largest number of pixels in a picture; such a picture takes 3 GB.
 const MOST_PIXELS: u64 = 1 << 28;
 
@@ -133,19 +132,18 @@ pub fn render(
     settings: &Settings,
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> (Picture, Stats) {
-    render_while(prepared, settings, progress, &|| true)
+    render_while(prepared, settings, &Course::told(progress))
 }
 
-/// Renders a scene as [`render`] does, and leaves out the tiles that follow once `go_on` returns false.
+/// Renders a scene as [`render`] does, and leaves out the tiles that follow once the course does not go on.
 /// Their pixels are black, and [`Stats::unfinished`] is their number.
 pub fn render_while(
     prepared: &Prepared<'_>,
     settings: &Settings,
-    progress: &(dyn Fn(usize, usize) + Sync),
-    go_on: &GoOn<'_>,
+    course: &Course<'_>,
 ) -> (Picture, Stats) {
     let under = Picture::of(settings);
-    render_in_tiles(prepared, settings, (TILE_SAMPLES, under), progress, go_on)
+    render_in_tiles(prepared, settings, (TILE_SAMPLES, under), course)
 }
 
 /// Renders a scene as [`render_while`] does, over a picture of the same size. Tiles that are left out
@@ -154,8 +152,7 @@ fn render_in_tiles(
     prepared: &Prepared<'_>,
     settings: &Settings,
     (tile_samples, under): (u32, Picture),
-    progress: &(dyn Fn(usize, usize) + Sync),
-    go_on: &GoOn<'_>,
+    course: &Course<'_>,
 ) -> (Picture, Stats) {
     with_exposure(prepared, settings, |exposure, stats| {
         let started = Instant::now();
@@ -164,10 +161,11 @@ fn render_in_tiles(
         let film = Mutex::new(Film::new(crop, under, stats));
         // One tile per task. In longer runs, which one core takes as a whole, the last run would
         // leave the other cores idle.
-        tiles.par_iter().with_max_len(1).filter(|_| go_on()).for_each(|tile| {
+        tiles.par_iter().with_max_len(1).filter(|_| (course.go_on)()).for_each(|tile| {
             let exposed = exposure.expose(tile, &mut ());
+            course.show(tile, &exposed);
             let done = film.lock().unwrap_or_else(PoisonError::into_inner).take(tile, &exposed);
-            progress(done, tiles.len());
+            (course.progress)(done, tiles.len());
         });
         let (mut picture, mut stats) =
             film.into_inner().unwrap_or_else(PoisonError::into_inner).developed();
@@ -287,14 +285,8 @@ mod tests {
         let prepared = Prepared::new(&scene);
         for settings in every_kind() {
             let cut = |side| {
-                render_in_tiles(
-                    &prepared,
-                    &settings,
-                    (side, Picture::of(&settings)),
-                    &|_, _| {},
-                    &|| true,
-                )
-                .0
+                let under = Picture::of(&settings);
+                render_in_tiles(&prepared, &settings, (side, under), &Course::told(&|_, _| {})).0
             };
             let whole = cut(1000);
             for side in [1, 10, 64] {
