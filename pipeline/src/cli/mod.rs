@@ -7,6 +7,7 @@ mod common;
 mod compare;
 mod export;
 mod farm;
+mod flicker;
 mod frames;
 mod join;
 mod list;
@@ -43,6 +44,7 @@ Examples:
   pipeline run turntable.json --frames 1-24 --film turntable.gif -o frames
   pipeline report glass-sphere -o report --quick
   pipeline report --calibrate --scenes 50 -o report
+  pipeline report --flicker -o report
   pipeline book -o book
   pipeline farm turntable.json --engine slurm --chunk 10 --film turntable.mp4 --script frames.sh
   pipeline pack my-vase/pages/vase.json -o for-cluster
@@ -131,6 +133,7 @@ fn run(command: &Command, memory: Option<&dyn Memory>) -> Result<(), Report> {
         Command::Pack(arguments) => pack::pack(arguments),
         Command::Join(arguments) => join::join(arguments),
         Command::Report(arguments) if arguments.calibrate => report::calibrate(arguments),
+        Command::Report(arguments) if arguments.flicker => report::flicker(arguments),
         Command::Report(arguments) => match memory {
             Some(memory) => report::report(arguments, memory),
             None => Ok(report::hand_over()?),
