@@ -34,12 +34,24 @@ impl Pair {
         samples: u32,
         progress: &(dyn Fn(usize, usize) + Sync),
     ) -> Self {
+        let settings = Settings::new(width, height, Filter::Bilinear);
+        Self::of(scene, &Settings { crop: Some(crop), ..settings }, samples, progress)
+    }
+
+    /// Renders pictures as [`Pair::render`] does, with the size, the part and the camera of these settings. Filter and
+    /// sampling are replaced.
+    #[must_use]
+    pub fn of(
+        scene: &Prepared<'_>,
+        settings: &Settings,
+        samples: u32,
+        progress: &(dyn Fn(usize, usize) + Sync),
+    ) -> Self {
         let mut half = 0;
         let pictures = SEEDS.map(|seed| {
             let pattern = Pattern::Jitter { seed };
             let sampling = Sampling::Grid { samples, pattern, pixel_filter: PixelFilter::Box };
-            let settings = Settings::new(width, height, Filter::Bilinear);
-            let settings = Settings { sampling, crop: Some(crop), ..settings };
+            let settings = Settings { sampling, filter: Filter::Bilinear, ..settings.clone() };
             let (picture, _) = render(scene, &settings, &|done, total| {
                 progress(half * total + done, 2 * total);
             });

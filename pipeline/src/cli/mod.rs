@@ -6,6 +6,7 @@ mod calibrate;
 mod compare;
 mod export;
 mod farm;
+mod flicker;
 mod frames;
 mod join;
 mod list;
@@ -42,6 +43,7 @@ Examples:
   pipeline run turntable.json --frames 1-24 --film turntable.gif -o frames
   pipeline report glass-sphere -o report --quick
   pipeline report --calibrate --scenes 50 -o report
+  pipeline report --flicker -o report
   pipeline book -o book
   pipeline farm turntable.json --engine slurm --chunk 10 --film turntable.mp4 --script frames.sh
   pipeline pack my-vase/pages/vase.json -o for-cluster
@@ -130,6 +132,7 @@ fn run(command: &Command, memory: Option<&dyn Memory>) -> Result<(), Report> {
         Command::Pack(arguments) => pack::pack(arguments),
         Command::Join(arguments) => join::join(arguments),
         Command::Report(arguments) if arguments.calibrate => report::calibrate(arguments),
+        Command::Report(arguments) if arguments.flicker => report::flicker(arguments),
         Command::Report(arguments) => match memory {
             Some(memory) => report::report(arguments, memory),
             None => Ok(report::hand_over()?),

@@ -5,6 +5,7 @@ use super::bar::Bar;
 use super::calibrate;
 use super::named::{self, NamedJob};
 use super::{OTHER_FOLDER, make_folder};
+use crate::report::flicker;
 use crate::report::measure::{self, Memory};
 use crate::report::measured::{Method, PageMeasured, Truth};
 use crate::report::{self, Measured, Plan};
@@ -70,6 +71,10 @@ pub struct ReportArguments {
     /// With --calibrate: number of random scenes [default: 200]
     #[arg(long, value_name = "N", requires = "calibrate")]
     scenes: Option<usize>,
+    /// Instead of the report, measure flicker: the part of the errors that changes from frame to frame while the camera
+    /// pans slowly over a fine texture, seen directly, in a mirror and through glass; write flicker.csv and plots
+    #[arg(long, conflicts_with_all = ["pages", "truth", "calibrate", "methods", "samples", "reference"])]
+    pub flicker: bool,
     #[command(flatten)]
     common: CommonArguments,
 }
@@ -79,6 +84,14 @@ pub fn calibrate(arguments: &ReportArguments) -> Result<(), Report> {
     let ReportArguments { pages, output, size, scenes, common, .. } = arguments;
     common.begin();
     calibrate::calibrate(pages, scenes.unwrap_or(calibrate::SCENES), *size, output, common)
+}
+
+/// Measures flicker.
+pub fn flicker(arguments: &ReportArguments) -> Result<(), Report> {
+    arguments.common.limit_memory();
+    let plan = if arguments.quick { flicker::Plan::quick() } else { flicker::Plan::full() };
+    let plan = flicker::Plan { size: arguments.size.unwrap_or(plan.size), ..plan };
+    super::flicker::flicker(&plan, &arguments.output, &arguments.common)
 }
 
 /// The program that counts memory cannot be started.

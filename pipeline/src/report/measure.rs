@@ -144,7 +144,7 @@ impl Rounds {
 
 /// Returns the median of some numbers: the lower of the two middle ones of an even number, and 0 of
 /// none.
-fn median(mut values: Vec<f64>) -> f64 {
+pub(super) fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values.get(values.len().saturating_sub(1) / 2).copied().unwrap_or(0.0)
 }

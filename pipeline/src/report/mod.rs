@@ -3,6 +3,7 @@
 //! [`measure`] renders a page by the methods of a [`Plan`] and compares the pictures with the
 //! [`refined`] truth, as a whole and by [`regions`]. [`Measured`] holds the results as numbers.
 //! [`write()`] turns the results into rows of numbers, sentences of advice, plots and pages.
+//! [`flicker`] measures the part of the errors that changes from frame to frame.
 //! [`accompanying`] holds measurements of other programs, which every report shows.
 
 pub mod accompanying;
@@ -13,6 +14,7 @@ mod board;
 mod document;
 #[cfg(test)]
 mod fixture;
+pub mod flicker;
 pub mod measure;
 pub mod measured;
 mod method;

@@ -118,17 +118,17 @@ impl<'a> Row<'a> {
 }
 
 /// Writes an error with five significant digits.
-fn light<S: Serializer>(light: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+pub(super) fn light<S: Serializer>(light: &f64, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_str(&format_args!("{light:.4e}"))
 }
 
 /// Writes a time in whole microseconds.
-fn seconds<S: Serializer>(seconds: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+pub(super) fn seconds<S: Serializer>(seconds: &f64, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_str(&format_args!("{seconds:.6}"))
 }
 
 /// Returns the name of a method of choosing rays: `area`, `thesis`, or a form of the thesis's supersampling.
-fn sampling(sampling: Sampling) -> &'static str {
+pub(super) fn sampling(sampling: Sampling) -> &'static str {
     match sampling {
         Sampling::Supersample(Supersample::Image) => "supersample-image",
         Sampling::Supersample(Supersample::Rays) => "supersample-rays",
@@ -138,7 +138,7 @@ fn sampling(sampling: Sampling) -> &'static str {
 }
 
 /// Returns the rays or areas along each side of a pixel; `None` if the method fixes them.
-fn samples(sampling: Sampling) -> Option<u32> {
+pub(super) fn samples(sampling: Sampling) -> Option<u32> {
     match sampling {
         Sampling::Supersample(_) => None,
         Sampling::Grid { samples, .. } | Sampling::Area { samples, .. } => Some(samples),
