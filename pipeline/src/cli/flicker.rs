@@ -1,11 +1,11 @@
 //! `pipeline report --flicker`: measures the part of the errors that changes from frame to frame.
 
 use super::bar::Bar;
-use super::common::CommonArguments;
+
 use super::{OTHER_FOLDER, make_folder};
 use crate::report::flicker::{self, PanMeasured, Plan, pans};
 use files::exit::say;
-use files::{Batch, Report};
+use files::{Batch, CommonArguments, Report};
 use std::io::Write;
 use std::path::Path;
 

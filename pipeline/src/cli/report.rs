@@ -88,7 +88,7 @@ pub fn calibrate(arguments: &ReportArguments) -> Result<(), Report> {
 
 /// Measures flicker.
 pub fn flicker(arguments: &ReportArguments) -> Result<(), Report> {
-    arguments.common.limit_memory();
+    arguments.common.begin();
     let plan = if arguments.quick { flicker::Plan::quick() } else { flicker::Plan::full() };
     let plan = flicker::Plan { size: arguments.size.unwrap_or(plan.size), ..plan };
     super::flicker::flicker(&plan, &arguments.output, &arguments.common)
