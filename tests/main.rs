@@ -39,5 +39,7 @@ mod studio_browser;
 #[cfg(feature = "studio")]
 mod studio_exports;
 #[cfg(feature = "studio")]
+mod studio_page;
+#[cfg(feature = "studio")]
 mod studio_server;
 mod support;

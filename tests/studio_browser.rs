@@ -16,7 +16,7 @@ const WATCH: &str = "
           milliseconds: event.detail.milliseconds, size: event.detail.size, times: event.detail.times }));";
 
 /// Starts a browser, or says why a test is skipped.
-fn browser(width: u32, height: u32) -> Option<Browser> {
+pub fn browser(width: u32, height: u32) -> Option<Browser> {
     match Browser::start(width, height) {
         Ok(browser) => Some(browser),
         Err(reason) => {

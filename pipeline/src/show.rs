@@ -6,7 +6,6 @@
 use crate::{PipelineError, mesh};
 use files::json::Document;
 use files::memory::{Reserved, of_process};
-use files::words::shown;
 use files::{Setting, Source, input, setting};
 use render::Scene;
 use render::scene::mesh_file::{self, Near};
@@ -97,12 +96,14 @@ impl Showing<'_> {
         let subject = Subject {
             mesh: &read,
             name: &name,
+            given: showcase::MESH,
             file: file.as_deref(),
             texture: texture.as_deref(),
             up,
             has_colors: showcase::has_colors(&read, self.source),
             aspect: self.aspect,
             alone: self.alone,
+            is_soft: true,
         };
         let text = showcase::scene(&subject, self.look)?.into_bytes();
         let of_scene: Vec<Setting> =
@@ -132,17 +133,7 @@ impl Showing<'_> {
         let document = Document::new(&name, &bytes)?;
         let folder = self.path.parent().unwrap_or(Path::new(""));
         let object = Object::read(&document, folder, self.source, &spec::Resolution::default())?;
-        let points: u64 = object
-            .parts()
-            .iter()
-            .map(|part| {
-                let [rows, cols] = part.points();
-                (rows as u64).saturating_mul(cols as u64)
-            })
-            .sum();
-        let bytes = points.saturating_mul(36).saturating_add(TriMesh::bytes_for(2 * points));
-        of_process().check(bytes, || format!("{} with {points} points", shown(&name)))?;
-        let grids = object.grids()?;
+        let grids = mesh::grids(&object, &name)?;
         notes.extend(object.missed());
         Ok(mesh::for_render(triangulate::mesh(grids.as_slice(), &Options::default())?))
     }

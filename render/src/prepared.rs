@@ -6,15 +6,15 @@
 //! it and is kept for the pictures that follow. It is shared by the modes of a page, the two
 //! pictures of a truth, the blocks of a refined picture, and `--pixel`.
 
-use crate::accel::{Accel, Structure};
-use crate::filter::{Filter, FilteredTexture};
+use crate::accel::{Accel, Planted, Structure};
+use crate::filter::{Filter, FilteredTexture, Table};
 use crate::scene::Scene;
 use crate::shade::{Shader, View};
 use crate::shape::Charts;
 use crate::trace::medium::Media;
 use crate::trace::volume::Volumes;
 use rayon::prelude::*;
-use std::sync::OnceLock;
+use std::sync::{Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
 /// A scene and the data that pictures of it share.
@@ -37,6 +37,16 @@ pub struct Prepared<'a> {
     no_charts: Vec<Charts>,
     /// The volumes that contain each light.
     around_lights: OnceLock<Vec<Media>>,
+    /// Trees of meshes from an earlier scene, which the first structure takes.
+    planted: Mutex<Planted>,
+}
+
+/// The data of a scene that another scene with the same textures can take over.
+#[derive(Debug)]
+pub struct Leftover {
+    /// For each of [`Filter::ALL`], the tables by texture index.
+    tables: [Option<Vec<Option<Table>>>; Filter::ALL.len()],
+    planted: Planted,
 }
 
 /// The data that was built for one picture because no earlier picture needed it.
@@ -64,7 +74,45 @@ impl<'a> Prepared<'a> {
             charts: OnceLock::new(),
             no_charts: vec![Charts::default(); scene.objects.len()],
             around_lights: OnceLock::new(),
+            planted: Mutex::default(),
         }
+    }
+
+    /// Returns the data that a later scene can take over.
+    #[must_use]
+    pub fn leftover(self) -> Leftover {
+        let tables = self.textures.each_ref().map(|textures| {
+            let textures = textures.get()?;
+            Some(textures.iter().map(|one| one.as_ref().map(FilteredTexture::table)).collect())
+        });
+        let [trees, ..] = self.structures;
+        let unused = self.planted.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let planted = trees.into_inner().map_or(unused, Accel::into_planted);
+        Leftover { tables, planted }
+    }
+
+    /// Prepares a scene with what is left of an earlier one, whose textures have the same texels and are shown by the
+    /// same surfaces. `is_same` tells of each object that is a mesh, or an instance of one, whether the mesh is that of the
+    /// object with this index in the earlier scene.
+    #[must_use]
+    pub fn after(leftover: Leftover, scene: &'a Scene, is_same: impl Fn(usize) -> bool) -> Self {
+        let mut prepared = Self::new(scene);
+        let shown = scene.shown_textures();
+        for (tables, own) in leftover.tables.into_iter().zip(&mut prepared.textures) {
+            let Some(tables) = tables.filter(|tables| tables.len() == scene.textures.len()) else {
+                continue;
+            };
+            if tables.iter().map(Option::is_some).ne(shown.iter().copied()) {
+                continue;
+            }
+            let again = scene.textures.iter().zip(tables);
+            let again = again.map(|(texture, table)| {
+                table.map(|table| FilteredTexture::with_table(texture, &table))
+            });
+            *own = OnceLock::from(again.collect::<Vec<_>>());
+        }
+        prepared.planted = Mutex::new(leftover.planted.of_same(is_same));
+        prepared
     }
 
     /// The scene.
@@ -132,7 +180,13 @@ impl<'a> Prepared<'a> {
     /// Builds a structure over all objects.
     fn structured(&self, structure: Structure) -> Accel<'a> {
         let shapes = self.scene.objects.iter().map(|object| &object.shape);
-        Accel::build(shapes.collect(), structure)
+        let planted = match structure {
+            Structure::Bvh => {
+                std::mem::take(&mut *self.planted.lock().unwrap_or_else(PoisonError::into_inner))
+            }
+            Structure::Grid | Structure::None => Planted::default(),
+        };
+        Accel::build_over(shapes.collect(), structure, planted)
     }
 
     /// Prepares the textures that surfaces show for a filter.

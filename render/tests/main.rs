@@ -56,6 +56,7 @@ mod solid_averages;
 mod solid_complaints;
 mod structures;
 mod studio;
+mod taken_over;
 mod textures;
 mod transparent;
 mod views;

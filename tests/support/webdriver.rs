@@ -134,6 +134,41 @@ impl Browser {
         self.command("actions", &json!({ "actions": [mouse] }));
     }
 
+    /// Moves fingers on a touch screen at the same time, each from one point to another.
+    pub fn touch(&self, fingers: &[[[f64; 2]; 2]], steps: u32) {
+        let one = |(number, [from, to]): (usize, &[[f64; 2]; 2])| {
+            let at = |part: f64, duration: u32| {
+                let [x, y] = [0, 1].map(|k| (from[k] + part * (to[k] - from[k])).round() as i64);
+                json!({ "type": "pointerMove", "duration": duration, "x": x, "y": y })
+            };
+            let mut actions = vec![at(0.0, 0), json!({ "type": "pointerDown", "button": 0 })];
+            actions.extend((1..=steps).map(|k| at(f64::from(k) / f64::from(steps), 30)));
+            actions.push(json!({ "type": "pointerUp", "button": 0 }));
+            json!({ "type": "pointer", "id": format!("finger {number}"),
+                "parameters": { "pointerType": "touch" }, "actions": actions })
+        };
+        let fingers: Vec<Value> = fingers.iter().enumerate().map(one).collect();
+        self.command("actions", &json!({ "actions": fingers }));
+    }
+
+    /// Presses keys one after another. `\u{e004}` is Tab, `\u{e007}` Enter, `\u{e012}` to `\u{e015}` are the arrows
+    /// left, up, right and down, and `\u{e017}` is Delete.
+    pub fn keys(&self, text: &str) {
+        let press =
+            |key: char| ["keyDown", "keyUp"].map(|kind| json!({ "type": kind, "value": key }));
+        let actions: Vec<Value> = text.chars().flat_map(press).collect();
+        let keys = json!({ "type": "key", "id": "keys", "actions": actions });
+        self.command("actions", &json!({ "actions": [keys] }));
+    }
+
+    /// Drops a file with a text or bytes on an element that a script returns.
+    pub fn drop_file(&self, element: &str, name: &str, bytes: &[u8]) {
+        self.run(&format!(
+            "const data = new DataTransfer(); data.items.add(new File([new Uint8Array({bytes:?})], '{name}')); \
+             ({element}).dispatchEvent(new DragEvent('drop', {{ dataTransfer: data, bubbles: true, cancelable: true }}));"
+        ));
+    }
+
     /// Returns the messages of the page's console.
     pub fn log(&self) -> Value {
         self.command("se/log", &json!({ "type": "browser" }))

@@ -8,7 +8,6 @@ use crate::{PipelineError, mesh};
 use files::input;
 use files::json::Document;
 use files::memory::{Reserved, of_process};
-use files::words::shown;
 use render::Scene;
 use render::film::encode::Format;
 use render::film::memory;
@@ -110,15 +109,7 @@ impl Run<'_> {
                 SweepError::Resolution(message) => mesh.resolution_fault(message).into(),
                 other => PipelineError::from(other),
             })?;
-        let points = object.parts().iter().map(|part| {
-            let [rows, cols] = part.points();
-            (rows as u64).saturating_mul(cols as u64)
-        });
-        let points: u64 = points.sum();
-        // Memory for the grid, its triangles, and the copy of them that is rendered.
-        let bytes = points.saturating_mul(36).saturating_add(TriMesh::bytes_for(2 * points));
-        of_process().check(bytes, || format!("mesh {} of {points} points", shown(&mesh.name)))?;
-        let grids = object.grids()?;
+        let grids = mesh::grids(&object, &mesh.name)?;
         let sweep = started.elapsed();
         let stated = fineness == Fineness::Stated;
         if let Some(batch) = keep {

@@ -59,6 +59,8 @@ pub struct Snapshot {
     pub is_moving: bool,
     /// The time of the last change.
     pub since: Instant,
+    /// Time from the last change until a thread took up the state, after the end of obsolete work.
+    pub waited: Duration,
 }
 
 /// The state that all windows share.
@@ -231,7 +233,8 @@ impl Board {
         let opened = state.opened.clone()?;
         let source = Edited { texts: state.texts.snapshot(), folder: self.folder.clone() };
         let (view, is_moving, since) = (state.view.clone(), state.is_moving, state.since);
-        Some(Snapshot { revision, opened, source, view, is_moving, since })
+        let waited = since.elapsed();
+        Some(Snapshot { revision, opened, source, view, is_moving, since, waited })
     }
 
     /// Ends the threads that wait for work.

@@ -13,6 +13,7 @@ use files::json::Document;
 use files::{JsonError, Source};
 use glam::DAffine3;
 use render::Scene;
+use render::prepared::Leftover;
 use render::scene::file::SceneFile;
 use render::scene::read::{self, Draft};
 use render::scene::{Camera, MeshSource};
@@ -30,6 +31,10 @@ pub struct Kept {
     pub scene: Scene,
     /// The objects of the meshes, by name.
     pub objects: BTreeMap<String, Arc<Object>>,
+    /// Data of the last pictures that the scene can take over.
+    leftover: Option<Leftover>,
+    /// The objects whose meshes were replaced since then.
+    replaced: Vec<usize>,
     frame: Frame,
     meshes: BTreeMap<String, MeshKey>,
 }
@@ -135,6 +140,17 @@ impl Kept {
         Ok(())
     }
 
+    /// Takes what is left of earlier pictures, and the objects whose meshes were replaced since then.
+    pub fn take_leftover(&mut self) -> Option<(Leftover, Vec<usize>)> {
+        Some((self.leftover.take()?, std::mem::take(&mut self.replaced)))
+    }
+
+    /// Keeps what is left of the pictures of the scene as it is.
+    pub fn keep(&mut self, leftover: Leftover) {
+        self.leftover = Some(leftover);
+        self.replaced.clear();
+    }
+
     /// Makes the whole scene of the files.
     ///
     /// # Errors
@@ -154,7 +170,8 @@ impl Kept {
             objects.insert(mesh.name.clone(), Arc::new(object));
         }
         let scene = draft.resolve(source, given)?;
-        Ok(Self { scene, objects, frame: files.frame.clone(), meshes })
+        let (leftover, replaced, frame) = (None, Vec::new(), files.frame.clone());
+        Ok(Self { scene, objects, leftover, replaced, frame, meshes })
     }
 
     /// Replaces the meshes whose specs changed. Returns false if a mesh is placed, shared or smoothed, so that the scene
@@ -184,6 +201,7 @@ impl Kept {
                 made.close_rounded();
             }
             own.shape = Shape::Mesh(made);
+            self.replaced.push(slot);
             self.meshes.insert(mesh.name.clone(), key);
             self.objects.insert(mesh.name.clone(), Arc::new(object));
         }

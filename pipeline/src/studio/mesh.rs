@@ -2,17 +2,14 @@
 
 use crate::PipelineError;
 use crate::job::MeshJob;
-use crate::mesh::for_render;
+use crate::mesh::{for_render, grids};
 use files::json::Document;
-use files::memory::of_process;
-use files::words::shown;
 use files::{Source, input};
 use render::scene::file::CameraFile;
 use serde_json::{Value, json};
 use std::path::Path;
 use sweep::spec::{self, Resolution};
 use sweep::{Object, SweepError};
-use triangulate::TriMesh;
 
 /// How finely a mesh is made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -24,7 +21,7 @@ pub enum Finish {
 }
 
 /// Rows and columns of a draft at most.
-const DRAFT: [usize; 2] = [64, 72];
+const DRAFT: [usize; 2] = [48, 56];
 
 /// The camera and the size of the picture, for meshes whose tolerance is in pixels.
 #[must_use]
@@ -112,15 +109,7 @@ fn shrink(sweep: &mut Value, of_job: &Resolution) -> bool {
 /// # Errors
 /// When the mesh takes too much memory, or a point is not finite.
 pub fn triangles(mesh: &MeshJob, object: &Object) -> Result<render::shape::Mesh, PipelineError> {
-    let points = object.parts().iter().map(|part| {
-        let [rows, cols] = part.points();
-        (rows as u64).saturating_mul(cols as u64)
-    });
-    let points: u64 = points.sum();
-    // Memory for the grid, its triangles, and the copy of them that is rendered.
-    let bytes = points.saturating_mul(36).saturating_add(TriMesh::bytes_for(2 * points));
-    of_process().check(bytes, || format!("mesh {} of {points} points", shown(&mesh.name)))?;
-    let grids = object.grids()?;
+    let grids = grids(object, &mesh.name)?;
     Ok(for_render(triangulate::mesh(grids.as_slice(), &mesh.options)?))
 }
 
@@ -133,8 +122,8 @@ mod tests {
         let spec = json!({ "mesh": { "rows": 640, "cols": 36 },
             "areas": [{ "rows": [0, 320], "cols": [0, 3] }, { "rows": [637, 640], "cols": [3, 36] }] });
         let draft = draft(spec.to_string().as_bytes(), &Resolution::default()).unwrap();
-        let expected = json!({ "mesh": { "rows": 64, "cols": 36 },
-            "areas": [{ "rows": [0, 32], "cols": [0, 3] }, { "rows": [63, 64], "cols": [3, 36] }] });
+        let expected = json!({ "mesh": { "rows": 48, "cols": 36 },
+            "areas": [{ "rows": [0, 24], "cols": [0, 3] }, { "rows": [47, 48], "cols": [3, 36] }] });
         assert_eq!(serde_json::from_slice::<Value>(&draft).unwrap(), expected);
         let small = json!({ "parts": [{ "mesh": { "rows": 9, "cols": 9 } }] }).to_string();
         assert_eq!(super::draft(small.as_bytes(), &Resolution::default()), None);

@@ -18,7 +18,7 @@
 //! | [`view`], [`board`] | size, error and methods of the picture; the state that threads and windows share |
 //! | [`mesh`], [`kept`], [`worker`], [`png`] | meshes; the scene that pictures share; the thread of pictures; their encoding |
 //! | [`curves`], [`spec_check`], [`scene_check`] | curves as points; findings and measures |
-//! | [`export`], [`start`] | files with their commands; the start page |
+//! | [`export`], [`upload`], [`start`] | files with their commands; pictures that are given; the start page |
 //! | [`token`], [`guard`], [`routes`], [`assets`], [`server`] | the word in the address; refused requests; requests; files of the page; address and threads |
 //!
 //! Limits: a picture has at most 2048 pixels across. Files that a scene includes are read again only with the scene.
@@ -44,5 +44,6 @@ pub mod spec_check;
 pub mod start;
 pub mod texts;
 pub mod token;
+pub mod upload;
 pub mod view;
 pub mod worker;

@@ -87,7 +87,7 @@ impl Opened {
         };
         if kind == Kind::Spec {
             Self::beside(folder, &path, texts, "scene", &|stem, _| {
-                automatic::scene(&mesh_name(stem), automatic::bounds(folder, &path, &text))
+                automatic::scene(folder, &path, &text, &mesh_name(stem))
             });
         }
         let edited = Edited { texts: texts.snapshot(), folder: folder.clone() };

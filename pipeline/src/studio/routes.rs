@@ -5,9 +5,10 @@ use super::edit::{self, Edit};
 use super::opened::Opened;
 use super::texts::Texts;
 use super::view::View;
-use super::{assets, export, start};
+use super::{assets, export, start, upload};
 use axum::Json;
-use axum::extract::{Path, State as Shared};
+use axum::body::Bytes;
+use axum::extract::{DefaultBodyLimit, Path, State as Shared};
 use axum::http::StatusCode;
 use axum::http::header::CONTENT_TYPE;
 use axum::response::sse::{self, Sse};
@@ -84,6 +85,10 @@ pub fn router(studio: Arc<Studio>) -> Router {
         .route("/api/view", post(view))
         .route("/api/pixel", post(pixel))
         .route("/api/export", post(exported))
+        .route(
+            "/api/picture/{beside}/{name}",
+            post(given).layer(DefaultBodyLimit::max(upload::LARGEST)),
+        )
         .with_state(studio)
 }
 
@@ -322,6 +327,16 @@ async fn pixel(Shared(studio): Own, Json(At { x, y }): Json<At>) -> Answer {
     studio.board.ask(Question { pixel: (x, y), answer });
     let text = receiver.await.map_err(|_| "the picture has changed".to_string())??;
     Ok(Json(json!({ "text": text })))
+}
+
+/// Takes a picture, which becomes a file beside another one.
+async fn given(
+    Shared(studio): Own,
+    Path((beside, name)): Path<(String, String)>,
+    bytes: Bytes,
+) -> Answer {
+    let board = studio.board.clone();
+    blocking(move || upload::picture(&board.folder, &beside, &name, &bytes)).await.map(Json)
 }
 
 #[derive(Debug, Deserialize)]

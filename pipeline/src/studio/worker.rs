@@ -29,7 +29,7 @@ const DRAFT: f64 = 0.03;
 const FOLLOWED: f64 = 0.1;
 
 /// Fewest pixels of a draft.
-const FEWEST: f64 = 96.0 * 96.0;
+const FEWEST: f64 = 64.0 * 64.0;
 
 /// Time for which a moving handle is awaited before finer work starts.
 const PATIENCE: Duration = Duration::from_millis(220);
@@ -119,11 +119,17 @@ impl Worker<'_> {
         if !self.judge(made) {
             return Served::Done;
         }
-        let Some(kept) = self.kept.take() else { return Served::Done };
+        let Some(mut kept) = self.kept.take() else { return Served::Done };
+        let leftover = kept.take_leftover();
         let is_stated = kept.shows(&files, Finish::Stated);
-        let result = {
-            let prepared = Prepared::new(&kept.scene);
-            loop {
+        let (result, left) = {
+            let prepared = match leftover {
+                Some((leftover, replaced)) => {
+                    Prepared::after(leftover, &kept.scene, |object| !replaced.contains(&object))
+                }
+                None => Prepared::new(&kept.scene),
+            };
+            let result = loop {
                 if self.drawn != snapshot.revision {
                     self.draft(&prepared, &files, &snapshot, (is_stated, making));
                     making = Duration::ZERO;
@@ -162,8 +168,10 @@ impl Worker<'_> {
                     break Served::Next(next);
                 }
                 (snapshot, files) = (*next, new);
-            }
+            };
+            (result, prepared.leftover())
         };
+        kept.keep(left);
         self.kept = Some(kept);
         result
     }
@@ -218,7 +226,9 @@ impl Worker<'_> {
         let spent = started.elapsed().as_secs_f64() / f64::from(width * height);
         // A slow draft shrinks the next one at once, and a fast one lets it grow slowly.
         *known = if spent > *known { spent } else { 0.7 * *known + 0.3 * spent };
-        let times = json!({ "meshes": making.as_millis() as u64, "picture": started.elapsed().as_millis() as u64 });
+        let [waited, meshes, spent] =
+            [snapshot.waited, making, started.elapsed()].map(|time| time.as_secs_f64() * 1e3);
+        let times = json!({ "waited": waited, "meshes": meshes, "picture": spent });
         self.show("draft", &picture, snapshot, (None, times));
     }
 
@@ -248,10 +258,8 @@ impl Worker<'_> {
         if let Some(error) = snapshot.view.error {
             let tell = |step: &str, done, total| progress.tell(step, done, total);
             let request = Request::new(prepared, &settings, PixelFilter::Box);
-            let reached = Request { progress: &tell, go_on: &go_on, ..request }.reach(error);
-            if !go_on() {
-                return false;
-            }
+            let request = Request { progress: &tell, go_on: &go_on, ..request };
+            let Some(reached) = request.reach_or_leave(error) else { return false };
             self.show("exact", &reached.picture, snapshot, (Some(&reached.statement), Value::Null));
         }
         if let Some(method) = snapshot.view.beside {

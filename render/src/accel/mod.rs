@@ -42,6 +42,7 @@ mod node;
 mod own_ray;
 mod pages;
 mod parts;
+mod planted;
 mod simd;
 mod slabs;
 mod top;
@@ -61,6 +62,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use simd::{Instructions, Task};
 use top::Trees;
+
+pub use planted::Planted;
 
 /// A shape is outsized when its box is longer than this fraction of the box around everything.
 ///
@@ -136,6 +139,13 @@ impl<'a> Accel<'a> {
     /// Prepares the shapes; the index of a shape becomes [`Piece::object`].
     #[must_use]
     pub fn build(shapes: Vec<&'a Shape>, structure: Structure) -> Self {
+        Self::build_over(shapes, structure, Planted::default())
+    }
+
+    /// Prepares the shapes as [`Accel::build`] does. Trees of meshes that are planted are taken from there; they must be
+    /// those of the shapes' meshes.
+    #[must_use]
+    pub fn build_over(shapes: Vec<&'a Shape>, structure: Structure, planted: Planted) -> Self {
         let bounds = |shape: &&Shape| match shape {
             Shape::Mesh(_) => None,
             shape => shape.bounds(),
@@ -145,11 +155,20 @@ impl<'a> Accel<'a> {
         let extent = extents.iter().copied().fold(0.0, f64::max);
         let apart = unbounded(&shapes, &bounds);
         let index = match structure {
-            Structure::Bvh => Index::Trees(Trees::build(&shapes, &bounds), apart),
+            Structure::Bvh => Index::Trees(Trees::build(&shapes, &bounds, planted), apart),
             Structure::Grid => Index::Flat(Flat::build(&shapes, &bounds, apart, true)),
             Structure::None => Index::Flat(Flat::build(&shapes, &bounds, apart, false)),
         };
         Self { shapes, index, bounds, extents, extent, instructions: Instructions::detect() }
+    }
+
+    /// Returns the trees of meshes; none of a structure without trees.
+    #[must_use]
+    pub fn into_planted(self) -> Planted {
+        match self.index {
+            Index::Trees(trees, _) => trees.into_planted(),
+            Index::Flat(_) => Planted::default(),
+        }
     }
 
     /// Memory in bytes of the structure and of its copies of triangles.

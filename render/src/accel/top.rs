@@ -9,6 +9,7 @@ use super::leaf::Probe;
 use super::mesh_tree::{self, MeshTree};
 use super::node::Child;
 use super::own_ray::OwnRay;
+use super::planted::Planted;
 use super::simd::Task;
 use super::slabs::SlabRay;
 use super::tree::{Leaves, Tree};
@@ -51,9 +52,9 @@ pub struct Trees {
 
 impl Trees {
     /// Builds the trees. `bounds` are those of the shapes that are one piece; shapes without bounds
-    /// are left out.
+    /// are left out. Trees of meshes that are `planted` are taken from there.
     #[must_use]
-    pub fn build(shapes: &[&Shape], bounds: &[Option<[DVec3; 2]>]) -> Self {
+    pub fn build(shapes: &[&Shape], bounds: &[Option<[DVec3; 2]>], mut planted: Planted) -> Self {
         let mut items: Vec<(Item, [DVec3; 2])> = Vec::new();
         let mut meshes = Vec::new();
         let mut known = HashMap::new();
@@ -61,12 +62,13 @@ impl Trees {
             let number = object as u32;
             match (shape, bounds[object]) {
                 (Shape::Mesh(mesh), _) => {
-                    let trees = plant(mesh, &mut meshes);
+                    let trees = plant(mesh, planted.of(number), &mut meshes);
                     items.extend(trees.map(|k| (Item::Mesh(number, k), meshes[k].tree().bounds)));
                 }
                 (Shape::Instance(instance), Some(bounds)) => {
-                    let trees = known.entry(instance.key());
-                    let trees = trees.or_insert_with(|| plant(instance.mesh(), &mut meshes));
+                    let trees = known
+                        .entry(instance.key())
+                        .or_insert_with(|| plant(instance.mesh(), planted.of(number), &mut meshes));
                     items.extend(trees.clone().map(|k| (Item::Instance(number, k), bounds)));
                 }
                 (_, Some(bounds)) => items.push((Item::Whole(number), bounds)),
@@ -87,6 +89,22 @@ impl Trees {
         let in_order = leaves.into_iter().flatten().map(|at| boxes[at].number());
         let (items, bounds) = in_order.map(|number| items[number as usize]).unzip();
         Self { tree: Some(tree), items, bounds, meshes }
+    }
+
+    /// Returns the trees of meshes, each under the first object that shows it.
+    #[must_use]
+    pub fn into_planted(self) -> Planted {
+        let mut shown_by = vec![u32::MAX; self.meshes.len()];
+        for item in &self.items {
+            if let Item::Mesh(number, k) | Item::Instance(number, k) = *item {
+                shown_by[k] = shown_by[k].min(number);
+            }
+        }
+        let mut planted = Planted::default();
+        for (number, tree) in shown_by.into_iter().zip(self.meshes) {
+            planted.0.entry(number).or_default().push(tree);
+        }
+        planted
     }
 
     /// Memory in bytes of all trees and of their copies of triangles.
@@ -251,9 +269,13 @@ impl<F: FnMut(Hit) -> f64> Task for InOwnSpace<'_, '_, F> {
     }
 }
 
-/// Builds the trees of a mesh and returns their indices.
-fn plant(mesh: &Mesh, trees: &mut Vec<MeshTree>) -> Range<usize> {
+/// Builds the trees of a mesh, unless they are known, and returns their indices.
+fn plant(mesh: &Mesh, known: Option<Vec<MeshTree>>, trees: &mut Vec<MeshTree>) -> Range<usize> {
     let (before, count) = (trees.len(), mesh.triangles.len() as u32);
+    if let Some(known) = known {
+        trees.extend(known);
+        return before..trees.len();
+    }
     for first in (0..count).step_by(mesh_tree::MOST as usize) {
         let last = first.saturating_add(mesh_tree::MOST).min(count);
         trees.extend(MeshTree::build(mesh, first..last));

@@ -1,6 +1,6 @@
 //! A request for a picture of some accuracy, and the result.
 
-use super::search::{by_error, by_time};
+use super::search::{by_error, by_error_or_leave, by_time};
 use super::{Sources, Statement};
 use crate::film::course::{Shown, Told};
 use crate::film::{Course, GoOn, Picture, PixelFilter, Settings};
@@ -89,6 +89,13 @@ impl<'r, 's> Request<'r, 's> {
     #[must_use]
     pub fn reach(&self, error: f64) -> Reached {
         by_error(self, error)
+    }
+
+    /// Makes the picture of [`Request::reach`], or returns `None` soon after `go_on` returns false. The work ends within
+    /// a row of a tile, or within one pixel of the audit.
+    #[must_use]
+    pub fn reach_or_leave(&self, error: f64) -> Option<Reached> {
+        by_error_or_leave(self, error)
     }
 
     /// Makes the best picture in about `seconds` of wall-clock time. The choice depends on measured

@@ -62,13 +62,35 @@ const TIMED: f64 = 0.005;
 
 /// See [`Request::reach`].
 pub(super) fn by_error(request: &Request<'_, '_>, error: f64) -> Reached {
+    match choose(request, error) {
+        Ok(choice) => {
+            let made = choice.search.made(choice.rung);
+            choice.finish(made)
+        }
+        Err(search) => search.ended_early(),
+    }
+}
+
+/// See [`Request::reach_or_leave`].
+pub(super) fn by_error_or_leave(request: &Request<'_, '_>, error: f64) -> Option<Reached> {
+    let choice = choose(request, error).ok()?;
+    let made = (request.go_on)().then(|| choice.search.made(choice.rung))?;
+    (made.1.unfinished == 0).then(|| choice.finish(made))
+}
+
+/// Chooses the cheapest sampling whose error is below `error`, or fails with the search if it is ended early while it
+/// draws pixels.
+fn choose<'q, 'r, 's>(
+    request: &'q Request<'r, 's>,
+    error: f64,
+) -> Result<Choice<'q, 'r, 's>, Search<'q, 'r, 's>> {
     let mut search = Search::start(request, error);
     search.requested = Some(error);
     let limit = error * error;
     let (mut at, mut look) = (start(error), 0);
     let found = loop {
         if !search.draw(look, error) {
-            return search.ended_early();
+            return Err(search);
         }
         let most = SIZES[SIZES.len() - 1] as f64 / SIZES[look] as f64;
         let few = search.cheapest(at, look, limit, most.min(GROWTH));
@@ -97,7 +119,8 @@ pub(super) fn by_error(request: &Request<'_, '_>, error: f64) -> Reached {
         None => upper(&values, 1.0 - CONFIDENCE),
     };
     let missed = found.is_none().then_some(error);
-    search.finish(rung, &values, bound.max(mean(&values)).max(0.0).sqrt(), missed)
+    let bound = bound.max(mean(&values)).max(0.0).sqrt();
+    Ok(Choice { search, rung, values, bound, missed })
 }
 
 /// See [`Request::within`].
@@ -124,13 +147,43 @@ pub(super) fn by_time(request: &Request<'_, '_>, seconds: f64) -> Reached {
     // The values were not used for the choice.
     let values = search.values(chosen);
     let bound = upper(&values, 1.0 - CONFIDENCE).max(0.0).sqrt();
-    search.finish(chosen, &values, bound, None)
+    let made = search.made(chosen);
+    Choice { search, rung: chosen, values, bound, missed: None }.finish(made)
 }
 
 /// Returns the part of the risk of printed bounds that belongs to a rung. The parts of all rungs sum
 /// to less than 1, and those of rungs near the first are the largest.
 fn share(rung: usize, first: usize) -> f64 {
     0.4 / (1.0 + rung.abs_diff(first) as f64).powi(2)
+}
+
+/// A sampling that was chosen.
+struct Choice<'q, 'r, 's> {
+    search: Search<'q, 'r, 's>,
+    rung: usize,
+    /// Weighted squared errors of the draws.
+    values: Vec<f64>,
+    /// The stated bound, root mean square in linear light.
+    bound: f64,
+    /// The requested error, if no sampling suffices.
+    missed: Option<f64>,
+}
+
+impl Choice<'_, '_, '_> {
+    /// States the error of the picture of the choice.
+    fn finish(self, (picture, mut stats): (Picture, Stats)) -> Reached {
+        let Self { search, rung, values, bound, missed } = self;
+        if stats.unfinished > 0 {
+            return search.with_audit(picture, stats);
+        }
+        stats.audit_rays = search.audit_rays();
+        stats.audit_time = search.stats.audit_time;
+        let statement = stated(&values, bound, missed, &stats, picture.pixels.len());
+        let color = |k: usize| search.tried[&rung][k].color;
+        let sources = by_cause(search.request, &search.base, &search.sample, color, &mut stats);
+        let settings = search.base.with(search.rungs[rung]);
+        Reached { picture, stats, settings, statement, sources: Some(sources) }
+    }
 }
 
 struct Search<'q, 'r, 's> {
@@ -234,7 +287,11 @@ impl<'q, 'r, 's> Search<'q, 'r, 's> {
     fn try_out(&mut self, rung: usize) {
         let started = Instant::now();
         let pixels = self.tried.entry(rung).or_default();
-        let new = self.base.pixels(self.rungs[rung], &self.sample.pixels[pixels.len()..]);
+        let new = self.base.pixels(
+            self.rungs[rung],
+            &self.sample.pixels[pixels.len()..],
+            self.request.go_on,
+        );
         self.stats.audit_rays += new.iter().map(|pixel| pixel.traced).sum::<u64>();
         pixels.extend(new);
         self.stats.audit_time += started.elapsed();
@@ -266,20 +323,10 @@ impl<'q, 'r, 's> Search<'q, 'r, 's> {
     }
 
     /// Makes the whole picture with the chosen rung.
-    fn finish(self, rung: usize, values: &[f64], bound: f64, missed: Option<f64>) -> Reached {
-        let &Request { progress, .. } = self.request;
+    fn made(&self, rung: usize) -> (Picture, Stats) {
+        let progress = self.request.progress;
         let tell = |done, total| progress("picture", done, total);
-        let (picture, mut stats) = self.base.finish(self.rungs[rung], &self.request.course(&tell));
-        if stats.unfinished > 0 {
-            return self.with_audit(picture, stats);
-        }
-        stats.audit_rays = self.audit_rays();
-        stats.audit_time = self.stats.audit_time;
-        let statement = stated(values, bound, missed, &stats, picture.pixels.len());
-        let color = |k: usize| self.tried[&rung][k].color;
-        let sources = by_cause(self.request, &self.base, &self.sample, color, &mut stats);
-        let settings = self.base.with(self.rungs[rung]);
-        Reached { picture, stats, settings, statement, sources: Some(sources) }
+        self.base.finish(self.rungs[rung], &self.request.course(&tell))
     }
 
     /// Returns the first rays as the picture.

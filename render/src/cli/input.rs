@@ -135,12 +135,14 @@ impl InputArguments {
         let subject = Subject {
             mesh: read,
             name: &name,
+            given: showcase::MESH,
             file: file.as_deref(),
             texture: texture.as_deref(),
             up: showcase::up_of(&name, bytes),
             has_colors: showcase::has_colors(read, ledger),
             aspect: staging.aspect,
             alone: staging.alone,
+            is_soft: true,
         };
         Ok((showcase::scene(&subject, &self.look)?.into_bytes(), folder))
     }

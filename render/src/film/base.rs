@@ -8,7 +8,7 @@ use super::area::{Area, Base};
 use super::exposure::{Exposed, Exposure, Film};
 use super::lattice::Lattice;
 use super::{
-    Course, Crop, Picture, PixelFilter, Sampling, Settings, TILE_SAMPLES, render_in_tiles,
+    Course, Crop, GoOn, Picture, PixelFilter, Sampling, Settings, TILE_SAMPLES, render_in_tiles,
     with_exposure,
 };
 use crate::prepared::Prepared;
@@ -34,7 +34,7 @@ pub struct BasePicture<'p, 's> {
 }
 
 /// A pixel that was finished alone.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Pixel {
     /// Colour as in the picture, linear RGB.
     pub color: [f32; 3],
@@ -67,22 +67,27 @@ impl<'p, 's> BasePicture<'p, 's> {
         let settings = Settings { sampling, least_weight, ..settings.clone() };
         let area = Area::new(1, pixel_filter, None);
         let (tiles, picture, (errors, edges), stats) =
-            with_exposure(prepared, &settings, |shared, stats| {
+            with_exposure(prepared, &settings, course.go_on, |shared, stats| {
                 let started = Instant::now();
                 let crop = Crop::of(&settings);
                 let tiles = crop.tiles(shared.tile_side(TILE_SAMPLES));
                 let film = Mutex::new(Film::new(crop, Picture::of(&settings), stats));
                 let bases =
-                    tiles.par_iter().with_max_len(1).filter(|_| (course.go_on)()).map(|tile| {
-                        let mut exposed = shared.unexposed(tile);
-                        let base = area.base(shared, tile, &mut exposed, true);
-                        area.develop(shared, &base, tile, &mut exposed, &mut ());
-                        exposed.keep_work(&settings);
-                        course.show(tile, &exposed);
-                        let mut film = film.lock().unwrap_or_else(PoisonError::into_inner);
-                        (course.progress)(film.take(tile, &exposed), tiles.len());
-                        (*tile, base, exposed.work)
-                    });
+                    tiles.par_iter().with_max_len(1).filter(|_| (course.go_on)()).filter_map(
+                        |tile| {
+                            let mut exposed = shared.unexposed(tile);
+                            let base = area.base(shared, tile, &mut exposed, true);
+                            area.develop(shared, &base, tile, &mut exposed, &mut ());
+                            exposed.keep_work(&settings);
+                            if !(course.go_on)() {
+                                return None;
+                            }
+                            course.show(tile, &exposed);
+                            let mut film = film.lock().unwrap_or_else(PoisonError::into_inner);
+                            (course.progress)(film.take(tile, &exposed), tiles.len());
+                            Some((*tile, base, exposed.work))
+                        },
+                    );
                 let bases: Vec<_> = bases.collect();
                 let (mut picture, mut stats) =
                     film.into_inner().unwrap_or_else(PoisonError::into_inner).developed();
@@ -126,15 +131,23 @@ impl<'p, 's> BasePicture<'p, 's> {
     }
 
     /// Finishes pixels alone, each with the same sampling. Their columns and rows count in the whole
-    /// picture and lie in the crop.
+    /// picture and lie in the crop. They are of no use once `go_on` has returned false.
     #[must_use]
-    pub fn pixels(&self, sampling: Sampling, pixels: &[(u32, u32)]) -> Vec<Pixel> {
+    pub fn pixels(
+        &self,
+        sampling: Sampling,
+        pixels: &[(u32, u32)],
+        go_on: &GoOn<'_>,
+    ) -> Vec<Pixel> {
         // Layers are of no use here.
         let settings = Settings { layers: Vec::new(), ..self.with(sampling) };
         let Some(area) = self.shares(sampling) else {
             return pixels
                 .par_iter()
                 .map(|&pixel| {
+                    if !go_on() {
+                        return Pixel::default();
+                    }
                     let (picture, work, rays) =
                         expose_pixel_with_work(self.prepared, &settings, pixel);
                     Pixel { color: picture.pixels[0], rays: work, traced: rays }
@@ -144,8 +157,11 @@ impl<'p, 's> BasePicture<'p, 's> {
         let crop = Crop::of(&settings);
         let tile_side = self.tiles.first().map_or(1, |(tile, _)| tile.width.max(tile.height));
         let per_row = crop.width.div_ceil(tile_side);
-        with_exposure(self.prepared, &settings, |shared, _| {
+        with_exposure(self.prepared, &settings, go_on, |shared, _| {
             let one = |&(x, y): &(u32, u32)| {
+                if !go_on() {
+                    return Pixel::default();
+                }
                 let index = (y - crop.y) / tile_side * per_row + (x - crop.x) / tile_side;
                 let tile = Crop { x, y, width: 1, height: 1 };
                 let exposed = self.developed(shared, area, &tile, &self.tiles[index as usize].1);
@@ -186,13 +202,16 @@ impl<'p, 's> BasePicture<'p, 's> {
             stats.include(&self.stats);
             return (picture, stats);
         };
-        with_exposure(self.prepared, &settings, |shared, _| {
+        with_exposure(self.prepared, &settings, course.go_on, |shared, _| {
             let started = Instant::now();
             let crop = Crop::of(&settings);
             let film = Mutex::new(Film::new(crop, self.picture.clone(), Stats::default()));
             let tiles = self.tiles.par_iter().with_max_len(1).filter(|_| (course.go_on)());
             tiles.for_each(|(tile, base)| {
                 let exposed = self.developed(shared, area, tile, base);
+                if !(course.go_on)() {
+                    return;
+                }
                 course.show(tile, &exposed);
                 let done = film.lock().unwrap_or_else(PoisonError::into_inner).take(tile, &exposed);
                 (course.progress)(done, self.tiles.len());
@@ -251,7 +270,7 @@ fn expose_pixel_with_work(
     settings: &Settings,
     (x, y): (u32, u32),
 ) -> (Picture, u64, u64) {
-    with_exposure(prepared, settings, |exposure, stats| {
+    with_exposure(prepared, settings, &|| true, |exposure, stats| {
         let tile = Crop { x, y, width: 1, height: 1 };
         let mut film = Film::new(tile, Picture::with_layers(1, 1, &settings.layers), stats);
         let exposed = exposure.expose(&tile, &mut ());
@@ -314,7 +333,7 @@ mod tests {
             for sampling in samplings(pixel_filter) {
                 let (picture, _) = base.finish(sampling, &silent());
                 let rays = picture.channels.iter().find(|channel| channel.name == "rays.N");
-                let pixels = base.pixels(sampling, &places);
+                let pixels = base.pixels(sampling, &places, &|| true);
                 for (&(x, y), pixel) in places.iter().zip(&pixels) {
                     let place = (y as usize - 2) * 70 + (x as usize - 3);
                     assert_eq!(pixel.color, picture.pixels[place], "{sampling:?}, {x},{y}");

@@ -12,6 +12,7 @@
 //! - a call of [`Witness::sample`] before each sample is shaded, with the witness as the observer.
 
 use super::area::Area;
+use super::course::GoOn;
 use super::crop::Crop;
 use super::lattice::Lattice;
 use super::layer::{Layer, MOST_CHANNELS};
@@ -26,6 +27,7 @@ use crate::stats::Stats;
 use crate::trace::tree::IntersectionTree;
 use crate::trace::{RayCounts, Tracer};
 use glam::DVec2;
+use std::fmt;
 
 /// A method of exposing a tile.
 pub trait Method {
@@ -73,11 +75,18 @@ impl Witness for () {
 }
 
 /// The data that all tiles share.
-#[derive(Debug)]
 pub struct Exposure<'a> {
     pub tracer: Tracer<'a>,
     pub shader: Shader<'a>,
     pub settings: &'a Settings,
+    /// Asked before each row of an area sampled tile. After false, the tile is of no use.
+    pub go_on: &'a GoOn<'a>,
+}
+
+impl fmt::Debug for Exposure<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Exposure").field("settings", self.settings).finish_non_exhaustive()
+    }
 }
 
 /// The exposed pixels of a tile.

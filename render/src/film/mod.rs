@@ -154,7 +154,7 @@ fn render_in_tiles(
     (tile_samples, under): (u32, Picture),
     course: &Course<'_>,
 ) -> (Picture, Stats) {
-    with_exposure(prepared, settings, |exposure, stats| {
+    with_exposure(prepared, settings, course.go_on, |exposure, stats| {
         let started = Instant::now();
         let crop = Crop::of(settings);
         let tiles = crop.tiles(exposure.tile_side(tile_samples));
@@ -163,6 +163,10 @@ fn render_in_tiles(
         // leave the other cores idle.
         tiles.par_iter().with_max_len(1).filter(|_| (course.go_on)()).for_each(|tile| {
             let exposed = exposure.expose(tile, &mut ());
+            // A tile that was left in the middle is not finished.
+            if !(course.go_on)() {
+                return;
+            }
             course.show(tile, &exposed);
             let done = film.lock().unwrap_or_else(PoisonError::into_inner).take(tile, &exposed);
             (course.progress)(done, tiles.len());
@@ -185,7 +189,7 @@ pub fn expose_pixel<W: Witness>(
     (x, y): (u32, u32),
     witness: &mut W,
 ) -> Picture {
-    with_exposure(prepared, settings, |exposure, stats| {
+    with_exposure(prepared, settings, &|| true, |exposure, stats| {
         let tile = Crop { x, y, width: 1, height: 1 };
         let mut film = Film::new(tile, Picture::with_layers(1, 1, &settings.layers), stats);
         film.take(&tile, &exposure.expose(&tile, witness));
@@ -198,6 +202,7 @@ pub fn expose_pixel<W: Witness>(
 fn with_exposure<T>(
     prepared: &Prepared<'_>,
     settings: &Settings,
+    go_on: &GoOn<'_>,
     work: impl FnOnce(&Exposure<'_>, Stats) -> T,
 ) -> T {
     let scene = prepared.scene();
@@ -217,7 +222,7 @@ fn with_exposure<T>(
     let mut tracer = tracer.seen_by(settings.camera);
     let least = settings.least_weight.unwrap_or(settings.sampling.least_weight());
     tracer.min_weight = tracer.min_weight.max(least);
-    work(&Exposure { tracer, shader, settings }, stats)
+    work(&Exposure { tracer, shader, settings, go_on }, stats)
 }
 
 #[cfg(test)]

@@ -40,7 +40,7 @@ impl<'a> Points<'a> {
         let (shader, _) = prepared.shader(settings.accel, Filter::Bilinear);
         let tracer = Tracer::new(prepared.scene(), shader.accel, shader.volumes);
         let tracer = tracer.seen_by(settings.camera);
-        Self { exposure: Exposure { tracer, shader, settings } }
+        Self { exposure: Exposure { tracer, shader, settings, go_on: &|| true } }
     }
 
     /// Returns the light at a position on the film, in pixels from the upper left corner, as linear

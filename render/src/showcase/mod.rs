@@ -31,7 +31,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// Name of the mesh in the scene.
+/// Name of a mesh that has no other one.
 pub const MESH: &str = "mesh";
 
 /// First bytes of a binary STL that `triangulate` wrote. Its meshes have y upwards, unless they were turned.
@@ -63,6 +63,8 @@ pub struct Subject<'a> {
     pub mesh: &'a ObjFile,
     /// Name of the mesh in messages.
     pub name: &'a str,
+    /// Name of the mesh in the scene.
+    pub given: &'a str,
     /// Path of the mesh from the folder of the scene; `None` if the scene is given the mesh.
     pub file: Option<&'a Path>,
     /// Path of the texture from the folder of the scene.
@@ -75,6 +77,8 @@ pub struct Subject<'a> {
     pub aspect: f64,
     /// True if the background is transparent, and nothing but the mesh is shown.
     pub alone: bool,
+    /// True for soft shadows. A picture with hard ones has one light above the camera and takes less time.
+    pub is_soft: bool,
 }
 
 /// Returns the axis that points up in a mesh file, by its format: z in STL, and y in all others. An STL of `triangulate`

@@ -2,7 +2,8 @@
 
 use super::fit::{FOV_DEG, Frame, Sphere};
 use super::view::Up;
-use super::{Look, MESH, Subject, direction, further_surfaces, names_textures};
+use super::{Look, Subject, direction, further_surfaces, names_textures};
+use crate::shape::mesh::{NONE, Triangle};
 use glam::DVec3;
 use serde_json::Value;
 
@@ -129,11 +130,15 @@ impl Staging<'_> {
     }
 
     fn mesh(&self) -> String {
-        let mut keys = vec![format!("\"name\": \"{MESH}\"")];
+        let mut keys = vec![format!("\"name\": {}", Value::from(self.subject.given))];
         if let Some(file) = self.subject.file {
             keys.push(format!("\"file\": {}", Value::from(file.to_string_lossy())));
         }
-        keys.push(format!("\"smooth_deg\": {SMOOTH_DEG}"));
+        // A mesh that is given to the scene and has all normals needs no others.
+        let lacks = |triangle: &Triangle| triangle.normal[0] == NONE;
+        if self.subject.file.is_some() || self.subject.mesh.mesh.triangles.iter().any(lacks) {
+            keys.push(format!("\"smooth_deg\": {SMOOTH_DEG}"));
+        }
         if self.is_painted() {
             keys.push("\"material\": \"body\"".into());
             let further = self.further().into_iter();
@@ -170,10 +175,12 @@ impl Staging<'_> {
         let toward = self.toward(-KEY_DEG[0], KEY_DEG[1]);
         let (across, along) = toward.any_orthonormal_pair();
         let mut lights = Vec::new();
-        let share = (1e4 * KEY / CLUSTER as f64).round() / 1e4;
-        for k in 0..CLUSTER {
+        // A single light stands in the middle of the disk.
+        let (count, spread) = if self.subject.is_soft { (CLUSTER, SPREAD) } else { (1, 0.0) };
+        let share = (1e4 * KEY / count as f64).round() / 1e4;
+        for k in 0..count {
             // Points of equal areas, turned by the golden angle.
-            let distance = SPREAD * ((k as f64 + 0.5) / CLUSTER as f64).sqrt();
+            let distance = spread * ((k as f64 + 0.5) / count as f64).sqrt();
             let turn = k as f64 * std::f64::consts::PI * (3.0 - 5f64.sqrt());
             let aside = distance * (turn.cos() * across + turn.sin() * along);
             let position = center + radius * (DISTANCE * toward + aside);

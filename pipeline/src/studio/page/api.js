@@ -15,6 +15,17 @@ export async function post(path, value = {}) {
   return answer(response);
 }
 
+/** Sends the bytes of a file and returns the answer. */
+export async function sendFile(path, file) {
+  let response;
+  try {
+    response = await fetch(at(path), { method: "POST", headers: { "content-type": "application/octet-stream" }, body: file });
+  } catch {
+    throw new Error("The program does not answer. Is it still running?");
+  }
+  return answer(response);
+}
+
 /** Returns the answer to a question without a value. */
 export async function get(path) {
   return answer(await fetch(at(path)));

@@ -1,10 +1,11 @@
 // The editor of a contour: Bezier handles, free points, polyline, circle, and dropped SVG files.
 
-import { edit, known, on, set, valueOf, at as valueAt } from "./store.js";
+import { edit, known, on, set, valueOf, at as valueAt, written } from "./store.js";
 import { added, bezierOf, curvesOf, modelOf, removed, toggled } from "./model.js";
 import { Planar, boxOf } from "./planar.js";
 import { pointAt } from "./bezier.js";
 import { lineThrough, svg } from "./plane.js";
+import { addedSection, placedSection, removedSection, sectionOf } from "./sections.js";
 import { button, fields, make, toggle } from "./toolbar.js";
 
 const CIRCLE = 0.5522847498;
@@ -39,11 +40,25 @@ export function contourEditor(root, chosen) {
   for (const kind of ["bezier", "free", "polyline", "circle", "svg", "other"]) {
     kinds.append(make("option", { value: kind, textContent: { bezier: "Bezier", free: "free points", svg: "SVG path" }[kind] || kind }));
   }
-  const tools = make("div", { className: "tools" }, kinds, which, insertButton, deleteButton, smoothButton,
+  const addSection = button("Add section", "Add a contour further along the trajectory, between this one and the next", () => {
+    const one = place(), { edits, index: next } = addedSection(planar.file, one.path, one.value);
+    const before = places().findIndex((other) => sectionOf(other.path) && written(other.path.slice(0, -2)) === written(sectionOf(one.path)?.path || []));
+    index = (before < 0 ? index : before) + next;
+    planar.plane.isFitted = false;
+    apply(edits);
+  });
+  const removeSection = button("Remove section", "Remove this contour; the others blend without it", () => {
+    const edits = removedSection(planar.file, place().path);
+    index = Math.max(0, index - 1);
+    planar.plane.isFitted = false;
+    apply(edits);
+  });
+  const along = fields(["at"], ([at]) => { const own = sectionOf(place().path); if (own) apply(placedSection(planar.file, own, at)); }, "of the section, part of the trajectory");
+  const tools = make("div", { className: "tools" }, kinds, which, along.group, insertButton, deleteButton, smoothButton,
     toggle("Snap", "Snap to the grid and to other handles; Alt does it once", "snap"),
     toggle("Mirror", "Move the mirror image of a handle with it", "mirror"),
     button("Fit", "Show the whole contour (0)", () => { planar.plane.isMoved = false; planar.plane.fit(box()); }),
-    ...numbers.labels, note);
+    addSection, removeSection, numbers.group, note);
   const holder = make("div", { className: "plane" });
   holder.append(planar.plane.sheet);
   root.append(make("div", { className: "editor" }, tools, holder));
@@ -131,6 +146,10 @@ export function contourEditor(root, chosen) {
   function follow() {
     const handle = current();
     numbers.show(handle?.at);
+    const own = sectionOf(place().path);
+    removeSection.hidden = !own;
+    along.group.hidden = !own;
+    along.show(own ? [valueAt(valueOf(planar.file), [...own.path, own.index, "at"]) ?? 0] : null);
     const { model } = planar;
     insertButton.disabled = !(model.segments || model.points);
     deleteButton.disabled = !handle || handle.role !== "anchor" || !removed(model, handle).length;

@@ -2,6 +2,9 @@
 
 import { at as valueAt, edit, insert, known, on, remove, set, valueOf, written } from "./store.js";
 import { allFindings } from "./findings.js";
+import { colorControls, hexOf, isColor } from "./colors.js";
+import { choosePicture, upload } from "./pictures.js";
+import { suggested } from "./starts.js";
 import { button, make } from "./toolbar.js";
 
 /** Keys that have editors of their own, or that nobody changes by hand. */
@@ -53,6 +56,7 @@ export function schemaForm(root, chosen, schema, hidden = []) {
   }
 
   function fill(value) {
+    for (const control of form.querySelectorAll("[data-color]")) control.value = hexOf(valueAt(value, JSON.parse(control.dataset.color)));
     for (const control of form.querySelectorAll("[data-path]")) {
       if (control === document.activeElement && control.type !== "checkbox") continue;
       const own = valueAt(value, JSON.parse(control.dataset.path));
@@ -113,7 +117,7 @@ export function schemaForm(root, chosen, schema, hidden = []) {
     const choose = make("select", { onchange: () => {
       const next = { ...value };
       delete next[now];
-      next[choose.value] = starting(schema.properties[choose.value]);
+      next[choose.value] = started(schema.properties[choose.value], [...path, choose.value]);
       edit(chosen(), [set(path, next)]);
     } });
     choose.setAttribute("aria-label", `Form of ${written(path)}`);
@@ -126,9 +130,10 @@ export function schemaForm(root, chosen, schema, hidden = []) {
     const help = (schema.description || "").replace(/\s+/g, " ");
     const kind = kindOf(schema, value);
     const compound = ["object", "list", "map", "variant"].includes(kind);
+    const word = /^\d+$/.test(name) ? `Remove element ${name}` : `Remove ${name}`;
     const clear = optional && value !== undefined
-      ? button("×", `Leave ${name} out`, () => edit(chosen(), [remove(path)]), "quiet") : null;
-    clear?.setAttribute("aria-label", `Leave ${name} out`);
+      ? button(compound ? word : "×", `Leave ${name} out`, () => edit(chosen(), [remove(path)]), "quiet") : null;
+    clear?.setAttribute("aria-label", word);
     if (compound) {
       const id = written(path);
       const box = make("details", { open: opened.has(id) });
@@ -142,9 +147,8 @@ export function schemaForm(root, chosen, schema, hidden = []) {
       const inside = () => {
         if (help) box.append(make("p", { className: "help hint", textContent: help }));
         if (value === undefined && kind === "object") {
-          box.append(button(`Use ${name}`, `Add ${name} with the values that it needs`, () => edit(chosen(), [set(path, starting(schema))])));
-        }
-        box.append(...compoundParts(kind, schema, path, value, depth));
+          box.append(button(`Use ${name}`, `Add ${name} with the values that it needs`, () => edit(chosen(), [set(path, started(schema, path))])));
+        } else box.append(...compoundParts(kind, schema, path, value, depth));
         if (clear) box.append(clear);
       };
       if (opened.has(id)) { box.dataset.filled = "1"; inside(); }
@@ -168,6 +172,7 @@ export function schemaForm(root, chosen, schema, hidden = []) {
     const all = variants(schema);
     if (all.length) {
       if (all.every((one) => one.const !== undefined || one.enum)) return "choice";
+      if (isColor(all) && typeof value !== "string") return "color";
       return "variant";
     }
     if (schema.type === "array") {
@@ -199,7 +204,10 @@ export function schemaForm(root, chosen, schema, hidden = []) {
     if (kind === "object") return object(schema, path, value, depth + 1);
     if (kind === "variant") {
       const all = variants(schema), at = variantOf(all, value);
-      const choose = make("select", { onchange: () => edit(chosen(), [set(path, starting(all[choose.value]))]) });
+      const choose = make("select", { onchange: () => {
+        const plain = starting(all[choose.value]), better = suggested(chosen(), path);
+        edit(chosen(), [set(path, typeof better === typeof plain ? better : plain)]);
+      } });
       choose.setAttribute("aria-label", `Form of ${written(path)}`);
       choose.append(make("option", { value: -1, textContent: "left out", disabled: true, selected: at < 0 }));
       all.forEach((one, k) => choose.append(make("option", { value: k, selected: k === at, textContent: nameOf(one) })));
@@ -211,14 +219,14 @@ export function schemaForm(root, chosen, schema, hidden = []) {
       const rows = Object.entries(value || {}).map(([key, one]) => field(key, items, [...path, key], one, depth + 1, true));
       const name = make("input", { type: "text", placeholder: "new name" });
       name.setAttribute("aria-label", `Name of a new entry of ${written(path)}`);
-      const add = button("Add", "Add an entry", () => name.value && edit(chosen(), [set([...path, name.value], starting(items))]));
+      const add = button("Add", "Add an entry", () => name.value && edit(chosen(), [set([...path, name.value], started(items, [...path, name.value]))]));
       return [...rows, make("div", { className: "field" }, make("span", { className: "name" }), make("div", { className: "value" }, name, add))];
     }
     const items = resolved(schema.items);
     const list = value || [];
     if (list.length > 60) return [...control("json", schema, path, value, "list")];
     const rows = list.map((one, k) => field(`${k + 1}`, items, [...path, k], one, depth + 1, true));
-    const add = button("Add", "Add an element at the end", () => edit(chosen(), [list.length ? insert([...path, list.length], structuredClone(list[list.length - 1])) : set(path, [starting(items)])]));
+    const add = button("Add", "Add an element at the end", () => edit(chosen(), [list.length ? insert([...path, list.length], structuredClone(list[list.length - 1])) : set(path, [started(items, [...path, 0])])]));
     return [...rows, add];
   }
 
@@ -240,12 +248,13 @@ export function schemaForm(root, chosen, schema, hidden = []) {
     if (schema.default !== undefined && schema.default !== null) return schema.default;
     if (schema.const !== undefined) return schema.const;
     if (schema.enum) return schema.enum[0];
-    const all = variants(schema);
+    const all = schema.properties ? [] : variants(schema);
     if (all.length && depth < 6) return starting(all[0], depth + 1);
     if (schema.type === "array") return Array.from({ length: Math.min(4, schema.minItems || 0) }, (_, k) => starting(schema.prefixItems?.[k] || schema.items, depth + 1));
     if (schema.type === "object") {
       const others = formsOf(schema);
-      const keys = depth < 6 ? [...(schema.required || []), ...others.slice(0, 1)] : [];
+      const more = schema.anyOf?.[0]?.required || [];
+      const keys = depth < 6 ? [...(schema.required || []), ...others.slice(0, 1), ...more] : [];
       return Object.fromEntries(keys.map((key) => [key, starting(schema.properties[key], depth + 1)]));
     }
     if (schema.type === "boolean") return true;
@@ -253,6 +262,9 @@ export function schemaForm(root, chosen, schema, hidden = []) {
     const [low, high] = [schema.minimum ?? schema.exclusiveMinimum ?? -Infinity, schema.maximum ?? schema.exclusiveMaximum ?? Infinity];
     return low < 1 && high > 1 ? 1 : low < 0.5 && high > 0.5 ? 0.5 : Math.max(low, 0);
   }
+
+  /** Returns the value with which the setting at a path starts. */
+  const started = (schema, path) => suggested(chosen(), path) ?? starting(schema);
 
   function control(kind, schema, path, value, name) {
     const send = (next) => edit(chosen(), [next === undefined ? remove(path) : set(path, next)]);
@@ -282,7 +294,8 @@ export function schemaForm(root, chosen, schema, hidden = []) {
         return own;
       });
     }
-    if (kind === "string") return [label(make("input", { type: "text", value: value ?? "", onchange: (event) => send(event.target.value || undefined) }), name)];
+    if (kind === "color") return colorControls(name, path, value, send);
+    if (kind === "string") return [label(make("input", { type: "text", value: value ?? "", onchange: (event) => send(event.target.value || undefined) }), name), picker(path, send)];
     const own = make("input", { type: "text", value: value === undefined ? "" : JSON.stringify(value) });
     own.setAttribute("aria-label", `${name} as JSON`);
     own.addEventListener("change", () => {
@@ -291,8 +304,16 @@ export function schemaForm(root, chosen, schema, hidden = []) {
     return [own];
   }
 
+  /** Returns a button that gives a picture to a setting that names one. */
+  function picker(path, send) {
+    const last = path[path.length - 1], above = path[path.length - 2];
+    if (last !== "image" && last !== "picture" && !(last === "file" && above !== "mesh")) return null;
+    return button("Choose…", "Take a picture of this computer, which is written beside the file", () =>
+      choosePicture(async (file) => { const name = await upload(chosen(), file); if (name) send(name); }));
+  }
+
   function number(schema, value, send) {
-    const own = make("input", { type: "number", step: schema.type === "integer" ? 1 : "any", value: value ?? "" });
+    const own = make("input", { type: "number", step: schema.type === "integer" ? 1 : "any", value: value ?? "", placeholder: schema.default ?? "" });
     if (Math.abs(schema.minimum ?? 1e30) < 1e20) own.min = schema.minimum;
     if (Math.abs(schema.maximum ?? 1e30) < 1e20) own.max = schema.maximum;
     own.addEventListener("change", () => send(own.value === "" ? undefined : Number(own.value)));

@@ -118,7 +118,7 @@ export function lawsEditor(root, chosen) {
       make("div", { className: "tools" }, make("h3", { textContent: name }),
         button("Add key", "Add a key in the middle; double-click adds one where you click", () => add([0.5, value(0.5)])),
         button("Delete", "Remove the chosen key (Del)", drop),
-        button("Plain", "Back to one number", () => edit(chosen(), [remove(path)])), split, ...numbers.labels));
+        button("Plain", "Back to one number", () => edit(chosen(), [remove(path)])), split, numbers.group));
     const inner = make("div", { className: "plane" });
     inner.append(plane.sheet);
     element.append(inner);

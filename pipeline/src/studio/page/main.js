@@ -7,6 +7,7 @@ import { exportsPanel } from "./exports.js";
 import { findingsList } from "./findings.js";
 import { lawsEditor } from "./laws.js";
 import { addPart } from "./parts.js";
+import { choosePicture, putOn } from "./pictures.js";
 import { picture } from "./picture.js";
 import { schemaForm } from "./form.js";
 import { showStart } from "./start.js";
@@ -42,6 +43,12 @@ findingsList(element("findings"), element("tab-findings"), go, control);
 
 function showSpec() { for (const one of [contour, trajectory, laws, specForm]) one.show(); }
 spec.addEventListener("change", showSpec);
+const meshOf = (path) => known.state.specs?.find((one) => one.path === path)?.name;
+element("add-picture").addEventListener("click", () => choosePicture((file) => putOn(meshOf(chosenSpec()), file)));
+for (const name of ["dragover", "dragleave", "drop"]) {
+  element("stage").addEventListener(name, (event) => { event.preventDefault(); element("stage").classList.toggle("dropping", name === "dragover"); });
+}
+element("stage").addEventListener("drop", (event) => { const [file] = event.dataTransfer.files; if (file) putOn(meshOf(chosenSpec()), file); });
 element("add-part").addEventListener("click", () => addPart(chosenSpec()));
 
 let isOpen = null;
@@ -93,9 +100,13 @@ element("undo").addEventListener("click", () => ask("step", "undo"));
 element("redo").addEventListener("click", () => ask("step", "redo"));
 element("save").addEventListener("click", () => ask("save", {}));
 element("save-as").addEventListener("click", () => {
-  const file = known.state.main;
-  const to = prompt(`A copy of ${file}, which is opened then. Its path in the folder:`, file.replace(/\.json$/, "-2.json"));
-  if (to && to !== file) ask("save", { file, to });
+  const file = known.state.main, dialog = element("copy"), name = element("copy-name");
+  element("copy-of").textContent = `A copy of ${file} is written and opened.`;
+  name.value = file.replace(/\.json$/, "-2.json");
+  dialog.returnValue = "";
+  dialog.onclose = () => { if (dialog.returnValue === "save" && name.value !== file) ask("save", { file, to: name.value }); };
+  dialog.showModal();
+  name.select();
 });
 element("home").addEventListener("click", () => {
   const lost = known.state.files.some((file) => file.changed && !file.new);

@@ -26,10 +26,10 @@ export function toggle(text, title, key) {
 }
 
 /** Makes fields for the coordinates of the chosen handle. `typed` gets the new coordinates. */
-export function fields(names, typed) {
+export function fields(names, typed, of = "of the chosen handle") {
   const inputs = names.map((name) => {
     const input = make("input", { type: "number", step: "any", disabled: true });
-    input.setAttribute("aria-label", `${name} of the chosen handle`);
+    input.setAttribute("aria-label", `${name} ${of}`);
     input.addEventListener("change", () => {
       const values = inputs.map((one) => Number(one.value));
       if (values.every(Number.isFinite)) typed(values);
@@ -41,5 +41,5 @@ export function fields(names, typed) {
     input.disabled = !at;
     if (document.activeElement !== input) input.value = at ? Number(at[k].toPrecision(9)) : "";
   });
-  return { labels, show };
+  return { labels, show, group: make("span", { className: "pair" }, ...labels) };
 }

@@ -4,6 +4,7 @@ import { edit, known, on, set, valueOf } from "./store.js";
 import { added, curvesOf, modelOf, moved, removed, toggled } from "./model.js";
 import { Planar, boxOf } from "./planar.js";
 import { minus, plus, pointAt, times } from "./bezier.js";
+import { drawMarks } from "./marks.js";
 import { button, fields, make, toggle } from "./toolbar.js";
 
 const VIEWS = [
@@ -68,7 +69,7 @@ export function trajectoryEditor(root, chosen) {
   root.append(make("div", { className: "editor" },
     make("div", { className: "tools" }, kinds, which, insertButton, deleteButton, smoothButton,
       toggle("Snap", "Snap to the grid and to other handles", "snap"),
-      button("Fit", "Show the whole trajectory", fit), ...numbers.labels, note),
+      button("Fit", "Show the whole trajectory", fit), numbers.group, note),
     make("div", { className: "four" }, ...views.map((view) => {
       const holder = make("div");
       holder.append(view.plane.sheet);
@@ -129,10 +130,12 @@ export function trajectoryEditor(root, chosen) {
     }
     const { plane } = view;
     const text = document.createElementNS("http://www.w3.org/2000/svg", "text");
-    text.setAttribute("x", 8);
+    text.setAttribute("x", plane.size[0] - 8);
     text.setAttribute("y", 16);
+    text.setAttribute("text-anchor", "end");
     text.textContent = view.title;
     plane.front.append(text);
+    drawMarks(plane, chosen(), parts(), (p) => plane.toPixel(view.flat(p)));
   }
 
   const extent = (points) => {

@@ -165,6 +165,9 @@ impl Area {
         let weights = self.cells.weights();
         let mut sampler = Sampler::new(shared, exposed);
         for (down, y) in rows.enumerate() {
+            if !(shared.go_on)() {
+                break;
+            }
             for (color, x) in colors.iter_mut().zip(columns.clone()) {
                 let (cell, index) = (self.cell(x, y), base.index(x, y));
                 let estimate = base.estimates.get(index).copied().unwrap_or_default();

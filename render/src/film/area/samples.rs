@@ -47,7 +47,8 @@ pub struct Samples {
 }
 
 impl Samples {
-    /// Traces and shades the cells in these columns and rows.
+    /// Traces and shades the cells in these columns and rows. Once the picture does not go on, the rows that follow are
+    /// black.
     pub fn take(
         area: Area,
         columns: Range<i64>,
@@ -65,7 +66,13 @@ impl Samples {
         samples.ends.push(0);
         let firsts = samples.first_hits(area, sampler);
         for y in samples.rows.clone() {
+            let goes_on = (sampler.shared.go_on)();
             for x in samples.columns.clone() {
+                if !goes_on {
+                    samples.colors.push(Color::ZERO);
+                    samples.ends.push(samples.leaves.len());
+                    continue;
+                }
                 let first = Some(firsts[samples.index(x, y)]);
                 let (cell, leaves) = (area.cell(x, y), &mut samples.leaves);
                 let color = sampler.sample_from(cell, DVec2::ZERO, first, leaves);
