@@ -83,14 +83,14 @@ pub(super) fn by_error_or_leave(request: &Request<'_, '_>, error: f64) -> Option
 fn choose<'q, 'r, 's>(
     request: &'q Request<'r, 's>,
     error: f64,
-) -> Result<Choice<'q, 'r, 's>, Search<'q, 'r, 's>> {
+) -> Result<Choice<'q, 'r, 's>, Box<Search<'q, 'r, 's>>> {
     let mut search = Search::start(request, error);
     search.requested = Some(error);
     let limit = error * error;
     let (mut at, mut look) = (start(error), 0);
     let found = loop {
         if !search.draw(look, error) {
-            return Err(search);
+            return Err(Box::new(search));
         }
         let most = SIZES[SIZES.len() - 1] as f64 / SIZES[look] as f64;
         let few = search.cheapest(at, look, limit, most.min(GROWTH));
