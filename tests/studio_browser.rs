@@ -13,7 +13,9 @@ const WATCH: &str = "
     document.addEventListener('edit-answered', (event) => window.answers.push(event.detail));
     document.addEventListener('picture-shown', (event) => window.pictures.push(
         { at: performance.now(), revision: event.detail.revision, step: event.detail.step,
-          milliseconds: event.detail.milliseconds, size: event.detail.size, times: event.detail.times }));";
+          milliseconds: event.detail.milliseconds, size: event.detail.size, times: event.detail.times }));
+    // Turns the camera while the picture is refined.
+    window.turn = () => document.getElementById('stage').dispatchEvent(new KeyboardEvent('keydown', { key: 'ArrowRight' }));";
 
 /// Starts a browser, or says why a test is skipped.
 pub fn browser(width: u32, height: u32) -> Option<Browser> {
@@ -176,6 +178,23 @@ fn latencies_are_reported() {
             latencies.len(),
             mean("meshes"),
             mean("picture"),
+        ));
+        // Changes in the middle of the refinement, and the time until work on them starts.
+        browser.run("window.pictures = []");
+        for pause in [250, 300, 350, 400, 450, 500] {
+            browser.run("window.turn()");
+            std::thread::sleep(std::time::Duration::from_millis(pause));
+        }
+        browser.wait("return window.pictures.some((picture) => picture.times)");
+        let waited = browser.run("return window.pictures.filter((picture) => picture.times).map((picture) => picture.times.waited)");
+        let mut waited: Vec<f64> =
+            waited.as_array().unwrap().iter().filter_map(Value::as_f64).collect();
+        waited.sort_by(f64::total_cmp);
+        say(format_args!(
+            "studio, {page}: obsolete work ended after {:.0} ms (median), {:.0} ms (longest of {})",
+            waited[waited.len() / 2],
+            waited[waited.len() - 1],
+            waited.len()
         ));
     }
 }

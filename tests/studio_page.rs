@@ -127,7 +127,17 @@ fn curves_are_edited_by_touch_keys_numbers_and_files() {
     let mark = "[...document.querySelectorAll('#trajectory [data-handle=\"section-0-1\"]')][1]";
     browser.drag(browser.middle(mark), [0.0, 15.0], 5, 20);
     value_at(&browser, "/contour/sections/1/at", |at| number(at) < 0.5);
-    assert_eq!(browser.run("return document.getElementById('fault').hidden"), true);
+
+    // A law gets a key, which is dragged.
+    browser.run("document.getElementById('tab-laws').click()");
+    press(&browser, "#laws", "Add key");
+    value_at(&browser, "/scale/keys", |keys| keys.as_array().is_some_and(|keys| keys.len() == 3));
+    browser
+        .wait("return document.querySelectorAll('#laws .editor:first-child .handle').length === 3");
+    let key = "document.querySelectorAll('#laws .editor:first-child .handle')[1]";
+    browser.drag(browser.middle(key), [30.0, 25.0], 5, 20);
+    value_at(&browser, "/scale/keys/1", |key| number(&key[0]) > 0.5 && number(&key[1]) < 1.0);
+    browser.wait("return document.getElementById('fault').hidden");
     assert_eq!(browser.log(), Value::Array(Vec::new()));
 }
 
@@ -232,10 +242,25 @@ fn copies_textures_and_a_killed_program_lose_nothing() {
     browser.drop_file("document.getElementById('stage')", "no.png", b"no picture");
     browser.wait("return document.getElementById('notice').textContent.startsWith('no.png: ')");
 
+    // Another program changes a file that has changes here: both texts are shown, and one is chosen.
+    browser.run(
+        "[...document.querySelectorAll('#text .tools button')].find((one) => one.title === 'copies/tube.json').click()",
+    );
+    press(&browser, "#contour", "Insert");
+    value_at(&browser, "/contour/polyline/points/4", Value::is_array);
+    let theirs = SPEC.replace("[0, 3, 0]", "[0, 4, 0]");
+    fs::write(at("copies/tube.json"), &theirs).unwrap();
+    let shown = browser
+        .wait("const pre = document.querySelector('#conflict pre'); return pre && pre.textContent");
+    assert_eq!(shown, theirs);
+    press(&browser, "#conflict", "Take theirs (can be undone)");
+    value_at(&browser, "/trajectory/line/1/1", |y| number(y) == 4.0);
+    browser.wait("return document.getElementById('conflict').hidden");
+
     // The program is killed. The page says so, and returns the texts that are not saved to the next program.
     studio.kill();
     browser.wait("return document.getElementById('notice').textContent.startsWith('The program does not answer')");
-    assert_eq!(fs::read_to_string(at("copies/tube.json")).unwrap(), SPEC);
+    assert_eq!(fs::read_to_string(at("copies/tube.json")).unwrap(), theirs);
     let _studio = Studio::start(folder.path(), &["copies/tube.json", "--port", &port]);
     browser.wait(
         "return document.getElementById('notice').textContent === 'The program answers again.'",

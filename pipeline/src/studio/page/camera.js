@@ -16,6 +16,24 @@ function turned(v, axis, angle) {
   return plus(plus(times(v, c), times(cross(axis, v), s)), times(axis, along));
 }
 
+/** Moves the camera along its direction until it sees all curves of the opened specs, as one step. */
+export function frame() {
+  const camera = valueAt(valueOf(known.state.scene), ["camera"]);
+  const points = Object.values(known.curves.specs).flat().flatMap((part) => part.stations.flat());
+  if (!camera || !points.length) return;
+  const [low, high] = [Math.min, Math.max].map((of) => [0, 1, 2].map((axis) => points.reduce((x, p) => of(x, p[axis]), points[0][axis])));
+  const middle = times(plus(low, high), 0.5);
+  const radius = Math.max(...points.map((p) => length(minus(p, middle))), 1e-9);
+  const direction = unit(minus(camera.eye, camera.target));
+  const far = camera.height !== undefined ? length(minus(camera.eye, camera.target))
+    : (1.05 * radius) / Math.sin(((camera.fov_deg ?? 40) * Math.PI) / 360);
+  const digits = Math.min(12, Math.max(0, Math.ceil(4 - Math.log10(far))));
+  const short = (p) => p.map((x) => Number(x.toFixed(digits)));
+  const edits = [set(["camera", "eye"], short(plus(middle, times(direction, far)))), set(["camera", "target"], short(middle))];
+  if (camera.height !== undefined) edits.push(set(["camera", "height"], Number((2.1 * radius).toPrecision(4))));
+  edit(known.state.scene, edits);
+}
+
 /** Lets an element move the camera. `click` gets the position of a press without a movement, in [0, 1]. */
 export function moveCamera(stage, click) {
   let gesture = null, still = 0, local = null;
@@ -139,6 +157,7 @@ export function moveCamera(stage, click) {
     else if (event.key === "-") dolly(1 / 1.08);
     else if (event.key === "]") focal(1.08);
     else if (event.key === "[") focal(1 / 1.08);
+    else if (event.key === "f") return frame();
     else return;
     event.preventDefault();
     later();

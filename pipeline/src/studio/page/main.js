@@ -2,6 +2,7 @@
 
 import { get, listen, post } from "./api.js";
 import { announce, ask, known, on } from "./store.js";
+import { frame } from "./camera.js";
 import { contourEditor } from "./contour.js";
 import { exportsPanel } from "./exports.js";
 import { findingsList } from "./findings.js";
@@ -49,7 +50,18 @@ for (const name of ["dragover", "dragleave", "drop"]) {
   element("stage").addEventListener(name, (event) => { event.preventDefault(); element("stage").classList.toggle("dropping", name === "dragover"); });
 }
 element("stage").addEventListener("drop", (event) => { const [file] = event.dataTransfer.files; if (file) putOn(meshOf(chosenSpec()), file); });
-element("add-part").addEventListener("click", () => addPart(chosenSpec()));
+element("add-part").addEventListener("click", async () => {
+  const path = chosenSpec(), before = known.curves.specs[path]?.length;
+  await addPart(path);
+  // A scene of the program shows the new part too, once its curve is known.
+  wantsFrame = known.state.files.some((file) => file.path === known.state.scene && file.new) ? { path, before } : null;
+});
+let wantsFrame = null;
+on("curves", ({ specs }) => {
+  if (!wantsFrame || specs[wantsFrame.path]?.length === wantsFrame.before) return;
+  wantsFrame = null;
+  frame();
+});
 
 let isOpen = null;
 on("state", (state) => {

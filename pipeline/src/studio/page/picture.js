@@ -2,7 +2,7 @@
 
 import { pictureAddress } from "./api.js";
 import { ask, known, on } from "./store.js";
-import { moveCamera } from "./camera.js";
+import { frame, moveCamera } from "./camera.js";
 
 const element = (id) => document.getElementById(id);
 
@@ -103,6 +103,7 @@ export function picture() {
     stage.addEventListener("pointerup", end);
   });
 
+  element("frame").addEventListener("click", frame);
   inspect.addEventListener("change", () => { stage.classList.toggle("inspecting", inspect.checked); if (!inspect.checked) closePixel(); });
   moveCamera(stage, (at) => { if (inspect.checked) look(at); });
   stage.addEventListener("keydown", (event) => {

@@ -24,7 +24,7 @@ export function suggested(file, path) {
   const size = sizeOf(), scene = file === known.state.scene, value = valueOf(file);
   if (!scene) {
     const waves = isRotation(value, path) ? { u: 0, v: 12 } : { u: 12 };
-    const term = { amp: short(0.03 * size), ...waves };
+    const term = { amp: short(0.015 * size), ...waves };
     if (last === "depth") return { mode: "offset", terms: [term] };
     if (list === "terms") return term;
     if (last === "wall") return short(0.03 * size);
