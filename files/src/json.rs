@@ -377,7 +377,7 @@ mod tests {
         assert_eq!(expect("{\"format\": \"tb-sweep\", \"version\": 1, \"x\": []}"), Ok(()));
         assert_eq!(
             expect("{\"camera\": {}, \"format\": \"tb-scene\"}").unwrap_err(),
-            "a.json:1:26: format: found \"tb-scene\", expected \"tb-sweep\""
+            "a.json:1:26: format: found \"tb-scene\", expected \"tb-sweep\": `render` makes a picture of a scene"
         );
         assert_eq!(
             expect("{\"version\": 2}").unwrap_err(),

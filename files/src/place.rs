@@ -43,13 +43,13 @@ pub enum Place {
     List(Vec<Step>),
 }
 
-/// A step of a place: `scale`, then `rotate_deg`, then `translate`, or `matrix` alone.
+/// A step of a place: `scale`, then `rotate_deg`, then `translate`, or `matrix` alone. Without keys it moves nothing.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(
     deny_unknown_fields,
     expecting = "a step: an object with any of the keys scale, rotate_deg, translate, or with the key matrix"
 )]
-#[schemars(extend("minProperties" = 1, "if" = {"required": ["matrix"]}, "then" = {"maxProperties": 1}))]
+#[schemars(extend("if" = {"required": ["matrix"]}, "then" = {"maxProperties": 1}))]
 pub struct Step {
     /// A factor, or factors along x, y and z, about the origin; not 0. Factors below 0 mirror.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -138,7 +138,7 @@ impl Place {
     /// Returns the map of all steps.
     ///
     /// # Errors
-    /// If a step has no keys, a factor of 0, an axis of length 0, or a matrix beside other keys.
+    /// If a step has a factor of 0, an axis of length 0, or a matrix beside other keys.
     pub fn map(&self) -> Result<Map, PlaceFault> {
         let mut whole = Map { there: DAffine3::IDENTITY, back: DAffine3::IDENTITY };
         for (k, step) in self.steps().iter().enumerate() {
@@ -173,11 +173,6 @@ impl Step {
             let column = |k: usize| DVec3::new(rows[0][k], rows[1][k], rows[2][k]);
             let there = DAffine3::from_cols(column(0), column(1), column(2), column(3));
             return Ok(Map { there, back: there.inverse() });
-        }
-        if scale.is_none() && rotate_deg.is_none() && translate.is_none() {
-            let message =
-                "found a step without keys, expected scale, rotate_deg, translate or matrix";
-            return fault("", message);
         }
         let mut whole = Map { there: DAffine3::IDENTITY, back: DAffine3::IDENTITY };
         if let Some(factors) = scale {

@@ -205,6 +205,11 @@ pub fn run(arguments: &Arguments, ledger: &Ledger) -> Result<(), Report> {
     let display = output.display.as_deref().map(Display::connect).transpose()?;
     let begun = Instant::now();
     let mut loaded = input.load(ledger, &staging(sampling.size, output))?;
+    if let Some(path) =
+        input.scene_out.as_ref().filter(|path| work.tells() && !files::input::is_stdin(path))
+    {
+        files::exit::wrote(path, None, begun.elapsed());
+    }
     let Some(variants) = variants else {
         return picture(
             arguments,

@@ -73,7 +73,16 @@ fn numbers_of_solids_are_placed_with_their_range() {
         (r#"{ "brick": { "size": [1, 0, 1] } }"#, "brick.size[1]", "found 0"),
         (r#"{ "brick": { "joint": 0.5 } }"#, "brick.joint", "found 0.5, expected at least 0"),
         (r#"{ "checker": { "colors": [0] } }"#, "checker.colors", "expected"),
-        (r#"{ "wood": {}, "place": { "scale": 0 } }"#, "place.scale", "expected 0.000001 to"),
+        (
+            r#"{ "wood": {}, "place": { "scale": 0 } }"#,
+            "place.scale",
+            "found 0, expected any other",
+        ),
+        (
+            r#"{ "wood": {}, "place": { "scale": [1, 1e7, 1] } }"#,
+            "place",
+            "long, expected 1e-6 to 1e6",
+        ),
         (r#"{ "wood": { "interpolation": "cubic" } }"#, "wood.interpolation", "linear"),
     ] {
         refuse_texture(texture, &[&format!("textures.t.{place}"), expected]);
@@ -97,7 +106,11 @@ fn a_bump_has_exactly_one_relief_and_numbers_in_range() {
             ".wall.colors",
             "only on textures",
         ),
-        (r#"{ "noise": {}, "strength": 1, "place": { "scale": -1 } }"#, ".place.scale", "found -1"),
+        (
+            r#"{ "noise": {}, "strength": 1, "place": { "scale": -1e7 } }"#,
+            ".place",
+            "unit of the texture 10000000 long",
+        ),
         (
             r#"{ "image": { "file": "a.png" }, "strength": 1, "place": {} }"#,
             ".place",

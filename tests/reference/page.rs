@@ -88,7 +88,8 @@ fn keys(out: &mut String, section: &Section<'_>, schema: Schema<'_>, examples: &
 /// Returns what a key means, by its own description or by that of its type.
 pub fn meaning<'a>(key: &Key<'a>, schema: Schema<'a>) -> &'a str {
     let own = text(key.schema, "description");
-    if own.is_empty() { text(schema.resolved(key.schema).0, "description") } else { own }
+    let of_type = text(schema.resolved(key.schema).0, "description");
+    [own, key.choice, of_type].into_iter().find(|text| !text.is_empty()).unwrap_or_default()
 }
 
 fn default(key: &Key<'_>) -> String {

@@ -24,6 +24,8 @@ pub struct Key<'a> {
     pub name: &'a str,
     pub schema: &'a Value,
     pub required: bool,
+    /// The description of the choice that has only this key; empty if there is none.
+    pub choice: &'a str,
 }
 
 pub fn text<'a>(schema: &'a Value, key: &str) -> &'a str {
@@ -69,6 +71,7 @@ impl<'a> Schema<'a> {
                 name,
                 schema,
                 required: alone && required(of, name),
+                choice: if alone { "" } else { text(of, "description") },
             })
         };
         let mut keys: Vec<Key<'a>> = own(schema, true).collect();

@@ -112,8 +112,8 @@ pub fn run(arguments: &RunArguments) -> Result<(), Report> {
     });
     let files: Vec<PathBuf> =
         names.map(|name| arguments.output.join(name)).chain(sheet_path.clone()).collect();
-    for file in &files {
-        ledger.claim(file, OTHER_FOLDER)?;
+    if !arguments.dry_run || arguments.output.is_dir() {
+        files.iter().try_for_each(|file| ledger.claim(file, OTHER_FOLDER))?;
     }
     if arguments.dry_run {
         let lines: String = files.iter().map(|file| format!("{}\n", file.display())).collect();

@@ -30,7 +30,7 @@ pub struct InputArguments {
     pub look: Look,
     /// Write the scene that shows the mesh, as a starting point for a scene of your own
     #[arg(long, value_name = "FILE.json", help_heading = look::HEADING)]
-    scene_out: Option<PathBuf>,
+    pub scene_out: Option<PathBuf>,
     /// Render nothing: print the contents of the scene, and what is wrong or suspicious, on standard
     /// output; the exit code is 4 if something is wrong
     #[arg(long, conflicts_with_all = ["output", "pixel"])]

@@ -296,7 +296,7 @@ mod tests {
             (
                 "tb-sweep",
                 "tb-grid",
-                "a.json:1:12: format: found \"tb-grid\", expected \"tb-sweep\"",
+                "a.json:1:12: format: found \"tb-grid\", expected \"tb-sweep\": `triangulate` makes the triangles of a grid",
             ),
             ("\"version\": 1", "\"version\": 2", "a.json:1:35: version: found 2, expected 1"),
             ("ring", "a ring", "a.json:1:46: name: found \"a ring\", expected one word"),
