@@ -21,9 +21,9 @@ fn scene(height: f64) -> Scene {
     let keys = r#""ambient": 0.4, "lights": [{ "directional": { "direction": [-0.3, -0.4, -1], "color": 0.7 } }],
         "textures": { "wall": { "image": "wall.png" } }, "materials": { "plain": {} },
         "objects": [
-            { "mesh": { "file": "first.obj", "material": "plain" } },
-            { "mesh": { "file": "second.obj", "material": "plain" } },
-            { "mesh": { "file": "second.obj", "material": "plain", "place": [{ "translate": [0, 0.5, 0] }] } },
+            { "mesh": { "name": "first", "file": "first.obj", "material": "plain" } },
+            { "mesh": { "name": "second", "file": "second.obj", "material": "plain" } },
+            { "mesh": { "name": "third", "file": "second.obj", "material": "plain", "place": [{ "translate": [0, 0.5, 0] }] } },
             { "rectangle": { "corner": [-1, -1, 0], "edge_u": [2, 0, 0], "edge_v": [0, 2, 0], "repeat": [5, 5],
                              "material": "plain", "texture": "wall" } }] "#;
     let files = [

@@ -37,6 +37,7 @@ export function frame() {
 /** Lets an element move the camera. `click` gets the position of a press without a movement, in [0, 1]. */
 export function moveCamera(stage, click) {
   let gesture = null, still = 0, local = null;
+  const touched = new Set();
   const pointers = new Map();
 
   const stored = () => valueAt(valueOf(known.state.scene), ["camera"]);
@@ -47,14 +48,11 @@ export function moveCamera(stage, click) {
     if (!now) return;
     gesture ??= newGesture();
     local = { ...now, ...next };
-    const edits = [];
-    for (const [key, value] of Object.entries(local)) {
-      if (JSON.stringify(value) === JSON.stringify(stored()?.[key]) && !ends) continue;
-      if (next[key] === undefined && !ends) continue;
-      edits.push(set(["camera", key], rounded(key, value)));
-    }
-    edit(known.state.scene, edits, gesture, ends);
-    if (ends) { gesture = null; local = null; }
+    Object.keys(next).forEach((key) => touched.add(key));
+    // Values that the gesture does not change keep their digits.
+    const keys = ends ? [...touched] : Object.keys(next);
+    edit(known.state.scene, keys.map((key) => set(["camera", key], rounded(key, local[key]))), gesture, ends);
+    if (ends) { gesture = null; local = null; touched.clear(); }
   }
 
   const rounded = (key, value) => {

@@ -112,8 +112,7 @@ export class Planar {
   }
 
   /** Snaps a point of the plane to the grid, and to the coordinates of other handles. */
-  snapped(point, id, event) {
-    if (!options.snap === !event?.altKey) return point;
+  snapped(point, id) {
     const { plane } = this;
     const near = 7 / plane.scale, step = plane.step() / 4;
     return point.map((x, axis) => {
@@ -128,11 +127,14 @@ export class Planar {
   moveTo(point, event) {
     const { drag, plane } = this;
     if (!drag) return;
-    const round = (p) => p.map((x) => plane.rounded(x));
-    const to = round(this.lift(this.snapped(point, drag.id, event), drag.start.at));
+    // A snapped point keeps the digits of the grid and of the other handles.
+    const snaps = options.snap !== !!event?.altKey;
+    const short = (x) => (snaps ? Number(x.toPrecision(10)) : plane.rounded(x));
+    const round = (p) => p.map(short);
+    const to = round(this.lift(snaps ? this.snapped(point, drag.id) : point, drag.start.at));
     let edits = moved(drag.start, to);
     if (drag.mirrored) edits = edits.concat(moved(drag.mirrored, [-to[0], ...to.slice(1)]));
-    edits = edits.map((one) => ({ ...one, value: Array.isArray(one.value) ? round(one.value) : plane.rounded(one.value) }));
+    edits = edits.map((one) => ({ ...one, value: Array.isArray(one.value) ? round(one.value) : short(one.value) }));
     drag.moved = true;
     drag.last = edits;
     edit(this.file, edits, drag.gesture, false);
