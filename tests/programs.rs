@@ -108,7 +108,7 @@ fn pipeline_run_says_what_it_wrote_and_nothing_when_quiet() {
     let folder = tempfile::tempdir().unwrap();
     let words = ["run", "globe", "--size", "32x24", "-o", "out", "--sheet"];
     let told = told(&run("pipeline", &words, folder.path()));
-    for file in ["out/globe.png (32 x 24, ", "out/sheet.png ("] {
+    for file in ["out/globe-exact.png (32 x 24, ", "out/sheet.png ("] {
         assert!(told.contains(&format!("wrote {file}")), "{told}");
     }
     let quiet = run("pipeline", &[&words[..], &["-q"]].concat(), folder.path());

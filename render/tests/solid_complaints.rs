@@ -78,11 +78,7 @@ fn numbers_of_solids_are_placed_with_their_range() {
             "place.scale",
             "found 0, expected any other",
         ),
-        (
-            r#"{ "wood": {}, "place": { "scale": [1, 1e7, 1] } }"#,
-            "place",
-            "long, expected 1e-6 to 1e6",
-        ),
+        (r#"{ "wood": {}, "place": { "scale": 1e7 } }"#, "place", "long, expected 1e-6 to 1e6"),
         (r#"{ "wood": { "interpolation": "cubic" } }"#, "wood.interpolation", "linear"),
     ] {
         refuse_texture(texture, &[&format!("textures.t.{place}"), expected]);
