@@ -81,9 +81,9 @@ impl<'a> Prepared<'a> {
     /// Returns the data that a later scene can take over.
     #[must_use]
     pub fn leftover(self) -> Leftover {
-        let tables = self.textures.each_ref().map(|textures| {
-            let textures = textures.get()?;
-            Some(textures.iter().map(|one| one.as_ref().map(FilteredTexture::table)).collect())
+        let tables = self.textures.map(|textures| {
+            let textures = textures.into_inner()?;
+            Some(textures.into_iter().map(|one| one.map(FilteredTexture::into_table)).collect())
         });
         let [trees, ..] = self.structures;
         let unused = self.planted.into_inner().unwrap_or_else(PoisonError::into_inner);
@@ -107,7 +107,7 @@ impl<'a> Prepared<'a> {
             }
             let again = scene.textures.iter().zip(tables);
             let again = again.map(|(texture, table)| {
-                table.map(|table| FilteredTexture::with_table(texture, &table))
+                table.map(|table| FilteredTexture::with_table(texture, table))
             });
             *own = OnceLock::from(again.collect::<Vec<_>>());
         }

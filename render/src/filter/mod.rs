@@ -47,7 +47,6 @@ use outline::Outline;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::fmt;
-use std::sync::Arc;
 
 /// A method of averaging a texture. Its name on the command line, in JSON and in reports is that of
 /// the variant; the attribute `help` is the text of `--help`.
@@ -190,7 +189,7 @@ impl fmt::Display for Filter {
 pub struct FilteredTexture<'a> {
     texture: &'a Texture,
     filter: Filter,
-    prepared: Arc<Prepared>,
+    prepared: Prepared,
     /// Largest standard deviation of any channel of the texture, in light.
     deviation: f64,
     /// The lower digits of floating point values.
@@ -217,7 +216,7 @@ impl<'a> FilteredTexture<'a> {
     /// Builds the table or pyramid that `filter` needs.
     #[must_use]
     pub fn new(texture: &'a Texture, filter: Filter) -> Self {
-        let prepared = Arc::new(match filter {
+        let prepared = match filter {
             Filter::Point => Prepared::Texel,
             Filter::Bilinear => Prepared::FourTexels,
             Filter::Mip => Prepared::Pyramid(Pyramid::build(texture)),
@@ -229,7 +228,7 @@ impl<'a> FilteredTexture<'a> {
             Filter::Ewa16 => Prepared::Ewa(Ewa::build(texture, 16.0)),
             Filter::Ewa64 => Prepared::Ewa(Ewa::build(texture, 64.0)),
             Filter::Probes => Prepared::Probes(Pyramid::build(texture)),
-        });
+        };
         let part = |part: &'a Texture| Box::new(Self::new(part, filter));
         let low = texture.floats.as_ref().map(|floats| part(&floats.low));
         let mask = texture.mask.as_deref().map(part);
@@ -266,7 +265,7 @@ impl<'a> FilteredTexture<'a> {
     /// Returns the average of the codes, with the largest as 1.
     fn average_of_codes(&self, footprint: &Footprint) -> Color {
         let (center, half) = footprint.bounds();
-        match &*self.prepared {
+        match &self.prepared {
             Prepared::Table(table) => table.average(self.texture, center, half),
             Prepared::Pyramid(pyramid) => pyramid.average(self.texture, center, half),
             Prepared::Exact(exact) => exact.average(self.texture, footprint),
@@ -290,7 +289,7 @@ impl<'a> FilteredTexture<'a> {
     /// beside the average. For other filters it is the standard deviation of the texture.
     #[must_use]
     pub fn average_and_contrast(&self, footprint: &Footprint) -> (Color, f64) {
-        match &*self.prepared {
+        match &self.prepared {
             Prepared::Exact(exact) => {
                 let (codes, contrast) = exact.average_and_contrast(self.texture, footprint);
                 (self.with_low(codes, footprint), light(self.texture) * contrast)
@@ -328,7 +327,7 @@ impl<'a> FilteredTexture<'a> {
     /// Returns the largest distance down from the middle of a footprint, in texels, to a texel that a
     /// filter of slanted shapes reads.
     fn outline_reach(&self, footprint: &Footprint) -> f64 {
-        let reach = |outline: Outline| match &*self.prepared {
+        let reach = |outline: Outline| match &self.prepared {
             Prepared::Ewa(ewa) => ewa.reach(&outline).y,
             Prepared::Probes(_) => probes::reach(&outline).y,
             _ => exact::reach(&outline).y,
@@ -365,7 +364,7 @@ impl<'a> FilteredTexture<'a> {
         let parts = self.low.iter().chain(&self.mask);
         let parts = parts.map(|part| part.table_bytes()).sum::<usize>();
         parts
-            + match &*self.prepared {
+            + match &self.prepared {
                 Prepared::Texel | Prepared::FourTexels => 0,
                 Prepared::Pyramid(pyramid) | Prepared::Probes(pyramid) => pyramid.bytes(),
                 Prepared::Ewa(ewa) => ewa.bytes(),
