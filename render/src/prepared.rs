@@ -4,17 +4,18 @@
 //! the hits, the volumes that transparent objects bound, the charts of texture coordinates, and the
 //! tables of each filter. Volumes are found at once. The rest is built when the first picture needs
 //! it and is kept for the pictures that follow. It is shared by the modes of a page, the two
-//! pictures of a truth, the blocks of a refined picture, and `--pixel`.
+//! pictures of a truth, the blocks of a refined picture, and `--pixel`. A [`Stock`] passes it on to another scene.
 
 use crate::accel::{Accel, Structure};
 use crate::filter::{Filter, FilteredTexture};
 use crate::scene::Scene;
 use crate::shade::{Shader, View};
 use crate::shape::Charts;
+use crate::stock::{Parts, Stock};
 use crate::trace::medium::Media;
 use crate::trace::volume::Volumes;
 use rayon::prelude::*;
-use std::sync::OnceLock;
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
 /// A scene and the data that pictures of it share.
@@ -37,6 +38,8 @@ pub struct Prepared<'a> {
     no_charts: Vec<Charts>,
     /// The volumes that contain each light.
     around_lights: OnceLock<Vec<Media>>,
+    /// Data of a scene before.
+    stock: Mutex<Stock>,
 }
 
 /// The data that was built for one picture because no earlier picture needed it.
@@ -56,6 +59,13 @@ impl<'a> Prepared<'a> {
     /// Prepares a scene. Only its volumes are found here.
     #[must_use]
     pub fn new(scene: &'a Scene) -> Self {
+        Self::stocked(scene, Stock::default())
+    }
+
+    /// Prepares a scene with the tables, trees and charts that a scene before has left, as far as their textures and meshes
+    /// are equal.
+    #[must_use]
+    pub fn stocked(scene: &'a Scene, stock: Stock) -> Self {
         Self {
             scene,
             volumes: Volumes::of(scene),
@@ -64,7 +74,27 @@ impl<'a> Prepared<'a> {
             charts: OnceLock::new(),
             no_charts: vec![Charts::default(); scene.objects.len()],
             around_lights: OnceLock::new(),
+            stock: Mutex::new(stock),
         }
+    }
+
+    /// Returns the data that were built, for [`Stock::new`].
+    #[must_use]
+    pub fn into_parts(self) -> Parts {
+        let detached = |textures: OnceLock<Vec<Option<FilteredTexture<'a>>>>| {
+            let textures = textures.into_inner().unwrap_or_default();
+            textures.into_iter().map(|texture| Some(texture?.detach())).collect()
+        };
+        let [bvh, ..] = self.structures;
+        Parts {
+            tables: self.textures.into_iter().map(detached).collect(),
+            trees: Parts::trees_of(bvh.into_inner()),
+            charts: self.charts.into_inner().unwrap_or_default(),
+        }
+    }
+
+    fn stock(&self) -> MutexGuard<'_, Stock> {
+        self.stock.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// The scene.
@@ -94,9 +124,8 @@ impl<'a> Prepared<'a> {
         built.structure_time = started.elapsed();
         let started = Instant::now();
         let textures = self.textures[filter as usize].get_or_init(|| {
-            let textures = self.filtered(filter);
-            let tables = textures.iter().flatten().filter(|texture| texture.table_bytes() > 0);
-            built.tables = tables.count() as u64;
+            let (textures, tables) = self.filtered(filter);
+            built.tables = tables;
             textures
         });
         let wants_area = filter.wants_area() && textures.iter().any(Option::is_some);
@@ -132,25 +161,39 @@ impl<'a> Prepared<'a> {
     /// Builds a structure over all objects.
     fn structured(&self, structure: Structure) -> Accel<'a> {
         let shapes = self.scene.objects.iter().map(|object| &object.shape);
-        Accel::build(shapes.collect(), structure)
+        let mut stock = self.stock();
+        let objects = &self.scene.objects;
+        Accel::with_trees(shapes.collect(), structure, &mut |object| {
+            stock.trees(object, &objects[object].shape)
+        })
     }
 
-    /// Prepares the textures that surfaces show for a filter.
-    fn filtered(&self, filter: Filter) -> Vec<Option<FilteredTexture<'a>>> {
+    /// Prepares the textures that surfaces show for a filter. Returns them with the number of tables and pyramids that were
+    /// built.
+    fn filtered(&self, filter: Filter) -> (Vec<Option<FilteredTexture<'a>>>, u64) {
         let shown = self.scene.shown_textures();
-        let textures = self.scene.textures.par_iter().zip(&shown);
-        textures
-            .map(|(texture, &shown)| shown.then(|| FilteredTexture::new(texture, filter)))
-            .collect()
+        let all = &self.scene.textures;
+        let kept = self.stock().tables(all, filter);
+        let textures = all.par_iter().zip(&shown).zip(kept).map(|((texture, &shown), kept)| {
+            let is_kept = kept.is_some();
+            let texture =
+                shown.then(|| kept.unwrap_or_else(|| FilteredTexture::new(texture, filter)));
+            let has_table = texture.as_ref().is_some_and(|texture| texture.table_bytes() > 0);
+            (texture, u64::from(has_table && !is_kept))
+        });
+        let (textures, built): (Vec<_>, Vec<u64>) = textures.unzip();
+        (textures, built.into_iter().sum())
     }
 
     /// Builds the charts of the objects that show a picture. Those of other objects stay empty.
     fn charted(&self) -> Vec<Charts> {
-        let objects = self.scene.objects.iter();
+        let objects = self.scene.objects.iter().enumerate();
         objects
-            .map(|object| {
+            .map(|(number, object)| {
                 let textured = object.parts.iter().any(|part| part.picture().is_some());
-                if textured { object.shape.charts() } else { Charts::default() }
+                let kept = || self.stock().charts(number, &object.shape);
+                let charts = || kept().unwrap_or_else(|| object.shape.charts());
+                if textured { charts() } else { Charts::default() }
             })
             .collect()
     }

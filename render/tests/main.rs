@@ -53,6 +53,7 @@ mod shapes;
 mod sky;
 mod solid_averages;
 mod solid_complaints;
+mod stock;
 mod structures;
 mod studio;
 mod textures;

@@ -57,9 +57,11 @@ use group::Group;
 use kernel::Kernel;
 use lanes::Lanes;
 use leaf::{Leaf, Probe};
+pub use mesh_tree::MeshTree;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use simd::{Instructions, Task};
+use std::collections::BTreeMap;
 use top::Trees;
 
 /// A shape is outsized when its box is longer than this fraction of the box around everything.
@@ -136,6 +138,17 @@ impl<'a> Accel<'a> {
     /// Prepares the shapes; the index of a shape becomes [`Piece::object`].
     #[must_use]
     pub fn build(shapes: Vec<&'a Shape>, structure: Structure) -> Self {
+        Self::with_trees(shapes, structure, &mut |_| None)
+    }
+
+    /// Prepares the shapes as [`Accel::build`] does. `stock` returns the trees of a shape that is a mesh, by its index, if
+    /// they were built for an equal mesh before.
+    #[must_use]
+    pub fn with_trees(
+        shapes: Vec<&'a Shape>,
+        structure: Structure,
+        stock: &mut dyn FnMut(usize) -> Option<Vec<MeshTree>>,
+    ) -> Self {
         let bounds = |shape: &&Shape| match shape {
             Shape::Mesh(_) => None,
             shape => shape.bounds(),
@@ -145,11 +158,20 @@ impl<'a> Accel<'a> {
         let extent = extents.iter().copied().fold(0.0, f64::max);
         let apart = unbounded(&shapes, &bounds);
         let index = match structure {
-            Structure::Bvh => Index::Trees(Trees::build(&shapes, &bounds), apart),
+            Structure::Bvh => Index::Trees(Trees::build(&shapes, &bounds, stock), apart),
             Structure::Grid => Index::Flat(Flat::build(&shapes, &bounds, apart, true)),
             Structure::None => Index::Flat(Flat::build(&shapes, &bounds, apart, false)),
         };
         Self { shapes, index, bounds, extents, extent, instructions: Instructions::detect() }
+    }
+
+    /// Returns the trees of the shapes that are meshes, by the index of the shape. Other structures have none.
+    #[must_use]
+    pub fn into_trees(self) -> BTreeMap<usize, Vec<MeshTree>> {
+        match self.index {
+            Index::Trees(trees, _) => trees.into_meshes(),
+            Index::Flat(_) => BTreeMap::new(),
+        }
     }
 
     /// Memory in bytes of the structure and of its copies of triangles.

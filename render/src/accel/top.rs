@@ -15,7 +15,7 @@ use super::tree::{Leaves, Tree};
 use crate::ray::{Hit, Ray};
 use crate::shape::{Mesh, Shape};
 use glam::DVec3;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
 
 /// Largest number of objects that are tested against a group. If larger, a group tests boxes that no ray
@@ -52,8 +52,14 @@ pub struct Trees {
 impl Trees {
     /// Builds the trees. `bounds` are those of the shapes that are one piece; shapes without bounds
     /// are left out.
+    ///
+    /// `stock` returns the trees of an object that is a mesh, if they were built before.
     #[must_use]
-    pub fn build(shapes: &[&Shape], bounds: &[Option<[DVec3; 2]>]) -> Self {
+    pub fn build(
+        shapes: &[&Shape],
+        bounds: &[Option<[DVec3; 2]>],
+        stock: &mut dyn FnMut(usize) -> Option<Vec<MeshTree>>,
+    ) -> Self {
         let mut items: Vec<(Item, [DVec3; 2])> = Vec::new();
         let mut meshes = Vec::new();
         let mut known = HashMap::new();
@@ -61,7 +67,14 @@ impl Trees {
             let number = object as u32;
             match (shape, bounds[object]) {
                 (Shape::Mesh(mesh), _) => {
-                    let trees = plant(mesh, &mut meshes);
+                    let trees = match stock(object) {
+                        Some(trees) => {
+                            let before = meshes.len();
+                            meshes.extend(trees);
+                            before..meshes.len()
+                        }
+                        None => plant(mesh, &mut meshes),
+                    };
                     items.extend(trees.map(|k| (Item::Mesh(number, k), meshes[k].tree().bounds)));
                 }
                 (Shape::Instance(instance), Some(bounds)) => {
@@ -87,6 +100,23 @@ impl Trees {
         let in_order = leaves.into_iter().flatten().map(|at| boxes[at].number());
         let (items, bounds) = in_order.map(|number| items[number as usize]).unzip();
         Self { tree: Some(tree), items, bounds, meshes }
+    }
+
+    /// Returns the trees of the objects that are meshes, by the number of the object.
+    #[must_use]
+    pub fn into_meshes(self) -> BTreeMap<usize, Vec<MeshTree>> {
+        let of_mesh = |item: &Item| match *item {
+            Item::Mesh(object, tree) => Some((tree, object as usize)),
+            Item::Whole(_) | Item::Instance(..) => None,
+        };
+        let objects: BTreeMap<usize, usize> = self.items.iter().filter_map(of_mesh).collect();
+        let mut trees: BTreeMap<usize, Vec<MeshTree>> = BTreeMap::new();
+        for (number, tree) in self.meshes.into_iter().enumerate() {
+            if let Some(&object) = objects.get(&number) {
+                trees.entry(object).or_default().push(tree);
+            }
+        }
+        trees
     }
 
     /// Memory in bytes of all trees and of their copies of triangles.
