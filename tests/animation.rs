@@ -1,64 +1,12 @@
-//! Animations, parts of pictures, scripts for schedulers and packed jobs, by the program from outside.
+//! Animations, parts of pictures and packed jobs, by the program from outside.
 #![cfg(unix)]
 
+use crate::support::animated::{SCENE, SPEC, files, folder, make, pixels};
 use crate::support::{run, said, shell};
 use image::RgbImage;
-use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 use std::time::SystemTime;
-
-const SPEC: &str = r#"{ "format": "tb-sweep", "version": 1, "name": "rod",
-"contour": { "svg": "M.5 .2H-.5V-.2H.5Z" }, "trajectory": { "line": [[0, -1, 0], [0, 1, 0]] },
-"mesh": { "rows": 12, "cols": 8 } }"#;
-
-const SCENE: &str = r#"{ "format": "tb-scene", "version": 1, "ambient": 0.3,
-"camera": { "eye": [0, 1, 6], "target": [0, 0, 0], "fov_deg": 35 },
-"lights": [ { "directional": { "direction": [-1, -2, -3], "color": 0.7 } } ],
-"textures": { "checks": { "image": "checks.png" } },
-"materials": { "clay": { "color": [0.8, 0.6, 0.4] }, "floor": {} },
-"objects": [ { "mesh": { "name": "rod", "material": "clay" } },
-  { "plane": { "point": [0, -1, 0], "edge_u": [1, 0, 0], "edge_v": [0, 0, 1], "material": "floor",
-    "texture": "checks" } } ] }"#;
-
-/// A folder with `jobs/job.json`, its scene, spec and texture, and these keys of the job.
-fn folder(keys: &str) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    let path = |name: &str| folder.path().join(name);
-    for name in ["jobs", "parts"] {
-        fs::create_dir(path(name)).unwrap();
-    }
-    let job = format!(
-        r#"{{ "format": "tb-job", "version": 1, "scene": "../parts/scene.json",
-        "meshes": {{ "rod": {{ "spec": "../parts/rod.json" }} }}, {keys} }}"#
-    );
-    fs::write(path("jobs/job.json"), job).unwrap();
-    fs::write(path("parts/scene.json"), SCENE).unwrap();
-    fs::write(path("parts/rod.json"), SPEC).unwrap();
-    let checks = |x, y| image::Rgb([if (x + y) % 2 == 0 { 255 } else { 60 }; 3]);
-    RgbImage::from_fn(2, 2, checks).save(path("parts/checks.png")).unwrap();
-    folder
-}
-
-/// Runs `pipeline run jobs/job.json` with these flags, which must succeed. Returns what was said.
-fn make(folder: &Path, flags: &[&str]) -> String {
-    let arguments = [&["run", "jobs/job.json", "--size", "24x18"], flags].concat();
-    let ran = run("pipeline", &arguments, folder);
-    assert!(ran.status.success(), "{flags:?}: {}", said(&ran));
-    said(&ran)
-}
-
-fn pixels(path: &Path) -> RgbImage {
-    image::open(path).unwrap().to_rgb8()
-}
-
-/// Returns the names of the files in a folder with their bytes.
-fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-    entries
-        .map(|path| (path.file_name().unwrap().to_str().unwrap().into(), fs::read(&path).unwrap()))
-        .collect()
-}
 
 fn times(folder: &Path) -> Vec<SystemTime> {
     let names = files(folder).into_keys();
@@ -233,6 +181,15 @@ fn mistakes_are_named() {
     }
 }
 
+/// Returns a window of an EXR file, from the bytes of its header: the first column and row, and the last ones.
+fn window(bytes: &[u8], name: &str) -> [i32; 4] {
+    let key = format!("{name}\0box2i\0");
+    let at = bytes.windows(key.len()).position(|own| own == key.as_bytes()).unwrap();
+    // The size of the value stands before it.
+    let value = &bytes[at + key.len() + 4..];
+    [0, 1, 2, 3].map(|k| i32::from_le_bytes(value[4 * k..4 * k + 4].try_into().unwrap()))
+}
+
 /// Tiles of a picture, joined, are the file of the whole picture.
 #[test]
 fn tiles_join_to_the_whole_picture() {
@@ -257,6 +214,22 @@ fn tiles_join_to_the_whole_picture() {
         let read = |name: String| fs::read(path.join(name)).unwrap();
         assert!(read(name.into()) == read(format!("{stem}-all.{end}")), "{name}");
     }
+    // Data windows of bands and of the whole, as their headers state them. Corners belong to a window.
+    let bands = [[0, 0, 32, 8], [0, 9, 32, 18], [0, 19, 32, 28]];
+    let whole = [0, 0, 32, 28];
+    for (file, data) in [("c-1", bands[0]), ("c-2", bands[1]), ("c-3", bands[2]), ("c-all", whole)]
+    {
+        let bytes = fs::read(path.join(format!("{file}.exr"))).unwrap();
+        let windows = ["dataWindow", "displayWindow"].map(|name| window(&bytes, name));
+        assert_eq!(windows, [data, whole], "{file}");
+    }
+    let crop =
+        ["--size", "33x29", "--crop", "5,7,11x13", "--mesh", "rod=rod.obj", "-q", "-o", "e.exr"];
+    let ran = run("render", &[&["parts/scene.json"], &crop[..]].concat(), path);
+    assert!(ran.status.success(), "{}", said(&ran));
+    let bytes = fs::read(path.join("e.exr")).unwrap();
+    let windows = ["dataWindow", "displayWindow"].map(|name| window(&bytes, name));
+    assert_eq!(windows, [[5, 7, 15, 19], whole]);
     let ran = run("pipeline", &["join", "a-1.png", "a-3.png", "-o", "x.png"], path);
     assert_eq!(ran.status.code(), Some(2));
     assert!(said(&ran).contains("the parts leave out"), "{}", said(&ran));
@@ -294,45 +267,4 @@ fn a_packed_job_makes_the_same_pictures() {
     let ran = run("pipeline", &["pack", "jobs/job.json", "-o", "again"], path);
     assert_eq!(ran.status.code(), Some(3), "{}", said(&ran));
     assert!(said(&ran).contains("is named by a path from the root"), "{}", said(&ran));
-}
-
-/// The makefile makes all frames and the film, also in several runs; where there is no make, the test says so.
-#[test]
-fn a_makefile_makes_the_frames_and_the_film() {
-    let folder = folder(r#""turntable": { "frames": 5 }"#);
-    let path = folder.path();
-    let flags =
-        ["--engine", "make", "--chunk", "2", "--size", "24x18", "--film", "film.gif", "-o", "out"];
-    let arguments = [&["farm", "jobs/job.json", "--script", "tasks.mk"], &flags[..]].concat();
-    let ran = run("pipeline", &arguments, path);
-    assert!(ran.status.success(), "{}", said(&ran));
-    if !shell("make --version", path).status.success() {
-        println!("not tested: there is no make");
-        return;
-    }
-    let ran = shell("make -s -j 2 -f tasks.mk && make -s -f tasks.mk", path);
-    assert!(ran.status.success(), "{}", said(&ran));
-    make(path, &["-o", "alone", "-q"]);
-    assert!(files(&path.join("out")) == files(&path.join("alone")));
-    assert!(path.join("film.gif").exists());
-}
-
-/// GNU parallel makes the same frames, also again after one is lost; where there is no parallel, the test says so.
-#[test]
-fn parallel_makes_the_frames_and_the_film() {
-    let folder = folder(r#""turntable": { "frames": 5 }"#);
-    let path = folder.path();
-    let flags = ["--chunk", "2", "--size", "24x18", "--film", "film.gif", "-o", "out"];
-    let start = ["farm", "jobs/job.json", "--engine", "parallel", "--script", "tasks.sh"];
-    let ran = run("pipeline", &[&start[..], &flags].concat(), path);
-    assert!(ran.status.success(), "{}", said(&ran));
-    if !shell("parallel --version | grep -q GNU", path).status.success() {
-        println!("not tested: there is no GNU parallel");
-        return;
-    }
-    let ran = shell("sh tasks.sh && rm out/job-exact.0002.png && sh tasks.sh", path);
-    assert!(ran.status.success(), "{}", said(&ran));
-    make(path, &["-o", "alone", "-q"]);
-    assert!(files(&path.join("out")) == files(&path.join("alone")));
-    assert!(path.join("film.gif").exists());
 }

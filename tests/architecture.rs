@@ -65,7 +65,8 @@ const RENDER: Layers = &[
             "trace",
         ],
     ),
-    ("prepared", &["accel", "filter", "scene", "shade", "shape", "trace"]),
+    ("stock", &["accel", "filter", "scene", "shape", "texture"]),
+    ("prepared", &["accel", "filter", "scene", "shade", "shape", "stock", "trace"]),
     ("stats", &["shade", "trace"]),
     (
         "film",

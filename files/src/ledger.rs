@@ -29,6 +29,8 @@ struct Entries {
     outputs: HashMap<Identity, Claim>,
     /// Lowercase names of outputs in their folders, with the claim of the spelling used.
     spellings: HashMap<(Number, String), Claim>,
+    /// Folders in which a file could be made.
+    folders: BTreeSet<PathBuf>,
 }
 
 /// An output, and the remedy if it clashes with another file.
@@ -83,7 +85,7 @@ impl Ledger {
     /// When the file is an input or another output; otherwise see [`Output::check`].
     pub fn claim(&self, argument: &Path, change: &str) -> Result<(), FileError> {
         self.enter(argument, change)?;
-        Output::check(argument, self.clobber)
+        Output::check_folder_once(argument, self.clobber, &mut self.entries().folders)
     }
 
     /// Enters an output and opens it at once. `change` is the remedy, as in [`Ledger::claim`].

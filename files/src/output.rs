@@ -10,6 +10,7 @@ use crate::FileError;
 use crate::identity::folder_of;
 use crate::stop::Entry;
 use crate::target::{Target, name_of};
+use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -80,12 +81,29 @@ impl Output {
     /// # Errors
     /// See [`Output::create`].
     pub fn check(argument: &Path, clobber: bool) -> Result<(), FileError> {
+        Self::check_folder_once(argument, clobber, &mut BTreeSet::new())
+    }
+
+    /// Checks an output as [`Output::check`] does. `folders` are those in which a file could be made before; no other
+    /// is made there. Thousands of outputs then cost a shared file system no file each.
+    ///
+    /// # Errors
+    /// See [`Output::create`].
+    pub(crate) fn check_folder_once(
+        argument: &Path,
+        clobber: bool,
+        folders: &mut BTreeSet<PathBuf>,
+    ) -> Result<(), FileError> {
         match Target::of(argument, clobber)? {
             // A named pipe must be opened only once.
             Target::Stdout | Target::Device(_) => Ok(()),
-            Target::File { path, replaced } => create_beside(&path, replaced.as_ref())
-                .map(drop)
-                .map_err(|source| write_error(name_of(argument), source)),
+            Target::File { path, .. } if folders.contains(folder_of(&path)) => Ok(()),
+            Target::File { path, replaced } => {
+                create_beside(&path, replaced.as_ref())
+                    .map_err(|source| write_error(name_of(argument), source))?;
+                folders.insert(folder_of(&path).into());
+                Ok(())
+            }
         }
     }
 

@@ -4,6 +4,7 @@ use compare::CompareError;
 use files::variants::VariantsError;
 use files::words::{LONGEST_LIST, cut, shown};
 use files::{Exit, Failure, FileError, JsonError, MemoryError};
+use render::film::join::JoinError;
 use render::scene::SceneError;
 use render::showcase::ShowcaseError;
 use sweep::SweepError;
@@ -125,6 +126,12 @@ pub enum PipelineError {
         shown(.0)
     )]
     NoAnimation(String),
+    /// The pictures of a job without an animation are to be divided, and not in parts.
+    #[error(
+        "the pictures of job {} are not animated: add --tiles N to divide each in N parts, and leave out --chunk and --film",
+        shown(.0)
+    )]
+    NotDivided(String),
     /// The animation has not all frames that are wanted.
     #[error("--frames of job {}: {message}", shown(job))]
     Frames {
@@ -145,6 +152,19 @@ pub enum PipelineError {
         /// Its modes.
         modes: String,
     },
+    /// A picture has fewer rows than parts.
+    #[error(
+        "found {count} parts for pictures of {height} rows: ask for at most {height}, since each part has a row of its own"
+    )]
+    ThinParts {
+        /// The number of parts.
+        count: u32,
+        /// The rows of the pictures.
+        height: u32,
+    },
+    /// Parts of a picture cannot be joined.
+    #[error(transparent)]
+    Join(#[from] JoinError),
     /// A table of variants is wrong.
     #[error(transparent)]
     Variants(#[from] VariantsError),
@@ -201,6 +221,7 @@ impl Failure for PipelineError {
             Self::Compare(error) => error.exit(),
             Self::Showcase(error) => error.exit(),
             Self::Variants(error) => error.exit(),
+            Self::Join(error) => error.exit(),
             Self::Memory(_) | Self::Encode { .. } => Exit::Resource,
             Self::ErrorMissed(_) => Exit::Inaccurate,
             Self::SameFile { .. }
@@ -209,8 +230,10 @@ impl Failure for PipelineError {
             | Self::UnknownMode { .. }
             | Self::UnknownSpec { .. }
             | Self::NoAnimation(_)
+            | Self::NotDivided(_)
             | Self::Frames { .. }
             | Self::FilmOfModes { .. }
+            | Self::ThinParts { .. }
             | Self::NotShown { .. }
             | Self::NoSpec { .. }
             | Self::UnknownFigure { .. }

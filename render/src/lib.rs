@@ -54,9 +54,11 @@ pub mod shade;
 pub mod shape;
 pub mod showcase;
 pub mod stats;
+pub mod stock;
 pub mod texture;
 pub mod trace;
 
 pub use film::{Picture, Sampling, Settings, render};
 pub use prepared::Prepared;
 pub use scene::Scene;
+pub use stock::Stock;

@@ -4,17 +4,18 @@
 //! the hits, the volumes that transparent objects bound, the charts of texture coordinates, and the
 //! tables of each filter. Volumes are found at once. The rest is built when the first picture needs
 //! it and is kept for the pictures that follow. It is shared by the modes of a page, the two
-//! pictures of a truth, the blocks of a refined picture, and `--pixel`.
+//! pictures of a truth, the blocks of a refined picture, and `--pixel`. A [`Stock`] passes it on to another scene.
 
 use crate::accel::{Accel, Planted, Structure};
-use crate::filter::{Filter, FilteredTexture, Table};
+use crate::filter::{Filter, FilteredTexture};
 use crate::scene::Scene;
 use crate::shade::{Shader, View};
 use crate::shape::Charts;
+use crate::stock::Stock;
 use crate::trace::medium::Media;
 use crate::trace::volume::Volumes;
 use rayon::prelude::*;
-use std::sync::{Mutex, OnceLock, PoisonError};
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
 /// A scene and the data that pictures of it share.
@@ -37,16 +38,8 @@ pub struct Prepared<'a> {
     no_charts: Vec<Charts>,
     /// The volumes that contain each light.
     around_lights: OnceLock<Vec<Media>>,
-    /// Trees of meshes from an earlier scene, which the first structure takes.
-    planted: Mutex<Planted>,
-}
-
-/// The data of a scene that another scene with the same textures can take over.
-#[derive(Debug)]
-pub struct Leftover {
-    /// For each of [`Filter::ALL`], the tables by texture index.
-    tables: [Option<Vec<Option<Table>>>; Filter::ALL.len()],
-    planted: Planted,
+    /// Data of a scene before.
+    stock: Mutex<Stock>,
 }
 
 /// The data that was built for one picture because no earlier picture needed it.
@@ -66,6 +59,13 @@ impl<'a> Prepared<'a> {
     /// Prepares a scene. Only its volumes are found here.
     #[must_use]
     pub fn new(scene: &'a Scene) -> Self {
+        Self::stocked(scene, Stock::default())
+    }
+
+    /// Prepares a scene with the tables, trees and charts that a scene before has left. The stock holds only those of textures
+    /// and meshes that both scenes have: [`Stock::of_same`], [`Stock::between`].
+    #[must_use]
+    pub fn stocked(scene: &'a Scene, stock: Stock) -> Self {
         Self {
             scene,
             volumes: Volumes::of(scene),
@@ -74,45 +74,33 @@ impl<'a> Prepared<'a> {
             charts: OnceLock::new(),
             no_charts: vec![Charts::default(); scene.objects.len()],
             around_lights: OnceLock::new(),
-            planted: Mutex::default(),
+            stock: Mutex::new(stock),
         }
     }
 
-    /// Returns the data that a later scene can take over.
+    /// Returns the data that were built, for another scene, and what is left of the stock.
     #[must_use]
-    pub fn leftover(self) -> Leftover {
-        let tables = self.textures.map(|textures| {
-            let textures = textures.into_inner()?;
-            Some(textures.into_iter().map(|one| one.map(FilteredTexture::into_table)).collect())
-        });
-        let [trees, ..] = self.structures;
-        let unused = self.planted.into_inner().unwrap_or_else(PoisonError::into_inner);
-        let planted = trees.into_inner().map_or(unused, Accel::into_planted);
-        Leftover { tables, planted }
-    }
-
-    /// Prepares a scene with what is left of an earlier one, whose textures have the same texels and are shown by the
-    /// same surfaces. `is_same` tells of each object that is a mesh, or an instance of one, whether the mesh is that of the
-    /// object with this index in the earlier scene.
-    #[must_use]
-    pub fn after(leftover: Leftover, scene: &'a Scene, is_same: impl Fn(usize) -> bool) -> Self {
-        let mut prepared = Self::new(scene);
-        let shown = scene.shown_textures();
-        for (tables, own) in leftover.tables.into_iter().zip(&mut prepared.textures) {
-            let Some(tables) = tables.filter(|tables| tables.len() == scene.textures.len()) else {
-                continue;
-            };
-            if tables.iter().map(Option::is_some).ne(shown.iter().copied()) {
-                continue;
+    pub fn into_stock(self) -> Stock {
+        let mut stock = self.stock.into_inner().unwrap_or_else(PoisonError::into_inner);
+        stock.tables.resize_with(Filter::ALL.len(), Vec::new);
+        for (textures, tables) in self.textures.into_iter().zip(&mut stock.tables) {
+            if let Some(textures) = textures.into_inner() {
+                let detached = |texture: Option<FilteredTexture<'a>>| Some(texture?.detach());
+                *tables = textures.into_iter().map(detached).collect();
             }
-            let again = scene.textures.iter().zip(tables);
-            let again = again.map(|(texture, table)| {
-                table.map(|table| FilteredTexture::with_table(texture, table))
-            });
-            *own = OnceLock::from(again.collect::<Vec<_>>());
         }
-        prepared.planted = Mutex::new(leftover.planted.of_same(is_same));
-        prepared
+        let [trees, ..] = self.structures;
+        if let Some(accel) = trees.into_inner() {
+            stock.trees = accel.into_planted();
+        }
+        if let Some(charts) = self.charts.into_inner() {
+            stock.charts = charts;
+        }
+        stock
+    }
+
+    fn stock(&self) -> MutexGuard<'_, Stock> {
+        self.stock.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// The scene.
@@ -142,9 +130,8 @@ impl<'a> Prepared<'a> {
         built.structure_time = started.elapsed();
         let started = Instant::now();
         let textures = self.textures[filter as usize].get_or_init(|| {
-            let textures = self.filtered(filter);
-            let tables = textures.iter().flatten().filter(|texture| texture.table_bytes() > 0);
-            built.tables = tables.count() as u64;
+            let (textures, tables) = self.filtered(filter);
+            built.tables = tables;
             textures
         });
         let wants_area = filter.wants_area() && textures.iter().any(Option::is_some);
@@ -181,30 +168,38 @@ impl<'a> Prepared<'a> {
     fn structured(&self, structure: Structure) -> Accel<'a> {
         let shapes = self.scene.objects.iter().map(|object| &object.shape);
         let planted = match structure {
-            Structure::Bvh => {
-                std::mem::take(&mut *self.planted.lock().unwrap_or_else(PoisonError::into_inner))
-            }
+            Structure::Bvh => std::mem::take(&mut self.stock().trees),
             Structure::Grid | Structure::None => Planted::default(),
         };
         Accel::build_over(shapes.collect(), structure, planted)
     }
 
-    /// Prepares the textures that surfaces show for a filter.
-    fn filtered(&self, filter: Filter) -> Vec<Option<FilteredTexture<'a>>> {
+    /// Prepares the textures that surfaces show for a filter. Returns them with the number of tables and pyramids that were
+    /// built.
+    fn filtered(&self, filter: Filter) -> (Vec<Option<FilteredTexture<'a>>>, u64) {
         let shown = self.scene.shown_textures();
-        let textures = self.scene.textures.par_iter().zip(&shown);
-        textures
-            .map(|(texture, &shown)| shown.then(|| FilteredTexture::new(texture, filter)))
-            .collect()
+        let all = &self.scene.textures;
+        let kept = self.stock().take_tables(all, filter);
+        let textures = all.par_iter().zip(&shown).zip(kept).map(|((texture, &shown), kept)| {
+            let is_kept = kept.is_some();
+            let texture =
+                shown.then(|| kept.unwrap_or_else(|| FilteredTexture::new(texture, filter)));
+            let has_table = texture.as_ref().is_some_and(|texture| texture.table_bytes() > 0);
+            (texture, u64::from(has_table && !is_kept))
+        });
+        let (textures, built): (Vec<_>, Vec<u64>) = textures.unzip();
+        (textures, built.into_iter().sum())
     }
 
     /// Builds the charts of the objects that show a picture. Those of other objects stay empty.
     fn charted(&self) -> Vec<Charts> {
-        let objects = self.scene.objects.iter();
+        let objects = self.scene.objects.iter().enumerate();
         objects
-            .map(|object| {
+            .map(|(number, object)| {
                 let textured = object.parts.iter().any(|part| part.picture().is_some());
-                if textured { object.shape.charts() } else { Charts::default() }
+                let kept = || self.stock().take_charts(number);
+                let charts = || kept().unwrap_or_else(|| object.shape.charts());
+                if textured { charts() } else { Charts::default() }
             })
             .collect()
     }

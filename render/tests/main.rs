@@ -54,6 +54,7 @@ mod shapes;
 mod sky;
 mod solid_averages;
 mod solid_complaints;
+mod stock;
 mod structures;
 mod studio;
 mod taken_over;

@@ -42,14 +42,15 @@ fn a_scene_with_another_mesh_has_the_picture_of_a_new_one() {
         let first = Prepared::new(&before);
         let old = render::render(&first, &settings, &|_, _| {}).0;
         let (expected, built) = render::render(&Prepared::new(&after), &settings, &|_, _| {});
-        let again = Prepared::after(first.leftover(), &after, |object| object != 0);
+        let stock = first.into_stock().of_same(|_| true, |object| object != 0);
+        let again = Prepared::stocked(&after, stock);
         let (picture, kept) = render::render(&again, &settings, &|_, _| {});
         assert!(picture == expected && picture != old, "{filter}");
         assert_eq!(kept.tables, 0, "{filter}: the tables are there");
         assert_eq!(kept.accel_bytes, built.accel_bytes, "{filter}");
         // What is left may be passed on without a picture in between.
-        let third = Prepared::after(again.leftover(), &after, |_| true).leftover();
-        let third = Prepared::after(third, &after, |_| true);
+        let third = Prepared::stocked(&after, again.into_stock()).into_stock();
+        let third = Prepared::stocked(&after, third);
         assert!(render::render(&third, &settings, &|_, _| {}).0 == expected, "{filter}");
     }
 }

@@ -3,8 +3,12 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+#[cfg(unix)]
+pub mod animated;
 #[cfg(feature = "studio")]
 pub mod http;
+#[cfg(target_os = "linux")]
+pub mod slurm;
 #[cfg(feature = "studio")]
 pub mod webdriver;
 

@@ -47,6 +47,9 @@ impl Digest {
             job.meshes.iter().map(|mesh| (&mesh.name, mesh.options, &mesh.resolution)).collect();
         let mode = (mode.filter, mode.sampling, mode.error);
         let text = format!("{mode:?} {}x{} {resolutions:?}", settings.width, settings.height);
+        // Parts reach a requested error each by itself, so that their rays depend on their number.
+        let parts = job.parts.filter(|_| mode.2.is_some());
+        let text = parts.map_or(text.clone(), |parts| format!("{text} {} parts", parts.count));
         let all = self.and(env!("CARGO_PKG_VERSION").as_bytes()).and(text.as_bytes());
         format!("{:032x}", all.0)
     }

@@ -68,6 +68,8 @@ pub struct Animation {
     /// Paths with their laws.
     set: Vec<(String, Law)>,
     turntable: Option<Turntable>,
+    /// True if the names of files have the number of their frame.
+    is_numbered: bool,
 }
 
 /// Values of the scene and of specs that change from frame to frame.
@@ -128,7 +130,14 @@ impl Animation {
             set.push((path.clone(), Law::read(&value).map_err(fault)?));
         }
         let turntable = turntable.map(|file| Turntable::read(document, file)).transpose()?;
-        Ok(Some(Self { frames, fps, loops, set, turntable }))
+        Ok(Some(Self { frames, fps, loops, set, turntable, is_numbered: true }))
+    }
+
+    /// Returns the animation of a picture that does not change, with one frame, whose file has no number.
+    #[must_use]
+    pub fn still() -> Self {
+        let (set, turntable) = (Vec::new(), None);
+        Self { frames: 1, fps: FPS, loops: false, set, turntable, is_numbered: false }
     }
 
     /// Returns the time of a frame, from 0 to 1.
@@ -177,7 +186,7 @@ impl Animation {
         let own = settings.iter().filter_map(|setting| Some(setting.below("scene")?.text()));
         Job {
             set: job.set.iter().cloned().chain(own).collect(),
-            frame: Some(frame),
+            frame: self.is_numbered.then_some(frame),
             further: None,
             ..job.clone()
         }

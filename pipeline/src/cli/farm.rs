@@ -10,7 +10,7 @@ use std::path::PathBuf;
 /// Arguments of `pipeline farm`.
 #[derive(Debug, Args)]
 pub struct FarmArguments {
-    /// The job, with the key `animate` or `turntable`: a page by name, or a job file
+    /// The job: a page by name, or a job file. Without the key `animate` or `turntable` it needs --tiles
     #[arg(value_name = "NAME|FILE.json")]
     job: String,
     /// The scheduler that reads the script
@@ -19,6 +19,12 @@ pub struct FarmArguments {
     /// Frames of each task [default: 1, or more if that makes more than 1000 tasks]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     chunk: Option<u32>,
+    /// Parts of each picture, each a task; the last step joins them
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=65536))]
+    tiles: u32,
+    /// Make the pictures of an animated job without its animation
+    #[arg(long, requires = "tiles", conflicts_with_all = ["chunk", "film"])]
+    still: bool,
     /// The script [default: standard output]
     #[arg(long, value_name = "FILE", default_value = "-")]
     script: PathBuf,
@@ -48,9 +54,11 @@ pub fn farm(arguments: &FarmArguments) -> Result<(), Report> {
     let jobs = named::jobs(std::slice::from_ref(&arguments.job), &arguments.settings, &ledger)?;
     let Some(named) = jobs.into_iter().next() else { return Ok(()) };
     let job = named.job.with_modes(&arguments.modes)?;
-    let Some(animation) = &job.animation else {
-        return Err(PipelineError::NoAnimation(job.name).into());
-    };
+    let animation = job.animation.as_ref().filter(|_| !arguments.still);
+    let asks = arguments.film.is_some() || arguments.chunk.is_some() || arguments.tiles == 1;
+    if animation.is_none() && asks {
+        return Err(PipelineError::NotDivided(job.name).into());
+    }
     if arguments.film.is_some() && job.modes.len() != 1 {
         let modes: Vec<&str> = job.modes.iter().map(|mode| mode.name.as_str()).collect();
         let modes = modes.join(", ");
@@ -64,11 +72,17 @@ pub fn farm(arguments: &FarmArguments) -> Result<(), Report> {
     command.extend(arguments.modes.iter().flat_map(|mode| ["--mode".into(), mode.clone()]));
     let settings = arguments.settings.iter().map(Setting::argument);
     command.extend(settings.flat_map(|setting| ["-D".to_string(), setting.into()]));
+    if arguments.still {
+        command.push("--still".into());
+    }
+    let frames = animation.map(|animation| animation.frames);
+    let count = u64::from(frames.unwrap_or(1)) * u64::from(arguments.tiles);
     let plan = Plan {
         name: job.name.clone(),
         command,
-        frames: animation.frames,
-        chunk: arguments.chunk.unwrap_or(animation.frames.div_ceil(MOST_TASKS)),
+        frames,
+        chunk: arguments.chunk.unwrap_or(count.div_ceil(u64::from(MOST_TASKS)) as u32),
+        tiles: arguments.tiles,
         film: arguments.film.clone(),
         hosts: arguments.sshlogin.clone(),
     };

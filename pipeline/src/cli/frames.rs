@@ -4,12 +4,15 @@ use super::named::NamedJob;
 use crate::animation::Animation;
 use crate::animation::film::{self, Maker};
 use crate::animation::frames::Frames;
+use crate::job::Parts;
 use crate::run::frames::{Wanted, run_frames};
 use crate::run::{Event, Options};
 use crate::stages::Stages;
 use crate::{Job, PipelineError};
 use clap::Args;
 use files::{Ledger, Report, Setting};
+use render::film::crop::Tile;
+use std::borrow::Cow;
 use std::path::PathBuf;
 
 /// Flags for jobs with the key `animate` or `turntable`.
@@ -24,6 +27,13 @@ pub struct FrameArguments {
     /// Make frames again that exist and have the same inputs
     #[arg(long)]
     again: bool,
+    /// Make part K of N bands of rows of each picture, as a file of its own; not if the whole picture is there
+    #[arg(long, value_name = "K/N", value_parser = Tile::parse, conflicts_with_all = ["join", "film", "keep", "sheet"])]
+    tile: Option<Tile>,
+    /// Join the N parts of each picture; parts that are missing are made
+    #[arg(long, value_name = "N", conflicts_with_all = ["keep", "sheet"],
+        value_parser = clap::value_parser!(u32).range(1..=65536))]
+    join: Option<u32>,
     /// Write the frames as a film too: a .png (animated), a .gif, or through ffmpeg a .mp4, .mkv, .mov or .webm
     #[arg(long, value_name = "FILE")]
     film: Option<PathBuf>,
@@ -32,13 +42,26 @@ pub struct FrameArguments {
 /// The frames of a job that a run makes.
 #[derive(Debug)]
 pub struct Chosen<'a> {
-    animation: &'a Animation,
+    animation: Cow<'a, Animation>,
     frames: Vec<u32>,
     arguments: &'a FrameArguments,
     maker: Option<Maker>,
 }
 
 impl FrameArguments {
+    /// Returns the parts in which the pictures are made, if the flags ask for parts.
+    fn parts(&self) -> Option<Parts> {
+        let of_tile = |Tile { number, count }| Parts { count, number: Some(number) };
+        let joined = self.join.map(|count| Parts { count, number: None });
+        self.tile.map(of_tile).or(joined)
+    }
+
+    /// Returns a job whose pictures are made in the parts that the flags ask for.
+    #[must_use]
+    pub fn in_parts(&self, job: Job) -> Job {
+        Job { parts: self.parts(), ..job }
+    }
+
     /// Returns whether the flags ask for frames or a film.
     fn ask(&self) -> bool {
         self.frames.is_some() || self.film.is_some() || self.again
@@ -53,8 +76,12 @@ impl FrameArguments {
             if self.ask() {
                 return Err(PipelineError::NoAnimation(job.name.clone()).into());
             }
-            return Ok(None);
+            // The pictures of a job without its animation, one by one.
+            let (animation, frames) = (Cow::Owned(Animation::still()), vec![1]);
+            let still = Chosen { animation, frames, arguments: self, maker: None };
+            return Ok(self.parts().map(|_| still));
         };
+        let animation = Cow::Borrowed(animation);
         let frames = match &self.frames {
             None => (1..=animation.frames).collect(),
             Some(frames) => frames
@@ -97,7 +124,7 @@ impl Chosen<'_> {
         tell: &(dyn Fn(Event<'_>) + Sync),
     ) -> Result<Stages, PipelineError> {
         let wanted = Wanted { frames: &self.frames, settings, again: self.arguments.again };
-        run_frames((&named.job, self.animation), named.source, wanted, options, tell)
+        run_frames((&named.job, &self.animation), named.source, wanted, options, tell)
     }
 
     /// Writes the film, if one is wanted. Returns its path.

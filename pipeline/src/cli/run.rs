@@ -243,7 +243,7 @@ fn jobs<'a>(
         let job = job.with_modes(&arguments.modes)?;
         let page_alone = built_in && figures.is_empty() && argument == job.name;
         let set = settings.iter().filter_map(|setting| Some(setting.below("scene")?.text()));
-        let job = Job { set: set.collect(), ..job };
+        let job = arguments.frames.in_parts(Job { set: set.collect(), ..job });
         let job = match arguments.error {
             Some(error) => job.with_error(error),
             None if page_alone && arguments.jobs.len() == 1 && arguments.modes.is_empty() => {

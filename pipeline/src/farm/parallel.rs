@@ -10,7 +10,9 @@ pub(super) fn script(plan: &Plan) -> String {
     // Hosts see the same folder by a shared file system.
     let hosts =
         if hosts.is_empty() { String::new() } else { format!("{}--workdir . ", hosts.concat()) };
-    let film = plan.last_line().map(|last| format!("{last} -q\n")).unwrap_or_default();
+    let film = plan.last().map(|(_, last)| format!("{last} -q\n")).unwrap_or_default();
+    let tasks: Vec<String> =
+        plan.tasks().into_iter().map(|(frames, tile)| format!("{frames} {tile}")).collect();
     // parallel reads the command as a shell would, once more.
     let line = plan.line();
     format!(
@@ -18,11 +20,11 @@ pub(super) fn script(plan: &Plan) -> String {
          # Run it in the folder of the job: sh THIS [flags of parallel, such as --jobs 4]\n\
          # Run it again after a stop: tasks that ended well are left out.\n\
          set -eu\n\
-         parallel --joblog {name} --resume --resume-failed --retries 3 {hosts}\"$@\" \\\n  \
-         {command} <<'FRAMES'\n{frames}\nFRAMES\n{film}",
+         parallel --joblog {name} --resume --resume-failed --retries 3 --colsep ' ' {hosts}\"$@\" \\\n  \
+         {command} <<'TASKS'\n{tasks}\nTASKS\n{film}",
         title = plan.title(),
-        command = quoted(&format!("{line} --frames {{}} --threads 1 -q")),
-        frames = plan.chunks().join("\n"),
+        command = quoted(&format!("{line} {} --threads 1 -q", plan.flags("{1}", "{2}"))),
+        tasks = tasks.join("\n"),
     )
 }
 
@@ -34,14 +36,18 @@ mod tests {
     #[test]
     fn the_command_and_its_frames_are_there() {
         let text = script(&plan());
-        let command = "'pipeline run '\\''my job.json'\\'' -o out --frames {} --threads 1 -q'";
+        let command = "'pipeline run '\\''my job.json'\\'' -o out --frames {1} --threads 1 -q'";
         assert!(text.contains(command), "{text}");
         assert!(
             text.contains("--joblog knot.joblog --resume ")
-                && text.contains("\n11-20\n21-25\nFRAMES\n")
+                && text.contains("\n11-20 1\n21-25 1\nTASKS\n")
         );
         assert!(!text.contains("--sshlogin"));
         let hosts = Plan { hosts: vec!["4/node1".into(), "a b".into()], ..plan() };
+        let parts = script(&Plan { tiles: 2, ..plan() });
+        assert!(
+            parts.contains("--frames {1} --tile {2}/2 ") && parts.contains("\n11-20 1\n11-20 2\n")
+        );
         assert!(script(&hosts).contains("--sshlogin 4/node1 --sshlogin 'a b' --workdir . "));
     }
 }

@@ -7,8 +7,8 @@ const RETRIES: u32 = 3;
 
 /// Returns the script.
 pub(super) fn script(plan: &Plan) -> String {
-    let tasks = plan.frames.div_ceil(plan.chunk);
-    let Plan { frames, chunk, .. } = plan;
+    let tasks = plan.tasks().len() as u32;
+    let Plan { chunk, tiles, .. } = plan;
     let (name, line) = (quoted(&plan.name), plan.line());
     let many = if tasks > MOST_TASKS {
         format!(
@@ -17,26 +17,40 @@ pub(super) fn script(plan: &Plan) -> String {
     } else {
         String::new()
     };
-    let film = plan.last_line().map(|last| {
+    let last = plan.last().map(|(step, last)| {
         format!(
-            "film=$(sbatch --parsable --job-name={name}-film --output={name}-film.log \\\n  \
-             --dependency=afterok:\"$frames\" --kill-on-invalid-dep=yes \"$@\" <<'FILM'\n\
-             #!/bin/sh\nexec {last} --threads \"${{SLURM_CPUS_ON_NODE:-1}}\" -q\nFILM\n)\n\
-             echo \"film: job $film, after the frames\"\n"
+            "last=$(sbatch --parsable --job-name={name}-{step} --output={name}-{step}.log \\\n  \
+             --dependency=afterok:\"$tasks\" --kill-on-invalid-dep=yes \"$@\" <<'LAST'\n\
+             #!/bin/sh\nexec {last} --threads \"${{SLURM_CPUS_ON_NODE:-1}}\" -q\nLAST\n)\n\
+             echo \"{step}: job $last, after the tasks\"\n"
         )
     });
+    // Parts of the same frames follow one another.
+    let (index, tile) = match tiles {
+        1 => ("SLURM_ARRAY_TASK_ID".to_string(), String::new()),
+        _ => (
+            format!("SLURM_ARRAY_TASK_ID / {tiles}"),
+            format!("tile=$((SLURM_ARRAY_TASK_ID % {tiles} + 1))\n"),
+        ),
+    };
+    let range = match plan.frames {
+        None => String::new(),
+        Some(frames) => format!(
+            "first=$(({index} * {chunk} + 1))\n\
+             last=$((first + {chunk} - 1))\n\
+             [ \"$last\" -le {frames} ] || last={frames}\n"
+        ),
+    };
+    let flags = plan.flags("\"$first-$last\"", "$tile");
     format!(
         "#!/bin/sh\n{title}.\n\
          # Submit it in the folder of the job: sh THIS [flags of sbatch, such as --partition=short --cpus-per-task=4]\n\
          {many}set -eu\n\
-         frames=$(sbatch --parsable --job-name={name} --output={name}-%a.log --open-mode=append \\\n  \
+         tasks=$(sbatch --parsable --job-name={name} --output={name}-%a.log --open-mode=append \\\n  \
          --array=0-{last_task} --requeue \"$@\" <<'TASK'\n\
          #!/bin/sh\n\
-         first=$((SLURM_ARRAY_TASK_ID * {chunk} + 1))\n\
-         last=$((first + {chunk} - 1))\n\
-         [ \"$last\" -le {frames} ] || last={frames}\n\
-         code=0\n\
-         {line} --frames \"$first-$last\" --threads \"${{SLURM_CPUS_PER_TASK:-1}}\" -q || code=$?\n\
+         {range}{tile}code=0\n\
+         {line} {flags} --threads \"${{SLURM_CPUS_PER_TASK:-1}}\" -q || code=$?\n\
          case $code in\n  \
          5|6) # A file, memory or threads: another try may help.\n    \
          if [ \"${{SLURM_RESTART_COUNT:-0}}\" -lt {RETRIES} ]; then\n      \
@@ -45,10 +59,10 @@ pub(super) fn script(plan: &Plan) -> String {
          esac\n\
          exit \"$code\"\n\
          TASK\n)\n\
-         echo \"frames: job $frames, {tasks} tasks\"\n{film}",
+         echo \"tasks: job $tasks, {tasks} tasks\"\n{last}",
         title = plan.title(),
         last_task = tasks - 1,
-        film = film.unwrap_or_default(),
+        last = last.unwrap_or_default(),
     )
 }
 
@@ -61,6 +75,19 @@ mod tests {
     /// The script in a folder with a stand-in for Slurm, which runs each task of the array and then the film.
     #[test]
     fn every_task_gets_its_frames_and_the_film_comes_last() {
+        let task = |flags: &str| format!("run my job.json -o out {flags} --threads 1 -q");
+        let frames = |frames: &str| task(&format!("--frames {frames}"));
+        assert_run(&plan(), &["1-10", "11-20", "21-25"].map(frames), "--film it's.mp4");
+        let parts = Plan { tiles: 2, chunk: 20, film: None, ..plan() };
+        let expected =
+            ["1-20 --tile 1/2", "1-20 --tile 2/2", "21-25 --tile 1/2", "21-25 --tile 2/2"];
+        assert_run(&parts, &expected.map(frames), "--join 2");
+        let still = Plan { frames: None, ..parts };
+        assert_run(&still, &["--tile 1/2", "--tile 2/2"].map(task), "--join 2");
+    }
+
+    /// Checks the tasks and the flags of the last step.
+    fn assert_run(plan: &Plan, tasks: &[String], last: &str) {
         let folder = tempfile::tempdir().unwrap();
         let tool = |name: &str, text: &str| {
             let path = folder.path().join(name);
@@ -77,7 +104,7 @@ mod tests {
         );
         let path = format!("{}:{}", folder.path().display(), std::env::var("PATH").unwrap());
         let run = Command::new("sh")
-            .args(["-c", &script(&plan()), "sh", "--partition=a"])
+            .args(["-c", &script(plan), "sh", "--partition=a"])
             .env("PATH", path)
             .current_dir(folder.path())
             .output()
@@ -85,17 +112,16 @@ mod tests {
         assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
         let log = std::fs::read_to_string(folder.path().join("log")).unwrap();
         let lines: Vec<&str> = log.lines().collect();
-        let task =
-            |frames: &str| format!("run my job.json -o out --frames {frames} --threads 1 -q");
-        assert_eq!(lines[..3], ["1-10", "11-20", "21-25"].map(task));
-        assert_eq!(lines[3], "after 7");
-        assert!(lines[4].starts_with("run my job.json -o out --film it's.mp4"), "{log}");
-        assert_eq!(lines.len(), 5);
+        let count = tasks.len();
+        assert_eq!(lines[..count], *tasks);
+        assert_eq!(lines[count], "after 7");
+        assert!(lines[count + 1].starts_with(&format!("run my job.json -o out {last} ")), "{log}");
+        assert_eq!(lines.len(), count + 2);
     }
 
     #[test]
     fn a_large_array_has_a_remark() {
-        let plan = Plan { frames: 5000, chunk: 1, ..plan() };
+        let plan = Plan { frames: Some(5000), chunk: 1, ..plan() };
         assert!(script(&plan).contains("see MaxArraySize"));
         assert!(!script(&Plan { chunk: 5, ..plan }).contains("see MaxArraySize"));
     }

@@ -64,12 +64,14 @@ use triangulate::Options;
 pub mod figure;
 mod file;
 pub mod mode;
+mod parts;
 mod requested;
 mod sampling;
 mod select;
 
 pub use file::{Place, schema};
 pub use mode::Mode;
+pub use parts::Parts;
 
 use crate::PipelineError;
 
@@ -101,6 +103,8 @@ pub struct Job {
     pub animation: Option<Animation>,
     /// The frame of the animation whose pictures are made, from 1; `None` for the pictures without it.
     pub frame: Option<u32>,
+    /// The parts in which each picture is made; `None` if it is made at once.
+    pub parts: Option<Parts>,
 }
 
 /// A mesh to make.
@@ -177,15 +181,17 @@ impl Job {
             .collect()
     }
 
-    /// Returns the file name of a mode's picture; with a frame its number stands before the extension.
+    /// Returns the file name of a mode's picture; the numbers of a frame and of a part stand before the extension.
     pub(crate) fn picture_file(&self, mode: &Mode) -> String {
         let frame = self.frame.map(|frame| format!(".{frame:04}")).unwrap_or_default();
-        format!("{}-{}{frame}.png", self.name, mode.name)
+        let tile = self.parts.and_then(Parts::tile);
+        let part = tile.map(|tile| format!(".{}-of-{}", tile.number, tile.count));
+        format!("{}-{}{frame}{}.png", self.name, mode.name, part.unwrap_or_default())
     }
 
     /// Returns the file name of all pictures side by side, if there are several.
     pub(crate) fn strip_file(&self) -> Option<String> {
-        (self.whole && self.modes.len() > 1 && self.frame.is_none())
+        (self.whole && self.modes.len() > 1 && self.frame.is_none() && self.parts.is_none())
             .then(|| format!("{}.png", self.name))
     }
 
@@ -236,6 +242,7 @@ impl Job {
             further: None,
             animation,
             frame: None,
+            parts: None,
         })
     }
 }

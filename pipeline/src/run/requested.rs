@@ -9,7 +9,7 @@ use super::{Event, Run, settings};
 use crate::PipelineError;
 use crate::coding;
 use crate::fineness::Fineness;
-use crate::job::Mode;
+use crate::job::{Mode, Parts};
 use crate::stages::Stages;
 use render::accuracy::{self, Reached, Request, Sources, Statement};
 use render::film::encode::Coding;
@@ -75,6 +75,8 @@ impl Run<'_> {
     ) -> Result<Picture, PipelineError> {
         let mut settings = settings(mode, self.options.size);
         settings.camera = self.camera;
+        let tile = self.job.parts.and_then(Parts::tile);
+        settings.crop = tile.map(|tile| tile.crop(settings.width, settings.height));
         let is_transparent = prepared.scene().is_transparent;
         if is_transparent {
             settings.view = View::Foreground;

@@ -11,7 +11,8 @@ use sweep::spec::Resolution;
 /// The memory of the meshes is not counted in the budget of the process: each is also in a scene while it is made.
 #[derive(Debug, Default)]
 pub struct Shared {
-    meshes: Mutex<BTreeMap<String, Mesh>>,
+    /// The meshes, and whether they were used since [`Shared::forget_unused`].
+    meshes: Mutex<BTreeMap<String, (Mesh, bool)>>,
 }
 
 impl Shared {
@@ -27,11 +28,20 @@ impl Shared {
     }
 
     pub(super) fn get(&self, key: &str) -> Option<Mesh> {
-        self.meshes.lock().unwrap_or_else(PoisonError::into_inner).get(key).cloned()
+        let mut meshes = self.meshes.lock().unwrap_or_else(PoisonError::into_inner);
+        let (mesh, used) = meshes.get_mut(key)?;
+        *used = true;
+        Some(mesh.clone())
     }
 
     pub(super) fn keep(&self, key: String, mesh: &Mesh) {
         let mut meshes = self.meshes.lock().unwrap_or_else(PoisonError::into_inner);
-        meshes.insert(key, mesh.clone());
+        meshes.insert(key, (mesh.clone(), true));
+    }
+
+    /// Forgets the meshes that were not used since the last call, such as those of another frame.
+    pub(super) fn forget_unused(&self) {
+        let mut meshes = self.meshes.lock().unwrap_or_else(PoisonError::into_inner);
+        meshes.retain(|_, (_, used)| std::mem::take(used));
     }
 }

@@ -13,7 +13,7 @@ use files::json::Document;
 use files::{JsonError, Source};
 use glam::DAffine3;
 use render::Scene;
-use render::prepared::Leftover;
+use render::Stock;
 use render::scene::file::SceneFile;
 use render::scene::read::{self, Draft};
 use render::scene::{Camera, MeshSource};
@@ -32,7 +32,7 @@ pub struct Kept {
     /// The objects of the meshes, by name.
     pub objects: BTreeMap<String, Arc<Object>>,
     /// Data of the last pictures that the scene can take over.
-    leftover: Option<Leftover>,
+    stock: Stock,
     /// The objects whose meshes were replaced since then.
     replaced: Vec<usize>,
     frame: Frame,
@@ -140,14 +140,15 @@ impl Kept {
         Ok(())
     }
 
-    /// Takes what is left of earlier pictures, and the objects whose meshes were replaced since then.
-    pub fn take_leftover(&mut self) -> Option<(Leftover, Vec<usize>)> {
-        Some((self.leftover.take()?, std::mem::take(&mut self.replaced)))
+    /// Takes what earlier pictures have left, without the data of objects whose meshes were replaced since then.
+    pub fn take_stock(&mut self) -> Stock {
+        let replaced = std::mem::take(&mut self.replaced);
+        std::mem::take(&mut self.stock).of_same(|_| true, |object| !replaced.contains(&object))
     }
 
     /// Keeps what is left of the pictures of the scene as it is.
-    pub fn keep(&mut self, leftover: Leftover) {
-        self.leftover = Some(leftover);
+    pub fn keep(&mut self, stock: Stock) {
+        self.stock = stock;
         self.replaced.clear();
     }
 
@@ -170,8 +171,8 @@ impl Kept {
             objects.insert(mesh.name.clone(), Arc::new(object));
         }
         let scene = draft.resolve(source, given)?;
-        let (leftover, replaced, frame) = (None, Vec::new(), files.frame.clone());
-        Ok(Self { scene, objects, leftover, replaced, frame, meshes })
+        let (stock, replaced, frame) = (Stock::default(), Vec::new(), files.frame.clone());
+        Ok(Self { scene, objects, stock, replaced, frame, meshes })
     }
 
     /// Replaces the meshes whose specs changed. Returns false if a mesh is placed, shared or smoothed, so that the scene

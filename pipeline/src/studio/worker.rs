@@ -120,15 +120,10 @@ impl Worker<'_> {
             return Served::Done;
         }
         let Some(mut kept) = self.kept.take() else { return Served::Done };
-        let leftover = kept.take_leftover();
+        let stock = kept.take_stock();
         let is_stated = kept.shows(&files, Finish::Stated);
         let (result, left) = {
-            let prepared = match leftover {
-                Some((leftover, replaced)) => {
-                    Prepared::after(leftover, &kept.scene, |object| !replaced.contains(&object))
-                }
-                None => Prepared::new(&kept.scene),
-            };
+            let prepared = Prepared::stocked(&kept.scene, stock);
             let result = loop {
                 if self.drawn != snapshot.revision {
                     self.draft(&prepared, &files, &snapshot, (is_stated, making));
@@ -169,7 +164,7 @@ impl Worker<'_> {
                 }
                 (snapshot, files) = (*next, new);
             };
-            (result, prepared.leftover())
+            (result, prepared.into_stock())
         };
         kept.keep(left);
         self.kept = Some(kept);

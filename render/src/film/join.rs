@@ -82,6 +82,19 @@ impl Failure for JoinError {
 /// # Errors
 /// If a file is no part of the same picture as the first one, or the parts do not cover the picture exactly once.
 pub fn join(files: &[(String, Vec<u8>)]) -> Result<Vec<u8>, JoinError> {
+    joined(files)?.encoded()
+}
+
+/// Joins parts as [`join`] does. The whole picture does not state the digest of its inputs.
+///
+/// # Errors
+/// See [`join`].
+pub fn join_without_digest(files: &[(String, Vec<u8>)]) -> Result<Vec<u8>, JoinError> {
+    Part { inputs: None, ..joined(files)? }.encoded()
+}
+
+/// Joins parts to a whole picture that is not encoded yet.
+fn joined(files: &[(String, Vec<u8>)]) -> Result<Part, JoinError> {
     let mut whole: Option<(&str, Part)> = None;
     let mut covered: Vec<bool> = Vec::new();
     for (file, bytes) in files {
@@ -99,6 +112,7 @@ pub fn join(files: &[(String, Vec<u8>)]) -> Result<Vec<u8>, JoinError> {
         for (found, expected) in [
             (part.kind(), whole.kind()),
             (format!("the command `{}`", part.command), format!("`{}`", whole.command)),
+            (part.digest(), whole.digest()),
         ] {
             if found.trim_start_matches("the command ") != expected {
                 return other(found, expected);
@@ -123,7 +137,7 @@ pub fn join(files: &[(String, Vec<u8>)]) -> Result<Vec<u8>, JoinError> {
         let [x, y] = [first % width, first / width].map(|at| at as u32);
         return Err(JoinError::Missing { count, x, y });
     }
-    whole.encoded()
+    Ok(whole)
 }
 
 impl Part {
@@ -143,7 +157,15 @@ impl Part {
             ),
         };
         let crop = Crop::whole(width, height);
-        Self { crop, whole: self.whole, command: self.command.clone(), pixels }
+        let (command, inputs) = (self.command.clone(), self.inputs.clone());
+        Self { crop, whole: self.whole, command, inputs, pixels }
+    }
+
+    /// Describes the inputs of the picture.
+    fn digest(&self) -> String {
+        self.inputs
+            .as_ref()
+            .map_or("no digest".into(), |inputs| format!("inputs of digest {inputs}"))
     }
 
     /// Describes the file besides its command.
@@ -170,7 +192,8 @@ impl Part {
         let gamma = self.command.split(" --gamma ").nth(1);
         let gamma = gamma.and_then(|rest| rest.split(' ').next()?.parse().ok());
         let encoding = gamma.map_or(Encoding::Srgb, Encoding::Gamma);
-        let coding = Coding { command: Some(self.command), ..Coding::new(encoding) };
+        let (command, inputs) = (Some(self.command), self.inputs);
+        let coding = Coding { command, inputs, ..Coding::new(encoding) };
         match self.pixels {
             Pixels::Png { codes, has_coverage, bits, .. } => {
                 let coding = Coding { bits, ..coding };
@@ -242,6 +265,11 @@ mod tests {
 
     /// The file of a part, or of the whole.
     fn file(crop: Option<Crop>, format: Format, bits: Bits) -> Vec<u8> {
+        file_of("abc", crop, format, bits)
+    }
+
+    /// The file of a part, or of the whole, of inputs with this digest.
+    fn file_of(inputs: &str, crop: Option<Crop>, format: Format, bits: Bits) -> Vec<u8> {
         let all = whole();
         let own = crop.unwrap_or(Crop::whole(5, 4));
         let cut = |at: &dyn Fn(usize) -> f32| -> Vec<f32> {
@@ -271,6 +299,7 @@ mod tests {
             bits,
             part: crop.map(|crop| (crop, [5, 4])),
             command: Some(command),
+            inputs: Some(inputs.into()),
             ..Coding::new(Encoding::Srgb)
         };
         encode_as(&picture, format, &coding).unwrap()
@@ -302,6 +331,9 @@ mod tests {
             parts.reverse();
             assert!(join(&parts).unwrap() == truth, "in any order");
             assert!(join(&[("whole".into(), truth.clone())]).unwrap() == truth);
+            let undigested = join_without_digest(&parts).unwrap();
+            let has = |bytes: &[u8]| bytes.windows(10).any(|own| own == b"Inputs\0abc");
+            assert!(!has(&undigested) && has(&truth) == (format == Format::Png));
         }
     }
 
@@ -318,6 +350,12 @@ mod tests {
         assert!(said(other).contains("2: found an EXR of"), "kinds differ");
         let other = [good[..2].to_vec(), parts(Format::Png, Bits::Sixteen)[2..].to_vec()].concat();
         assert!(said(other).contains("2: found a PNG of 16 bits"), "bits differ");
+        let stale = file_of("abd", Some(crops()[2]), Format::Png, Bits::Eight);
+        let other = [good[..2].to_vec(), vec![("stale".into(), stale)]].concat();
+        assert!(
+            said(other)
+                .contains("stale: found inputs of digest abd, expected inputs of digest abc")
+        );
         let cut = vec![("cut".to_string(), good[0].1[..60].to_vec())];
         assert!(said(cut).starts_with("cut: found a PNG that is broken"));
         assert!(said(vec![("text".into(), b"hello".to_vec())]).contains("another kind of file"));

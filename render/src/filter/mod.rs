@@ -18,7 +18,7 @@
 //! `point` and `bilinear` use pyramids or tables, which are built only for textures that a scene shows.
 
 mod axis;
-mod built;
+mod detached;
 mod direct;
 mod entry;
 mod ewa;
@@ -32,7 +32,7 @@ mod table;
 mod weigh;
 mod word;
 
-pub use built::Table;
+pub use detached::Detached;
 pub use ewa::Ewa;
 pub use exact::Exact;
 pub use pyramid::Pyramid;

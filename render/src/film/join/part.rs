@@ -1,6 +1,6 @@
 //! Decodes a part of a picture, with its place in the whole.
 
-use crate::film::encode::{Bits, Format, SOFTWARE};
+use crate::film::encode::{Bits, Format, INPUTS, SOFTWARE};
 use crate::film::{Crop, size};
 use exr::prelude::{AnyChannel, FlatSamples, ReadChannels as _, ReadLayers as _, SmallVec, read};
 use std::io::Cursor;
@@ -12,6 +12,8 @@ pub(super) struct Part {
     pub(super) whole: (u32, u32),
     /// The command of the whole picture.
     pub(super) command: String,
+    /// The digest of all inputs of the picture, if a PNG states it.
+    pub(super) inputs: Option<String>,
     pub(super) pixels: Pixels,
 }
 
@@ -55,8 +57,11 @@ fn of_png(bytes: &[u8]) -> Result<Part, String> {
         own.get_text().ok()
     };
     let command = text("Command");
-    let software = info.uncompressed_latin1_text.iter().find(|text| text.keyword == "Software");
-    let software = software.map(|text| text.text.clone());
+    let latin = |key: &str| {
+        let own = info.uncompressed_latin1_text.iter().find(|text| text.keyword == key);
+        own.map(|text| text.text.clone())
+    };
+    let (software, inputs) = (latin("Software"), latin(INPUTS));
     let size = (info.width, info.height);
     let (crop, whole, command) = of_command(software.as_deref(), command.as_deref())?;
     if size != (crop.width, crop.height) {
@@ -66,7 +71,8 @@ fn of_png(bytes: &[u8]) -> Result<Part, String> {
     let bytes = channels * if bits == Bits::Eight { 1 } else { 2 };
     let mut codes = vec![0; size.0 as usize * size.1 as usize * bytes];
     reader.next_frame(&mut codes).map_err(broken)?;
-    Ok(Part { crop, whole, command, pixels: Pixels::Png { codes, bytes, has_coverage, bits } })
+    let pixels = Pixels::Png { codes, bytes, has_coverage, bits };
+    Ok(Part { crop, whole, command, inputs, pixels })
 }
 
 fn of_exr(bytes: &[u8]) -> Result<Part, String> {
@@ -96,7 +102,7 @@ fn of_exr(bytes: &[u8]) -> Result<Part, String> {
         }
     });
     let channels = channels.collect::<Result<_, _>>()?;
-    Ok(Part { crop, whole, command, pixels: Pixels::Exr(channels) })
+    Ok(Part { crop, whole, command, inputs: None, pixels: Pixels::Exr(channels) })
 }
 
 /// Returns the place of a part, the size of the whole picture and the command of the whole picture, from the texts of a
