@@ -118,3 +118,35 @@ fn what_cannot_be_measured_is_said_before_anything_is_made() {
     assert_eq!(fs::read_to_string(folder.path().join("out/report.html")).unwrap(), "mine");
     assert!(!Path::new(&folder.path().join("out/report.csv")).exists());
 }
+
+/// Numbers and plots of all pans; the squares of the parts of each error add up.
+#[test]
+fn flicker_is_measured_in_each_pan() {
+    let folder = tempfile::tempdir().unwrap();
+    let ask = ["report", "--flicker", "--quick", "--size", "12x8", "-o", "out", "-q"];
+    let ran = run("pipeline", &ask, folder.path());
+    assert!(ran.status.success() && ran.stderr.is_empty(), "{}", said(&ran));
+    let path = |name: &str| folder.path().join("out").join(name);
+    let mut rows = csv::Reader::from_path(path("flicker.csv")).unwrap();
+    let columns = rows.headers().unwrap().clone();
+    let column = |name: &str| columns.iter().position(|column| column == name).unwrap();
+    let mut pans: Vec<String> = Vec::new();
+    for row in rows.records().map(Result::unwrap) {
+        let number = |name: &str| row[column(name)].parse::<f64>().unwrap();
+        let square = |name: &str| number(name).powi(2);
+        // A part that noise hides counts as the smallest that can be measured.
+        if number("changing") > 1.01 * number("changing_least") {
+            let sum = square("steady") + square("changing");
+            assert!((square("error") - sum).abs() < 0.01 * sum + 1e-6, "{row:?}");
+        }
+        pans.push(row[0].into());
+    }
+    pans.dedup();
+    assert_eq!(pans, ["direct", "mirror", "glass"]);
+    for pan in pans {
+        assert!(path(&format!("flicker-{pan}.svg")).exists(), "{pan}");
+    }
+    assert!(path("flicker-columns.csv").exists());
+    let ran = run("pipeline", &["report", "vase", "--flicker"], folder.path());
+    assert_eq!(ran.status.code(), Some(2));
+}
