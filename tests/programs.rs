@@ -42,6 +42,20 @@ fn all_programs_tell_their_version() {
     }
 }
 
+/// The help of each program ends with its exit codes, in lines that no terminal of 80 columns breaks.
+#[test]
+fn all_programs_name_their_exit_codes() {
+    let folder = tempfile::tempdir().unwrap();
+    for program in PROGRAMS {
+        let help = String::from_utf8(run(program, &["--help"], folder.path()).stdout).unwrap();
+        let (_, codes) = help.split_once("\nExit codes:\n").unwrap_or_else(|| panic!("{help}"));
+        for code in ["2 bad use", "3 malformed input", "141 closed pipe"] {
+            assert!(codes.contains(code), "{program}: {codes}");
+        }
+        assert!(codes.lines().all(|line| line.starts_with("  ") && line.len() <= 80), "{codes}");
+    }
+}
+
 #[test]
 fn all_programs_have_the_same_flags_and_say_what_they_wrote() {
     let folder = tempfile::tempdir().unwrap();

@@ -45,11 +45,14 @@ Examples, of a scene that `pipeline new scene -o scene.json` writes, and of a me
 
 The picture never replaces an input (the scene, its parts, meshes, materials, pictures).
 
-render completions SHELL prints completions for bash, elvish, fish, powershell or zsh; render man prints
-a page for man.
+render completions SHELL prints completions for bash, elvish, fish, powershell or zsh.
+render man prints a page for man.
 
-Exit codes: 2 bad use, 3 malformed input, 4 --check found something wrong, 5 cannot read or write, or no
-viewer listens for --display, 6 too large, 7 --error was not reached, 70 a bug, 130 interrupted, 141 closed pipe.";
+Exit codes:
+  2 bad use, 3 malformed input, 4 --check found something wrong
+  5 cannot read or write, or no viewer listens for --display
+  6 too large, 7 --error was not reached
+  70 a bug, 130 interrupted, 143 terminated, 141 closed pipe";
 
 /// Renders a JSON scene, or a mesh alone, with area sampled textures.
 #[derive(Debug, Parser)]

@@ -36,7 +36,14 @@ No output replaces an input. The extension of an output must not belong to anoth
 .grid (or .json with --format json), a preview .svg; unknown extensions are allowed.
 The grid and the preview are replaced together.
 
-sweep completions SHELL prints completions for bash, elvish, fish, powershell or zsh; sweep man prints a page for man.";
+sweep completions SHELL prints completions for bash, elvish, fish, powershell or zsh.
+sweep man prints a page for man.
+
+Exit codes:
+  2 bad use, 3 malformed input
+  4 impossible geometry, or --check found something wrong
+  5 cannot read or write, 6 too large
+  70 a bug, 130 interrupted, 143 terminated, 141 closed pipe";
 
 /// Sweep a contour along a trajectory: a JSON spec in, a grid of points and normals out.
 #[derive(Debug, Parser)]

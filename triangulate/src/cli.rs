@@ -36,8 +36,13 @@ Mesh, material file and report are replaced together. No output replaces an inpu
 The extension of an output must not belong to another format (a.fbx), unless --format is given;
 unknown extensions are allowed.
 
-triangulate completions SHELL prints completions for bash, elvish, fish, powershell or zsh; triangulate
-man prints a page for man.";
+triangulate completions SHELL prints completions for bash, elvish, fish, powershell or zsh.
+triangulate man prints a page for man.
+
+Exit codes:
+  2 bad use, 3 malformed input
+  5 cannot read or write, 6 too large
+  70 a bug, 130 interrupted, 143 terminated, 141 closed pipe";
 
 /// Makes triangles of a grid that `sweep` wrote, as OBJ, STL, PLY, GLB or 3MF.
 #[derive(Debug, Parser)]

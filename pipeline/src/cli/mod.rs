@@ -61,8 +61,11 @@ are replaced one after another. Meanwhile the file NAME.incomplete in their fold
 files. NAME.incomplete remains if the program stops between two of the files, until the next
 complete run.
 
-Exit codes: 1 pictures that differ by more than is allowed, 2 bad use, 3 malformed input,
-4 impossible geometry, 5 cannot read or write, 6 too large, 7 a requested error was not reached, 70 a bug, 130 interrupted, 141 closed pipe.";
+Exit codes:
+  1 pictures that differ by more than is allowed, 2 bad use, 3 malformed input
+  4 impossible geometry, 5 cannot read or write
+  6 too large, 7 a requested error was not reached
+  70 a bug, 130 interrupted, 143 terminated, 141 closed pipe";
 
 /// From curves to pictures: sweep, triangulate and render in one process.
 #[derive(Debug, Parser)]
