@@ -172,5 +172,7 @@ fn every_exit_code_is_told_in_the_help_and_in_the_conventions() {
     let conventions = std::fs::read_to_string(root().join("docs/conventions.md")).unwrap();
     assert!(conventions.contains("| 1 | `pipeline compare`: the pictures differ by more"));
     let help = data(&run("pipeline", &["--help"], &root()));
-    assert!(help.contains("Exit codes: 1 pictures that differ by more than is allowed, 2 bad use"));
+    assert!(
+        help.contains("Exit codes:\n  1 pictures that differ by more than is allowed, 2 bad use")
+    );
 }
