@@ -135,7 +135,11 @@ fn a_broken_gltf_is_refused_with_its_byte_or_json_path() {
             ["a.glb: found an index at `nodes[0].mesh`", "that the file has"],
         ),
         ("/nodes/0", json!({ "mesh": 0, "children": [0] }), ["found no triangles", "of triangles"]),
-        ("/asset/version", json!("3.1"), ["found version 3.1 at `asset.version`", "expected 2.0"]),
+        (
+            "/asset/version",
+            json!("3.1"),
+            ["found version `3.1` at `asset.version`", "expected 2.0"],
+        ),
     ] {
         let parts: Vec<&str> = std::iter::once("a.glb: found").chain(parts).collect();
         refuse("a.glb", &with(path, value), &parts);
@@ -152,7 +156,7 @@ fn a_broken_gltf_is_refused_with_its_byte_or_json_path() {
     refuse("a.glb", &glb(&huge, &corners), &parts);
     let mut compressed = whole.clone();
     compressed["extensionsRequired"] = json!(["KHR_draco_mesh_compression"]);
-    let parts = ["a.glb: found the required extension KHR_draco_mesh_compression"];
+    let parts = ["a.glb: found the required extension `KHR_draco_mesh_compression`, "];
     refuse("a.glb", &glb(&compressed, &corners), &parts);
     let bytes = glb(&whole, &corners);
     let at = format!("a.glb: at byte {}: found the end of the file", bytes.len() - 1);

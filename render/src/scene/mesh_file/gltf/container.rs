@@ -38,13 +38,13 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Document, Option<&[u8]>), Fault> {
         Err(error) => return Err(json_fault(json, &error)),
     };
     if !root.asset.version.starts_with("2.") {
-        let found = format!("version {} at `asset.version`", shown(&root.asset.version));
+        let found = format!("version `{}` at `asset.version`", shown(&root.asset.version));
         return Err(Fault::part(found, "2.0"));
     }
     let required = std::mem::take(&mut root.extensions_required);
     let is_taken = |name: &&String| TAKEN.iter().any(|taken| name.starts_with(taken));
     if let Some(name) = required.iter().find(|name| !is_taken(name)) {
-        let found = format!("the required extension {}", shown(name));
+        let found = format!("the required extension `{}`", shown(name));
         let expected = "a file without it, since it holds the mesh in a form that is not read";
         return Err(Fault::part(found, expected));
     }
