@@ -144,6 +144,8 @@ export class Plane {
         const value = k * step, pixel = this.toPixel(axis ? [0, value] : [value, 0])[axis];
         const line = axis ? { x1: 0, x2: w, y1: pixel, y2: pixel } : { y1: 0, y2: h, x1: pixel, x2: pixel };
         svg("line", { ...line, class: k === 0 ? "axis" : "grid" }, this.back);
+        // A label at the border would be cut, and one in the corner would lie on another.
+        if (axis ? pixel < 14 || pixel > h - 16 : pixel > w - 28) continue;
         const label = svg("text", axis ? { x: 4, y: pixel - 3 } : { x: pixel + 3, y: h - 5 }, this.back);
         label.textContent = Number(value.toPrecision(6));
       }
