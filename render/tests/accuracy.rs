@@ -9,6 +9,7 @@ use render::film::{Pattern, PixelFilter};
 use render::filter::Filter;
 use render::stats::Stats;
 use render::{Picture, Prepared, Sampling, Scene, Settings};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use studio::{png, scene};
 
 /// A floor of coarse noise up to the horizon, a glass ball and a mirror ball, and a light.
@@ -190,5 +191,31 @@ fn layers_show_where_rays_went() {
         // A pixel of one ray was below the threshold; four rays and more follow a split.
         assert!(*rays == 1.0 || *rays >= 5.0);
         assert!(*error <= 0.1 || *rays > 1.0, "{error}, {rays}");
+    }
+}
+
+/// Whenever the work is ended, the answer is none, and little work follows.
+#[test]
+fn a_request_that_is_left_has_no_picture() {
+    let scene = room();
+    let prepared = Prepared::new(&scene);
+    let settings = Settings::new(80, 80, Filter::Exact);
+    let asked = AtomicUsize::new(0);
+    let count = || {
+        asked.fetch_add(1, Ordering::Relaxed);
+        true
+    };
+    let request = Request::new(&prepared, &settings, PixelFilter::Box);
+    let whole = Request { go_on: &count, ..request }.reach_or_leave(0.01).unwrap();
+    assert!(whole.picture == request.reach(0.01).picture);
+    let all = asked.load(Ordering::Relaxed);
+    assert!(all > 200, "the question is asked for each row of a tile: {all}");
+    for part in 0..8 {
+        let left = AtomicUsize::new(all * part / 8);
+        let go_on = || {
+            left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |left| left.checked_sub(1))
+                .is_ok()
+        };
+        assert!(Request { go_on: &go_on, ..request }.reach_or_leave(0.01).is_none(), "{part}");
     }
 }

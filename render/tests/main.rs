@@ -57,7 +57,6 @@ mod solid_complaints;
 mod stock;
 mod structures;
 mod studio;
-mod taken_over;
 mod textures;
 mod transparent;
 mod views;
