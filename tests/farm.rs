@@ -154,7 +154,7 @@ fn parts_share_a_requested_error() {
     let limit = format!("{}", error + 0.002);
     let ran = run("pipeline", &["compare", &own, &fine, "--rmse", &limit], path);
     assert!(ran.status.success(), "{}", said(&ran));
-    // The same parts make the same picture, and it is kept.
+    // A second join of these parts leaves the joined picture as it is.
     let before = files(&path.join("out"));
     made(&["-o", "out", "--join", "3"]);
     assert!(before == files(&path.join("out")));

@@ -69,7 +69,7 @@ pub struct Step {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Factors {
-    /// The same factor along all axes.
+    /// One factor for all axes.
     All(f64),
     /// Factors along x, y and z.
     Each([f64; 3]),

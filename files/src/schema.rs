@@ -40,7 +40,7 @@ fn plain(schema: &mut Schema, largest: f64) {
         if let [Value::Object(only)] = &mut kinds[..] {
             let only = std::mem::take(only);
             object.remove("anyOf");
-            // What the key itself says takes precedence over what its type says.
+            // The description of a key takes precedence over the description of its type.
             for (word, value) in only {
                 object.entry(word).or_insert(value);
             }

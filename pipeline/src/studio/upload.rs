@@ -32,7 +32,7 @@ pub fn picture(folder: &Folder, beside: &str, name: &str, bytes: &[u8]) -> Resul
         let own = numbered(&plain, k);
         let path = below.join(&own);
         if folder.stamp(&path).is_some() {
-            // The same picture needs no second file.
+            // An uploaded picture that equals this file needs no file of its own.
             if folder.read(&path).is_ok_and(|there| there == bytes) {
                 return Ok(json!({ "name": slashed(&own), "size": [width, height] }));
             }

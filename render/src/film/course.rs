@@ -5,7 +5,8 @@ use super::exposure::Exposed;
 use super::picture::Picture;
 use std::fmt;
 
-/// Asked before each tile: false once the picture should be ended early. After false it stays false.
+/// Asked before each tile, and before each row of an area sampled tile: false once the picture should be ended early.
+/// After false it stays false.
 pub type GoOn<'p> = dyn Fn() -> bool + Sync + 'p;
 
 /// Told the finished tiles and all tiles of the picture.
@@ -20,7 +21,7 @@ pub type Shown<'p> = dyn Fn(&Crop, &[[f32; 3]]) + Sync + 'p;
 pub struct Course<'c> {
     /// Told after each tile.
     pub progress: &'c Told<'c>,
-    /// Asked before each tile.
+    /// Asked whether the work goes on.
     pub go_on: &'c GoOn<'c>,
     /// Shown each tile, if somebody watches.
     pub tile: Option<&'c Shown<'c>>,
